@@ -1,0 +1,129 @@
+"""The ladder: models as data, found in their packages, ordered by what they keep."""
+
+import importlib
+import pkgutil
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+from types import ModuleType
+from typing import Protocol
+
+from contact.errors import InputError
+from rom.result import Result
+from rom.scene import Scene
+
+
+class Effect(StrEnum):
+    """A piece of physics that a model may keep or leave out."""
+
+    SLOPE = "slope"
+    INERTIA = "inertia"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Applicability:
+    """Whether a model can say something of a scene, and why or with what left out, in words."""
+
+    applies: bool
+    reason: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Availability:
+    """Whether what a model needs is on this machine: which version, or what to do."""
+
+    available: bool
+    detail: str = ""
+
+
+def always() -> Availability:
+    """For models that need nothing but this package."""
+    return Availability(available=True, detail="built in")
+
+
+Progress = Callable[[float, str], None]
+"""Called with the done fraction (0 to 1) and a few words."""
+
+
+def silent(fraction: float, words: str) -> None:
+    """Progress that nobody looks at."""
+
+
+class Solve(Protocol):
+    """solve(scene, resolution=None, tolerance=None, progress=silent) → Result.
+
+    ``resolution`` None means the model's default. Raises InputError, ConvergenceError or UnavailableError, only.
+    """
+
+    def __call__(
+        self,
+        scene: Scene,
+        *,
+        resolution: int | None = None,
+        tolerance: float | None = None,
+        progress: Progress = silent,
+    ) -> Result: ...
+
+
+class Write(Protocol):
+    """write(scene, directory, resolution=None, tolerance=None): the case that an outside solver runs."""
+
+    def __call__(
+        self, scene: Scene, directory: Path, *, resolution: int | None = None, tolerance: float | None = None
+    ) -> None: ...
+
+
+@dataclass(frozen=True, kw_only=True)
+class Model:
+    """One rung: what it keeps, what it costs, where it applies, and how to solve it.
+
+    ``resolutions`` go from coarse to fine, for charts; ``resolution`` is the default one, and
+    ``resolution_meaning`` and ``residual_meaning`` say in words what the numbers count.
+    """
+
+    name: str
+    summary: str
+    keeps: frozenset[Effect]
+    sources: tuple[str, ...]
+    resolution: int
+    resolutions: tuple[int, ...]
+    resolution_meaning: str
+    residual_meaning: str
+    cost: Callable[[Scene, int], float]
+    applies: Callable[[Scene], Applicability]
+    solve: Solve
+    available: Callable[[], Availability] = always
+    write: Write | None = None
+
+
+def ladder(*packages: ModuleType) -> tuple[Model, ...]:
+    """The ``MODEL`` of every module in the packages, from the one that keeps least to the one that keeps most."""
+    models: list[Model] = []
+    for package in packages:
+        for module in pkgutil.iter_modules(package.__path__, package.__name__ + "."):
+            models.append(importlib.import_module(module.name).MODEL)
+    return tuple(sorted(models, key=lambda model: (len(model.keeps), sorted(model.keeps), model.name)))
+
+
+def find(models: Sequence[Model], name: str) -> Model:
+    """The model of that name; InputError if there is none."""
+    for model in models:
+        if model.name == name:
+            return model
+    raise InputError(f"--model: got {name!r}; it must be one of {', '.join(model.name for model in models)}")
+
+
+def best(models: Sequence[Model]) -> Model:
+    """The rung that keeps the most; every other model's error is measured against it."""
+    return max(models, key=lambda model: len(model.keeps))
+
+
+def one_effect_away(model: Model, models: Sequence[Model]) -> tuple[tuple[Model, Effect], ...]:
+    """The models that keep exactly one effect more than ``model``, each with that effect."""
+    pairs = []
+    for other in models:
+        extra = other.keeps - model.keeps
+        if model.keeps < other.keeps and len(extra) == 1:
+            pairs.append((other, next(iter(extra))))
+    return tuple(pairs)

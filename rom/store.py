@@ -1,0 +1,67 @@
+"""Results in HDF5: written whole or not at all, read back as they were."""
+
+import json
+from dataclasses import asdict, fields
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+from contact.errors import InputError
+from contact.files import replacing
+from rom.result import Field, Numerics, Quantity, Result
+
+SCHEMA = 1
+
+
+def save(result: Result, path: Path) -> None:
+    """Write a result: groups ``quantities`` and ``fields`` with units as attributes, ``numerics``, ``provenance`` (JSON).
+
+    Raises InputError if ``path`` cannot be written.
+    """
+    with replacing(path) as scratch, h5py.File(scratch, "w") as file:
+        file.attrs["schema"] = SCHEMA
+        file.attrs["model"] = result.model
+        file.attrs["provenance"] = json.dumps(result.provenance)
+        file.create_group("numerics").attrs.update(asdict(result.numerics))
+        for name, quantity in result.quantities.items():
+            file.create_dataset(f"quantities/{name}", data=quantity.value).attrs["unit"] = quantity.unit
+        for name, field in result.fields.items():
+            file.create_dataset(f"fields/{name}", data=field.values, compression="gzip").attrs["unit"] = field.unit
+
+
+def load(path: Path) -> Result:
+    """Read a result; raises InputError if the file is missing or is not one."""
+    try:
+        with h5py.File(path) as file:
+            if file.attrs["schema"] != SCHEMA:
+                raise InputError(f"{path}: has schema {file.attrs['schema']}; this version reads {SCHEMA}, solve again")
+            numerics = file["numerics"].attrs
+            return Result(
+                model=str(file.attrs["model"]),
+                quantities={
+                    name: Quantity(value=float(item[()]), unit=str(item.attrs["unit"]))
+                    for name, item in file["quantities"].items()
+                },
+                fields={
+                    name: Field(values=np.asarray(item[()]), unit=str(item.attrs["unit"]))
+                    for name, item in file["fields"].items()
+                },
+                numerics=Numerics(**{entry.name: numerics[entry.name].item() for entry in fields(Numerics)}),
+                provenance=json.loads(file.attrs["provenance"]),
+            )
+    except (OSError, KeyError, ValueError) as error:
+        if isinstance(error, InputError):
+            raise
+        raise InputError(f"{path}: is not a result of roughfilm; name an .h5 file that it wrote") from error
+
+
+def as_entries(result: Result) -> dict[str, Any]:
+    """The result without its fields, as ``--json`` prints it."""
+    return {
+        "model": result.model,
+        "quantities": {name: asdict(quantity) for name, quantity in result.quantities.items()},
+        "numerics": asdict(result.numerics),
+        "provenance": dict(result.provenance),
+    }
