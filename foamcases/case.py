@@ -1,34 +1,98 @@
-"""The dictionaries of a case: numbers and names from our own lists, nothing from a scene as text."""
+"""A case directory for a pocket scene: mesh, dictionaries, and what a person needs to run it by hand."""
 
+import json
+from dataclasses import asdict, dataclass
 from pathlib import Path
-from foamlib import DimensionSet, FoamFile
 
-ITERATIONS = 5000
-RELAX_U = 0.95
-ADVECTION={"second": ("bounded","Gauss","linearUpwind","grad(U)"), "upwind":("bounded","Gauss","upwind")}
+from contact.errors import InputError
+from foamcases import mesh
+from foamcases.dictionaries import SIDES, write_dictionaries
+from rom.scene import Scene
 
-def write_dictionaries(directory: Path, nu: float, tol: float, relax=RELAX_U, extra=None) -> None:
-    extra = extra or {}
-    (directory / "system").mkdir(parents=True, exist_ok=True)
-    (directory / "0").mkdir(exist_ok=True)
-    def put(name, entries, cls="dictionary"):
-        with FoamFile(directory / name) as f:
-            f["FoamFile"]={"version":2.0,"format":"ascii","class":cls,"object":Path(name).name}
-            for k,v in entries.items(): f[k]=v
-    put("system/controlDict", {"application":"simpleFoam","startFrom":"startTime","startTime":0,"stopAt":"endTime","endTime":ITERATIONS,"deltaT":1,"writeControl":"timeStep","writeInterval":ITERATIONS,"purgeWrite":0,"writeFormat":"binary","writePrecision":12,"writeCompression":False,"timeFormat":"general","runTimeModifiable":False})
-    put("system/fvSchemes", {"ddtSchemes":{"default":"steadyState"},"gradSchemes":{"default":extra.get("grad",("Gauss","linear"))},
-     "divSchemes":{"default":"none","div(phi,U)":ADVECTION["second"],"div((nuEff*dev2(T(grad(U)))))":("Gauss","linear")},
-     "laplacianSchemes":{"default":("Gauss","linear","corrected")},"interpolationSchemes":{"default":"linear"},"snGradSchemes":{"default":"corrected"}})
-    put("system/fvSolution", {"solvers":{
-      "p":{"solver":"GAMG","smoother":"DICGaussSeidel","tolerance":extra.get("ptol",1e-12),"relTol":0.1,"nCellsInCoarsestLevel":20},
-      "U":{"solver":"PBiCGStab","preconditioner":"DILU","tolerance":1e-12,"relTol":0.01}},
-      "SIMPLE":{"consistent":True,"nNonOrthogonalCorrectors":extra.get("nonorth",0),"pRefCell":0,"pRefValue":0,"residualControl":{"p":tol,"U":tol}},
-      "relaxationFactors":{"fields":{"p":extra.get("relp",1.0)},"equations":{"U":relax}}})
-    put("constant/transportProperties", {"transportModel":"Newtonian","nu":nu})
-    put("constant/turbulenceProperties", {"simulationType":"laminar"})
-    put("0/U", {"dimensions":DimensionSet(length=1,time=-1),"internalField":[0.5,0.0,0.0],"boundaryField":{
-      "inlet":{"type":"cyclic"},"outlet":{"type":"cyclic"},"lower":{"type":"noSlip"},
-      "upper":{"type":"fixedValue","value":[1.0,0.0,0.0]},"back":{"type":"empty"},"front":{"type":"empty"}}},"volVectorField")
-    put("0/p", {"dimensions":DimensionSet(length=2,time=-2),"internalField":0.0,"boundaryField":{
-      "inlet":{"type":"cyclic"},"outlet":{"type":"cyclic"},"lower":{"type":"zeroGradient"},
-      "upper":{"type":"zeroGradient"},"back":{"type":"empty"},"front":{"type":"empty"}}},"volScalarField")
+CARD = "case.json"
+COARSEST, FINEST = 12, 4000
+RESOLUTION = 240
+TOLERANCE = 1e-7
+
+ALLRUN = """\
+#!/bin/sh
+# Checks the mesh and runs the case. The mesh is already in constant/polyMesh: no blockMesh is needed.
+cd "$(dirname "$0")" || exit 1
+if [ -z "$WM_PROJECT_DIR" ]; then
+    WM_PROJECT_DIR=$(dpkg -L openfoam | sed -n 's|/etc/controlDict$||p' | head -n 1)
+    export WM_PROJECT_DIR
+fi
+checkMesh > log.checkMesh 2>&1 && simpleFoam > log.simpleFoam 2>&1
+status=$?
+grep -h "Mesh OK" log.checkMesh
+grep -h "SIMPLE solution converged" log.simpleFoam
+exit $status
+"""
+
+README = """\
+One period of a groove under a sliding wall, for OpenFOAM's simpleFoam. Run it with ./Allrun
+
+Lengths are in film thicknesses, velocities in sliding speeds, so nu = 1 / Re and
+  p [Pa]    = p * {pressure:.12g}
+  U [m/s]   = U * {speed:.12g}
+  x, y [m]  = x, y * {film:.12g}
+The upper wall (patch "upper", y = 1) slides; "inlet" and "outlet" are one periodic boundary.
+"""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Card:
+    """What reading a case back needs to know of how it was written."""
+
+    columns: int
+    layers: int
+    reynolds_number: float
+    resolution: int
+    tolerance: float
+
+
+def write_case(
+    scene: Scene, directory: Path, *, reynolds_number: float, resolution: int | None, tolerance: float | None
+) -> None:
+    """Write the whole case of a scene at a Reynolds number of the model's choice.
+
+    ``resolution`` is the number of mesh columns along the film, about (every break of the gap is a column);
+    a fifth as many layers cross it. Raises InputError for numbers out of range or a directory that holds a case.
+    """
+    resolution = RESOLUTION if resolution is None else resolution
+    tolerance = TOLERANCE if tolerance is None else tolerance
+    if not COARSEST <= resolution <= FINEST:
+        raise InputError(f"--resolution: got {resolution}; it must be {COARSEST} to {FINEST} mesh columns")
+    if not 1e-10 <= tolerance <= 1e-2:
+        raise InputError(f"--tolerance: got {tolerance}; it must be 1e-10 to 1e-2")
+    if (directory / "system").exists():
+        raise InputError(f"{directory}: holds a case already; name an empty directory")
+    vertices = mesh.layered(scene.gap(), resolution)
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+        mesh.write_block(vertices, SIDES, directory)
+        write_dictionaries(directory, viscosity=1 / reynolds_number, tolerance=tolerance)
+        pressure = scene.pressure_unit * reynolds_number
+        (directory / "README").write_text(
+            README.format(pressure=pressure, speed=scene.speed, film=scene.geometry.film), encoding="utf-8"
+        )
+        (directory / "Allrun").write_text(ALLRUN, encoding="utf-8")
+        (directory / "Allrun").chmod(0o755)
+        card = Card(
+            columns=vertices.shape[0] - 1,
+            layers=vertices.shape[1] - 1,
+            reynolds_number=reynolds_number,
+            resolution=resolution,
+            tolerance=tolerance,
+        )
+        (directory / CARD).write_text(json.dumps(asdict(card), indent=1) + "\n", encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"{directory}: cannot be written ({error.strerror}); choose another place") from error
+
+
+def read_card(directory: Path) -> Card:
+    """The card of a case that ``write_case`` wrote; InputError if there is none."""
+    try:
+        return Card(**json.loads((directory / CARD).read_text(encoding="utf-8")))
+    except (OSError, ValueError, TypeError) as error:
+        raise InputError(f"{directory}: holds no {CARD} of this version; generate the case again") from error

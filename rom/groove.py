@@ -25,7 +25,7 @@ def cylindrical(*, length: float, film: float, width: float, depth: float) -> Ga
 
     Notes
     -----
-    The rise is computed as (w²/4 - s²) / (sqrt(R² - s²) + R - d), which has no cancellation for shallow grooves.
+    h - film is computed as (w²/4 - s²) / (sqrt(R² - s²) + R - d), which has no cancellation for shallow grooves.
     Source: Sahlin et al. 2005, doi:10.1115/1.1828067, Fig. 1.
 
     Examples
@@ -39,7 +39,9 @@ def cylindrical(*, length: float, film: float, width: float, depth: float) -> Ga
     def thickness(x: Array) -> Array:
         s = np.abs(np.asarray(x, dtype=float))
         inside = np.minimum(s, width / 2)
-        rise = (width**2 / 4 - inside**2) / (np.sqrt(radius**2 - inside**2) + radius - depth)
+        numerator = width**2 / 4 - inside**2
+        denominator = np.sqrt(np.maximum(radius**2 - inside**2, 0)) + radius - depth
+        rise = np.divide(numerator, denominator, out=np.zeros_like(s), where=numerator > 0)
         return np.asarray(film + rise)
 
     return Gap(film=film, breaks=(-length / 2, -width / 2, width / 2, length / 2), thickness=thickness)

@@ -1,0 +1,136 @@
+"""What OpenFOAM is told to do: numbers and names from this file alone, never text from a scene.
+
+OpenFOAM runs code that stands in a dictionary (``#calc``, ``#codeStream``), so nothing that a user can spell is
+written into one.
+"""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from foamlib import DimensionSet, FoamFile
+
+from foamcases.mesh import Patch
+
+ITERATIONS = 5000
+
+VELOCITY_RELAXATION = 0.95
+"""SIMPLEC; the converged answer depends slightly on it, so it is one number for every case."""
+
+SIDES = (
+    Patch(name="inlet", entries={"type": "cyclic", "neighbourPatch": "outlet"}),
+    Patch(name="outlet", entries={"type": "cyclic", "neighbourPatch": "inlet"}),
+    Patch(name="lower", entries={"type": "wall"}),
+    Patch(name="upper", entries={"type": "wall"}),
+    Patch(name="back", entries={"type": "empty"}),
+    Patch(name="front", entries={"type": "empty"}),
+)
+"""The patches of a channel at x-, x+, y-, y+, z-, z+."""
+
+
+def write_dictionaries(directory: Path, *, viscosity: float, tolerance: float) -> None:
+    """Write ``system``, ``constant`` and ``0`` of a channel whose upper wall slides at speed 1.
+
+    Parameters
+    ----------
+    viscosity
+        Kinematic viscosity in units of film thickness times sliding speed: 1 / Re.
+    tolerance
+        The initial residuals at which the iteration stops.
+    """
+    for name, (kind, entries) in _dictionaries(viscosity, tolerance).items():
+        path = directory / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with FoamFile(path) as file:
+            file["FoamFile"] = {"version": 2.0, "format": "ascii", "class": kind, "object": path.name}
+            for key, value in entries.items():
+                file[key] = value
+
+
+def _dictionaries(viscosity: float, tolerance: float) -> dict[str, tuple[str, Mapping[str, Any]]]:
+    linear = ("Gauss", "linear")
+    return {
+        "system/controlDict": (
+            "dictionary",
+            {
+                "application": "simpleFoam",
+                "startFrom": "latestTime",
+                "startTime": 0,
+                "stopAt": "endTime",
+                "endTime": ITERATIONS,
+                "deltaT": 1,
+                "writeControl": "timeStep",
+                "writeInterval": ITERATIONS,
+                "writeFormat": "binary",
+                "timeFormat": "general",
+                "runTimeModifiable": False,
+            },
+        ),
+        "system/fvSchemes": (
+            "dictionary",
+            {
+                "ddtSchemes": {"default": "steadyState"},
+                "gradSchemes": {"default": linear},
+                "divSchemes": {
+                    "default": "none",
+                    "div(phi,U)": ("bounded", "Gauss", "linearUpwind", "grad(U)"),
+                    "div((nuEff*dev2(T(grad(U)))))": linear,
+                },
+                "laplacianSchemes": {"default": (*linear, "corrected")},
+                "interpolationSchemes": {"default": "linear"},
+                "snGradSchemes": {"default": "corrected"},
+            },
+        ),
+        "system/fvSolution": (
+            "dictionary",
+            {
+                "solvers": {
+                    "p": {
+                        "solver": "GAMG",
+                        "smoother": "DICGaussSeidel",
+                        "tolerance": tolerance * 1e-5,
+                        "relTol": 0.1,
+                        "nCellsInCoarsestLevel": 20,
+                    },
+                    "U": {
+                        "solver": "PBiCGStab",
+                        "preconditioner": "DILU",
+                        "tolerance": tolerance * 1e-5,
+                        "relTol": 0.01,
+                    },
+                },
+                "SIMPLE": {
+                    "consistent": True,
+                    "nNonOrthogonalCorrectors": 0,
+                    "pRefCell": 0,
+                    "pRefValue": 0,
+                    "residualControl": {"p": tolerance, "U": tolerance},
+                },
+                "relaxationFactors": {"fields": {"p": 1.0}, "equations": {"U": VELOCITY_RELAXATION}},
+            },
+        ),
+        "constant/transportProperties": ("dictionary", {"transportModel": "Newtonian", "nu": viscosity}),
+        "constant/turbulenceProperties": ("dictionary", {"simulationType": "laminar"}),
+        "0/U": (
+            "volVectorField",
+            {
+                "dimensions": DimensionSet(length=1, time=-1),
+                "internalField": [0.5, 0.0, 0.0],
+                "boundaryField": _boundary_field(
+                    lower={"type": "noSlip"}, upper={"type": "fixedValue", "value": [1.0, 0.0, 0.0]}
+                ),
+            },
+        ),
+        "0/p": (
+            "volScalarField",
+            {
+                "dimensions": DimensionSet(length=2, time=-2),
+                "internalField": 0.0,
+                "boundaryField": _boundary_field(lower={"type": "zeroGradient"}, upper={"type": "zeroGradient"}),
+            },
+        ),
+    }
+
+
+def _boundary_field(**walls: Mapping[str, Any]) -> dict[str, Mapping[str, Any]]:
+    return {side.name: walls.get(side.name, {"type": side.entries["type"]}) for side in SIDES}

@@ -1,0 +1,122 @@
+"""A pocket scene by OpenFOAM: write, run and read apart, and composed to a result."""
+
+import tempfile
+import time
+from functools import partial
+from pathlib import Path
+
+from contact.errors import UnavailableError
+from foamcases.case import read_card, write_case
+from foamcases.dictionaries import VELOCITY_RELAXATION
+from foamcases.fields import read_channel
+from foamcases.openfoam import availability
+from foamcases.run import Run, run_case
+from rom.ladder import Progress, Solve, Write, silent
+from rom.provenance import provenance
+from rom.result import Field, Numerics, Result, pocket_quantities
+from rom.scene import Scene
+
+SOURCES = ("10.1115/1.1828067", "10.1063/1.168744", "10.1080/01495728408961817")
+RESOLUTIONS = (30, 60, 120, 240)
+RESOLUTION_MEANING = "mesh columns along the film, with a fifth as many layers across"
+RESIDUAL_MEANING = "largest initial residual of velocity and pressure that a new process finds in the fields on disk"
+
+
+def cost(_scene: Scene, resolution: int) -> float:
+    """CPU seconds of one run, measured over 60 to 480 columns: start-up, then cells times iterations."""
+    return 0.3 + 2.4 * (resolution / 240) ** 2.4
+
+
+def reynolds_number_of(scene: Scene, fixed: float | None) -> float:
+    """The Reynolds number to run at: the model's own if it fixes one, else the scene's."""
+    return scene.reynolds_number if fixed is None else fixed
+
+
+def write(
+    scene: Scene,
+    directory: Path,
+    *,
+    reynolds_number: float | None,
+    resolution: int | None = None,
+    tolerance: float | None = None,
+) -> None:
+    """Write the case; see :func:`foamcases.case.write_case` for the errors."""
+    number = reynolds_number_of(scene, reynolds_number)
+    write_case(scene, directory, reynolds_number=number, resolution=resolution, tolerance=tolerance)
+
+
+def read(scene: Scene, directory: Path, run: Run, *, model: str, keeps: frozenset[str]) -> Result:
+    """The result of a case that was run; see :func:`foamcases.fields.read_channel` for the errors."""
+    card, channel = read_card(directory), read_channel(directory)
+    film, pascal = scene.geometry.film, scene.pressure_unit
+    lowest, highest = channel.pressure_range()
+    return Result(
+        model=model,
+        quantities=pocket_quantities(
+            scene,
+            load=channel.mean(channel.wall_pressure),
+            friction=channel.mean(channel.wall_shear),
+            pressure_max=highest,
+            pressure_min=lowest,
+            backflow=channel.back_flow(),
+        ),
+        fields={
+            "position": Field(values=channel.position * film, unit="m"),
+            "film_thickness": Field(values=channel.film_thickness * film, unit="m"),
+            "pressure": Field(values=channel.wall_pressure * pascal, unit="Pa"),
+            "shear_stress": Field(values=channel.wall_shear * pascal, unit="Pa"),
+            "vertices": Field(values=channel.vertices * film, unit="m"),
+            "cell_velocity": Field(values=channel.velocity * scene.speed, unit="m/s"),
+            "cell_pressure": Field(values=channel.pressure * pascal, unit="Pa"),
+        },
+        numerics=Numerics(
+            residual=run.residual,
+            iterations=run.iterations,
+            cpu_s=run.cpu_s,
+            wall_s=run.wall_s,
+            degrees_of_freedom=3 * card.columns * card.layers,
+            resolution=card.resolution,
+            tolerance=card.tolerance,
+        ),
+        provenance=provenance(
+            scene,
+            keeps=tuple(keeps),
+            sources=SOURCES,
+            openfoam=run.version,
+            velocity_relaxation=VELOCITY_RELAXATION,
+            reynolds_number_run=card.reynolds_number,
+            warnings=list(run.warnings),
+        ),
+    )
+
+
+def solve(
+    scene: Scene,
+    *,
+    model: str,
+    keeps: frozenset[str],
+    reynolds_number: float | None,
+    resolution: int | None = None,
+    tolerance: float | None = None,
+    progress: Progress = silent,
+) -> Result:
+    """Write, run and read in a directory that is removed afterwards; raises what the three raise."""
+    found = availability()
+    if not found.available:
+        raise UnavailableError(f"{model}: {found.detail}")
+    wall, cpu = time.perf_counter(), time.process_time()
+    with tempfile.TemporaryDirectory(prefix="roughfilm-") as place:
+        directory = Path(place) / model
+        write(scene, directory, reynolds_number=reynolds_number, resolution=resolution, tolerance=tolerance)
+        run = run_case(directory, progress=progress)
+        spent = time.process_time() - cpu
+        whole = Run(**{**vars(run), "cpu_s": run.cpu_s + spent, "wall_s": time.perf_counter() - wall})
+        return read(scene, directory, whole, model=model, keeps=keeps)
+
+
+def composed(model: str, keeps: frozenset[str], reynolds_number: float | None) -> tuple[Solve, Write]:
+    """The solve and write of a model that runs at the given Reynolds number (None: the scene's)."""
+    return (
+        partial(solve, model=model, keeps=keeps, reynolds_number=reynolds_number),
+        partial(write, reynolds_number=reynolds_number),
+    )
