@@ -26,7 +26,7 @@ class Channel:
 
     @property
     def position(self) -> Array:
-        """x of the middle of each column, shape (nx,)."""
+        """Position of the middle of each column, shape (nx,)."""
         x = self.vertices[:, -1, 0]
         return np.asarray((x[1:] + x[:-1]) / 2)
 

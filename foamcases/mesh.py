@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from foamlib import FoamFile
@@ -106,7 +107,8 @@ def write_block(vertices: Array, sides: tuple[Patch, ...], directory: Path) -> N
     owner = np.concatenate([rows[:, 0], *(cells for cells, _ in outer)])
     faces = np.concatenate([rows[:, 2:], *(quads for _, quads in outer)])
 
-    boundary, start = [], len(rows)
+    boundary: Any = []
+    start = len(rows)
     for patch, (cells, _) in zip(sides, outer, strict=True):
         boundary.append((patch.name, {**patch.entries, "nFaces": len(cells), "startFace": start}))
         start += len(cells)
@@ -120,7 +122,7 @@ def write_block(vertices: Array, sides: tuple[Patch, ...], directory: Path) -> N
     offsets = np.arange(0, faces.size + 1, 4, dtype=np.int32)
     corners = FoamFile.dumps({"FoamFile": {"format": "binary"}, None: faces.astype(np.int32).ravel()})
     (mesh / "faces").write_bytes(_dump("faceCompactList", "faces", offsets) + b"\n" + corners.split(b"}", 1)[1])
-    header = {"version": 2.0, "format": "ascii", "class": "polyBoundaryMesh", "object": "boundary"}
+    header: Any = {"version": 2.0, "format": "ascii", "class": "polyBoundaryMesh", "object": "boundary"}
     (mesh / "boundary").write_bytes(FoamFile.dumps({"FoamFile": header, None: boundary}))
 
 
@@ -140,6 +142,6 @@ def _quads(point: NDArray[np.int64], axis: int) -> list[NDArray[np.int64]]:
     return corners
 
 
-def _dump(kind: str, name: str, values: NDArray[np.generic]) -> bytes:
-    header = {"version": 2.0, "format": "binary", "arch": ARCHITECTURE, "class": kind, "object": name}
+def _dump(kind: str, name: str, values: Any) -> bytes:
+    header: Any = {"version": 2.0, "format": "binary", "arch": ARCHITECTURE, "class": kind, "object": name}
     return FoamFile.dumps({"FoamFile": header, None: values})

@@ -11,7 +11,7 @@ from foamcases.dictionaries import VELOCITY_RELAXATION
 from foamcases.fields import read_channel
 from foamcases.openfoam import availability
 from foamcases.run import Run, run_case
-from rom.ladder import Progress, Solve, Write, silent
+from rom.ladder import Effect, Progress, Solve, Write, silent
 from rom.provenance import provenance
 from rom.result import Field, Numerics, Result, pocket_quantities
 from rom.scene import Scene
@@ -24,7 +24,7 @@ RESIDUAL_MEANING = "largest initial residual of velocity and pressure that a new
 
 def cost(_scene: Scene, resolution: int) -> float:
     """CPU seconds of one run, measured over 60 to 480 columns: start-up, then cells times iterations."""
-    return 0.3 + 2.4 * (resolution / 240) ** 2.4
+    return float(0.3 + 2.4 * (resolution / 240) ** 2.4)
 
 
 def reynolds_number_of(scene: Scene, fixed: float | None) -> float:
@@ -45,7 +45,7 @@ def write(
     write_case(scene, directory, reynolds_number=number, resolution=resolution, tolerance=tolerance)
 
 
-def read(scene: Scene, directory: Path, run: Run, *, model: str, keeps: frozenset[str]) -> Result:
+def read(scene: Scene, directory: Path, run: Run, *, model: str, keeps: frozenset[Effect]) -> Result:
     """The result of a case that was run; see :func:`foamcases.fields.read_channel` for the errors."""
     card, channel = read_card(directory), read_channel(directory)
     film, pascal = scene.geometry.film, scene.pressure_unit
@@ -94,7 +94,7 @@ def solve(
     scene: Scene,
     *,
     model: str,
-    keeps: frozenset[str],
+    keeps: frozenset[Effect],
     reynolds_number: float | None,
     resolution: int | None = None,
     tolerance: float | None = None,
@@ -114,7 +114,7 @@ def solve(
         return read(scene, directory, whole, model=model, keeps=keeps)
 
 
-def composed(model: str, keeps: frozenset[str], reynolds_number: float | None) -> tuple[Solve, Write]:
+def composed(model: str, keeps: frozenset[Effect], reynolds_number: float | None) -> tuple[Solve, Write]:
     """The solve and write of a model that runs at the given Reynolds number (None: the scene's)."""
     return (
         partial(solve, model=model, keeps=keeps, reynolds_number=reynolds_number),

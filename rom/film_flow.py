@@ -15,7 +15,7 @@ from rom.gap import Array
 
 
 def excess_flow(h: Array, q: float) -> Array:
-    """a = q/h - 1/2: by how much the mean velocity exceeds that of pure shear; shape of ``h``."""
+    """By how much the mean velocity exceeds that of pure shear, a = q/h - 1/2; shape of ``h``."""
     return np.asarray(q / h - 0.5)
 
 

@@ -63,7 +63,9 @@ class Solve(Protocol):
         resolution: int | None = None,
         tolerance: float | None = None,
         progress: Progress = silent,
-    ) -> Result: ...
+    ) -> Result:
+        """Solve one scene."""
+        ...
 
 
 class Write(Protocol):
@@ -71,7 +73,9 @@ class Write(Protocol):
 
     def __call__(
         self, scene: Scene, directory: Path, *, resolution: int | None = None, tolerance: float | None = None
-    ) -> None: ...
+    ) -> None:
+        """Write one case."""
+        ...
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -99,10 +103,10 @@ class Model:
 
 def ladder(*packages: ModuleType) -> tuple[Model, ...]:
     """The ``MODEL`` of every module in the packages, from the one that keeps least to the one that keeps most."""
-    models: list[Model] = []
-    for package in packages:
-        for module in pkgutil.iter_modules(package.__path__, package.__name__ + "."):
-            models.append(importlib.import_module(module.name).MODEL)
+    names = [
+        module.name for package in packages for module in pkgutil.iter_modules(package.__path__, package.__name__ + ".")
+    ]
+    models: list[Model] = [importlib.import_module(name).MODEL for name in names]
     return tuple(sorted(models, key=lambda model: (len(model.keeps), sorted(model.keeps), model.name)))
 
 

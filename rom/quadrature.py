@@ -8,7 +8,7 @@ import numpy as np
 from contact.errors import ConvergenceError, InputError
 from rom import film_flow
 from rom.gap import Array, Gap
-from rom.ladder import Effect
+from rom.ladder import Effect, Progress, silent
 from rom.piecewise import Rule, extrema, gauss_rule
 from rom.provenance import provenance
 from rom.result import Field, Numerics, Result, pocket_quantities
@@ -39,7 +39,7 @@ def _sample(gap: Gap, nodes: Array) -> _Film:
 
 
 def _flow_and_residual(gap: Gap, film: _Film, rule: Rule) -> tuple[float, float]:
-    """The flow that closes the pressure, and how far the interpolated gradient is from the true one between nodes."""
+    """The flow that closes the pressure, and how far the interpolated gradient is off between the nodes."""
     weights = film.half * rule.weights
     q = float((weights / film.h**2).sum() / (2 * (weights / film.h**3).sum()))
     between = _sample(gap, rule.check_nodes)
@@ -56,8 +56,9 @@ def solve_by_quadrature(
     model: str,
     keeps: frozenset[Effect],
     sources: tuple[str, ...],
-    resolution: int | None,
-    tolerance: float | None,
+    resolution: int | None = None,
+    tolerance: float | None = None,
+    progress: Progress = silent,
 ) -> Result:
     """Solve dp/dx = 6/h² - 12 q/h³ (+ first-order inertia if it is kept) for a periodic gap.
 
@@ -80,6 +81,7 @@ def solve_by_quadrature(
     gap = scene.gap()
     order, tries = resolution or RESOLUTION, 1
     while True:
+        progress(0.0, f"{order} nodes on each piece")
         rule = gauss_rule(order)
         film = _sample(gap, rule.nodes)
         q, residual = _flow_and_residual(gap, film, rule)
@@ -87,7 +89,7 @@ def solve_by_quadrature(
             break
         if order >= FINEST:
             raise ConvergenceError(
-                f"{model}: residual {residual:.1e} at {order} nodes on each piece misses the tolerance {tolerance:.1e}; "
+                f"{model}: residual {residual:.1e} at {order} nodes on a piece misses the tolerance {tolerance:.1e}; "
                 "loosen the tolerance or make the groove shallower"
             )
         order, tries = 2 * order, tries + 1

@@ -4,6 +4,7 @@ import difflib
 import json
 import tomllib
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
@@ -13,10 +14,11 @@ from pydantic import (
     BeforeValidator,
     ConfigDict,
     Field,
-    PlainSerializer,
+    GetCoreSchemaHandler,
     ValidationError,
     model_validator,
 )
+from pydantic_core import core_schema
 
 from contact.errors import InputError
 from rom import groove
@@ -39,20 +41,24 @@ def _plain_number(value: object) -> object:
     return float(value)
 
 
-def _quantity(base: str) -> Any:
-    """A positive SI float read from text with a unit and written back as such."""
-    return Annotated[
-        float,
-        BeforeValidator(lambda value: to_si(value, base)),
-        AfterValidator(_positive),
-        PlainSerializer(lambda value: with_unit(value, base)),
-    ]
+@dataclass(frozen=True)
+class _Quantity:
+    """Marks a positive SI number that is read from text with a unit and written back as such."""
+
+    base: str
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
+        return core_schema.no_info_before_validator_function(
+            lambda value: _positive(to_si(value, self.base)),
+            handler(source),
+            serialization=core_schema.plain_serializer_function_ser_schema(lambda value: with_unit(value, self.base)),
+        )
 
 
-Length = _quantity("m")
-Viscosity = _quantity("Pa*s")
-Density = _quantity("kg/m^3")
-Speed = _quantity("m/s")
+Length = Annotated[float, _Quantity("m")]
+Viscosity = Annotated[float, _Quantity("Pa*s")]
+Density = Annotated[float, _Quantity("kg/m^3")]
+Speed = Annotated[float, _Quantity("m/s")]
 PositiveNumber = Annotated[float, BeforeValidator(_plain_number), AfterValidator(_positive)]
 
 
@@ -133,9 +139,7 @@ class Scene(_Part):
         if self.motion.speed is not None:
             return self.motion.speed
         assert self.motion.reynolds_number is not None
-        return (
-            self.motion.reynolds_number * self.lubricant.viscosity / (self.lubricant.density * self.geometry.film)
-        )
+        return self.motion.reynolds_number * self.lubricant.viscosity / (self.lubricant.density * self.geometry.film)
 
     @property
     def reynolds_number(self) -> float:
@@ -183,7 +187,7 @@ def load_scene(path: Path, overrides: Iterable[str] = ()) -> Scene:
         raise InputError(f"{path}: byte {error.start} is not UTF-8; save the scene as UTF-8 text") from error
     except (tomllib.TOMLDecodeError, RecursionError) as error:
         reason = str(error).splitlines()[0]
-        raise InputError(f"{path}: is not TOML ({reason}); write lines such as: film = \"30 um\"") from error
+        raise InputError(f'{path}: is not TOML ({reason}); write lines such as: film = "30 um"') from error
     for override in overrides:
         _override(entries, override)
     return read_scene(entries)
@@ -211,9 +215,12 @@ def _override(entries: dict[str, Any], override: str) -> None:
     for part in parts[:-1]:
         table = table.setdefault(part, {})
         if not isinstance(table, dict):
-            raise InputError(f"--set {override}: {part!r} is not a table of the scene; write for example geometry.depth")
-    other = {("motion", "speed"): "reynolds_number", ("motion", "reynolds_number"): "speed"}.get(tuple(parts))
-    table.pop(other, None)
+            raise InputError(
+                f"--set {override}: {part!r} is not a table of the scene; write for example geometry.depth"
+            )
+    for one, other in (("speed", "reynolds_number"), ("reynolds_number", "speed")):
+        if parts == ["motion", one]:
+            table.pop(other, None)
     table[parts[-1]] = _value(text.strip())
 
 
@@ -242,7 +249,9 @@ def _one_line(error: ValidationError) -> str:
         case "value_error":
             reason = str(fault["ctx"]["error"])
             inner, colon, rest = reason.partition(": ")
-            joined = f"{place}.{inner}: {rest}" if colon and inner.replace(".", "").isidentifier() else f"{place}: {reason}"
+            joined = (
+                f"{place}.{inner}: {rest}" if colon and inner.replace(".", "").isidentifier() else f"{place}: {reason}"
+            )
             text = joined
         case _:
             text = f"{place}: got {got}; {fault['msg'][0].lower()}{fault['msg'][1:]}"

@@ -16,7 +16,7 @@ SCHEMA = 1
 
 
 def save(result: Result, path: Path) -> None:
-    """Write a result: groups ``quantities`` and ``fields`` with units as attributes, ``numerics``, ``provenance`` (JSON).
+    """Write groups ``quantities`` and ``fields`` with units as attributes, ``numerics``, and ``provenance`` (JSON).
 
     Raises InputError if ``path`` cannot be written.
     """

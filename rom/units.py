@@ -11,7 +11,7 @@ _UNIT = re.compile(r"(?:[A-Za-zµμ°·/* ()]|(?:\^|\*\*)-?\d(?!\d)){1,40}")
 
 
 @cache
-def _registry() -> pint.UnitRegistry:
+def _registry() -> "pint.UnitRegistry[float]":
     return pint.UnitRegistry()
 
 
@@ -65,7 +65,11 @@ def to_si(text: object, base: str) -> float:
         raise ValueError(f"got {text!r}, which has the wrong dimension; write for example '{number} {base}'")
     # Dividing by an exact power of ten keeps "30 um" at 3e-05, where multiplying by 1e-06 would not.
     inverse = round(1 / factor) if 0 < factor < 1 else 0
-    value = float(number) / inverse if inverse and math.isclose(1 / factor, inverse, rel_tol=1e-12) else float(number) * factor
+    value = (
+        float(number) / inverse
+        if inverse and math.isclose(1 / factor, inverse, rel_tol=1e-12)
+        else float(number) * factor
+    )
     if not math.isfinite(value):
         raise ValueError(f"got {text!r}, which is not finite; write a finite number")
     return value

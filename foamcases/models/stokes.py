@@ -10,7 +10,7 @@ NAME = "stokes"
 KEEPS = frozenset({Effect.SLOPE})
 
 CREEPING = 1e-6
-"""The Reynolds number of the run: advection is then a millionth of viscous stress, and OpenFOAM has no scheme "none"."""
+"""The Reynolds number of the run: advection is then a millionth of viscous stress (there is no scheme "none")."""
 
 
 def applies(scene: Scene) -> Applicability:

@@ -1,0 +1,95 @@
+"""What the commands share: their options, their ladder, one line and an exit code for every failure."""
+
+import functools
+import json
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+import foamcases.models
+import rom.models
+from contact.errors import ConvergenceError, InputError, UnavailableError
+from rom.ladder import Model, ladder
+
+BAD_INPUT, NOT_CONVERGED, MISSING = 2, 3, 4
+
+ScenePath = Annotated[Path, typer.Argument(metavar="SCENE", help="The scene file (TOML).")]
+Overrides = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="KEY=VALUE", help="Override a key, e.g. geometry.depth=22.5um; repeatable."),
+]
+AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object on standard output, nothing else there.")]
+Resolution = Annotated[int | None, typer.Option(help="Nodes or mesh columns; see 'roughfilm models'.")]
+Tolerance = Annotated[float | None, typer.Option(help="Residual at which a solver stops.")]
+
+messages = Console(stderr=True, highlight=False)
+output = Console(highlight=False)
+
+
+def models() -> tuple[Model, ...]:
+    """Every rung, from the plainest to the best."""
+    return ladder(rom.models, foamcases.models)
+
+
+def fail(error: Exception, code: int) -> typer.Exit:
+    """Say one line (and the log's last lines, where there are some) and return the exit."""
+    messages.print(f"[bold red]error:[/] {_plain(str(error))}", soft_wrap=True)
+    for note in getattr(error, "__notes__", []):
+        messages.print(_plain(note), style="dim", soft_wrap=True)
+    return typer.Exit(code)
+
+
+def in_one_line(command: Callable[..., None]) -> Callable[..., None]:
+    """Turn our errors into one line on standard error and the exit code 2, 3 or 4."""
+
+    @functools.wraps(command)
+    def wrapped(*arguments: Any, **options: Any) -> None:
+        try:
+            command(*arguments, **options)
+        except InputError as error:
+            raise fail(error, BAD_INPUT) from None
+        except ConvergenceError as error:
+            raise fail(error, NOT_CONVERGED) from None
+        except UnavailableError as error:
+            raise fail(error, MISSING) from None
+
+    return wrapped
+
+
+def print_json(entries: dict[str, Any]) -> None:
+    """The one object of ``--json``."""
+    sys.stdout.write(json.dumps(entries, allow_nan=False, ensure_ascii=False) + "\n")
+
+
+@contextmanager
+def progress_bar(total: float) -> Iterator[Callable[[float, str], None]]:
+    """A bar on standard error with time left; yields advance(done, words) with done counted towards ``total``."""
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TextColumn("{task.percentage:>3.0f}%"),
+        TimeElapsedColumn(),
+        TextColumn("left"),
+        TimeRemainingColumn(),
+    )
+    with Progress(*columns, console=messages, transient=True) as bar:
+        task = bar.add_task("starting", total=total)
+        yield lambda done, words: bar.update(task, completed=done, description=_plain(words))
+
+
+def make_directory(path: Path) -> None:
+    """The directory of ``--out``; InputError if it cannot be made."""
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"--out {path}: cannot be made ({error.strerror}); choose another place") from error
+
+
+def _plain(text: str) -> str:
+    return text.replace("[", r"\[")

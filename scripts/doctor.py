@@ -1,0 +1,56 @@
+"""roughfilm doctor: what is on this machine, which version, and what to do about the rest."""
+
+import platform
+import shutil
+import subprocess
+from collections.abc import Callable
+
+import typer
+from rich.table import Table
+
+from foamcases.openfoam import availability
+from rom.ladder import Availability
+from rom.provenance import versions
+from scripts.common import AsJson, in_one_line, output, print_json
+from scripts.rendering import probe
+
+
+def _python() -> Availability:
+    return Availability(
+        available=True, detail=f"Python {platform.python_version()}, roughfilm {versions()['roughfilm']}"
+    )
+
+
+def _mpi() -> Availability:
+    if shutil.which("mpirun") is None:
+        return Availability(available=False, detail="no mpirun; install it with: sudo apt-get install openmpi-bin")
+    try:
+        told = subprocess.run(["mpirun", "--version"], capture_output=True, text=True, timeout=30, check=False).stdout
+    except (OSError, subprocess.SubprocessError) as error:
+        return Availability(available=False, detail=f"mpirun does not start ({error})")
+    return Availability(available=True, detail=next(iter(told.splitlines()), "mpirun"))
+
+
+CHECKS: dict[str, Callable[[], Availability]] = {
+    "Python": _python,
+    "OpenFOAM": availability,
+    "MPI": _mpi,
+    "rendering": probe,
+}
+
+
+@in_one_line
+def command(as_json: AsJson = False) -> None:
+    """Look for Python, OpenFOAM, MPI and rendering; say what was found and what to do."""
+    found = {name: check() for name, check in CHECKS.items()}
+    if as_json:
+        print_json({name: {"available": it.available, "detail": it.detail} for name, it in found.items()})
+        return
+    table = Table("part", "found", "version, or what to do")
+    for name, it in found.items():
+        table.add_row(name, "[green]yes[/]" if it.available else "[red]no[/]", it.detail)
+    output.print(table)
+
+
+if __name__ == "__main__":
+    typer.run(command)

@@ -1,0 +1,49 @@
+"""roughfilm generate: the OpenFOAM cases of a scene, to run by hand."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from rom.provenance import provenance
+from rom.scene import load_scene
+from scripts.common import (
+    AsJson,
+    Overrides,
+    Resolution,
+    ScenePath,
+    Tolerance,
+    in_one_line,
+    make_directory,
+    models,
+    output,
+    print_json,
+)
+
+
+@in_one_line
+def command(
+    scene: ScenePath,
+    out: Annotated[Path, typer.Option(help="One case directory for each OpenFOAM model is made here.")],
+    set_: Overrides = None,
+    resolution: Resolution = None,
+    tolerance: Tolerance = None,
+    as_json: AsJson = False,
+) -> None:
+    """Write the OpenFOAM cases alone; run each with its ./Allrun."""
+    read = load_scene(scene, set_ or ())
+    make_directory(out)
+    cases = []
+    for model in models():
+        if model.write is not None:
+            model.write(read, out / model.name, resolution=resolution, tolerance=tolerance)
+            cases.append({"model": model.name, "directory": str(out / model.name)})
+    if as_json:
+        print_json({"cases": cases, "provenance": provenance(read, keeps=(), sources=())})
+    else:
+        for case in cases:
+            output.print(f"{case['model']}: {case['directory']}/Allrun", soft_wrap=True)
+
+
+if __name__ == "__main__":
+    typer.run(command)

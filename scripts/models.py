@@ -1,0 +1,44 @@
+"""roughfilm models: the ladder: name, what it adds, available here or why not."""
+
+import typer
+from rich.table import Table
+
+from scripts.common import AsJson, in_one_line, models, output, print_json
+
+
+@in_one_line
+def command(as_json: AsJson = False) -> None:
+    """Show the ladder: each model, what it adds, whether it can run here or why not."""
+    rows = [(model, model.available()) for model in models()]
+    if as_json:
+        print_json(
+            {
+                "models": [
+                    {
+                        "name": model.name,
+                        "adds": model.summary,
+                        "keeps": sorted(model.keeps),
+                        "resolution": model.resolution,
+                        "resolution_meaning": model.resolution_meaning,
+                        "available": found.available,
+                        "detail": found.detail,
+                    }
+                    for model, found in rows
+                ]
+            }
+        )
+        return
+    table = Table("model", "what it adds", "keeps", "resolution", "here", title="The ladder, plainest first")
+    for model, found in rows:
+        table.add_row(
+            model.name,
+            model.summary,
+            ", ".join(sorted(model.keeps)) or "-",
+            f"{model.resolution} {model.resolution_meaning}",
+            ("[green]yes[/]: " if found.available else "[red]no[/]: ") + found.detail,
+        )
+    output.print(table)
+
+
+if __name__ == "__main__":
+    typer.run(command)

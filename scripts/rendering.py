@@ -1,0 +1,46 @@
+"""Pictures drawn by VTK in a process of their own, because missing graphics libraries make it crash."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+from rom.ladder import Availability
+
+REMEDY = "install graphics libraries with: sudo apt-get install libegl1 libgl1-mesa-dri libxrender1"
+TIME_LIMIT_S = 180
+
+PROBE = """
+import pyvista
+plotter = pyvista.Plotter(off_screen=True)
+plotter.add_mesh(pyvista.Sphere())
+plotter.screenshot()
+print(pyvista.vtk_version_info)
+"""
+
+
+def draw_apart(result: Path, picture: Path) -> Availability:
+    """Draw the flow of a stored result into a PNG; says why where it fails."""
+    return _apart("-m", "scripts.streamlines", str(result), str(picture))
+
+
+def probe() -> Availability:
+    """Whether a picture can be drawn here."""
+    found = _apart("-c", PROBE)
+    if not found.available:
+        return found
+    return Availability(available=True, detail="pyvista draws, VTK " + found.detail.strip("()").replace(", ", "."))
+
+
+def _apart(*arguments: str) -> Availability:
+    try:
+        run = subprocess.run(
+            [sys.executable, *arguments], capture_output=True, text=True, timeout=TIME_LIMIT_S, check=False
+        )
+    except (OSError, subprocess.SubprocessError) as error:
+        return Availability(available=False, detail=f"drawing did not end ({error}); {REMEDY}")
+    if run.returncode != 0:
+        last = next(iter(run.stderr.strip().splitlines()[::-1]), "")
+        told = last if last and "Error" in last else f"exit code {run.returncode}"
+        return Availability(available=False, detail=f"VTK cannot draw here ({told}); {REMEDY}")
+    lines = run.stdout.strip().splitlines()
+    return Availability(available=True, detail=lines[-1] if lines else "")

@@ -1,0 +1,67 @@
+"""roughfilm solve: one model on one scene."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.table import Table
+
+from rom.ladder import find
+from rom.result import Result
+from rom.scene import load_scene
+from rom.store import as_entries, save
+from scripts.common import (
+    AsJson,
+    Overrides,
+    Resolution,
+    ScenePath,
+    Tolerance,
+    in_one_line,
+    models,
+    output,
+    print_json,
+    progress_bar,
+)
+
+
+@in_one_line
+def command(
+    scene: ScenePath,
+    model: Annotated[str, typer.Option(help="A name from 'roughfilm models'.")],
+    out: Annotated[Path | None, typer.Option(help="Write the result with its fields here (HDF5).")] = None,
+    set_: Overrides = None,
+    resolution: Resolution = None,
+    tolerance: Tolerance = None,
+    as_json: AsJson = False,
+) -> None:
+    """Solve a scene with one model."""
+    rung = find(models(), model)
+    read = load_scene(scene, set_ or ())
+    with progress_bar(1.0) as advance:
+        result = rung.solve(read, resolution=resolution, tolerance=tolerance, progress=advance)
+    if out is not None:
+        save(result, out)
+    if as_json:
+        print_json(as_entries(result))
+    else:
+        output.print(table_of(result))
+        numbers = result.numerics
+        output.print(
+            f"residual {numbers.residual:.1e} ({rung.residual_meaning}), {numbers.iterations} iterations, "
+            f"{numbers.degrees_of_freedom} unknowns, {numbers.cpu_s:.3g} CPU s"
+        )
+        for warning in result.provenance.get("warnings", []):
+            output.print(f"[yellow]warning:[/] {warning}")
+
+
+def table_of(result: Result) -> Table:
+    """The quantities of a result, as people read them."""
+    table = Table("quantity", "value", "unit", title=f"{result.provenance['scene']['name']} by {result.model}")
+    table.columns[1].justify = "right"
+    for name, quantity in result.quantities.items():
+        table.add_row(name, f"{quantity.value:.5g}", "" if quantity.unit == "1" else quantity.unit)
+    return table
+
+
+if __name__ == "__main__":
+    typer.run(command)
