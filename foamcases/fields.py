@@ -5,7 +5,6 @@ from pathlib import Path
 
 import numpy as np
 from foamlib import FoamCase, FoamFile
-from scipy.interpolate import CubicSpline
 
 from contact.errors import ConvergenceError
 from foamcases.case import read_card
@@ -58,6 +57,8 @@ class Channel:
 
     def pressure_range(self) -> tuple[float, float]:
         """Least and greatest pressure on the sliding wall, of the cubic spline through the columns."""
+        from scipy.interpolate import CubicSpline  # slow to import, and most commands do without
+
         spline = CubicSpline(self.position, self.wall_pressure)
         turns = spline.derivative().roots(extrapolate=False)
         values = np.concatenate([self.wall_pressure, spline(turns), [0.0]])

@@ -5,7 +5,6 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.polynomial import legendre
-from scipy.special import roots_legendre
 
 from rom.gap import Array
 
@@ -30,11 +29,11 @@ class Rule:
 @lru_cache(maxsize=16)
 def gauss_rule(order: int) -> Rule:
     """The Gauss-Legendre rule with ``order`` nodes; error of an analytic integrand falls geometrically with it."""
-    nodes, weights = roots_legendre(order)
+    nodes, weights = legendre.leggauss(order)
     degree = np.arange(order)
     to_series = (legendre.legvander(nodes, order - 1) * weights[:, None]).T * (degree[:, None] + 0.5)
     primitives = legendre.legint(np.eye(order), lbnd=-1)
-    check_nodes, check_weights = roots_legendre(order + 1)
+    check_nodes, check_weights = legendre.leggauss(order + 1)
     return Rule(
         nodes=nodes,
         weights=weights,

@@ -41,8 +41,8 @@ def to_si(text: object, base: str) -> float:
     --------
     >>> to_si("30 um", "m")
     3e-05
-    >>> to_si("1 g/cm^3", "kg/m^3")
-    1000.0
+    >>> to_si("36 km/h", "m/s")
+    10.0
     >>> to_si(0.03, "m")
     Traceback (most recent call last):
     ...

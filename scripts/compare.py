@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Annotated, Any
@@ -29,7 +30,6 @@ from scripts.common import (
     print_json,
     progress_bar,
 )
-from scripts.figures import pressure, speed_against_accuracy
 from scripts.rendering import draw_apart
 from scripts.report import Picture, Report, cheapest_within, write_report
 from scripts.solve import table_of
@@ -161,6 +161,8 @@ def _judge(
     reference = results[top.name]
     chart = points(reference, runs)
     floor = _uncertainty(reference, runs)
+    from scripts.figures import pressure, speed_against_accuracy  # matplotlib is slow to import
+
     plots = {"pressure": pressure(scene, results), "chart": speed_against_accuracy(chart, floor)}
     for name, svg in plots.items():
         with replacing(out / f"{name}.svg") as scratch:
@@ -223,13 +225,14 @@ def _raw(chart: tuple[Point, ...], reference: Result, floor: dict[str, float]) -
 
 
 def _pictures(results: dict[str, Result], out: Path) -> tuple[Picture, ...]:
-    pictures = []
-    for name, result in results.items():
-        if "vertices" in result.fields:
-            path = out / f"flow-{name}.png"
-            drawn = draw_apart(out / "results" / f"{name}-{result.numerics.resolution}.h5", path)
-            pictures.append(Picture(model=name, path=path if drawn.available else None, reason=drawn.detail))
-    return tuple(reversed(pictures))
+    def picture(name: str) -> Picture:
+        path = out / f"flow-{name}.png"
+        drawn = draw_apart(out / "results" / f"{name}-{results[name].numerics.resolution}.h5", path)
+        return Picture(model=name, path=path if drawn.available else None, reason=drawn.detail)
+
+    resolved = [name for name, result in results.items() if "vertices" in result.fields]
+    with ThreadPoolExecutor() as pool:
+        return tuple(pool.map(picture, reversed(resolved)))
 
 
 if __name__ == "__main__":

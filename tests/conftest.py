@@ -1,0 +1,40 @@
+"""Scenes that the tests share, and skips with a reason."""
+
+from pathlib import Path
+
+import pytest
+
+from foamcases.openfoam import availability
+from rom.scene import Scene, load_scene
+
+POCKET = Path(__file__).parent.parent / "scripts" / "scenes" / "pocket.toml"
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    if any(item.get_closest_marker("openfoam") for item in items) and not availability().available:
+        reason = f"OpenFOAM is not here: {availability().detail}"
+        for item in items:
+            if item.get_closest_marker("openfoam"):
+                item.add_marker(pytest.mark.skip(reason=reason))
+
+
+@pytest.fixture
+def pocket_file() -> Path:
+    return POCKET
+
+
+@pytest.fixture
+def make_scene():
+    """A pocket from the dimensionless numbers of the source: w+ = w/Lx, d+ = d/Ly, Re."""
+
+    def make(width_plus: float, depth_plus: float, reynolds_number: float) -> Scene:
+        return load_scene(
+            POCKET,
+            [
+                f"geometry.width={width_plus!r} mm",
+                f"geometry.depth={depth_plus * 30!r} um",
+                f"motion.reynolds_number={reynolds_number!r}",
+            ],
+        )
+
+    return make

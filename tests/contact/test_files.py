@@ -1,0 +1,48 @@
+"""A file is whole or absent, whatever happens while it is written."""
+
+import pytest
+
+from contact.errors import InputError
+from contact.files import replacing
+
+
+def test_failure_leaves_the_old_file_and_nothing_beside_it(tmp_path):
+    target = tmp_path / "a.txt"
+    target.write_text("old")
+
+    def write_half():
+        with replacing(target) as scratch:
+            scratch.write_text("half")
+            raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        write_half()
+    assert target.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [target]
+
+
+def test_reader_sees_the_old_file_until_the_new_one_is_whole(tmp_path):
+    target = tmp_path / "a.txt"
+    target.write_text("old")
+    with replacing(target) as scratch:
+        scratch.write_text("new")
+        assert target.read_text() == "old"
+    assert target.read_text() == "new"
+    assert list(tmp_path.iterdir()) == [target]
+
+
+def test_missing_directories_are_made(tmp_path):
+    with replacing(tmp_path / "b" / "c" / "a.txt") as scratch:
+        scratch.write_text("x")
+    assert (tmp_path / "b" / "c" / "a.txt").read_text() == "x"
+
+
+def test_a_file_in_the_way_of_the_directory_is_named(tmp_path):
+    (tmp_path / "b").write_text("")
+    with pytest.raises(InputError, match="cannot be written"), replacing(tmp_path / "b" / "a.txt"):
+        pass
+
+
+def test_a_directory_is_refused(tmp_path):
+    with pytest.raises(InputError, match="is a directory"), replacing(tmp_path):
+        pass

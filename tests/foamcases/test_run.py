@@ -1,0 +1,109 @@
+"""A run is believed only when it is whole: every way it can fail is one of our errors, with the log's end."""
+
+import numpy as np
+import pytest
+from foamlib import FoamCase, FoamFile
+
+from contact.errors import ConvergenceError, UnavailableError
+from foamcases import openfoam, run
+from foamcases.case import write_case
+from foamcases.fields import read_channel
+from foamcases.run import run_case
+from rom.ladder import Availability
+
+pytestmark = pytest.mark.openfoam
+
+
+@pytest.fixture
+def case(make_scene, tmp_path):
+    write_case(make_scene(0.3, 0.25, 40), tmp_path, reynolds_number=40.0, resolution=30, tolerance=1e-5)
+    return tmp_path
+
+
+def test_a_good_run(case):
+    seen = []
+    done = run_case(case, progress=lambda part, words: seen.append((part, words)))
+    assert 0 < done.residual <= 2e-5
+    assert done.iterations > 20
+    assert "v" in done.version
+    assert done.warnings == ()
+
+
+def test_a_run_that_stops_at_its_last_iteration_is_no_success(case):
+    with FoamFile(case / "system" / "controlDict") as control:
+        control["endTime"] = 5
+    with pytest.raises(ConvergenceError, match="made 5 iterations and did not converge") as caught:
+        run_case(case)
+    assert "End" in caught.value.__notes__[0]
+
+
+def test_a_broken_mesh_is_no_success(case):
+    points = FoamFile(case / "constant" / "polyMesh" / "points")
+    turned = np.array(points[None])
+    turned[:, 1] *= np.where(turned[:, 0] > 3, -1, 1)
+    points[None] = turned
+    with pytest.raises(ConvergenceError, match="mesh check|checkMesh stopped") as caught:
+        run_case(case)
+    assert caught.value.__notes__
+
+
+def test_a_broken_dictionary_is_no_success(case):
+    (case / "system" / "fvSolution").write_text("nonsense {")
+    with pytest.raises(ConvergenceError, match="stopped with code") as caught:
+        run_case(case)
+    assert "FATAL" in caught.value.__notes__[0]
+
+
+def test_fields_on_disk_that_do_not_satisfy_the_equations_are_no_success(case, monkeypatch):
+    execute = run._execute
+
+    def spoil_before_verifying(directory, program, log_name, watch=None):
+        if log_name == "log.verify":
+            velocity = FoamCase(directory)[-1]["U"]
+            velocity.internal_field = np.array(velocity.internal_field) * 1.01
+        return execute(directory, program, log_name, watch)
+
+    monkeypatch.setattr(run, "_execute", spoil_before_verifying)
+    with pytest.raises(ConvergenceError, match="fields on disk leave a residual"):
+        run_case(case)
+
+
+def test_fields_that_are_not_finite_are_refused(case):
+    run_case(case)
+    pressure = FoamCase(case)[-1]["p"]
+    values = np.array(pressure.internal_field)
+    values[7] = np.nan
+    pressure.internal_field = values
+    with pytest.raises(ConvergenceError, match="not finite"):
+        read_channel(case)
+
+
+def test_a_case_that_was_not_run_is_refused(case):
+    with pytest.raises(ConvergenceError, match="run the case first"):
+        read_channel(case)
+
+
+def test_no_openfoam_is_said_in_one_line(case, monkeypatch):
+    monkeypatch.setattr(run, "availability", lambda: Availability(available=False, detail="no simpleFoam; install it"))
+    with pytest.raises(UnavailableError, match="no simpleFoam; install it"):
+        run_case(case)
+
+
+def test_a_sourced_distribution_is_respected(monkeypatch):
+    monkeypatch.setenv("WM_PROJECT_DIR", "/opt/other")
+    openfoam.environment.cache_clear()
+    try:
+        assert openfoam.environment()["WM_PROJECT_DIR"] == "/opt/other"
+    finally:
+        openfoam.environment.cache_clear()
+
+
+def test_without_programs_the_remedy_is_named(monkeypatch):
+    monkeypatch.setenv("PATH", "")
+    openfoam.availability.cache_clear()
+    try:
+        found = openfoam.availability()
+        assert not found.available
+        assert "apt-get install openfoam" in found.detail
+    finally:
+        openfoam.availability.cache_clear()

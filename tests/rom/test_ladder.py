@@ -1,0 +1,72 @@
+"""The contract that every rung keeps, and the lattice they form."""
+
+import numpy as np
+import pytest
+
+import foamcases.models
+import rom.models
+from contact.errors import InputError
+from rom.ladder import Effect, best, find, ladder, one_effect_away
+
+MODELS = ladder(rom.models, foamcases.models)
+NEEDS_OPENFOAM = [pytest.param(m, marks=pytest.mark.openfoam) if m.write else m for m in MODELS]
+
+
+def test_the_rungs_are_found_in_order():
+    assert [model.name for model in MODELS] == ["reynolds", "inertial_reynolds", "stokes", "navier_stokes"]
+
+
+def test_the_lattice():
+    names = {(model.name, other.name): effect for model in MODELS for other, effect in one_effect_away(model, MODELS)}
+    assert names == {
+        ("reynolds", "inertial_reynolds"): Effect.INERTIA,
+        ("reynolds", "stokes"): Effect.SLOPE,
+        ("inertial_reynolds", "navier_stokes"): Effect.SLOPE,
+        ("stokes", "navier_stokes"): Effect.INERTIA,
+    }
+    assert best(MODELS).name == "navier_stokes"
+
+
+def test_an_unknown_name_is_refused_with_the_known_ones():
+    with pytest.raises(InputError, match="one of reynolds, inertial_reynolds, stokes, navier_stokes"):
+        find(MODELS, "raynolds")
+
+
+@pytest.mark.parametrize("model", NEEDS_OPENFOAM)
+def test_contract(model, make_scene):
+    scene = make_scene(0.3, 0.25, 20)
+    seen = []
+    result = model.solve(
+        scene, resolution=model.resolutions[1], progress=lambda done, words: seen.append((done, words))
+    )
+    assert result.model == model.name
+    assert set(result.quantities) == {
+        "load_plus",
+        "friction_plus",
+        "pressure_max_plus",
+        "pressure_min_plus",
+        "load_per_area",
+        "friction_per_area",
+        "backflow",
+    }
+    assert {"position", "film_thickness", "pressure", "shear_stress"} <= set(result.fields)
+    sizes = {result.fields[name].values.shape for name in ("position", "film_thickness", "pressure", "shear_stress")}
+    assert len(sizes) == 1
+    numbers = result.numerics
+    assert np.isfinite(numbers.residual)
+    assert min(numbers.cpu_s, numbers.wall_s, numbers.degrees_of_freedom, numbers.iterations) > 0
+    assert numbers.resolution == model.resolutions[1]
+    assert result.provenance["keeps"] == sorted(model.keeps)
+    assert result.provenance["sources"] == list(model.sources)
+    assert all(0 <= done <= 1 for done, _ in seen)
+    assert model.applies(scene).applies
+    assert model.applies(scene).reason
+    assert model.cost(scene, model.resolution) > 0
+    ratio = result.quantities["load_per_area"].value / scene.pressure_unit * scene.plus_factor
+    assert ratio == pytest.approx(result.quantities["load_plus"].value)
+
+
+def test_resolutions_are_sorted_and_hold_the_default():
+    for model in MODELS:
+        assert list(model.resolutions) == sorted(set(model.resolutions))
+        assert model.resolution in model.resolutions
