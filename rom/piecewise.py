@@ -37,11 +37,11 @@ def gauss_rule(order: int) -> Rule:
     return Rule(
         nodes=nodes,
         weights=weights,
-        primitive=legendre.legval(nodes, primitives).T @ to_series,
-        derivative=legendre.legval(nodes, legendre.legder(np.eye(order))).T @ to_series,
+        primitive=np.asarray(legendre.legval(nodes, primitives).T @ to_series),
+        derivative=np.asarray(legendre.legval(nodes, legendre.legder(np.eye(order))).T @ to_series),
         check_nodes=check_nodes,
         check_weights=check_weights,
-        check=legendre.legvander(check_nodes, order - 1) @ to_series,
+        check=np.asarray(legendre.legvander(check_nodes, order - 1) @ to_series),
     )
 
 

@@ -1,5 +1,6 @@
 """Where a number came from: versions, commit, machine, the complete scene, and the models' sources."""
 
+import hashlib
 import os
 import platform
 import subprocess
@@ -40,6 +41,16 @@ def commit() -> str:
 
 
 @cache
+def code() -> str:
+    """A digest of the source of the three packages that compute: equal digests give equal numbers."""
+    tree = Path(__file__).resolve().parent.parent
+    digest = hashlib.sha256()
+    for path in sorted(path for package in ("contact", "rom", "foamcases") for path in (tree / package).rglob("*.py")):
+        digest.update(path.relative_to(tree).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+    return digest.hexdigest()[:16]
+
+
+@cache
 def machine() -> dict[str, str]:
     """What the times were measured on: system, processor and cores."""
     processor = platform.processor() or platform.machine()
@@ -59,6 +70,7 @@ def provenance(scene: Scene, *, keeps: Sequence[str], sources: Sequence[str], **
         "sources": list(sources),
         "versions": versions(),
         "commit": commit(),
+        "code": code(),
         "machine": machine(),
         "load_average": round(os.getloadavg()[0], 2),
         "created": datetime.now(UTC).isoformat(timespec="seconds"),

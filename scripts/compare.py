@@ -13,7 +13,7 @@ from contact.errors import ConvergenceError, InputError
 from contact.files import replacing
 from rom.comparison import COMPARED, Point, effects, points, scale, to_best
 from rom.ladder import Model, best
-from rom.provenance import commit, versions
+from rom.provenance import code, versions
 from rom.result import Result
 from rom.scene import Scene, load_scene, scene_entries
 from rom.store import as_entries, load, save
@@ -38,6 +38,9 @@ QUICK_S = 0.1
 """Models that cost less are timed as the fastest of ``REPEATS`` runs, so that start-up does not hide them."""
 
 REPEATS = 7
+
+SAFETY = 3.0
+"""The usual factor of the grid convergence index where only two grids are compared."""
 
 Advance = Callable[[float, str], None]
 
@@ -145,10 +148,9 @@ def _solved_once(scene: Scene, job: Job, step: Advance) -> Result:
 def _same(stored: Result, scene: Scene, job: Job) -> bool:
     origin = stored.provenance
     return (
-        not commit().endswith("+changes")
-        and (stored.model, stored.numerics.resolution) == (job.model.name, job.resolution)
+        (stored.model, stored.numerics.resolution) == (job.model.name, job.resolution)
         and origin["scene"] == scene_entries(scene)
-        and (origin["commit"], origin["versions"]) == (commit(), versions())
+        and (origin["code"], origin["versions"]) == (code(), versions())
         and origin.get("openfoam", "") == (job.model.available().detail if "openfoam" in origin else "")
     )
 
@@ -195,7 +197,10 @@ def _judge(
 
 
 def _uncertainty(reference: Result, runs: list[Result]) -> dict[str, float]:
-    """Relative numerical uncertainty of the reference: a third of the step from the next coarser grid (order two)."""
+    """Relative numerical uncertainty of the reference: its grid convergence index, for order two.
+
+    SAFETY |f - f_coarser| / (r² - 1) for the next coarser grid, r times as coarse; Roache 1994, doi:10.1115/1.2910291.
+    """
     coarser = [
         run for run in runs if run.model == reference.model and run.numerics.resolution < reference.numerics.resolution
     ]
@@ -204,7 +209,8 @@ def _uncertainty(reference: Result, runs: list[Result]) -> dict[str, float]:
     near = max(coarser, key=lambda run: run.numerics.resolution)
     ratio = reference.numerics.resolution / near.numerics.resolution
     return {
-        quantity: abs(reference.quantities[quantity].value - near.quantities[quantity].value)
+        quantity: SAFETY
+        * abs(reference.quantities[quantity].value - near.quantities[quantity].value)
         / (ratio**2 - 1)
         / scale(reference, quantity)
         for quantity in COMPARED

@@ -42,7 +42,7 @@ def test_a_broken_mesh_is_no_success(case):
     turned = np.array(points[None])
     turned[:, 1] *= np.where(turned[:, 0] > 3, -1, 1)
     points[None] = turned
-    with pytest.raises(ConvergenceError, match="mesh check|checkMesh stopped") as caught:
+    with pytest.raises(ConvergenceError, match=r"mesh check|checkMesh stopped") as caught:
         run_case(case)
     assert caught.value.__notes__
 

@@ -1,0 +1,41 @@
+"""CPU time and load of every model at every resolution of its chart, as JSON with the machine: pytest -m benchmark."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+import foamcases.models
+import rom.models
+from contact.files import replacing
+from rom.ladder import ladder
+from rom.provenance import commit, machine, versions
+
+RESULTS = Path(__file__).parent.parent.parent / "runs" / "benchmarks" / "models.json"
+REPEATS = 3
+
+
+@pytest.mark.benchmark
+def test_cost_of_every_model(make_scene):
+    scene = make_scene(0.3, 0.75, 160)
+    rows = []
+    for model in ladder(rom.models, foamcases.models):
+        if not model.available().available:
+            continue
+        for resolution in model.resolutions:
+            runs = [model.solve(scene, resolution=resolution) for _ in range(REPEATS)]
+            times = sorted(run.numerics.cpu_s for run in runs)
+            rows.append(
+                {
+                    "model": model.name,
+                    "resolution": resolution,
+                    "cpu_s": times,
+                    "expected_cpu_s": model.cost(scene, resolution),
+                    "load_plus": runs[0].quantities["load_plus"].value,
+                }
+            )
+    with replacing(RESULTS) as scratch:
+        scratch.write_text(
+            json.dumps({"machine": machine(), "versions": versions(), "commit": commit(), "rows": rows}, indent=1)
+        )
+    assert rows

@@ -1,0 +1,146 @@
+"""The comparison: one self-contained page, results that survive a kill, pictures that may be missing."""
+
+import html
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from html.parser import HTMLParser
+
+import pytest
+
+from rom.ladder import Availability, find
+from rom.scene import load_scene
+from rom.store import load
+from scripts import compare, rendering
+from scripts.common import models
+from scripts.compare import Job
+
+
+class Page(HTMLParser):
+    def __init__(self):
+        super().__init__()
+        self.outside, self.tags = [], []
+
+    def handle_starttag(self, tag, attributes):
+        self.tags.append(tag)
+        for name, value in attributes:
+            if name in {"src", "href"} and tag not in {"a", "use"}:
+                self.outside.append(value)
+
+
+def read_page(path):
+    page = Page()
+    page.feed(path.read_text(encoding="utf-8"))
+    return page
+
+
+@pytest.fixture
+def film_only(monkeypatch):
+    film = tuple(model for model in models() if model.write is None)
+    monkeypatch.setattr(compare, "models", lambda: film)
+
+
+@pytest.mark.openfoam
+@pytest.mark.slow
+def test_the_whole_ladder_in_one_self_contained_page(pocket_file, tmp_path):
+    done = subprocess.run(
+        [sys.executable, "-m", "scripts.cli", "compare", str(pocket_file), "--out", str(tmp_path), "--json"],
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
+    assert done.returncode == 0, done.stderr
+    told = json.loads(done.stdout)
+    assert told["model"] == "navier_stokes"
+    assert [part["model"] for part in told["models"]] == ["reynolds", "inertial_reynolds", "stokes", "navier_stokes"]
+    named = {(d["other"], d["model"], d["effect"]) for d in told["differences"] if d["effect"]}
+    assert ("stokes", "navier_stokes", "inertia") in named
+    assert ("inertial_reynolds", "navier_stokes", "slope") in named
+    assert told["cheapest_within_10_percent"] == "inertial_reynolds"
+    page = read_page(tmp_path / "report.html")
+    assert all(place.startswith("data:image/png;base64,") for place in page.outside)
+    assert page.tags.count("svg") == 2
+    if rendering.probe().available:
+        assert page.tags.count("img") == 2
+    for model in models():
+        assert load(tmp_path / "results" / f"{model.name}-{model.resolution}.h5").model == model.name
+    raw = json.loads((tmp_path / "chart.json").read_text())
+    per_model = {model.name: sum(point["model"] == model.name for point in raw["points"]) for model in models()}
+    assert min(per_model.values()) >= 3
+
+
+@pytest.mark.usefixtures("film_only")
+def test_text_of_a_scene_is_text_in_the_page(pocket_file, tmp_path):
+    name = "<script>alert(1)</script> {{ 7 * 7 }}"
+    compare.command(pocket_file, out=tmp_path, set_=[f"name={name}"])
+    page = (tmp_path / "report.html").read_text()
+    assert "<script" not in page
+    assert html.escape(name) in page
+
+
+@pytest.mark.usefixtures("film_only")
+def test_the_note_on_the_published_plots_is_there(pocket_file, tmp_path):
+    compare.command(pocket_file, out=tmp_path)
+    assert re.search(r"show half of the\s+definition", (tmp_path / "report.html").read_text())
+
+
+@pytest.mark.openfoam
+def test_where_nothing_can_be_drawn_the_page_says_so(pocket_file, tmp_path, monkeypatch):
+    some = tuple(type(model)(**{**vars(model), "resolutions": (30,), "resolution": 30}) for model in models())
+    monkeypatch.setattr(compare, "models", lambda: some)
+    monkeypatch.setattr(
+        compare, "draw_apart", lambda *_: Availability(available=False, detail="VTK cannot draw here (exit code -11)")
+    )
+    compare.command(pocket_file, out=tmp_path)
+    assert "no picture: VTK cannot draw here (exit code -11)" in (tmp_path / "report.html").read_text()
+    assert "img" not in read_page(tmp_path / "report.html").tags
+
+
+def test_a_crash_while_drawing_is_an_answer():
+    found = rendering._apart("-c", "import os, signal; os.kill(os.getpid(), signal.SIGSEGV)")
+    assert not found.available
+    assert "apt-get install" in found.detail
+
+
+def test_finished_results_are_used_again_only_for_the_same_question(pocket_file, tmp_path, monkeypatch):
+    model = find(models(), "reynolds")
+    job = Job(model=model, resolution=8, path=tmp_path / "reynolds-8.h5")
+    scene, other = load_scene(pocket_file), load_scene(pocket_file, ["geometry.depth=8 um"])
+    first = compare._solved_once(scene, job, lambda *_: None)
+    stamp = job.path.stat().st_mtime_ns
+    compare._solved_once(scene, job, lambda *_: None)
+    assert job.path.stat().st_mtime_ns == stamp
+    changed = compare._solved_once(other, job, lambda *_: None)
+    assert changed.quantities["pressure_max_plus"] != first.quantities["pressure_max_plus"]
+    assert load(job.path).provenance["scene"]["geometry"]["depth"] == "8e-06 m"
+    job.path.write_bytes(b"half")
+    compare._solved_once(scene, job, lambda *_: None)
+    stamp = job.path.stat().st_mtime_ns
+    monkeypatch.setattr(compare, "code", lambda: "other code")
+    compare._solved_once(scene, job, lambda *_: None)
+    assert job.path.stat().st_mtime_ns != stamp
+
+
+@pytest.mark.openfoam
+@pytest.mark.slow
+def test_a_killed_comparison_leaves_whole_results_and_goes_on(pocket_file, tmp_path):
+    command = [sys.executable, "-m", "scripts.cli", "compare", str(pocket_file), "--out", str(tmp_path)]
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+    deadline = time.monotonic() + 120
+    while not list((tmp_path / "results").glob("stokes-*.h5")) and time.monotonic() < deadline:
+        time.sleep(0.02)
+    os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+    visible = [path for path in (tmp_path / "results").glob("*.h5") if not path.name.startswith(".")]
+    assert visible
+    stamps = {path: path.stat().st_mtime_ns for path in visible}
+    for path in visible:
+        load(path)
+    assert not (tmp_path / "report.html").exists()
+    assert subprocess.run(command, stdout=subprocess.DEVNULL, timeout=300).returncode == 0
+    assert (tmp_path / "report.html").exists()
+    assert {path: path.stat().st_mtime_ns for path in visible} == stamps
