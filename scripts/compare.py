@@ -149,9 +149,9 @@ def _same(stored: Result, scene: Scene, job: Job) -> bool:
     origin = stored.provenance
     return (
         (stored.model, stored.numerics.resolution) == (job.model.name, job.resolution)
-        and origin["scene"] == scene_entries(scene)
-        and (origin["code"], origin["versions"]) == (code(), versions())
-        and origin.get("openfoam", "") == (job.model.available().detail if "openfoam" in origin else "")
+        and (origin.get("scene"), origin.get("code")) == (scene_entries(scene), code())
+        and origin.get("versions") == versions()
+        and origin.get("openfoam") in (None, job.model.available().detail)
     )
 
 

@@ -50,7 +50,7 @@ def draw(result: Result, picture: Path) -> None:
 
     grid = pyvista.StructuredGrid(x[window, :, None], y[window, :, None] * stretch, np.zeros_like(x[window, :, None]))
     speed = np.linalg.norm(velocity, axis=2)[window.start : window.stop - 1]
-    grid.cell_data["speed / sliding speed"] = (speed / sliding_speed).ravel(order="F")
+    grid.cell_data["speed"] = (speed / sliding_speed).ravel(order="F")
     psi = stream_function(vertices, velocity)[window]
     grid.point_data["psi"] = psi.ravel(order="F")
     flow = psi[:, -1].mean()
@@ -63,18 +63,18 @@ def draw(result: Result, picture: Path) -> None:
     plotter.background_color = "white"  # type: ignore[assignment]
     plotter.add_mesh(
         grid.cell_data_to_point_data(),
-        scalars="speed / sliding speed",
+        scalars="speed",
         cmap="viridis",
         clim=(0, 1),
         lighting=False,
         scalar_bar_args={
-            "title": "speed / sliding speed",
+            "title": "",
+            "n_labels": 6,
             "vertical": False,
             "width": 0.4,
-            "height": 0.1,
+            "height": 0.09,
             "position_x": 0.3,
             "position_y": 0.02,
-            "title_font_size": 26,
             "label_font_size": 22,
             "fmt": "%.1f",
             "color": "#222222",
