@@ -11,14 +11,14 @@ from contact.errors import InputError
 
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
-    """Yield a scratch path beside ``path``; rename it into place on success, remove it on failure.
+    """Yield a scratch path beside ``path``; rename it into place on success, remove it on failure; a link is followed.
 
     A reader sees the old file or the new one, never a part of it, even if the writer is killed.
 
     Raises
     ------
     InputError
-        If the directory cannot be made or written, or ``path`` is a directory.
+        If the directory cannot be made or written, or ``path`` is a directory, a device or a pipe.
 
     Examples
     --------
@@ -29,9 +29,11 @@ def replacing(path: Path) -> Iterator[Path]:
     >>> target.read_text()
     'done'
     """
-    path = Path(path)
+    path = Path(path).resolve()
     if path.is_dir():
         raise InputError(f"{path}: is a directory; name a file")
+    if path.exists() and not path.is_file():
+        raise InputError(f"{path}: is a device or a pipe, which cannot be replaced whole; name a file")
     scratch = None
     try:
         path.parent.mkdir(parents=True, exist_ok=True)

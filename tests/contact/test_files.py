@@ -1,5 +1,7 @@
 """A file is whole or absent, whatever happens while it is written."""
 
+import os
+
 import pytest
 
 from contact.errors import InputError
@@ -41,6 +43,24 @@ def test_a_file_in_the_way_of_the_directory_is_named(tmp_path):
     (tmp_path / "b").write_text("")
     with pytest.raises(InputError, match="cannot be written"), replacing(tmp_path / "b" / "a.txt"):
         pass
+
+
+def test_a_device_or_pipe_is_never_replaced(tmp_path):
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    with pytest.raises(InputError, match="is a device or a pipe"), replacing(pipe):
+        pass
+    assert pipe.is_fifo()
+
+
+def test_a_link_stays_a_link(tmp_path):
+    target, link = tmp_path / "a.txt", tmp_path / "link.txt"
+    target.write_text("old")
+    link.symlink_to(target)
+    with replacing(link) as scratch:
+        scratch.write_text("new")
+    assert link.is_symlink()
+    assert target.read_text() == "new"
 
 
 def test_a_directory_is_refused(tmp_path):
