@@ -29,13 +29,13 @@ def replacing(path: Path) -> Iterator[Path]:
     >>> target.read_text()
     'done'
     """
-    path = Path(path).resolve()
-    if path.is_dir():
-        raise InputError(f"{path}: is a directory; name a file")
-    if path.exists() and not path.is_file():
-        raise InputError(f"{path}: is a device or a pipe, which cannot be replaced whole; name a file")
     scratch = None
     try:
+        path = Path(path).resolve()
+        if path.is_dir():
+            raise InputError(f"{path}: is a directory; name a file")
+        if path.exists() and not path.is_file():
+            raise InputError(f"{path}: is a device or a pipe, which cannot be replaced whole; name a file")
         path.parent.mkdir(parents=True, exist_ok=True)
         handle, name = tempfile.mkstemp(prefix=f".{path.stem}-", suffix=path.suffix, dir=path.parent)
         os.close(handle)

@@ -1,6 +1,7 @@
 """A case directory for a pocket scene: mesh, dictionaries, and what a person needs to run it by hand."""
 
 import json
+import tempfile
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -57,7 +58,8 @@ def write_case(
     """Write the whole case of a scene at a Reynolds number of the model's choice.
 
     ``resolution`` is the number of mesh columns along the film, about (every break of the gap is a column);
-    a fifth as many layers cross it. Raises InputError for numbers out of range or a directory that holds a case.
+    a fifth as many layers cross it. The case is there whole or not at all. Raises InputError for numbers out of range
+    or a directory that is not empty.
     """
     resolution = RESOLUTION if resolution is None else resolution
     tolerance = TOLERANCE if tolerance is None else tolerance
@@ -65,27 +67,28 @@ def write_case(
         raise InputError(f"--resolution: got {resolution}; it must be {COARSEST} to {FINEST} mesh columns")
     if not 1e-10 <= tolerance <= 1e-2:
         raise InputError(f"--tolerance: got {tolerance}; it must be 1e-10 to 1e-2")
-    if (directory / "system").exists():
-        raise InputError(f"{directory}: holds a case already; name an empty directory")
     vertices = mesh.layered(scene.gap(), resolution)
+    card = Card(
+        columns=vertices.shape[0] - 1,
+        layers=vertices.shape[1] - 1,
+        reynolds_number=reynolds_number,
+        resolution=resolution,
+        tolerance=tolerance,
+    )
+    readme = README.format(pressure=scene.pressure_unit * reynolds_number, speed=scene.speed, film=scene.geometry.film)
     try:
-        directory.mkdir(parents=True, exist_ok=True)
-        mesh.write_block(vertices, SIDES, directory)
-        write_dictionaries(directory, viscosity=1 / reynolds_number, tolerance=tolerance)
-        pressure = scene.pressure_unit * reynolds_number
-        (directory / "README").write_text(
-            README.format(pressure=pressure, speed=scene.speed, film=scene.geometry.film), encoding="utf-8"
-        )
-        (directory / "Allrun").write_text(ALLRUN, encoding="utf-8")
-        (directory / "Allrun").chmod(0o755)
-        card = Card(
-            columns=vertices.shape[0] - 1,
-            layers=vertices.shape[1] - 1,
-            reynolds_number=reynolds_number,
-            resolution=resolution,
-            tolerance=tolerance,
-        )
-        (directory / CARD).write_text(json.dumps(asdict(card), indent=1) + "\n", encoding="utf-8")
+        if directory.exists() and (not directory.is_dir() or any(directory.iterdir())):
+            raise InputError(f"{directory}: is not an empty directory; name another")
+        directory.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(prefix=f".{directory.name}-", dir=directory.parent) as place:
+            scratch = Path(place) / directory.name
+            mesh.write_block(vertices, SIDES, scratch)
+            write_dictionaries(scratch, viscosity=1 / reynolds_number, tolerance=tolerance)
+            (scratch / "README").write_text(readme, encoding="utf-8")
+            (scratch / "Allrun").write_text(ALLRUN, encoding="utf-8")
+            (scratch / "Allrun").chmod(0o755)
+            (scratch / CARD).write_text(json.dumps(asdict(card), indent=1) + "\n", encoding="utf-8")
+            scratch.replace(directory)
     except OSError as error:
         raise InputError(f"{directory}: cannot be written ({error.strerror}); choose another place") from error
 

@@ -17,7 +17,7 @@ REMEDY = "install it with: sudo apt-get install openfoam"
 @cache
 def environment() -> Mapping[str, str]:
     """The environment to run OpenFOAM in: a sourced distribution as it is, else Debian's package found by dpkg."""
-    if "WM_PROJECT_DIR" in os.environ:
+    if os.environ.get("WM_PROJECT_DIR"):
         return dict(os.environ)
     place = _packaged()
     return {**os.environ, "WM_PROJECT_DIR": str(place)} if place else dict(os.environ)

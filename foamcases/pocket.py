@@ -2,6 +2,7 @@
 
 import tempfile
 import time
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -15,6 +16,7 @@ from rom.ladder import Effect, Progress, Solve, Write, silent
 from rom.provenance import provenance
 from rom.result import Field, Numerics, Result, pocket_quantities
 from rom.scene import Scene
+from rom.validity import cautions
 
 SOURCES = ("10.1115/1.1828067", "10.1063/1.168744", "10.1080/01495728408961817")
 RESOLUTIONS = (30, 60, 120, 240)
@@ -85,7 +87,7 @@ def read(scene: Scene, directory: Path, run: Run, *, model: str, keeps: frozense
             openfoam=run.version,
             velocity_relaxation=VELOCITY_RELAXATION,
             reynolds_number_run=card.reynolds_number,
-            warnings=list(run.warnings),
+            warnings=[*cautions(scene, keeps), *run.warnings],
         ),
     )
 
@@ -110,7 +112,7 @@ def solve(
         write(scene, directory, reynolds_number=reynolds_number, resolution=resolution, tolerance=tolerance)
         run = run_case(directory, progress=progress)
         spent = time.process_time() - cpu
-        whole = Run(**{**vars(run), "cpu_s": run.cpu_s + spent, "wall_s": time.perf_counter() - wall})
+        whole = replace(run, cpu_s=run.cpu_s + spent, wall_s=time.perf_counter() - wall)
         return read(scene, directory, whole, model=model, keeps=keeps)
 
 

@@ -5,6 +5,7 @@ import re
 import resource
 import subprocess
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -57,7 +58,7 @@ def run_case(directory: Path, *, progress: Progress = silent) -> Run:
 
     mesh_log = _execute(directory, "checkMesh", "log.checkMesh")
     if "Mesh OK" not in mesh_log:
-        raise _failure("the mesh check found faults; make the groove shallower or the mesh finer", mesh_log)
+        raise _failure("the mesh check found faults; change the resolution or the groove's shape", mesh_log)
 
     def watch(log: str) -> None:
         residuals = _last_residuals(log)
@@ -93,7 +94,7 @@ def run_case(directory: Path, *, progress: Progress = silent) -> Run:
     )
 
 
-def _execute(directory: Path, program: str, log_name: str, watch: object = None) -> str:
+def _execute(directory: Path, program: str, log_name: str, watch: Callable[[str], None] | None = None) -> str:
     """Run a program of OpenFOAM to its end and return its log; ConvergenceError if it stops in error."""
     path = directory / log_name
     with path.open("w", encoding="utf-8") as log:
@@ -106,7 +107,7 @@ def _execute(directory: Path, program: str, log_name: str, watch: object = None)
                     process.wait(timeout=POLL_S)
                     break
                 except subprocess.TimeoutExpired:
-                    if callable(watch):
+                    if watch is not None:
                         watch(_tail(path))
         finally:
             process.kill()
@@ -136,7 +137,8 @@ def _last_residuals(log: str) -> list[float]:
 def _failure(reason: str, log: str) -> ConvergenceError:
     tail = [line for line in log.splitlines() if line.strip()][-LOG_TAIL:]
     error = ConvergenceError(f"OpenFOAM: {reason}")
-    error.add_note("\n".join(tail))
+    if tail:
+        error.add_note("\n".join(tail))
     return error
 
 

@@ -84,6 +84,7 @@ class Model:
 
     ``resolutions`` go from coarse to fine, for charts; ``resolution`` is the default one, and
     ``resolution_meaning`` and ``residual_meaning`` say in words what the numbers count.
+    ``order`` is that of load and friction in the resolution, None for a spectral method.
     """
 
     name: str
@@ -94,6 +95,7 @@ class Model:
     resolutions: tuple[int, ...]
     resolution_meaning: str
     residual_meaning: str
+    order: int | None
     cost: Callable[[Scene, int], float]
     applies: Callable[[Scene], Applicability]
     solve: Solve
@@ -119,7 +121,7 @@ def find(models: Sequence[Model], name: str) -> Model:
 
 
 def best(models: Sequence[Model]) -> Model:
-    """The rung that keeps the most; every other model's error is measured against it."""
+    """The rung that keeps the most (of equals the first); every other model's error is measured against it."""
     return max(models, key=lambda model: len(model.keeps))
 
 

@@ -38,7 +38,10 @@ def _positive(value: float) -> float:
 def _plain_number(value: object) -> object:
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise ValueError(f"got {value!r}; write a plain number, without unit or quotes")
-    return float(value)
+    try:
+        return float(value)
+    except OverflowError:
+        raise ValueError("got a number beyond 1e308; write a smaller one") from None
 
 
 @dataclass(frozen=True)
@@ -175,9 +178,9 @@ def load_scene(path: Path, overrides: Iterable[str] = ()) -> Scene:
         One line that names the key, what was got there and what to write instead.
     """
     path = Path(path)
-    if not path.is_file():
-        raise InputError(f"{path}: no such file; name a scene file (TOML)")
     try:
+        if not path.is_file():
+            raise InputError(f"{path}: {'is no' if path.exists() else 'no such'} file; name a scene file (TOML)")
         if path.stat().st_size > LARGEST_SCENE:
             raise InputError(f"{path}: larger than {LARGEST_SCENE} bytes; a scene is a short TOML file")
         entries = tomllib.loads(path.read_text(encoding="utf-8"))
@@ -239,7 +242,7 @@ def _one_line(error: ValidationError) -> str:
     got = got if len(got) <= 60 else got[:57] + "..."
     match fault["type"]:
         case "extra_forbidden":
-            near = difflib.get_close_matches(str(fault["loc"][-1]), _keys(fault["loc"][:-1]), n=1, cutoff=0.4)
+            near = difflib.get_close_matches(str(fault["loc"][-1]), _keys(fault["loc"][:-1]), n=1)
             known = f"did you mean {near[0]!r}?" if near else f"known here: {', '.join(_keys(fault['loc'][:-1]))}"
             text = f"{place}: unknown key; {known}"
         case "missing":
@@ -249,10 +252,8 @@ def _one_line(error: ValidationError) -> str:
         case "value_error":
             reason = str(fault["ctx"]["error"])
             inner, colon, rest = reason.partition(": ")
-            joined = (
-                f"{place}.{inner}: {rest}" if colon and inner.replace(".", "").isidentifier() else f"{place}: {reason}"
-            )
-            text = joined
+            inside = colon and inner.replace(".", "").isidentifier()
+            text = f"{place}.{inner}: {rest}" if inside else f"{place}: {reason}"
         case _:
             text = f"{place}: got {got}; {fault['msg'][0].lower()}{fault['msg'][1:]}"
     return " ".join(text.split()) + (f" (and {len(faults) - 1} more)" if len(faults) > 1 else "")

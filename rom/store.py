@@ -49,12 +49,18 @@ def load(path: Path) -> Result:
                     for name, item in file["fields"].items()
                 },
                 numerics=Numerics(**{entry.name: numerics[entry.name].item() for entry in fields(Numerics)}),
-                provenance=json.loads(file.attrs["provenance"]),
+                provenance=_mapping(json.loads(file.attrs["provenance"])),
             )
-    except (OSError, KeyError, ValueError) as error:
+    except (OSError, LookupError, ValueError, TypeError, AttributeError) as error:
         if isinstance(error, InputError):
             raise
         raise InputError(f"{path}: is not a result of roughfilm; name an .h5 file that it wrote") from error
+
+
+def _mapping(entries: object) -> dict[str, Any]:
+    if not isinstance(entries, dict):
+        raise ValueError("provenance is not a table")
+    return entries
 
 
 def as_entries(result: Result) -> dict[str, Any]:

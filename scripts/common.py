@@ -10,6 +10,7 @@ from typing import Annotated, Any
 
 import typer
 from rich.console import Console
+from rich.markup import escape
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
 import foamcases.models
@@ -39,9 +40,9 @@ def models() -> tuple[Model, ...]:
 
 def fail(error: Exception, code: int) -> typer.Exit:
     """Say one line (and the log's last lines, where there are some) and return the exit."""
-    messages.print(f"[bold red]error:[/] {_plain(str(error))}", soft_wrap=True)
+    messages.print(f"[bold red]error:[/] {escape(str(error))}", soft_wrap=True)
     for note in getattr(error, "__notes__", []):
-        messages.print(_plain(note), style="dim", soft_wrap=True)
+        messages.print(escape(note), style="dim", soft_wrap=True)
     return typer.Exit(code)
 
 
@@ -58,13 +59,20 @@ def in_one_line(command: Callable[..., None]) -> Callable[..., None]:
             raise fail(error, NOT_CONVERGED) from None
         except UnavailableError as error:
             raise fail(error, MISSING) from None
+        except BrokenPipeError:
+            raise
+        except OSError as error:
+            raise fail(
+                InputError(f"standard output: cannot be written ({error.strerror or error})"), BAD_INPUT
+            ) from None
 
     return wrapped
 
 
 def print_json(entries: dict[str, Any]) -> None:
     """The one object of ``--json``."""
-    sys.stdout.write(json.dumps(entries, allow_nan=False, ensure_ascii=False) + "\n")
+    sys.stdout.write(json.dumps(entries, allow_nan=False, ensure_ascii=True) + "\n")
+    sys.stdout.flush()
 
 
 @contextmanager
@@ -78,9 +86,10 @@ def progress_bar(total: float) -> Iterator[Callable[[float, str], None]]:
         TextColumn("left"),
         TimeRemainingColumn(),
     )
-    with Progress(*columns, console=messages, transient=True) as bar:
+    shown = messages.is_terminal
+    with Progress(*columns, console=messages, transient=True, disable=not shown) as bar:
         task = bar.add_task("starting", total=total)
-        yield lambda done, words: bar.update(task, completed=done, description=_plain(words))
+        yield lambda done, words: bar.update(task, completed=done, description=escape(words))
 
 
 def make_directory(path: Path) -> None:
@@ -89,7 +98,3 @@ def make_directory(path: Path) -> None:
         path.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(f"--out {path}: cannot be made ({error.strerror}); choose another place") from error
-
-
-def _plain(text: str) -> str:
-    return text.replace("[", r"\[")

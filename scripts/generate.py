@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from rich.markup import escape
 
 from rom.provenance import provenance
 from rom.scene import load_scene
@@ -42,7 +43,7 @@ def command(
         print_json({"cases": cases, "provenance": provenance(read, keeps=(), sources=())})
     else:
         for case in cases:
-            output.print(f"{case['model']}: {case['directory']}/Allrun", soft_wrap=True)
+            output.print(f"{case['model']}: {escape(case['directory'])}/Allrun", soft_wrap=True)
 
 
 if __name__ == "__main__":

@@ -34,13 +34,14 @@ def probe() -> Availability:
 def _apart(*arguments: str) -> Availability:
     try:
         run = subprocess.run(
-            [sys.executable, *arguments], capture_output=True, text=True, timeout=TIME_LIMIT_S, check=False
+            [sys.executable, "-P", *arguments], capture_output=True, text=True, timeout=TIME_LIMIT_S, check=False
         )
     except (OSError, subprocess.SubprocessError) as error:
         return Availability(available=False, detail=f"drawing did not end ({error}); {REMEDY}")
     if run.returncode != 0:
-        last = next(iter(run.stderr.strip().splitlines()[::-1]), "")
-        told = last if last and "Error" in last else f"exit code {run.returncode}"
-        return Availability(available=False, detail=f"VTK cannot draw here ({told}); {REMEDY}")
+        crashed = run.returncode < 0
+        last = next(iter(run.stderr.strip().splitlines()[::-1]), "no word")
+        detail = f"VTK crashes here (exit code {run.returncode}); {REMEDY}" if crashed else f"drawing failed ({last})"
+        return Availability(available=False, detail=detail)
     lines = run.stdout.strip().splitlines()
     return Availability(available=True, detail=lines[-1] if lines else "")

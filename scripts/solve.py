@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from rich.markup import escape
 from rich.table import Table
 
 from rom.ladder import find
@@ -50,13 +51,14 @@ def command(
             f"residual {numbers.residual:.1e} ({rung.residual_meaning}), {numbers.iterations} iterations, "
             f"{numbers.degrees_of_freedom} unknowns, {numbers.cpu_s:.3g} CPU s"
         )
+        output.print(rung.applies(read).reason)
         for warning in result.provenance.get("warnings", []):
-            output.print(f"[yellow]warning:[/] {warning}")
+            output.print(f"[yellow]warning:[/] {escape(warning)}")
 
 
 def table_of(result: Result) -> Table:
     """The quantities of a result, as people read them."""
-    table = Table("quantity", "value", "unit", title=f"{result.provenance['scene']['name']} by {result.model}")
+    table = Table("quantity", "value", "unit", title=f"{escape(result.provenance['scene']['name'])} by {result.model}")
     table.columns[1].justify = "right"
     for name, quantity in result.quantities.items():
         table.add_row(name, f"{quantity.value:.5g}", "" if quantity.unit == "1" else quantity.unit)

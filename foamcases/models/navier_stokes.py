@@ -28,6 +28,7 @@ MODEL = Model(
     resolutions=pocket.RESOLUTIONS,
     resolution_meaning=pocket.RESOLUTION_MEANING,
     residual_meaning=pocket.RESIDUAL_MEANING,
+    order=2,
     cost=pocket.cost,
     applies=applies,
     solve=SOLVE,

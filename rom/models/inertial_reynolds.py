@@ -30,6 +30,7 @@ MODEL = Model(
     resolutions=(2, 3, 4, 6, 8, 12, 16, 24),
     resolution_meaning=RESOLUTION_MEANING,
     residual_meaning=RESIDUAL_MEANING,
+    order=None,
     cost=lambda _scene, resolution: 3e-4 + 1e-7 * resolution**2,
     applies=applies,
     solve=partial(solve_by_quadrature, model=NAME, keeps=KEEPS, sources=SOURCES),

@@ -70,7 +70,7 @@ def test_options_out_of_range(make_scene, tmp_path, resolution, tolerance, words
 def test_a_case_is_never_written_over_another(make_scene, tmp_path):
     scene = make_scene(0.3, 0.25, 1)
     write_case(scene, tmp_path, reynolds_number=1.0, resolution=20, tolerance=None)
-    with pytest.raises(InputError, match="holds a case already"):
+    with pytest.raises(InputError, match="is not an empty directory"):
         write_case(scene, tmp_path, reynolds_number=1.0, resolution=20, tolerance=None)
 
 

@@ -53,7 +53,7 @@ def test_a_hardly_grooved_wall_is_smooth(make_scene):
 
 
 def test_stokes_becomes_reynolds_as_the_slope_vanishes(make_scene):
-    """Stretching the scene by 4 cuts the slope effect on pressure; wide and shallow must agree to 0.2 %."""
+    """A groove four times as wide cuts the slope effect on pressure; wide and shallow must agree to 1 %."""
     reynolds = find(MODELS, "reynolds")
     gaps = []
     for width, depth in ((0.15, 0.5), (0.6, 0.5)):

@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given, reject, settings
 from hypothesis import strategies as st
 
 import rom.models
@@ -103,6 +103,28 @@ def test_a_half_circle_is_solved_or_refused(make_scene):
         find(MODELS, "reynolds").solve(half_circle, tolerance=1e-14)
 
 
+def test_a_given_resolution_that_misses_the_tolerance_is_a_warning(make_scene):
+    scene = make_scene(0.3, 0.25, 40)
+    coarse, fine = (find(MODELS, "reynolds").solve(scene, resolution=n) for n in (2, 24))
+    assert "misses the tolerance" in coarse.provenance["warnings"][0]
+    assert fine.provenance["warnings"] == []
+
+
+@pytest.mark.parametrize(
+    ("name", "reynolds_number", "words"),
+    [
+        ("inertial_reynolds", 200, ["first-order inertia"]),
+        ("inertial_reynolds", 5000, ["turbulent", "first-order inertia"]),
+        ("reynolds", 5000, ["turbulent"]),
+        ("reynolds", 200, []),
+    ],
+)
+def test_cautions_beyond_the_range_of_a_model(make_scene, name, reynolds_number, words):
+    warnings = find(MODELS, name).solve(make_scene(0.3, 0.25, reynolds_number)).provenance["warnings"]
+    assert len(warnings) == len(words)
+    assert all(word in warning for word, warning in zip(words, warnings, strict=True))
+
+
 @pytest.mark.parametrize(("option", "value"), [("resolution", 1), ("resolution", 10**9), ("tolerance", 0.0)])
 def test_options_out_of_range(make_scene, option, value):
     with pytest.raises(InputError, match=f"--{option}: got"):
@@ -134,7 +156,7 @@ def test_random_grooves_give_finite_numbers_in_bounds_or_one_of_our_errors(film,
     try:
         scene = read_scene(entries)
     except InputError:
-        return
+        reject()
     smooth = scene.plus_factor
     for model in MODELS:
         try:

@@ -51,6 +51,7 @@ def test_entries_are_complete_and_read_back_unchanged(pocket_file):
         ("motion.reynolds_number=-4", r"scene\.motion\.reynolds_number: .* above zero"),
         ("motion.reynolds_number=4 m", r"scene\.motion\.reynolds_number: got '4 m'; write a plain number"),
         ("motion.reynolds_number=1e13", r"scene\.motion: got Reynolds number"),
+        ("motion.reynolds_number=1" + "0" * 400, r"scene\.motion\.reynolds_number: got a number beyond"),
         ("geometry.film=1 fm", r"scene\.geometry\.length: .* film thicknesses"),
         ("geometry", r"--set geometry: got no key=value"),
         ("=5", r"--set =5: got no key=value"),
@@ -95,9 +96,11 @@ def test_unreadable_files(tmp_path, content, words):
     assert "\n" not in str(caught.value)
 
 
-@pytest.mark.parametrize("name", ["absent.toml", "."])
-def test_no_file(tmp_path, name):
-    with pytest.raises(InputError, match="no such file"):
+@pytest.mark.parametrize(
+    ("name", "words"), [("absent.toml", "no such file"), (".", "is no file"), ("x" * 5000, "cannot be read")]
+)
+def test_no_file(tmp_path, name, words):
+    with pytest.raises(InputError, match=words):
         load_scene(tmp_path / name)
 
 

@@ -61,6 +61,21 @@ def test_a_truncated_result_is_refused(result, tmp_path):
         load(path)
 
 
+def test_a_result_with_the_wrong_parts_is_refused(result, tmp_path):
+    path = tmp_path / "r.h5"
+    save(result, path)
+    with h5py.File(path, "a") as file:
+        del file["quantities"]
+        file["quantities"] = 7.0
+    with pytest.raises(InputError, match="is not a result"):
+        load(path)
+    save(result, path)
+    with h5py.File(path, "a") as file:
+        file.attrs["provenance"] = "[]"
+    with pytest.raises(InputError, match="is not a result"):
+        load(path)
+
+
 def test_an_empty_hdf5_file_is_refused(tmp_path):
     h5py.File(tmp_path / "r.h5", "w").close()
     with pytest.raises(InputError, match="is not a result"):

@@ -1,8 +1,11 @@
 """The commands as a person types them: outputs, exit codes, one line for every fault."""
 
 import json
+import os
+import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import h5py
@@ -128,6 +131,64 @@ def without_openfoam(monkeypatch):
         monkeypatch.setattr(module, "models", lambda: bare)
 
 
+def test_text_of_a_scene_is_text_in_the_table(pocket_file):
+    result = run("solve", pocket_file, "--model", "reynolds", "--set", "name=[/red]x[/]")
+    assert result.exit_code == 0
+    assert "[/red]x[/]" in result.stdout
+
+
+def typed(*arguments, **options):
+    return subprocess.run(
+        [sys.executable, "-m", "scripts.cli", *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        **options,
+    )
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [["solve"], ["solve", "x.toml"], ["solv"], ["solve", "x.toml", "--model", "reynolds", "--resolution", "a"]],
+)
+def test_usage_errors_are_one_line_and_code_2(arguments):
+    done = typed(*arguments)
+    assert done.returncode == 2
+    assert "See roughfilm --help" in one_line(done.stderr)
+
+
+def test_a_full_device_is_one_line(pocket_file):
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "scripts.cli", "solve", pocket_file, "--model", "reynolds", "--json"],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            timeout=120,
+        )
+    assert done.returncode == 2
+    assert "standard output: cannot be written" in one_line(done.stderr)
+
+
+@pytest.mark.openfoam
+def test_a_terminated_solve_leaves_no_program_and_no_directory(pocket_file, tmp_path):
+    process = subprocess.Popen(
+        [sys.executable, "-m", "scripts.cli", "solve", pocket_file, "--model", "navier_stokes", "--resolution", "600"],
+        env={**os.environ, "TMPDIR": str(tmp_path)},
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
+    deadline = time.monotonic() + 60
+    while not list(tmp_path.rglob("log.simpleFoam")) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    assert list(tmp_path.rglob("log.simpleFoam"))
+    (child,) = (Path("/proc") / str(process.pid) / "task" / str(process.pid) / "children").read_text().split()
+    process.terminate()
+    assert process.wait(timeout=30) == 128 + signal.SIGTERM
+    assert not (Path("/proc") / child).exists()
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_missing_openfoam_is_code_4(pocket_file, monkeypatch):
     without_openfoam(monkeypatch)
     result = run("solve", pocket_file, "--model", "stokes")
@@ -155,7 +216,7 @@ def test_generate_needs_no_openfoam_and_never_overwrites(pocket_file, tmp_path):
     assert all((Path(case["directory"]) / "constant" / "polyMesh" / "points").is_file() for case in cases)
     again = run("generate", pocket_file, "--out", tmp_path / "g")
     assert again.exit_code == 2
-    assert "holds a case already" in one_line(again.stderr)
+    assert "is not an empty directory" in one_line(again.stderr)
 
 
 @pytest.mark.openfoam
