@@ -29,11 +29,6 @@ def cost(_scene: Scene, resolution: int) -> float:
     return float(0.3 + 2.4 * (resolution / 240) ** 2.4)
 
 
-def reynolds_number_of(scene: Scene, fixed: float | None) -> float:
-    """The Reynolds number to run at: the model's own if it fixes one, else the scene's."""
-    return scene.reynolds_number if fixed is None else fixed
-
-
 def write(
     scene: Scene,
     directory: Path,
@@ -42,8 +37,8 @@ def write(
     resolution: int | None = None,
     tolerance: float | None = None,
 ) -> None:
-    """Write the case; see :func:`foamcases.case.write_case` for the errors."""
-    number = reynolds_number_of(scene, reynolds_number)
+    """Write the case at the given Reynolds number (None: the scene's); errors as :func:`foamcases.case.write_case`."""
+    number = scene.reynolds_number if reynolds_number is None else reynolds_number
     write_case(scene, directory, reynolds_number=number, resolution=resolution, tolerance=tolerance)
 
 

@@ -13,7 +13,6 @@ from foamlib import FoamFile
 
 from contact.errors import ConvergenceError, UnavailableError
 from foamcases.case import read_card
-from foamcases.dictionaries import ITERATIONS
 from foamcases.openfoam import availability, environment
 from rom.ladder import Progress, silent
 
@@ -71,15 +70,15 @@ def run_case(directory: Path, *, progress: Progress = silent) -> Run:
     if converged is None:
         raise _failure(
             f"simpleFoam made {log.count(chr(10) + 'Time = ')} iterations and did not converge to {tolerance:.0e}; "
-            "lower the Reynolds number, change the resolution or loosen --tolerance",
+            "lower the Reynolds number, change the resolution, loosen --tolerance, or take reynolds for a nearly flat wall",
             log,
         )
 
-    with FoamFile(directory / "system" / "controlDict") as control:
-        control["endTime"] = int(converged[1]) + 1
+    control = FoamFile(directory / "system" / "controlDict")
+    end_time = control["endTime"]
+    control["endTime"] = int(converged[1]) + 1
     again = _execute(directory, "simpleFoam", "log.verify")
-    with FoamFile(directory / "system" / "controlDict") as control:
-        control["endTime"] = ITERATIONS
+    control["endTime"] = end_time
     residual = max(_last_residuals(again), default=math.inf)
     if not residual <= 2 * tolerance:
         raise _failure(f"the fields on disk leave a residual of {residual:.1e}, not {tolerance:.0e}; run again", again)

@@ -1,17 +1,21 @@
 """What the commands share: their options, their ladder, one line and an exit code for every failure."""
 
 import functools
+import io
 import json
+import signal
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from types import FrameType
 from typing import Annotated, Any
 
 import typer
 from rich.console import Console
 from rich.markup import escape
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+from typer.exceptions import TyperException
 
 import foamcases.models
 import rom.models
@@ -67,6 +71,33 @@ def in_one_line(command: Callable[..., None]) -> Callable[..., None]:
             ) from None
 
     return wrapped
+
+
+def launch(app: typer.Typer, arguments: list[str]) -> None:
+    """Run an application: one line for every fault, and no program left running when it is told to stop."""
+    signal.signal(signal.SIGTERM, _stop)
+    if sys.stdout is None:
+        sys.exit(BAD_INPUT)
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="replace")
+    try:
+        sys.exit(app(args=arguments, standalone_mode=False))
+    except TyperException as error:
+        message = error.format_message() if hasattr(error, "format_message") else str(error)
+        sys.exit(fail(InputError(f"{message.rstrip('.')}; see --help"), BAD_INPUT).exit_code)
+    except typer.Abort:
+        sys.exit(128 + signal.SIGINT)
+
+
+def run_alone(command: Callable[..., None]) -> None:
+    """Run one command as a program of its own, as ``python scripts/x.py`` does."""
+    app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
+    app.command()(command)
+    launch(app, sys.argv[1:])
+
+
+def _stop(number: int, _frame: FrameType | None) -> None:
+    sys.exit(128 + number)
 
 
 def print_json(entries: dict[str, Any]) -> None:

@@ -28,6 +28,7 @@ from scripts.common import (
     models,
     output,
     print_json,
+    run_alone,
 )
 from scripts.rendering import draw_apart
 from scripts.report import Picture, Report, cheapest_within, write_report
@@ -146,4 +147,4 @@ def _pictures(results: Mapping[str, Result], out: Path) -> tuple[Picture, ...]:
 
 
 if __name__ == "__main__":
-    typer.run(command)
+    run_alone(command)

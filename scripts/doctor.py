@@ -5,13 +5,12 @@ import shutil
 import subprocess
 from collections.abc import Callable
 
-import typer
 from rich.table import Table
 
 from foamcases.openfoam import availability
 from rom.ladder import Availability
 from rom.provenance import versions
-from scripts.common import AsJson, in_one_line, output, print_json
+from scripts.common import AsJson, in_one_line, output, print_json, run_alone
 from scripts.rendering import probe
 
 
@@ -53,4 +52,4 @@ def command(as_json: AsJson = False) -> None:
 
 
 if __name__ == "__main__":
-    typer.run(command)
+    run_alone(command)

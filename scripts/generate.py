@@ -19,6 +19,7 @@ from scripts.common import (
     models,
     output,
     print_json,
+    run_alone,
 )
 
 
@@ -47,4 +48,4 @@ def command(
 
 
 if __name__ == "__main__":
-    typer.run(command)
+    run_alone(command)

@@ -1,9 +1,8 @@
 """roughfilm models: the ladder: name, what it adds, available here or why not."""
 
-import typer
 from rich.table import Table
 
-from scripts.common import AsJson, in_one_line, models, output, print_json
+from scripts.common import AsJson, in_one_line, models, output, print_json, run_alone
 
 
 @in_one_line
@@ -41,4 +40,4 @@ def command(as_json: AsJson = False) -> None:
 
 
 if __name__ == "__main__":
-    typer.run(command)
+    run_alone(command)

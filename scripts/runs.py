@@ -30,10 +30,9 @@ class Job:
     resolution: int | None
     path: Path
 
-    @property
-    def cost(self) -> Callable[[Scene], float]:
-        """Expected CPU seconds of a scene."""
-        return lambda scene: self.model.cost(scene, self.resolution or self.model.resolution)
+    def cost(self, scene: Scene) -> float:
+        """Expected CPU seconds."""
+        return self.model.cost(scene, self.resolution or self.model.resolution)
 
     def __str__(self) -> str:
         return f"{self.model.name} at {self.resolution or 'its default'}"

@@ -22,6 +22,7 @@ from scripts.common import (
     output,
     print_json,
     progress_bar,
+    run_alone,
 )
 
 
@@ -66,4 +67,4 @@ def table_of(result: Result) -> Table:
 
 
 if __name__ == "__main__":
-    typer.run(command)
+    run_alone(command)

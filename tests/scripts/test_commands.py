@@ -154,7 +154,7 @@ def typed(*arguments, **options):
 def test_usage_errors_are_one_line_and_code_2(arguments):
     done = typed(*arguments)
     assert done.returncode == 2
-    assert "See roughfilm --help" in one_line(done.stderr)
+    assert "see --help" in one_line(done.stderr)
 
 
 def test_a_full_device_is_one_line(pocket_file):
@@ -244,6 +244,13 @@ def test_scripts_run_as_files_too(name):
     )
     assert done.returncode == 0, done.stderr
     assert "Usage" in done.stdout
+
+
+def test_a_script_alone_fails_in_one_line_too():
+    script = ROOT / "scripts" / "solve.py"
+    done = subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=120)
+    assert done.returncode == 2
+    assert "see --help" in one_line(done.stderr)
 
 
 def test_the_command_is_installed():
