@@ -67,7 +67,9 @@ def speed_against_accuracy(chart: Sequence[Point], floor: Mapping[str, float]) -
             axes.plot(times, errors, marker, color=colour, label=name, alpha=0.85, markersize=6)
             axes.annotate(f"{run[-1].resolution}", (times[-1], errors[-1]), (5, 5), textcoords="offset points", size=8)
             if len(run) > 1:
-                axes.annotate(f"{run[0].resolution}", (times[0], errors[0]), (5, 5), textcoords="offset points", size=8)
+                axes.annotate(
+                    f"{run[0].resolution}", (times[0], errors[0]), (-12, 6), textcoords="offset points", size=8
+                )
         front = pareto_front(chart, quantity)
         axes.step(
             [p.cpu_s for p in front],

@@ -88,6 +88,8 @@ def _embedded(path: Path | None) -> str:
 
 def _percent(part: float) -> str:
     percent = 100 * part
+    if abs(percent) < 1e-3:
+        return "0 %"
     return f"{percent:+.0f} %" if abs(percent) >= 99.5 else f"{percent:+.2g} %"
 
 
