@@ -70,7 +70,7 @@ def run_case(directory: Path, *, progress: Progress = silent) -> Run:
     if converged is None:
         raise _failure(
             f"simpleFoam made {log.count(chr(10) + 'Time = ')} iterations and did not converge to {tolerance:.0e}; "
-            "lower the Reynolds number, change the resolution or loosen --tolerance (a nearly flat wall: take reynolds)",
+            "lower the Reynolds number, change the resolution or loosen --tolerance (nearly flat: take reynolds)",
             log,
         )
 
