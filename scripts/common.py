@@ -3,6 +3,7 @@
 import functools
 import io
 import json
+import os
 import signal
 import sys
 from collections.abc import Callable, Iterator
@@ -66,9 +67,9 @@ def in_one_line(command: Callable[..., None]) -> Callable[..., None]:
         except BrokenPipeError:
             raise
         except OSError as error:
-            raise fail(
-                InputError(f"standard output: cannot be written ({error.strerror or error})"), BAD_INPUT
-            ) from None
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # or Python says it again at its end
+            told = f"standard output: cannot be written ({error.strerror or error}); send it elsewhere"
+            raise fail(InputError(told), BAD_INPUT) from None
 
     return wrapped
 
