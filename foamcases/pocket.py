@@ -2,17 +2,18 @@
 
 import tempfile
 import time
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
 from contact.errors import UnavailableError
-from foamcases.case import read_card, write_case
+from foamcases.case import RESOLUTION, read_card, write_case
 from foamcases.dictionaries import VELOCITY_RELAXATION
 from foamcases.fields import read_channel
 from foamcases.openfoam import availability
 from foamcases.run import Run, run_case
-from rom.ladder import Effect, Progress, Solve, Write, silent
+from rom.ladder import Applicability, Effect, Model, Progress, silent
 from rom.provenance import provenance
 from rom.result import Field, Numerics, Result, pocket_quantities
 from rom.scene import Scene
@@ -111,9 +112,28 @@ def solve(
         return read(scene, directory, whole, model=model, keeps=keeps)
 
 
-def composed(model: str, keeps: frozenset[Effect], reynolds_number: float | None) -> tuple[Solve, Write]:
-    """The solve and write of a model that runs at the given Reynolds number (None: the scene's)."""
-    return (
-        partial(solve, model=model, keeps=keeps, reynolds_number=reynolds_number),
-        partial(write, reynolds_number=reynolds_number),
+def openfoam_model(
+    *,
+    name: str,
+    summary: str,
+    keeps: frozenset[Effect],
+    applies: Callable[[Scene], Applicability],
+    reynolds_number: float | None = None,
+) -> Model:
+    """A rung that runs OpenFOAM at the given Reynolds number (None: the scene's)."""
+    return Model(
+        name=name,
+        summary=summary,
+        keeps=keeps,
+        sources=SOURCES,
+        resolution=RESOLUTION,
+        resolutions=RESOLUTIONS,
+        resolution_meaning=RESOLUTION_MEANING,
+        residual_meaning=RESIDUAL_MEANING,
+        order=2,
+        cost=cost,
+        applies=applies,
+        solve=partial(solve, model=name, keeps=keeps, reynolds_number=reynolds_number),
+        available=availability,
+        write=partial(write, reynolds_number=reynolds_number),
     )

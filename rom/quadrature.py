@@ -1,14 +1,16 @@
 """Pressure, load and friction of a film by exact quadrature over one period of the gap."""
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from contact.errors import ConvergenceError, InputError
 from rom import film_flow
 from rom.gap import Array, Gap
-from rom.ladder import Effect, Progress, silent
+from rom.ladder import Applicability, Effect, Model, Progress, silent
 from rom.piecewise import Rule, extrema, gauss_rule
 from rom.provenance import provenance
 from rom.result import Field, Numerics, Result, pocket_quantities
@@ -16,6 +18,7 @@ from rom.scene import Scene
 from rom.validity import cautions
 
 RESOLUTION = 24
+RESOLUTIONS = (2, 3, 4, 6, 8, 12, 16, 24)
 FINEST = 768
 TOLERANCE = 1e-7
 RESOLUTION_MEANING = "Gauss points on each smooth piece of the gap"
@@ -51,7 +54,7 @@ def _flow_and_residual(gap: Gap, film: _Film, rule: Rule) -> tuple[float, float]
     return q, float(mismatch / (check_weights * np.abs(exact)).sum())
 
 
-def solve_by_quadrature(
+def solve(
     scene: Scene,
     *,
     model: str,
@@ -141,4 +144,29 @@ def solve_by_quadrature(
             resolution=order,
             tolerance=tolerance,
         ),
+    )
+
+
+def quadrature_model(
+    *,
+    name: str,
+    summary: str,
+    keeps: frozenset[Effect],
+    sources: tuple[str, ...],
+    applies: Callable[[Scene], Applicability],
+) -> Model:
+    """A rung that solves by quadrature; its cost is that of the default rule (a half circle takes seconds)."""
+    return Model(
+        name=name,
+        summary=summary,
+        keeps=keeps,
+        sources=sources,
+        resolution=RESOLUTION,
+        resolutions=RESOLUTIONS,
+        resolution_meaning=RESOLUTION_MEANING,
+        residual_meaning=RESIDUAL_MEANING,
+        order=None,
+        cost=lambda _scene, resolution: 2e-4 + 1e-7 * resolution**2,
+        applies=applies,
+        solve=partial(solve, model=name, keeps=keeps, sources=sources),
     )

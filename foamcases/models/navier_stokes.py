@@ -1,13 +1,8 @@
 """The steady Navier-Stokes equations in OpenFOAM: slope and inertia in full."""
 
-from foamcases import pocket
-from foamcases.case import RESOLUTION
-from foamcases.openfoam import availability
-from rom.ladder import Applicability, Effect, Model
+from foamcases.pocket import openfoam_model
+from rom.ladder import Applicability, Effect
 from rom.scene import Scene
-
-NAME = "navier_stokes"
-KEEPS = frozenset({Effect.SLOPE, Effect.INERTIA})
 
 
 def applies(scene: Scene) -> Applicability:
@@ -17,21 +12,9 @@ def applies(scene: Scene) -> Applicability:
     )
 
 
-SOLVE, WRITE = pocket.composed(NAME, KEEPS, None)
-
-MODEL = Model(
-    name=NAME,
+MODEL = openfoam_model(
+    name="navier_stokes",
     summary="adds slope and inertia in full: the best rung",
-    keeps=KEEPS,
-    sources=pocket.SOURCES,
-    resolution=RESOLUTION,
-    resolutions=pocket.RESOLUTIONS,
-    resolution_meaning=pocket.RESOLUTION_MEANING,
-    residual_meaning=pocket.RESIDUAL_MEANING,
-    order=2,
-    cost=pocket.cost,
+    keeps=frozenset({Effect.SLOPE, Effect.INERTIA}),
     applies=applies,
-    solve=SOLVE,
-    available=availability,
-    write=WRITE,
 )

@@ -1,13 +1,8 @@
 """The Stokes equations in OpenFOAM: all of the shape, no inertia."""
 
-from foamcases import pocket
-from foamcases.case import RESOLUTION
-from foamcases.openfoam import availability
-from rom.ladder import Applicability, Effect, Model
+from foamcases.pocket import openfoam_model
+from rom.ladder import Applicability, Effect
 from rom.scene import Scene
-
-NAME = "stokes"
-KEEPS = frozenset({Effect.SLOPE})
 
 CREEPING = 1e-6
 """The Reynolds number of the run: advection is then a millionth of viscous stress (there is no scheme "none")."""
@@ -19,21 +14,10 @@ def applies(scene: Scene) -> Applicability:
     return Applicability(applies=True, reason=f"leaves out inertia (Re Ly/w = {reduced:.3g})")
 
 
-SOLVE, WRITE = pocket.composed(NAME, KEEPS, CREEPING)
-
-MODEL = Model(
-    name=NAME,
+MODEL = openfoam_model(
+    name="stokes",
     summary="adds slope: the whole film resolved, inertia negligible",
-    keeps=KEEPS,
-    sources=pocket.SOURCES,
-    resolution=RESOLUTION,
-    resolutions=pocket.RESOLUTIONS,
-    resolution_meaning=pocket.RESOLUTION_MEANING,
-    residual_meaning=pocket.RESIDUAL_MEANING,
-    order=2,
-    cost=pocket.cost,
+    keeps=frozenset({Effect.SLOPE}),
     applies=applies,
-    solve=SOLVE,
-    available=availability,
-    write=WRITE,
+    reynolds_number=CREEPING,
 )

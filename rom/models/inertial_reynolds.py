@@ -1,14 +1,8 @@
 """The Reynolds equation with first-order inertia by a weighted residual."""
 
-from functools import partial
-
-from rom.ladder import Applicability, Effect, Model
-from rom.quadrature import RESIDUAL_MEANING, RESOLUTION, RESOLUTION_MEANING, solve_by_quadrature
+from rom.ladder import Applicability, Effect
+from rom.quadrature import quadrature_model
 from rom.scene import Scene
-
-NAME = "inertial_reynolds"
-KEEPS = frozenset({Effect.INERTIA})
-SOURCES = ("10.1098/rstl.1886.0005", "10.1115/1.1828067")
 
 
 def applies(scene: Scene) -> Applicability:
@@ -21,17 +15,10 @@ def applies(scene: Scene) -> Applicability:
     )
 
 
-MODEL = Model(
-    name=NAME,
+MODEL = quadrature_model(
+    name="inertial_reynolds",
     summary="adds inertia to first order in the Reynolds number",
-    keeps=KEEPS,
-    sources=SOURCES,
-    resolution=RESOLUTION,
-    resolutions=(2, 3, 4, 6, 8, 12, 16, 24),
-    resolution_meaning=RESOLUTION_MEANING,
-    residual_meaning=RESIDUAL_MEANING,
-    order=None,
-    cost=lambda _scene, resolution: 3e-4 + 1e-7 * resolution**2,
+    keeps=frozenset({Effect.INERTIA}),
+    sources=("10.1098/rstl.1886.0005", "10.1115/1.1828067"),
     applies=applies,
-    solve=partial(solve_by_quadrature, model=NAME, keeps=KEEPS, sources=SOURCES),
 )

@@ -1,13 +1,8 @@
 """The Reynolds equation: viscous film flow, no inertia, lowest order in slope."""
 
-from functools import partial
-
-from rom.ladder import Applicability, Model
-from rom.quadrature import RESIDUAL_MEANING, RESOLUTION, RESOLUTION_MEANING, solve_by_quadrature
+from rom.ladder import Applicability
+from rom.quadrature import quadrature_model
 from rom.scene import Scene
-
-NAME = "reynolds"
-SOURCES = ("10.1098/rstl.1886.0005",)
 
 
 def applies(scene: Scene) -> Applicability:
@@ -20,17 +15,10 @@ def applies(scene: Scene) -> Applicability:
     )
 
 
-MODEL = Model(
-    name=NAME,
+MODEL = quadrature_model(
+    name="reynolds",
     summary="Reynolds equation, exact quadrature: the plainest film",
     keeps=frozenset(),
-    sources=SOURCES,
-    resolution=RESOLUTION,
-    resolutions=(2, 3, 4, 6, 8, 12, 16, 24),
-    resolution_meaning=RESOLUTION_MEANING,
-    residual_meaning=RESIDUAL_MEANING,
-    order=None,
-    cost=lambda _scene, resolution: 2e-4 + 1e-7 * resolution**2,
+    sources=("10.1098/rstl.1886.0005",),
     applies=applies,
-    solve=partial(solve_by_quadrature, model=NAME, keeps=frozenset(), sources=SOURCES),
 )
