@@ -164,7 +164,8 @@ class Scene(_Part):
     def gap(self) -> Gap:
         """The gap this scene's geometry leaves open."""
         part = self.geometry
-        return groove.cylindrical(length=part.length, film=part.film, width=part.width, depth=part.depth)
+        shape = groove.cylindrical(width=part.width, depth=part.depth)
+        return groove.channel(length=part.length, film=part.film, grooves=[(0.0, shape)])
 
 
 def load_scene(path: Path, overrides: Iterable[str] = ()) -> Scene:
