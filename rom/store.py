@@ -12,7 +12,7 @@ from contact.errors import InputError
 from contact.files import replacing
 from rom.result import Field, Numerics, Quantity, Result
 
-SCHEMA = 1
+SCHEMA = 2
 
 
 def save(result: Result, path: Path) -> None:
@@ -48,13 +48,17 @@ def load(path: Path) -> Result:
                     name: Field(values=np.asarray(item[()]), unit=str(item.attrs["unit"]))
                     for name, item in file["fields"].items()
                 },
-                numerics=Numerics(**{entry.name: numerics[entry.name].item() for entry in fields(Numerics)}),
+                numerics=Numerics(**{entry.name: _plain(numerics[entry.name]) for entry in fields(Numerics)}),
                 provenance=_mapping(json.loads(file.attrs["provenance"])),
             )
     except (OSError, LookupError, ValueError, TypeError, AttributeError) as error:
         if isinstance(error, InputError):
             raise
         raise InputError(f"{path}: is not a result of roughfilm; name an .h5 file that it wrote") from error
+
+
+def _plain(value: Any) -> Any:
+    return value if isinstance(value, str) else value.item()
 
 
 def _mapping(entries: object) -> dict[str, Any]:
