@@ -157,6 +157,7 @@ def quadrature_model(
     name: str,
     summary: str,
     keeps: frozenset[Effect],
+    complete: bool = True,
     sources: tuple[str, ...],
     applies: Callable[[Scene], Applicability],
 ) -> Model:
@@ -165,6 +166,7 @@ def quadrature_model(
         name=name,
         summary=summary,
         keeps=keeps,
+        complete=complete,
         sources=sources,
         resolution=RESOLUTION,
         resolutions=RESOLUTIONS,
