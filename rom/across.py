@@ -18,7 +18,7 @@ class Basis:
     φ_k ∝ P_k - P_{k+2} of s = 2Y - 1, so that ∫φ_j'φ_k' = 0 for j ≠ k and ∫φ_k = 0 for k > 0: viscosity does not mix
     them, and of flow and pressure gradient, which is the same all across, only the first one knows.
 
-    Scaled so that ∫φ_k'² = ``STIFFNESS``. ``shape``, ``slope`` and ``primitive`` (zero at Y = 0) have shape (n, points);
+    Scaled so that ∫φ_k'² = ``STIFFNESS``. ``shape``, ``slope`` and ``primitive`` (zero at Y = 0): shape (n, points);
     ``flow`` is ∫φ_0. At Gauss points f @ ``weights`` is ∫f and f @ ``above`` is the integral from each point to Y = 1.
     """
 

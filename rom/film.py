@@ -25,8 +25,8 @@ RESOLUTIONS = (50, 100, 200, 400)
 COARSEST, FINEST = 12, 4000
 TOLERANCE = 1e-8
 SCHEMES = ("linear_upwind", "upwind")
-LAYERS = 24
-"""Of the velocity in the result."""
+LAYERS, FINE_LAYERS = 24, 120
+"""Where the velocity is given in the result, and where back-flow is looked for."""
 
 NEWTON_STEPS = 12
 MOST_STEPS = 240
@@ -155,7 +155,8 @@ def solve(
     pressure = np.concatenate([[0.0], np.cumsum(rise)])
     middle = (pressure[1:] + pressure[:-1]) / 2
     shear = (1 + thin_film.all_amplitudes(film, across, state) @ sliding_wall_slope(MODES)) / film.thickness
-    u, v = slope.velocity(film, even_basis(MODES, LAYERS), state)
+    u, v = slope.velocities(film, even_basis(MODES, LAYERS), state)
+    slowest = thin_film.velocity(film, even_basis(MODES, FINE_LAYERS), state).min()
     length, pascal = film.faces[-1] - film.faces[0], scene.pressure_unit
     return Result(
         model=model,
@@ -165,7 +166,7 @@ def solve(
             friction=float((film.lengths * shear).sum() / length),
             pressure_max=float(pressure.max()),
             pressure_min=float(pressure.min()),
-            backflow=float(max(0.0, -u.min())),
+            backflow=float(max(0.0, -slowest)),
         ),
         fields={
             "position": Field(values=film.centres * gap.film, unit="m"),

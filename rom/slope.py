@@ -6,8 +6,8 @@ film: with y upward, M = ∫_y^1 u v dy, and pressure across the film from the m
     T = 2 ∂u/∂x + Re v² - Re ∂M/∂x.
 
 Its divergence ∂T/∂x is tested with the φ_k and integrated by parts, so that no second derivative of the wall is needed.
-Where the wall has a corner the thin film's v jumps; in truth a disturbance dies away from its source as the slowest mode
-that vanishes on both walls does, over h / π. T is smoothed over that length:
+Where the wall has a corner the thin film's v jumps; in truth a disturbance dies away from its source as the slowest
+mode that vanishes on both walls does, over h / π. T is smoothed over that length:
 
     T - (h/π)² ∂²T/∂x² = T of the thin film,
 
@@ -19,15 +19,15 @@ import numpy as np
 from rom import ring
 from rom.across import Basis
 from rom.gap import Array
-from rom.thin_film import Flow, Strip, all_amplitudes, stream_function
+from rom.thin_film import Flow, Strip, all_amplitudes, stream_function, velocity
 
 REACH = 1 / np.pi
 """How far a disturbance reaches along the film, in film thicknesses: the slowest mode is sin(πY) exp(-πx/h)."""
 
 
-def velocity(film: Strip, across: Basis, state: Flow) -> tuple[Array, Array]:
-    """u along and v across the film in each cell, shape (cells, points); v = -∂ψ/∂x at constant y."""
-    u = across.nodes + all_amplitudes(film, across, state) @ across.shape
+def velocities(film: Strip, across: Basis, state: Flow) -> tuple[Array, Array]:
+    """Velocity u along and v across the film in each cell, shape (cells, points); v = -∂ψ/∂x at constant y."""
+    u = velocity(film, across, state)
     psi = stream_function(film, across, state)
     rise = (np.roll(psi, -1, axis=0) - psi) / film.lengths[:, None]
     return u, np.asarray(-rise - u * (1 - across.nodes) * _wall_slope(film)[:, None])
@@ -35,7 +35,7 @@ def velocity(film: Strip, across: Basis, state: Flow) -> tuple[Array, Array]:
 
 def imbalance(film: Strip, across: Basis, reynolds_number: float, state: Flow) -> Array:
     """-∫∫ φ_k ∂T/∂x dy dx of every cell, shape (cells, n): to be answered by :func:`rom.thin_film.step`."""
-    u, v = velocity(film, across, state)
+    u, v = velocities(film, across, state)
     below, slope = 1 - across.nodes, _wall_slope(film)[:, None]
     h, between = film.thickness[:, None], (film.lengths + np.roll(film.lengths, 1))[:, None] / 2
     shear = 1 + all_amplitudes(film, across, state) @ across.slope

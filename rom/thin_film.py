@@ -5,10 +5,10 @@ sliding one, and ψ(x, Y) = h ∫_0^Y u dY the stream function:
 
     Re [ ∂(h u²)/∂x - ∂(u ∂ψ/∂x)/∂Y ] = -h dp/dx + (1/h) ∂²u/∂Y²,      ψ(x, 1) = q.
 
-Across the film u = Y + Σ a_k φ_k(Y) (:mod:`rom.across`), tested with the same φ_k; the flow gives a_0 = (q/h - 1/2)/∫φ_0,
-and of all the tests only that with φ_0 knows the pressure. Along the film finite volumes of second order: the momentum
-through a face is reconstructed from the side the fluid comes from, at each Y by itself, so that back-flow takes its
-values from downstream and nothing rings.
+Across the film u = Y + Σ a_k φ_k(Y) (:mod:`rom.across`), tested with the same φ_k; the flow gives
+a_0 = (q/h - 1/2) / ∫φ_0, and of all the tests only that with φ_0 knows the pressure. Along the film finite volumes of
+second order: the momentum through a face is reconstructed from the side the fluid comes from, at each Y by itself, so
+that back-flow takes its values from downstream and nothing rings.
 """
 
 from dataclasses import dataclass
@@ -28,8 +28,9 @@ OFFSETS = (-2, -1, 0, 1)
 class Strip:
     """The gap cut into cells round the period, in film thicknesses.
 
-    ``faces`` has one entry more than the cells; ``face_thickness`` leaves the last face out, which is the first one again.
-    ``middle`` interpolates to a face, ``from_left`` and ``from_right`` reconstruct from one side; shape (cells, 4), by OFFSETS.
+    ``faces`` has one entry more than the cells; ``face_thickness`` leaves the last face out, which is the first again.
+    ``middle`` interpolates to a face, ``from_left`` and ``from_right`` reconstruct from one side; shape (cells, 4), by
+    OFFSETS.
     """
 
     faces: Array
@@ -103,6 +104,11 @@ def all_amplitudes(film: Strip, across: Basis, state: Flow) -> Array:
     return np.column_stack([first_amplitude(across, film.thickness, state.flow), state.amplitudes])
 
 
+def velocity(film: Strip, across: Basis, state: Flow) -> Array:
+    """Velocity u along each cell, shape (cells, points)."""
+    return np.asarray(across.nodes + all_amplitudes(film, across, state) @ across.shape)
+
+
 def face_amplitudes(film: Strip, across: Basis, state: Flow) -> Array:
     """a_0 .. a_{n-1} at each face, interpolated (the first is exact), shape (cells, n)."""
     inner = np.einsum("fo,fok->fk", film.middle, _around(state.amplitudes))
@@ -120,8 +126,7 @@ def linearise(film: Strip, across: Basis, reynolds_number: float, state: Flow) -
     """The balance of momentum in each cell against each test function, and its derivatives."""
     h, h_face, dx = film.thickness, film.face_thickness, film.lengths
     weighted, inner = across.weights * across.shape, across.shape[1:]
-    a = all_amplitudes(film, across, state)
-    u = across.nodes + a @ across.shape
+    a, u = all_amplitudes(film, across, state), velocity(film, across, state)
 
     from_flow = across.nodes + first_amplitude(across, h_face, state.flow)[:, None] * across.shape[0]
     around = _around(state.amplitudes @ inner)
