@@ -82,8 +82,8 @@ def test_behind_a_groove_the_flow_returns_to_shear_as_the_exact_eigenfunction_do
     turn = int(np.flatnonzero(np.diff(signs))[0])
     kappa = brentq(determinant, places[turn], places[turn + 1])
 
-    reynolds_number = 60.0
-    film, _, state = solved(make_scene(0.15, 1e-3, reynolds_number), 800, reynolds_number)
+    reynolds_number = 100.0
+    film, _, state = solved(make_scene(0.15, 1e-3, reynolds_number), 2000, reynolds_number)
     behind = (film.centres > 12) & (film.centres < 15)
     decay = np.polyfit(film.centres[behind], np.log(np.abs(state.amplitudes[behind, 0])), 1)[0]
     assert -decay * reynolds_number == pytest.approx(kappa, rel=5e-3)
