@@ -1,0 +1,104 @@
+"""A finished sweep: what every model says of every case, side by side."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.errors import InputError
+from rom.comparison import LEAST_LOAD
+from rom.gap import Array
+
+QUANTITIES = (
+    "load_plus",
+    "friction_plus",
+    "pressure_max_plus",
+    "pressure_min_plus",
+    "backflow",
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sweep:
+    """Cases and what they were given, shape (cases,), and by setting and quantity what was found, NaN where nothing was.
+
+    ``given`` holds ``profile`` (texts), ``width_plus`` = w/Lx, ``depth_plus`` = d/Ly, ``shift_plus`` = xd/w,
+    ``reynolds_number`` and ``film_ratio`` = Ly/Lx. A setting is a model's name, with what was chosen for it where the
+    sweep has it more than once.
+    """
+
+    names: tuple[str, ...]
+    given: Mapping[str, NDArray[Any]]
+    found: Mapping[str, Mapping[str, Array]]
+    cpu_s: Mapping[str, Array]
+    failures: tuple[tuple[str, str, str], ...]
+
+    def features(self) -> dict[str, Array]:
+        """The numbers of a scene by which errors are ordered: Re, d/Ly and w/Ly."""
+        return {
+            "reynolds_number": np.asarray(self.given["reynolds_number"], dtype=float),
+            "depth": np.asarray(self.given["depth_plus"], dtype=float),
+            "width": np.asarray(self.given["width_plus"] / self.given["film_ratio"], dtype=float),
+        }
+
+
+def read_sweep(table: Mapping[str, NDArray[Any]]) -> Sweep:
+    """The sweep in a table of ``roughfilm batch``; InputError if columns are missing."""
+    try:
+        cases, first, index = np.unique(table["case"], return_index=True, return_inverse=True)
+        settings = _settings(table)
+        given = {
+            name: table[name][first]
+            for name in ("profile", "width_plus", "depth_plus", "shift_plus", "reynolds_number", "film_ratio")
+        }
+        found, cpu_s = {}, {}
+        for setting in dict.fromkeys(settings):
+            rows = settings == setting
+            found[setting] = {name: _spread(table[name], index, rows, cases.size) for name in QUANTITIES}
+            cpu_s[setting] = _spread(table["cpu_s"], index, rows, cases.size)
+        failed = np.flatnonzero(table["failure"] != "")
+        failures = tuple((str(table["case"][i]), str(settings[i]), str(table["failure"][i])) for i in failed)
+    except (KeyError, IndexError) as error:
+        raise InputError(f"the table has no column {error}; make it again with roughfilm batch") from None
+    return Sweep(
+        names=tuple(str(case) for case in cases),
+        given=given,
+        found=found,
+        cpu_s=cpu_s,
+        failures=failures,
+    )
+
+
+def relative_error(sweep: Sweep, setting: str, reference: str, quantity: str) -> Array:
+    """|difference to the reference| / its size, or / the greatest pressure where there is hardly any load; (cases,)."""
+    best = sweep.found[reference]
+    size = np.abs(best[quantity])
+    if quantity == "load_plus":
+        pressure = np.maximum(np.abs(best["pressure_max_plus"]), np.abs(best["pressure_min_plus"]))
+        size = np.where(size > LEAST_LOAD * pressure, size, pressure)
+    return np.asarray(np.abs(sweep.found[setting][quantity] - best[quantity]) / size)
+
+
+def _settings(table: Mapping[str, NDArray[Any]]) -> NDArray[Any]:
+    """Model, and the scheme and resolution where they vary for that model."""
+    names = table["model"].astype(object)
+    for key in ("scheme", "resolution"):
+        values = table[key]
+        for model in np.unique(table["model"]):
+            rows = (table["model"] == model) & (table["failure"] == "")
+            if np.unique(values[rows]).size > 1:
+                rows = table["model"] == model
+                names[rows] = [f"{name}-{_word(value)}" for name, value in zip(names[rows], values[rows], strict=True)]
+    return names.astype(str)
+
+
+def _word(value: object) -> str:
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def _spread(values: NDArray[Any], index: NDArray[np.int64], rows: NDArray[np.bool_], cases: int) -> Array:
+    spread = np.full(cases, np.nan)
+    spread[index[rows]] = values[rows]
+    return spread
