@@ -168,6 +168,24 @@ class Scene(_Part):
         return groove.channel(length=part.length, film=part.film, grooves=[(0.0, shape)])
 
 
+def load_entries(path: Path) -> dict[str, Any]:
+    """The nested entries of a TOML file; InputError in one line if it cannot be read or is not TOML."""
+    path = Path(path)
+    try:
+        if not path.is_file():
+            raise InputError(f"{path}: {'is no' if path.exists() else 'no such'} file; name a TOML file")
+        if path.stat().st_size > LARGEST_SCENE:
+            raise InputError(f"{path}: larger than {LARGEST_SCENE} bytes; a scene is a short TOML file")
+        return tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read ({error.strerror}); check its permissions") from error
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path}: byte {error.start} is not UTF-8; save the scene as UTF-8 text") from error
+    except (ValueError, RecursionError) as error:
+        reason = str(error).splitlines()[0]
+        raise InputError(f'{path}: is not TOML ({reason}); write lines such as: film = "30 um"') from error
+
+
 def load_scene(path: Path, overrides: Iterable[str] = ()) -> Scene:
     """Read a scene file and apply overrides such as ``geometry.depth=22.5um``.
 
@@ -178,20 +196,7 @@ def load_scene(path: Path, overrides: Iterable[str] = ()) -> Scene:
     InputError
         One line that names the key, what was got there and what to write instead.
     """
-    path = Path(path)
-    try:
-        if not path.is_file():
-            raise InputError(f"{path}: {'is no' if path.exists() else 'no such'} file; name a scene file (TOML)")
-        if path.stat().st_size > LARGEST_SCENE:
-            raise InputError(f"{path}: larger than {LARGEST_SCENE} bytes; a scene is a short TOML file")
-        entries = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror}); check its permissions") from error
-    except UnicodeDecodeError as error:
-        raise InputError(f"{path}: byte {error.start} is not UTF-8; save the scene as UTF-8 text") from error
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        reason = str(error).splitlines()[0]
-        raise InputError(f'{path}: is not TOML ({reason}); write lines such as: film = "30 um"') from error
+    entries = load_entries(path)
     for override in overrides:
         _override(entries, override)
     return read_scene(entries)

@@ -50,9 +50,9 @@ def command(
     make_directory(out)
     left_out = {model.name: reason for model in models() if (reason := _reason_to_leave_out(model, read))}
     failed: dict[str, str] = {}
-    jobs = jobs_of([model for model in models() if model.name not in left_out], out / RESULTS)
-    runs = run_all(read, jobs, failed)
-    results = {job.model.name: result for job, result in runs if job.resolution is None}
+    jobs = jobs_of(read, [model for model in models() if model.name not in left_out], out / RESULTS)
+    runs = run_all(jobs, failed)
+    results = {job.setting.model.name: result for job, result in runs if job.setting.resolution is None}
     absent = {**left_out, **failed}
     if not results:
         raise ConvergenceError("no model solved the scene: " + "; ".join(f"{k}: {v}" for k, v in absent.items()))

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from html.parser import HTMLParser
 
 import h5py
@@ -16,6 +17,7 @@ import pytest
 
 from rom.ladder import Availability, find
 from rom.scene import load_scene
+from rom.setting import Setting
 from rom.store import load
 from scripts import compare, rendering, runs
 from scripts.common import models
@@ -124,24 +126,24 @@ def test_a_crash_while_drawing_is_an_answer():
 
 
 def test_finished_results_are_used_again_only_for_the_same_question(pocket_file, tmp_path, monkeypatch):
-    model = find(models(), "reynolds")
-    job = Job(model=model, resolution=8, path=tmp_path / "reynolds-8.h5")
     scene, other = load_scene(pocket_file), load_scene(pocket_file, ["geometry.depth=8 um"])
-    first = runs.solved_once(scene, job, lambda *_: None)
+    setting = Setting(model=find(models(), "reynolds"), resolution=8)
+    job = Job(scene=scene, setting=setting, path=tmp_path / "reynolds-8.h5")
+    first = runs.solved_once(job, lambda *_: None)
     stamp = job.path.stat().st_mtime_ns
-    runs.solved_once(scene, job, lambda *_: None)
+    runs.solved_once(job, lambda *_: None)
     assert job.path.stat().st_mtime_ns == stamp
-    changed = runs.solved_once(other, job, lambda *_: None)
+    changed = runs.solved_once(replace(job, scene=other), lambda *_: None)
     assert changed.quantities["pressure_max_plus"] != first.quantities["pressure_max_plus"]
     assert load(job.path).provenance["scene"]["geometry"]["depth"] == "8e-06 m"
     job.path.write_bytes(b"half")
-    runs.solved_once(scene, job, lambda *_: None)
+    runs.solved_once(job, lambda *_: None)
     with h5py.File(job.path, "a") as file:
         file.attrs["provenance"] = "[]"
-    runs.solved_once(scene, job, lambda *_: None)
+    runs.solved_once(job, lambda *_: None)
     stamp = job.path.stat().st_mtime_ns
     monkeypatch.setattr(runs, "code", lambda: "other code")
-    runs.solved_once(scene, job, lambda *_: None)
+    runs.solved_once(job, lambda *_: None)
     assert job.path.stat().st_mtime_ns != stamp
 
 
