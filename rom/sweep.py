@@ -11,6 +11,9 @@ from contact.errors import InputError
 from rom.comparison import LEAST_LOAD
 from rom.gap import Array
 
+SOLVED = "solved"
+"""The outcome of a row that holds numbers; any other says why it does not."""
+
 QUANTITIES = (
     "load_plus",
     "friction_plus",
@@ -25,7 +28,7 @@ class Sweep:
     """Cases and what they were given, shape (cases,), and by setting and quantity what was found, NaN where nothing was.
 
     ``given`` holds ``profile`` (texts), ``width_plus`` = w/Lx, ``depth_plus`` = d/Ly, ``shift_plus`` = xd/w,
-    ``reynolds_number`` and ``film_ratio`` = Ly/Lx. A setting is a model's name, with what was chosen for it where the
+    ``reynolds_number`` and ``film_plus`` = Ly/Lx. A setting is a model's name, with what was chosen for it where the
     sweep has it more than once.
     """
 
@@ -40,7 +43,7 @@ class Sweep:
         return {
             "reynolds_number": np.asarray(self.given["reynolds_number"], dtype=float),
             "depth": np.asarray(self.given["depth_plus"], dtype=float),
-            "width": np.asarray(self.given["width_plus"] / self.given["film_ratio"], dtype=float),
+            "width": np.asarray(self.given["width_plus"] / self.given["film_plus"], dtype=float),
         }
 
 
@@ -49,17 +52,17 @@ def read_sweep(table: Mapping[str, NDArray[Any]]) -> Sweep:
     try:
         cases, first, index = np.unique(table["case"], return_index=True, return_inverse=True)
         settings = _settings(table)
-        given = {
-            name: table[name][first]
-            for name in ("profile", "width_plus", "depth_plus", "shift_plus", "reynolds_number", "film_ratio")
-        }
+        names = ("profile", "width_plus", "depth_plus", "reynolds_number", "film_plus")
+        given = {name: table[name][first] for name in names}
+        shift = table["shift_plus"][first] if "shift_plus" in table else np.zeros(cases.size)
+        given["shift_plus"] = np.nan_to_num(shift)
         found, cpu_s = {}, {}
         for setting in dict.fromkeys(settings):
             rows = settings == setting
             found[setting] = {name: _spread(table[name], index, rows, cases.size) for name in QUANTITIES}
             cpu_s[setting] = _spread(table["cpu_s"], index, rows, cases.size)
-        failed = np.flatnonzero(table["failure"] != "")
-        failures = tuple((str(table["case"][i]), str(settings[i]), str(table["failure"][i])) for i in failed)
+        failed = np.flatnonzero(table["outcome"] != SOLVED)
+        failures = tuple((str(table["case"][i]), str(settings[i]), str(table["outcome"][i])) for i in failed)
     except (KeyError, IndexError) as error:
         raise InputError(f"the table has no column {error}; make it again with roughfilm batch") from None
     return Sweep(
@@ -87,7 +90,7 @@ def _settings(table: Mapping[str, NDArray[Any]]) -> NDArray[Any]:
     for key in ("scheme", "resolution"):
         values = table[key]
         for model in np.unique(table["model"]):
-            rows = (table["model"] == model) & (table["failure"] == "")
+            rows = (table["model"] == model) & (table["outcome"] == SOLVED)
             if np.unique(values[rows]).size > 1:
                 rows = table["model"] == model
                 names[rows] = [f"{name}-{_word(value)}" for name, value in zip(names[rows], values[rows], strict=True)]

@@ -85,8 +85,9 @@ def _reference(sweep: Sweep) -> str:
 
 def _known(sweep: Sweep, setting: str, reference: str, quantity: str) -> tuple[dict[str, Any], np.ndarray[Any, Any]]:
     error = relative_error(sweep, setting, reference, quantity)
-    known = np.isfinite(error)
-    return {name: values[known] for name, values in sweep.features().items()}, error[known]
+    features = sweep.features()
+    known = np.isfinite(error) & np.isfinite(sum(features.values()))
+    return {name: values[known] for name, values in features.items()}, error[known]
 
 
 def _orderings(sweep: Sweep, setting: str, reference: str, quantity: str) -> dict[str, Ordering]:
