@@ -5,9 +5,11 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import matplotlib as mpl
+import numpy as np
 from matplotlib.figure import Figure
 
 from rom.comparison import Point, pareto_front
+from rom.convergence import Convergence, Kind
 from rom.result import Result
 from rom.scene import Scene
 
@@ -88,6 +90,36 @@ def speed_against_accuracy(chart: Sequence[Point], floor: Mapping[str, float]) -
         axes.set_xlabel("CPU time, s")
         axes.set_ylabel(f"error in {title} against the best rung, %")
     panels[0].legend(fontsize=8)
+    return _svg(figure)
+
+
+def grid_convergence(studies: Mapping[str, Mapping[str, Convergence]]) -> str:
+    """Cell size against the difference to the extrapolated value, where there is one, with slope 2 for the eye."""
+    figure = Figure(figsize=(10, 3.6), layout="constrained")
+    panels = figure.subplots(1, len(TITLES))
+    for axes, (quantity, title) in zip(panels, TITLES.items(), strict=True):
+        drawn = {name: study[quantity] for name, study in studies.items() if study[quantity].kind is Kind.MONOTONE}
+        if not drawn:
+            axes.set_axis_off()
+            axes.text(0.5, 0.5, f"{title}: nothing to extrapolate", ha="center", transform=axes.transAxes)
+            continue
+        for name, found in drawn.items():
+            sizes = [1 / grid for grid in found.grids]
+            errors = [100 * abs(value / found.value - 1) for value in found.values]
+            label, colour = f"{name}: order {found.order_told}", COLOURS.get(name)
+            axes.plot(sizes, errors, MARKERS.get(name, "o") + "-", color=colour, label=label, linewidth=1.2)
+            slope = [errors[0] * (size / sizes[0]) ** 2 for size in sizes]
+            axes.plot(sizes, slope, ":", color=colour, linewidth=1)
+        grids = sorted({grid for found in drawn.values() for grid in found.grids})
+        axes.set_xscale("log")
+        axes.set_xticks([1 / grid for grid in grids], [f"1/{grid}" for grid in grids])
+        axes.xaxis.minorticks_off()
+        axes.set_yscale("log")
+        low, high = axes.get_ylim()
+        axes.set_ylim(10 ** np.floor(np.log10(low)), 10 ** np.ceil(np.log10(high)))
+        axes.set_xlabel("mean length of a cell, periods (dotted: slope 2)")
+        axes.set_ylabel(f"{title}: from the extrapolated, %")
+        axes.legend(fontsize=8)
     return _svg(figure)
 
 

@@ -10,6 +10,7 @@ import jinja2
 
 from contact.files import replacing
 from rom.comparison import Difference, Point
+from rom.convergence import Convergence
 from rom.ladder import Model
 from rom.result import Result
 from rom.scene import Scene, scene_entries
@@ -39,6 +40,7 @@ class Report:
     effects: tuple[Difference, ...]
     chart: tuple[Point, ...]
     uncertainty: Mapping[str, float]
+    convergence: Mapping[str, Mapping[str, Convergence]]
     plots: Mapping[str, str]
     pictures: tuple[Picture, ...]
 
@@ -56,7 +58,7 @@ def write_report(report: Report, path: Path) -> None:
     """Write the page; InputError if it cannot be written."""
     source = resources.files("scripts").joinpath("report.html.j2").read_text(encoding="utf-8")
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)
-    environment.filters.update(percent=_percent, seconds=_seconds, number=_number, si=_si, micro=_micro)
+    environment.filters.update(percent=_percent, seconds=_seconds, number=_number, digits=_digits, si=_si, micro=_micro)
     page = environment.from_string(source).render(
         report=report,
         best=report.results[report.best],
@@ -99,6 +101,10 @@ def _seconds(value: float) -> str:
 
 def _number(value: float) -> str:
     return "0" if abs(value) < 5e-5 else f"{value:.4g}"
+
+
+def _digits(value: float) -> str:
+    return "0" if abs(value) < 5e-7 else f"{value:.6g}"
 
 
 def _micro(value: float) -> str:

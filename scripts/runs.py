@@ -7,6 +7,7 @@ from pathlib import Path
 from rich.markup import escape
 
 from contact.errors import ConvergenceError, InputError
+from rom.convergence import GRIDS
 from rom.ladder import Model
 from rom.provenance import code, versions
 from rom.result import Result
@@ -38,14 +39,18 @@ class Job:
         return f"{self.model.name} at {self.resolution or 'its default'}"
 
 
-def jobs_of(models: Sequence[Model], directory: Path) -> list[Job]:
-    """The default job of every model, then its other resolutions for the chart."""
+def jobs_of(models: Sequence[Model], directory: Path, grids: int = GRIDS) -> list[Job]:
+    """The default job of every model, then its other resolutions for the chart and the convergence.
+
+    Beyond ``GRIDS``, a model of formal order gets more ``grids``, each twice as fine as the one before.
+    """
     jobs = []
     for model in models:
         jobs.append(Job(model=model, resolution=None, path=directory / f"{model.name}.h5"))
+        finer = [model.resolution * 2**k for k in range(1, grids - GRIDS + 1)] if model.order else []
         jobs += [
             Job(model=model, resolution=n, path=directory / f"{model.name}-{n}.h5")
-            for n in model.resolutions
+            for n in (*model.resolutions, *finer)
             if n != model.resolution
         ]
     return jobs
@@ -63,7 +68,7 @@ def run_all(scene: Scene, jobs: Sequence[Job], failed: dict[str, str]) -> list[t
                 if job.resolution is None:
                     failed[job.model.name] = str(error)
                 else:
-                    messages.print(f"[yellow]not on the chart:[/] {job}: {escape(str(error))}", soft_wrap=True)
+                    messages.print(f"[yellow]grid left out:[/] {job}: {escape(str(error))}", soft_wrap=True)
             spent += job.cost(scene)
     return done
 
