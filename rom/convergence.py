@@ -59,7 +59,8 @@ class Convergence:
         """The observed order in short, with the one it was limited to; empty if none was observed."""
         if self.order is None:
             return ""
-        return f"{self.order:.2f}" + (f" → {self.order_used:g}" if self.order_used != self.order else "")
+        told, used = f"{self.order:.2f}", f"{self.order_used:.2f}"
+        return told if used == told else f"{told} → {self.order_used:g}"
 
 
 def converge(
