@@ -18,8 +18,8 @@ LEAST_ERROR = 1e-6
 class Ordering:
     """How well a product of powers orders errors: ``rank`` is Spearman's correlation, 1 for a perfect order.
 
-    ``thresholds`` gives for each tolerance the greatest number up to which ``CERTAINTY`` of the cases keep it, None where
-    not even the smallest does.
+    ``thresholds`` gives for each tolerance the greatest number up to which ``CERTAINTY`` of the cases keep it, None
+    where not even the smallest does.
     """
 
     powers: Mapping[str, float]

@@ -25,11 +25,11 @@ QUANTITIES = (
 
 @dataclass(frozen=True, kw_only=True)
 class Sweep:
-    """Cases and what they were given, shape (cases,), and by setting and quantity what was found, NaN where nothing was.
+    """Cases and what they were given, shape (cases,), and what was found by setting and quantity, NaN where nothing was.
 
     ``given`` holds ``profile`` (texts), ``width_plus`` = w/Lx, ``depth_plus`` = d/Ly, ``shift_plus`` = xd/w,
-    ``reynolds_number`` and ``film_plus`` = Ly/Lx. A setting is a model's name, with what was chosen for it where the
-    sweep has it more than once.
+    ``reynolds_number`` and ``film_plus`` = Ly/Lx. A setting is a model's name and
+    what the study chose for it: navier_stokes-240-upwind.
     """
 
     names: tuple[str, ...]
@@ -51,13 +51,13 @@ def read_sweep(table: Mapping[str, NDArray[Any]]) -> Sweep:
     """The sweep in a table of ``roughfilm batch``; InputError if columns are missing."""
     try:
         cases, first, index = np.unique(table["case"], return_index=True, return_inverse=True)
-        settings = _settings(table)
+        settings = table["setting"]
         names = ("profile", "width_plus", "depth_plus", "reynolds_number", "film_plus")
         given = {name: table[name][first] for name in names}
         shift = table["shift_plus"][first] if "shift_plus" in table else np.zeros(cases.size)
         given["shift_plus"] = np.nan_to_num(shift)
         found, cpu_s = {}, {}
-        for setting in dict.fromkeys(settings):
+        for setting in dict.fromkeys(str(name) for name in settings):
             rows = settings == setting
             found[setting] = {name: _spread(table[name], index, rows, cases.size) for name in QUANTITIES}
             cpu_s[setting] = _spread(table["cpu_s"], index, rows, cases.size)
@@ -82,23 +82,6 @@ def relative_error(sweep: Sweep, setting: str, reference: str, quantity: str) ->
         pressure = np.maximum(np.abs(best["pressure_max_plus"]), np.abs(best["pressure_min_plus"]))
         size = np.where(size > LEAST_LOAD * pressure, size, pressure)
     return np.asarray(np.abs(sweep.found[setting][quantity] - best[quantity]) / size)
-
-
-def _settings(table: Mapping[str, NDArray[Any]]) -> NDArray[Any]:
-    """Model, and the scheme and resolution where they vary for that model."""
-    names = table["model"].astype(object)
-    for key in ("scheme", "resolution"):
-        values = table[key]
-        for model in np.unique(table["model"]):
-            rows = (table["model"] == model) & (table["outcome"] == SOLVED)
-            if np.unique(values[rows]).size > 1:
-                rows = table["model"] == model
-                names[rows] = [f"{name}-{_word(value)}" for name, value in zip(names[rows], values[rows], strict=True)]
-    return names.astype(str)
-
-
-def _word(value: object) -> str:
-    return f"{value:g}" if isinstance(value, float) else str(value)
 
 
 def _spread(values: NDArray[Any], index: NDArray[np.int64], rows: NDArray[np.bool_], cases: int) -> Array:

@@ -4,26 +4,23 @@ python -m scripts.paper_a DIR --out OUT, where DIR holds the finished study scri
 Source: Sahlin et al. 2005, doi:10.1115/1.1828067.
 """
 
-import base64
 import json
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict
-from importlib import resources
 from itertools import product
 from pathlib import Path
 from typing import Annotated, Any
 
-import jinja2
 import numpy as np
 import typer
 from rich.markup import escape
 
 from contact.errors import InputError
 from contact.files import replacing
-from rom.store import save
 from rom.sweep import read_sweep, relative_error
 from rom.table import read_table
 from scripts.common import AsJson, in_one_line, make_directory, output, print_json, progress_bar, run_alone
+from scripts.pages import embedded, render
 from scripts.paper_a_claims import Claim, judge
 from scripts.paper_a_data import DEPTHS, NUMBERS, SHAPES, WIDTHS, Paper, first_zero, still_wall_shear
 from scripts.rendering import draw_apart
@@ -37,6 +34,7 @@ def command(
 ) -> None:
     """Draw the figures of Paper A and judge its claims."""
     from scripts import paper_a_figures  # matplotlib is slow to import
+    from scripts.figures import svg
 
     paper = read_paper(directory)
     make_directory(out)
@@ -44,7 +42,7 @@ def command(
     claims = judge(paper, onsets)
     figures = {name: draw(paper) for name, draw in paper_a_figures.NUMBERED.items()}
     figures |= {"onset": paper_a_figures.onset(paper, onsets), "scheme": paper_a_figures.scheme(paper)}
-    plots = {name: paper_a_figures.as_svg(figure) for name, figure in figures.items()}
+    plots = {name: svg(figure) for name, figure in figures.items()}
     for name, text in plots.items():
         with replacing(out / f"{name}.svg") as scratch:
             scratch.write_text('<?xml version="1.0" encoding="utf-8"?>\n' + text, encoding="utf-8")
@@ -52,7 +50,12 @@ def command(
     told = {
         "claims": [asdict(claim) for claim in claims],
         "onset": [
-            {"shape": name, "width_plus": width, "reynolds_number": number, "depth_plus": depth if np.isfinite(depth) else None}
+            {
+                "shape": name,
+                "width_plus": width,
+                "reynolds_number": number,
+                "depth_plus": depth if np.isfinite(depth) else None,
+            }
             for (name, width, number), depth in onsets.items()
         ],
         "upwind": upwind_effect(paper),
@@ -64,20 +67,26 @@ def command(
         print_json({**told, "report": str(out / "paper_a.html")})
         return
     for claim in claims:
-        output.print(f"{claim.number}. {claim.text}: [bold]{claim.verdict}[/]; {escape(claim.evidence)}", soft_wrap=True)
+        output.print(
+            f"{claim.number}. {claim.text}: [bold]{claim.verdict}[/]; {escape(claim.evidence)}", soft_wrap=True
+        )
     output.print(f"page: {escape(str(out / 'paper_a.html'))}", soft_wrap=True)
 
 
 def read_paper(directory: Path) -> Paper:
-    """The sweep with the settings that stand for Navier-Stokes at second order and with upwind."""
+    """The sweep with the settings that stand for Navier-Stokes at second order, with upwind, and Stokes."""
     sweep = read_sweep(read_table(directory / "table.h5"))
-    settings = [setting for setting in sweep.found if setting.startswith("navier_stokes")]
-    upwind = next((setting for setting in settings if "upwind" in setting.split("-")), None)
-    best = next((setting for setting in settings if setting != upwind), None)
-    for needed in (best, "stokes", "film_slope"):
-        if needed not in sweep.found:
-            raise InputError(f"{directory}: holds no results of {needed or 'navier_stokes'}; run paper_a.toml there")
-    return Paper(sweep=sweep, directory=directory, best=str(best), upwind=upwind)
+
+    def setting(model: str, scheme: str | None = None) -> str | None:
+        known = (name.split("-") for name in sweep.found)
+        return next(("-".join(parts) for parts in known if parts[0] == model and scheme in (None, parts[-1])), None)
+
+    best = setting("navier_stokes", "linear_upwind") or setting("navier_stokes", "navier_stokes")
+    stokes = setting("stokes")
+    if best is None or stokes is None or "film_slope" not in sweep.found:
+        raise InputError(f"{directory}: lacks results of navier_stokes, stokes or film_slope; run paper_a.toml there")
+    upwind = setting("navier_stokes", "upwind")
+    return Paper(sweep=sweep, directory=directory, best=best, stokes=stokes, upwind=upwind)
 
 
 def find_onsets(paper: Paper) -> dict[tuple[str, float, float], float]:
@@ -88,11 +97,7 @@ def find_onsets(paper: Paper) -> dict[tuple[str, float, float], float]:
         for done, ((name, shape), width, number) in enumerate(keys):
             advance(done, "looking for back-flow")
             shear = [
-                still_wall_shear(
-                    paper.result(
-                        paper.rows(shape, width=width, depth=depth, number=number), "navier_stokes", "linear_upwind"
-                    )
-                )
+                still_wall_shear(paper.result(paper.rows(shape, width=width, depth=depth, number=number), paper.best))
                 for depth in DEPTHS
             ]
             onsets[name, width, number] = first_zero(np.array(DEPTHS), np.array(shear))
@@ -129,15 +134,11 @@ def _streamlines(
     def picture(job: tuple[str, int, tuple[str, str, float, float, float]]) -> tuple[str, str, str]:
         name, place, (title, model, width, depth, number) = job
         rows = paper.rows(SHAPES["cylindrical"], width=width, depth=depth, number=number)
-        scheme = "linear_upwind" if model == "navier_stokes" else ""
         path = out / f"{name}{'abcd'[place]}.png"
-        source = path.with_suffix(".h5")
-        save(paper.result(rows, model, scheme), source)
-        drawn = draw_apart(source, path)
-        source.unlink()
+        drawn = draw_apart(paper.path(rows, paper.best if model == "navier_stokes" else paper.stokes), path)
         if not drawn.available:
             return name, f"{title}: no picture: {drawn.detail}", ""
-        return name, title, "data:image/png;base64," + base64.b64encode(path.read_bytes()).decode("ascii")
+        return name, title, embedded(path)
 
     jobs = [(name, place, case) for name, cases in wanted.items() for place, case in enumerate(cases)]
     pictures: dict[str, list[tuple[str, str]]] = {name: [] for name in wanted}
@@ -157,17 +158,15 @@ def _write_page(
 ) -> None:
     from scripts.paper_a_figures import NUMBERED
 
-    source = resources.files("scripts").joinpath("paper_a.html.j2").read_text(encoding="utf-8")
-    environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)
-    page = environment.from_string(source).render(
+    render(
+        "paper_a.html.j2",
+        path,
         plots=plots,
         captions={name: str(draw.__doc__) for name, draw in NUMBERED.items()},
         pictures=pictures,
         claims=claims,
         upwind=upwind,
     )
-    with replacing(path) as scratch:
-        scratch.write_text(page, encoding="utf-8")
 
 
 if __name__ == "__main__":

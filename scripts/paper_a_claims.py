@@ -44,7 +44,7 @@ def inertia_carries(paper: Paper) -> Claim:
     worst = {}
     for name, shape in SHAPES.items():
         rows = paper.rows(shape)
-        loads, stokes = paper.of("load_plus", rows), paper.of("load_plus", rows, "stokes")
+        loads, stokes = paper.of("load_plus", rows), paper.of("load_plus", rows, paper.stokes)
         worst[name] = float(np.nanmax(np.abs(stokes) / np.abs(loads)))
     level = max(worst["cylindrical"], worst["splined, xd+ = 0"])
     shifted = max(worst["splined, xd+ = -0.3"], worst["splined, xd+ = 0.3"])
@@ -53,9 +53,9 @@ def inertia_carries(paper: Paper) -> Claim:
         number=1,
         text="Parallel textured surfaces carry load by inertia; Stokes gives (almost) none",
         verdict=verdict,
-        evidence=f"symmetric grooves: Stokes load at most {level:.1e} of the Navier-Stokes load (the small positive one of "
-        f"Fig. A.4 is a discretisation error: creeping flow is reversible); grooves with their lowest point aside carry or "
-        f"lose load without inertia too, up to {shifted:.2g} times the load with it",
+        evidence=f"symmetric grooves: Stokes load at most {level:.1e} of the Navier-Stokes load (the small positive one "
+        f"of Fig. A.4 is a discretisation error: creeping flow is reversible); grooves with their lowest point aside "
+        f"carry or lose load without inertia too, up to {shifted:.2g} times the load with it",
     )
 
 
@@ -75,7 +75,7 @@ def load_grows(paper: Paper) -> Claim:
         text="Load grows with Re and with groove width",
         verdict=_verdict(min(by_number, by_width)),
         evidence=f"from one Re to the next it grows in {by_number:.1%} of the steps, from one width to the next in "
-        f"{by_width:.1%}" + (f"; it does not always grow with width for {', '.join(sorted(exceptions))}" if exceptions else ""),
+        f"{by_width:.1%}" + ("; not always with width: " + ", ".join(sorted(exceptions)) if exceptions else ""),
     )
 
 
@@ -159,7 +159,8 @@ def splined_against_cylindrical(paper: Paper) -> Claim:
         text="Splined with xd+ = -0.3 beats cylindrical in load at Re = 40, the reverse at Re = 160",
         verdict=_verdict(holds),
         evidence="; ".join(
-            f"Re = {number:g}: splined carries more in {cases:.0%} of the cases, at its best depth in {best:.0%} of the widths"
+            f"Re = {number:g}: splined carries more in {cases:.0%} of the cases, "
+            f"at its best depth in {best:.0%} of the widths"
             for number, (cases, best) in share.items()
         ),
     )

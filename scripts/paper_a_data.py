@@ -24,7 +24,6 @@ SHAPES: dict[str, Shape] = {
 WIDTHS = (0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5)
 DEPTHS = (0.25, 0.5, 0.75, 1.0, 1.25)
 NUMBERS = (40.0, 80.0, 120.0, 160.0)
-BEST = "navier_stokes"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,6 +33,7 @@ class Paper:
     sweep: Sweep
     directory: Path
     best: str
+    stokes: str
     upwind: str | None
 
     def rows(
@@ -54,22 +54,20 @@ class Paper:
 
     def table(self, shape: Shape, quantity: str, number: float, setting: str | None = None) -> Array:
         """A quantity over (w+, d+), shape (8, 5); InputError where the sweep lacks a case."""
-        lines = [
-            [self.rows(shape, width=width, depth=depth, number=number) for depth in DEPTHS] for width in WIDTHS
-        ]
+        lines = [[self.rows(shape, width=width, depth=depth, number=number) for depth in DEPTHS] for width in WIDTHS]
         if any(rows.size != 1 for line in lines for rows in line):
             raise InputError(f"{self.directory}: lacks cases of {shape[0]} at Re = {number:g}; run paper_a.toml there")
         return np.array([[self.of(quantity, rows, setting)[0] for rows in line] for line in lines])
 
-    def result(self, rows: NDArray[np.int64], model: str, scheme: str) -> Result:
+    def path(self, rows: NDArray[np.int64], setting: str) -> Path:
+        """The file of the result of one case; InputError if the sweep lacks it."""
+        if rows.size != 1:
+            raise InputError(f"{self.directory}: lacks a case that a figure shows; run paper_a.toml there")
+        return self.directory / "cases" / self.sweep.names[rows[0]] / f"{setting}.h5"
+
+    def result(self, rows: NDArray[np.int64], setting: str) -> Result:
         """The stored result of one case, with its fields; InputError if it is not there."""
-        if rows.size == 1:
-            place = self.directory / "cases" / self.sweep.names[rows[0]]
-            for path in sorted(place.glob(f"{model}*.h5")):
-                result = load(path)
-                if result.model == model and result.numerics.scheme == scheme:
-                    return result
-        raise InputError(f"{self.directory}: holds no {model} result of a case that a figure shows; run the study again")
+        return load(self.path(rows, setting))
 
 
 def highest(depths: Array, loads: Array) -> float:

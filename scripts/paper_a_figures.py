@@ -9,12 +9,10 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from rom.result import Result
-from scripts.figures import svg
 from scripts.paper_a_data import DEPTHS, NUMBERS, SHAPES, WIDTHS, Paper, Shape, highest
 
 CYLINDRICAL, AHEAD, LEVEL, BEHIND = SHAPES.values()
 LINE = "film_slope"
-SECOND_ORDER = "linear_upwind"
 DEPTH = np.array(DEPTHS)
 
 Onsets = Mapping[tuple[str, float, float], float]
@@ -60,8 +58,8 @@ def a3(paper: Paper) -> Figure:
     figure, panels = _panels(2)
     for axes, number in zip(panels, (10.0, 160.0), strict=True):
         rows = paper.rows(CYLINDRICAL, width=0.2, depth=0.25, number=number)
-        _pressure(axes, paper.result(rows, "navier_stokes", SECOND_ORDER), "-", "Navier-Stokes")
-        _pressure(axes, paper.result(rows, "stokes", ""), "--", "Stokes")
+        _pressure(axes, paper.result(rows, paper.best), "-", "Navier-Stokes")
+        _pressure(axes, paper.result(rows, paper.stokes), "--", "Stokes")
         _edges(axes, 0.2)
         axes.set_title(f"Re = {number:g}", fontsize=10)
         axes.legend()
@@ -74,7 +72,7 @@ def a4(paper: Paper) -> Figure:
     for axes, number in zip(panels, (10.0, 160.0), strict=True):
         rows = paper.rows(CYLINDRICAL, depth=0.25, number=number)
         _against(axes, paper, "load_plus", rows, "width_plus", "Navier-Stokes (line: film_slope)", "C0")
-        stokes = np.abs(paper.of("load_plus", rows, "stokes"))
+        stokes = np.abs(paper.of("load_plus", rows, paper.stokes))
         axes.plot(paper.sweep.given["width_plus"][rows], stokes, "s", color="C2", ms=4, label="Stokes, size")
         axes.set_yscale("log")
         axes.set_xlabel("w+")
@@ -89,7 +87,7 @@ def _pressures(paper: Paper, cases: Sequence[tuple[str, Shape, float, float]]) -
     for axes, (title, shape, width, depth) in zip(panels, cases, strict=True):
         for number, colour in zip(NUMBERS, _colours(4), strict=True):
             rows = paper.rows(shape, width=width, depth=depth, number=number)
-            _pressure(axes, paper.result(rows, "navier_stokes", SECOND_ORDER), "-", f"Re = {number:g}", color=colour)
+            _pressure(axes, paper.result(rows, paper.best), "-", f"Re = {number:g}", color=colour)
         _edges(axes, width)
         axes.set_title(title, fontsize=10)
     panels[0].legend()
@@ -180,7 +178,9 @@ def onset(paper: Paper, onsets: Onsets) -> Figure:
         for number, colour in zip(NUMBERS, _colours(4), strict=True):
             begins = [onsets[name, width, number] for width in WIDTHS]
             loads = paper.table(shape, "load_plus", number)
-            axes.plot(WIDTHS, np.where(np.isfinite(begins), begins, np.nan), "-", color=colour, label=f"Re = {number:g}")
+            axes.plot(
+                WIDTHS, np.where(np.isfinite(begins), begins, np.nan), "-", color=colour, label=f"Re = {number:g}"
+            )
             axes.plot(WIDTHS, [highest(DEPTH, line) for line in loads], "o", color=colour, ms=4)
         _labels(axes, "w+", "d+", name)
     return figure
@@ -230,8 +230,3 @@ STREAMLINES: dict[str, tuple[tuple[str, str, float, float, float], ...]] = {
     ),
 }
 """Title, model, w+, d+ and Re of every picture, cylindrical."""
-
-
-def as_svg(figure: Figure) -> str:
-    """The text of a figure."""
-    return svg(figure)

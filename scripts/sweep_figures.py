@@ -36,7 +36,7 @@ def rows_of(sweep: Sweep, shape: tuple[str, float], reynolds_number: float | Non
 
 
 def error_maps(sweep: Sweep, setting: str, reference: str, quantity: str) -> str:
-    """Error of one setting over (w+, d+): a panel for each shape and Reynolds number; in per cent, written in the cells."""
+    """Error of one setting over (w+, d+), in per cent: a panel for each shape and Reynolds number."""
     numbers, kinds = np.unique(sweep.given["reynolds_number"]), shapes(sweep)
     error = 100 * relative_error(sweep, setting, reference, quantity)
     figure = Figure(figsize=(2.1 + 2.6 * numbers.size, 0.7 + 1.75 * len(kinds)), layout="constrained")
@@ -48,8 +48,9 @@ def error_maps(sweep: Sweep, setting: str, reference: str, quantity: str) -> str
             rows = rows_of(sweep, shape, number)
             widths, depths = np.unique(sweep.given["width_plus"][rows]), np.unique(sweep.given["depth_plus"][rows])
             grid = np.full((depths.size, widths.size), np.nan)
-            place = np.searchsorted(depths, sweep.given["depth_plus"][rows]), np.searchsorted(
-                widths, sweep.given["width_plus"][rows]
+            place = (
+                np.searchsorted(depths, sweep.given["depth_plus"][rows]),
+                np.searchsorted(widths, sweep.given["width_plus"][rows]),
             )
             grid[place] = error[rows]
             axes.grid(visible=False)
@@ -72,15 +73,20 @@ def errors_in_order(
 ) -> str:
     """Error against the number that orders it, a panel for each setting and quantity, with the thresholds."""
     figure = Figure(figsize=(10, 0.6 + 2.6 * len(settings)), layout="constrained")
-    panels = figure.subplots(len(settings), len(TITLES), squeeze=False)
+    panels, told = figure.subplots(len(settings), len(TITLES), squeeze=False), set[tuple[str, float]]()
     for line, setting in zip(panels, settings, strict=True):
         for axes, (quantity, title) in zip(line, TITLES.items(), strict=True):
+            if (setting, quantity) not in orderings:
+                axes.set_axis_off()
+                axes.set_title(f"{setting}: {title}, the same error everywhere", fontsize=9)
+                continue
             found = orderings[setting, quantity]
             number = product(sweep.features(), found.powers)
             error = 100 * relative_error(sweep, setting, reference, quantity)
             for shape, sign in zip(shapes(sweep), "osD^v<>", strict=False):
                 rows = rows_of(sweep, shape)
-                label = shape_name(shape) if setting == settings[0] and quantity == next(iter(TITLES)) else None
+                label = None if shape in told else shape_name(shape)
+                told.add(shape)
                 axes.plot(number[rows], np.maximum(error[rows], LEAST_PERCENT), sign, ms=3, alpha=0.6, label=label)
             for tolerance, limit in found.thresholds.items():
                 if limit is not None:
@@ -116,7 +122,9 @@ def sweep_chart(sweep: Sweep, reference: str, settings: Sequence[str]) -> str:
                 capsize=4,
                 label=setting,
             )
-        axes.axvline(np.nanmedian(sweep.cpu_s[reference]), color=colour(reference), ls=":", label=f"{reference} (reference)")
+        axes.axvline(
+            np.nanmedian(sweep.cpu_s[reference]), color=colour(reference), ls=":", label=f"{reference} (reference)"
+        )
         axes.set_xscale("log")
         axes.set_yscale("log")
         axes.set_xlabel("CPU time a case, s")

@@ -40,6 +40,7 @@ def row_of(keys: Mapping[str, Key], case: Case, job: Job, answer: Result | Failu
         scheme, resolution = setting.scheme or "", setting.resolution or setting.model.resolution
     asked: dict[str, Cell] = {
         "case": job.path.parent.name,
+        "setting": setting.name,
         "model": setting.model.name,
         "scheme": scheme,
         "resolution": _number(resolution),
