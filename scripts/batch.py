@@ -180,7 +180,7 @@ def _tell_outcome(study: Study, tally: Tally, out: Path, as_json: bool) -> None:
     if tally.warned:
         messages.print(f"[yellow]warning:[/] {tally.warned} results carry one; see the table", soft_wrap=True)
     for job, failure in tally.failures[:SHOWN]:
-        told = f"{job.path.parent.name} by {job.setting.name}: {failure.message}"
+        told = f"{job.path.parent.name} by {job.setting.name}: {failure.kind}: {failure.message}"
         messages.print(f"[yellow]failed:[/] {escape(told)}", soft_wrap=True)
     if len(tally.failures) > SHOWN:
         messages.print(f"[yellow]failed:[/] {len(tally.failures) - SHOWN} more; see the table", soft_wrap=True)

@@ -1,6 +1,7 @@
 """Jobs: each solved once, its answer stored as soon as it is there, used again when nothing changed."""
 
 import json
+import traceback
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -8,7 +9,7 @@ from typing import Any
 
 from rich.markup import escape
 
-from contact.errors import ConvergenceError, InputError
+from contact.errors import ConvergenceError, InputError, UnavailableError
 from contact.files import replacing
 from rom.convergence import GRIDS
 from rom.ladder import Model
@@ -43,7 +44,7 @@ class Job:
 
 @dataclass(frozen=True, kw_only=True)
 class Failure:
-    """Why a job has no result: the kind of error, what it said, and the last lines of the log.
+    """Why a job has no result: the kind of error, what it said, and the last lines of the log or of the traceback.
 
     A model that does not converge has answered: it is asked again only when scene, code or versions change. Anything
     else (a worker that died, a full disk) says nothing of the scene, and the job is tried again the next time.
@@ -59,12 +60,13 @@ class Failure:
         return self.kind == ConvergenceError.__name__
 
 
-def failure_of(error: BaseException) -> Failure:
-    """An error as a record."""
+def failure_of(error: Exception) -> Failure:
+    """An error as a record; one that no model raises on purpose brings its traceback."""
+    meant = isinstance(error, InputError | ConvergenceError | UnavailableError)
     return Failure(
         kind=type(error).__name__,
         message=" ".join(str(error).split()) or "no word",
-        notes=tuple(getattr(error, "__notes__", ())),
+        notes=tuple(getattr(error, "__notes__", ()) if meant else traceback.format_exception(error)),
     )
 
 

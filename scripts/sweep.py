@@ -80,10 +80,17 @@ def run(jobs: Sequence[Job], executor: Executor) -> Iterator[tuple[Job, Answer]]
             if rest := chunk[len(answers) :]:
                 send(rest, again)
         elif again:
-            yield chunk[0], replace(failure_of(error), message=f"its worker was lost twice: {error}")
+            yield chunk[0], _lost(error)
         else:
             for job in chunk:
                 send([job], True)
+
+
+def _lost(error: BaseException) -> Failure:
+    if isinstance(error, UnavailableError):
+        return failure_of(error)
+    told = f"its worker died twice ({type(error).__name__}); if memory is short, use fewer --jobs or more of it"
+    return Failure(kind="WorkerDied", message=told)
 
 
 def chunks(jobs: Iterable[Job]) -> Iterator[list[Job]]:
