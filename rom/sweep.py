@@ -25,7 +25,7 @@ QUANTITIES = (
 
 @dataclass(frozen=True, kw_only=True)
 class Sweep:
-    """Cases and what they were given, shape (cases,), and what was found by setting and quantity, NaN where nothing was.
+    """Cases, what they were given, shape (cases,), and what was found by setting and quantity, NaN for nothing.
 
     ``given`` holds ``profile`` (texts), ``width_plus`` = w/Lx, ``depth_plus`` = d/Ly, ``shift_plus`` = xd/w,
     ``reynolds_number`` and ``film_plus`` = Ly/Lx. A setting is a model's name and

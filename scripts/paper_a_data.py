@@ -63,7 +63,8 @@ class Paper:
         """The file of the result of one case; InputError if the sweep lacks it."""
         if rows.size != 1:
             raise InputError(f"{self.directory}: lacks a case that a figure shows; run paper_a.toml there")
-        return self.directory / "cases" / self.sweep.names[rows[0]] / f"{setting}.h5"
+        case = self.sweep.names[int(rows[0])]
+        return self.directory / "cases" / case / f"{setting}.h5"
 
     def result(self, rows: NDArray[np.int64], setting: str) -> Result:
         """The stored result of one case, with its fields; InputError if it is not there."""

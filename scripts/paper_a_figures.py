@@ -1,6 +1,7 @@
 """Figures A.3 to A.15 of Paper A from a sweep, each under its number; dots are Navier-Stokes, lines film_slope."""
 
 from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib import colormaps
@@ -27,13 +28,13 @@ def _panels(count: int, *, height: float = 3.9) -> tuple[Figure, list[Axes]]:
     return figure, list(figure.subplots(1, count, squeeze=False)[0])
 
 
-def _pressure(axes: Axes, result: Result, style: str, label: str, **look: object) -> None:
+def _pressure(axes: Axes, result: Result, style: str, label: str, **look: Any) -> None:
     """p+ along x+ = 2x/Lx."""
     geometry = result.provenance["scene"]
     x, p = result.fields["position"].values, result.fields["pressure"].values
     plus = result.quantities["load_plus"].value / result.quantities["load_per_area"].value
     length = result.fields["vertices"].values[-1, -1, 0] - result.fields["vertices"].values[0, -1, 0]
-    axes.plot(2 * x / length, p * plus, style, label=label, **look)  # type: ignore[arg-type]
+    axes.plot(2 * x / length, p * plus, style, label=label, **look)
     axes.set_xlabel("x+ = 2x / Lx")
     axes.set_ylabel("p+")
     axes.set_title(str(geometry["name"]), fontsize=0)
@@ -45,12 +46,12 @@ def _edges(axes: Axes, width: float) -> None:
 
 
 def _against(
-    axes: Axes, paper: Paper, quantity: str, rows: NDArray[np.int64], key: str, label: str, colour: object
+    axes: Axes, paper: Paper, quantity: str, rows: NDArray[np.int64], key: str, label: str, colour: Any
 ) -> None:
     """A quantity against w+ or d+: dots by the best rung, a line by film_slope."""
     x = paper.sweep.given[key][rows]
-    axes.plot(x, paper.of(quantity, rows), "o", color=colour, ms=4, label=label)  # type: ignore[arg-type]
-    axes.plot(x, paper.of(quantity, rows, LINE), "-", color=colour, lw=1)  # type: ignore[arg-type]
+    axes.plot(x, paper.of(quantity, rows), "o", color=colour, ms=4, label=label)
+    axes.plot(x, paper.of(quantity, rows, LINE), "-", color=colour, lw=1)
 
 
 def a3(paper: Paper) -> Figure:

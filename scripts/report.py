@@ -96,7 +96,7 @@ def _known(sweep: Sweep, setting: str, reference: str, quantity: str) -> tuple[d
 
 
 def _orderings(sweep: Sweep, setting: str, reference: str, quantity: str) -> dict[str, Ordering]:
-    """Each candidate, then the fitted powers, then the ``chosen`` one; nothing for an error that is the same everywhere."""
+    """Each candidate, the fitted powers and the ``chosen`` one; nothing for an error that is the same everywhere."""
     features, error = _known(sweep, setting, reference, quantity)
     if error.size < 8:
         raise InputError(f"{setting}: has {error.size} cases beside {reference}; a report needs at least 8")

@@ -7,10 +7,7 @@ from rom.scene import Scene
 
 def applies(scene: Scene) -> Applicability:
     """Always; says how much slope it leaves out."""
-    part = scene.geometry
-    return Applicability(
-        applies=True, reason=f"keeps all of inertia, leaves out slope (2d/w = {2 * part.depth / part.width:.3g})"
-    )
+    return Applicability(applies=True, reason=f"keeps all of inertia, leaves out slope (2d/w = {scene.slope:.3g})")
 
 
 MODEL = film_model(

@@ -7,10 +7,8 @@ from rom.scene import Scene
 
 def applies(scene: Scene) -> Applicability:
     """Always; says how far from small the slope is."""
-    part = scene.geometry
     return Applicability(
-        applies=True,
-        reason=f"keeps all of inertia, and slope to second order in 2d/w = {2 * part.depth / part.width:.3g}",
+        applies=True, reason=f"keeps all of inertia, and slope to second order in 2d/w = {scene.slope:.3g}"
     )
 
 
