@@ -100,8 +100,8 @@ class Scene(Part):
 
     @property
     def slope(self) -> float:
-        """2d / w of the steepest groove."""
-        return max(2 * groove.depth / groove.width for groove in self.grooves)
+        """Mean slope of the steepest groove, from its lowest point to the nearer edge: 2d / w if it is symmetric."""
+        return max(groove.slope for groove in self.grooves)
 
     def gap(self) -> Gap:
         """The gap this scene's geometry leaves open."""

@@ -66,16 +66,20 @@ def test_each_groove_lies_where_it_says():
 
 
 def test_inertia_is_judged_by_the_narrowest_groove_and_slope_by_the_steepest():
-    scene = read_scene(
-        entries_of(
-            grooves=[
-                {"position": "-0.3 mm", "width": "0.1 mm", "depth": "1 um"},
-                {"position": "0.2 mm", "width": "0.4 mm", "depth": "8 um"},
-            ]
-        )
-    )
-    assert scene.reduced_reynolds_number == pytest.approx(40 * 30 / 100)
-    assert scene.slope == pytest.approx(2 * 8 / 400)
+    shallow = {"position": "-0.35 mm", "width": "0.1 mm", "depth": "0.1 um"}
+    wide = {"position": "0 mm", "width": "0.4 mm", "depth": "8 um"}
+    leaning = {"position": "0.35 mm", "profile": "splined", "width": "0.2 mm", "depth": "5 um", "shift": "-60 um"}
+    drawn = {"position": "0.35 mm", "profile": "points", "points": [[-1e-4, 0], [5e-5, 4e-6], [8e-5, 1e-6], [1e-4, 0]]}
+    for grooves, slope in (
+        ([shallow], 0.002),
+        ([shallow, wide], 0.04),
+        ([wide, leaning], 0.125),
+        ([wide, drawn], 0.08),
+    ):
+        scene = read_scene(entries_of(grooves=grooves))
+        narrowest = 100 if shallow in grooves else 200
+        assert scene.reduced_reynolds_number == pytest.approx(40 * 30 / narrowest)
+        assert scene.slope == pytest.approx(slope)
 
 
 GROOVE_FAULTS = [

@@ -67,3 +67,12 @@ def test_a_groove_across_the_end_of_the_period_gets_the_columns_of_one_in_its_mi
     assert np.diff(cut)[0] == pytest.approx(np.diff(cut)[-1], rel=1e-2)
     middle = np.abs(cut).argmin()
     assert np.diff(cut)[0] == pytest.approx(np.diff(cut)[middle], rel=1e-2)
+
+
+@pytest.mark.parametrize("gap_width", [1e-12, 1e-9, 2.5e-8])
+def test_a_sliver_of_land_makes_no_sliver_of_a_cell(gap_width):
+    """Thirds written with six digits leave half a nanometre at the ends of the period."""
+    width = LENGTH / 3 - gap_width
+    shape = cylindrical(width=width, depth=7.5e-6)
+    x = columns(gap_of(*((n * (width + gap_width / 2), shape) for n in (-1, 0, 1))), 240)
+    assert np.diff(x).min() > 0.01
