@@ -255,6 +255,6 @@ def _unknown(location: list[int | str], profile: str | None) -> str:
     if path == ["geometry"]:
         known = [*dict.fromkeys([*PocketGeometry.model_fields, *known])]
     near = difflib.get_close_matches(str(key), known, n=1)
-    if any(key in other.model_fields for other in PROFILES.values()):
+    if profile and any(key in other.model_fields for other in PROFILES.values()):
         return f"no key of profile {profile!r}; known here: {', '.join(known)}"
     return "unknown key; " + (f"did you mean {near[0]!r}?" if near else f"known here: {', '.join(known)}")
