@@ -15,6 +15,13 @@ COARSEST, FINEST = 12, 4000
 RESOLUTION = 240
 TOLERANCE = 1e-7
 
+SERIAL = "simpleFoam > log.simpleFoam 2>&1"
+PARALLEL = (
+    "decomposePar > log.decomposePar 2>&1 &&\n"
+    "    mpirun -np {processes} simpleFoam -parallel > log.simpleFoam 2>&1 &&\n"
+    "    reconstructPar -latestTime > log.reconstructPar 2>&1"
+)
+
 ALLRUN = """\
 #!/bin/sh
 # Checks the mesh and runs the case. The mesh is already in constant/polyMesh: no blockMesh is needed.
@@ -23,7 +30,8 @@ if [ -z "$WM_PROJECT_DIR" ]; then
     WM_PROJECT_DIR=$(dpkg -L openfoam | sed -n 's|/etc/controlDict$||p' | head -n 1)
     export WM_PROJECT_DIR
 fi
-checkMesh > log.checkMesh 2>&1 && simpleFoam > log.simpleFoam 2>&1
+checkMesh > log.checkMesh 2>&1 &&
+    {commands}
 status=$?
 grep -h "Mesh OK" log.checkMesh
 grep -h "SIMPLE solution converged" log.simpleFoam
@@ -50,16 +58,25 @@ class Card:
     reynolds_number: float
     resolution: int
     tolerance: float
+    scheme: str
+    processes: int
 
 
 def write_case(
-    scene: Scene, directory: Path, *, reynolds_number: float, resolution: int | None, tolerance: float | None
+    scene: Scene,
+    directory: Path,
+    *,
+    reynolds_number: float,
+    resolution: int | None,
+    tolerance: float | None,
+    scheme: str,
+    processes: int = 1,
 ) -> None:
     """Write the whole case of a scene at a Reynolds number of the model's choice.
 
-    ``resolution`` is the number of mesh columns along the film, about (every break of the gap is a column);
-    a fifth as many layers cross it. The case is there whole or not at all. Raises InputError for numbers out of range
-    or a directory that is not empty.
+    ``resolution`` is the number of mesh columns along the film, about (every corner of the gap is a column);
+    a fifth as many layers cross it. ``scheme`` is a key of ``ADVECTION``. The case is there whole or not at all.
+    Raises InputError for numbers out of range or a directory that is not empty.
     """
     resolution = RESOLUTION if resolution is None else resolution
     tolerance = TOLERANCE if tolerance is None else tolerance
@@ -67,6 +84,8 @@ def write_case(
         raise InputError(f"--resolution: got {resolution}; it must be {COARSEST} to {FINEST} mesh columns")
     if not 1e-10 <= tolerance <= 1e-2:
         raise InputError(f"--tolerance: got {tolerance}; it must be 1e-10 to 1e-2")
+    if not 1 <= processes <= resolution // 2:
+        raise InputError(f"--processes: got {processes}; it must be 1 to {resolution // 2}, two columns for each")
     vertices = mesh.layered(scene.gap(), resolution)
     card = Card(
         columns=vertices.shape[0] - 1,
@@ -74,6 +93,8 @@ def write_case(
         reynolds_number=reynolds_number,
         resolution=resolution,
         tolerance=tolerance,
+        scheme=scheme,
+        processes=processes,
     )
     readme = README.format(pressure=scene.pressure_unit * reynolds_number, speed=scene.speed, film=scene.geometry.film)
     try:
@@ -83,9 +104,12 @@ def write_case(
         with tempfile.TemporaryDirectory(prefix=f".{directory.name}-", dir=directory.parent) as place:
             scratch = Path(place) / directory.name
             mesh.write_block(vertices, SIDES, scratch)
-            write_dictionaries(scratch, viscosity=1 / reynolds_number, tolerance=tolerance)
+            write_dictionaries(
+                scratch, viscosity=1 / reynolds_number, tolerance=tolerance, scheme=scheme, processes=processes
+            )
             (scratch / "README").write_text(readme, encoding="utf-8")
-            (scratch / "Allrun").write_text(ALLRUN, encoding="utf-8")
+            commands = SERIAL if processes == 1 else PARALLEL.format(processes=processes)
+            (scratch / "Allrun").write_text(ALLRUN.format(commands=commands), encoding="utf-8")
             (scratch / "Allrun").chmod(0o755)
             (scratch / CARD).write_text(json.dumps(asdict(card), indent=1) + "\n", encoding="utf-8")
             scratch.replace(directory)

@@ -17,6 +17,14 @@ ITERATIONS = 5000
 VELOCITY_RELAXATION = 0.95
 """SIMPLEC; the converged answer depends slightly on it, so it is one number for every case."""
 
+ADVECTION = {
+    "linear_upwind": ("bounded", "Gauss", "linearUpwind", "grad(U)"),
+    "upwind": ("bounded", "Gauss", "upwind"),
+    "": ("bounded", "Gauss", "linearUpwind", "grad(U)"),
+}
+"""How each advection scheme is written; "" is for flows in which nothing depends on it. ``linear_upwind`` is of
+second order; ``upwind`` of first, which is what hybrid schemes fall back to where cells are coarse."""
+
 SIDES = (
     Patch(name="inlet", entries={"type": "cyclic", "neighbourPatch": "outlet"}),
     Patch(name="outlet", entries={"type": "cyclic", "neighbourPatch": "inlet"}),
@@ -28,7 +36,7 @@ SIDES = (
 """The patches of a channel at x-, x+, y-, y+, z-, z+."""
 
 
-def write_dictionaries(directory: Path, *, viscosity: float, tolerance: float) -> None:
+def write_dictionaries(directory: Path, *, viscosity: float, tolerance: float, scheme: str, processes: int) -> None:
     """Write ``system``, ``constant`` and ``0`` of a channel whose upper wall slides at speed 1.
 
     Parameters
@@ -37,8 +45,12 @@ def write_dictionaries(directory: Path, *, viscosity: float, tolerance: float) -
         Kinematic viscosity in units of film thickness times sliding speed: 1 / Re.
     tolerance
         The initial residuals at which the iteration stops.
+    scheme
+        A key of ``ADVECTION``.
+    processes
+        Into how many parts along the film a parallel run is to cut the mesh.
     """
-    for name, (kind, entries) in _dictionaries(viscosity, tolerance).items():
+    for name, (kind, entries) in _dictionaries(viscosity, tolerance, scheme, processes).items():
         path = directory / name
         path.parent.mkdir(parents=True, exist_ok=True)
         with FoamFile(path) as file:
@@ -47,7 +59,9 @@ def write_dictionaries(directory: Path, *, viscosity: float, tolerance: float) -
                 file[key] = value
 
 
-def _dictionaries(viscosity: float, tolerance: float) -> dict[str, tuple[str, Mapping[str, Any]]]:
+def _dictionaries(
+    viscosity: float, tolerance: float, scheme: str, processes: int
+) -> dict[str, tuple[str, Mapping[str, Any]]]:
     linear = ("Gauss", "linear")
     return {
         "system/controlDict": (
@@ -73,7 +87,7 @@ def _dictionaries(viscosity: float, tolerance: float) -> dict[str, tuple[str, Ma
                 "gradSchemes": {"default": linear},
                 "divSchemes": {
                     "default": "none",
-                    "div(phi,U)": ("bounded", "Gauss", "linearUpwind", "grad(U)"),
+                    "div(phi,U)": ADVECTION[scheme],
                     "div((nuEff*dev2(T(grad(U)))))": linear,
                 },
                 "laplacianSchemes": {"default": (*linear, "corrected")},
@@ -107,6 +121,14 @@ def _dictionaries(viscosity: float, tolerance: float) -> dict[str, tuple[str, Ma
                     "residualControl": {"p": tolerance, "U": tolerance},
                 },
                 "relaxationFactors": {"fields": {"p": 1.0}, "equations": {"U": VELOCITY_RELAXATION}},
+            },
+        ),
+        "system/decomposeParDict": (
+            "dictionary",
+            {
+                "numberOfSubdomains": processes,
+                "method": "simple",
+                "simpleCoeffs": {"n": [processes, 1, 1], "delta": 0.001},
             },
         ),
         "constant/transportProperties": ("dictionary", {"transportModel": "Newtonian", "nu": viscosity}),

@@ -11,16 +11,25 @@ from pathlib import Path
 from rom.ladder import Availability
 
 PROGRAMS = ("checkMesh", "simpleFoam")
+OPEN_MPI = {
+    "OMPI_ALLOW_RUN_AS_ROOT": "1",
+    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+    "OMPI_MCA_rmaps_base_oversubscribe": "1",
+    "OMPI_MCA_hwloc_base_binding_policy": "none",
+}
+"""Open MPI as in a container: by any user, on any number of cores, and several runs not all on the first cores."""
+
 REMEDY = "install it with: sudo apt-get install openfoam"
 
 
 @cache
 def environment() -> Mapping[str, str]:
     """The environment to run OpenFOAM in: a sourced distribution as it is, else Debian's package found by dpkg."""
+    found = {**os.environ, **OPEN_MPI}
     if os.environ.get("WM_PROJECT_DIR"):
-        return dict(os.environ)
+        return found
     place = _packaged()
-    return {**os.environ, "WM_PROJECT_DIR": str(place)} if place else dict(os.environ)
+    return {**found, "WM_PROJECT_DIR": str(place)} if place else found
 
 
 @cache

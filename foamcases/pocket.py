@@ -13,7 +13,7 @@ from foamcases.dictionaries import VELOCITY_RELAXATION
 from foamcases.fields import read_channel
 from foamcases.openfoam import availability
 from foamcases.run import Run, run_case
-from rom.ladder import Applicability, Effect, Model, Progress, silent
+from rom.ladder import Applicability, Effect, Model, Progress, Write, chosen_scheme, silent
 from rom.provenance import provenance
 from rom.result import Field, Numerics, Result, pocket_quantities
 from rom.scene import Scene
@@ -34,13 +34,24 @@ def write(
     scene: Scene,
     directory: Path,
     *,
+    model: str,
+    schemes: tuple[str, ...],
     reynolds_number: float | None,
     resolution: int | None = None,
     tolerance: float | None = None,
+    scheme: str | None = None,
+    processes: int = 1,
 ) -> None:
     """Write the case at the given Reynolds number (None: the scene's); errors as :func:`foamcases.case.write_case`."""
-    number = scene.reynolds_number if reynolds_number is None else reynolds_number
-    write_case(scene, directory, reynolds_number=number, resolution=resolution, tolerance=tolerance)
+    write_case(
+        scene,
+        directory,
+        reynolds_number=scene.reynolds_number if reynolds_number is None else reynolds_number,
+        resolution=resolution,
+        tolerance=tolerance,
+        scheme=chosen_scheme(model, schemes, scheme),
+        processes=processes,
+    )
 
 
 def read(scene: Scene, directory: Path, run: Run, *, model: str, keeps: frozenset[Effect]) -> Result:
@@ -75,6 +86,7 @@ def read(scene: Scene, directory: Path, run: Run, *, model: str, keeps: frozense
             degrees_of_freedom=3 * card.columns * card.layers,
             resolution=card.resolution,
             tolerance=card.tolerance,
+            scheme=card.scheme,
         ),
         provenance=provenance(
             scene,
@@ -83,6 +95,7 @@ def read(scene: Scene, directory: Path, run: Run, *, model: str, keeps: frozense
             openfoam=run.version,
             velocity_relaxation=VELOCITY_RELAXATION,
             reynolds_number_run=card.reynolds_number,
+            processes=card.processes,
             warnings=[*cautions(scene, keeps), *run.warnings],
         ),
     )
@@ -93,9 +106,11 @@ def solve(
     *,
     model: str,
     keeps: frozenset[Effect],
-    reynolds_number: float | None,
+    write: Write,
     resolution: int | None = None,
     tolerance: float | None = None,
+    scheme: str | None = None,
+    processes: int = 1,
     progress: Progress = silent,
 ) -> Result:
     """Write, run and read in a directory that is removed afterwards; raises what the three raise."""
@@ -105,7 +120,7 @@ def solve(
     wall, cpu = time.perf_counter(), time.process_time()
     with tempfile.TemporaryDirectory(prefix="roughfilm-") as place:
         directory = Path(place) / model
-        write(scene, directory, reynolds_number=reynolds_number, resolution=resolution, tolerance=tolerance)
+        write(scene, directory, resolution=resolution, tolerance=tolerance, scheme=scheme, processes=processes)
         run = run_case(directory, progress=progress)
         spent = time.process_time() - cpu
         whole = replace(run, cpu_s=run.cpu_s + spent, wall_s=time.perf_counter() - wall)
@@ -119,8 +134,10 @@ def openfoam_model(
     keeps: frozenset[Effect],
     applies: Callable[[Scene], Applicability],
     reynolds_number: float | None = None,
+    schemes: tuple[str, ...] = (),
 ) -> Model:
     """A rung that runs OpenFOAM at the given Reynolds number (None: the scene's)."""
+    write_model = partial(write, model=name, schemes=schemes, reynolds_number=reynolds_number)
     return Model(
         name=name,
         summary=summary,
@@ -133,7 +150,8 @@ def openfoam_model(
         order=2,
         cost=cost,
         applies=applies,
-        solve=partial(solve, model=name, keeps=keeps, reynolds_number=reynolds_number),
+        solve=partial(solve, model=name, keeps=keeps, write=write_model),
         available=availability,
-        write=partial(write, reynolds_number=reynolds_number),
+        write=write_model,
+        schemes=schemes,
     )

@@ -52,10 +52,11 @@ def run_case(directory: Path, *, progress: Progress = silent) -> Run:
     found = availability()
     if not found.available:
         raise UnavailableError(found.detail)
-    tolerance = read_card(directory).tolerance
+    card = read_card(directory)
+    tolerance = card.tolerance
     wall, cpu = time.perf_counter(), _children_cpu()
 
-    mesh_log = _execute(directory, "checkMesh", "log.checkMesh")
+    mesh_log = _execute(directory, ["checkMesh"], "log.checkMesh")
     if "Mesh OK" not in mesh_log:
         raise _failure("the mesh check found faults; change the resolution or the groove's shape", mesh_log)
 
@@ -65,7 +66,14 @@ def run_case(directory: Path, *, progress: Progress = silent) -> Run:
             done = math.log(max(residuals)) / math.log(tolerance)
             progress(min(max(done, 0.0), 1.0), f"simpleFoam, residual {max(residuals):.0e}")
 
-    log = _execute(directory, "simpleFoam", "log.simpleFoam", watch)
+    if card.processes > 1:
+        _execute(directory, ["decomposePar"], "log.decomposePar")
+        log = _execute(
+            directory, ["mpirun", "-np", str(card.processes), "simpleFoam", "-parallel"], "log.simpleFoam", watch
+        )
+        _execute(directory, ["reconstructPar", "-latestTime"], "log.reconstructPar")
+    else:
+        log = _execute(directory, ["simpleFoam"], "log.simpleFoam", watch)
     converged = re.search(r"SIMPLE solution converged in (\d+) iterations", log)
     if converged is None:
         raise _failure(
@@ -77,7 +85,7 @@ def run_case(directory: Path, *, progress: Progress = silent) -> Run:
     control = FoamFile(directory / "system" / "controlDict")
     end_time = control["endTime"]
     control["endTime"] = int(converged[1]) + 1
-    again = _execute(directory, "simpleFoam", "log.verify")
+    again = _execute(directory, ["simpleFoam"], "log.verify")
     control["endTime"] = end_time
     residual = max(_last_residuals(again), default=math.inf)
     if not residual <= 2 * tolerance:
@@ -93,12 +101,12 @@ def run_case(directory: Path, *, progress: Progress = silent) -> Run:
     )
 
 
-def _execute(directory: Path, program: str, log_name: str, watch: Callable[[str], None] | None = None) -> str:
+def _execute(directory: Path, command: list[str], log_name: str, watch: Callable[[str], None] | None = None) -> str:
     """Run a program of OpenFOAM to its end and return its log; ConvergenceError if it stops in error."""
     path = directory / log_name
     with path.open("w", encoding="utf-8") as log:
         process = subprocess.Popen(
-            [program], cwd=directory, env=environment(), stdin=subprocess.DEVNULL, stdout=log, stderr=log
+            command, cwd=directory, env=environment(), stdin=subprocess.DEVNULL, stdout=log, stderr=log
         )
         try:
             while True:
@@ -113,7 +121,7 @@ def _execute(directory: Path, program: str, log_name: str, watch: Callable[[str]
             process.wait()
     text = path.read_text(encoding="utf-8", errors="replace")
     if process.returncode != 0:
-        raise _failure(f"{program} stopped with code {process.returncode}; look into the log below", text)
+        raise _failure(f"{command[0]} stopped with code {process.returncode}; look into the log below", text)
     return text
 
 

@@ -51,9 +51,9 @@ def silent(fraction: float, words: str) -> None:
 
 
 class Solve(Protocol):
-    """solve(scene, resolution=None, tolerance=None, progress=silent) → Result.
+    """solve(scene, resolution=None, tolerance=None, scheme=None, processes=1, progress=silent) → Result.
 
-    ``resolution`` None means the model's default. Raises InputError, ConvergenceError or UnavailableError, only.
+    None means the model's default. Raises InputError, ConvergenceError or UnavailableError, only.
     """
 
     def __call__(
@@ -62,6 +62,8 @@ class Solve(Protocol):
         *,
         resolution: int | None = None,
         tolerance: float | None = None,
+        scheme: str | None = None,
+        processes: int = 1,
         progress: Progress = silent,
     ) -> Result:
         """Solve one scene."""
@@ -69,10 +71,17 @@ class Solve(Protocol):
 
 
 class Write(Protocol):
-    """write(scene, directory, resolution=None, tolerance=None): the case that an outside solver runs."""
+    """write(scene, directory, resolution=None, tolerance=None, scheme=None, processes=1): an outside solver's case."""
 
     def __call__(
-        self, scene: Scene, directory: Path, *, resolution: int | None = None, tolerance: float | None = None
+        self,
+        scene: Scene,
+        directory: Path,
+        *,
+        resolution: int | None = None,
+        tolerance: float | None = None,
+        scheme: str | None = None,
+        processes: int = 1,
     ) -> None:
         """Write one case."""
         ...
@@ -84,12 +93,15 @@ class Model:
 
     ``resolutions`` go from coarse to fine, for charts; ``resolution`` is the default one, and
     ``resolution_meaning`` and ``residual_meaning`` say in words what the numbers count.
+    ``complete`` says that the effects it keeps are kept in full, not to some order of smallness.
     ``order`` is that of load and friction in the resolution, None for a spectral method.
+    ``schemes`` names the advection schemes it offers, the default first; empty where there is no choice.
     """
 
     name: str
     summary: str
     keeps: frozenset[Effect]
+    complete: bool = True
     sources: tuple[str, ...]
     resolution: int
     resolutions: tuple[int, ...]
@@ -101,6 +113,7 @@ class Model:
     solve: Solve
     available: Callable[[], Availability] = always
     write: Write | None = None
+    schemes: tuple[str, ...] = ()
 
 
 def ladder(*packages: ModuleType) -> tuple[Model, ...]:
@@ -109,7 +122,7 @@ def ladder(*packages: ModuleType) -> tuple[Model, ...]:
         module.name for package in packages for module in pkgutil.iter_modules(package.__path__, package.__name__ + ".")
     ]
     models: list[Model] = [importlib.import_module(name).MODEL for name in names]
-    return tuple(sorted(models, key=lambda model: (len(model.keeps), sorted(model.keeps), model.name)))
+    return tuple(sorted(models, key=lambda model: (len(model.keeps), sorted(model.keeps), model.complete, model.name)))
 
 
 def find(models: Sequence[Model], name: str) -> Model:
@@ -120,16 +133,35 @@ def find(models: Sequence[Model], name: str) -> Model:
     raise InputError(f"--model: got {name!r}; it must be one of {', '.join(model.name for model in models)}")
 
 
+def chosen_scheme(model: str, schemes: Sequence[str], scheme: str | None) -> str:
+    """The advection scheme asked of a model that offers these: the first for None, "" where there is no choice.
+
+    Raises InputError for a name that is not offered.
+    """
+    if scheme is None:
+        return schemes[0] if schemes else ""
+    if scheme not in schemes:
+        remedy = f"it must be one of {', '.join(schemes)}" if schemes else "it offers no choice, leave the option out"
+        raise InputError(f"--scheme: got {scheme!r} for {model}; {remedy}")
+    return scheme
+
+
+def one_process(model: str, processes: int) -> None:
+    """InputError if a model that computes in this process is asked for more of them."""
+    if processes != 1:
+        raise InputError(f"--processes: got {processes}; {model} runs in one process, leave the option out")
+
+
 def best(models: Sequence[Model]) -> Model:
-    """The rung that keeps the most (of equals the first); every other model's error is measured against it."""
-    return max(models, key=lambda model: len(model.keeps))
+    """The rung that keeps the most, and in full; every other model's error is measured against it."""
+    return max(models, key=lambda model: (len(model.keeps), model.complete))
 
 
 def one_effect_away(model: Model, models: Sequence[Model]) -> tuple[tuple[Model, Effect], ...]:
-    """The models that keep exactly one effect more than ``model``, each with that effect."""
+    """The models that keep exactly one effect more than ``model``, both in full, each with that effect."""
     pairs = []
     for other in models:
         extra = other.keeps - model.keeps
-        if model.keeps < other.keeps and len(extra) == 1:
+        if model.complete and other.complete and model.keeps < other.keeps and len(extra) == 1:
             pairs.append((other, next(iter(extra))))
     return tuple(pairs)

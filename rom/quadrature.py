@@ -10,7 +10,7 @@ import numpy as np
 from contact.errors import ConvergenceError, InputError
 from rom import film_flow
 from rom.gap import Array, Gap
-from rom.ladder import Applicability, Effect, Model, Progress, silent
+from rom.ladder import Applicability, Effect, Model, Progress, chosen_scheme, one_process, silent
 from rom.piecewise import Rule, extrema, gauss_rule
 from rom.provenance import provenance
 from rom.result import Field, Numerics, Result, pocket_quantities
@@ -62,6 +62,8 @@ def solve(
     sources: tuple[str, ...],
     resolution: int | None = None,
     tolerance: float | None = None,
+    scheme: str | None = None,
+    processes: int = 1,
     progress: Progress = silent,
 ) -> Result:
     """Solve dp/dx = 6/h² - 12 q/h³ (+ first-order inertia if it is kept) for a periodic gap.
@@ -73,11 +75,13 @@ def solve(
     Raises
     ------
     InputError
-        For a resolution outside 2..768 or a tolerance outside 0..1.
+        For a resolution outside 2..768, a tolerance outside 0..1, a scheme, or more than one process.
     ConvergenceError
         If the finest rule does not meet the tolerance.
     """
     wall, cpu = time.perf_counter(), time.process_time()
+    scheme = chosen_scheme(model, (), scheme)
+    one_process(model, processes)
     if resolution is not None and not 2 <= resolution <= FINEST:
         raise InputError(f"--resolution: got {resolution}; {model} takes 2 to {FINEST} {RESOLUTION_MEANING}")
     tolerance = TOLERANCE if tolerance is None else tolerance
@@ -146,6 +150,7 @@ def solve(
             degrees_of_freedom=film.x.size,
             resolution=order,
             tolerance=tolerance,
+            scheme=scheme,
         ),
     )
 
@@ -155,6 +160,7 @@ def quadrature_model(
     name: str,
     summary: str,
     keeps: frozenset[Effect],
+    complete: bool = True,
     sources: tuple[str, ...],
     applies: Callable[[Scene], Applicability],
 ) -> Model:
@@ -163,6 +169,7 @@ def quadrature_model(
         name=name,
         summary=summary,
         keeps=keeps,
+        complete=complete,
         sources=sources,
         resolution=RESOLUTION,
         resolutions=RESOLUTIONS,

@@ -31,7 +31,7 @@ class Numerics:
     """How a result was computed.
 
     ``residual`` is recomputed after the solver claims success; what it measures is the model's ``residual_meaning``.
-    ``cpu_s`` counts this process and its children.
+    ``cpu_s`` counts this process and its children; ``scheme`` is the advection scheme, "" where there is no choice.
     """
 
     residual: float
@@ -41,6 +41,7 @@ class Numerics:
     degrees_of_freedom: int
     resolution: int
     tolerance: float
+    scheme: str
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -32,6 +32,8 @@ Overrides = Annotated[
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object on standard output, nothing else there.")]
 Resolution = Annotated[int | None, typer.Option(help="Nodes or mesh columns; see 'roughfilm models'.")]
+Scheme = Annotated[str | None, typer.Option(help="Advection scheme; see 'roughfilm models'.")]
+Processes = Annotated[int, typer.Option(help="Processes of one OpenFOAM run (MPI).")]
 Tolerance = Annotated[float | None, typer.Option(help="Residual at which a solver stops.")]
 
 messages = Console(stderr=True, highlight=False)
@@ -119,7 +121,7 @@ def progress_bar(total: float) -> Iterator[Callable[[float, str], None]]:
         TimeRemainingColumn(),
     )
     shown = messages.is_terminal
-    with Progress(*columns, console=messages, transient=True, disable=not shown) as bar:
+    with Progress(*columns, console=messages, transient=True, disable=not shown, speed_estimate_period=3600) as bar:
         task = bar.add_task("starting", total=total)
         yield lambda done, words: bar.update(task, completed=done, description=escape(words))
 

@@ -19,6 +19,7 @@ def command(as_json: AsJson = False) -> None:
                         "keeps": sorted(model.keeps),
                         "resolution": model.resolution,
                         "resolution_meaning": model.resolution_meaning,
+                        "schemes": model.schemes,
                         "available": found.available,
                         "detail": found.detail,
                     }
@@ -27,13 +28,14 @@ def command(as_json: AsJson = False) -> None:
             }
         )
         return
-    table = Table("model", "what it adds", "keeps", "resolution", "here", title="The ladder, plainest first")
+    table = Table("model", "what it adds", "keeps", "resolution", "schemes", "here", title="The ladder, plainest first")
     for model, found in rows:
         table.add_row(
             model.name,
             model.summary,
             ", ".join(sorted(model.keeps)) or "-",
             f"{model.resolution} {model.resolution_meaning}",
+            ", ".join(model.schemes) or "-",
             ("[green]yes[/]: " if found.available else "[red]no[/]: ") + found.detail,
         )
     output.print(table)

@@ -14,8 +14,10 @@ from rom.store import as_entries, save
 from scripts.common import (
     AsJson,
     Overrides,
+    Processes,
     Resolution,
     ScenePath,
+    Scheme,
     Tolerance,
     in_one_line,
     models,
@@ -34,13 +36,17 @@ def command(
     set_: Overrides = None,
     resolution: Resolution = None,
     tolerance: Tolerance = None,
+    scheme: Scheme = None,
+    processes: Processes = 1,
     as_json: AsJson = False,
 ) -> None:
     """Solve a scene with one model."""
     rung = find(models(), model)
     read = load_scene(scene, set_ or ())
     with progress_bar(1.0) as advance:
-        result = rung.solve(read, resolution=resolution, tolerance=tolerance, progress=advance)
+        result = rung.solve(
+            read, resolution=resolution, tolerance=tolerance, scheme=scheme, processes=processes, progress=advance
+        )
     if out is not None:
         save(result, out)
     if as_json:

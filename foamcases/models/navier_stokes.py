@@ -17,4 +17,5 @@ MODEL = openfoam_model(
     summary="adds slope and inertia in full: the best rung",
     keeps=frozenset({Effect.SLOPE, Effect.INERTIA}),
     applies=applies,
+    schemes=("linear_upwind", "upwind"),
 )

@@ -18,6 +18,7 @@ MODEL = quadrature_model(
     name="inertial_reynolds",
     summary="adds inertia to first order in the Reynolds number",
     keeps=frozenset({Effect.INERTIA}),
+    complete=False,
     sources=("10.1098/rstl.1886.0005", "10.1115/1.1828067"),
     applies=applies,
 )

@@ -16,7 +16,9 @@ pytestmark = pytest.mark.openfoam
 
 @pytest.fixture
 def case(make_scene, tmp_path):
-    write_case(make_scene(0.3, 0.25, 40), tmp_path, reynolds_number=40.0, resolution=30, tolerance=1e-5)
+    write_case(
+        make_scene(0.3, 0.25, 40), tmp_path, reynolds_number=40.0, resolution=30, tolerance=1e-5, scheme="linear_upwind"
+    )
     return tmp_path
 
 
