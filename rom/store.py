@@ -1,5 +1,6 @@
 """Results in HDF5: written whole or not at all, read back as they were."""
 
+import io
 import json
 from dataclasses import asdict, fields
 from pathlib import Path
@@ -16,11 +17,15 @@ SCHEMA = 2
 
 
 def save(result: Result, path: Path) -> None:
-    """Write groups ``quantities`` and ``fields`` with units as attributes, ``numerics``, and ``provenance`` (JSON).
+    """Write :func:`as_bytes` to a file; InputError if ``path`` cannot be written."""
+    with replacing(path) as scratch:
+        scratch.write_bytes(as_bytes(result))
 
-    Raises InputError if ``path`` cannot be written.
-    """
-    with replacing(path) as scratch, h5py.File(scratch, "w") as file:
+
+def as_bytes(result: Result) -> bytes:
+    """An HDF5 file: ``quantities`` and ``fields`` with units as attributes, ``numerics``, ``provenance`` as JSON."""
+    memory = io.BytesIO()
+    with h5py.File(memory, "w") as file:
         file.attrs["schema"] = SCHEMA
         file.attrs["model"] = result.model
         file.attrs["provenance"] = json.dumps(result.provenance)
@@ -29,10 +34,11 @@ def save(result: Result, path: Path) -> None:
             file.create_dataset(f"quantities/{name}", data=quantity.value).attrs["unit"] = quantity.unit
         for name, field in result.fields.items():
             file.create_dataset(f"fields/{name}", data=field.values, compression="gzip").attrs["unit"] = field.unit
+    return memory.getvalue()
 
 
-def load(path: Path) -> Result:
-    """Read a result; raises InputError if the file is missing or is not one."""
+def load(path: Path, *, with_fields: bool = True) -> Result:
+    """Read a result, or all of it but its fields; raises InputError if the file is missing or is not one."""
     try:
         with h5py.File(path) as file:
             if file.attrs["schema"] != SCHEMA:
@@ -46,7 +52,7 @@ def load(path: Path) -> Result:
                 },
                 fields={
                     name: Field(values=np.asarray(item[()]), unit=str(item.attrs["unit"]))
-                    for name, item in file["fields"].items()
+                    for name, item in (file["fields"].items() if with_fields else ())
                 },
                 numerics=Numerics(**{entry.name: _plain(numerics[entry.name]) for entry in fields(Numerics)}),
                 provenance=_mapping(json.loads(file.attrs["provenance"])),

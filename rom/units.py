@@ -75,6 +75,19 @@ def to_si(text: object, base: str) -> float:
     return value
 
 
+def is_unit(word: str) -> bool:
+    """Whether a word is a unit of anything.
+
+    >>> is_unit("um"), is_unit("width")
+    (True, False)
+    """
+    try:
+        _factor(word, "m")
+    except ValueError:
+        return False
+    return True
+
+
 def with_unit(value: float, base: str) -> str:
     """Text that ``to_si`` reads back to the same bits.
 

@@ -121,7 +121,7 @@ def progress_bar(total: float) -> Iterator[Callable[[float, str], None]]:
         TimeRemainingColumn(),
     )
     shown = messages.is_terminal
-    with Progress(*columns, console=messages, transient=True, disable=not shown) as bar:
+    with Progress(*columns, console=messages, transient=True, disable=not shown, speed_estimate_period=3600) as bar:
         task = bar.add_task("starting", total=total)
         yield lambda done, words: bar.update(task, completed=done, description=escape(words))
 

@@ -1,17 +1,23 @@
-"""Every run a comparison needs: each solved once, stored as soon as it is done, used again when nothing changed."""
+"""Jobs: each solved once, its answer stored as soon as it is there, used again when nothing changed."""
 
+import json
+import traceback
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 from rich.markup import escape
 
-from contact.errors import ConvergenceError, InputError
+from contact.errors import ConvergenceError, InputError, UnavailableError
+from contact.files import replacing
+from rom.convergence import GRIDS
 from rom.ladder import Model
 from rom.provenance import code, versions
 from rom.result import Result
 from rom.scene import Scene, scene_entries
-from rom.store import load, save
+from rom.setting import Setting
+from rom.store import as_bytes, load
 from scripts.common import messages, progress_bar
 
 QUICK_S = 0.1
@@ -24,80 +30,150 @@ Advance = Callable[[float, str], None]
 
 @dataclass(frozen=True, kw_only=True)
 class Job:
-    """One model at its default resolution (None) or at a given one for the chart, and the file of its result."""
+    """One scene in one setting, and the file of its result."""
 
-    model: Model
-    resolution: int | None
+    scene: Scene
+    setting: Setting
     path: Path
 
-    def cost(self, scene: Scene) -> float:
-        """Expected CPU seconds."""
-        return self.model.cost(scene, self.resolution or self.model.resolution)
-
-    def __str__(self) -> str:
-        return f"{self.model.name} at {self.resolution or 'its default'}"
+    @property
+    def failure_path(self) -> Path:
+        """The file that says why there is no result."""
+        return self.path.with_suffix(".failed.json")
 
 
-def jobs_of(models: Sequence[Model], directory: Path) -> list[Job]:
-    """The default job of every model, then its other resolutions for the chart."""
-    jobs = []
+@dataclass(frozen=True, kw_only=True)
+class Failure:
+    """Why a job has no result: the kind of error, what it said, and the last lines of the log or of the traceback.
+
+    A model that does not converge has answered: it is asked again only when scene, code or versions change. Anything
+    else (a worker that died, a full disk) says nothing of the scene, and the job is tried again the next time.
+    """
+
+    kind: str
+    message: str
+    notes: tuple[str, ...] = ()
+
+    @property
+    def is_answer(self) -> bool:
+        """Whether asking again would give the same."""
+        return self.kind == ConvergenceError.__name__
+
+
+def failure_of(error: Exception) -> Failure:
+    """An error as a record; one that no model raises on purpose brings its traceback."""
+    meant = isinstance(error, InputError | ConvergenceError | UnavailableError)
+    return Failure(
+        kind=type(error).__name__,
+        message=" ".join(str(error).split()) or "no word",
+        notes=tuple(getattr(error, "__notes__", ()) if meant else traceback.format_exception(error)),
+    )
+
+
+def stored(job: Job, *, with_fields: bool = True) -> Result | Failure | None:
+    """The answer on disk, if it was given for the same scene by the same code and versions."""
+    if job.path.is_file():
+        try:
+            result = load(job.path, with_fields=with_fields)
+            if _same(result, job):
+                return result
+        except InputError:
+            pass  # an unreadable file is computed again and replaced
+    try:
+        record = json.loads(job.failure_path.read_text(encoding="utf-8"))
+        failure = Failure(**{**record["failure"], "notes": tuple(record["failure"]["notes"])})
+        return failure if failure.is_answer and record["identity"] == _identity(job) else None
+    except (OSError, ValueError, LookupError, TypeError):
+        return None
+
+
+def store(job: Job, answer: bytes | Failure) -> None:
+    """Write a result's file or a failure's record; InputError if it cannot be written."""
+    if isinstance(answer, bytes):
+        with replacing(job.path) as scratch:
+            scratch.write_bytes(answer)
+        job.failure_path.unlink(missing_ok=True)
+        return
+    with replacing(job.failure_path) as scratch:
+        record = {"failure": asdict(answer), "identity": _identity(job)}
+        scratch.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
+
+
+def _identity(job: Job) -> dict[str, Any]:
+    return {
+        "setting": job.setting.name,
+        "scene": scene_entries(job.scene),
+        "code": code(),
+        "versions": versions(),
+        "needs": job.setting.model.available().detail,
+    }
+
+
+def _same(result: Result, job: Job) -> bool:
+    origin, setting = result.provenance, job.setting
+    return (
+        result.model == setting.model.name
+        and setting.resolution in (None, result.numerics.resolution)
+        and setting.scheme in (None, result.numerics.scheme)
+        and (origin.get("scene"), origin.get("code")) == (scene_entries(job.scene), code())
+        and origin.get("versions") == versions()
+        and origin.get("openfoam") in (None, setting.model.available().detail)
+    )
+
+
+def solved_once(job: Job, step: Advance) -> Result:
+    """The stored answer if there is one; else a new one, stored; raises what the model raises."""
+    answer = stored(job)
+    if answer is None:
+        repeats = REPEATS if job.setting.cost(job.scene) < QUICK_S else 1
+        try:
+            answer = min(
+                (job.setting.solve(job.scene, step) for _ in range(repeats)), key=lambda one: one.numerics.cpu_s
+            )
+        except ConvergenceError as error:
+            store(job, failure_of(error))
+            raise
+        store(job, as_bytes(answer))
+    if isinstance(answer, Failure):
+        raise ConvergenceError(answer.message)
+    return answer
+
+
+def jobs_of(scene: Scene, models: Sequence[Model], directory: Path, grids: int = GRIDS) -> list[Job]:
+    """The default job of every model, then its other resolutions for the chart and the convergence.
+
+    Beyond ``GRIDS``, a model of formal order gets more ``grids``, each twice as fine as the one before.
+    """
+    settings = []
     for model in models:
-        jobs.append(Job(model=model, resolution=None, path=directory / f"{model.name}.h5"))
-        jobs += [
-            Job(model=model, resolution=n, path=directory / f"{model.name}-{n}.h5")
-            for n in model.resolutions
-            if n != model.resolution
-        ]
-    return jobs
+        finer = [model.resolution * 2**k for k in range(1, grids - GRIDS + 1)] if model.order else []
+        others = [n for n in (*model.resolutions, *finer) if n != model.resolution]
+        settings += [Setting(model=model, resolution=resolution) for resolution in (None, *others)]
+    return [Job(scene=scene, setting=setting, path=directory / f"{setting.name}.h5") for setting in settings]
 
 
-def run_all(scene: Scene, jobs: Sequence[Job], failed: dict[str, str]) -> list[tuple[Job, Result]]:
+def run_all(jobs: Sequence[Job], failed: dict[str, str]) -> list[tuple[Job, Result]]:
     """Solve what is not solved already; a model that fails at its default resolution is put among the failed."""
     done: list[tuple[Job, Result]] = []
-    with progress_bar(sum(job.cost(scene) for job in jobs)) as advance:
-        spent = 0.0
-        for job in jobs:
+    costs = [job.setting.cost(job.scene) for job in jobs]
+    with progress_bar(sum(costs)) as advance:
+        for number, job in enumerate(jobs):
             try:
-                done.append((job, solved_once(scene, job, _within(advance, job, spent, scene))))
+                done.append(
+                    (job, solved_once(job, _within(advance, job.setting.name, sum(costs[:number]), costs[number])))
+                )
             except ConvergenceError as error:
-                if job.resolution is None:
-                    failed[job.model.name] = str(error)
+                if job.setting.resolution is None:
+                    failed[job.setting.model.name] = str(error)
                 else:
-                    messages.print(f"[yellow]not on the chart:[/] {job}: {escape(str(error))}", soft_wrap=True)
-            spent += job.cost(scene)
+                    told = f"[yellow]grid left out:[/] {job.setting.name}: {escape(str(error))}"
+                    messages.print(told, soft_wrap=True)
     return done
 
 
-def _within(advance: Advance, job: Job, spent: float, scene: Scene) -> Advance:
+def _within(advance: Advance, name: str, spent: float, cost: float) -> Advance:
     def step(done: float, words: str) -> None:
-        advance(spent + done * job.cost(scene), f"{job}: {words}")
+        advance(spent + done * cost, f"{name}: {words}")
 
     step(0.0, "starting")
     return step
-
-
-def solved_once(scene: Scene, job: Job, step: Advance) -> Result:
-    """The stored result if it was computed from the same scene by the same code; else a new one, stored."""
-    if job.path.is_file():
-        try:
-            stored = load(job.path)
-            if _same(stored, scene, job):
-                return stored
-        except InputError:
-            pass  # an unreadable file is computed again and replaced
-    repeats = REPEATS if job.cost(scene) < QUICK_S else 1
-    tries = [job.model.solve(scene, resolution=job.resolution, progress=step) for _ in range(repeats)]
-    result = min(tries, key=lambda one: one.numerics.cpu_s)
-    save(result, job.path)
-    return result
-
-
-def _same(stored: Result, scene: Scene, job: Job) -> bool:
-    origin = stored.provenance
-    return (
-        stored.model == job.model.name
-        and job.resolution in (None, stored.numerics.resolution)
-        and (origin.get("scene"), origin.get("code")) == (scene_entries(scene), code())
-        and origin.get("versions") == versions()
-        and origin.get("openfoam") in (None, job.model.available().detail)
-    )

@@ -14,10 +14,10 @@ def results(make_scene):
     return {model.name: model.solve(make_scene(0.3, 0.25, 40)) for model in MODELS}
 
 
-def test_inertia_is_what_the_inertial_model_adds(results):
+def test_inertia_is_what_the_film_adds(results):
     found = {d.quantity: d for d in effects(MODELS, results)}
     assert found["load_plus"].effect is Effect.INERTIA
-    assert (found["load_plus"].model, found["load_plus"].other) == ("inertial_reynolds", "reynolds")
+    assert (found["load_plus"].model, found["load_plus"].other) == ("film", "reynolds")
     assert found["load_plus"].absolute == pytest.approx(0.890, abs=1e-3)
     assert found["load_plus"].relative == pytest.approx(1.0)
     assert found["friction_plus"].absolute == pytest.approx(0, abs=1e-12)

@@ -1,0 +1,29 @@
+"""A model for the tests of batches: what it does depends on the Reynolds number, and it notes every attempt."""
+
+import os
+import signal
+import time
+from dataclasses import replace
+from pathlib import Path
+
+from contact.errors import ConvergenceError
+from rom.models.reynolds import MODEL as REYNOLDS
+
+DIVERGES, DIES, BREAKS = 7.0, 8.0, 9.0
+SECONDS = float(os.environ.get("MOODY_SECONDS", "0"))
+
+
+def solve(scene, **options):
+    with Path(os.environ["MOODY_NOTES"]).open("a") as notes:
+        notes.write(f"{scene.reynolds_number:g}\n")
+    if scene.reynolds_number == DIVERGES:
+        raise ConvergenceError("moody: the residual grows;\nlower the Reynolds number")
+    if scene.reynolds_number == DIES:
+        os.kill(os.getpid(), signal.SIGKILL)
+    if scene.reynolds_number == BREAKS:
+        raise ZeroDivisionError("a fault in a model")
+    time.sleep(SECONDS)
+    return replace(REYNOLDS.solve(scene, **options), model="moody")
+
+
+MODEL = replace(REYNOLDS, name="moody", solve=solve, cost=lambda _scene, _resolution: SECONDS)
