@@ -8,6 +8,7 @@ from pathlib import Path
 from contact.errors import InputError
 from foamcases import mesh
 from foamcases.dictionaries import SIDES, write_dictionaries
+from foamcases.openfoam import OPEN_MPI
 from rom.scene import Scene
 
 CARD = "case.json"
@@ -18,6 +19,7 @@ TOLERANCE = 1e-7
 SERIAL = "simpleFoam > log.simpleFoam 2>&1"
 PARALLEL = (
     "decomposePar > log.decomposePar 2>&1 &&\n"
+    "    env {environment} \\\n"
     "    mpirun -np {processes} simpleFoam -parallel > log.simpleFoam 2>&1 &&\n"
     "    reconstructPar -latestTime > log.reconstructPar 2>&1"
 )
@@ -108,7 +110,8 @@ def write_case(
                 scratch, viscosity=1 / reynolds_number, tolerance=tolerance, scheme=scheme, processes=processes
             )
             (scratch / "README").write_text(readme, encoding="utf-8")
-            commands = SERIAL if processes == 1 else PARALLEL.format(processes=processes)
+            settings = " ".join(f"{name}={value}" for name, value in OPEN_MPI.items())
+            commands = SERIAL if processes == 1 else PARALLEL.format(processes=processes, environment=settings)
             (scratch / "Allrun").write_text(ALLRUN.format(commands=commands), encoding="utf-8")
             (scratch / "Allrun").chmod(0o755)
             (scratch / CARD).write_text(json.dumps(asdict(card), indent=1) + "\n", encoding="utf-8")
