@@ -9,40 +9,12 @@ from foamlib import FoamFile
 from numpy.typing import NDArray
 
 from rom.gap import Array, Gap
+from rom.grid import columns
 
 LAYERS_PER_COLUMN = 1 / 5
 """Cells across the film for each cell along it."""
 
-EDGE_DENSITY = 10.0
-"""How many times denser the columns stand at a break of the gap than far from one."""
-
-EDGE_REACH = 1.0
-"""How far from a break the columns stay dense, in film thicknesses: about as far as the flow feels the break."""
-
 ARCHITECTURE = '"LSB;label=32;scalar=64"'
-
-
-def columns(gap: Gap, resolution: int) -> Array:
-    """Positions of about ``resolution`` + 1 mesh columns over the period, in film thicknesses.
-
-    The density is 1 + (c-1) Σ 1 / (1 + ((x - e)/r)²) over the inner breaks e, with c = ``EDGE_DENSITY`` and
-    r = ``EDGE_REACH``; each piece gets a whole number of cells, so that every break is a column.
-    """
-    breaks = np.array(gap.breaks) / gap.film
-    edges = breaks[1:-1]
-
-    def cells_up_to(x: Array) -> Array:
-        bumps = np.arctan((x[:, None] - edges) / EDGE_REACH) * EDGE_REACH
-        return np.asarray(x + (EDGE_DENSITY - 1) * bumps.sum(axis=1))
-
-    ends = cells_up_to(breaks)
-    counts = np.maximum(2, np.round(np.diff(ends) / (ends[-1] - ends[0]) * resolution, 6).round().astype(int))
-    pieces = []
-    for left, right, count in zip(breaks[:-1], breaks[1:], counts, strict=True):
-        fine = np.linspace(left, right, 40 * count + 1)
-        measure = cells_up_to(fine)
-        pieces.append(np.interp(np.linspace(measure[0], measure[-1], count + 1), measure, fine)[:-1])
-    return np.append(np.concatenate(pieces), breaks[-1])
 
 
 def layered(gap: Gap, resolution: int) -> Array:

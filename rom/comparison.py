@@ -11,9 +11,6 @@ COMPARED = ("load_plus", "friction_plus")
 LEAST_LOAD = 1e-3
 """A load below this part of the greatest pressure is no load to divide by; the pressure is taken instead."""
 
-SAFETY = 3.0
-"""The usual factor of the grid convergence index where only two grids are compared."""
-
 
 @dataclass(frozen=True, kw_only=True)
 class Difference:
@@ -98,29 +95,6 @@ def points(reference: Result, runs: Sequence[Result]) -> tuple[Point, ...]:
         for run in runs
         if (run.model, run.numerics.resolution) != (reference.model, reference.numerics.resolution)
     )
-
-
-def uncertainty(model: Model, reference: Result, runs: Sequence[Result]) -> dict[str, float]:
-    """Relative numerical uncertainty of a reference run in each compared quantity, from the next coarser run.
-
-    The grid convergence index SAFETY |f - f_coarser| / (r^p - 1) for a grid r times as coarse and a model of order p;
-    for a model of no fixed order (spectral) the whole difference. Empty if there is no coarser run.
-    Source: Roache 1994, doi:10.1115/1.2910291.
-    """
-    coarser = [
-        run for run in runs if run.model == model.name and run.numerics.resolution < reference.numerics.resolution
-    ]
-    if not coarser:
-        return {}
-    near = max(coarser, key=lambda run: run.numerics.resolution)
-    ratio = reference.numerics.resolution / near.numerics.resolution
-    factor = 1.0 if model.order is None else SAFETY / (ratio**model.order - 1)
-    return {
-        quantity: factor
-        * abs(reference.quantities[quantity].value - near.quantities[quantity].value)
-        / scale(reference, quantity)
-        for quantity in COMPARED
-    }
 
 
 def pareto_front(chart: Sequence[Point], quantity: str) -> tuple[Point, ...]:

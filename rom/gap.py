@@ -20,13 +20,16 @@ class Gap:
     film
         Film thickness where the walls are parallel, m; the unit of length inside the solvers.
     breaks
-        Where h or its slope is not smooth, from one end of the period to the other, m, increasing.
+        Where h or a derivative of it is not smooth, from one end of the period to the other, m, increasing.
+    corners
+        Those breaks where the slope of h jumps, m; the end of the period, which is also its start, counts as its start.
     thickness
         h(x), m, for x in m; vectorised; periodic over ``length``.
     """
 
     film: float
     breaks: tuple[float, ...]
+    corners: tuple[float, ...]
     thickness: Callable[[Array], Array]
 
     @property

@@ -93,6 +93,7 @@ class Model:
 
     ``resolutions`` go from coarse to fine, for charts; ``resolution`` is the default one, and
     ``resolution_meaning`` and ``residual_meaning`` say in words what the numbers count.
+    ``complete`` says that the effects it keeps are kept in full, not to some order of smallness.
     ``order`` is that of load and friction in the resolution, None for a spectral method.
     ``schemes`` names the advection schemes it offers, the default first; empty where there is no choice.
     """
@@ -100,6 +101,7 @@ class Model:
     name: str
     summary: str
     keeps: frozenset[Effect]
+    complete: bool = True
     sources: tuple[str, ...]
     resolution: int
     resolutions: tuple[int, ...]
@@ -120,7 +122,7 @@ def ladder(*packages: ModuleType) -> tuple[Model, ...]:
         module.name for package in packages for module in pkgutil.iter_modules(package.__path__, package.__name__ + ".")
     ]
     models: list[Model] = [importlib.import_module(name).MODEL for name in names]
-    return tuple(sorted(models, key=lambda model: (len(model.keeps), sorted(model.keeps), model.name)))
+    return tuple(sorted(models, key=lambda model: (len(model.keeps), sorted(model.keeps), model.complete, model.name)))
 
 
 def find(models: Sequence[Model], name: str) -> Model:
@@ -151,15 +153,15 @@ def one_process(model: str, processes: int) -> None:
 
 
 def best(models: Sequence[Model]) -> Model:
-    """The rung that keeps the most (of equals the first); every other model's error is measured against it."""
-    return max(models, key=lambda model: len(model.keeps))
+    """The rung that keeps the most, and in full; every other model's error is measured against it."""
+    return max(models, key=lambda model: (len(model.keeps), model.complete))
 
 
 def one_effect_away(model: Model, models: Sequence[Model]) -> tuple[tuple[Model, Effect], ...]:
-    """The models that keep exactly one effect more than ``model``, each with that effect."""
+    """The models that keep exactly one effect more than ``model``, both in full, each with that effect."""
     pairs = []
     for other in models:
         extra = other.keeps - model.keeps
-        if model.keeps < other.keeps and len(extra) == 1:
+        if model.complete and other.complete and model.keeps < other.keeps and len(extra) == 1:
             pairs.append((other, next(iter(extra))))
     return tuple(pairs)

@@ -111,7 +111,11 @@ def solve(
     across = film.half * (gradient @ rule.weights)[:, None]
     start = np.vstack([[0.0], np.cumsum(across)[:-1, None]])
     pressure = start + film.half * (gradient @ rule.primitive.T)
+    ends = start.ravel()  # pressure at the left end of each piece
     if reynolds_number:
+        ends = ends + reynolds_number * film_flow.inertia_pressure(
+            gap.thickness(np.array(gap.breaks[:-1])) / gap.film, q
+        )
         pressure = pressure + reynolds_number * film_flow.inertia_pressure(film.h, q)
         slope = (film.h @ rule.derivative.T) / film.half
         gradient = gradient + reynolds_number * film_flow.inertia_pressure_gradient(film.h, slope, q)
@@ -119,7 +123,6 @@ def solve(
     length = 2 * film.half.sum()
     weights = film.half * rule.weights
     lowest, highest = extrema(film.x, pressure, gradient)
-    ends = start.ravel()  # pressure at the left end of each piece, where h = 1 and inertia adds nothing
     quantities = pocket_quantities(
         scene,
         load=float((weights * pressure).sum() / length),
@@ -157,6 +160,7 @@ def quadrature_model(
     name: str,
     summary: str,
     keeps: frozenset[Effect],
+    complete: bool = True,
     sources: tuple[str, ...],
     applies: Callable[[Scene], Applicability],
 ) -> Model:
@@ -165,6 +169,7 @@ def quadrature_model(
         name=name,
         summary=summary,
         keeps=keeps,
+        complete=complete,
         sources=sources,
         resolution=RESOLUTION,
         resolutions=RESOLUTIONS,

@@ -4,100 +4,35 @@ import difflib
 import json
 import tomllib
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import (
-    AfterValidator,
-    BaseModel,
-    BeforeValidator,
-    ConfigDict,
-    Field,
-    GetCoreSchemaHandler,
-    ValidationError,
-    model_validator,
-)
-from pydantic_core import core_schema
+from pydantic import Field, ValidationError, model_validator
 
 from contact.errors import InputError
-from rom import groove
+from rom.entries import Density, Part, PositiveNumber, Speed, Viscosity
 from rom.gap import Gap
-from rom.units import to_si, with_unit
+from rom.geometry import PROFILES, AnyGroove, PocketGeometry
 
 LARGEST_SCENE = 1_000_000
 """Bytes; a longer scene file is refused unread."""
 
-
-def _positive(value: float) -> float:
-    if not 0 < value < float("inf"):
-        raise ValueError(f"got {value!r}; it must be above zero and finite")
-    return value
-
-
-def _plain_number(value: object) -> object:
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise ValueError(f"got {value!r}; write a plain number, without unit or quotes")
-    try:
-        return float(value)
-    except OverflowError:
-        raise ValueError("got a number beyond 1e308; write a smaller one") from None
+REPLACES = {
+    "motion.speed": ("reynolds_number",),
+    "motion.reynolds_number": ("speed",),
+    "geometry.points": ("width", "depth", "shift"),
+}
+"""Keys that an override makes meaningless: it takes them away from the same table."""
 
 
-@dataclass(frozen=True)
-class _Quantity:
-    """Marks a positive SI number that is read from text with a unit and written back as such."""
-
-    base: str
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
-        return core_schema.no_info_before_validator_function(
-            lambda value: _positive(to_si(value, self.base)),
-            handler(source),
-            serialization=core_schema.plain_serializer_function_ser_schema(lambda value: with_unit(value, self.base)),
-        )
-
-
-Length = Annotated[float, _Quantity("m")]
-Viscosity = Annotated[float, _Quantity("Pa*s")]
-Density = Annotated[float, _Quantity("kg/m^3")]
-Speed = Annotated[float, _Quantity("m/s")]
-PositiveNumber = Annotated[float, BeforeValidator(_plain_number), AfterValidator(_positive)]
-
-
-class _Part(BaseModel):
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-
-class PocketGeometry(_Part):
-    """One period of a channel whose still lower wall has a groove in its middle. Lengths in m."""
-
-    length: Length
-    film: Length
-    profile: Literal["cylindrical"] = "cylindrical"
-    width: Length
-    depth: Length
-
-    @model_validator(mode="after")
-    def _fits(self) -> Self:
-        if self.width >= self.length:
-            raise ValueError(f"width: got {self.width!r} m; it must be below length, {self.length!r} m")
-        if self.depth > self.width / 2:
-            raise ValueError(
-                f"depth: got {self.depth!r} m; the arc would be more than a half circle, "
-                f"it must be at most width / 2 = {self.width / 2!r} m"
-            )
-        return self
-
-
-class Lubricant(_Part):
+class Lubricant(Part):
     """A Newtonian, incompressible liquid: viscosity in Pa s, density in kg/m³."""
 
     viscosity: Viscosity
     density: Density
 
 
-class Motion(_Part):
+class Motion(Part):
     """How fast the upper wall slides: its speed in m/s, or the Reynolds number that gives it; exactly one."""
 
     speed: Speed | None = None
@@ -111,7 +46,7 @@ class Motion(_Part):
         return self
 
 
-class Scene(_Part):
+class Scene(Part):
     """A groove under a sliding wall: steady, isothermal, incompressible, periodic, no mean pressure drop."""
 
     name: Annotated[str, Field(min_length=1, max_length=200)]
@@ -121,15 +56,7 @@ class Scene(_Part):
     motion: Motion
 
     @model_validator(mode="after")
-    def _numbers_stay_in_range(self) -> Self:
-        for place, value in (
-            ("geometry.length", self.geometry.length / self.geometry.film),
-            ("geometry.width", self.geometry.width / self.geometry.film),
-        ):
-            if not 1e-2 <= value <= 1e5:
-                raise ValueError(f"{place}: got {value:.3g} film thicknesses; it must be 0.01 to 100000 of them")
-        if not self.geometry.depth / self.geometry.film >= 1e-9:
-            raise ValueError("geometry.depth: got less than 1e-9 film thicknesses; a flat wall needs no model")
+    def _reynolds_number_stays_in_range(self) -> Self:
         if not 1e-12 <= self.reynolds_number <= 1e12:
             raise ValueError(
                 f"motion: got Reynolds number {self.reynolds_number:.3g}; it must be 1e-12 to 1e12, look at the units"
@@ -161,21 +88,40 @@ class Scene(_Part):
         """What turns p / (η u / Ly) into the thesis's p+ = 100 p Ly² / (η u Lx)."""
         return 100 * self.geometry.film / self.geometry.length
 
+    @property
+    def grooves(self) -> tuple[AnyGroove, ...]:
+        """The grooves of the lower wall."""
+        return self.geometry.grooves
+
+    @property
+    def reduced_reynolds_number(self) -> float:
+        """Re Ly / w of the narrowest groove: inertia against viscous stress where the film changes fastest."""
+        return self.reynolds_number * self.geometry.film / min(groove.width for groove in self.grooves)
+
+    @property
+    def slope(self) -> float:
+        """2d / w of the steepest groove."""
+        return max(2 * groove.depth / groove.width for groove in self.grooves)
+
     def gap(self) -> Gap:
         """The gap this scene's geometry leaves open."""
-        part = self.geometry
-        return groove.cylindrical(length=part.length, film=part.film, width=part.width, depth=part.depth)
+        return self.geometry.gap()
 
 
 def load_entries(path: Path) -> dict[str, Any]:
-    """The nested entries of a TOML file; InputError in one line if it cannot be read or is not TOML."""
+    """The nested entries of a TOML file, files of points named from where they are sought: beside it.
+
+    Raises InputError in one line if the file cannot be read or is not TOML.
+    """
     path = Path(path)
     try:
         if not path.is_file():
             raise InputError(f"{path}: {'is no' if path.exists() else 'no such'} file; name a TOML file")
         if path.stat().st_size > LARGEST_SCENE:
             raise InputError(f"{path}: larger than {LARGEST_SCENE} bytes; a scene is a short TOML file")
-        return tomllib.loads(path.read_text(encoding="utf-8"))
+        entries = tomllib.loads(path.read_text(encoding="utf-8"))
+        _seek_points(entries, path.parent)
+        return entries
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror}); check its permissions") from error
     except UnicodeDecodeError as error:
@@ -188,7 +134,9 @@ def load_entries(path: Path) -> dict[str, Any]:
 def load_scene(path: Path, overrides: Iterable[str] = ()) -> Scene:
     """Read a scene file and apply overrides such as ``geometry.depth=22.5um``.
 
-    Setting one of ``motion.speed`` and ``motion.reynolds_number`` replaces the other.
+    Setting one of ``motion.speed`` and ``motion.reynolds_number`` replaces the other; setting ``geometry.points``
+    replaces width, depth and shift. A file of points that the scene names is sought beside it, one that an override
+    names in the current directory.
 
     Raises
     ------
@@ -206,30 +154,52 @@ def read_scene(entries: Mapping[str, Any]) -> Scene:
     try:
         return Scene.model_validate(entries)
     except ValidationError as error:
-        raise InputError(_one_line(error)) from None
+        raise InputError(_one_line(error, entries)) from None
 
 
 def scene_entries(scene: Scene) -> dict[str, Any]:
     """The complete scene, defaults written out, units as text; ``read_scene`` reads it back unchanged."""
-    return scene.model_dump(exclude_none=True)
+    return scene.model_dump(mode="json", exclude_none=True)
+
+
+def _seek_points(entry: Any, directory: Path) -> None:
+    """Put the directory before every name of a file of points that does not begin at a root or a home."""
+
+    def sought(name: object) -> object:
+        return str(directory / name) if isinstance(name, str) and not name.startswith("~") else name
+
+    if isinstance(entry, dict):
+        if "points" in entry:
+            names = entry["points"]
+            entry["points"] = [sought(name) for name in names] if isinstance(names, list) else sought(names)
+        for inner in entry.values():
+            _seek_points(inner, directory)
+    elif isinstance(entry, list):
+        for inner in entry:
+            _seek_points(inner, directory)
 
 
 def _override(entries: dict[str, Any], override: str) -> None:
     key, equals, text = override.partition("=")
-    parts = key.strip().split(".")
-    if not equals or not all(parts):
+    key = key.strip()
+    *path, last = key.split(".")
+    if not equals or not all([*path, last]):
         raise InputError(f"--set {override}: got no key=value; write for example geometry.depth=22.5um")
     table: Any = entries
-    for part in parts[:-1]:
-        table = table.setdefault(part, {})
-        if not isinstance(table, dict):
-            raise InputError(
-                f"--set {override}: {part!r} is not a table of the scene; write for example geometry.depth"
-            )
-    for one, other in (("speed", "reynolds_number"), ("reynolds_number", "speed")):
-        if parts == ["motion", one]:
-            table.pop(other, None)
-    table[parts[-1]] = _value(text.strip())
+    for part in path:
+        if isinstance(table, list):
+            table = {str(number): one for number, one in enumerate(table)}.get(part)
+        else:
+            table = table.setdefault(part, {})
+        if not isinstance(table, dict | list):
+            break
+    if not isinstance(table, dict):
+        raise InputError(
+            f"--set {override}: {path[-1]!r} is not a table of the scene; write for example geometry.depth"
+        )
+    for other in REPLACES.get(key, ()):
+        table.pop(other, None)
+    table[last] = _value(text.strip())
 
 
 def _value(text: str) -> object:
@@ -239,21 +209,22 @@ def _value(text: str) -> object:
         return text
 
 
-def _one_line(error: ValidationError) -> str:
-    faults = error.errors(include_url=False)
+def _one_line(error: ValidationError, entries: Mapping[str, Any]) -> str:
+    faults = sorted(error.errors(include_url=False), key=lambda fault: fault["type"] != "extra_forbidden")
     fault = faults[0]
-    place = ".".join(["scene", *(str(part) for part in fault["loc"])])
+    location, profile = _location(fault["loc"], entries)
+    place = ".".join(["scene", *map(str, location)])
     got = repr(fault["input"])
     got = got if len(got) <= 60 else got[:57] + "..."
     match fault["type"]:
         case "extra_forbidden":
-            near = difflib.get_close_matches(str(fault["loc"][-1]), _keys(fault["loc"][:-1]), n=1)
-            known = f"did you mean {near[0]!r}?" if near else f"known here: {', '.join(_keys(fault['loc'][:-1]))}"
-            text = f"{place}: unknown key; {known}"
+            text = f"{place}: {_unknown(location, profile)}"
         case "missing":
             text = f"{place}: missing; add it to the scene"
         case "literal_error":
             text = f"{place}: got {got}; it must be {fault['ctx']['expected']}"
+        case "union_tag_invalid":
+            text = f"{place}.profile: got {fault['ctx']['tag']!r}; it must be one of {fault['ctx']['expected_tags']}"
         case "value_error":
             reason = str(fault["ctx"]["error"])
             inner, colon, rest = reason.partition(": ")
@@ -264,8 +235,26 @@ def _one_line(error: ValidationError) -> str:
     return " ".join(text.split()) + (f" (and {len(faults) - 1} more)" if len(faults) > 1 else "")
 
 
-def _keys(path: tuple[int | str, ...]) -> list[str]:
-    part: Any = Scene
-    for name in path:
+def _location(path: tuple[int | str, ...], entries: Mapping[str, Any]) -> tuple[list[int | str], str | None]:
+    """Where a fault stands in the file, and the profile of the groove that it is in, if it is in one."""
+    location = list(path)
+    if location[:2] != ["geometry", "grooves"] or len(location) < 3:
+        return location, None
+    profile = str(location.pop(3)) if len(location) > 3 else None
+    if "grooves" not in entries["geometry"]:
+        del location[1:3]
+    return location, profile
+
+
+def _unknown(location: list[int | str], profile: str | None) -> str:
+    *path, key = location
+    part: Any = PROFILES[profile] if profile else Scene
+    for name in () if profile else path:
         part = part.model_fields[name].annotation
-    return list(part.model_fields)
+    known = [*part.model_fields]
+    if path == ["geometry"]:
+        known = [*dict.fromkeys([*PocketGeometry.model_fields, *known])]
+    near = difflib.get_close_matches(str(key), known, n=1)
+    if any(key in other.model_fields for other in PROFILES.values()):
+        return f"no key of profile {profile!r}; known here: {', '.join(known)}"
+    return "unknown key; " + (f"did you mean {near[0]!r}?" if near else f"known here: {', '.join(known)}")

@@ -24,7 +24,7 @@ def cautions(scene: Scene, keeps: frozenset[Effect]) -> tuple[str, ...]:
             f"Re = {scene.reynolds_number:.4g} is above {TURBULENT:.0f}, where shear flow turns turbulent; "
             "every model here takes it as laminar and steady"
         )
-    reduced = scene.reynolds_number * scene.geometry.film / scene.geometry.width
+    reduced = scene.reduced_reynolds_number
     if Effect.INERTIA in keeps and Effect.SLOPE not in keeps and reduced > 1.01 * FIRST_ORDER:
         words.append(
             f"Re Ly/w = {reduced:.3g} is above {FIRST_ORDER:.0f}, up to which first-order inertia was compared "

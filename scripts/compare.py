@@ -9,10 +9,12 @@ from typing import Annotated, Any
 
 import typer
 from rich.markup import escape
+from rich.table import Table
 
 from contact.errors import ConvergenceError
 from contact.files import replacing
-from rom.comparison import effects, points, to_best, uncertainty
+from rom.comparison import effects, points, scale, to_best
+from rom.convergence import GRIDS, Convergence, convergence
 from rom.ladder import Model, best
 from rom.result import Result
 from rom.scene import Scene, load_scene
@@ -30,9 +32,9 @@ from scripts.common import (
     print_json,
     run_alone,
 )
+from scripts.comparison import Picture, Report, cheapest_within, write_comparison
 from scripts.rendering import draw_apart
-from scripts.report import Picture, Report, cheapest_within, write_report
-from scripts.runs import jobs_of, run_all
+from scripts.runs import Job, jobs_of, run_all
 from scripts.solve import table_of
 
 RESULTS = "results"
@@ -43,6 +45,9 @@ def command(
     scene: ScenePath,
     out: Annotated[Path, typer.Option(help="Report, results and figures go here; finished results are used again.")],
     set_: Overrides = None,
+    grids: Annotated[
+        int, typer.Option(min=GRIDS, max=4, help="Grids of the convergence study; the fourth is finer, and slow.")
+    ] = GRIDS,
     as_json: AsJson = False,
 ) -> None:
     """Run every model that applies and write report.html, results (.h5) and figures."""
@@ -50,20 +55,22 @@ def command(
     make_directory(out)
     left_out = {model.name: reason for model in models() if (reason := _reason_to_leave_out(model, read))}
     failed: dict[str, str] = {}
-    jobs = jobs_of(read, [model for model in models() if model.name not in left_out], out / RESULTS)
+    jobs = jobs_of(read, [model for model in models() if model.name not in left_out], out / RESULTS, grids)
     runs = run_all(jobs, failed)
-    results = {job.setting.model.name: result for job, result in runs if job.setting.resolution is None}
+    results = _finest(runs)
     absent = {**left_out, **failed}
     if not results:
         raise ConvergenceError("no model solved the scene: " + "; ".join(f"{k}: {v}" for k, v in absent.items()))
 
     report = _judge(read, results, [result for _, result in runs], absent, out)
-    write_report(report, out / "report.html")
+    write_comparison(report, out / "report.html")
     if as_json:
         print_json(_entries(report, out))
     else:
         for result in results.values():
             output.print(table_of(result))
+        for name, study in report.convergence.items():
+            output.print(_table_of_convergence(name, study))
         output.print(f"report: {escape(str(out / 'report.html'))}", soft_wrap=True)
     for name, reason in absent.items():
         messages.print(f"[yellow]left out:[/] {name}: {escape(reason)}", soft_wrap=True)
@@ -78,16 +85,45 @@ def _reason_to_leave_out(model: Model, scene: Scene) -> str | None:
     return None if found.available else found.detail
 
 
+def _finest(runs: Sequence[tuple[Job, Result]]) -> dict[str, Result]:
+    """The finest result of every model that solved the scene at its default resolution."""
+    return {
+        job.setting.model.name: max(
+            (result for _, result in runs if result.model == job.setting.model.name),
+            key=lambda result: result.numerics.resolution,
+        )
+        for job, _ in runs
+        if job.setting.resolution is None
+    }
+
+
+def _table_of_convergence(model: str, study: Mapping[str, Convergence]) -> Table:
+    grids = next(iter(study.values())).grids
+    table = Table("quantity", "order", "value", "±", "kind", title=f"{model} on grids {', '.join(map(str, grids))}")
+    for quantity, found in study.items():
+        table.add_row(quantity, found.order_told, f"{found.value:.5g}", f"{found.uncertainty:.1e}", found.kind)
+    return table
+
+
 def _judge(
     scene: Scene, results: Mapping[str, Result], runs: Sequence[Result], absent: Mapping[str, str], out: Path
 ) -> Report:
-    from scripts.figures import pressure, speed_against_accuracy  # matplotlib is slow to import
+    from scripts.figures import grid_convergence, pressure, speed_against_accuracy  # matplotlib is slow to import
 
     ladder = models()
     top = best([model for model in ladder if model.name in results])
     chart = points(results[top.name], runs)
-    floor = uncertainty(top, results[top.name], runs)
-    plots = {"pressure": pressure(scene, results), "chart": speed_against_accuracy(chart, floor)}
+    studies = {
+        model.name: study
+        for model in ladder
+        if model.order and model.name in results and (study := convergence(model, runs))
+    }
+    floor = {name: found.uncertainty / scale(results[top.name], name) for name, found in convergence(top, runs).items()}
+    plots = {
+        "pressure": pressure(scene, results),
+        "chart": speed_against_accuracy(chart, floor),
+        **({"convergence": grid_convergence(studies)} if studies else {}),
+    }
     report = Report(
         scene=scene,
         models=ladder,
@@ -98,6 +134,7 @@ def _judge(
         effects=effects(ladder, results),
         chart=chart,
         uncertainty=floor,
+        convergence=studies,
         plots=plots,
         pictures=_pictures(results, out),
     )
@@ -115,6 +152,10 @@ def _entries(report: Report, out: Path) -> dict[str, Any]:
         "models": [as_entries(result) for result in report.results.values()],
         "differences": [asdict(difference) for difference in report.to_best + report.effects],
         "cheapest_within_10_percent": cheapest_within(report, 0.10),
+        "convergence": {
+            model: {quantity: asdict(found) for quantity, found in study.items()}
+            for model, study in report.convergence.items()
+        },
         "chart": _raw(report),
         "absent": dict(report.absent),
         "report": str(out / "report.html"),

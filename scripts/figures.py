@@ -5,15 +5,38 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import matplotlib as mpl
+import numpy as np
 from matplotlib.figure import Figure
 
 from rom.comparison import Point, pareto_front
+from rom.convergence import Convergence, Kind
 from rom.result import Result
 from rom.scene import Scene
 
-COLOURS = {"reynolds": "#7f7f7f", "inertial_reynolds": "#e08214", "stokes": "#5aae61", "navier_stokes": "#2166ac"}
-STYLES = {"reynolds": "--", "inertial_reynolds": "-.", "stokes": ":", "navier_stokes": "-"}
-MARKERS = {"reynolds": "s", "inertial_reynolds": "D", "stokes": "^", "navier_stokes": "o"}
+COLOURS = {
+    "reynolds": "#7f7f7f",
+    "inertial_reynolds": "#e08214",
+    "film": "#b2182b",
+    "film_slope": "#762a83",
+    "stokes": "#5aae61",
+    "navier_stokes": "#2166ac",
+}
+STYLES = {
+    "reynolds": "--",
+    "inertial_reynolds": "-.",
+    "film": (0, (5, 1)),
+    "film_slope": (0, (3, 1, 1, 1)),
+    "stokes": ":",
+    "navier_stokes": "-",
+}
+MARKERS = {
+    "reynolds": "s",
+    "inertial_reynolds": "D",
+    "film": "v",
+    "film_slope": "P",
+    "stokes": "^",
+    "navier_stokes": "o",
+}
 
 TITLES = {"load_plus": "load", "friction_plus": "friction"}
 
@@ -39,7 +62,7 @@ def pressure(scene: Scene, results: Mapping[str, Result]) -> str:
     for name, result in results.items():
         plus = result.fields["pressure"].values / scene.pressure_unit * scene.plus_factor
         x = result.fields["position"].values * 1e3
-        axes.plot(x, plus, STYLES.get(name, "-"), color=COLOURS.get(name), label=name, linewidth=2)
+        axes.plot(x, plus, linestyle=STYLES.get(name, "-"), color=COLOURS.get(name), label=name, linewidth=2)
     for edge in scene.gap().breaks[1:-1]:
         axes.axvline(edge * 1e3, color="black", linewidth=0.8, linestyle=(0, (4, 3)), alpha=0.6)
     axes.set_xlabel("position along the sliding wall, mm (dashed: groove edges)")
@@ -48,7 +71,7 @@ def pressure(scene: Scene, results: Mapping[str, Result]) -> str:
     right = axes.secondary_yaxis("right", functions=(_times(pascal / 1e3), _times(1e3 / pascal)))
     right.set_ylabel("pressure, kPa")
     axes.legend()
-    return _svg(figure)
+    return svg(figure)
 
 
 def speed_against_accuracy(chart: Sequence[Point], floor: Mapping[str, float]) -> str:
@@ -88,14 +111,56 @@ def speed_against_accuracy(chart: Sequence[Point], floor: Mapping[str, float]) -
         axes.set_xlabel("CPU time, s")
         axes.set_ylabel(f"error in {title} against the best rung, %")
     panels[0].legend(fontsize=8)
-    return _svg(figure)
+    return svg(figure)
+
+
+def grid_convergence(studies: Mapping[str, Mapping[str, Convergence]]) -> str:
+    """Cell size against the difference to the extrapolated value, where there is one, with slope 2 for the eye."""
+    figure = Figure(figsize=(10, 3.6), layout="constrained")
+    panels = figure.subplots(1, len(TITLES))
+    for axes, (quantity, title) in zip(panels, TITLES.items(), strict=True):
+        drawn = {name: study[quantity] for name, study in studies.items() if study[quantity].kind is Kind.MONOTONE}
+        if not drawn:
+            axes.set_axis_off()
+            axes.text(0.5, 0.5, f"{title}: nothing to extrapolate", ha="center", transform=axes.transAxes)
+            continue
+        for name, found in drawn.items():
+            sizes = [1 / grid for grid in found.grids]
+            errors = [100 * abs(value / found.value - 1) for value in found.values]
+            label, colour = f"{name}: order {found.order_told}", COLOURS.get(name)
+            axes.plot(sizes, errors, MARKERS.get(name, "o") + "-", color=colour, label=label, linewidth=1.2)
+            slope = [errors[0] * (size / sizes[0]) ** 2 for size in sizes]
+            axes.plot(sizes, slope, ":", color=colour, linewidth=1)
+        grids = sorted({grid for found in drawn.values() for grid in found.grids})
+        axes.set_xscale("log")
+        axes.set_xticks([1 / grid for grid in grids], [f"1/{grid}" for grid in grids])
+        axes.xaxis.minorticks_off()
+        axes.set_yscale("log")
+        low, high = axes.get_ylim()
+        axes.set_ylim(10 ** np.floor(np.log10(low)), 10 ** np.ceil(np.log10(high)))
+        axes.set_xlabel("mean length of a cell, periods (dotted: slope 2)")
+        axes.set_ylabel(f"{title}: from the extrapolated, %")
+        axes.legend(fontsize=8)
+    return svg(figure)
 
 
 def _times(factor: float) -> Callable[[Any], Any]:
     return lambda value: value * factor
 
 
-def _svg(figure: Figure) -> str:
+def colour(setting: str) -> str | None:
+    """The colour of a model, or of a setting that begins with its name."""
+    return COLOURS.get(setting.split("-")[0])
+
+
+def marker(setting: str) -> str:
+    """The marker of a model; a cross for a setting that is not its only one."""
+    name, *chosen = setting.split("-")
+    return "X" if chosen else MARKERS.get(name, "o")
+
+
+def svg(figure: Figure) -> str:
+    """The figure as SVG text."""
     buffer = io.StringIO()
     figure.savefig(buffer, format="svg", metadata={"Date": None})
     text = buffer.getvalue()

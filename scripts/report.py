@@ -1,112 +1,173 @@
-"""One self-contained HTML page that a person would rather look at than read."""
+"""roughfilm report: what a finished sweep says of every model: its errors, what orders them, what it costs."""
 
-import base64
+import json
 from collections.abc import Mapping
-from dataclasses import dataclass
-from importlib import resources
 from pathlib import Path
+from typing import Annotated, Any
 
-import jinja2
+import numpy as np
+import typer
+from rich.markup import escape
+from rich.table import Table
 
+from contact.errors import InputError
 from contact.files import replacing
-from rom.comparison import Difference, Point
-from rom.ladder import Model
-from rom.result import Result
-from rom.scene import Scene, scene_entries
+from rom.comparison import COMPARED
+from rom.ladder import best
+from rom.ordering import Ordering, fitted_powers, ordering
+from rom.provenance import machine
+from rom.sweep import Sweep, read_sweep, relative_error
+from rom.table import read_table
+from scripts.common import AsJson, in_one_line, make_directory, models, output, print_json, run_alone
+from scripts.pages import render
 
-LINKS = "https://doi.org/"
+TOLERANCES = (0.01, 0.02, 0.05, 0.10)
 
+CANDIDATES: dict[str, dict[str, float]] = {
+    "Re": {"reynolds_number": 1},
+    "Re Ly/w": {"reynolds_number": 1, "width": -1},
+    "d/Ly": {"depth": 1},
+    "d/w": {"depth": 1, "width": -1},
+    "Re d/w": {"reynolds_number": 1, "depth": 1, "width": -1},
+    "Re (d/w)²": {"reynolds_number": 1, "depth": 2, "width": -2},
+    "d²/(w Ly)": {"depth": 2, "width": -1},
+}
+"""Numbers that an engineer would try, each a product of powers of Re, d/Ly and w/Ly."""
 
-@dataclass(frozen=True, kw_only=True)
-class Picture:
-    """A picture of one model's flow, or why there is none."""
+SAME = 0.01
+"""Errors within this part of each other have no order: a model without any load is 100 % off everywhere."""
 
-    model: str
-    path: Path | None
-    reason: str
-
-
-@dataclass(frozen=True, kw_only=True)
-class Report:
-    """Everything the page shows."""
-
-    scene: Scene
-    models: tuple[Model, ...]
-    results: Mapping[str, Result]
-    absent: Mapping[str, str]
-    best: str
-    to_best: tuple[Difference, ...]
-    effects: tuple[Difference, ...]
-    chart: tuple[Point, ...]
-    uncertainty: Mapping[str, float]
-    plots: Mapping[str, str]
-    pictures: tuple[Picture, ...]
+SIMPLE_ENOUGH = 0.01
+"""A candidate whose rank correlation is at most this much below that of fitted powers is taken instead of them."""
 
 
-def cheapest_within(report: Report, part: float) -> str:
-    """The model with the least CPU time whose load and friction are within ``part`` of the best rung's."""
-    worst: dict[str, float] = {report.best: 0.0}
-    for difference in report.to_best:
-        worst[difference.model] = max(worst.get(difference.model, 0.0), abs(difference.relative))
-    enough = [name for name, error in worst.items() if error <= part]
-    return min(enough, key=lambda name: report.results[name].numerics.cpu_s)
-
-
-def write_report(report: Report, path: Path) -> None:
-    """Write the page; InputError if it cannot be written."""
-    source = resources.files("scripts").joinpath("report.html.j2").read_text(encoding="utf-8")
-    environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)
-    environment.filters.update(percent=_percent, seconds=_seconds, number=_number, si=_si, micro=_micro)
-    page = environment.from_string(source).render(
-        report=report,
-        best=report.results[report.best],
-        entries=scene_entries(report.scene),
-        cheapest={part: cheapest_within(report, part) for part in (0.01, 0.10)},
-        differences=_by_model(report.to_best),
-        pictures=[(picture, _embedded(picture.path)) for picture in report.pictures],
-        sources=_sources(report),
+@in_one_line
+def command(
+    directory: Annotated[Path, typer.Argument(metavar="DIR", help="What 'roughfilm batch' made.")],
+    out: Annotated[Path | None, typer.Option(help="The page goes here; by default DIR/report.html.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Write the page of a sweep: errors of every model, the number that orders them, speed against accuracy."""
+    sweep = read_sweep(read_table(directory / "table.h5"))
+    reference = _reference(sweep)
+    settings = [name for name in sweep.found if name != reference]
+    if not settings:
+        raise InputError(f"{directory}: holds one model only; a report compares at least two")
+    numbers = {
+        (setting, quantity): _orderings(sweep, setting, reference, quantity)
+        for setting in settings
+        for quantity in COMPARED
+    }
+    rows = [_row(sweep, setting, reference, numbers) for setting in [*settings, reference]]
+    told = {"reference": reference, "cases": len(sweep.names), "settings": rows, "failures": list(sweep.failures)}
+    path = out or directory / "report.html"
+    make_directory(path.parent)
+    _write_page(sweep, reference, settings, numbers, rows, path)
+    with replacing(path.with_suffix(".json")) as scratch:
+        scratch.write_text(json.dumps({**told, "machine": machine()}, indent=1) + "\n", encoding="utf-8")
+    if as_json:
+        print_json({**told, "report": str(path)})
+        return
+    table = Table(
+        "setting", "CPU, s", "load error", "95 %", "friction error", "95 %", title=f"{len(sweep.names)} cases"
     )
-    with replacing(path) as scratch:
-        scratch.write_text(page, encoding="utf-8")
+    for row in rows:
+        errors = [f"{100 * row['error'][q][part]:.3g} %" for q in COMPARED for part in ("median", "high")]
+        table.add_row(row["setting"], f"{row['cpu_s']:.3g}", *errors)
+    output.print(table)
+    output.print(f"report: {escape(str(path))}", soft_wrap=True)
 
 
-def _by_model(differences: tuple[Difference, ...]) -> dict[str, dict[str, Difference]]:
-    table: dict[str, dict[str, Difference]] = {}
-    for difference in differences:
-        table.setdefault(difference.model, {})[difference.quantity] = difference
-    return table
+def _reference(sweep: Sweep) -> str:
+    """The best rung of the sweep, at its finest and best scheme: the one named first in the study."""
+    known = [model for model in models() if any(name.split("-")[0] == model.name for name in sweep.found)]
+    if not known:
+        raise InputError("the table holds no results of this ladder; run the study again")
+    top = best(known)
+    named = [name for name in sweep.found if name.split("-")[0] == top.name]
+    return next((name for scheme in top.schemes for name in named if scheme in name.split("-")), named[-1])
 
 
-def _sources(report: Report) -> list[tuple[str, str]]:
-    names = {doi for result in report.results.values() for doi in result.provenance["sources"]}
-    return [(doi, LINKS + doi) for doi in sorted(names)]
+def _known(sweep: Sweep, setting: str, reference: str, quantity: str) -> tuple[dict[str, Any], np.ndarray[Any, Any]]:
+    error = relative_error(sweep, setting, reference, quantity)
+    features = sweep.features()
+    known = np.isfinite(error) & np.isfinite(sum(features.values()))
+    return {name: values[known] for name, values in features.items()}, error[known]
 
 
-def _embedded(path: Path | None) -> str:
-    return "" if path is None else "data:image/png;base64," + base64.b64encode(path.read_bytes()).decode("ascii")
+def _orderings(sweep: Sweep, setting: str, reference: str, quantity: str) -> dict[str, Ordering]:
+    """Each candidate, the fitted powers and the ``chosen`` one; nothing for an error that is the same everywhere."""
+    features, error = _known(sweep, setting, reference, quantity)
+    if error.size < 8:
+        raise InputError(f"{setting}: has {error.size} cases beside {reference}; a report needs at least 8")
+    if error.max() <= (1 + SAME) * error.min():
+        return {}
+    found = {name: ordering(features, powers, error, TOLERANCES) for name, powers in CANDIDATES.items()}
+    fitted = fitted_powers(features, error, step=0.25)
+    found["fitted"] = ordering(features, fitted or {"reynolds_number": 1}, error, TOLERANCES)
+    simple = max(CANDIDATES, key=lambda name: found[name].rank)
+    found["chosen"] = found[simple if found[simple].rank >= found["fitted"].rank - SIMPLE_ENOUGH else "fitted"]
+    return found
 
 
-def _percent(part: float) -> str:
-    percent = 100 * part
-    if abs(percent) < 1e-3:
-        return "0 %"
-    return f"{percent:+.0f} %" if abs(percent) >= 99.5 else f"{percent:+.2g} %"
+def _row(
+    sweep: Sweep, setting: str, reference: str, numbers: Mapping[tuple[str, str], Mapping[str, Ordering]]
+) -> dict[str, Any]:
+    from scripts.sweep_figures import words
+
+    errors, orders = {}, {}
+    for quantity in COMPARED:
+        _, error = _known(sweep, setting, reference, quantity)
+        median, high, worst = (float(value) for value in (np.median(error), np.percentile(error, 95), error.max()))
+        errors[quantity] = {"median": median, "high": high, "worst": worst}
+        if numbers.get((setting, quantity)):
+            chosen = numbers[setting, quantity]["chosen"]
+            orders[quantity] = {
+                "number": words(chosen.powers),
+                "powers": dict(chosen.powers),
+                "rank": chosen.rank,
+                "thresholds": {f"{tolerance:g}": limit for tolerance, limit in chosen.thresholds.items()},
+                "tried": {name: found.rank for name, found in numbers[setting, quantity].items()},
+            }
+    cpu = sweep.cpu_s[setting]
+    return {
+        "setting": setting,
+        "solved": int(np.isfinite(cpu).sum()),
+        "cpu_s": float(np.nanmedian(cpu)),
+        "cpu_s_high": float(np.nanpercentile(cpu, 95)),
+        "error": errors,
+        "ordered_by": orders,
+    }
 
 
-def _seconds(value: float) -> str:
-    return f"{value * 1e3:.2g} ms" if value < 0.1 else f"{value:.2g} s"
+def _write_page(
+    sweep: Sweep,
+    reference: str,
+    settings: list[str],
+    numbers: Mapping[tuple[str, str], Mapping[str, Ordering]],
+    rows: list[dict[str, Any]],
+    path: Path,
+) -> None:
+    from scripts import sweep_figures  # matplotlib is slow to import
+
+    chosen = {key: found["chosen"] for key, found in numbers.items() if found}
+    render(
+        "sweep.html.j2",
+        path,
+        sweep=sweep,
+        reference=reference,
+        rows=rows,
+        tolerances=[f"{tolerance:g}" for tolerance in TOLERANCES],
+        chart=sweep_figures.sweep_chart(sweep, reference, settings),
+        order=sweep_figures.errors_in_order(sweep, reference, chosen, settings),
+        maps={
+            (setting, quantity): sweep_figures.error_maps(sweep, setting, reference, quantity)
+            for setting in settings
+            for quantity in COMPARED
+        },
+        machine=machine(),
+    )
 
 
-def _number(value: float) -> str:
-    return "0" if abs(value) < 5e-5 else f"{value:.4g}"
-
-
-def _micro(value: float) -> str:
-    return f"{value * 1e3:.4g} mm" if value >= 1e-3 else f"{value * 1e6:.4g} µm"
-
-
-def _si(value: float) -> str:
-    for factor, prefix in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
-        if abs(value) >= factor:
-            return f"{value / factor:.4g} {prefix}Pa"
-    return f"{value:.4g} Pa"
+if __name__ == "__main__":
+    run_alone(command)

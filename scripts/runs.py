@@ -11,6 +11,7 @@ from rich.markup import escape
 
 from contact.errors import ConvergenceError, InputError, UnavailableError
 from contact.files import replacing
+from rom.convergence import GRIDS
 from rom.ladder import Model
 from rom.provenance import code, versions
 from rom.result import Result
@@ -138,13 +139,16 @@ def solved_once(job: Job, step: Advance) -> Result:
     return answer
 
 
-def jobs_of(scene: Scene, models: Sequence[Model], directory: Path) -> list[Job]:
-    """The default job of every model, then its other resolutions for the chart."""
-    settings = [
-        Setting(model=model, resolution=resolution)
-        for model in models
-        for resolution in (None, *(n for n in model.resolutions if n != model.resolution))
-    ]
+def jobs_of(scene: Scene, models: Sequence[Model], directory: Path, grids: int = GRIDS) -> list[Job]:
+    """The default job of every model, then its other resolutions for the chart and the convergence.
+
+    Beyond ``GRIDS``, a model of formal order gets more ``grids``, each twice as fine as the one before.
+    """
+    settings = []
+    for model in models:
+        finer = [model.resolution * 2**k for k in range(1, grids - GRIDS + 1)] if model.order else []
+        others = [n for n in (*model.resolutions, *finer) if n != model.resolution]
+        settings += [Setting(model=model, resolution=resolution) for resolution in (None, *others)]
     return [Job(scene=scene, setting=setting, path=directory / f"{setting.name}.h5") for setting in settings]
 
 
@@ -162,7 +166,7 @@ def run_all(jobs: Sequence[Job], failed: dict[str, str]) -> list[tuple[Job, Resu
                 if job.setting.resolution is None:
                     failed[job.setting.model.name] = str(error)
                 else:
-                    told = f"[yellow]not on the chart:[/] {job.setting.name}: {escape(str(error))}"
+                    told = f"[yellow]grid left out:[/] {job.setting.name}: {escape(str(error))}"
                     messages.print(told, soft_wrap=True)
     return done
 

@@ -11,7 +11,12 @@ from rom.study import Case, Key
 from rom.table import Column
 from scripts.runs import Failure, Job
 
-RATIOS = {"width_plus": ("width", "length"), "depth_plus": ("depth", "film"), "shift_plus": ("shift", "width")}
+RATIOS = {
+    "film_plus": ("film", "length"),
+    "width_plus": ("width", "length"),
+    "depth_plus": ("depth", "film"),
+    "shift_plus": ("shift", "width"),
+}
 """The dimensionless numbers of a groove and the lengths they divide: w+, d+ and xd+ of doi:10.1115/1.1828067."""
 
 Cell = Quantity | str
@@ -35,10 +40,12 @@ def row_of(keys: Mapping[str, Key], case: Case, job: Job, answer: Result | Failu
         scheme, resolution = setting.scheme or "", setting.resolution or setting.model.resolution
     asked: dict[str, Cell] = {
         "case": job.path.parent.name,
+        "setting": setting.name,
         "model": setting.model.name,
         "scheme": scheme,
         "resolution": _number(resolution),
         **{label: _cell(_at(entries, keys[label], spelt)) for label, spelt in case.varied.items()},
+        "profile": str(entries["geometry"].get("profile", "several grooves")),
         **_ratios(entries["geometry"]),
         "reynolds_number": _number(case.scene.reynolds_number),
     }

@@ -10,8 +10,7 @@ CREEPING = 1e-6
 
 def applies(scene: Scene) -> Applicability:
     """Always; says how much inertia it leaves out."""
-    reduced = scene.reynolds_number * scene.geometry.film / scene.geometry.width
-    return Applicability(applies=True, reason=f"leaves out inertia (Re Ly/w = {reduced:.3g})")
+    return Applicability(applies=True, reason=f"leaves out inertia (Re Ly/w = {scene.reduced_reynolds_number:.3g})")
 
 
 MODEL = openfoam_model(

@@ -7,11 +7,10 @@ from rom.scene import Scene
 
 def applies(scene: Scene) -> Applicability:
     """Always; says how far from small the reduced Reynolds number is."""
-    part = scene.geometry
     return Applicability(
         applies=True,
-        reason=f"keeps inertia to first order in Re Ly/w = {scene.reynolds_number * part.film / part.width:.3g}, "
-        f"leaves out slope (2d/w = {2 * part.depth / part.width:.3g})",
+        reason=f"keeps inertia to first order in Re Ly/w = {scene.reduced_reynolds_number:.3g}, "
+        f"leaves out slope (2d/w = {scene.slope:.3g})",
     )
 
 
@@ -19,6 +18,7 @@ MODEL = quadrature_model(
     name="inertial_reynolds",
     summary="adds inertia to first order in the Reynolds number",
     keeps=frozenset({Effect.INERTIA}),
+    complete=False,
     sources=("10.1098/rstl.1886.0005", "10.1115/1.1828067"),
     applies=applies,
 )

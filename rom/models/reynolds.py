@@ -7,11 +7,10 @@ from rom.scene import Scene
 
 def applies(scene: Scene) -> Applicability:
     """Always; says how much inertia and slope it leaves out."""
-    part = scene.geometry
     return Applicability(
         applies=True,
-        reason=f"leaves out inertia (Re Ly/w = {scene.reynolds_number * part.film / part.width:.3g}) "
-        f"and slope (2d/w = {2 * part.depth / part.width:.3g})",
+        reason=f"leaves out inertia (Re Ly/w = {scene.reduced_reynolds_number:.3g}) "
+        f"and slope (2d/w = {scene.slope:.3g})",
     )
 
 

@@ -3,13 +3,14 @@
 import numpy as np
 import pytest
 
-from foamcases.mesh import columns, layered
-from rom.groove import cylindrical
+from foamcases.mesh import layered
+from rom.grid import columns
+from rom.groove import channel, cylindrical
 
 
 @pytest.fixture
 def gap():
-    return cylindrical(length=1e-3, film=3e-5, width=3e-4, depth=2.25e-5)
+    return channel(length=1e-3, film=3e-5, grooves=[(0.0, cylindrical(width=3e-4, depth=2.25e-5))])
 
 
 @pytest.mark.parametrize("resolution", [12, 61, 240])

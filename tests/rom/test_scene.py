@@ -11,7 +11,7 @@ from rom.scene import load_scene, read_scene, scene_entries
 def test_the_example(pocket_file):
     scene = load_scene(pocket_file)
     assert scene.geometry.film == 3e-5
-    assert scene.geometry.width == 3e-4
+    assert scene.grooves[0].width == 3e-4
     assert scene.reynolds_number == pytest.approx(160, rel=1e-5)
     assert scene.pressure_unit == pytest.approx(0.01 * 53.333 / 3e-5)
 
@@ -40,7 +40,10 @@ def test_entries_are_complete_and_read_back_unchanged(pocket_file):
         ("geometry.depth=0.2 mm", r"scene\.geometry\.depth: .* half circle"),
         ("geometry.width=1 mm", r"scene\.geometry\.width: .* below length"),
         ("geometry.width=0.1 um", r"scene\.geometry"),
-        ("geometry.profile=square", r"scene\.geometry\.profile: got 'square'; it must be 'cylindrical'"),
+        (
+            "geometry.profile=square",
+            r"scene\.geometry\.profile: got 'square'; it must be one of 'cylindrical', 'splined'",
+        ),
         ("kind=bearing", r"scene\.kind: got 'bearing'; it must be 'pocket'"),
         ("name=7", r"scene\.name: got 7"),
         ("geometry=7", r"scene\.geometry: got 7"),

@@ -149,7 +149,14 @@ def typed(*arguments, **options):
 
 @pytest.mark.parametrize(
     "arguments",
-    [["solve"], ["solve", "x.toml"], ["solv"], ["solve", "x.toml", "--model", "reynolds", "--resolution", "a"]],
+    [
+        ["solve"],
+        ["solve", "x.toml"],
+        ["solv"],
+        ["solve", "x.toml", "--model", "reynolds", "--resolution", "a"],
+        ["compare", "x.toml", "--out", "x", "--grids", "2"],
+        ["compare", "x.toml", "--out", "x", "--grids", "9"],
+    ],
 )
 def test_usage_errors_are_one_line_and_code_2(arguments):
     done = typed(*arguments)

@@ -2,6 +2,7 @@
 
 import html
 import json
+import math
 import os
 import re
 import signal
@@ -15,7 +16,9 @@ import h5py
 import numpy as np
 import pytest
 
+from contact.errors import ConvergenceError
 from rom.ladder import Availability, find
+from rom.result import Quantity
 from rom.scene import load_scene
 from rom.setting import Setting
 from rom.store import load
@@ -67,7 +70,12 @@ def test_the_whole_ladder_in_one_self_contained_page(pocket_file, tmp_path):
     assert told["cheapest_within_10_percent"] == "inertial_reynolds"
     page = read_page(tmp_path / "report.html")
     assert all(place.startswith("data:image/png;base64,") for place in page.outside)
-    assert page.tags.count("svg") == 2
+    assert page.tags.count("svg") == 3
+    found = told["convergence"]["navier_stokes"]["load_plus"]
+    assert (found["kind"], found["grids"]) == ("monotone", [60, 120, 240])
+    assert found["value"] == pytest.approx(3.303, abs=found["uncertainty"])
+    assert set(told["convergence"]) == {"stokes", "navier_stokes"}
+    assert told["convergence"]["stokes"]["load_plus"]["kind"] == "at round-off"
     if rendering.probe().available:
         assert page.tags.count("img") == 2
     for model in models():
@@ -117,6 +125,73 @@ def test_where_nothing_can_be_drawn_the_page_says_so(pocket_file, tmp_path, monk
     compare.command(pocket_file, out=tmp_path)
     assert "no picture: VTK cannot draw here (exit code -11)" in (tmp_path / "report.html").read_text()
     assert "img" not in read_page(tmp_path / "report.html").tags
+
+
+def sampled(monkeypatch, *, fails_at=None):
+    """A single rung of formal order 2, whose load is the mean thickness over the groove by the midpoint rule."""
+    film = find(models(), "reynolds")
+
+    def solve(scene, *, resolution=None, **_):
+        n = resolution or 16
+        if n == fails_at:
+            raise ConvergenceError("sampled: did not converge; take another grid")
+        result = film.solve(scene)
+        gap = scene.gap()
+        thickness = gap.thickness(((np.arange(n) + 0.5) / n - 0.5) * scene.geometry.width).mean() / gap.film
+        quantities = {**result.quantities, "load_plus": Quantity(value=float(thickness), unit="1")}
+        return replace(result, quantities=quantities, numerics=replace(result.numerics, resolution=n))
+
+    model = replace(film, resolution=16, resolutions=(4, 8, 16), order=2, solve=solve)
+    monkeypatch.setattr(compare, "models", lambda: (model,))
+
+
+def compared(capsys, pocket_file, out, **options):
+    compare.command(pocket_file, out=out, as_json=True, **options)
+    return json.loads(capsys.readouterr().out)
+
+
+def test_the_grids_of_the_chart_are_those_of_the_convergence(pocket_file, tmp_path, monkeypatch, capsys):
+    """The mean thickness over an arc's chord is the segment's area over it, in film thicknesses, plus one."""
+    sampled(monkeypatch)
+    load = compared(capsys, pocket_file, tmp_path)["convergence"]["reynolds"]["load_plus"]
+    width, depth = 0.3, 0.0075
+    radius = (width**2 / 4 + depth**2) / (2 * depth)
+    half = math.asin(width / 2 / radius)
+    mean = 1 + radius**2 * (half - math.sin(2 * half) / 2) / width / 0.03
+    assert load["grids"] == [4, 8, 16]
+    assert load["order"] == pytest.approx(2, abs=0.01)
+    assert load["value"] == pytest.approx(mean, abs=load["uncertainty"])
+    assert load["value"] == pytest.approx(mean, rel=1e-6)
+    page = (tmp_path / "report.html").read_text()
+    assert "Grid convergence" in page
+    assert read_page(tmp_path / "report.html").tags.count("svg") == 3
+
+
+def test_a_fourth_grid_is_finer_and_becomes_the_reference(pocket_file, tmp_path, monkeypatch, capsys):
+    sampled(monkeypatch)
+    told = compared(capsys, pocket_file, tmp_path, grids=4)
+    assert told["convergence"]["reynolds"]["load_plus"]["grids"] == [8, 16, 32]
+    assert told["chart"]["reference"]["resolution"] == told["numerics"]["resolution"] == 32
+    finest = tmp_path / "results" / "reynolds-32.h5"
+    stamp = finest.stat().st_mtime_ns
+    compared(capsys, pocket_file, tmp_path, grids=4)
+    assert finest.stat().st_mtime_ns == stamp
+
+
+def test_a_grid_that_fails_is_told_in_one_line_and_the_others_are_judged(pocket_file, tmp_path, monkeypatch, capsys):
+    sampled(monkeypatch, fails_at=8)
+    compare.command(pocket_file, out=tmp_path)
+    captured = capsys.readouterr()
+    (line,) = captured.err.splitlines()
+    assert line == "grid left out: reynolds at 8: sampled: did not converge; take another grid"
+    assert "reynolds on grids 4, 16" in captured.out
+    assert "two grids, formal order assumed" in (tmp_path / "report.html").read_text()
+
+
+@pytest.mark.usefixtures("film_only")
+def test_without_a_formal_order_there_is_no_grid_convergence(pocket_file, tmp_path, capsys):
+    assert compared(capsys, pocket_file, tmp_path)["convergence"] == {}
+    assert "Grid convergence" not in (tmp_path / "report.html").read_text()
 
 
 def test_a_crash_while_drawing_is_an_answer():

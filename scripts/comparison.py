@@ -1,0 +1,77 @@
+"""The page of a comparison: every model on one scene."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from rom.comparison import Difference, Point
+from rom.convergence import Convergence
+from rom.ladder import Model
+from rom.result import Result
+from rom.scene import Scene, scene_entries
+from scripts.pages import embedded, render
+
+LINKS = "https://doi.org/"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Picture:
+    """A picture of one model's flow, or why there is none."""
+
+    model: str
+    path: Path | None
+    reason: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Report:
+    """Everything the page shows."""
+
+    scene: Scene
+    models: tuple[Model, ...]
+    results: Mapping[str, Result]
+    absent: Mapping[str, str]
+    best: str
+    to_best: tuple[Difference, ...]
+    effects: tuple[Difference, ...]
+    chart: tuple[Point, ...]
+    uncertainty: Mapping[str, float]
+    convergence: Mapping[str, Mapping[str, Convergence]]
+    plots: Mapping[str, str]
+    pictures: tuple[Picture, ...]
+
+
+def cheapest_within(report: Report, part: float) -> str:
+    """The model with the least CPU time whose load and friction are within ``part`` of the best rung's."""
+    worst: dict[str, float] = {report.best: 0.0}
+    for difference in report.to_best:
+        worst[difference.model] = max(worst.get(difference.model, 0.0), abs(difference.relative))
+    enough = [name for name, error in worst.items() if error <= part]
+    return min(enough, key=lambda name: report.results[name].numerics.cpu_s)
+
+
+def write_comparison(report: Report, path: Path) -> None:
+    """Write the page; InputError if it cannot be written."""
+    render(
+        "comparison.html.j2",
+        path,
+        report=report,
+        best=report.results[report.best],
+        entries=scene_entries(report.scene),
+        cheapest={part: cheapest_within(report, part) for part in (0.01, 0.10)},
+        differences=_by_model(report.to_best),
+        pictures=[(picture, "" if picture.path is None else embedded(picture.path)) for picture in report.pictures],
+        sources=_sources(report),
+    )
+
+
+def _by_model(differences: tuple[Difference, ...]) -> dict[str, dict[str, Difference]]:
+    table: dict[str, dict[str, Difference]] = {}
+    for difference in differences:
+        table.setdefault(difference.model, {})[difference.quantity] = difference
+    return table
+
+
+def _sources(report: Report) -> list[tuple[str, str]]:
+    names = {doi for result in report.results.values() for doi in result.provenance["sources"]}
+    return [(doi, LINKS + doi) for doi in sorted(names)]

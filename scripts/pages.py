@@ -1,0 +1,66 @@
+"""Self-contained HTML pages that a person would rather look at than read, from the templates beside this file."""
+
+import base64
+from pathlib import Path
+from typing import Any
+
+import jinja2
+
+from contact.files import replacing
+
+
+def render(template: str, path: Path, **entries: Any) -> None:
+    """Fill a template and write the page; InputError if it cannot be written."""
+    environment = jinja2.Environment(
+        loader=jinja2.PackageLoader("scripts", "."),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+    )
+    environment.filters.update(
+        percent=_percent, share=_share, seconds=_seconds, number=_number, digits=_digits, si=_si, micro=_micro
+    )
+    page = environment.get_template(template).render(**entries)
+    with replacing(path) as scratch:
+        scratch.write_text(page, encoding="utf-8")
+
+
+def embedded(path: Path) -> str:
+    """A PNG file as the text of an image's address."""
+    return "data:image/png;base64," + base64.b64encode(path.read_bytes()).decode("ascii")
+
+
+def _share(part: float) -> str:
+    """A part without sign, in per cent."""
+    percent = 100 * part
+    return f"{percent:.0f} %" if percent >= 99.5 else f"{percent:.2g} %"
+
+
+def _percent(part: float) -> str:
+    percent = 100 * part
+    if abs(percent) < 1e-3:
+        return "0 %"
+    return f"{percent:+.0f} %" if abs(percent) >= 99.5 else f"{percent:+.2g} %"
+
+
+def _seconds(value: float) -> str:
+    return f"{value * 1e3:.2g} ms" if value < 0.1 else f"{value:.2g} s"
+
+
+def _number(value: float) -> str:
+    return "0" if abs(value) < 5e-5 else f"{value:.4g}"
+
+
+def _digits(value: float) -> str:
+    return "0" if abs(value) < 5e-7 else f"{value:.6g}"
+
+
+def _micro(value: float) -> str:
+    return f"{value * 1e3:.4g} mm" if value >= 1e-3 else f"{value * 1e6:.4g} µm"
+
+
+def _si(value: float) -> str:
+    for factor, prefix in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
+        if abs(value) >= factor:
+            return f"{value / factor:.4g} {prefix}Pa"
+    return f"{value:.4g} Pa"
