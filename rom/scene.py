@@ -99,6 +99,11 @@ class Scene(Part):
         return self.reynolds_number * self.geometry.film / min(groove.width for groove in self.grooves)
 
     @property
+    def depth(self) -> float:
+        """Depth of the deepest groove over the film thickness outside, d / Ly."""
+        return max(groove.depth for groove in self.grooves) / self.geometry.film
+
+    @property
     def slope(self) -> float:
         """Mean slope of the steepest groove, from its lowest point to the nearer edge: 2d / w if it is symmetric."""
         return max(groove.slope for groove in self.grooves)
