@@ -76,7 +76,7 @@ def write_case(
 ) -> None:
     """Write the whole case of a scene at a Reynolds number of the model's choice.
 
-    ``resolution`` is the number of mesh columns along the film, about (every break of the gap is a column);
+    ``resolution`` is the number of mesh columns along the film, about (every corner of the gap is a column);
     a fifth as many layers cross it. ``scheme`` is a key of ``ADVECTION``. The case is there whole or not at all.
     Raises InputError for numbers out of range or a directory that is not empty.
     """

@@ -99,9 +99,14 @@ class Scene(Part):
         return self.reynolds_number * self.geometry.film / min(groove.width for groove in self.grooves)
 
     @property
+    def depth(self) -> float:
+        """Depth of the deepest groove over the film thickness outside, d / Ly."""
+        return max(groove.depth for groove in self.grooves) / self.geometry.film
+
+    @property
     def slope(self) -> float:
-        """2d / w of the steepest groove."""
-        return max(2 * groove.depth / groove.width for groove in self.grooves)
+        """Mean slope of the steepest groove, from its lowest point to the nearer edge: 2d / w if it is symmetric."""
+        return max(groove.slope for groove in self.grooves)
 
     def gap(self) -> Gap:
         """The gap this scene's geometry leaves open."""
@@ -255,6 +260,6 @@ def _unknown(location: list[int | str], profile: str | None) -> str:
     if path == ["geometry"]:
         known = [*dict.fromkeys([*PocketGeometry.model_fields, *known])]
     near = difflib.get_close_matches(str(key), known, n=1)
-    if any(key in other.model_fields for other in PROFILES.values()):
+    if profile and any(key in other.model_fields for other in PROFILES.values()):
         return f"no key of profile {profile!r}; known here: {', '.join(known)}"
     return "unknown key; " + (f"did you mean {near[0]!r}?" if near else f"known here: {', '.join(known)}")

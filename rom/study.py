@@ -71,27 +71,27 @@ def load_study(path: Path, models: Sequence[Model]) -> Study:
     if not isinstance(variants, list) or not all(isinstance(variant, dict) for variant in variants):
         raise InputError("variants: is not a list of tables; write each under [[variants]]")
     try:
-        bases = [_merged(entries, variant) for variant in variants]
-        axes = [dict(_axes(base)) for base in bases]
+        keys, cases = _multiplied([_merged(entries, variant) for variant in variants])
     except RecursionError:
         raise InputError(f"{path}: tables are nested too deep; a scene has two or three levels") from None
+    return Study(name=cases[0].scene.name, keys=keys, cases=cases, settings=settings)
+
+
+def _multiplied(bases: Sequence[Mapping[str, Any]]) -> tuple[dict[str, Key], tuple[Case, ...]]:
+    """What varies, by its short name, and the cases of all bases."""
+    axes = [dict(_axes(base)) for base in bases]
     count = sum(math.prod(len(values) for values in options.values()) for options in axes)
     if not 1 <= count <= MOST_CASES:
-        raise InputError(f"{path}: makes {count} cases; a study has 1 to {MOST_CASES}")
+        raise InputError(f"the lists make {count} cases; a study has 1 to {MOST_CASES}")
     labels = _labels(axes)
     cases: dict[str, Case] = {}
     for base, options in zip(bases, axes, strict=True):
         for values in itertools.product(*options.values()):
             case = _case(base, dict(zip(options, values, strict=True)), labels)
             if case.digest in cases:
-                raise InputError(f"{path}: two cases are the same scene, {case.name}; drop one of the values")
+                raise InputError(f"two cases are the same scene, {case.name}; drop one of the values")
             cases[case.digest] = case
-    return Study(
-        name=next(iter(cases.values())).scene.name,
-        keys={label: key for key, label in labels.items()},
-        cases=tuple(cases.values()),
-        settings=settings,
-    )
+    return {label: key for key, label in labels.items()}, tuple(cases.values())
 
 
 def as_toml(scene: Scene) -> str:
@@ -176,7 +176,7 @@ def _case(base: Mapping[str, Any], values: Mapping[Key, Any], labels: Mapping[Ke
             entries["geometry"] = resolve_relative(entries["geometry"], "scene.geometry")
         scene = read_scene(entries)
     except InputError as error:
-        raise InputError(f"case {label}: {error}") from None
+        raise InputError(f"case {label}: {error}" if varied else str(error)) from None
     digest = hashlib.sha256(json.dumps(scene_entries(scene), sort_keys=True).encode()).hexdigest()[:16]
     return Case(name=f"{label}-{digest}", digest=digest, scene=scene, varied=varied)
 

@@ -66,7 +66,7 @@ class Linearised:
 
 
 def strip(gap: Gap, resolution: int, *, second_order: bool = True) -> Strip:
-    """Cut a gap into about ``resolution`` cells, closer at its corners; every break is a face."""
+    """Cut a gap into about ``resolution`` cells, closer where it bends; every corner is a face."""
     faces = columns(gap, resolution)
     centres, lengths = (faces[1:] + faces[:-1]) / 2, np.diff(faces)
     left2, left, right, right2 = (np.roll(lengths, -offset) for offset in OFFSETS)

@@ -196,11 +196,12 @@ def _entries(study: Study, tally: Tally) -> dict[str, Any]:
 
 
 def _table_of(tally: Tally) -> Table:
-    table = Table(Column("setting", no_wrap=True), *(state.value for state in State), "CPU to come")
+    shown = [state for state in State if tally.total(state)]
+    table = Table(Column("setting", no_wrap=True), *(state.value for state in shown), "CPU to come")
     for column in table.columns[1:]:
         column.justify = "right"
     for name, account in tally.accounts.items():
-        table.add_row(name, *(str(account.jobs[state]) for state in State), _duration(account.remaining))
+        table.add_row(name, *(str(account.jobs[state]) for state in shown), _duration(account.remaining))
     return table
 
 

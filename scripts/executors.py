@@ -1,5 +1,6 @@
 """Where jobs run: in processes of this machine, or on a dask cluster; both as ``concurrent.futures`` executors."""
 
+import asyncio
 import logging
 import multiprocessing
 import os
@@ -18,6 +19,7 @@ from types import FrameType
 from typing import Any
 
 from contact.errors import UnavailableError
+from scripts.common import messages
 
 SCHEDULER_TIMEOUT_S = 5
 
@@ -84,20 +86,27 @@ def dask(address: str) -> Iterator[Executor]:
     except ImportError:
         told = "--executor dask: needs the library distributed; install it with: pip install 'roughfilm[cluster]'"
         raise UnavailableError(told) from None
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    logging.disable()  # dask and tornado would say in many lines what we say in one
     try:
-        client = distributed.Client(address, timeout=SCHEDULER_TIMEOUT_S, set_as_default=False)
-    except (OSError, ValueError, RuntimeError) as error:
-        told = (
-            f"--scheduler {address}: does not answer ({' '.join(str(error).split())}); start one with: dask scheduler"
-        )
+        asyncio.run(asyncio.wait_for(_greet(address), SCHEDULER_TIMEOUT_S))
+        client = distributed.Client(address, set_as_default=False)
+    except Exception as error:  # whatever answers there may send anything
+        reason = " ".join(str(error).split()) or f"silent for {SCHEDULER_TIMEOUT_S} s"
+        told = f"--scheduler {address}: is no dask scheduler that answers ({reason}); start one with: dask scheduler"
         raise UnavailableError(told) from None
     with client:
-        executor = client.get_executor(pure=False)
-        try:
-            yield executor
-        finally:
-            executor.shutdown(wait=False)
+        if not client.nthreads():
+            messages.print(f"{address} has no workers yet; waiting for the first", markup=False, soft_wrap=True)
+        yield client.get_executor(pure=False)
+
+
+async def _greet(address: str) -> None:
+    from distributed import rpc
+
+    async with rpc(address) as scheduler:
+        kind = (await scheduler.identity())["type"]
+    if kind != "Scheduler":
+        raise ValueError(f"it is a {kind}")
 
 
 def _start(alive: Connection, scratch: Path) -> None:

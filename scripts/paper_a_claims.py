@@ -53,9 +53,9 @@ def inertia_carries(paper: Paper) -> Claim:
         number=1,
         text="Parallel textured surfaces carry load by inertia; Stokes gives (almost) none",
         verdict=verdict,
-        evidence=f"symmetric grooves: Stokes load at most {level:.1e} of the Navier-Stokes load (the small "
-        "positive one of Fig. A.4 is a discretisation error: creeping flow is reversible); grooves with their lowest point aside "
-        f"carry or lose load without inertia too, up to {shifted:.2g} times the load with it",
+        evidence=f"symmetric grooves: Stokes load at most {level:.1e} of the Navier-Stokes load "
+        "(the small positive one of Fig. A.4 is a discretisation error: creeping flow is reversible); grooves with "
+        f"their lowest point aside carry or lose load without inertia too, up to {shifted:.2g} times the load with it",
     )
 
 

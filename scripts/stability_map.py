@@ -110,7 +110,7 @@ def in_words(found: Map, others: Sequence[Map]) -> list[str]:
     gaps = _gaps(found, first)
     if first is not found and gaps:
         told.append(
-            f"In half of the places its load is more than {100 * median(gaps):.2g} % from that of {first.setting.scheme}."
+            f"Its load differs from that of {first.setting.scheme} by {100 * median(gaps):.2g} % or more at half of them."
         )
     return told
 

@@ -90,7 +90,7 @@ def run(jobs: Sequence[Job], executor: Executor) -> Iterator[tuple[Job, Answer]]
 def _lost(error: BaseException) -> Failure:
     if isinstance(error, UnavailableError):
         return failure_of(error)
-    told = f"its worker died twice ({type(error).__name__}); if memory is short, use fewer --jobs or more of it"
+    told = f"its worker died twice ({type(error).__name__}); if memory is short, let fewer run at a time"
     return Failure(kind="WorkerDied", message=told)
 
 
@@ -127,8 +127,9 @@ def ask(questions: Sequence[Question], origin: tuple[str, dict[str, Any]]) -> li
         if answers and time.monotonic() > end:
             break
         before = sum(os.times()[:4])  # of this process, which has one job at a time, and of its ended children
-        setting = Setting(model=find(ladder, question.model), resolution=question.resolution, scheme=question.scheme)
         try:
+            model = find(ladder, question.model)
+            setting = Setting(model=model, resolution=question.resolution, scheme=question.scheme)
             result = setting.solve(question.scene)
             answers.append(Solved(result=replace(result, fields={}), file=as_bytes(result)))
         except Exception as error:  # whatever a model raises is one job's failure

@@ -7,7 +7,7 @@ from rom.scene import Scene
 
 def applies(scene: Scene) -> Applicability:
     """Always; says how much slope it leaves out."""
-    return Applicability(applies=True, reason=f"keeps all of inertia, leaves out slope (2d/w = {scene.slope:.3g})")
+    return Applicability(applies=True, reason=f"keeps all of inertia, leaves out slope (mean {scene.slope:.3g})")
 
 
 MODEL = film_model(

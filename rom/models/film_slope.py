@@ -8,7 +8,7 @@ from rom.scene import Scene
 def applies(scene: Scene) -> Applicability:
     """Always; says how far from small the slope is."""
     return Applicability(
-        applies=True, reason=f"keeps all of inertia, and slope to second order in 2d/w = {scene.slope:.3g}"
+        applies=True, reason=f"keeps all of inertia, and slope to second order (mean {scene.slope:.3g})"
     )
 
 

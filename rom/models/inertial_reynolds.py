@@ -10,7 +10,7 @@ def applies(scene: Scene) -> Applicability:
     return Applicability(
         applies=True,
         reason=f"keeps inertia to first order in Re Ly/w = {scene.reduced_reynolds_number:.3g}, "
-        f"leaves out slope (2d/w = {scene.slope:.3g})",
+        f"leaves out slope (mean {scene.slope:.3g})",
     )
 
 

@@ -1,6 +1,7 @@
 """Batches: what they leave behind, and that they survive being killed in every way."""
 
 import csv
+import importlib.util
 import json
 import os
 import random
@@ -14,10 +15,12 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 from rom.scene import load_scene
 from rom.store import load
 from rom.table import read_table
+from scripts.cli import app
 
 MOODY = Path(__file__).parent / "moody" / "cli.py"
 POCKET = Path(__file__).parent.parent.parent / "scripts" / "studies" / "pocket.toml"
@@ -340,3 +343,84 @@ def test_bad_input_is_one_line_and_code_2(tmp_path, more, arguments, words):
     assert words in line
     assert told == ""
     assert not (tmp_path / "out").exists()
+
+
+needs_dask = pytest.mark.skipif(importlib.util.find_spec("distributed") is None, reason="distributed is not installed")
+
+
+@pytest.fixture
+def cluster(tmp_path):
+    """A scheduler and two workers of one thread, as processes, with the address."""
+    running = []
+
+    def start(program, *arguments):
+        command = [sys.executable, "-m", f"distributed.cli.{program}", *map(str, arguments), "--no-dashboard"]
+        environment = {**os.environ, "MOODY_NOTES": str(tmp_path / "notes"), "MOODY_SECONDS": "0.2"}
+        with (tmp_path / f"log-{len(running)}").open("w") as log:
+            running.append(subprocess.Popen(command, env=environment, stdout=log, stderr=log))
+        return running[-1]
+
+    told, preload = tmp_path / "scheduler.json", tmp_path / "preload.py"
+    preload.write_text(f"import rom.models\nrom.models.__path__.append({str(MOODY.parent / 'models')!r})\n")
+    scheduler = start("dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--scheduler-file", told)
+    wait_for(lambda: told.exists() and told.read_text())
+    address = json.loads(told.read_text())["address"]
+    workers = [start("dask_worker", address, "--nthreads", 1, "--no-nanny", "--preload", preload) for _ in range(2)]
+    for number in (1, 2):
+        wait_for(lambda: "Registered to" in (tmp_path / f"log-{number}").read_text())  # noqa: B023
+    yield address, scheduler, workers
+    for process in reversed(running):
+        process.kill()
+        process.wait()
+
+
+@needs_dask
+@pytest.mark.slow
+def test_a_cluster_that_loses_a_worker_answers_as_this_machine_does(tmp_path, cluster):
+    address, _, workers = cluster
+    study = write_study(tmp_path / "s.toml", models=["moody", "inertial_reynolds"], numbers=[7, *range(10, 25)])
+    there, here = tmp_path / "there", tmp_path / "here"
+    batch = Batch(study, there, tmp_path, "--executor", "dask", "--scheduler", address)
+    wait_for(lambda: len(results(there)) >= 2)
+    workers[0].kill()
+    code, _, error = batch.end()
+    assert code == 3, error
+    assert len(error.splitlines()) == 1
+    assert Batch(study, here, tmp_path).end()[0] == 3
+    far, near = read_table(there / "table.h5"), read_table(here / "table.h5")
+    assert sum(far["outcome"] == "solved") == 31
+    for name in set(near) - {"cpu_s"}:
+        assert np.array_equal(far[name], near[name], equal_nan=far[name].dtype.kind == "f"), name
+    same_later({}, there)
+
+
+@needs_dask
+@pytest.mark.parametrize("address", ["tcp://127.0.0.1:9", "nowhere"])
+def test_a_scheduler_that_does_not_answer_is_one_line_and_code_4(tmp_path, address):
+    batch = Batch(POCKET, tmp_path / "out", tmp_path, "--executor", "dask", "--scheduler", address)
+    code, told, error = batch.end()
+    assert code == 4
+    (line,) = error.splitlines()
+    assert line.startswith(f"error: --scheduler {address}: is no dask scheduler")
+    assert told == ""
+
+
+@needs_dask
+def test_a_scheduler_that_goes_ends_the_batch_in_one_line(tmp_path, cluster):
+    address, scheduler, _ = cluster
+    study = write_study(tmp_path / "s.toml", models=["moody"], numbers=list(range(10, 60)))
+    batch = Batch(study, tmp_path / "out", tmp_path, "--executor", "dask", "--scheduler", address)
+    wait_for(lambda: results(tmp_path / "out"))
+    scheduler.kill()
+    code, _, error = batch.end()
+    assert code == 4
+    assert error.splitlines() == ["error: the scheduler is gone; what is stored stays, start again"]
+    same_later({}, tmp_path / "out")
+
+
+def test_without_dask_it_says_how_to_get_it(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    arguments = ["batch", POCKET, "--out", tmp_path / "out", "--executor", "dask", "--scheduler", "tcp://127.0.0.1:9"]
+    result = CliRunner().invoke(app, [str(argument) for argument in arguments])
+    assert result.exit_code == 4
+    assert "pip install 'roughfilm[cluster]'" in result.stderr
