@@ -110,7 +110,7 @@ def in_words(found: Map, others: Sequence[Map]) -> list[str]:
     gaps = _gaps(found, first)
     if first is not found and gaps:
         told.append(
-            f"Its load differs from that of {first.setting.scheme} by {100 * median(gaps):.2g} % or more at half of them."
+            f"At half of them its load is {100 * median(gaps):.2g} % or more from that of {first.setting.scheme}."
         )
     return told
 
