@@ -28,11 +28,15 @@ class InputError(ValueError):
 
 
 class ConvergenceError(RuntimeError):
-    """A solver stopped before it met its tolerance, or with fields that cannot be trusted; ``outcome`` says how."""
+    """A solver stopped before it met its tolerance, or with fields that cannot be trusted.
 
-    def __init__(self, message: str, *, outcome: Outcome = Outcome.FAILED) -> None:
+    ``outcome`` says how, and ``iterations`` after how many of them, where the solver knows.
+    """
+
+    def __init__(self, message: str, *, outcome: Outcome = Outcome.FAILED, iterations: int | None = None) -> None:
         super().__init__(message)
         self.outcome = outcome
+        self.iterations = iterations
 
 
 class UnavailableError(ImportError):

@@ -66,10 +66,12 @@ def succeed(directory: Path, command: Sequence[str], log_name: str) -> Ended:
     return ended
 
 
-def failure(reason: str, log: str, outcome: Outcome = Outcome.FAILED) -> ConvergenceError:
+def failure(
+    reason: str, log: str, *, outcome: Outcome = Outcome.FAILED, iterations: int | None = None
+) -> ConvergenceError:
     """The error for a run of this outcome, with the last lines of its log."""
     tail = [line for line in log.splitlines() if line.strip()][-LOG_TAIL:]
-    error = ConvergenceError(f"OpenFOAM: {reason}", outcome=outcome)
+    error = ConvergenceError(f"OpenFOAM: {reason}", outcome=outcome, iterations=iterations)
     if tail:
         error.add_note("\n".join(tail))
     return error

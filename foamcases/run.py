@@ -65,7 +65,8 @@ def run_case(directory: Path, *, progress: Progress = silent) -> Run:
     tries = iterate(directory, card, progress)
     last = tries[-1]
     if last.outcome is not Outcome.CONVERGED:
-        raise failure("; ".join([*map(str, tries), REMEDIES[last.outcome]]), last.log, last.outcome)
+        told = "; ".join([*map(str, tries), REMEDIES[last.outcome]])
+        raise failure(told, last.log, outcome=last.outcome, iterations=last.iterations)
     cpu = mesh.cpu_s + sum(one.cpu_s for one in tries)
     if card.processes > 1:
         cpu += succeed(directory, ["reconstructPar", "-latestTime"], "log.reconstructPar").cpu_s

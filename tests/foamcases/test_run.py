@@ -93,6 +93,21 @@ def test_no_openfoam_is_said_in_one_line(case, monkeypatch):
         run_case(case)
 
 
+def test_no_mpirun_is_said_in_one_line(make_scene, tmp_path, monkeypatch):
+    write_case(
+        make_scene(0.3, 0.25, 40),
+        tmp_path,
+        reynolds_number=40.0,
+        resolution=30,
+        tolerance=None,
+        scheme="linear_upwind",
+        processes=2,
+    )
+    monkeypatch.setattr(run.shutil, "which", lambda _: None)
+    with pytest.raises(UnavailableError, match="no mpirun on the PATH; leave --processes out, or"):
+        run_case(tmp_path)
+
+
 def test_a_sourced_distribution_is_respected(monkeypatch):
     monkeypatch.setenv("WM_PROJECT_DIR", "/opt/other")
     openfoam.environment.cache_clear()

@@ -71,17 +71,17 @@ def test_outcomes(read, values, outcome):
 
 @pytest.mark.openfoam
 @pytest.mark.parametrize(
-    ("model", "scene", "outcome"),
+    ("model", "scene", "resolution", "outcome"),
     [
-        (navier_stokes.MODEL, (0.3, 0.75, 1e12), Outcome.DIVERGED),
-        (navier_stokes.MODEL, (0.15, 2.5, 1e5), Outcome.UNSTEADY),
-        (stokes.MODEL, (0.3, 1e-9, 160), Outcome.STALLED),
+        (navier_stokes.MODEL, (0.3, 0.75, 1e12), 30, Outcome.DIVERGED),
+        (navier_stokes.MODEL, (0.3, 0.75, 5000), 120, Outcome.UNSTEADY),
+        (stokes.MODEL, (0.3, 1e-9, 160), 30, Outcome.STALLED),
     ],
 )
-def test_a_failure_says_which(make_scene, monkeypatch, model, scene, outcome):
+def test_a_failure_says_which(make_scene, monkeypatch, model, scene, resolution, outcome):
     monkeypatch.setattr(tries, "RETRIED", set())
     with pytest.raises(ConvergenceError, match=f"OpenFOAM: {outcome} after") as caught:
-        model.solve(make_scene(*scene), resolution=30)
+        model.solve(make_scene(*scene), resolution=resolution)
     assert caught.value.outcome is outcome
     assert "\n" not in str(caught.value)
 
