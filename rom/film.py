@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from contact.errors import ConvergenceError, InputError
+from contact.errors import ConvergenceError, InputError, Outcome
 from rom import slope, thin_film
 from rom.across import Basis, even_basis, gauss_basis, sliding_wall_slope
 from rom.gap import Array
@@ -93,7 +93,8 @@ def _continued(
         if stride < SMALLEST_STEP or count.spent > MOST_STEPS:
             raise ConvergenceError(
                 f"the film equations have no steady flow within reach beyond Re = {reached * reynolds_number:.4g} "
-                f"(asked: {reynolds_number:.4g}); take navier_stokes, a coarser resolution or a shallower groove"
+                f"(asked: {reynolds_number:.4g}); take navier_stokes, a coarser resolution or a shallower groove",
+                outcome=Outcome.STALLED,
             )
 
 
