@@ -97,7 +97,7 @@ def read(scene: Scene, directory: Path, run: Run, *, model: str, keeps: frozense
             reynolds_number_run=card.reynolds_number,
             processes=card.processes,
             tries=[{"recipe": t.recipe, "outcome": str(t.outcome), "iterations": t.iterations} for t in run.tries],
-            warnings=[*cautions(scene, keeps), *run.warnings],
+            warnings=[*cautions(scene), *run.warnings],
         ),
     )
 

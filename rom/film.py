@@ -9,6 +9,7 @@ import numpy as np
 from contact.errors import ConvergenceError, InputError, Outcome
 from rom import slope, thin_film
 from rom.across import Basis, even_basis, gauss_basis, sliding_wall_slope
+from rom.error_law import ErrorLaw
 from rom.gap import Array
 from rom.ladder import Applicability, Effect, Model, Progress, chosen_scheme, one_process, silent
 from rom.provenance import provenance
@@ -104,6 +105,7 @@ def solve(
     model: str,
     keeps: frozenset[Effect],
     sources: tuple[str, ...],
+    law: ErrorLaw | None = None,
     resolution: int | None = None,
     tolerance: float | None = None,
     scheme: str | None = None,
@@ -147,7 +149,7 @@ def solve(
         state = Flow(amplitudes=state.amplitudes + change.amplitudes, flow=state.flow + change.flow)
         rise = rise + more
 
-    warnings = list(cautions(scene, keeps))
+    warnings = list(cautions(scene, law))
     size = np.abs(state.amplitudes).max(axis=0)
     if size[-1] > ROUGH_PROFILE * size.max():
         warnings.append(
@@ -205,6 +207,7 @@ def film_model(
     keeps: frozenset[Effect],
     sources: tuple[str, ...],
     applies: Callable[[Scene], Applicability],
+    law: ErrorLaw | None = None,
     complete: bool,
 ) -> Model:
     """A rung that solves the thin-film equations; its cost was measured from 50 to 800 cells."""
@@ -222,5 +225,5 @@ def film_model(
         schemes=SCHEMES,
         cost=lambda _scene, resolution: 3e-3 + 1e-4 * resolution,
         applies=applies,
-        solve=partial(solve, model=name, keeps=keeps, sources=sources),
+        solve=partial(solve, model=name, keeps=keeps, sources=sources, law=law),
     )
