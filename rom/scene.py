@@ -120,20 +120,27 @@ def load_entries(path: Path) -> dict[str, Any]:
     """
     path = Path(path)
     try:
+        entries = tomllib.loads(_text(path))
+        _seek_points(entries, path.parent)
+        return entries
+    except InputError:
+        raise
+    except (ValueError, RecursionError) as error:
+        reason = str(error).splitlines()[0]
+        raise InputError(f'{path}: is not TOML ({reason}); write lines such as: film = "30 um"') from error
+
+
+def _text(path: Path) -> str:
+    try:
         if not path.is_file():
             raise InputError(f"{path}: {'is no' if path.exists() else 'no such'} file; name a TOML file")
         if path.stat().st_size > LARGEST_SCENE:
             raise InputError(f"{path}: larger than {LARGEST_SCENE} bytes; a scene is a short TOML file")
-        entries = tomllib.loads(path.read_text(encoding="utf-8"))
-        _seek_points(entries, path.parent)
-        return entries
+        return path.read_text(encoding="utf-8")
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror}); check its permissions") from error
     except UnicodeDecodeError as error:
         raise InputError(f"{path}: byte {error.start} is not UTF-8; save the scene as UTF-8 text") from error
-    except (ValueError, RecursionError) as error:
-        reason = str(error).splitlines()[0]
-        raise InputError(f'{path}: is not TOML ({reason}); write lines such as: film = "30 um"') from error
 
 
 def load_scene(path: Path, overrides: Iterable[str] = ()) -> Scene:

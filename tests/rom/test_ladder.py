@@ -13,22 +13,29 @@ NEEDS_OPENFOAM = [pytest.param(m, marks=pytest.mark.openfoam) if m.write else m 
 
 
 def test_the_rungs_are_found_in_order():
-    assert [model.name for model in MODELS] == ["reynolds", "inertial_reynolds", "stokes", "navier_stokes"]
+    assert [model.name for model in MODELS] == [
+        "reynolds",
+        "inertial_reynolds",
+        "film",
+        "stokes",
+        "film_slope",
+        "navier_stokes",
+    ]
 
 
 def test_the_lattice():
     names = {(model.name, other.name): effect for model in MODELS for other, effect in one_effect_away(model, MODELS)}
     assert names == {
-        ("reynolds", "inertial_reynolds"): Effect.INERTIA,
+        ("reynolds", "film"): Effect.INERTIA,
         ("reynolds", "stokes"): Effect.SLOPE,
-        ("inertial_reynolds", "navier_stokes"): Effect.SLOPE,
+        ("film", "navier_stokes"): Effect.SLOPE,
         ("stokes", "navier_stokes"): Effect.INERTIA,
     }
     assert best(MODELS).name == "navier_stokes"
 
 
 def test_an_unknown_name_is_refused_with_the_known_ones():
-    with pytest.raises(InputError, match="one of reynolds, inertial_reynolds, stokes, navier_stokes"):
+    with pytest.raises(InputError, match="one of reynolds, inertial_reynolds, film, stokes, film_slope, navier_stokes"):
         find(MODELS, "raynolds")
 
 
