@@ -5,24 +5,22 @@ import logging
 import multiprocessing
 import os
 import signal
-import sys
 import tempfile
 import threading
-import time
 from collections.abc import Callable, Iterator
-from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
+from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
 from contextlib import contextmanager, suppress
+from functools import partial
+from multiprocessing import forkserver
 from multiprocessing.connection import Connection
+from multiprocessing.context import ForkServerProcess
 from pathlib import Path
-from types import FrameType
 from typing import Any
 
 from contact.errors import UnavailableError
 from scripts.common import messages
 
 SCHEDULER_TIMEOUT_S = 5
-
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 """Set to 1 where the user says nothing: the cores are kept busy by jobs, not by the libraries inside one."""
 
@@ -30,39 +28,55 @@ THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 class Processes(ThreadPoolExecutor):
     """Each thread keeps a process, so that a process that dies takes the one call with it that ran there.
 
-    The processes live as long as ``alive`` has a writer: they end themselves when it is closed, or when this process
-    dies in whatever way.
+    A ``ProcessPoolExecutor`` would fail every pending call, and wait forever for one that died while it answered.
+    The processes end when this one ends or shuts them down; what they leave in ``scratch`` is for their user to remove.
     """
 
     def __init__(self, count: int, scratch: Path) -> None:
         super().__init__(count)
         self._context = multiprocessing.get_context("forkserver")
         self._context.set_forkserver_preload(["scripts.sweep"])
+        handler = signal.signal(signal.SIGINT, signal.SIG_IGN)  # is inherited: a Ctrl-C is for this process alone
+        forkserver.ensure_running()
+        signal.signal(signal.SIGINT, handler)
         self._scratch = scratch
         self._alive, self._writer = self._context.Pipe(duplex=False)
         self._own = threading.local()
+        self._started: list[ForkServerProcess] = []
 
     def submit(self, call: Callable[..., Any], /, *arguments: Any, **options: Any) -> Future[Any]:
-        """Call in one of the processes; raises BrokenProcessPool there if the process dies."""
-        return super().submit(self._in_process, call, *arguments, **options)
+        """Call in one of the processes; the future raises BrokenExecutor if the process dies."""
+        return super().submit(self._in_process, partial(call, *arguments, **options))
 
-    def _in_process(self, call: Callable[..., Any], *arguments: Any, **options: Any) -> Any:
-        if not hasattr(self._own, "pool"):
-            pool = ProcessPoolExecutor(1, self._context, initializer=_start, initargs=(self._alive, self._scratch))
-            self._own.group = pool.submit(os.getpid).result()
-            self._own.pool = pool
+    def _in_process(self, call: Callable[[], Any]) -> Any:
+        if not hasattr(self._own, "pipe"):
+            self._start()
         try:
-            return self._own.pool.submit(_call, call, *arguments, **options).result()
-        except BrokenProcessPool:
+            self._own.pipe.send(call)
+            value, error = self._own.pipe.recv()
+        except (EOFError, OSError):
             with suppress(ProcessLookupError):
-                os.killpg(self._own.group, signal.SIGKILL)  # what the dead process had started
-            del self._own.pool
-            raise
+                os.killpg(self._own.process.pid, signal.SIGKILL)  # what the process had started
+            del self._own.pipe
+            raise BrokenExecutor("the process died") from None
+        if error is not None:
+            raise error
+        return value
+
+    def _start(self) -> None:
+        pipe, far_end = self._context.Pipe()
+        process = self._context.Process(target=_work, args=(far_end, self._alive, self._scratch), daemon=True)
+        process.start()
+        far_end.close()  # or the end of the process would not be the end of the pipe
+        self._own.pipe, self._own.process = pipe, process
+        self._started.append(process)
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = True) -> None:
         """End the processes at once; calls that are not finished are lost."""
         super().shutdown(wait=False, cancel_futures=cancel_futures)
         self._writer.close()
+        for process in self._started:
+            process.join()
         super().shutdown(wait=wait)
 
 
@@ -109,28 +123,25 @@ async def _greet(address: str) -> None:
         raise ValueError(f"it is a {kind}")
 
 
-def _start(alive: Connection, scratch: Path) -> None:
-    """In a new process: a group of its own, temporary files in their place, and an end with the parent."""
+def _work(pipe: Connection, alive: Connection, scratch: Path) -> None:
+    """The life of a process: answer calls until the sender ends, in a group of its own that a Ctrl-C does not reach."""
     os.setpgrp()
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    signal.signal(signal.SIGTERM, _leave)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
     tempfile.tempdir = str(scratch)
     threading.Thread(target=_end_with, args=(alive,), daemon=True).start()
+    with suppress(EOFError, OSError):  # the sender is gone
+        while True:
+            pipe.send(_answer(pipe.recv()))
 
 
 def _end_with(alive: Connection) -> None:
+    """End this process and what it started when the only writer of ``alive`` closes it or dies, in whatever way."""
     alive.poll(None)
-    while True:
-        os.kill(os.getpid(), signal.SIGTERM)
-        time.sleep(SCHEDULER_TIMEOUT_S)
+    os.killpg(0, signal.SIGKILL)
 
 
-def _leave(number: int, _frame: FrameType | None) -> None:
-    sys.exit(128 + number)
-
-
-def _call(call: Callable[..., Any], *arguments: Any, **options: Any) -> Any:
+def _answer(call: Callable[[], Any]) -> tuple[Any, Exception | None]:
     try:
-        return call(*arguments, **options)
-    except SystemExit:
-        os._exit(128 + signal.SIGTERM)  # the pool would take it for an answer and wait for the next call
+        return call(), None
+    except Exception as error:
+        return None, error

@@ -2,11 +2,14 @@
 
 import os
 import platform
+import signal
 import time
 from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import CancelledError, Executor, Future
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from queue import SimpleQueue
+from signal import SIGINT, SIGTERM
 from typing import Any
 
 from contact.errors import UnavailableError
@@ -58,7 +61,7 @@ def run(jobs: Sequence[Job], executor: Executor) -> Iterator[tuple[Job, Answer]]
     A chunk that is lost because its worker died is sent again job by job; a job that is lost twice has failed.
     """
     pending: dict[Future[list[Answer]], tuple[list[Job], bool]] = {}
-    finished: SimpleQueue[Future[list[Answer]]] = SimpleQueue()
+    finished: SimpleQueue[Future[list[Answer]] | int] = SimpleQueue()
     origin = (code(), versions())
 
     def send(chunk: list[Job], again: bool) -> None:
@@ -66,25 +69,39 @@ def run(jobs: Sequence[Job], executor: Executor) -> Iterator[tuple[Job, Answer]]
         pending[future] = (chunk, again)
         future.add_done_callback(finished.put)
 
-    for chunk in chunks(jobs):
-        send(chunk, False)
-    while pending:
-        future = finished.get()
-        chunk, again = pending.pop(future)
-        try:
-            error = future.exception()
-        except CancelledError:
-            raise UnavailableError("the scheduler is gone; what is stored stays, start again") from None
-        if error is None:
-            answers = future.result()
-            yield from zip(chunk, answers, strict=False)
-            if rest := chunk[len(answers) :]:
-                send(rest, again)
-        elif again:
-            yield chunk[0], _lost(error)
-        else:
-            for job in chunk:
-                send([job], True)
+    with _signals_to(finished):
+        for chunk in chunks(jobs):
+            send(chunk, False)
+        while pending:
+            future = finished.get()
+            if isinstance(future, int):
+                raise SystemExit(128 + future)
+            chunk, again = pending.pop(future)
+            try:
+                error = future.exception()
+            except CancelledError:
+                raise UnavailableError("the scheduler is gone; what is stored stays, start again") from None
+            if error is None:
+                answers = future.result()
+                yield from zip(chunk, answers, strict=False)
+                if rest := chunk[len(answers) :]:
+                    send(rest, again)
+            elif again:
+                yield chunk[0], _lost(error)
+            else:
+                for job in chunk:
+                    send([job], True)
+
+
+@contextmanager
+def _signals_to(queue: SimpleQueue[Any]) -> Iterator[None]:
+    """Put the numbers of the signals that end a program into a queue: an exception raised by them may get lost."""
+    before = {number: signal.signal(number, lambda got, _: queue.put(got)) for number in (SIGINT, SIGTERM)}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 def _lost(error: BaseException) -> Failure:

@@ -258,13 +258,17 @@ def test_killed_at_any_moment_it_goes_on_where_it_was(tmp_path, everyone):
     assert set(table["outcome"]) == {"solved"}
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
-def test_stopped_it_ends_at_once_with_one_line_and_no_children(tmp_path, number):
+@pytest.mark.parametrize(
+    ("send", "number"),
+    [(os.kill, signal.SIGTERM), (os.killpg, signal.SIGTERM), (os.killpg, signal.SIGINT)],
+    ids=["terminate", "terminate-group", "ctrl-c"],
+)
+def test_stopped_it_ends_at_once_with_one_line_and_no_children(tmp_path, send, number):
     out = tmp_path / "out"
     study = write_study(tmp_path / "s.toml", models=["moody"], numbers=list(range(10, 30)))
     batch = Batch(study, out, tmp_path, "--jobs", 2, seconds=0.5)
     wait_for(lambda: results(out))
-    batch.process.send_signal(number)
+    send(batch.process.pid, number)
     code, _, error = batch.end()
     assert code == 128 + number
     (line,) = error.splitlines()
