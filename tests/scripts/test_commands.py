@@ -43,7 +43,7 @@ def test_models():
     result = run("models", "--json")
     assert result.exit_code == 0
     names = [model["name"] for model in json.loads(result.stdout)["models"]]
-    assert names == ["reynolds", "inertial_reynolds", "stokes", "navier_stokes"]
+    assert names == ["reynolds", "inertial_reynolds", "film", "stokes", "film_slope", "navier_stokes"]
     assert "inertial" in run("models").stdout
 
 
@@ -223,7 +223,7 @@ def test_compare_without_openfoam_says_what_is_missing_and_why(pocket_file, tmp_
     result = run("compare", pocket_file, "--out", tmp_path / "o", "--json")
     assert result.exit_code == 0
     told = json.loads(result.stdout)
-    assert told["model"] == "inertial_reynolds"
+    assert told["model"] == "film_slope"
     assert set(told["absent"]) == {"stokes", "navier_stokes"}
     page = (tmp_path / "o" / "report.html").read_text()
     assert "no simpleFoam on the PATH; install it" in page
