@@ -1,17 +1,19 @@
 """How far a model may be trusted on a scene: the number that orders its errors, and up to where it kept a tolerance."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 from rom.ladder import Applicability
 from rom.scene import Scene
 
-SYMBOLS = {"reynolds_number": "Re", "depth": "(d/Ly)", "slope": "(2d/w)"}
+SYMBOLS = {"reynolds_number": "Re", "depth": "d/Ly", "aspect": "2d/w", "slope": "slope"}
+"""``slope`` is that of the steeper side of a groove, 2d/w if its lowest point is in the middle."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ErrorLaw:
-    """Error in load of a model, ordered by a product of powers of Re, d/Ly and the slope 2d/w of a scene.
+    """Error in load of a model, ordered by a product of powers of Re, d/Ly, 2d/w and slope of a scene.
 
     ``thresholds`` gives for each tolerance the number up to which 95 of 100 cases of a sweep kept it, against the best
     rung: grooves of w/Lx = 0.15 to 0.5, d/Ly = 0.25 to 1.25, cylindrical and splined, Re = 40 to 160, Ly/Lx = 0.03
@@ -22,12 +24,9 @@ class ErrorLaw:
     thresholds: Mapping[float, float]
 
     def number(self, scene: Scene) -> float:
-        """The product of powers for the deepest and steepest groove of a scene."""
-        features = {"reynolds_number": scene.reynolds_number, "depth": scene.depth, "slope": scene.slope}
-        value = 1.0
-        for name, power in self.powers.items():
-            value *= features[name] ** power
-        return value
+        """The product of powers; of several grooves the deepest and steepest count."""
+        factors: list[float] = [getattr(scene, name) ** power for name, power in self.powers.items()]
+        return math.prod(factors)
 
     def within(self, scene: Scene) -> float | None:
         """The smallest tolerance that the load is expected to keep, None beyond the last threshold."""
@@ -49,4 +48,13 @@ class ErrorLaw:
 
 def words(powers: Mapping[str, float]) -> str:
     """A product of powers as people write it."""
-    return " ".join(SYMBOLS[name] + ("" if power == 1 else f"^{power:g}") for name, power in powers.items())
+
+    def factor(symbol: str, power: float) -> str:
+        return symbol if power == 1 else f"{symbol if symbol.isalpha() else f'({symbol})'}^{power:g}"
+
+    left = dict(powers)
+    told = []
+    if left.get("aspect") and left.get("aspect") == -left.get("depth", 0):
+        told = [factor("2Ly/w", left.pop("aspect"))]
+        del left["depth"]
+    return " · ".join([*(factor(SYMBOLS[name], power) for name, power in left.items()), *told])

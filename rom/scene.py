@@ -104,6 +104,11 @@ class Scene(Part):
         return max(groove.depth for groove in self.grooves) / self.geometry.film
 
     @property
+    def aspect(self) -> float:
+        """2d / w of the groove where it is greatest: its mean slope if the lowest point is in the middle."""
+        return max(2 * groove.depth / groove.width for groove in self.grooves)
+
+    @property
     def slope(self) -> float:
         """Mean slope of the steepest groove, from its lowest point to the nearer edge: 2d / w if it is symmetric."""
         return max(groove.slope for groove in self.grooves)

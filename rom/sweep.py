@@ -11,6 +11,9 @@ from contact.errors import InputError
 from rom.comparison import LEAST_LOAD
 from rom.gap import Array
 
+LOADED = 0.05
+"""A smaller load, over the greatest pressure, is the difference of two larger ones; its error follows no number."""
+
 SOLVED = "solved"
 """The outcome of a row that holds numbers; any other says why it does not."""
 
@@ -39,11 +42,12 @@ class Sweep:
     failures: tuple[tuple[str, str, str], ...]
 
     def features(self) -> dict[str, Array]:
-        """The numbers of a scene by which errors are ordered: Re, d/Ly, and the slope 2d/w of the steeper side."""
+        """The numbers by which errors are ordered: Re, d/Ly, 2d/w, and the mean slope of the steeper side."""
         width, depth = self.given["width_plus"] / self.given["film_plus"], self.given["depth_plus"]
         return {
             "reynolds_number": np.asarray(self.given["reynolds_number"], dtype=float),
             "depth": np.asarray(depth, dtype=float),
+            "aspect": np.asarray(2 * depth / width, dtype=float),
             "slope": np.asarray(depth / (width * (0.5 - np.abs(self.given["shift_plus"]))), dtype=float),
         }
 
@@ -73,6 +77,13 @@ def read_sweep(table: Mapping[str, NDArray[Any]]) -> Sweep:
         cpu_s=cpu_s,
         failures=failures,
     )
+
+
+def loaded(sweep: Sweep, reference: str) -> NDArray[np.bool_]:
+    """Which cases carry a load worth dividing by, above ``LOADED`` of the greatest pressure; shape (cases,)."""
+    best = sweep.found[reference]
+    pressure = np.maximum(np.abs(best["pressure_max_plus"]), np.abs(best["pressure_min_plus"]))
+    return np.asarray(np.abs(best["load_plus"]) > LOADED * pressure)
 
 
 def relative_error(sweep: Sweep, setting: str, reference: str, quantity: str) -> Array:

@@ -17,7 +17,7 @@ from rom.error_law import words
 from rom.ladder import best
 from rom.ordering import Ordering, fitted_powers, ordering
 from rom.provenance import machine
-from rom.sweep import Sweep, read_sweep, relative_error
+from rom.sweep import Sweep, loaded, read_sweep, relative_error
 from rom.table import read_table
 from scripts.common import AsJson, in_one_line, make_directory, models, output, print_json, run_alone
 from scripts.pages import render
@@ -27,19 +27,24 @@ TOLERANCES = (0.01, 0.02, 0.05, 0.10)
 CANDIDATES: dict[str, dict[str, float]] = {
     "Re": {"reynolds_number": 1},
     "d/Ly": {"depth": 1},
-    "2d/w": {"slope": 1},
-    "Re Ly/w": {"reynolds_number": 1, "depth": -1, "slope": 1},
-    "Re d/w": {"reynolds_number": 1, "slope": 1},
-    "Re (d/w)²": {"reynolds_number": 1, "slope": 2},
-    "d²/(w Ly)": {"depth": 1, "slope": 1},
+    "2d/w": {"aspect": 1},
+    "slope": {"slope": 1},
+    "2Ly/w": {"depth": -1, "aspect": 1},
+    "Re 2Ly/w": {"reynolds_number": 1, "depth": -1, "aspect": 1},
+    "Re 2d/w": {"reynolds_number": 1, "aspect": 1},
+    "Re slope": {"reynolds_number": 1, "slope": 1},
+    "Re (2d/w)²": {"reynolds_number": 1, "aspect": 2},
+    "2d²/(w Ly)": {"depth": 1, "aspect": 1},
 }
-"""Numbers that an engineer would try, each a product of powers of Re, d/Ly and the slope 2d/w (steeper side)."""
+"""Numbers that an engineer would try, each a product of powers of Re, d/Ly, 2d/w and the steeper side's slope."""
+
+FITTED = ("reynolds_number", "depth", "aspect")
 
 SAME = 0.01
 """Errors within this part of each other have no order: a model without any load is 100 % off everywhere."""
 
-SIMPLE_ENOUGH = 0.01
-"""A candidate whose rank correlation is at most this much below that of fitted powers is taken instead of them."""
+SIMPLE_ENOUGH = 0.1
+"""Fitted powers are taken where they correlate better than any candidate by more than this, and cover as many cases."""
 
 
 @in_one_line
@@ -92,7 +97,7 @@ def _reference(sweep: Sweep) -> str:
 def _known(sweep: Sweep, setting: str, reference: str, quantity: str) -> tuple[dict[str, Any], np.ndarray[Any, Any]]:
     error = relative_error(sweep, setting, reference, quantity)
     features = sweep.features()
-    known = np.isfinite(error) & np.isfinite(sum(features.values()))
+    known = np.isfinite(error) & np.isfinite(sum(features.values())) & loaded(sweep, reference)
     return {name: values[known] for name, values in features.items()}, error[known]
 
 
@@ -104,10 +109,11 @@ def _orderings(sweep: Sweep, setting: str, reference: str, quantity: str) -> dic
     if error.max() <= (1 + SAME) * error.min():
         return {}
     found = {name: ordering(features, powers, error, TOLERANCES) for name, powers in CANDIDATES.items()}
-    fitted = fitted_powers(features, error, step=0.25)
+    fitted = fitted_powers({name: features[name] for name in FITTED}, error, step=0.25)
     found["fitted"] = ordering(features, fitted or {"reynolds_number": 1}, error, TOLERANCES)
-    simple = max(CANDIDATES, key=lambda name: found[name].rank)
-    found["chosen"] = found[simple if found[simple].rank >= found["fitted"].rank - SIMPLE_ENOUGH else "fitted"]
+    simple = found[max(CANDIDATES, key=lambda name: found[name].rank)]
+    better = found["fitted"].rank > simple.rank + SIMPLE_ENOUGH
+    found["chosen"] = found["fitted"] if better and found["fitted"].coverage >= simple.coverage else simple
     return found
 
 

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from rom.error_law import words
 from rom.gap import Array
 from rom.ordering import Ordering, product
-from rom.sweep import Sweep, relative_error
+from rom.sweep import Sweep, loaded, relative_error
 from scripts.figures import TITLES, colour, marker, svg
 
 LEAST_PERCENT = 1e-3
@@ -41,7 +41,7 @@ def error_maps(sweep: Sweep, setting: str, reference: str, quantity: str) -> str
     numbers, kinds = np.unique(sweep.given["reynolds_number"]), shapes(sweep)
     error = 100 * relative_error(sweep, setting, reference, quantity)
     figure = Figure(figsize=(2.1 + 2.6 * numbers.size, 0.7 + 1.75 * len(kinds)), layout="constrained")
-    panels = figure.subplots(len(kinds), numbers.size, squeeze=False, sharex=True, sharey=True)
+    panels = figure.subplots(len(kinds), numbers.size, squeeze=False)
     norm = LogNorm(vmin=0.05, vmax=50)
     image = mpl.cm.ScalarMappable(norm=norm, cmap="viridis_r")
     for line, shape in zip(panels, kinds, strict=True):
@@ -55,13 +55,13 @@ def error_maps(sweep: Sweep, setting: str, reference: str, quantity: str) -> str
             )
             grid[place] = error[rows]
             axes.grid(visible=False)
-            axes.imshow(np.maximum(grid, LEAST_PERCENT), norm=norm, cmap="viridis_r", origin="lower", aspect="auto")
+            axes.pcolormesh(np.maximum(grid, LEAST_PERCENT), norm=norm, cmap="viridis_r")
             for (i, j), value in np.ndenumerate(grid):
                 if np.isfinite(value):
                     ink = "white" if value > 4 else "black"
-                    axes.text(j, i, _short(value), ha="center", va="center", fontsize=6, color=ink)
-            axes.set_xticks(range(widths.size), [f"{w:g}" for w in widths], fontsize=7, rotation=60)
-            axes.set_yticks(range(depths.size), [f"{d:g}" for d in depths], fontsize=7)
+                    axes.text(j + 0.5, i + 0.5, _short(value), ha="center", va="center", fontsize=6, color=ink)
+            axes.set_xticks(np.arange(widths.size) + 0.5, [f"{w:g}" for w in widths], fontsize=7, rotation=60)
+            axes.set_yticks(np.arange(depths.size) + 0.5, [f"{d:g}" for d in depths], fontsize=7)
             axes.set_title(f"{shape_name(shape)}, Re = {number:g}", fontsize=8)
     figure.supxlabel("groove width w+", fontsize=9)
     figure.supylabel("groove depth d+", fontsize=9)
@@ -84,6 +84,7 @@ def errors_in_order(
             found = orderings[setting, quantity]
             number = product(sweep.features(), found.powers)
             error = 100 * relative_error(sweep, setting, reference, quantity)
+            error[~loaded(sweep, reference)] = np.nan
             for shape, sign in zip(shapes(sweep), "osD^v<>", strict=False):
                 rows = rows_of(sweep, shape)
                 label = None if shape in told else shape_name(shape)

@@ -5,7 +5,7 @@ from rom.film import film_model
 from rom.ladder import Applicability, Effect
 from rom.scene import Scene
 
-LAW = ErrorLaw(powers={"slope": 1}, thresholds={0.01: 0.1, 0.02: 0.2, 0.05: 0.4, 0.10: 0.5})
+LAW = ErrorLaw(powers={"depth": -1, "aspect": 1}, thresholds={0.05: 0.4})
 
 
 def applies(scene: Scene) -> Applicability:

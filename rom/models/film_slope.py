@@ -5,7 +5,7 @@ from rom.film import film_model
 from rom.ladder import Applicability, Effect
 from rom.scene import Scene
 
-LAW = ErrorLaw(powers={"slope": 1}, thresholds={0.01: 0.3, 0.02: 0.5})
+LAW = ErrorLaw(powers={"slope": 1}, thresholds={0.01: 0.46, 0.02: 0.75, 0.05: 1.25})
 
 
 def applies(scene: Scene) -> Applicability:

@@ -5,7 +5,7 @@ from rom.ladder import Applicability, Effect
 from rom.quadrature import quadrature_model
 from rom.scene import Scene
 
-LAW = ErrorLaw(powers={"reynolds_number": 1, "slope": 1}, thresholds={0.01: 1.0, 0.02: 2.0, 0.05: 4.0, 0.10: 7.0})
+LAW = ErrorLaw(powers={"reynolds_number": 1, "aspect": 1}, thresholds={0.02: 1.2, 0.05: 3.0, 0.10: 5.3})
 
 
 def applies(scene: Scene) -> Applicability:
