@@ -6,11 +6,15 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+
 from contact.errors import ConvergenceError
 from rom.models.reynolds import MODEL as REYNOLDS
+from rom.result import Field
 
 DIVERGES, DIES, BREAKS = 7.0, 8.0, 9.0
 SECONDS = float(os.environ.get("MOODY_SECONDS", "0"))
+MEGABYTES = float(os.environ.get("MOODY_MEGABYTES", "0"))
 
 
 def solve(scene, **options):
@@ -23,7 +27,9 @@ def solve(scene, **options):
     if scene.reynolds_number == BREAKS:
         raise ZeroDivisionError("a fault in a model")
     time.sleep(SECONDS)
-    return replace(REYNOLDS.solve(scene, **options), model="moody")
+    result = replace(REYNOLDS.solve(scene, **options), model="moody")
+    noise = np.random.default_rng(20051).random(int(MEGABYTES * 125_000))
+    return replace(result, fields={**result.fields, "noise": Field(values=noise, unit="1")}) if noise.size else result
 
 
 MODEL = replace(REYNOLDS, name="moody", solve=solve, cost=lambda _scene, _resolution: SECONDS)
