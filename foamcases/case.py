@@ -8,6 +8,7 @@ from pathlib import Path
 from contact.errors import InputError
 from foamcases import mesh
 from foamcases.dictionaries import SIDES, write_dictionaries
+from foamcases.openfoam import OPEN_MPI
 from rom.scene import Scene
 
 CARD = "case.json"
@@ -18,6 +19,7 @@ TOLERANCE = 1e-7
 SERIAL = "simpleFoam > log.simpleFoam 2>&1"
 PARALLEL = (
     "decomposePar > log.decomposePar 2>&1 &&\n"
+    "    env {environment} \\\n"
     "    mpirun -np {processes} simpleFoam -parallel > log.simpleFoam 2>&1 &&\n"
     "    reconstructPar -latestTime > log.reconstructPar 2>&1"
 )
@@ -74,7 +76,7 @@ def write_case(
 ) -> None:
     """Write the whole case of a scene at a Reynolds number of the model's choice.
 
-    ``resolution`` is the number of mesh columns along the film, about (every break of the gap is a column);
+    ``resolution`` is the number of mesh columns along the film, about (every corner of the gap is a column);
     a fifth as many layers cross it. ``scheme`` is a key of ``ADVECTION``. The case is there whole or not at all.
     Raises InputError for numbers out of range or a directory that is not empty.
     """
@@ -108,7 +110,8 @@ def write_case(
                 scratch, viscosity=1 / reynolds_number, tolerance=tolerance, scheme=scheme, processes=processes
             )
             (scratch / "README").write_text(readme, encoding="utf-8")
-            commands = SERIAL if processes == 1 else PARALLEL.format(processes=processes)
+            settings = " ".join(f"{name}={value}" for name, value in OPEN_MPI.items())
+            commands = SERIAL if processes == 1 else PARALLEL.format(processes=processes, environment=settings)
             (scratch / "Allrun").write_text(ALLRUN.format(commands=commands), encoding="utf-8")
             (scratch / "Allrun").chmod(0o755)
             (scratch / CARD).write_text(json.dumps(asdict(card), indent=1) + "\n", encoding="utf-8")

@@ -14,6 +14,12 @@ from foamcases.mesh import Patch
 
 ITERATIONS = 5000
 
+LINEAR_TOLERANCE = 1e-5
+"""Residual at which a linear solver stops, in units of the tolerance."""
+
+ROUND_OFF = 1e-15
+"""The least residual that a linear solver can be asked for."""
+
 VELOCITY_RELAXATION = 0.95
 """SIMPLEC; the converged answer depends slightly on it, so it is one number for every case."""
 
@@ -59,6 +65,20 @@ def write_dictionaries(directory: Path, *, viscosity: float, tolerance: float, s
                 file[key] = value
 
 
+def change_scheme(directory: Path, *, scheme: str, tolerance: float) -> None:
+    """Let a case go on by another advection scheme, until another tolerance is met."""
+    FoamFile(directory / "system" / "fvSchemes")["divSchemes", "div(phi,U)"] = ADVECTION[scheme]
+    with FoamFile(directory / "system" / "fvSolution") as solution:
+        solution["SIMPLE", "residualControl"] = {"p": tolerance, "U": tolerance}
+
+
+def strengthen(directory: Path) -> None:
+    """Let a case correct the pressure for skewed cells in each iteration, and solve for velocity down to round-off."""
+    with FoamFile(directory / "system" / "fvSolution") as solution:
+        solution["SIMPLE", "nNonOrthogonalCorrectors"] = 1
+        solution["solvers", "U", "tolerance"] = ROUND_OFF
+
+
 def _dictionaries(
     viscosity: float, tolerance: float, scheme: str, processes: int
 ) -> dict[str, tuple[str, Mapping[str, Any]]]:
@@ -102,14 +122,14 @@ def _dictionaries(
                     "p": {
                         "solver": "GAMG",
                         "smoother": "DICGaussSeidel",
-                        "tolerance": tolerance * 1e-5,
+                        "tolerance": tolerance * LINEAR_TOLERANCE,
                         "relTol": 0.1,
                         "nCellsInCoarsestLevel": 20,
                     },
                     "U": {
                         "solver": "PBiCGStab",
                         "preconditioner": "DILU",
-                        "tolerance": tolerance * 1e-5,
+                        "tolerance": tolerance * LINEAR_TOLERANCE,
                         "relTol": 0.01,
                     },
                 },

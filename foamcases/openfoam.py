@@ -16,8 +16,9 @@ OPEN_MPI = {
     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
     "OMPI_MCA_rmaps_base_oversubscribe": "1",
     "OMPI_MCA_hwloc_base_binding_policy": "none",
+    "OMPI_MCA_mpi_yield_when_idle": "1",
 }
-"""Open MPI as in a container: by any user, on any number of cores, and several runs not all on the first cores."""
+"""Open MPI by any user, on any number of cores, several runs not all on the same, waiting without spinning."""
 
 REMEDY = "install it with: sudo apt-get install openfoam"
 

@@ -80,7 +80,7 @@ def read(scene: Scene, directory: Path, run: Run, *, model: str, keeps: frozense
         },
         numerics=Numerics(
             residual=run.residual,
-            iterations=run.iterations,
+            iterations=run.tries[-1].iterations,
             cpu_s=run.cpu_s,
             wall_s=run.wall_s,
             degrees_of_freedom=3 * card.columns * card.layers,
@@ -96,7 +96,8 @@ def read(scene: Scene, directory: Path, run: Run, *, model: str, keeps: frozense
             velocity_relaxation=VELOCITY_RELAXATION,
             reynolds_number_run=card.reynolds_number,
             processes=card.processes,
-            warnings=[*cautions(scene, keeps), *run.warnings],
+            tries=[{"recipe": t.recipe, "outcome": str(t.outcome), "iterations": t.iterations} for t in run.tries],
+            warnings=[*cautions(scene), *run.warnings],
         ),
     )
 
@@ -117,12 +118,12 @@ def solve(
     found = availability()
     if not found.available:
         raise UnavailableError(f"{model}: {found.detail}")
-    wall, cpu = time.perf_counter(), time.process_time()
+    wall, cpu = time.perf_counter(), time.thread_time()
     with tempfile.TemporaryDirectory(prefix="roughfilm-") as place:
         directory = Path(place) / model
         write(scene, directory, resolution=resolution, tolerance=tolerance, scheme=scheme, processes=processes)
         run = run_case(directory, progress=progress)
-        spent = time.process_time() - cpu
+        spent = time.thread_time() - cpu
         whole = replace(run, cpu_s=run.cpu_s + spent, wall_s=time.perf_counter() - wall)
         return read(scene, directory, whole, model=model, keeps=keeps)
 

@@ -6,9 +6,10 @@ from functools import partial
 
 import numpy as np
 
-from contact.errors import ConvergenceError, InputError
+from contact.errors import ConvergenceError, InputError, Outcome
 from rom import slope, thin_film
 from rom.across import Basis, even_basis, gauss_basis, sliding_wall_slope
+from rom.error_law import ErrorLaw
 from rom.gap import Array
 from rom.ladder import Applicability, Effect, Model, Progress, chosen_scheme, one_process, silent
 from rom.provenance import provenance
@@ -23,7 +24,7 @@ MODES = 10
 RESOLUTION = 400
 RESOLUTIONS = (50, 100, 200, 400)
 COARSEST, FINEST = 12, 4000
-TOLERANCE = 1e-8
+TOLERANCE = 1e-11
 SCHEMES = ("linear_upwind", "upwind")
 LAYERS, FINE_LAYERS = 24, 120
 """Where the velocity is given in the result, and where back-flow is looked for."""
@@ -37,7 +38,7 @@ ROUGH_PROFILE = 0.1
 """A last polynomial larger than this part of the largest one says that the profile across the film is not resolved."""
 
 RESOLUTION_MEANING = "cells along the film, each with 10 polynomials across it"
-RESIDUAL_MEANING = "largest imbalance of momentum in a cell, relative to the largest viscous force in one"
+RESIDUAL_MEANING = "largest imbalance of momentum in a cell, relative to the largest force in one"
 
 
 class _Count:
@@ -49,7 +50,7 @@ class _Count:
 
 def _residual(film: Strip, across: Basis, linear: thin_film.Linearised) -> float:
     rise = thin_film.pressure_rise(film, across, linear.imbalance)
-    return float(max(np.abs(linear.imbalance[:, 1:]).max() / linear.viscous, abs(rise.sum()) / np.abs(rise).sum()))
+    return float(max(np.abs(linear.imbalance[:, 1:]).max(), across.flow * abs(rise.sum())) / linear.force)
 
 
 def _newton(
@@ -57,10 +58,10 @@ def _newton(
 ) -> tuple[Flow, thin_film.Linearised] | None:
     """The flow at one Reynolds number from a guess; None where Newton's method does not find it."""
     least = np.inf
-    for _ in range(NEWTON_STEPS):
+    for steps in range(NEWTON_STEPS):
         linear = thin_film.linearise(film, across, reynolds_number, state)
         residual = _residual(film, across, linear)
-        if residual <= tolerance:
+        if residual <= tolerance and steps:
             return state, linear
         if not residual < 100 * least:
             return None
@@ -93,7 +94,8 @@ def _continued(
         if stride < SMALLEST_STEP or count.spent > MOST_STEPS:
             raise ConvergenceError(
                 f"the film equations have no steady flow within reach beyond Re = {reached * reynolds_number:.4g} "
-                f"(asked: {reynolds_number:.4g}); take navier_stokes, a coarser resolution or a shallower groove"
+                f"(asked: {reynolds_number:.4g}); take navier_stokes, a coarser resolution or a shallower groove",
+                outcome=Outcome.STALLED,
             )
 
 
@@ -103,6 +105,7 @@ def solve(
     model: str,
     keeps: frozenset[Effect],
     sources: tuple[str, ...],
+    law: ErrorLaw | None = None,
     resolution: int | None = None,
     tolerance: float | None = None,
     scheme: str | None = None,
@@ -116,7 +119,7 @@ def solve(
     Raises
     ------
     InputError
-        For a resolution outside 12..4000, a tolerance outside 1e-12..1, an unknown scheme, or more than one process.
+        For a resolution outside 12..4000, a tolerance outside 1e-14..1, an unknown scheme, or more than one process.
     ConvergenceError
         If no steady flow is found, or the residual does not meet the tolerance.
 
@@ -133,8 +136,8 @@ def solve(
     tolerance = TOLERANCE if tolerance is None else tolerance
     if not COARSEST <= resolution <= FINEST:
         raise InputError(f"--resolution: got {resolution}; {model} takes {COARSEST} to {FINEST} {RESOLUTION_MEANING}")
-    if not 1e-12 <= tolerance < 1:
-        raise InputError(f"--tolerance: got {tolerance}; it must be 1e-12 to 1")
+    if not 1e-14 <= tolerance < 1:
+        raise InputError(f"--tolerance: got {tolerance}; it must be 1e-14 to 1")
     gap, reynolds_number = scene.gap(), scene.reynolds_number
     film, across = thin_film.strip(gap, resolution, second_order=scheme == SCHEMES[0]), gauss_basis(MODES)
     with np.errstate(all="ignore"):
@@ -146,7 +149,7 @@ def solve(
         state = Flow(amplitudes=state.amplitudes + change.amplitudes, flow=state.flow + change.flow)
         rise = rise + more
 
-    warnings = list(cautions(scene, keeps))
+    warnings = list(cautions(scene, law))
     size = np.abs(state.amplitudes).max(axis=0)
     if size[-1] > ROUGH_PROFILE * size.max():
         warnings.append(
@@ -204,6 +207,7 @@ def film_model(
     keeps: frozenset[Effect],
     sources: tuple[str, ...],
     applies: Callable[[Scene], Applicability],
+    law: ErrorLaw | None = None,
     complete: bool,
 ) -> Model:
     """A rung that solves the thin-film equations; its cost was measured from 50 to 800 cells."""
@@ -221,5 +225,5 @@ def film_model(
         schemes=SCHEMES,
         cost=lambda _scene, resolution: 3e-3 + 1e-4 * resolution,
         applies=applies,
-        solve=partial(solve, model=name, keeps=keeps, sources=sources),
+        solve=partial(solve, model=name, keeps=keeps, sources=sources, law=law),
     )

@@ -37,6 +37,11 @@ class _Drawn(_Placed):
         """Where it begins and ends, m from the middle of the period."""
         return self.position - self.width / 2, self.position + self.width / 2
 
+    @property
+    def slope(self) -> float:
+        """Mean slope of the wall between the lowest point and the nearer edge."""
+        return 2 * self.depth / self.width
+
 
 class Cylindrical(_Drawn):
     """A circular arc through both edges."""
@@ -72,6 +77,11 @@ class Splined(_Drawn):
             )
         return self
 
+    @property
+    def slope(self) -> float:
+        """Mean slope of the wall between the lowest point and the nearer edge."""
+        return self.depth / (self.width / 2 - abs(self.shift))
+
     def shape(self) -> groove.Groove:
         """Its depth along the wall."""
         return groove.splined(width=self.width, depth=self.depth, shift=self.shift)
@@ -97,6 +107,13 @@ class Through(_Placed):
     def depth(self) -> float:
         """That of the deepest point, m."""
         return max(depth for _, depth in self.points)
+
+    @property
+    def slope(self) -> float:
+        """Mean slope of the wall between the lowest point and the nearer edge."""
+        (first, _), *_, (last, _) = self.points
+        lowest = next(place for place, depth in self.points if depth == self.depth)
+        return self.depth / min(lowest - first, last - lowest)
 
     def shape(self) -> groove.Groove:
         """Its depth along the wall."""

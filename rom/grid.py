@@ -13,6 +13,9 @@ BEND_DENSITY = 4.0
 REACH = 1.0
 """How far from a break the columns stay dense, in film thicknesses: about as far as the flow feels it."""
 
+NARROWEST = 1e-3
+"""Corners nearer to each other than this, in film thicknesses, share one column: a sliver of land is none."""
+
 
 def columns(gap: Gap, resolution: int) -> Array:
     """Positions of about ``resolution`` + 1 mesh columns over the period, in film thicknesses.
@@ -24,6 +27,10 @@ def columns(gap: Gap, resolution: int) -> Array:
 
     Each piece between corners gets a whole number of cells, so that every corner is a column.
     """
+    start, end = gap.breaks[0] / gap.film, gap.breaks[-1] / gap.film
+    inner = np.array(gap.corners) / gap.film
+    inner = inner[(inner - start > NARROWEST) & (np.diff(inner, append=end) > NARROWEST)]
+    anchors = np.array([start, *inner, end])
     periods = np.array([-1.0, 0.0, 1.0]) * gap.length
     corners = np.add.outer(periods, gap.corners).ravel() / gap.film
     smooth = [place for place in gap.breaks[1:-1] if place not in gap.corners]
@@ -34,7 +41,6 @@ def columns(gap: Gap, resolution: int) -> Array:
         at_bends = _to_the_nearest(bends, x) if smooth else np.zeros_like(x)
         return np.asarray(x + (CORNER_DENSITY - 1) * at_corners + (BEND_DENSITY - 1) * at_bends)
 
-    anchors = np.unique([gap.breaks[0], *gap.corners, gap.breaks[-1]]) / gap.film
     ends = cells_up_to(anchors)
     counts = np.maximum(2, np.round(np.diff(ends) / (ends[-1] - ends[0]) * resolution, 6).round().astype(int))
     pieces = []

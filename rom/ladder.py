@@ -23,10 +23,14 @@ class Effect(StrEnum):
 
 @dataclass(frozen=True, kw_only=True)
 class Applicability:
-    """Whether a model can say something of a scene, and why or with what left out, in words."""
+    """Whether a model can say something of a scene, and why or with what left out, in words.
+
+    ``within`` is the smallest part of the load by which it is expected to be off at most, None where that is not known.
+    """
 
     applies: bool
     reason: str
+    within: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -32,7 +32,7 @@ def checked(points: object) -> Points:
         try:
             return checked(read_rows(Path(points)))
         except ValueError as error:
-            raise ValueError(f"file {points}: {error}") from error
+            raise ValueError(f"file {points!r:.200}: {error}") from error
     if not isinstance(points, list | tuple):
         raise ValueError(f"got {points!r:.60}; name a file, or give [[position, depth], ...] in m")
     if not FEWEST <= len(points) <= MOST:

@@ -9,6 +9,7 @@ import numpy as np
 
 from contact.errors import ConvergenceError, InputError
 from rom import film_flow
+from rom.error_law import ErrorLaw
 from rom.gap import Array, Gap
 from rom.ladder import Applicability, Effect, Model, Progress, chosen_scheme, one_process, silent
 from rom.piecewise import Rule, extrema, gauss_rule
@@ -60,6 +61,7 @@ def solve(
     model: str,
     keeps: frozenset[Effect],
     sources: tuple[str, ...],
+    law: ErrorLaw | None = None,
     resolution: int | None = None,
     tolerance: float | None = None,
     scheme: str | None = None,
@@ -103,7 +105,7 @@ def solve(
             )
         order, tries = 2 * order, tries + 1
 
-    warnings = list(cautions(scene, keeps))
+    warnings = list(cautions(scene, law))
     if residual > tolerance:
         warnings.append(f"residual {residual:.1e} at {order} nodes on a piece misses the tolerance {tolerance:.1e}")
     reynolds_number = scene.reynolds_number if Effect.INERTIA in keeps else 0.0
@@ -163,6 +165,7 @@ def quadrature_model(
     complete: bool = True,
     sources: tuple[str, ...],
     applies: Callable[[Scene], Applicability],
+    law: ErrorLaw | None = None,
 ) -> Model:
     """A rung that solves by quadrature; its cost is that of the default rule (a half circle takes seconds)."""
     return Model(
@@ -178,5 +181,5 @@ def quadrature_model(
         order=None,
         cost=lambda _scene, resolution: 2e-4 + 1e-7 * resolution**2,
         applies=applies,
-        solve=partial(solve, model=name, keeps=keeps, sources=sources),
+        solve=partial(solve, model=name, keeps=keeps, sources=sources, law=law),
     )

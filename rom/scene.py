@@ -99,9 +99,14 @@ class Scene(Part):
         return self.reynolds_number * self.geometry.film / min(groove.width for groove in self.grooves)
 
     @property
+    def depth(self) -> float:
+        """Depth of the deepest groove over the film thickness outside, d / Ly."""
+        return max(groove.depth for groove in self.grooves) / self.geometry.film
+
+    @property
     def slope(self) -> float:
-        """2d / w of the steepest groove."""
-        return max(2 * groove.depth / groove.width for groove in self.grooves)
+        """Mean slope of the steepest groove, from its lowest point to the nearer edge: 2d / w if it is symmetric."""
+        return max(groove.slope for groove in self.grooves)
 
     def gap(self) -> Gap:
         """The gap this scene's geometry leaves open."""
@@ -115,20 +120,27 @@ def load_entries(path: Path) -> dict[str, Any]:
     """
     path = Path(path)
     try:
+        entries = tomllib.loads(_text(path))
+        _seek_points(entries, path.parent)
+        return entries
+    except InputError:
+        raise
+    except (ValueError, RecursionError) as error:
+        reason = str(error).splitlines()[0]
+        raise InputError(f'{path}: is not TOML ({reason}); write lines such as: film = "30 um"') from error
+
+
+def _text(path: Path) -> str:
+    try:
         if not path.is_file():
             raise InputError(f"{path}: {'is no' if path.exists() else 'no such'} file; name a TOML file")
         if path.stat().st_size > LARGEST_SCENE:
             raise InputError(f"{path}: larger than {LARGEST_SCENE} bytes; a scene is a short TOML file")
-        entries = tomllib.loads(path.read_text(encoding="utf-8"))
-        _seek_points(entries, path.parent)
-        return entries
+        return path.read_text(encoding="utf-8")
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror}); check its permissions") from error
     except UnicodeDecodeError as error:
         raise InputError(f"{path}: byte {error.start} is not UTF-8; save the scene as UTF-8 text") from error
-    except (ValueError, RecursionError) as error:
-        reason = str(error).splitlines()[0]
-        raise InputError(f'{path}: is not TOML ({reason}); write lines such as: film = "30 um"') from error
 
 
 def load_scene(path: Path, overrides: Iterable[str] = ()) -> Scene:
@@ -255,6 +267,6 @@ def _unknown(location: list[int | str], profile: str | None) -> str:
     if path == ["geometry"]:
         known = [*dict.fromkeys([*PocketGeometry.model_fields, *known])]
     near = difflib.get_close_matches(str(key), known, n=1)
-    if any(key in other.model_fields for other in PROFILES.values()):
+    if profile and any(key in other.model_fields for other in PROFILES.values()):
         return f"no key of profile {profile!r}; known here: {', '.join(known)}"
     return "unknown key; " + (f"did you mean {near[0]!r}?" if near else f"known here: {', '.join(known)}")

@@ -39,11 +39,12 @@ class Sweep:
     failures: tuple[tuple[str, str, str], ...]
 
     def features(self) -> dict[str, Array]:
-        """The numbers of a scene by which errors are ordered: Re, d/Ly and w/Ly."""
+        """The numbers of a scene by which errors are ordered: Re, d/Ly, and the slope 2d/w of the steeper side."""
+        width, depth = self.given["width_plus"] / self.given["film_plus"], self.given["depth_plus"]
         return {
             "reynolds_number": np.asarray(self.given["reynolds_number"], dtype=float),
-            "depth": np.asarray(self.given["depth_plus"], dtype=float),
-            "width": np.asarray(self.given["width_plus"] / self.given["film_plus"], dtype=float),
+            "depth": np.asarray(depth, dtype=float),
+            "slope": np.asarray(depth / (width * (0.5 - np.abs(self.given["shift_plus"]))), dtype=float),
         }
 
 

@@ -56,17 +56,17 @@ class Linearised:
     """Imbalance of every cell and test function, shape (cells, n), and what it changes by.
 
     ``blocks``, shape (cells, 5, n, n-1), by the amplitudes of cells i-2 .. i+2; ``by_flow``, shape (cells, n), by q.
-    ``viscous`` is the largest viscous force in a cell.
+    ``force`` is the largest force in a cell: of viscosity, or the momentum that flows through a face.
     """
 
     imbalance: Array
     blocks: Array
     by_flow: Array
-    viscous: float
+    force: float
 
 
 def strip(gap: Gap, resolution: int, *, second_order: bool = True) -> Strip:
-    """Cut a gap into about ``resolution`` cells, closer at its corners; every break is a face."""
+    """Cut a gap into about ``resolution`` cells, closer where it bends; every corner is a face."""
     faces = columns(gap, resolution)
     centres, lengths = (faces[1:] + faces[:-1]) / 2, np.diff(faces)
     left2, left, right, right2 = (np.roll(lengths, -offset) for offset in OFFSETS)
@@ -159,7 +159,8 @@ def linearise(film: Strip, across: Basis, reynolds_number: float, state: Flow) -
     by_flow = reynolds_number * (_next(through_by_flow) - through_by_flow)
     by_flow += reynolds_number * (across.shape[0] * rise) @ turning.T / (across.flow * h)[:, None]
     by_flow[:, 0] += dx * STIFFNESS / (across.flow * h**2)
-    return Linearised(imbalance=imbalance, blocks=blocks, by_flow=by_flow, viscous=float(np.abs(viscous).max()))
+    force = float(max(np.abs(viscous).max(), reynolds_number * np.abs(through).max()))
+    return Linearised(imbalance=imbalance, blocks=blocks, by_flow=by_flow, force=force)
 
 
 def pressure_rise(film: Strip, across: Basis, imbalance: Array) -> Array:

@@ -1,6 +1,6 @@
 """Where a model leaves the ground on which it was compared or may be assumed: cautions, in words."""
 
-from rom.ladder import Effect
+from rom.error_law import ErrorLaw
 from rom.scene import Scene
 
 TURBULENT = 1440.0
@@ -9,25 +9,15 @@ TURBULENT = 1440.0
 Source: Tillmark and Alfredsson 1992, doi:10.1017/S0022112092001046.
 """
 
-FIRST_ORDER = 16.0
-"""Largest Re Ly/w at which first-order inertia was compared with Navier-Stokes.
 
-There its load is 8 % off at d/Ly = 0.25 and 37 % at 0.75.
-"""
-
-
-def cautions(scene: Scene, keeps: frozenset[Effect]) -> tuple[str, ...]:
-    """What a reader must know before believing a model that keeps these effects on this scene."""
-    words = []
+def cautions(scene: Scene, law: ErrorLaw | None = None) -> tuple[str, ...]:
+    """What a reader must know before believing a model whose errors follow this law, if one is known."""
+    told = []
     if scene.reynolds_number > TURBULENT:
-        words.append(
+        told.append(
             f"Re = {scene.reynolds_number:.4g} is above {TURBULENT:.0f}, where shear flow turns turbulent; "
             "every model here takes it as laminar and steady"
         )
-    reduced = scene.reduced_reynolds_number
-    if Effect.INERTIA in keeps and Effect.SLOPE not in keeps and reduced > 1.01 * FIRST_ORDER:
-        words.append(
-            f"Re Ly/w = {reduced:.3g} is above {FIRST_ORDER:.0f}, up to which first-order inertia was compared "
-            "with Navier-Stokes; its load may be far too high"
-        )
-    return tuple(words)
+    if law is not None and law.within(scene) is None:
+        told.append(law.told(scene))
+    return tuple(told)

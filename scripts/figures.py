@@ -56,14 +56,14 @@ mpl.rcParams.update(
 
 
 def pressure(scene: Scene, results: Mapping[str, Result]) -> str:
-    """Pressure on the sliding wall by every model, with the groove's edges."""
+    """Pressure on the sliding wall by every model, with the edges of the grooves."""
     figure = Figure(figsize=(9, 4.2), layout="constrained")
     axes = figure.add_subplot()
     for name, result in results.items():
         plus = result.fields["pressure"].values / scene.pressure_unit * scene.plus_factor
         x = result.fields["position"].values * 1e3
         axes.plot(x, plus, linestyle=STYLES.get(name, "-"), color=COLOURS.get(name), label=name, linewidth=2)
-    for edge in scene.gap().breaks[1:-1]:
+    for edge in {edge for groove in scene.grooves for edge in groove.span}:
         axes.axvline(edge * 1e3, color="black", linewidth=0.8, linestyle=(0, (4, 3)), alpha=0.6)
     axes.set_xlabel("position along the sliding wall, mm (dashed: groove edges)")
     axes.set_ylabel("p+ = 100 p Ly² / (η u Lx)")

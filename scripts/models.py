@@ -1,6 +1,6 @@
 """roughfilm models: the ladder: name, what it adds, available here or why not."""
 
-from rich.table import Table
+from rich.table import Column, Table
 
 from scripts.common import AsJson, in_one_line, models, output, print_json, run_alone
 
@@ -28,14 +28,13 @@ def command(as_json: AsJson = False) -> None:
             }
         )
         return
-    table = Table("model", "what it adds", "keeps", "resolution", "schemes", "here", title="The ladder, plainest first")
+    name = Column("model", no_wrap=True)
+    table = Table(name, "what it adds", "resolution and schemes", "here", title="The ladder, plainest first")
     for model, found in rows:
         table.add_row(
             model.name,
             model.summary,
-            ", ".join(sorted(model.keeps)) or "-",
-            f"{model.resolution} {model.resolution_meaning}",
-            ", ".join(model.schemes) or "-",
+            "; ".join((f"{model.resolution} {model.resolution_meaning}", *model.schemes)),
             ("[green]yes[/]: " if found.available else "[red]no[/]: ") + found.detail,
         )
     output.print(table)

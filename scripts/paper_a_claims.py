@@ -53,9 +53,9 @@ def inertia_carries(paper: Paper) -> Claim:
         number=1,
         text="Parallel textured surfaces carry load by inertia; Stokes gives (almost) none",
         verdict=verdict,
-        evidence=f"symmetric grooves: Stokes load at most {level:.1e} of the Navier-Stokes load (the small positive one "
-        "of Fig. A.4 is a discretisation error: creeping flow is reversible); grooves with their lowest point aside "
-        f"carry or lose load without inertia too, up to {shifted:.2g} times the load with it",
+        evidence=f"symmetric grooves: Stokes load at most {level:.1e} of the Navier-Stokes load "
+        "(the small positive one of Fig. A.4 is a discretisation error: creeping flow is reversible); grooves with "
+        f"their lowest point aside carry or lose load without inertia too, up to {shifted:.2g} times the load with it",
     )
 
 
@@ -121,8 +121,8 @@ def optimum_at_onset(paper: Paper, onsets: dict[tuple[str, float, float], float]
         text="The optimum lies where a vortex begins to form; the vortex harms load",
         verdict=_verdict(near, whole=0.9, some=0.4),
         evidence=f"optimum depth / depth of the first back-flow: median {np.median(ratio):.2f}, "
-        f"from {ratio.min():.2f} to {ratio.max():.2f} over {ratio.size} curves; within 20 % of each other in {near:.0%}; "
-        f"beyond the onset a deeper groove carries less in {np.mean(falls):.0%} of the steps",
+        f"from {ratio.min():.2f} to {ratio.max():.2f} over {ratio.size} curves; within 20 % of each other in "
+        f"{near:.0%}; beyond the onset a deeper groove carries less in {np.mean(falls):.0%} of the steps",
     )
 
 

@@ -13,6 +13,7 @@ from rich.table import Table
 from contact.errors import InputError
 from contact.files import replacing
 from rom.comparison import COMPARED
+from rom.error_law import words
 from rom.ladder import best
 from rom.ordering import Ordering, fitted_powers, ordering
 from rom.provenance import machine
@@ -25,14 +26,14 @@ TOLERANCES = (0.01, 0.02, 0.05, 0.10)
 
 CANDIDATES: dict[str, dict[str, float]] = {
     "Re": {"reynolds_number": 1},
-    "Re Ly/w": {"reynolds_number": 1, "width": -1},
     "d/Ly": {"depth": 1},
-    "d/w": {"depth": 1, "width": -1},
-    "Re d/w": {"reynolds_number": 1, "depth": 1, "width": -1},
-    "Re (d/w)²": {"reynolds_number": 1, "depth": 2, "width": -2},
-    "d²/(w Ly)": {"depth": 2, "width": -1},
+    "2d/w": {"slope": 1},
+    "Re Ly/w": {"reynolds_number": 1, "depth": -1, "slope": 1},
+    "Re d/w": {"reynolds_number": 1, "slope": 1},
+    "Re (d/w)²": {"reynolds_number": 1, "slope": 2},
+    "d²/(w Ly)": {"depth": 1, "slope": 1},
 }
-"""Numbers that an engineer would try, each a product of powers of Re, d/Ly and w/Ly."""
+"""Numbers that an engineer would try, each a product of powers of Re, d/Ly and the slope 2d/w (steeper side)."""
 
 SAME = 0.01
 """Errors within this part of each other have no order: a model without any load is 100 % off everywhere."""
@@ -113,8 +114,6 @@ def _orderings(sweep: Sweep, setting: str, reference: str, quantity: str) -> dic
 def _row(
     sweep: Sweep, setting: str, reference: str, numbers: Mapping[tuple[str, str], Mapping[str, Ordering]]
 ) -> dict[str, Any]:
-    from scripts.sweep_figures import words
-
     errors, orders = {}, {}
     for quantity in COMPARED:
         _, error = _known(sweep, setting, reference, quantity)

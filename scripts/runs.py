@@ -46,6 +46,8 @@ class Job:
 class Failure:
     """Why a job has no result: the kind of error, what it said, and the last lines of the log or of the traceback.
 
+    Of a solver that does not converge also what became of it, after how many iterations, and its CPU seconds.
+
     A model that does not converge has answered: it is asked again only when scene, code or versions change. Anything
     else (a worker that died, a full disk) says nothing of the scene, and the job is tried again the next time.
     """
@@ -53,6 +55,9 @@ class Failure:
     kind: str
     message: str
     notes: tuple[str, ...] = ()
+    outcome: str = ""
+    iterations: int | None = None
+    cpu_s: float | None = None
 
     @property
     def is_answer(self) -> bool:
@@ -67,6 +72,8 @@ def failure_of(error: Exception) -> Failure:
         kind=type(error).__name__,
         message=" ".join(str(error).split()) or "no word",
         notes=tuple(getattr(error, "__notes__", ()) if meant else traceback.format_exception(error)),
+        outcome=str(getattr(error, "outcome", "")),
+        iterations=getattr(error, "iterations", None),
     )
 
 

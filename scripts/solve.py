@@ -58,6 +58,8 @@ def command(
             f"residual {numbers.residual:.1e} ({rung.residual_meaning}), {numbers.iterations} iterations, "
             f"{numbers.degrees_of_freedom} unknowns, {numbers.cpu_s:.3g} CPU s"
         )
+        for one in result.provenance.get("tries", [])[1:]:
+            output.print(f"second try, after a first one that was in vain: {one['recipe']}")
         output.print(rung.applies(read).reason)
         for warning in result.provenance.get("warnings", []):
             output.print(f"[yellow]warning:[/] {escape(warning)}")

@@ -1,4 +1,4 @@
-"""Streamlines and speed in and above the groove, by pyvista: python -m scripts.streamlines RESULT.h5 PICTURE.png."""
+"""Streamlines and speed in and above the grooves, by pyvista: python -m scripts.streamlines RESULT.h5 PICTURE.png."""
 
 import sys
 from pathlib import Path
@@ -11,7 +11,10 @@ from rom.result import Result
 from rom.store import load
 
 MARGIN = 0.35
-"""How much of the film is shown on each side of the groove, in groove widths."""
+"""How much of the film is shown on each side of the grooves, in parts of the length they take."""
+
+SHALLOW = 1e-3
+"""Where the film is deeper than elsewhere by less than this part of the deepest groove, there is no groove."""
 
 WINDOW = (1500, 500)
 """Pixels."""
@@ -32,6 +35,17 @@ def stream_function(vertices: Array, velocity: Array) -> Array:
     return np.asarray((periodic[1:] + periodic[:-1]) / 2)
 
 
+def shown(vertices: Array) -> slice:
+    """The columns of vertices that a picture shows: all grooves, with a margin on both sides."""
+    x, lower = vertices[:, 0, 0], vertices[:, 0, 1]
+    depth = lower.max() - lower
+    grooved = np.flatnonzero(depth > SHALLOW * depth.max())
+    left, right = x[grooved[0]], x[grooved[-1]]
+    margin = MARGIN * (right - left)
+    inside = np.flatnonzero((x >= left - margin) & (x <= right + margin))
+    return slice(int(inside[0]), int(inside[-1]) + 1)
+
+
 def draw(result: Result, picture: Path) -> None:
     """Draw one PNG: colour is speed relative to the sliding wall's, lines are streamlines."""
     import pyvista
@@ -40,12 +54,9 @@ def draw(result: Result, picture: Path) -> None:
     velocity = result.fields["cell_velocity"].values
     sliding_speed = float(result.fields["cell_velocity"].values[..., 0].max())
     x, y = vertices[..., 0] * 1e6, vertices[..., 1] * 1e6
-    grooved = np.flatnonzero(y[:, 0] < y[:, 0].max() - 1e-3)
-    left, right = x[grooved[0], 0], x[grooved[-1], 0]
-    reach = MARGIN * (right - left)
-    shown = np.flatnonzero((x[:, 0] >= left - reach) & (x[:, 0] <= right + reach))
-    window = slice(shown[0], shown[-1] + 1)
-    width, height = x[shown[-1], 0] - x[shown[0], 0], y.max() - y.min()
+    window = shown(vertices)
+    left, right = x[window.start, 0], x[window.stop - 1, 0]
+    width, height = right - left, y.max() - y.min()
     stretch = max(1.0, HEIGHT_TO_WIDTH * width / height)
 
     grid = pyvista.StructuredGrid(x[window, :, None], y[window, :, None] * stretch, np.zeros_like(x[window, :, None]))
@@ -85,7 +96,7 @@ def draw(result: Result, picture: Path) -> None:
     plotter.view_xy()  # type: ignore[call-arg]
     plotter.camera.parallel_projection = True
     plotter.camera.focal_point = (
-        (x[shown[0], 0] + x[shown[-1], 0]) / 2,
+        (left + right) / 2,
         (y.max() + y.min()) / 2 * stretch - 0.035 * width,
         0,
     )

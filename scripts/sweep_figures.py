@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
+from rom.error_law import words
 from rom.gap import Array
 from rom.ordering import Ordering, product
 from rom.sweep import Sweep, relative_error
@@ -131,14 +132,6 @@ def sweep_chart(sweep: Sweep, reference: str, settings: Sequence[str]) -> str:
         axes.set_ylabel(f"error in {title}, %: median, bar to the 95th percentile")
     panels[0].legend(fontsize=8)
     return svg(figure)
-
-
-SYMBOLS = {"reynolds_number": "Re", "depth": "(d/Ly)", "width": "(w/Ly)"}
-
-
-def words(powers: Mapping[str, float]) -> str:
-    """A product of powers as people write it."""
-    return " ".join(SYMBOLS[name] + ("" if power == 1 else f"^{power:g}") for name, power in powers.items())
 
 
 def _short(value: float) -> str:

@@ -1,15 +1,16 @@
 """The thin-film Navier-Stokes equations with slope to second order."""
 
+from rom.error_law import ErrorLaw
 from rom.film import film_model
 from rom.ladder import Applicability, Effect
 from rom.scene import Scene
 
+LAW = ErrorLaw(powers={"slope": 1}, thresholds={0.01: 0.3, 0.02: 0.5})
+
 
 def applies(scene: Scene) -> Applicability:
-    """Always; says how far from small the slope is."""
-    return Applicability(
-        applies=True, reason=f"keeps all of inertia, and slope to second order in 2d/w = {scene.slope:.3g}"
-    )
+    """Always; says how far its load may be off."""
+    return LAW.applicability(scene, "keeps all of inertia, and slope to second order")
 
 
 MODEL = film_model(
@@ -19,4 +20,5 @@ MODEL = film_model(
     complete=False,
     sources=("10.1098/rstl.1886.0005", "10.1115/1.1828067"),
     applies=applies,
+    law=LAW,
 )

@@ -9,8 +9,7 @@ def applies(scene: Scene) -> Applicability:
     """Always; says how much inertia and slope it leaves out."""
     return Applicability(
         applies=True,
-        reason=f"leaves out inertia (Re Ly/w = {scene.reduced_reynolds_number:.3g}) "
-        f"and slope (2d/w = {scene.slope:.3g})",
+        reason=f"leaves out inertia (Re Ly/w = {scene.reduced_reynolds_number:.3g}) and slope (mean {scene.slope:.3g})",
     )
 
 

@@ -112,3 +112,27 @@ def test_walls_drag_each_other_equally(make_scene):
     wall_pressure = 1.5 * pressure[:, 0] - 0.5 * pressure[:, 1]
     drag = (viscosity * along / normal_distance * run).sum() + (wall_pressure * rise).sum()
     assert drag / length == pytest.approx(result.quantities["friction_per_area"].value, rel=5e-3)
+
+
+def test_upwind_is_of_first_order_and_carries_too_much_load(make_scene):
+    """4.179 is the load of an independent solver; at 240 columns numerical diffusion adds 6 to 7 % to it."""
+    scene = make_scene(0.3, 0.75, 160)
+    runs = [NAVIER_STOKES.solve(scene, resolution=n, scheme="upwind") for n in (60, 120, 240)]
+    coarse, middle, fine = (plus(run)[0] for run in runs)
+    assert np.log2((coarse - middle) / (middle - fine)) == pytest.approx(1, abs=0.2)
+    assert 0.06 < fine / 4.179 - 1 < 0.07
+    assert [run.numerics.scheme for run in runs] == ["upwind"] * 3
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("model", [STOKES, NAVIER_STOKES])
+def test_several_processes_find_what_one_finds(make_scene, model):
+    scene = make_scene(0.3, 0.75, 160)
+    alone, together = (model.solve(scene, resolution=60, processes=n) for n in (1, 3))
+    assert plus(together) == pytest.approx(plus(alone), rel=1e-6, abs=1e-6)
+    shape = alone.fields["cell_velocity"].values.shape
+    assert together.fields["cell_velocity"].values.shape == shape
+    difference = together.fields["cell_velocity"].values - alone.fields["cell_velocity"].values
+    assert np.abs(difference).max() < 1e-6 * scene.speed
+    assert together.provenance["processes"] == 3
+    assert together.numerics.cpu_s > 0

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from foamlib import FoamCase, FoamFile
 
-from contact.errors import ConvergenceError, UnavailableError
+from contact.errors import ConvergenceError, Outcome, UnavailableError
 from foamcases import openfoam, run
 from foamcases.case import write_case
 from foamcases.fields import read_channel
@@ -26,7 +26,8 @@ def test_a_good_run(case):
     seen = []
     done = run_case(case, progress=lambda part, words: seen.append((part, words)))
     assert 0 < done.residual <= 2e-5
-    assert done.iterations > 20
+    assert [(one.recipe, one.outcome) for one in done.tries] == [("", Outcome.CONVERGED)]
+    assert done.tries[0].iterations > 20
     assert "v" in done.version
     assert done.warnings == ()
 
@@ -34,8 +35,9 @@ def test_a_good_run(case):
 def test_a_run_that_stops_at_its_last_iteration_is_no_success(case):
     with FoamFile(case / "system" / "controlDict") as control:
         control["endTime"] = 5
-    with pytest.raises(ConvergenceError, match="made 5 iterations and did not converge") as caught:
+    with pytest.raises(ConvergenceError, match="unfinished after 5 iterations") as caught:
         run_case(case)
+    assert caught.value.outcome is Outcome.UNFINISHED
     assert "End" in caught.value.__notes__[0]
 
 
@@ -57,15 +59,15 @@ def test_a_broken_dictionary_is_no_success(case):
 
 
 def test_fields_on_disk_that_do_not_satisfy_the_equations_are_no_success(case, monkeypatch):
-    execute = run._execute
+    succeed = run.succeed
 
-    def spoil_before_verifying(directory, program, log_name, watch=None):
+    def spoil_before_verifying(directory, command, log_name):
         if log_name == "log.verify":
             velocity = FoamCase(directory)[-1]["U"]
             velocity.internal_field = np.array(velocity.internal_field) * 1.01
-        return execute(directory, program, log_name, watch)
+        return succeed(directory, command, log_name)
 
-    monkeypatch.setattr(run, "_execute", spoil_before_verifying)
+    monkeypatch.setattr(run, "succeed", spoil_before_verifying)
     with pytest.raises(ConvergenceError, match="fields on disk leave a residual"):
         run_case(case)
 
@@ -89,6 +91,21 @@ def test_no_openfoam_is_said_in_one_line(case, monkeypatch):
     monkeypatch.setattr(run, "availability", lambda: Availability(available=False, detail="no simpleFoam; install it"))
     with pytest.raises(UnavailableError, match="no simpleFoam; install it"):
         run_case(case)
+
+
+def test_no_mpirun_is_said_in_one_line(make_scene, tmp_path, monkeypatch):
+    write_case(
+        make_scene(0.3, 0.25, 40),
+        tmp_path,
+        reynolds_number=40.0,
+        resolution=30,
+        tolerance=None,
+        scheme="linear_upwind",
+        processes=2,
+    )
+    monkeypatch.setattr(run.shutil, "which", lambda _: None)
+    with pytest.raises(UnavailableError, match="no mpirun on the PATH; leave --processes out, or"):
+        run_case(tmp_path)
 
 
 def test_a_sourced_distribution_is_respected(monkeypatch):

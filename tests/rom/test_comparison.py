@@ -6,7 +6,7 @@ import rom.models
 from rom.comparison import Point, effects, pareto_front, points, scale, to_best
 from rom.ladder import Effect, ladder
 
-MODELS = ladder(rom.models)
+MODELS = [model for model in ladder(rom.models) if model.name in ("reynolds", "inertial_reynolds", "film")]
 
 
 @pytest.fixture
@@ -14,19 +14,21 @@ def results(make_scene):
     return {model.name: model.solve(make_scene(0.3, 0.25, 40)) for model in MODELS}
 
 
-def test_inertia_is_what_the_inertial_model_adds(results):
+def test_inertia_is_what_the_film_adds(results):
+    """Reference: the load of an independent Navier-Stokes solver, 0.880; the film leaves slope out of it."""
     found = {d.quantity: d for d in effects(MODELS, results)}
     assert found["load_plus"].effect is Effect.INERTIA
-    assert (found["load_plus"].model, found["load_plus"].other) == ("inertial_reynolds", "reynolds")
-    assert found["load_plus"].absolute == pytest.approx(0.890, abs=1e-3)
-    assert found["load_plus"].relative == pytest.approx(1.0)
-    assert found["friction_plus"].absolute == pytest.approx(0, abs=1e-12)
+    assert (found["load_plus"].model, found["load_plus"].other) == ("film", "reynolds")
+    assert found["load_plus"].absolute == pytest.approx(0.880, rel=1e-2)
+    assert found["load_plus"].relative == pytest.approx(1)
 
 
 def test_difference_to_the_best_solved_rung(results):
-    (load,) = [d for d in to_best(MODELS, results) if d.quantity == "load_plus"]
-    assert (load.model, load.other) == ("reynolds", "inertial_reynolds")
-    assert load.relative == pytest.approx(-1)
+    loads = {d.model: d for d in to_best(MODELS, results) if d.quantity == "load_plus"}
+    assert set(loads) == {"reynolds", "inertial_reynolds"}
+    assert {d.other for d in loads.values()} == {"film"}
+    assert loads["reynolds"].relative == pytest.approx(-1)
+    assert 0 < loads["inertial_reynolds"].relative < 0.02
 
 
 def test_hardly_any_load_is_measured_against_pressure(results):
@@ -35,10 +37,9 @@ def test_hardly_any_load_is_measured_against_pressure(results):
 
 
 def test_points_leave_the_reference_out(results):
-    runs = list(results.values())
-    (point,) = points(results["inertial_reynolds"], runs)
-    assert point.model == "reynolds"
-    assert point.error["load_plus"] == pytest.approx(1)
+    first, second = points(results["film"], list(results.values()))
+    assert {first.model, second.model} == {"reynolds", "inertial_reynolds"}
+    assert max(first.error["load_plus"], second.error["load_plus"]) == pytest.approx(1)
 
 
 def test_pareto_front():

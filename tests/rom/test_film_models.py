@@ -1,4 +1,4 @@
-"""The two quadrature models against reference values, symmetry, invariance and their own convergence."""
+"""The film models against reference values, symmetry, invariance and their own convergence."""
 
 from itertools import pairwise
 
@@ -13,6 +13,7 @@ from rom.ladder import find, ladder
 from rom.scene import load_scene, read_scene
 
 MODELS = ladder(rom.models)
+QUADRATURE = [model for model in MODELS if model.order is None]
 PLUS = ("load_plus", "friction_plus", "pressure_max_plus", "pressure_min_plus")
 
 REFERENCE = [
@@ -74,7 +75,7 @@ def test_reynolds_pressure_is_antisymmetric(make_scene):
     assert np.abs(pressure + pressure[::-1]).max() < 1e-12 * np.abs(pressure).max()
 
 
-@pytest.mark.parametrize("model", MODELS, ids=lambda model: model.name)
+@pytest.mark.parametrize("model", QUADRATURE, ids=lambda model: model.name)
 def test_error_falls_geometrically_and_the_residual_sees_it(make_scene, model):
     scene = make_scene(0.3, 0.75, 60)
     orders = [4, 8, 16, 32]
@@ -113,9 +114,10 @@ def test_a_given_resolution_that_misses_the_tolerance_is_a_warning(make_scene):
 @pytest.mark.parametrize(
     ("name", "reynolds_number", "words"),
     [
-        ("inertial_reynolds", 200, ["first-order inertia"]),
-        ("inertial_reynolds", 5000, ["turbulent", "first-order inertia"]),
+        ("inertial_reynolds", 200, ["load more than 10% off"]),
+        ("inertial_reynolds", 5000, ["turbulent", "load more than 10% off"]),
         ("reynolds", 5000, ["turbulent"]),
+        ("inertial_reynolds", 10, []),
         ("reynolds", 200, []),
     ],
 )
@@ -160,10 +162,11 @@ def test_random_grooves_give_finite_numbers_in_bounds_or_one_of_our_errors(film,
     smooth = scene.plus_factor
     for model in MODELS:
         try:
-            load, friction, highest, lowest = plus(model.solve(scene))
+            result = model.solve(scene, resolution=model.resolutions[0] if model.order else None)
+            load, friction, highest, lowest = plus(result)
         except ConvergenceError:
             continue
         assert np.isfinite([load, friction, highest, lowest]).all()
-        assert 0 < friction <= smooth * (1 + 1e-9)
+        assert 0 < friction <= smooth * (1 + (1e-9 if model.order is None else 1e-3))
         assert lowest <= load <= highest
         assert lowest <= 1e-12 <= highest + 2e-12

@@ -13,22 +13,29 @@ NEEDS_OPENFOAM = [pytest.param(m, marks=pytest.mark.openfoam) if m.write else m 
 
 
 def test_the_rungs_are_found_in_order():
-    assert [model.name for model in MODELS] == ["reynolds", "inertial_reynolds", "stokes", "navier_stokes"]
+    assert [model.name for model in MODELS] == [
+        "reynolds",
+        "inertial_reynolds",
+        "film",
+        "stokes",
+        "film_slope",
+        "navier_stokes",
+    ]
 
 
 def test_the_lattice():
     names = {(model.name, other.name): effect for model in MODELS for other, effect in one_effect_away(model, MODELS)}
     assert names == {
-        ("reynolds", "inertial_reynolds"): Effect.INERTIA,
+        ("reynolds", "film"): Effect.INERTIA,
         ("reynolds", "stokes"): Effect.SLOPE,
-        ("inertial_reynolds", "navier_stokes"): Effect.SLOPE,
+        ("film", "navier_stokes"): Effect.SLOPE,
         ("stokes", "navier_stokes"): Effect.INERTIA,
     }
     assert best(MODELS).name == "navier_stokes"
 
 
 def test_an_unknown_name_is_refused_with_the_known_ones():
-    with pytest.raises(InputError, match="one of reynolds, inertial_reynolds, stokes, navier_stokes"):
+    with pytest.raises(InputError, match="one of reynolds, inertial_reynolds, film, stokes, film_slope, navier_stokes"):
         find(MODELS, "raynolds")
 
 
@@ -56,6 +63,7 @@ def test_contract(model, make_scene):
     assert np.isfinite(numbers.residual)
     assert min(numbers.cpu_s, numbers.wall_s, numbers.degrees_of_freedom, numbers.iterations) > 0
     assert numbers.resolution == model.resolutions[1]
+    assert numbers.scheme == (model.schemes[0] if model.schemes else "")
     assert result.provenance["keeps"] == sorted(model.keeps)
     assert result.provenance["sources"] == list(model.sources)
     assert all(0 <= done <= 1 for done, _ in seen)
@@ -64,6 +72,16 @@ def test_contract(model, make_scene):
     assert model.cost(scene, model.resolution) > 0
     ratio = result.quantities["load_per_area"].value / scene.pressure_unit * scene.plus_factor
     assert ratio == pytest.approx(result.quantities["load_plus"].value)
+
+
+@pytest.mark.parametrize("model", NEEDS_OPENFOAM)
+def test_choices_that_a_model_does_not_offer_are_refused(model, make_scene):
+    offered = "one of " + ", ".join(model.schemes) if model.schemes else "it offers no choice"
+    with pytest.raises(InputError, match=f"--scheme: got 'hybrid' for {model.name}; .*{offered}"):
+        model.solve(make_scene(0.3, 0.25, 20), scheme="hybrid")
+    if model.write is None:
+        with pytest.raises(InputError, match=f"--processes: got 2; {model.name}"):
+            model.solve(make_scene(0.3, 0.25, 20), processes=2)
 
 
 def test_resolutions_are_sorted_and_hold_the_default():

@@ -31,6 +31,7 @@ def test_entries_are_complete_and_read_back_unchanged(pocket_file):
     [
         ("geometry.depht=1 um", r"scene\.geometry\.depht: unknown key; did you mean 'depth'\?"),
         ("geometrie.depth=1 um", r"scene\.geometrie: unknown key; did you mean 'geometry'\?"),
+        ("width=1 mm", r"scene\.width: unknown key; known here: name, kind"),
         ("zzz=1", r"scene\.zzz: unknown key; known here: name, kind"),
         ("geometry.depth=7.5", r"scene\.geometry\.depth: got 7\.5, a number without a unit"),
         ("geometry.depth=7.5 Pa", r"scene\.geometry\.depth: .* wrong dimension"),

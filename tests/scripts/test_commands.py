@@ -43,7 +43,7 @@ def test_models():
     result = run("models", "--json")
     assert result.exit_code == 0
     names = [model["name"] for model in json.loads(result.stdout)["models"]]
-    assert names == ["reynolds", "inertial_reynolds", "stokes", "navier_stokes"]
+    assert names == ["reynolds", "inertial_reynolds", "film", "stokes", "film_slope", "navier_stokes"]
     assert "inertial" in run("models").stdout
 
 
@@ -93,6 +93,19 @@ def test_solve_shows_a_table(pocket_file):
         pytest.param(
             ["--model", "navier_stokes", "--tolerance", "nan"], "--tolerance: got nan", marks=pytest.mark.openfoam
         ),
+        (["--model", "reynolds", "--scheme", "upwind"], "--scheme: got 'upwind' for reynolds; it offers no choice"),
+        (["--model", "reynolds", "--processes", "2"], "--processes: got 2; reynolds runs in one process"),
+        pytest.param(
+            ["--model", "navier_stokes", "--scheme", "upwnd"],
+            "--scheme: got 'upwnd' for navier_stokes; it must be one of linear_upwind, upwind",
+            marks=pytest.mark.openfoam,
+        ),
+        pytest.param(
+            ["--model", "navier_stokes", "--processes", "0"],
+            "--processes: got 0; it must be 1 to 120",
+            marks=pytest.mark.openfoam,
+        ),
+        pytest.param(["--model", "stokes", "--scheme", "upwind"], "it offers no choice", marks=pytest.mark.openfoam),
         (["--model", "reynolds", "--out", "/proc/none/r.h5"], "/proc/none/r.h5: cannot be written"),
         (["--model", "reynolds", "--out", "."], "is a directory"),
         (["--model", "reynolds", "--set", "name=[bold]x"], None),
@@ -178,9 +191,11 @@ def test_a_full_device_is_one_line(pocket_file):
 
 
 @pytest.mark.openfoam
-def test_a_terminated_solve_leaves_no_program_and_no_directory(pocket_file, tmp_path):
+@pytest.mark.parametrize("processes", ["1", "2"])
+def test_a_terminated_solve_leaves_no_program_and_no_directory(pocket_file, tmp_path, processes):
+    asked = ["--model", "navier_stokes", "--resolution", "600", "--processes", processes]
     process = subprocess.Popen(
-        [sys.executable, "-m", "scripts.cli", "solve", pocket_file, "--model", "navier_stokes", "--resolution", "600"],
+        [sys.executable, "-m", "scripts.cli", "solve", pocket_file, *asked],
         env={**os.environ, "TMPDIR": str(tmp_path)},
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
@@ -208,7 +223,7 @@ def test_compare_without_openfoam_says_what_is_missing_and_why(pocket_file, tmp_
     result = run("compare", pocket_file, "--out", tmp_path / "o", "--json")
     assert result.exit_code == 0
     told = json.loads(result.stdout)
-    assert told["model"] == "inertial_reynolds"
+    assert told["model"] == "film_slope"
     assert set(told["absent"]) == {"stokes", "navier_stokes"}
     page = (tmp_path / "o" / "report.html").read_text()
     assert "no simpleFoam on the PATH; install it" in page
@@ -226,9 +241,17 @@ def test_generate_needs_no_openfoam_and_never_overwrites(pocket_file, tmp_path):
     assert "is not an empty directory" in one_line(again.stderr)
 
 
+def test_generate_refuses_a_scheme_before_anything_is_written(pocket_file, tmp_path):
+    result = run("generate", pocket_file, "--out", tmp_path / "g", "--scheme", "upwnd")
+    assert result.exit_code == 2
+    assert "--scheme: got 'upwnd' for navier_stokes" in one_line(result.stderr)
+    assert list((tmp_path / "g").iterdir()) == []
+
+
 @pytest.mark.openfoam
-def test_a_generated_case_runs_by_hand(pocket_file, tmp_path):
-    run("generate", pocket_file, "--out", tmp_path, "--resolution", "30")
+@pytest.mark.parametrize("processes", [1, 2])
+def test_a_generated_case_runs_by_hand(pocket_file, tmp_path, processes):
+    run("generate", pocket_file, "--out", tmp_path, "--resolution", "30", "--processes", processes)
     done = subprocess.run([tmp_path / "navier_stokes" / "Allrun"], capture_output=True, text=True, timeout=120)
     assert done.returncode == 0
     assert "Mesh OK" in done.stdout
@@ -244,7 +267,7 @@ def test_doctor():
     assert found["Python"]["available"]
 
 
-@pytest.mark.parametrize("name", ["models", "solve", "compare", "generate", "doctor"])
+@pytest.mark.parametrize("name", ["models", "solve", "compare", "stability", "generate", "doctor"])
 def test_scripts_run_as_files_too(name):
     done = subprocess.run(
         [sys.executable, str(ROOT / "scripts" / f"{name}.py"), "--help"], capture_output=True, text=True, timeout=120

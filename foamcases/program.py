@@ -1,0 +1,100 @@
+"""One program of OpenFOAM run to its end in a case: its log, its own CPU time, and nothing left running."""
+
+import os
+import shutil
+import subprocess
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+from contact.errors import ConvergenceError, Outcome
+from foamcases.openfoam import environment
+
+POLL_S = 0.02
+GRACE_S = 5.0
+"""How long a program that was told to stop may take; mpirun ends its processes in that time."""
+LOG_TAIL = 12
+
+Watch = Callable[[], bool]
+"""Called again and again while a program runs; True stops it."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ended:
+    """How a program ended: its exit code (minus the signal that ended it), its log, and the CPU seconds of it alone."""
+
+    code: int
+    log: str
+    cpu_s: float
+
+
+def execute(directory: Path, command: Sequence[str], log_name: str, watch: Watch = lambda: False) -> Ended:
+    """Run a command in a directory with its output in a log there; it ends with this process, however that ends."""
+    log = directory / log_name
+    with log.open("wb") as output:
+        process = subprocess.Popen(
+            [*leash(), *command],
+            cwd=directory,
+            env=environment(),
+            stdin=subprocess.DEVNULL,
+            stdout=output,
+            stderr=output,
+        )
+    try:
+        while True:
+            ended, status, used = os.wait4(process.pid, os.WNOHANG)
+            if ended:
+                break
+            if watch():
+                process.terminate()
+            time.sleep(POLL_S)
+    except BaseException:
+        _stop(process)
+        raise
+    process.returncode = os.waitstatus_to_exitcode(status)
+    text = log.read_text(encoding="utf-8", errors="replace")
+    return Ended(code=process.returncode, log=text, cpu_s=used.ru_utime + used.ru_stime)
+
+
+def succeed(directory: Path, command: Sequence[str], log_name: str) -> Ended:
+    """Run a command that must end well; ConvergenceError if it stops in error."""
+    ended = execute(directory, command, log_name)
+    if ended.code != 0:
+        raise failure(f"{command[0]} stopped with code {ended.code}; look into the log below", ended.log)
+    return ended
+
+
+def failure(
+    reason: str, log: str, *, outcome: Outcome = Outcome.FAILED, iterations: int | None = None
+) -> ConvergenceError:
+    """The error for a run of this outcome, with the last lines of its log."""
+    tail = [line for line in log.splitlines() if line.strip()][-LOG_TAIL:]
+    error = ConvergenceError(f"OpenFOAM: {reason}", outcome=outcome, iterations=iterations)
+    if tail:
+        error.add_note("\n".join(tail))
+    return error
+
+
+@cache
+def leash() -> tuple[str, ...]:
+    """What stands before a command so that Linux ends it when the thread that started it ends; nothing elsewhere.
+
+    That thread waits for it, so it ends first only if this process is killed. (Python's own ``preexec_fn`` is not safe
+    beside threads.)
+    """
+    command = ("setpriv", "--pdeathsig", "TERM")
+    if shutil.which(command[0]) is None:
+        return ()
+    tried = subprocess.run([*command, "true"], stdin=subprocess.DEVNULL, capture_output=True, check=False)
+    return command if tried.returncode == 0 else ()
+
+
+def _stop(process: "subprocess.Popen[bytes]") -> None:
+    process.terminate()
+    try:
+        process.wait(GRACE_S)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()
