@@ -163,7 +163,7 @@ def test_a_case_holds_its_scene_and_whole_results(tmp_path):
         scene = load_scene(place / "scene.toml")
         result = load(place / "reynolds.h5")
         assert result.provenance["scene"] == scene_entries(scene)
-        assert result.fields["film_thickness"].values.max() == pytest.approx(30e-6 + scene.grooves[0].depth, rel=1e-3)
+        assert result.fields["film_thickness"].values.max() == pytest.approx(30e-6 + scene.grooves[0].depth, rel=1e-2)
         depths.add(scene.grooves[0].depth)
     assert depths == {7.5e-6, 22.5e-6}
 
@@ -192,25 +192,26 @@ def test_a_dry_run_makes_nothing(tmp_path):
 
 
 def test_one_failure_stops_nothing(tmp_path):
-    """One that diverges has answered and is not asked again; one that breaks or kills its worker is tried again."""
+    """One that diverges has answered and is not asked again; one that breaks, stops or kills its worker is."""
     out, study = tmp_path / "out", tmp_path / "s.toml"
-    write_study(study, models=["moody", "reynolds"], numbers=[5, 6, 7, 8, 9])
+    write_study(study, models=["moody", "reynolds"], numbers=[5, 6, 7, 8, 9, 9.5])
     code, told, error = Batch(study, out, tmp_path, "--json").end()
     assert code == 3
-    kinds = {failure["kind"]: failure for failure in json.loads(told)["failures"]}
+    failures = json.loads(told)["failures"]
+    kinds = {failure["kind"]: failure for failure in failures if failure["outcome"] != "failed"}
     assert set(kinds) == {"ConvergenceError", "WorkerDied", "ZeroDivisionError"}
     assert kinds["ConvergenceError"]["message"] == "moody: the residual grows; lower the Reynolds number"
     assert any("in solve" in line for line in kinds["ZeroDivisionError"]["notes"])
-    assert len([line for line in error.splitlines() if line.startswith("failed: ")]) == 3
+    assert len([line for line in error.splitlines() if line.startswith("failed: ")]) == len(failures) == 4
     table = read_table(out / "table.h5")
-    assert sum(table["outcome"] == "solved") == 7
+    assert sum(table["outcome"] == "solved") == 8
     failed = (table["model"] == "moody") & (table["reynolds_number"] == 7)
     assert table["outcome"][failed] == ["ConvergenceError: moody: the residual grows; lower the Reynolds number"]
     assert np.isnan(table["load_plus"][failed]).all()
 
     before = attempts(tmp_path)
     assert Batch(study, out, tmp_path).end()[0] == 3
-    assert set(attempts(tmp_path)[len(before) :]) == {"8", "9"}
+    assert set(attempts(tmp_path)[len(before) :]) == {"8", "9", "9.5"}
 
 
 def same_later(stamps, out):

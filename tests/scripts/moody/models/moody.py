@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
-from contact.errors import ConvergenceError
+from contact.errors import ConvergenceError, Outcome
 from rom.models.reynolds import MODEL as REYNOLDS
 from rom.result import Field
 
-DIVERGES, DIES, BREAKS = 7.0, 8.0, 9.0
+DIVERGES, DIES, BREAKS, STOPS = 7.0, 8.0, 9.0, 9.5
 SECONDS = float(os.environ.get("MOODY_SECONDS", "0"))
 MEGABYTES = float(os.environ.get("MOODY_MEGABYTES", "0"))
 
@@ -21,7 +21,9 @@ def solve(scene, **options):
     with Path(os.environ["MOODY_NOTES"]).open("a") as notes:
         notes.write(f"{scene.reynolds_number:g}\n")
     if scene.reynolds_number == DIVERGES:
-        raise ConvergenceError("moody: the residual grows;\nlower the Reynolds number")
+        raise ConvergenceError("moody: the residual grows;\nlower the Reynolds number", outcome=Outcome.DIVERGED)
+    if scene.reynolds_number == STOPS:
+        raise ConvergenceError("moody: its program was killed")
     if scene.reynolds_number == DIES:
         os.kill(os.getpid(), signal.SIGKILL)
     if scene.reynolds_number == BREAKS:
