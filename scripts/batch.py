@@ -197,11 +197,11 @@ def _entries(study: Study, tally: Tally) -> dict[str, Any]:
 
 def _table_of(tally: Tally) -> Table:
     shown = [state for state in State if tally.total(state)]
-    table = Table(Column("setting", no_wrap=True), *(state.value for state in shown), "CPU to come")
-    for column in table.columns[1:]:
-        column.justify = "right"
+    come = ["CPU to come"] if tally.total(State.TO_DO) else []
+    table = Table(Column("setting", no_wrap=True), *(Column(head, justify="right") for head in [*shown, *come]))
     for name, account in tally.accounts.items():
-        table.add_row(name, *(str(account.jobs[state]) for state in shown), _duration(account.remaining))
+        cells = [str(account.jobs[state]) for state in shown]
+        table.add_row(name, *cells, *([_duration(account.remaining)] if come else []))
     return table
 
 

@@ -55,8 +55,7 @@ class Processes(ThreadPoolExecutor):
             self._own.pipe.send(call)
             value, error = self._own.pipe.recv()
         except (EOFError, OSError):
-            with suppress(ProcessLookupError):
-                os.killpg(self._own.process.pid, signal.SIGKILL)  # what the process had started
+            _kill(self._own.process)
             del self._own.pipe
             raise BrokenExecutor("the process died") from None
         if error is not None:
@@ -76,8 +75,17 @@ class Processes(ThreadPoolExecutor):
         super().shutdown(wait=False, cancel_futures=cancel_futures)
         self._writer.close()
         for process in self._started:
+            if process.is_alive():
+                _kill(process)
             process.join()
         super().shutdown(wait=wait)
+
+
+def _kill(process: ForkServerProcess) -> None:
+    """Kill a process and what it started, even if only the latter is left."""
+    assert process.pid is not None
+    with suppress(ProcessLookupError):
+        os.killpg(process.pid, signal.SIGKILL)
 
 
 @contextmanager

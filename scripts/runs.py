@@ -9,7 +9,7 @@ from typing import Any
 
 from rich.markup import escape
 
-from contact.errors import ConvergenceError, InputError, UnavailableError
+from contact.errors import ConvergenceError, InputError, Outcome, UnavailableError
 from contact.files import replacing
 from rom.convergence import GRIDS
 from rom.ladder import Model
@@ -48,8 +48,9 @@ class Failure:
 
     Of a solver that does not converge also what became of it, after how many iterations, and its CPU seconds.
 
-    A model that does not converge has answered: it is asked again only when scene, code or versions change. Anything
-    else (a worker that died, a full disk) says nothing of the scene, and the job is tried again the next time.
+    A solver that diverges, stalls or comes to no end has answered: it is asked again only when scene, code or versions
+    change. Anything else (a worker that died, a full disk) says nothing of the scene, and the job is tried again the
+    next time.
     """
 
     kind: str
@@ -62,7 +63,7 @@ class Failure:
     @property
     def is_answer(self) -> bool:
         """Whether asking again would give the same."""
-        return self.kind == ConvergenceError.__name__
+        return self.kind == ConvergenceError.__name__ and self.outcome != Outcome.FAILED
 
 
 def failure_of(error: Exception) -> Failure:

@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from rom.scene import load_scene
+from rom.scene import load_scene, scene_entries
 from rom.store import load
 from rom.table import read_table
 from scripts.cli import app
@@ -52,10 +52,14 @@ def write_study(path, *, depths=("0.25 film",), numbers=(40,), models=("reynolds
 class Batch:
     """``roughfilm batch`` in a session of its own, found again by a mark that its children inherit."""
 
-    def __init__(self, study, out, tmp_path, *arguments, seconds=0.0):
+    def __init__(self, study, out, tmp_path, *arguments, seconds=0.0, megabytes=0.0):
         self.mark = f"ROUGHFILM_TRIED={tmp_path}-{out}"
         name, value = self.mark.split("=", 1)
-        notes = {"MOODY_NOTES": str(tmp_path / "notes"), "MOODY_SECONDS": str(seconds)}
+        notes = {
+            "MOODY_NOTES": str(tmp_path / "notes"),
+            "MOODY_SECONDS": str(seconds),
+            "MOODY_MEGABYTES": str(megabytes),
+        }
         self.process = subprocess.Popen(
             [sys.executable, str(MOODY), "batch", str(study), "--out", str(out), *map(str, arguments)],
             env={**os.environ, **notes, name: value},
@@ -105,7 +109,7 @@ def wait_for(condition, seconds=60.0):
     while time.monotonic() < deadline:
         if found := condition():
             return found
-        time.sleep(0.01)
+        time.sleep(0.001)
     raise AssertionError("it did not happen")
 
 
@@ -154,13 +158,14 @@ def test_a_case_holds_its_scene_and_whole_results(tmp_path):
     out = tmp_path / "out"
     study = write_study(tmp_path / "s.toml", depths=["0.25 film", "22.5 um"])
     assert Batch(study, out, tmp_path).end()[0] == 0
+    depths = set()
     for place in (out / "cases").iterdir():
         scene = load_scene(place / "scene.toml")
         result = load(place / "reynolds.h5")
-        assert load_scene(place / "scene.toml") == scene
-        assert result.provenance["scene"]["geometry"]["depth"] == f"{scene.geometry.depth!r} m"
-        assert result.fields["pressure"].values.size
-    assert {load_scene(place / "scene.toml").geometry.depth for place in (out / "cases").iterdir()} == {7.5e-6, 22.5e-6}
+        assert result.provenance["scene"] == scene_entries(scene)
+        assert result.fields["film_thickness"].values.max() == pytest.approx(30e-6 + scene.grooves[0].depth, rel=1e-2)
+        depths.add(scene.grooves[0].depth)
+    assert depths == {7.5e-6, 22.5e-6}
 
 
 def test_finished_jobs_are_skipped_also_when_the_study_grows(tmp_path):
@@ -187,25 +192,26 @@ def test_a_dry_run_makes_nothing(tmp_path):
 
 
 def test_one_failure_stops_nothing(tmp_path):
-    """One that diverges has answered and is not asked again; one that breaks or kills its worker is tried again."""
+    """One that diverges has answered and is not asked again; one that breaks, stops or kills its worker is."""
     out, study = tmp_path / "out", tmp_path / "s.toml"
-    write_study(study, models=["moody", "reynolds"], numbers=[5, 6, 7, 8, 9])
+    write_study(study, models=["moody", "reynolds"], numbers=[5, 6, 7, 8, 9, 9.5])
     code, told, error = Batch(study, out, tmp_path, "--json").end()
     assert code == 3
-    kinds = {failure["kind"]: failure for failure in json.loads(told)["failures"]}
+    failures = json.loads(told)["failures"]
+    kinds = {failure["kind"]: failure for failure in failures if failure["outcome"] != "failed"}
     assert set(kinds) == {"ConvergenceError", "WorkerDied", "ZeroDivisionError"}
     assert kinds["ConvergenceError"]["message"] == "moody: the residual grows; lower the Reynolds number"
     assert any("in solve" in line for line in kinds["ZeroDivisionError"]["notes"])
-    assert len([line for line in error.splitlines() if line.startswith("failed: ")]) == 3
+    assert len([line for line in error.splitlines() if line.startswith("failed: ")]) == len(failures) == 4
     table = read_table(out / "table.h5")
-    assert sum(table["outcome"] == "solved") == 7
+    assert sum(table["outcome"] == "solved") == 8
     failed = (table["model"] == "moody") & (table["reynolds_number"] == 7)
     assert table["outcome"][failed] == ["ConvergenceError: moody: the residual grows; lower the Reynolds number"]
     assert np.isnan(table["load_plus"][failed]).all()
 
     before = attempts(tmp_path)
     assert Batch(study, out, tmp_path).end()[0] == 3
-    assert set(attempts(tmp_path)[len(before) :]) == {"8", "9"}
+    assert set(attempts(tmp_path)[len(before) :]) == {"8", "9", "9.5"}
 
 
 def same_later(stamps, out):
@@ -256,6 +262,33 @@ def test_killed_at_any_moment_it_goes_on_where_it_was(tmp_path, everyone):
     table = read_table(out / "table.h5")
     assert len(table["case"]) == 200
     assert set(table["outcome"]) == {"solved"}
+
+
+@pytest.mark.slow
+def test_killed_while_it_writes_it_leaves_no_part_of_a_result(tmp_path):
+    out, torn = tmp_path / "out", 0
+    study = write_study(tmp_path / "s.toml", models=["moody"])
+    for _ in range(3):
+        batch = Batch(study, out, tmp_path, megabytes=60)
+        wait_for(partial(lambda batch: [*out.glob("cases/*/*moody*")] or not batch.runs(), batch))
+        batch.process.kill()
+        batch.end()
+        torn += len([*out.glob("cases/*/.moody*")])
+        assert results(out) == []
+    assert torn
+    assert Batch(study, out, tmp_path, megabytes=60).end()[0] == 0
+    assert load(results(out)[0]).fields["noise"].values.nbytes == 60_000_000
+    assert [*out.glob("cases/*/.*")] == []
+
+
+def test_killed_alone_it_takes_its_workers_with_it(tmp_path):
+    study = write_study(tmp_path / "s.toml", models=["moody"], numbers=[10, 11])
+    batch = Batch(study, tmp_path / "out", tmp_path, "--jobs", 2, seconds=300)
+    wait_for(lambda: len(attempts(tmp_path)) == 2)
+    batch.process.kill()
+    batch.process.wait()
+    wait_for(lambda: not batch.family(), 20)
+    batch.end()
 
 
 @pytest.mark.parametrize(

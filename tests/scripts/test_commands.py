@@ -267,7 +267,7 @@ def test_doctor():
     assert found["Python"]["available"]
 
 
-@pytest.mark.parametrize("name", ["models", "solve", "compare", "stability", "generate", "doctor"])
+@pytest.mark.parametrize("name", ["models", "solve", "compare", "batch", "stability", "generate", "doctor"])
 def test_scripts_run_as_files_too(name):
     done = subprocess.run(
         [sys.executable, str(ROOT / "scripts" / f"{name}.py"), "--help"], capture_output=True, text=True, timeout=120
