@@ -99,6 +99,19 @@ def _continued(
             )
 
 
+def _with_slope(
+    film: Strip, across: Basis, reynolds_number: float, state: Flow, linear: thin_film.Linearised, rise: Array
+) -> tuple[Flow, Array]:
+    """The flow and its pressure rise along each cell with their answer to slope; ConvergenceError if there is none."""
+    try:
+        change, more = thin_film.step(film, across, linear, slope.imbalance(film, across, reynolds_number, state))
+    except np.linalg.LinAlgError:
+        more = np.full_like(rise, np.nan)
+    if not np.isfinite(more).all():
+        raise ConvergenceError("the film has no finite answer to slope here; take film or navier_stokes")
+    return Flow(amplitudes=state.amplitudes + change.amplitudes, flow=state.flow + change.flow), rise + more
+
+
 def solve(
     scene: Scene,
     *,
@@ -142,12 +155,9 @@ def solve(
     film, across = thin_film.strip(gap, resolution, second_order=scheme == SCHEMES[0]), gauss_basis(MODES)
     with np.errstate(all="ignore"):
         state, linear, steps = _continued(film, MODES, reynolds_number, tolerance, progress)
-    residual = _residual(film, across, linear)
-    rise = thin_film.pressure_rise(film, across, linear.imbalance)
-    if Effect.SLOPE in keeps:
-        change, more = thin_film.step(film, across, linear, slope.imbalance(film, across, reynolds_number, state))
-        state = Flow(amplitudes=state.amplitudes + change.amplitudes, flow=state.flow + change.flow)
-        rise = rise + more
+        residual, rise = _residual(film, across, linear), thin_film.pressure_rise(film, across, linear.imbalance)
+        if Effect.SLOPE in keeps:
+            state, rise = _with_slope(film, across, reynolds_number, state, linear, rise)
 
     warnings = list(cautions(scene, law))
     size = np.abs(state.amplitudes).max(axis=0)
