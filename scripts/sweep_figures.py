@@ -110,7 +110,7 @@ def sweep_chart(sweep: Sweep, reference: str, settings: Sequence[str]) -> str:
         for setting in settings:
             error = np.maximum(100 * relative_error(sweep, setting, reference, quantity), LEAST_PERCENT)
             time = sweep.cpu_s[setting]
-            known = np.isfinite(error) & np.isfinite(time)
+            known = np.isfinite(error) & np.isfinite(time) & loaded(sweep, reference)
             if not known.any():
                 continue
             middle, high = np.percentile(error[known], [50, 95])
@@ -130,8 +130,9 @@ def sweep_chart(sweep: Sweep, reference: str, settings: Sequence[str]) -> str:
         axes.set_xscale("log")
         axes.set_yscale("log")
         axes.set_xlabel("CPU time a case, s")
-        axes.set_ylabel(f"error in {title}, %: median, bar to the 95th percentile")
-    panels[0].legend(fontsize=8)
+        axes.set_ylabel(f"error in {title}, %")
+    handles, labels = panels[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=4, fontsize=8)
     return svg(figure)
 
 
