@@ -63,10 +63,11 @@ def test_the_whole_ladder_in_one_self_contained_page(pocket_file, tmp_path):
     assert done.returncode == 0, done.stderr
     told = json.loads(done.stdout)
     assert told["model"] == "navier_stokes"
-    assert [part["model"] for part in told["models"]] == ["reynolds", "inertial_reynolds", "stokes", "navier_stokes"]
+    names = ["reynolds", "inertial_reynolds", "film", "stokes", "film_slope", "navier_stokes"]
+    assert [part["model"] for part in told["models"]] == names
     named = {(d["other"], d["model"], d["effect"]) for d in told["differences"] if d["effect"]}
     assert ("stokes", "navier_stokes", "inertia") in named
-    assert ("inertial_reynolds", "navier_stokes", "slope") in named
+    assert ("film", "navier_stokes", "slope") in named
     assert told["cheapest_within_10_percent"] == "inertial_reynolds"
     page = read_page(tmp_path / "report.html")
     assert all(place.startswith("data:image/png;base64,") for place in page.outside)
@@ -74,10 +75,10 @@ def test_the_whole_ladder_in_one_self_contained_page(pocket_file, tmp_path):
     found = told["convergence"]["navier_stokes"]["load_plus"]
     assert (found["kind"], found["grids"]) == ("monotone", [60, 120, 240])
     assert found["value"] == pytest.approx(3.303, abs=found["uncertainty"])
-    assert set(told["convergence"]) == {"stokes", "navier_stokes"}
+    assert set(told["convergence"]) == {"film", "film_slope", "stokes", "navier_stokes"}
     assert told["convergence"]["stokes"]["load_plus"]["kind"] == "at round-off"
     if rendering.probe().available:
-        assert page.tags.count("img") == 2
+        assert page.tags.count("img") == 4
     for model in models():
         assert load(tmp_path / "results" / f"{model.name}.h5").model == model.name
     raw = json.loads((tmp_path / "chart.json").read_text())
@@ -137,7 +138,7 @@ def sampled(monkeypatch, *, fails_at=None):
             raise ConvergenceError("sampled: did not converge; take another grid")
         result = film.solve(scene)
         gap = scene.gap()
-        thickness = gap.thickness(((np.arange(n) + 0.5) / n - 0.5) * scene.geometry.width).mean() / gap.film
+        thickness = gap.thickness(((np.arange(n) + 0.5) / n - 0.5) * scene.grooves[0].width).mean() / gap.film
         quantities = {**result.quantities, "load_plus": Quantity(value=float(thickness), unit="1")}
         return replace(result, quantities=quantities, numerics=replace(result.numerics, resolution=n))
 
@@ -183,13 +184,14 @@ def test_a_grid_that_fails_is_told_in_one_line_and_the_others_are_judged(pocket_
     compare.command(pocket_file, out=tmp_path)
     captured = capsys.readouterr()
     (line,) = captured.err.splitlines()
-    assert line == "grid left out: reynolds at 8: sampled: did not converge; take another grid"
+    assert line == "grid left out: reynolds-8: sampled: did not converge; take another grid"
     assert "reynolds on grids 4, 16" in captured.out
     assert "two grids, formal order assumed" in (tmp_path / "report.html").read_text()
 
 
-@pytest.mark.usefixtures("film_only")
-def test_without_a_formal_order_there_is_no_grid_convergence(pocket_file, tmp_path, capsys):
+def test_without_a_formal_order_there_is_no_grid_convergence(pocket_file, tmp_path, monkeypatch, capsys):
+    spectral = tuple(model for model in models() if model.order is None)
+    monkeypatch.setattr(compare, "models", lambda: spectral)
     assert compared(capsys, pocket_file, tmp_path)["convergence"] == {}
     assert "Grid convergence" not in (tmp_path / "report.html").read_text()
 
