@@ -19,7 +19,7 @@ from rom.thin_film import Flow, Strip
 from rom.validity import cautions
 
 MODES = 10
-"""Polynomials across the film; 16 change the load of no case of the published sweep by more than a thousandth."""
+"""Polynomials across the film; 16 change load by 3e-5 and friction by 3e-4 at most, over 120 of the published cases."""
 
 RESOLUTION = 400
 RESOLUTIONS = (50, 100, 200, 400)
