@@ -12,8 +12,8 @@ from pydantic import (
     model_validator,
 )
 
+from contact.entries import Coordinate, Length, Part
 from rom import groove
-from rom.entries import Coordinate, Length, Part
 from rom.gap import Gap
 from rom.profile import Points, checked
 

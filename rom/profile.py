@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from rom.entries import plain_number
-from rom.units import to_si
+from contact.entries import plain_number
+from contact.units import to_si
 
 Points = tuple[tuple[float, float], ...]
 """(position, depth) in m."""

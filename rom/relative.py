@@ -6,7 +6,7 @@ from decimal import Decimal
 from typing import Any
 
 from contact.errors import InputError
-from rom.units import is_unit
+from contact.units import is_unit
 
 _MULTIPLE = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,3})?)\s*([A-Za-z_]\w*)\s*")
 

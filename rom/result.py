@@ -7,15 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from contact.units import Quantity
 from rom.scene import Scene
-
-
-@dataclass(frozen=True, kw_only=True)
-class Quantity:
-    """A number with its unit ("1" for none)."""
-
-    value: float
-    unit: str
 
 
 @dataclass(frozen=True, kw_only=True)

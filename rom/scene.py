@@ -1,21 +1,20 @@
 """A scene: what is there, read from a TOML file into frozen models, with every fault named in one line."""
 
-import difflib
-import json
-import tomllib
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, ValidationError, model_validator
 
+from contact.entries import InUnit, Part, PositiveNumber
 from contact.errors import InputError
-from rom.entries import Density, Part, PositiveNumber, Speed, Viscosity
+from contact.toml import Location, in_one_line, known_keys, read_toml, set_entry, unknown_key
 from rom.gap import Gap
 from rom.geometry import PROFILES, AnyGroove, PocketGeometry
 
-LARGEST_SCENE = 1_000_000
-"""Bytes; a longer scene file is refused unread."""
+Viscosity = Annotated[float, InUnit("Pa*s")]
+Density = Annotated[float, InUnit("kg/m^3")]
+Speed = Annotated[float, InUnit("m/s")]
 
 REPLACES = {
     "motion.speed": ("reynolds_number",),
@@ -123,29 +122,12 @@ def load_entries(path: Path) -> dict[str, Any]:
 
     Raises InputError in one line if the file cannot be read or is not TOML.
     """
-    path = Path(path)
+    entries = read_toml(path, 'film = "30 um"')
     try:
-        entries = tomllib.loads(_text(path))
-        _seek_points(entries, path.parent)
-        return entries
-    except InputError:
-        raise
-    except (ValueError, RecursionError) as error:
-        reason = str(error).splitlines()[0]
-        raise InputError(f'{path}: is not TOML ({reason}); write lines such as: film = "30 um"') from error
-
-
-def _text(path: Path) -> str:
-    try:
-        if not path.is_file():
-            raise InputError(f"{path}: {'is no' if path.exists() else 'no such'} file; name a TOML file")
-        if path.stat().st_size > LARGEST_SCENE:
-            raise InputError(f"{path}: larger than {LARGEST_SCENE} bytes; a scene is a short TOML file")
-        return path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror}); check its permissions") from error
-    except UnicodeDecodeError as error:
-        raise InputError(f"{path}: byte {error.start} is not UTF-8; save the scene as UTF-8 text") from error
+        _seek_points(entries, Path(path).parent)
+    except RecursionError as error:
+        raise InputError(f"{path}: its tables are nested too deeply; a scene has three levels") from error
+    return entries
 
 
 def load_scene(path: Path, overrides: Iterable[str] = ()) -> Scene:
@@ -162,7 +144,7 @@ def load_scene(path: Path, overrides: Iterable[str] = ()) -> Scene:
     """
     entries = load_entries(path)
     for override in overrides:
-        _override(entries, override)
+        set_entry(entries, override, "geometry.depth=22.5um", REPLACES)
     return read_scene(entries)
 
 
@@ -171,7 +153,7 @@ def read_scene(entries: Mapping[str, Any]) -> Scene:
     try:
         return Scene.model_validate(entries)
     except ValidationError as error:
-        raise InputError(_one_line(error, entries)) from None
+        raise InputError(_fault(error, entries)) from None
 
 
 def scene_entries(scene: Scene) -> dict[str, Any]:
@@ -196,63 +178,7 @@ def _seek_points(entry: Any, directory: Path) -> None:
             _seek_points(inner, directory)
 
 
-def _override(entries: dict[str, Any], override: str) -> None:
-    key, equals, text = override.partition("=")
-    key = key.strip()
-    *path, last = key.split(".")
-    if not equals or not all([*path, last]):
-        raise InputError(f"--set {override}: got no key=value; write for example geometry.depth=22.5um")
-    table: Any = entries
-    for part in path:
-        if isinstance(table, list):
-            table = {str(number): one for number, one in enumerate(table)}.get(part)
-        else:
-            table = table.setdefault(part, {})
-        if not isinstance(table, dict | list):
-            break
-    if not isinstance(table, dict):
-        raise InputError(
-            f"--set {override}: {path[-1]!r} is not a table of the scene; write for example geometry.depth"
-        )
-    for other in REPLACES.get(key, ()):
-        table.pop(other, None)
-    table[last] = _value(text.strip())
-
-
-def _value(text: str) -> object:
-    try:
-        return json.loads(text, parse_constant=lambda name: name)
-    except (ValueError, RecursionError):
-        return text
-
-
-def _one_line(error: ValidationError, entries: Mapping[str, Any]) -> str:
-    faults = sorted(error.errors(include_url=False), key=lambda fault: fault["type"] != "extra_forbidden")
-    fault = faults[0]
-    location, profile = _location(fault["loc"], entries)
-    place = ".".join(["scene", *map(str, location)])
-    got = repr(fault["input"])
-    got = got if len(got) <= 60 else got[:57] + "..."
-    match fault["type"]:
-        case "extra_forbidden":
-            text = f"{place}: {_unknown(location, profile)}"
-        case "missing":
-            text = f"{place}: missing; add it to the scene"
-        case "literal_error":
-            text = f"{place}: got {got}; it must be {fault['ctx']['expected']}"
-        case "union_tag_invalid":
-            text = f"{place}.profile: got {fault['ctx']['tag']!r}; it must be one of {fault['ctx']['expected_tags']}"
-        case "value_error":
-            reason = str(fault["ctx"]["error"])
-            inner, colon, rest = reason.partition(": ")
-            inside = colon and inner.replace(".", "").isidentifier()
-            text = f"{place}.{inner}: {rest}" if inside else f"{place}: {reason}"
-        case _:
-            text = f"{place}: got {got}; {fault['msg'][0].lower()}{fault['msg'][1:]}"
-    return " ".join(text.split()) + (f" (and {len(faults) - 1} more)" if len(faults) > 1 else "")
-
-
-def _location(path: tuple[int | str, ...], entries: Mapping[str, Any]) -> tuple[list[int | str], str | None]:
+def _location(path: Location, entries: Mapping[str, Any]) -> tuple[list[int | str], str | None]:
     """Where a fault stands in the file, and the profile of the groove that it is in, if it is in one."""
     location = list(path)
     if location[:2] != ["geometry", "grooves"] or len(location) < 3:
@@ -263,15 +189,17 @@ def _location(path: tuple[int | str, ...], entries: Mapping[str, Any]) -> tuple[
     return location, profile
 
 
-def _unknown(location: list[int | str], profile: str | None) -> str:
-    *path, key = location
-    part: Any = PROFILES[profile] if profile else Scene
-    for name in () if profile else path:
-        part = part.model_fields[name].annotation
-    known = [*part.model_fields]
-    if path == ["geometry"]:
-        known = [*dict.fromkeys([*PocketGeometry.model_fields, *known])]
-    near = difflib.get_close_matches(str(key), known, n=1)
-    if profile and any(key in other.model_fields for other in PROFILES.values()):
-        return f"no key of profile {profile!r}; known here: {', '.join(known)}"
-    return "unknown key; " + (f"did you mean {near[0]!r}?" if near else f"known here: {', '.join(known)}")
+def _fault(error: ValidationError, entries: Mapping[str, Any]) -> str:
+    fault = sorted(error.errors(include_url=False), key=lambda fault: fault["type"] != "extra_forbidden")[0]
+    _, profile = _location(fault["loc"], entries)
+
+    def unknown(location: Location) -> str:
+        *path, key = location
+        known = [*PROFILES[profile].model_fields] if profile else known_keys(Scene, path)
+        if path == ["geometry"]:
+            known = [*dict.fromkeys([*PocketGeometry.model_fields, *known])]
+        if profile and any(key in other.model_fields for other in PROFILES.values()):
+            return f"no key of profile {profile!r}; known here: {', '.join(known)}"
+        return unknown_key(key, known)
+
+    return in_one_line(error, "scene", unknown, lambda path: _location(path, entries)[0])

@@ -11,7 +11,8 @@ import numpy as np
 
 from contact.errors import InputError
 from contact.files import replacing
-from rom.result import Field, Numerics, Quantity, Result
+from contact.units import Quantity
+from rom.result import Field, Numerics, Result
 
 SCHEMA = 2
 

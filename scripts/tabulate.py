@@ -5,7 +5,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from rom.result import Quantity, Result
+from contact.units import Quantity
+from rom.result import Result
 from rom.scene import scene_entries
 from rom.study import Case, Key
 from rom.table import Column

@@ -17,8 +17,8 @@ import numpy as np
 import pytest
 
 from contact.errors import ConvergenceError
+from contact.units import Quantity
 from rom.ladder import Availability, find
-from rom.result import Quantity
 from rom.scene import load_scene
 from rom.setting import Setting
 from rom.store import load

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rom.units import to_si, with_unit
+from contact.units import to_si, with_unit
 
 
 @pytest.mark.parametrize(

@@ -1,13 +1,22 @@
-"""Quantities as people write them ("30 um", "0.01 Pa*s") to SI numbers, and back."""
+"""Numbers with units: as people write them ("30 um", "0.01 Pa*s") to SI numbers and back, and as results hold them."""
 
 import math
 import re
+from dataclasses import dataclass
 from functools import cache
 
 import pint
 
 _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,3})?)\s*(.*?)\s*")
 _UNIT = re.compile(r"(?:[A-Za-zµμ°·/* ()]|(?:\^|\*\*)-?\d(?!\d)){1,40}")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Quantity:
+    """A number with its unit ("1" for none)."""
+
+    value: float
+    unit: str
 
 
 @cache

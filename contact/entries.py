@@ -1,4 +1,4 @@
-"""What the tables of a scene file are made of: numbers with units, and no unknown keys."""
+"""What the tables of a TOML file are made of: numbers with units, and no unknown keys."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -7,11 +7,11 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, GetCoreSchemaHandler
 from pydantic_core import core_schema
 
-from rom.units import to_si, with_unit
+from contact.units import to_si, with_unit
 
 
 class Part(BaseModel):
-    """A table of a scene: frozen, and every key known."""
+    """A table: frozen, and every key known."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -37,7 +37,7 @@ def plain_number(value: object) -> float:
 
 
 @dataclass(frozen=True)
-class _Quantity:
+class InUnit:
     """Marks an SI number that is read from text with a unit and written back as such."""
 
     base: str
@@ -51,9 +51,6 @@ class _Quantity:
         )
 
 
-Length = Annotated[float, _Quantity("m")]
-Coordinate = Annotated[float, _Quantity("m", _any)]
-Viscosity = Annotated[float, _Quantity("Pa*s")]
-Density = Annotated[float, _Quantity("kg/m^3")]
-Speed = Annotated[float, _Quantity("m/s")]
+Length = Annotated[float, InUnit("m")]
+Coordinate = Annotated[float, InUnit("m", _any)]
 PositiveNumber = Annotated[float, BeforeValidator(plain_number), AfterValidator(_positive)]
