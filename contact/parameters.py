@@ -1,0 +1,98 @@
+"""All roughness parameters of a surface or a profile, with their units."""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from contact.autocorrelation import autocorrelation, decay_lengths
+from contact.bearing import Core, bearing_core, descending
+from contact.errors import InputError
+from contact.heights import HeightStatistics, height_statistics
+from contact.peaks import highest_peaks, lowest_valleys
+from contact.spectrum import power_spectrum, texture_direction
+from contact.surface import Surface
+from contact.units import Quantity
+
+
+def parameters(surface: Surface) -> dict[str, Quantity]:
+    """Areal roughness parameters of ISO 25178-2, and the thesis's St, Spm, Svm, of the valid points.
+
+    Nothing is filtered or levelled; heights count from their mean, which is taken out.
+
+    Returns
+    -------
+    Sa, Sq, Sp, Sv, Sz, m; Ssk, Sku (`contact.heights`); Sk, Spk, Svk, m; Smr1, Smr2, ratios (`contact.bearing`);
+    Sal, m; Str (`contact.autocorrelation`); Std, degrees (`contact.spectrum`); St = Sz, and Spm, Svm, m: mean of the
+    five highest peaks and of the five lowest valleys, no two within Sal (`contact.peaks`).
+
+    Raises
+    ------
+    InputError
+        If all heights are the same.
+    """
+    ordered = descending(surface.heights[surface.valid])
+    statistics = height_statistics(ordered)
+    decay = decay_lengths(autocorrelation(surface), surface.spacing)
+    return {
+        "Sa": _length(statistics.average),
+        "Sq": _length(statistics.rms),
+        "Sp": _length(statistics.peak),
+        "Sv": _length(statistics.valley),
+        "Sz": _length(statistics.total),
+        "Ssk": _number(statistics.skewness),
+        "Sku": _number(statistics.kurtosis),
+        **_core("S", bearing_core(ordered)),
+        "Sal": _length(decay.shortest),
+        "Str": _number(decay.aspect),
+        "Std": Quantity(value=texture_direction(power_spectrum(surface)), unit="deg"),
+        "St": _length(statistics.total),
+        "Spm": _length(float(highest_peaks(surface, decay.shortest).mean())),
+        "Svm": _length(float(lowest_valleys(surface, decay.shortest).mean())),
+    }
+
+
+def profile_parameters(heights: ArrayLike) -> dict[str, Quantity]:
+    """Roughness parameters of ISO 21920-2 of one profile, over its whole length; nothing is filtered or levelled.
+
+    Parameters
+    ----------
+    heights : shape (n,), m, at equal distances: valid points only.
+
+    Returns
+    -------
+    Ra, Rq, Rt, m; Rsk, Rku; Rk, Rpk, Rvk, m; Rmr1, Rmr2, ratios. The curve itself is `contact.bearing.bearing_curve`.
+
+    Raises
+    ------
+    InputError
+        If the heights are not one profile, one is not finite, or all are the same.
+    """
+    shape = np.shape(heights)
+    if len(shape) != 1:
+        raise InputError(f"profile: got heights of shape {shape}; give one line of them")
+    statistics: HeightStatistics = height_statistics(heights)
+    return {
+        "Ra": _length(statistics.average),
+        "Rq": _length(statistics.rms),
+        "Rt": _length(statistics.total),
+        "Rsk": _number(statistics.skewness),
+        "Rku": _number(statistics.kurtosis),
+        **_core("R", bearing_core(descending(heights))),
+    }
+
+
+def _core(letter: str, core: Core) -> dict[str, Quantity]:
+    return {
+        f"{letter}k": _length(core.height),
+        f"{letter}pk": _length(core.peak),
+        f"{letter}vk": _length(core.valley),
+        f"{letter}mr1": _number(core.peak_ratio),
+        f"{letter}mr2": _number(core.valley_ratio),
+    }
+
+
+def _length(value: float) -> Quantity:
+    return Quantity(value=value, unit="m")
+
+
+def _number(value: float) -> Quantity:
+    return Quantity(value=value, unit="1")

@@ -1,0 +1,57 @@
+"""The five highest peaks and lowest valleys of a surface: Spm and Svm."""
+
+import numpy as np
+from scipy import ndimage
+
+from contact.errors import InputError
+from contact.heights import surface_deviations
+from contact.surface import Array, Surface
+
+COUNT = 5
+
+
+def highest_peaks(surface: Surface, distance: float, *, count: int = COUNT) -> Array:
+    """Heights of the highest peaks above the mean, from the highest down, shape (count or fewer,), m.
+
+    A peak is a valid point that no valid one within ``distance`` in x and in y exceeds; of equal ones that near each
+    other one counts. With the decay length Sal for the distance, two peaks belong to different bumps. A periodic
+    surface goes on beyond its edges; beyond those of another nothing is higher.
+
+    Parameters
+    ----------
+    distance : m, half the sides of the square; at least one pixel is looked at on each side.
+
+    Raises
+    ------
+    InputError
+        If all heights are the same, or the distance is not positive.
+    """
+    return _highest(surface_deviations(surface), surface, distance, count)
+
+
+def lowest_valleys(surface: Surface, distance: float, *, count: int = COUNT) -> Array:
+    """Depths of the lowest valleys below the mean, as `highest_peaks` of the surface upside down; positive."""
+    return _highest(-surface_deviations(surface), surface, distance, count)
+
+
+def _highest(z: Array, surface: Surface, distance: float, count: int) -> Array:
+    if not distance > 0:
+        raise InputError(f"peaks: got a distance of {distance!r} m; give one above zero")
+    z[surface.invalid] = -np.inf
+    limit = [n // 2 if surface.periodic else n - 1 for n in surface.shape]
+    half = [max(1, int(min(distance / d, top))) for d, top in zip(surface.spacing, limit, strict=True)]
+    around = ndimage.maximum_filter(
+        z, size=[2 * h + 1 for h in half], mode="wrap" if surface.periodic else "constant", cval=-np.inf
+    )
+    places = np.argwhere((z == around) & surface.valid)
+    height = z[tuple(places.T)]
+    peaks: list[float] = []
+    while height.size and len(peaks) < count:
+        top = height.argmax()
+        peaks.append(float(height[top]))
+        apart = np.abs(places - places[top])
+        if surface.periodic:
+            apart = np.minimum(apart, surface.shape - apart)
+        others = (apart > half).any(axis=1)
+        places, height = places[others], height[others]
+    return np.array(peaks)
