@@ -1,0 +1,84 @@
+"""Step 5: other numbers of pixels over the same rectangle."""
+
+from typing import Literal
+
+import numpy as np
+import scipy.fft
+
+from contact.errors import InputError
+from contact.surface import Array, Surface
+
+Method = Literal["linear", "band-limited"]
+
+
+def next_power_of_two(count: int) -> int:
+    """The least power of two that is not below ``count``.
+
+    >>> next_power_of_two(480), next_power_of_two(512)
+    (512, 512)
+    """
+    return 1 << (count - 1).bit_length()
+
+
+def resample(surface: Surface, points: tuple[int, int], method: Method = "linear") -> Surface:
+    """The surface over the same rectangle with ``points`` pixels along x and y.
+
+    ``"linear"`` interpolates linearly between the centres of pixels (and keeps the outermost height beyond them);
+    where pixels grow, each new height is the mean of that interpolant over the new pixel, so that nothing fine turns
+    into something coarse. Second order for smooth surfaces. ``"band-limited"`` is for periodic surfaces:
+    trigonometric interpolation through the pixels, pixel (0, 0) held in place; exact while no wave of the surface is
+    finer than two new pixels.
+
+    Raises
+    ------
+    InputError
+        If fewer than 2 pixels are asked for in a direction, pixels are invalid, or a surface that is not periodic is
+        to be resampled ``"band-limited"``.
+    """
+    if min(points) < 2:
+        raise InputError(f"grid: got {points[0]} x {points[1]} points; at least 2 x 2 are needed")
+    if surface.invalid.any():
+        raise InputError(f"grid: {surface.invalid.sum()} pixels are invalid; fill them first")
+    if method == "band-limited" and not surface.periodic:
+        raise InputError("grid: 'band-limited' needs a periodic surface; use 'linear'")
+    along = _linear if method == "linear" else _band_limited
+    heights = surface.heights
+    for axis, count in enumerate(points):
+        if count != surface.shape[axis]:
+            heights = np.moveaxis(along(np.moveaxis(heights, axis, 0), count), 0, axis)
+    spacing = (surface.size[0] / points[0], surface.size[1] / points[1])
+    return surface.with_heights(heights, spacing=spacing, invalid=np.zeros(points, dtype=bool))
+
+
+def _linear(heights: Array, count: int) -> Array:
+    old = heights.shape[0]
+    if count > old:
+        return _interpolated(heights, (np.arange(count) + 0.5) * old / count - 0.5)
+    padded = np.concatenate([heights[:1], heights, heights[-1:]])
+    steps = np.concatenate([np.zeros_like(heights[:1]), np.cumsum((padded[1:] + padded[:-1]) / 2, axis=0)])
+    edges = np.arange(count + 1) * old / count + 0.5  # in pixels from the centre of the padding's first
+    whole = np.minimum(edges.astype(int), old)
+    part = (edges - whole)[:, None]
+    here, next_ = padded[whole], padded[whole + 1]
+    integral = steps[whole] + part * (here + (next_ - here) * part / 2)
+    return np.asarray(np.diff(integral, axis=0) * count / old)
+
+
+def _interpolated(heights: Array, places: Array) -> Array:
+    places = np.clip(places, 0, heights.shape[0] - 1)
+    whole = np.minimum(places.astype(int), heights.shape[0] - 2)
+    part = (places - whole)[:, None]
+    return np.asarray((1 - part) * heights[whole] + part * heights[whole + 1])
+
+
+def _band_limited(heights: Array, count: int) -> Array:
+    old = heights.shape[0]
+    waves = scipy.fft.rfft(heights, axis=0)
+    kept = min(old, count) // 2 + 1
+    spectrum = np.zeros((count // 2 + 1, heights.shape[1]), dtype=complex)
+    spectrum[:kept] = waves[:kept]
+    if min(old, count) % 2 == 0:
+        spectrum[kept - 1] *= 0.5 if count > old else 2.0
+        if count < old:
+            spectrum[kept - 1] = spectrum[kept - 1].real
+    return np.asarray(scipy.fft.irfft(spectrum, n=count, axis=0) * count / old)

@@ -1,0 +1,30 @@
+"""Step 7: a moving average that takes the last noise."""
+
+from scipy.ndimage import uniform_filter
+
+from contact.errors import InputError
+from contact.surface import Surface
+
+
+def smooth(surface: Surface, points: int) -> Surface:
+    """Replace each height by the mean of ``points`` by ``points`` heights around it, wrapped round at the sides.
+
+    It keeps the mean height and takes a wave of wavelength λ along x down to sin(π n dx/λ) / (n sin(π dx/λ)) of its
+    amplitude. 1 leaves the surface as it is.
+
+    Raises
+    ------
+    InputError
+        If ``points`` is even, below 1, or above the number of pixels in a direction; or pixels are invalid.
+
+    References
+    ----------
+    F. Sahlin, Luleå 2008, section E.3.1 (three points).
+    """
+    if points == 1:
+        return surface
+    if points < 1 or points % 2 == 0 or points > min(surface.shape):
+        raise InputError(f"smoothing: got {points} points; give an odd number up to the number of pixels, such as 3")
+    if surface.invalid.any():
+        raise InputError(f"smoothing: {surface.invalid.sum()} pixels are invalid; fill them first")
+    return surface.with_heights(uniform_filter(surface.heights, size=points, mode="wrap"))

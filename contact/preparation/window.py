@@ -1,0 +1,114 @@
+"""Step 4: the part of a measurement that stands for the surface, chosen by hand or by how well it repeats itself."""
+
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from contact.errors import InputError
+from contact.surface import Array, Surface
+
+COARSE = 48
+"""Positions along each direction in the first search."""
+
+BAND = 32
+"""The lines compared at each edge are this part of the least window."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Window:
+    """A rectangle of pixels: its first pixel and its numbers of pixels along x and y."""
+
+    start: tuple[int, int]
+    shape: tuple[int, int]
+
+
+def cut_window(surface: Surface, window: Window) -> Surface:
+    """The pixels of a window; InputError if it is not inside the surface."""
+    for axis, (first, count, most) in enumerate(zip(window.start, window.shape, surface.shape, strict=True)):
+        if not (first >= 0 and count >= 2 and first + count <= most):
+            raise InputError(
+                f"window: got {count} pixels from pixel {first} along {'xy'[axis]}, where the surface has {most}; "
+                "choose a window inside it"
+            )
+    (i, j), (nx, ny) = window.start, window.shape
+    part = (slice(i, i + nx), slice(j, j + ny))
+    whole = window.shape == surface.shape
+    return surface.with_heights(
+        surface.heights[part], invalid=surface.invalid[part], periodic=surface.periodic and whole
+    )
+
+
+def best_window(surface: Surface, least: tuple[int, int]) -> Window:
+    """The window of at least ``least`` pixels whose opposite edges match best.
+
+    Minimises ⟨(h(x₁ + k, y) − h(x₀ + k, y))²⟩ + ⟨(h(x, y₁ + k) − h(x, y₀ + k))²⟩, the means over the edges and over a
+    band of lines k, where the window holds the pixels x₀ … x₁ − 1 and y₀ … y₁ − 1: what begins again at its end is
+    what began at its beginning. All windows on 48 positions a direction are tried, then the neighbours of the best
+    with steps halved down to a pixel: not always the very best of all, but deterministic and independent of scale.
+
+    Raises
+    ------
+    InputError
+        If the surface is not larger than the least window by the band that is compared, or pixels are invalid.
+    """
+    if surface.invalid.any():
+        raise InputError(f"window: {surface.invalid.sum()} pixels are invalid; fill them first")
+    bands = [max(1, count // BAND) for count in least]
+    for axis, (count, band, most) in enumerate(zip(least, bands, surface.shape, strict=True)):
+        if not (count >= 2 and count + band <= most):
+            raise InputError(
+                f"window: got at least {count} pixels along {'xy'[axis]}, where the surface has {most}; "
+                f"ask for at most {most * BAND // (BAND + 1)}, so that its edges can be compared"
+            )
+    mismatch = _Mismatch(surface.heights, bands)
+    last = [most - band for most, band in zip(surface.shape, bands, strict=True)]
+    steps = [max(1, most // COARSE) for most in surface.shape]
+    pairs = [
+        [(a, b) for a in range(0, n, s) for b in range(n, a, -s) if b - a >= count]
+        for n, s, count in zip(last, steps, least, strict=True)
+    ]
+    best = mismatch.least(*pairs)
+    while True:
+        near = [_near(edges, step, n, count) for edges, step, n, count in zip(best, steps, last, least, strict=True)]
+        better = mismatch.least(*near)
+        if better == best and max(steps) == 1:
+            (x0, x1), (y0, y1) = best
+            return Window(start=(x0, y0), shape=(x1 - x0, y1 - y0))
+        if better == best:
+            steps = [max(1, step // 2) for step in steps]
+        best = better
+
+
+Pair = tuple[int, int]
+
+
+def _near(edges: Pair, step: int, last: int, least: int) -> list[Pair]:
+    (a, b), moves = edges, (0, -step, step)
+    return [(a + i, b + j) for i, j in product(moves, moves) if a + i >= 0 and b + j <= last and b + j - a - i >= least]
+
+
+class _Mismatch:
+    """The mismatch of windows, by sums along the edges that are made once for each pair of edges."""
+
+    def __init__(self, heights: Array, bands: list[int]) -> None:
+        self.lines = (heights, heights.T)
+        self.bands = bands
+        self.known: tuple[dict[Pair, Array], dict[Pair, Array]] = ({}, {})
+
+    def sums(self, axis: int, edges: Pair) -> Array:
+        """Running sums along the edge of the mean square difference of its bands, from 0."""
+        if edges not in self.known[axis]:
+            (a, b), band, lines = edges, self.bands[axis], self.lines[axis]
+            squares = np.mean((lines[b : b + band] - lines[a : a + band]) ** 2, axis=0)
+            self.known[axis][edges] = np.concatenate([[0.0], np.cumsum(squares)])
+        return self.known[axis][edges]
+
+    def least(self, along_x: list[Pair], along_y: list[Pair]) -> tuple[Pair, Pair]:
+        """The pairs of edges with the least mismatch, the earliest of equals."""
+        (x0, x1), (y0, y1) = np.transpose(along_x), np.transpose(along_y)
+        at_x = np.stack([self.sums(0, pair)[[*y0, *y1]] for pair in along_x]).reshape(len(along_x), 2, len(along_y))
+        at_y = np.stack([self.sums(1, pair)[[*x0, *x1]] for pair in along_y]).reshape(len(along_y), 2, len(along_x))
+        total = (at_x[:, 1] - at_x[:, 0]) / (y1 - y0) + ((at_y[:, 1] - at_y[:, 0]) / (x1 - x0)).T
+        i, j = np.unravel_index(int(np.argmin(total)), total.shape)
+        return along_x[int(i)], along_y[int(j)]
