@@ -1,0 +1,154 @@
+"""Gaussian surfaces with an autocorrelation length, stretched along a lay."""
+
+import math
+from typing import Literal
+
+import numpy as np
+
+from contact.errors import InputError
+from contact.surface import Array, Surface
+from contact.synthetic.checks import angle, length, number_between
+from contact.synthetic.grid import Grid, metres, radians
+from contact.synthetic.waves import Amplitudes, check_seed, random_waves
+
+Autocorrelation = Literal["gaussian", "exponential"]
+
+LEVEL = 0.2
+"""The autocorrelation at the correlation length: that of Sal in ISO 25178-2."""
+
+
+def gaussian(
+    *,
+    size: tuple[float, float],
+    points: tuple[int, int],
+    seed: int,
+    rms_height: float,
+    correlation_length: float,
+    anisotropy: float = 1.0,
+    lay_angle: float = 0.0,
+    autocorrelation: Autocorrelation = "gaussian",
+    amplitudes: Amplitudes = "fixed",
+) -> Surface:
+    """A random surface of Gaussian heights whose autocorrelation is known.
+
+    R(t) = 0.2^(ρ²) ("gaussian") or 0.2^ρ ("exponential"), with ρ² = (t_along / (γ λ))² + (t_across / λ)²: across the lay
+    it falls to 0.2 within λ, so that Sal = λ and Str = 1/γ for γ >= 1.
+
+    Parameters
+    ----------
+    size, points : the period, m, and the grid over it, along x and y.
+    seed : 0 to 2^63 - 1; the same surface for the same seed (see ``random_waves``).
+    rms_height : m; met to rounding.
+    correlation_length : λ, m, across the lay; at least two pixels. ``correlation_length_at`` turns lengths that are
+        defined at 1/e or 0.5 into it and back.
+    anisotropy : γ, the correlation length along the lay over that across it. With lay angle 0 it is λx/λy, the γ of
+        Patir and Cheng for flow along x: above 1 for ridges along the flow, below 1 for ridges across it.
+    lay_angle : from x towards y, rad.
+    autocorrelation : "gaussian" (smooth) or "exponential" (rough down to the pixel).
+    amplitudes : "fixed": every seed has this very autocorrelation; "random": only the mean over seeds has.
+
+    Returns
+    -------
+    Periodic surface of mean 0; ``source["achieved"]`` tells the rms slope.
+
+    Raises
+    ------
+    InputError
+        One line, for what makes no sense; also if R has not fallen to 0.2 at half a period along x or y.
+
+    Notes
+    -----
+    Waves below two pixels are left out. For "gaussian" that is nothing from λ of four pixels on, so that a finer grid
+    holds the same surface to rounding; for "exponential" it is a part of about dx/λ of the variance, which is spread over
+    the other waves. The wave q = 0 is left out as well: R is lower by about 2 λ² γ / (Lx Ly) than stated, everywhere.
+
+    Sources: ISO 25178-2:2021; Patir and Cheng, J. Lubr. Technol. 100 (1978) 12, doi:10.1115/1.3453103.
+    """
+    grid = Grid(kind="gaussian", size=size, points=points)
+    check_seed(grid.kind, seed)
+    length("gaussian.rms_height", rms_height)
+    number_between("gaussian.anisotropy", anisotropy, 1e-4, 1e4, "it must be 1e-4 to 1e4")
+    angle("gaussian.lay_angle", lay_angle)
+    lengths = correlation_lengths(grid, "correlation_length", correlation_length, anisotropy, lay_angle)
+    if autocorrelation not in ("gaussian", "exponential"):
+        raise InputError(f"gaussian.autocorrelation: got {autocorrelation!r}; write 'gaussian' or 'exponential'")
+    waves = random_waves(
+        grid,
+        spectrum=lambda qx, qy: spectrum(qx, qy, lengths, lay_angle, autocorrelation),
+        cut_off=grid.shortest_wavelength,
+        seed=seed,
+        amplitudes=amplitudes,
+        rms_height=rms_height,
+    )
+    return grid.surface(
+        waves.heights(points),
+        {
+            "seed": seed,
+            "rms_height": metres(rms_height),
+            "correlation_length": metres(correlation_length),
+            "anisotropy": anisotropy,
+            "lay_angle": radians(lay_angle),
+            "autocorrelation": autocorrelation,
+            "amplitudes": amplitudes,
+        },
+        {"rms_height": metres(waves.rms_height), "rms_slope": waves.rms_slope},
+    )
+
+
+def correlation_lengths(
+    grid: Grid, name: str, across: float, anisotropy: float, *lay_angles: float
+) -> tuple[float, float]:
+    """(along, across), m, if two pixels resolve both and half a period holds them at every lay angle."""
+    along = anisotropy * across
+    grid.resolves(name, min(along, across))
+    for lay in lay_angles:
+        reach = (
+            math.hypot(along * math.cos(lay), across * math.sin(lay)),
+            math.hypot(along * math.sin(lay), across * math.cos(lay)),
+        )
+        for axis, extent, side in zip("xy", reach, grid.size, strict=True):
+            if extent > side / 2 * (1 + 1e-9):
+                raise InputError(
+                    f"{grid.kind}.{name}: got an autocorrelation that reaches {extent:.5g} m along {axis}, beyond half the "
+                    f"period; write at most {across * side / 2 / extent:.5g} m, or a longer size"
+                )
+    return along, across
+
+
+def spectrum(qx: Array, qy: Array, lengths: tuple[float, float], lay: float, autocorrelation: Autocorrelation) -> Array:
+    """The spectrum of R, but for a factor: exp(-s²/(4 ln 5)) or (1 + s²/ln²5)^(-3/2), s² = (q_along γλ)² + (q_across λ)²."""
+    along = (qx * math.cos(lay) + qy * math.sin(lay)) * lengths[0]
+    across = (qy * math.cos(lay) - qx * math.sin(lay)) * lengths[1]
+    squared = along**2 + across**2
+    decay = -math.log(LEVEL)
+    if autocorrelation == "gaussian":
+        return np.exp(-squared / (4 * decay))
+    smooth: Array = (1 + squared / decay**2) ** -1.5
+    return smooth
+
+
+def correlation_length_at(
+    level: float, correlation_length: float, autocorrelation: Autocorrelation = "gaussian"
+) -> float:
+    """Where the autocorrelation has fallen to another level: λ sqrt(ln s / ln 0.2), or λ ln s / ln 0.2 ("exponential").
+
+    Parameters
+    ----------
+    level : s, between 0 and 1: 0.5 for the length of Patir and Cheng, 1/e for that of most texts.
+    correlation_length : λ, m, where R = 0.2.
+
+    Raises
+    ------
+    InputError
+        If the level is not between 0 and 1.
+
+    Examples
+    --------
+    >>> round(1e6 * correlation_length_at(0.5, 20e-6), 3)  # um
+    13.125
+    >>> round(20 / correlation_length_at(0.5, 1.0), 3)  # um: the length to ask for, where R shall be 0.5 at 20 um
+    30.476
+    """
+    number_between("level", level, 1e-300, 1 - 1e-12, "it must be between 0 and 1")
+    ratio = math.log(level) / math.log(LEVEL)
+    return correlation_length * (math.sqrt(ratio) if autocorrelation == "gaussian" else ratio)

@@ -1,0 +1,89 @@
+"""The grid a synthetic surface is made on, and the surface it becomes."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from contact.errors import InputError
+from contact.surface import Array, Surface
+from contact.synthetic.checks import length
+from contact.units import with_unit
+
+MOST_POINTS = 100_000_000
+
+
+@dataclass(frozen=True, kw_only=True)
+class Grid:
+    """A period of ``size`` metres with ``points`` along x and y, at x = i Lx/nx and y = j Ly/ny.
+
+    Raises InputError for fewer than 2 points along a side, more than 1e8 in total, or a length that is none.
+    """
+
+    kind: str
+    size: tuple[float, float]
+    points: tuple[int, int]
+
+    def __post_init__(self) -> None:
+        for name, pair in (("size", self.size), ("points", self.points)):
+            if not isinstance(pair, tuple | list) or len(pair) != 2:
+                raise InputError(f"{self.kind}.{name}: got {pair!r}; write two values, along x and along y")
+        for side in self.size:
+            length(f"{self.kind}.size", side)
+        for count in self.points:
+            if isinstance(count, bool) or not isinstance(count, int) or count < 2:
+                raise InputError(f"{self.kind}.points: got {count!r}; write a whole number, at least 2")
+        if self.points[0] * self.points[1] > MOST_POINTS:
+            raise InputError(f"{self.kind}.points: got {self.points[0]} x {self.points[1]}; at most 1e8 in total")
+        if not 1e-6 <= self.size[0] / self.size[1] <= 1e6:
+            raise InputError(
+                f"{self.kind}.size: got sides {self.size[0]:.3g} and {self.size[1]:.3g} m; look at the units"
+            )
+
+    @property
+    def spacing(self) -> tuple[float, float]:
+        """(dx, dy), m."""
+        return self.size[0] / self.points[0], self.size[1] / self.points[1]
+
+    @property
+    def shortest_wavelength(self) -> float:
+        """Twice the longer side of a pixel, m: shorter waves are not resolved in all directions."""
+        return 2 * max(self.spacing)
+
+    @property
+    def axes(self) -> tuple[Array, Array]:
+        """Places as parts of a period, x/Lx of shape (nx, 1) and y/Ly of shape (1, ny)."""
+        nx, ny = self.points
+        return np.arange(nx)[:, None] / nx, np.arange(ny)[None, :] / ny
+
+    def resolves(self, name: str, value: float) -> float:
+        """A length, m, if it is at least two pixels; InputError otherwise."""
+        length(f"{self.kind}.{name}", value)
+        if value < self.shortest_wavelength * (1 - 1e-9):
+            raise InputError(
+                f"{self.kind}.{name}: got {value:.5g} m, below two pixels; write at least {self.shortest_wavelength:.5g} m "
+                "or more points"
+            )
+        return value
+
+    def surface(self, heights: Array, given: Mapping[str, Any], achieved: Mapping[str, Any]) -> Surface:
+        """The periodic surface, with what was asked (as a description file says it) and what was achieved."""
+        asked = {"kind": self.kind, "size": [metres(side) for side in self.size], "points": list(self.points)}
+        asked |= {key: value for key, value in given.items() if value is not None}
+        return Surface(
+            heights=heights,
+            spacing=self.spacing,
+            periodic=True,
+            source={"synthetic": asked, "achieved": dict(achieved)},
+        )
+
+
+def metres(value: float | None) -> str | None:
+    """A length as a description file holds it."""
+    return None if value is None else with_unit(float(value), "m")
+
+
+def radians(value: float) -> str:
+    """An angle as a description file holds it."""
+    return with_unit(float(value), "rad")
