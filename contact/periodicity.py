@@ -5,8 +5,8 @@ import numpy as np
 from contact.surface import Array, Surface
 
 THRESHOLD = 0.1
-"""Above it a joint is worth a warning: of random surfaces, some 2 in 100 that are truly periodic lie above it, and all raw
-windows that are not."""
+"""Above it a joint is worth a warning: of random surfaces, some 2 in 100 that are truly periodic lie above it, and
+all raw windows that are not."""
 
 LONGEST = 16
 """The longest lag is this part of the surface: a longer one has too few other places to be compared with."""

@@ -64,15 +64,16 @@ def machine() -> dict[str, str]:
 
 def provenance(scene: Scene, *, keeps: Sequence[str], sources: Sequence[str], **more: Any) -> dict[str, Any]:
     """Everything needed to compute a result again, as entries that JSON can hold."""
+    return {"scene": scene_entries(scene), "keeps": sorted(keeps), "sources": list(sources), **circumstances(), **more}
+
+
+def circumstances() -> dict[str, Any]:
+    """With what, where and when something was computed, as entries that JSON can hold."""
     return {
-        "scene": scene_entries(scene),
-        "keeps": sorted(keeps),
-        "sources": list(sources),
         "versions": versions(),
         "commit": commit(),
         "code": code(),
         "machine": machine(),
         "load_average": round(os.getloadavg()[0], 2),
         "created": datetime.now(UTC).isoformat(timespec="seconds"),
-        **more,
     }

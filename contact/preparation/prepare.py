@@ -137,7 +137,7 @@ def _edges(surface: Surface, edges: Edges) -> tuple[Direction, float, str]:
     ratio = decay_lengths(autocorrelation(surface), surface.spacing).aspect
     angle = texture_direction(power_spectrum(surface))
     from_x = min(angle, 180 - angle)
-    told = f"Str {ratio:.2f}, lay at {angle:.0f} degrees"
+    told = f"Str {ratio:.2f}, lay at {round(angle) % 180} degrees"
     if ratio < STRONG_LAY and from_x <= NEAR_AXIS:
         return "x", width, f"{told}: joined along the lay only"
     if ratio < STRONG_LAY and 90 - from_x <= NEAR_AXIS:
@@ -151,7 +151,7 @@ def _warnings(invalid: float, mismatch: float) -> list[str]:
         told.append(f"{100 * invalid:.0f} % of the points were invalid and are filled in; measure again if you can")
     if mismatch > THRESHOLD:
         told.append(
-            f"periodicity mismatch {mismatch:.2f}, above {THRESHOLD}: ridges or steps end at the joint, which throttles "
-            "flow across it; choose another window (or let one be found: window.size without start)"
+            f"periodicity mismatch {mismatch:.2f}, above {THRESHOLD}: ridges or steps end at the joint, which "
+            "throttles flow; choose another window (or let one be found: window.size without start)"
         )
     return told

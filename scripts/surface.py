@@ -1,0 +1,169 @@
+"""roughfilm surface: from an instrument's file to a periodic roughness cell, and what became of it."""
+
+import time
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.markup import escape
+from rich.table import Table
+
+from contact.errors import InputError
+from contact.parameters import parameters
+from contact.preparation.prepare import Prepared, prepare
+from contact.preparation.recipe import Recipe, load_recipe, read_recipe, recipe_entries
+from contact.surface import Surface
+from contact.surface_files import read_surface
+from contact.surface_store import save_surface
+from contact.synthetic.description import make, read_description
+from contact.units import Quantity
+from rom.provenance import circumstances
+from scripts.common import AsJson, in_one_line, messages, output, print_json, progress_bar, run_alone
+
+AS_IT_IS = {
+    "form": "none",
+    "outliers": {"points": 0},
+    "grid": {"points": "kept"},
+    "edges": {"direction": "none"},
+    "smoothing": 1,
+}
+"""What a surface that is periodic already needs."""
+
+SOURCES = ("ISO 25178-2:2021", "F. Sahlin, Luleå University of Technology 2008:26, sections E.3.1 and F.3")
+
+STEPS = 5
+
+
+@in_one_line
+def command(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="A measured surface, or a synthetic one (TOML).")],
+    recipe: Annotated[
+        Path | None, typer.Option("--prepare", help="The recipe (TOML); by default the usual one.")
+    ] = None,
+    set_: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="KEY=VALUE", help="Override a key, e.g. edges.direction=x; repeatable."),
+    ] = None,
+    out: Annotated[Path | None, typer.Option(help="Write the prepared surface here (HDF5).")] = None,
+    report: Annotated[Path | None, typer.Option(help="Write a page with its pictures here (HTML).")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Read a surface, prepare it as a periodic cell, and show it before and after."""
+    _refuse_same(file, recipe, out, report)
+    started, cpu = time.perf_counter(), time.process_time()
+    asked = load_recipe(recipe, set_ or ())
+    with progress_bar(STEPS) as advance:
+        advance(0, f"reading {file.name}")
+        surface = _read(file, asked)
+        if surface.periodic and recipe is None and not set_:
+            asked = read_recipe(AS_IT_IS)
+        advance(1, "preparing")
+        prepared = prepare(surface, asked)
+        advance(2, "parameters")
+        quantities = _quantities(prepared)
+        numerics = {
+            "residual": prepared.record["invalid"]["residual"],
+            "points": prepared.surface.heights.size,
+            "cpu_s": time.process_time() - cpu,
+            "wall_s": time.perf_counter() - started,
+        }
+        provenance = {
+            "surface": dict(surface.source),
+            "recipe": recipe_entries(asked),
+            "record": dict(prepared.record),
+            "warnings": list(prepared.warnings),
+            "sources": list(SOURCES),
+            **circumstances(),
+        }
+        if out is not None:
+            advance(3, f"writing {out.name}")
+            save_surface(prepared.surface, out)
+        if report is not None:
+            from scripts.surface_page import write_page  # matplotlib is slow to import
+
+            advance(4, f"drawing {report.name}")
+            write_page(prepared, quantities, provenance, report)
+    if as_json:
+        entries = {name: asdict(quantity) for name, quantity in quantities.items()}
+        print_json({"quantities": entries, "numerics": numerics, "provenance": provenance})
+    else:
+        output.print(table_of(file.name, quantities))
+        for line in told(prepared):
+            output.print(escape(line), soft_wrap=True)
+        for path in filter(None, (out, report)):
+            output.print(f"written: {escape(str(path))}", soft_wrap=True)
+    for warning in prepared.warnings:
+        messages.print(f"[yellow]warning:[/] {escape(warning)}", soft_wrap=True)
+
+
+def _refuse_same(file: Path, recipe: Path | None, out: Path | None, report: Path | None) -> None:
+    """No output may replace an input, or the other output."""
+    named = {"FILE": file, "--prepare": recipe, "--out": out, "--report": report}
+    seen: dict[Path, str] = {}
+    for name, path in named.items():
+        if path is None:
+            continue
+        if name in ("--out", "--report") and path.resolve() in seen:
+            raise InputError(f"{name} {path}: is the same file as {seen[path.resolve()]}; choose another place")
+        seen[path.resolve()] = name
+
+
+def _read(file: Path, recipe: Recipe) -> Surface:
+    if file.suffix.lower() == ".toml":
+        return make(read_description(file))
+    read = recipe.read
+    return read_surface(file, channel=read.channel, spacing=read.spacing, height_unit=read.height_unit)
+
+
+def _quantities(prepared: Prepared) -> dict[str, Quantity]:
+    """Parameters of the prepared surface, the same of the measured one as ``raw_...``, and how good the cell is."""
+    record = prepared.record
+    return {
+        **parameters(prepared.surface),
+        **{f"raw_{name}": quantity for name, quantity in parameters(prepared.measured).items()},
+        "invalid_fraction": Quantity(value=record["invalid"]["fraction"], unit="1"),
+        "periodicity_mismatch": Quantity(value=record["periodicity_mismatch"]["after"], unit="1"),
+        "raw_periodicity_mismatch": Quantity(value=record["periodicity_mismatch"]["before"], unit="1"),
+    }
+
+
+def table_of(name: str, quantities: dict[str, Quantity]) -> Table:
+    """Each quantity before and after preparation, lengths in µm."""
+    table = Table("parameter", "measured", "prepared", "unit", title=escape(name))
+    for column in table.columns[1:3]:
+        column.justify = "right"
+    for key, quantity in quantities.items():
+        if not key.startswith("raw_"):
+            raw = quantities.get(f"raw_{key}")
+            table.add_row(key, "" if raw is None else in_unit(raw)[0], *in_unit(quantity))
+    return table
+
+
+def in_unit(quantity: Quantity) -> tuple[str, str]:
+    """A quantity as people read it: its number, and its unit."""
+    if quantity.unit == "m":
+        return f"{quantity.value * 1e6:.4g}", "µm"
+    return f"{quantity.value:.4g}", "" if quantity.unit == "1" else quantity.unit
+
+
+def told(prepared: Prepared) -> list[str]:
+    """A line for each step that changed something."""
+    record: Any = prepared.record
+    recipe = prepared.surface.source["recipe"]
+    window, grid, cut, edges = record["window"], record["grid"], record["outliers"], record["edges"]
+    size = " x ".join(f"{length * 1e6:.4g}" for length in prepared.surface.size)
+    lines = [
+        f"form: {recipe['form']}",
+        f"filled: {record['invalid']['points']} invalid points",
+        f"cut: {cut['above']} points above, {cut['below']} below",
+        f"window: {window['pixels'][0]} x {window['pixels'][1]} pixels from {window['start']}, {size} µm",
+        f"grid: {grid['points'][0]} x {grid['points'][1]} points",
+        f"edges: joined along {edges['direction']} ({edges['reason']}), filter {edges['width'] * 1e6:.3g} µm wide",
+        f"smoothing: {recipe['smoothing']} points",
+    ]
+    return [line for line in lines if line not in ("form: none", "filled: 0 invalid points", "smoothing: 1 points")]
+
+
+if __name__ == "__main__":
+    run_alone(command)

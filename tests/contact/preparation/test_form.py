@@ -1,0 +1,57 @@
+"""Form removal takes exactly the polynomial it names, by the valid points alone."""
+
+import numpy as np
+import pytest
+
+from contact.errors import InputError
+from contact.preparation.form import remove_form
+from contact.surface import Surface
+
+NX, NY = 37, 24
+X, Y = np.meshgrid(np.arange(NX) * 2.0e-6, np.arange(NY) * 0.7e-6, indexing="ij")
+FORMS = {
+    "mean": 3e-6 + 0 * X,
+    "tilt": 1e-6 + 0.02 * X - 0.3 * Y,
+    "quadratic": 0.01 * X + 0.1 * Y + 300 * X**2 - 200 * X * Y + 5000 * Y**2,
+}
+
+
+def surface(heights, invalid=None):
+    return Surface(
+        heights=heights, spacing=(2.0e-6, 0.7e-6), invalid=np.zeros((NX, NY), bool) if invalid is None else invalid
+    )
+
+
+@pytest.mark.parametrize("form", ["mean", "tilt", "quadratic"])
+def test_a_form_of_that_order_vanishes_by_the_valid_points_alone(form):
+    invalid = np.random.default_rng(811).random((NX, NY)) < 0.4
+    heights = np.where(invalid, 1e3, FORMS[form])
+    left = remove_form(surface(heights, invalid), form)
+    assert np.abs(left.heights[left.valid]).max() < 1e-12 * np.abs(FORMS[form]).max()
+
+
+def test_what_is_left_is_orthogonal_to_the_form_that_was_taken():
+    rng = np.random.default_rng(812)
+    invalid = rng.random((NX, NY)) < 0.2
+    left = remove_form(surface(rng.normal(size=(NX, NY)), invalid), "quadratic")
+    z, valid = left.heights, left.valid
+    for term in (1 + 0 * X, X, Y, X**2, X * Y, Y**2):
+        assert abs(np.sum((z * term)[valid])) < 1e-11 * np.sum(np.abs(term[valid]))
+
+
+def test_heights_on_a_high_pedestal_keep_their_digits():
+    rough = np.random.default_rng(813).normal(size=(NX, NY)) * 1e-9
+    plain, lifted = (remove_form(surface(rough + level), "quadratic").heights for level in (0.0, 1e-2))
+    assert np.abs(plain - lifted).max() < 1e-2 * 4e-16 * 10
+
+
+def test_none_leaves_the_surface_as_it_is():
+    given = surface(FORMS["tilt"])
+    assert remove_form(given, "none") is given
+
+
+def test_points_on_one_line_do_not_tell_a_tilt():
+    invalid = np.ones((NX, NY), bool)
+    invalid[:, 5] = False
+    with pytest.raises(InputError, match=r"^form: the valid points do not tell a form 'tilt'; choose"):
+        remove_form(surface(FORMS["tilt"], invalid), "tilt")

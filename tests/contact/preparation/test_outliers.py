@@ -1,0 +1,51 @@
+"""Outliers are cut where the bearing curve first holds points enough, and nothing else is touched."""
+
+import numpy as np
+import pytest
+
+from contact.errors import InputError
+from contact.preparation.outliers import cut_outliers
+from contact.surface import Surface
+
+
+def body_with_spikes():
+    """A body of heights from 0 to 1 µm, one spike of 9 µm, and three pits of 1 µm below zero."""
+    heights = np.linspace(0.002e-6, 0.998e-6, 10_000).reshape(100, 100)
+    heights[7, 7] = 9e-6
+    heights[[8, 9, 10], [70, 71, 72]] = -1e-6
+    return Surface(heights=heights, spacing=(1e-6, 1e-6))
+
+
+def test_spikes_and_pits_come_down_to_the_body():
+    given = body_with_spikes()
+    cut, told = cut_outliers(given, bins=1000, points=10)
+    bin_width = 10e-6 / 1000
+    assert (told.above, told.below) == (1, 3)
+    assert 0.998e-6 <= told.highest <= 0.998e-6 + bin_width
+    assert 0.002e-6 - bin_width <= told.lowest <= 0.002e-6
+    assert cut.heights.max() == told.highest
+    assert cut.heights.min() == told.lowest
+    inside = (given.heights <= told.highest) & (given.heights >= told.lowest)
+    assert inside.sum() == 10_000 - 4
+    assert np.array_equal(cut.heights[inside], given.heights[inside])
+
+
+def test_no_points_wanted_cuts_nothing():
+    given = body_with_spikes()
+    cut, told = cut_outliers(given, points=0)
+    assert np.array_equal(cut.heights, given.heights)
+    assert (told.above, told.below) == (0, 0)
+
+
+def test_invalid_points_neither_count_nor_change():
+    given = body_with_spikes()
+    invalid = np.zeros(given.shape, bool)
+    invalid[7, 7] = True
+    cut, told = cut_outliers(given.with_heights(given.heights, invalid=invalid))
+    assert told.above == 0
+    assert cut.heights[7, 7] == 0
+
+
+def test_more_points_than_any_bin_holds_is_refused():
+    with pytest.raises(InputError, match=r"^outliers: no bin of 1000 holds 200 points"):
+        cut_outliers(body_with_spikes().with_heights(np.random.default_rng(815).random((100, 100))), points=200)
