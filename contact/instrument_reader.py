@@ -11,6 +11,11 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
+UNMARKED = {"hgt", "nms"}
+"""Formats that any bytes of the right number pass for: believed only if the file is named so."""
+
+UNKNOWN = "is in no format that is known here, or damaged; export it again from the instrument"
+
 
 def _read(path: str, channel: str | None, most: int) -> tuple[dict[str, Any], Any]:
     from SurfaceTopography import open_topography
@@ -20,7 +25,9 @@ def _read(path: str, channel: str | None, most: int) -> tuple[dict[str, Any], An
     try:
         reader = open_topography(path)
     except CannotDetectFileFormat:
-        return {"fault": "is in no format that is known here, or damaged; export it again from the instrument"}, None
+        return {"fault": UNKNOWN}, None
+    if reader.format() in UNMARKED and not path.lower().endswith(reader.format()):
+        return {"fault": UNKNOWN}, None
     channels = [one for one in reader.channels if one.dim == 2]
     names = ", ".join(repr(one.name) for one in channels)
     if not channels:

@@ -23,7 +23,7 @@ BEFORE, AFTER = "#e08214", "#2166ac"
 
 def height_maps(prepared: Prepared) -> str:
     """The measured surface with its invalid points and window, and the prepared one, in the same colours."""
-    figure = Figure(figsize=(11, 4.6), layout="constrained")
+    figure = Figure(figsize=(11, _height(prepared.measured, 4.6)), layout="constrained")
     panels = figure.subplots(1, 2)
     limits = _limits(prepared.measured)
     for axes, surface, title in zip(
@@ -41,7 +41,7 @@ def height_maps(prepared: Prepared) -> str:
 
 def joints(prepared: Prepared) -> str:
     """One and a quarter cells each way at three stages; black squares where the cells meet."""
-    figure = Figure(figsize=(11, 4.3), layout="constrained")
+    figure = Figure(figsize=(11, _height(prepared.surface, 2.9)), layout="constrained")
     panels = figure.subplots(1, 3)
     limits = _limits(prepared.measured)
     stages = (prepared.cell, prepared.joined, prepared.surface)
@@ -73,16 +73,19 @@ def bearing_curves(prepared: Prepared) -> str:
 
 
 def power_spectra(prepared: Prepared) -> str:
-    """Power by wavelength, all directions together."""
+    """Power by wavelength, all directions together, summed over quarters of an octave."""
     figure = Figure(figsize=(5.4, 4.0), layout="constrained")
     axes = figure.add_subplot()
     for surface, label, colour in _both(prepared):
         frequency, power = radial_power(power_spectrum(surface))
-        drawn = (frequency > 0) & (power > 1e-9 * power.max())
-        axes.loglog(1e6 / frequency[drawn], power[drawn] * 1e12, color=colour, label=label, linewidth=1)
+        quarter = np.rint(4 * np.log2(frequency[1:] / frequency[1])).astype(int)
+        octaves = 4 * np.bincount(quarter, weights=power[1:])
+        drawn = octaves > 1e-9 * octaves.max()
+        wavelength = 2 ** (-np.arange(octaves.size) / 4) / frequency[1]
+        axes.loglog(wavelength[drawn] * 1e6, octaves[drawn] * 1e12, color=colour, label=label)
     axes.invert_xaxis()
     axes.set_xlabel("wavelength, µm")
-    axes.set_ylabel("power in each ring of wave vectors, µm²")
+    axes.set_ylabel("mean square height per octave, µm²")
     axes.legend()
     return svg(figure)
 
@@ -104,6 +107,11 @@ def edge_profiles(prepared: Prepared) -> str:
         axes.set_ylabel("height, µm")
     panels[0].legend()
     return svg(figure)
+
+
+def _height(surface: Surface, width: float) -> float:
+    """Of a figure whose maps are so wide at most, inches."""
+    return min(5.0, 1.0 + width * surface.size[1] / surface.size[0])
 
 
 def _both(prepared: Prepared) -> Sequence[tuple[Surface, str, str]]:

@@ -1,5 +1,6 @@
 """Scenes that the tests share, and skips with a reason."""
 
+import os
 from pathlib import Path
 
 import pytest
@@ -8,6 +9,8 @@ from foamcases.openfoam import availability
 from rom.scene import Scene, load_scene
 
 POCKET = Path(__file__).parent.parent / "scripts" / "scenes" / "pocket.toml"
+MEASURED = Path(__file__).parent.parent.parent / "shared" / "surfaces"
+"""Instrument files that are not the project's own; ROUGHFILM_SURFACES may name another place."""
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -16,6 +19,19 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         for item in items:
             if item.get_closest_marker("openfoam"):
                 item.add_marker(pytest.mark.skip(reason=reason))
+
+
+@pytest.fixture(scope="session")
+def measured_file():
+    """The path of a measured surface by its name; skips where the files are absent."""
+    folder = Path(os.environ.get("ROUGHFILM_SURFACES", MEASURED))
+
+    def find(name: str) -> Path:
+        if not folder.is_dir():
+            pytest.skip(f"measured surfaces are not here: {folder} is absent")
+        return folder / name
+
+    return find
 
 
 @pytest.fixture

@@ -57,6 +57,8 @@ def make_periodic(surface: Surface, direction: Direction, *, width: float) -> Su
 
 
 def _gaussian(sigma: float, count: int, axis: int) -> Array:
+    if count < 2 * REACH:
+        raise InputError(f"edges: got {count} pixels along {'xy'[axis]}; joining edges needs {2 * REACH} and more")
     if not 0.5 <= sigma <= count / (4 * REACH):
         raise InputError(
             f"edges: got a width of {sigma:.3g} pixels along {'xy'[axis]}; "

@@ -1,0 +1,143 @@
+"""The whole recipe: reproducible to the byte, honest about what it did, and sound on real surfaces."""
+
+import numpy as np
+import pytest
+
+from contact.errors import InputError
+from contact.parameters import parameters
+from contact.periodicity import THRESHOLD
+from contact.preparation.prepare import prepare
+from contact.preparation.recipe import Recipe, read_recipe, recipe_entries
+from contact.surface import Surface
+from contact.surface_files import read_surface
+from contact.surface_store import load_surface, save_surface
+
+
+def measured(seed=841, lay=1.0):
+    """Tilted, bent, with holes, spikes and edges that do not meet; ridges along x where ``lay`` is above 1."""
+    rng = np.random.default_rng(seed)
+    n = 400
+    q = np.hypot(lay * np.fft.fftfreq(n)[:, None], np.fft.rfftfreq(n)[None, :]) * n
+    heights = np.fft.irfft2(np.fft.rfft2(rng.normal(size=(n, n))) * (q < 60), s=(n, n))[:300, :220]
+    heights /= heights.std()
+    x, y = np.meshgrid(np.linspace(-1, 1, 300), np.linspace(-1, 1, 220), indexing="ij")
+    invalid = rng.random(heights.shape) < 0.02
+    heights[17, 19] += 40
+    heights[170, 40] -= 30
+    return Surface(
+        heights=1e-6 * (heights + 5 * x - 3 * y + 4 * x * y + 100), spacing=(1.2e-6, 1.7e-6), invalid=invalid
+    )
+
+
+def test_twice_the_same_recipe_gives_the_same_bytes(tmp_path):
+    recipe = read_recipe({"window": {"size": ["250 um", "280 um"]}})
+    for name in ("a.h5", "b.h5"):
+        save_surface(prepare(measured(), recipe).surface, tmp_path / name)
+    assert (tmp_path / "a.h5").read_bytes() == (tmp_path / "b.h5").read_bytes()
+
+
+def test_the_stored_surface_knows_its_recipe_and_what_was_done(tmp_path):
+    recipe = read_recipe({"form": "tilt", "smoothing": 5})
+    prepared = prepare(measured(), recipe)
+    save_surface(prepared.surface, tmp_path / "s.h5")
+    source = load_surface(tmp_path / "s.h5").source
+    assert read_recipe(source["recipe"]) == recipe
+    assert source["record"]["invalid"]["points"] == int(measured().invalid.sum())
+
+
+def test_every_step_leaves_its_mark():
+    given = measured()
+    prepared = prepare(given, Recipe())
+    record = prepared.record
+    assert np.abs(prepared.measured.heights[prepared.measured.valid].mean()) < 1e-12
+    assert record["invalid"]["residual"] <= 1e-9
+    assert (record["outliers"]["above"], record["outliers"]["below"]) >= (1, 1)
+    assert np.ptp(prepared.surface.heights) < 0.3 * np.ptp(prepared.measured.heights)
+    assert prepared.surface.shape == (512, 256)
+    assert prepared.surface.size == pytest.approx(given.size)
+    assert prepared.surface.periodic
+    assert record["periodicity_mismatch"]["before"] > 0.5
+    assert record["periodicity_mismatch"]["after"] < THRESHOLD
+    assert not prepared.warnings
+
+
+def test_edges_and_middle_are_those_of_their_steps():
+    prepared = prepare(measured(), read_recipe({"grid": {"points": "kept"}}))
+    middle = (slice(100, 200), slice(70, 150))
+    assert np.array_equal(prepared.joined.heights[middle], prepared.cell.heights[middle])
+    assert prepared.cell.shape == (300, 220)
+
+
+@pytest.mark.parametrize(("transposed", "direction"), [(False, "x"), (True, "y")])
+def test_a_strong_lay_is_joined_along_itself_only(transposed, direction):
+    given = measured(842, lay=12.0)
+    if transposed:
+        given = Surface(heights=given.heights.T, spacing=(1.7e-6, 1.2e-6), invalid=given.invalid.T)
+    assert prepare(given, Recipe()).record["edges"]["direction"] == direction
+
+
+def test_without_a_lay_all_edges_are_joined():
+    assert prepare(measured(), Recipe()).record["edges"]["direction"] == "both"
+
+
+@pytest.mark.parametrize("heights", [np.full((40, 40), 3e-6), np.arange(40.0)[:, None] * np.ones(40) * 1e-6])
+def test_a_surface_without_roughness_is_refused(heights):
+    with pytest.raises(InputError, match="there is no roughness to prepare"):
+        prepare(Surface(heights=heights, spacing=(1e-6, 1e-6)), Recipe())
+
+
+def test_a_surface_of_guesses_warns():
+    given = measured()
+    invalid = np.random.default_rng(843).random(given.shape) < 0.4
+    warnings = prepare(given.with_heights(given.heights, invalid=invalid), Recipe()).warnings
+    assert any("40 % of the points were invalid" in warning for warning in warnings)
+
+
+def test_a_joint_that_stays_bad_warns():
+    """The thesis's surface 3a: slanted ridges that a blend along them cannot make meet."""
+    x, y = np.meshgrid(np.arange(256), np.arange(256), indexing="ij")
+    ridges = np.sin(2 * np.pi * (x / 32 + 0.5 * y / 256)) * 1e-6
+    prepared = prepare(Surface(heights=ridges, spacing=(1e-6, 1e-6)), read_recipe({"edges": {"direction": "y"}}))
+    assert any(warning.startswith("periodicity mismatch") for warning in prepared.warnings)
+
+
+@pytest.mark.parametrize(
+    ("entries", "message"),
+    [
+        (
+            {"window": {"size": ["1 mm", "1 mm"], "start": ["0 m", "0 m"]}},
+            "^window: got 833 pixels from pixel 0 along x",
+        ),
+        ({"window": {"size": ["1 mm", "1 mm"]}}, "^window: got at least 834 pixels along x, where the surface has 300"),
+        ({"edges": {"direction": "x", "width": "1 mm"}}, "^edges: got a width of .* pixels along x; give"),
+        ({"outliers": {"points": 100_000}}, "^outliers: no bin of 1000 holds 100000 points"),
+        ({"grid": {"points": [8, 8]}, "smoothing": 9}, "^(edges|smoothing): "),
+    ],
+)
+def test_a_step_that_cannot_be_taken_says_which(entries, message):
+    with pytest.raises(InputError, match=message):
+        prepare(measured(), read_recipe(entries))
+
+
+@pytest.mark.measured
+@pytest.mark.parametrize("name", ["milled_NT1100.opd", "polished.opd", "polished_with_spikes.sur"])
+def test_real_surfaces_keep_their_roughness_and_lose_their_spikes(measured_file, name):
+    prepared = prepare(read_surface(measured_file(name)), Recipe())
+    before, after = parameters(prepared.measured), parameters(prepared.surface)
+    spread = np.diff(np.percentile(prepared.measured.heights[prepared.measured.valid], [0.1, 99.9]))[0]
+    assert after["Sa"].value == pytest.approx(before["Sa"].value, rel=0.12)
+    assert after["Sz"].value < 1.5 * spread
+    assert after["Sz"].value < 0.75 * before["Sz"].value
+    assert recipe_entries(Recipe()) == prepared.surface.source["recipe"]
+
+
+@pytest.mark.measured
+def test_striations_that_slant_are_warned_of_and_a_shorter_window_mends_them(measured_file):
+    """What the thesis found of its surface 3: the longer the window along the lay, the worse the joint."""
+    surface = read_surface(measured_file("ground_striated.x3p"))
+    whole = prepare(surface, Recipe())
+    part = prepare(surface, read_recipe({"window": {"size": ["40 um", "40 um"]}}))
+    assert whole.record["edges"]["direction"] == "y"
+    assert any("mismatch" in warning for warning in whole.warnings)
+    assert part.record["periodicity_mismatch"]["after"] < 0.2 * whole.record["periodicity_mismatch"]["after"]
+    assert not part.warnings

@@ -1,0 +1,87 @@
+"""A recipe says every step, is read back as it was written, and names its faults."""
+
+import pytest
+
+from contact.errors import InputError
+from contact.preparation.recipe import Recipe, load_recipe, read_recipe, recipe_entries
+
+FULL = """
+form = "tilt"
+smoothing = 5
+[read]
+channel = "Raw"
+spacing = ["1.5 um", "2 um"]
+height_unit = "nm"
+[outliers]
+bins = 500
+points = 20
+[window]
+size = ["0.8 mm", "600 um"]
+start = ["0 um", "10 um"]
+[grid]
+points = [640, 480]
+[edges]
+direction = "x"
+width = "12 um"
+"""
+
+
+def test_a_full_recipe_is_read_in_si_units_and_written_back(tmp_path):
+    (tmp_path / "r.toml").write_text(FULL)
+    recipe = load_recipe(tmp_path / "r.toml")
+    assert recipe.window is not None
+    assert recipe.window.size == (8e-4, 6e-4)
+    assert recipe.window.start == (0.0, 1e-5)
+    assert recipe.read.spacing == (1.5e-6, 2e-6)
+    assert recipe.grid.points == (640, 480)
+    assert recipe.edges.width == 12e-6
+    assert read_recipe(recipe_entries(recipe)) == recipe
+
+
+def test_without_a_file_the_thesis_numbers_hold():
+    recipe = load_recipe()
+    assert recipe == Recipe()
+    assert (recipe.outliers.bins, recipe.outliers.points, recipe.smoothing) == (1000, 10, 3)
+    assert recipe.grid.points == "powers of two"
+
+
+def test_overrides_reach_every_table():
+    recipe = load_recipe(
+        None, ["smoothing=1", "edges.direction=y", 'window.size=["1 mm", "2 mm"]', "grid.points=[64, 32]"]
+    )
+    assert (recipe.smoothing, recipe.edges.direction, recipe.grid.points) == (1, "y", (64, 32))
+    assert recipe.window is not None
+    assert recipe.window.size == (1e-3, 2e-3)
+
+
+@pytest.mark.parametrize(
+    ("override", "message"),
+    [
+        ("forn=tilt", r"^recipe\.forn: unknown key; did you mean 'form'\?"),
+        ("edges.directon=x", r"^recipe\.edges\.directon: unknown key; did you mean 'direction'\?"),
+        ("window.sise=1", r"^recipe\.window\.sise: unknown key; did you mean 'size'\?"),
+        ("form=cubic", r"^recipe\.form: got 'cubic'; it must be 'none', 'mean', 'tilt' or 'quadratic'"),
+        ("edges.width=5", r"^recipe\.edges\.width: got 5, a number without a unit; write for example '5 m'"),
+        ("edges.width=5 s", r"^recipe\.edges\.width: got '5 s', which has the wrong dimension"),
+        ("smoothing=0", r"^recipe\.smoothing: got 0; input should be greater than or equal to 1"),
+        ("smoothing=2.5", r"^recipe\.smoothing: got 2\.5; input should be a valid integer"),
+        ("outliers.bins=many", r"^recipe\.outliers\.bins: got 'many'"),
+        ("grid.points=[64]", r"^recipe\.grid\.points"),
+        ("grid.points=[1, 64]", r"^recipe\.grid\.points"),
+        ("grid.points=lots", r"^recipe\.grid\.points"),
+        ("grid=7", r"^recipe\.grid: got 7"),
+        ("nothing", r"^--set nothing: got no key=value; write for example edges\.direction=x"),
+        ("form.order=2", r"^recipe\.form: got \{'order': 2\}"),
+    ],
+)
+def test_a_fault_is_one_line_that_names_its_key(override, message):
+    with pytest.raises(InputError, match=message) as raised:
+        load_recipe(None, [override])
+    assert "\n" not in str(raised.value)
+    assert "Coordinate" not in str(raised.value)
+
+
+def test_a_recipe_that_is_no_toml_is_told(tmp_path):
+    (tmp_path / "r.toml").write_text("form = ")
+    with pytest.raises(InputError, match=r"r\.toml: is not TOML \(.*\); write lines such as: form = \"quadratic\""):
+        load_recipe(tmp_path / "r.toml")
