@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from contact.errors import InputError
-from contact.heights import deviations
+from contact.heights import checked
 from contact.surface import Array
 
 CORE_WINDOW = 0.4
@@ -43,8 +43,14 @@ class Core:
 
 
 def descending(heights: ArrayLike) -> Array:
-    """All heights from the highest to the lowest, shape (n,), m: the exact bearing curve, at ratios (i + 1/2)/n."""
-    return np.sort(np.asarray(heights, dtype=np.float64), axis=None)[::-1]
+    """All heights from the highest to the lowest, shape (n,), m: the exact bearing curve, at ratios (i + 1/2)/n.
+
+    Raises
+    ------
+    InputError
+        If there are none, one is not finite or beyond 1000 km, or all are the same but for rounding.
+    """
+    return np.sort(checked(heights), axis=None)[::-1]
 
 
 def bearing_curve(heights: ArrayLike, count: int = 501) -> tuple[Array, Array]:
@@ -67,7 +73,6 @@ def bearing_curve(heights: ArrayLike, count: int = 501) -> tuple[Array, Array]:
     """
     if count < 2:
         raise InputError(f"bearing curve: got {count} ratios; ask for at least 2")
-    deviations(heights)
     ordered = descending(heights)
     ratio = np.linspace(0.0, 1.0, count)
     return ratio, np.interp(ratio, (np.arange(ordered.size) + 0.5) / ordered.size, ordered)
@@ -77,9 +82,9 @@ def bearing_core(ordered: Array) -> Core:
     """Sk, Spk, Svk, Smr1, Smr2 of ISO 25178-2, from the ordered heights themselves.
 
     The window of 40 % of the points across which the heights drop least is found (the first, if several are as flat),
-    a line z = a + b m fitted to them by least squares, and read at ratios m = 0 and 1: Sk = −b. What lies above the
-    upper end has the mean excess e over its part Smr1 of the points, hence the area e Smr1, which is that of a
-    triangle of height Spk = 2e; Svk likewise.
+    a line z = a + b m fitted to them by least squares, and read at ratios m = 0 and 1: Sk = −b. The curve passes its
+    upper end at Smr1, and with A the area of the curve above it, the triangle on Smr1 of the same area has the height
+    Spk = 2A/Smr1; Svk likewise, on 1 − Smr2.
 
     Parameters
     ----------
@@ -91,8 +96,9 @@ def bearing_core(ordered: Array) -> Core:
 
     Notes
     -----
-    The ratio is resolved to 1/n. A plateau that holds 40 % of the points is itself the core, with Sk = 0. Sorting
-    takes O(n log n), the rest O(n). ISO 25178-2:2021, annex B; ISO 13565-2:1996.
+    The window is 0.4 n points wide, rounded; for a bounded smooth curve the rest is of second order in 1/n. A plateau
+    that holds 40 % of the points is itself the core, with Sk = 0. Sorting takes O(n log n), the rest O(n).
+    ISO 25178-2:2021, annex B; ISO 13565-2:1996.
     """
     n = ordered.size
     window = max(2, round(CORE_WINDOW * n))
@@ -106,12 +112,23 @@ def bearing_core(ordered: Array) -> Core:
     middle = float(level + (inside - level).mean())
     centre = (first + window / 2) / n
     upper, lower = middle - slope * centre, middle + slope * (1 - centre)
-    above, below = ordered[ordered > upper], ordered[ordered < lower]
+    above, below = int(np.count_nonzero(ordered > upper)), int(np.count_nonzero(ordered < lower))
+    peak_ratio, valley_ratio = _ratio(ordered, upper, above), _ratio(ordered, lower, n - below)
+    peak_area, valley_area = (ordered[:above] - upper).sum() / n, (lower - ordered[n - below :]).sum() / n
     return Core(
         upper=upper,
         lower=lower,
-        peak=2 * float((above - upper).mean()) if above.size else 0.0,
-        valley=2 * float((lower - below).mean()) if below.size else 0.0,
-        peak_ratio=above.size / n,
-        valley_ratio=1 - below.size / n,
+        peak=2 * float(peak_area) / peak_ratio if above else 0.0,
+        valley=2 * float(valley_area) / (1 - valley_ratio) if below else 0.0,
+        peak_ratio=peak_ratio,
+        valley_ratio=valley_ratio,
     )
+
+
+def _ratio(ordered: Array, height: float, above: int) -> float:
+    """Material ratio at a height above which that many points lie."""
+    n = ordered.size
+    if above in (0, n):
+        return above / n
+    high, low = ordered[above - 1], ordered[above]
+    return float(above - 0.5 + (high - height) / (high - low)) / n

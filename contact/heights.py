@@ -11,6 +11,9 @@ from contact.surface import LARGEST_LENGTH, Array, Surface
 ROUNDING = 32 * np.finfo(np.float64).eps
 """Of the largest height: heights that differ by less are the same number, rounded."""
 
+SMALLEST_DIFFERENCE = 1e-30
+"""m; powers of what is below vanish."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class HeightStatistics:
@@ -41,16 +44,8 @@ class HeightStatistics:
         return self.peak + self.valley
 
 
-def deviations(heights: ArrayLike) -> Array:
-    """Heights less their mean.
-
-    Parameters
-    ----------
-    heights : any shape, m.
-
-    Returns
-    -------
-    The same shape, m.
+def checked(heights: ArrayLike) -> Array:
+    """The heights as they are, any shape, m.
 
     Raises
     ------
@@ -62,15 +57,21 @@ def deviations(heights: ArrayLike) -> Array:
     largest = max(-low, high)
     if not largest <= LARGEST_LENGTH:
         raise InputError(f"heights: got {largest:.3g} m; leave out what was not measured and look at the unit")
-    if high - low <= ROUNDING * largest:
+    if high - low <= max(ROUNDING * largest, SMALLEST_DIFFERENCE):
         raise InputError(f"heights: got {z.size} of {high:.3g} m, all the same; roughness needs at least two heights")
+    return z
+
+
+def deviations(heights: ArrayLike) -> Array:
+    """Heights less their mean, any shape, m; raises as `checked`."""
+    z = checked(heights)
     deviation: Array = z - z.mean()
     deviation -= deviation.mean()
     return deviation
 
 
 def surface_deviations(surface: Surface) -> Array:
-    """Heights less the mean of the valid ones, and 0 where invalid, shape (nx, ny), m; raises as `deviations`."""
+    """Heights less the mean of the valid ones, and 0 where invalid, shape (nx, ny), m; raises as `checked`."""
     z = np.zeros(surface.shape)
     z[surface.valid] = deviations(surface.heights[surface.valid])
     return z
@@ -92,23 +93,19 @@ def height_statistics(heights: ArrayLike) -> HeightStatistics:
 
     Examples
     --------
-    >>> two = height_statistics([1e-6, 3e-6])
-    >>> two.mean, two.total, two.kurtosis
-    (2e-06, 2e-06, 1.0)
+    >>> two = height_statistics([1.0, 3.0])
+    >>> two.mean, two.rms, two.total, two.kurtosis
+    (2.0, 1.0, 2.0, 1.0)
     """
-    given = np.asarray(heights, dtype=np.float64)
-    z = deviations(given)
-    peak, valley = float(z.max()), float(-z.min())
-    scale = max(peak, valley)
-    z /= scale
+    z = deviations(heights)
     square = z * z
     variance = float(square.mean())
     return HeightStatistics(
-        mean=float(given.mean()),
-        average=scale * float(np.abs(z).mean()),
-        rms=scale * variance**0.5,
-        peak=peak,
-        valley=valley,
+        mean=float(np.asarray(heights, dtype=np.float64).mean()),
+        average=float(np.abs(z).mean()),
+        rms=variance**0.5,
+        peak=float(z.max()),
+        valley=float(-z.min()),
         skewness=float((square * z).mean()) / variance**1.5,
         kurtosis=float((square * square).mean()) / variance**2,
     )

@@ -4,14 +4,18 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import fft
+from scipy import fft, special
 
 from contact.errors import InputError
-from contact.heights import surface_deviations
+from contact.heights import ROUNDING, surface_deviations
 from contact.surface import Array, Surface
 
 LAY_WIDTH = 3.0
 """degrees: directions this close (standard deviation) count together as one lay."""
+
+SECTORS = 360
+STEPS = 50
+"""Of the search for the lay, from the best of the sectors."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,61 +75,90 @@ def radial_power(spectrum: PowerSpectrum) -> tuple[Array, Array]:
 def angular_power(spectrum: PowerSpectrum, count: int = 180) -> tuple[Array, Array]:
     """Power by direction of the lay, all wavelengths together.
 
-    Waves whose wave vector points to θ make ridges that run along θ + 90°.
+    Waves whose wave vector points to θ make ridges that run along θ + 90°. Long waves have few directions among the
+    discrete wave vectors; each counts for all directions that its cell (1/Lx by 1/Ly) is seen under, blurred by 3°.
 
     Returns
     -------
-    angle : shape (count,), degrees from the x axis towards the y axis, 0 <= angle < 180; the middle of each sector.
-    power : shape (count,), m², in each sector; its sum is Sq².
+    angle : shape (count,), degrees from the x axis towards the y axis, 0 <= angle < 180.
+    power : shape (count,), m², in each sector of 180°/count; its sum is Sq² for sectors narrower than 6°.
+
+    Raises
+    ------
+    InputError
+        If fewer than one sector is asked for.
     """
     if count < 1:
         raise InputError(f"angular power: got {count} sectors; ask for at least 1")
-    sector, _ = _sectors(spectrum, count)
-    power = _totals(sector, spectrum.power.ravel(), count)
-    return np.arange(count) * 180.0 / count, power
+    angle = np.arange(count) * np.pi / count
+    return np.degrees(angle), _lays(spectrum).density(angle) * np.pi / count
 
 
 def texture_direction(spectrum: PowerSpectrum) -> float:
     """Std, the direction in which most ridges run: degrees from the x axis towards the y axis, 0 <= Std < 180.
 
-    The direction of most power, after the power by direction has been blurred by 3°; a single wave is found exactly.
-    Of an isotropic surface it says nothing (look at Str); of two equal lays it gives one.
+    The maximum of `angular_power`, between its sectors; a single periodic wave is found exactly. Of an isotropic
+    surface it says nothing (look at Str); of two equal lays it gives one.
 
     Notes
     -----
-    ISO 25178-2 measures the maximum of the angular spectrum itself, which is across the lay: 90° from this.
+    ISO 25178-2:2021, 4.3.4 takes the maximum of the angular spectrum itself, which lies across the lay: 90° from this.
     """
-    count = 720
-    sector, angle = _sectors(spectrum, count)
-    weights = spectrum.power.ravel()
-    power = _totals(sector, weights, count)
-    lean = _totals(sector, weights * (angle - sector * np.pi / count), count)
-    angles = np.arange(count) * np.pi / count + np.divide(lean, power, out=np.zeros(count), where=power > 0)
-    concentration = 1 / (2 * np.radians(LAY_WIDTH)) ** 2
-
-    def blurred(at: Array) -> NDArray[np.complex128]:
-        kernel = np.exp(concentration * (np.cos(2 * np.subtract.outer(at, angles)) - 1))
-        vectors: NDArray[np.complex128] = (kernel * power) @ np.exp(2j * angles)
-        return vectors
-
-    grid = np.arange(count) * np.pi / count
-    lay = grid[np.argmax((blurred(grid) * np.exp(-2j * grid)).real)]
-    for _ in range(100):
-        lay = np.angle(blurred(np.array([lay]))[0]) / 2
-    return float(np.degrees(lay) % 180.0 % 180.0)
+    lays = _lays(spectrum)
+    grid = np.arange(SECTORS) * np.pi / SECTORS
+    angle = float(grid[lays.density(grid).argmax()])
+    for _ in range(STEPS):
+        angle = lays.climb(angle)
+    return float(np.degrees(angle) % 180.0 % 180.0)
 
 
-def _sectors(spectrum: PowerSpectrum, count: int) -> tuple[NDArray[np.intp], Array]:
-    """Sector of each wave vector's lay, and the angle of the lay near the middle of its sector, radians."""
-    fx, fy = spectrum.frequencies
-    angle = (np.arctan2.outer(-fx, fy) % np.pi).ravel()
-    nearest = np.rint(angle * count / np.pi).astype(np.intp)
-    wrapped = nearest == count
-    angle[wrapped] -= np.pi
-    nearest[wrapped] = 0
-    return nearest, angle
+@dataclass(frozen=True, kw_only=True)
+class _Lays:
+    """Power by lay as a sum of periodic bells: wave vectors of nearly one direction and width together, shape (n,)."""
+
+    power: Array
+    angle: Array
+    concentration: Array
+
+    def bells(self, angle: Array) -> Array:
+        """Power per radian of each at some angles, shape (angles, n)."""
+        away = np.subtract.outer(angle, self.angle)
+        height = self.power / (np.pi * special.i0e(self.concentration))
+        bells: Array = height * np.exp(self.concentration * (np.cos(2 * away) - 1))
+        return bells
+
+    def density(self, angle: Array) -> Array:
+        """Power per radian of all together, shape (angles,)."""
+        density: Array = self.bells(angle).sum(axis=1)
+        return density
+
+    def climb(self, angle: float) -> float:
+        """An angle where it is higher (mean shift), or the same at a maximum."""
+        weights = self.bells(np.array([angle]))[0] * self.concentration
+        return float(np.angle(weights @ np.exp(2j * self.angle))) / 2
 
 
-def _totals(group: NDArray[np.intp], weights: Array, count: int = 0) -> Array:
+def _lays(spectrum: PowerSpectrum) -> _Lays:
+    (fx, fy), power = spectrum.frequencies, spectrum.power.ravel()
+    square = np.add.outer(fx**2, fy**2).ravel()
+    square[0] = np.inf  # the mean has no direction
+    cell = np.add.outer((fx * fy[1]) ** 2, (fx[1] * fy) ** 2).ravel() / square**2
+    blur = np.radians(LAY_WIDTH) ** 2
+    variance = blur + cell / 12
+    angle = np.arctan2.outer(-fx, fy).ravel()
+    sector = np.rint(angle * (SECTORS / np.pi)).astype(np.intp)
+    angle -= sector * (np.pi / SECTORS)
+    group = np.rint(2 * np.log2(variance / blur)).astype(np.intp) * SECTORS + sector % SECTORS
+    total = _totals(group, power)
+    some = np.flatnonzero(total > ROUNDING**2 * total.sum())
+    total = total[some]
+    return _Lays(
+        power=total,
+        angle=some % SECTORS * (np.pi / SECTORS) + _totals(group, power * angle)[some] / total,
+        concentration=total / (4 * _totals(group, power * variance)[some]),
+    )
+
+
+def _totals(group: NDArray[np.intp], weights: Array) -> Array:
     """Sum of the weights in each group."""
-    return np.bincount(group, weights=weights, minlength=count).astype(np.float64)
+    return np.bincount(group, weights=weights).astype(np.float64)
