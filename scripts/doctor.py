@@ -4,6 +4,7 @@ import platform
 import shutil
 import subprocess
 from collections.abc import Callable
+from importlib import metadata
 
 from rich.table import Table
 
@@ -30,17 +31,25 @@ def _mpi() -> Availability:
     return Availability(available=True, detail=next(iter(told.splitlines()), "mpirun"))
 
 
+def _instruments() -> Availability:
+    try:
+        return Availability(available=True, detail=f"SurfaceTopography {metadata.version('SurfaceTopography')}")
+    except metadata.PackageNotFoundError:
+        return Availability(available=False, detail="install it with: pip install 'roughfilm[instruments]'")
+
+
 CHECKS: dict[str, Callable[[], Availability]] = {
     "Python": _python,
     "OpenFOAM": availability,
     "MPI": _mpi,
     "rendering": probe,
+    "instrument files": _instruments,
 }
 
 
 @in_one_line
 def command(as_json: AsJson = False) -> None:
-    """Look for Python, OpenFOAM, MPI and rendering; say what was found and what to do."""
+    """Look for Python, OpenFOAM, MPI, rendering and the reader of instrument files; say what was found and what to do."""
     found = {name: check() for name, check in CHECKS.items()}
     if as_json:
         print_json({name: {"available": it.available, "detail": it.detail} for name, it in found.items()})
