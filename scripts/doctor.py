@@ -49,7 +49,7 @@ CHECKS: dict[str, Callable[[], Availability]] = {
 
 @in_one_line
 def command(as_json: AsJson = False) -> None:
-    """Look for Python, OpenFOAM, MPI, rendering and the reader of instrument files; say what was found and what to do."""
+    """Look for Python, OpenFOAM, MPI, rendering, the reader of instrument files; say what was found, what to do."""
     found = {name: check() for name, check in CHECKS.items()}
     if as_json:
         print_json({name: {"available": it.available, "detail": it.detail} for name, it in found.items()})

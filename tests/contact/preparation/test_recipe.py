@@ -1,9 +1,13 @@
 """A recipe says every step, is read back as it was written, and names its faults."""
 
+from pathlib import Path
+
 import pytest
 
 from contact.errors import InputError
 from contact.preparation.recipe import Recipe, load_recipe, read_recipe, recipe_entries
+
+ROOT = Path(__file__).parents[3]
 
 FULL = """
 form = "tilt"
@@ -43,6 +47,10 @@ def test_without_a_file_the_thesis_numbers_hold():
     assert recipe == Recipe()
     assert (recipe.outliers.bins, recipe.outliers.points, recipe.smoothing) == (1000, 10, 3)
     assert recipe.grid.points == "powers of two"
+
+
+def test_the_recipe_beside_the_scenes_is_the_usual_one():
+    assert load_recipe(ROOT / "scripts" / "surfaces" / "recipe.toml") == Recipe()
 
 
 def test_overrides_reach_every_table():
