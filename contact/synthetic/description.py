@@ -1,21 +1,27 @@
 """A synthetic surface described by a TOML table, and made from it."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, TypeAdapter, ValidationError
+from pydantic import BaseModel, BeforeValidator, Field, TypeAdapter, ValidationError
 
 from contact.entries import Coordinate, InUnit, Length, Part, PositiveNumber, plain_number
 from contact.errors import InputError
 from contact.surface import Surface
+from contact.synthetic.cross_hatch import cross_hatch
+from contact.synthetic.distribution import rms_slope, with_skewness
 from contact.synthetic.gaussian import Autocorrelation, gaussian
+from contact.synthetic.grid import metres
+from contact.synthetic.milled import milled
+from contact.synthetic.plateau_honed import plateau_honed
 from contact.synthetic.self_affine import self_affine
+from contact.synthetic.sinusoids import Combination, sinusoid
 from contact.synthetic.waves import Amplitudes
 from contact.toml import Location, in_one_line, read_toml, unknown_key
 
 
-def _count(value: object) -> object:
+def _whole(value: object) -> object:
     if isinstance(value, bool) or not isinstance(value, int):
         raise ValueError(f"got {value!r}; write a whole number")
     return value
@@ -25,58 +31,168 @@ def _any(value: float) -> float:
     return value
 
 
-Count = Annotated[int, BeforeValidator(_count)]
+Whole = Annotated[int, BeforeValidator(_whole)]
+Number = Annotated[float, BeforeValidator(plain_number)]
 Angle = Annotated[float, InUnit("rad", _any)]
 
 
-class _Made(Part):
+class HeightDistribution(Part):
+    """Heights with a given Ssk, see ``contact.synthetic.distribution.with_skewness``."""
+
+    skewness: Number
+
+
+class _Described(Part):
+    kind: str
     size: tuple[Length, Length]
-    points: tuple[Count, Count]
+    points: tuple[Whole, Whole]
 
 
-class SelfAffine(_Made):
+class SelfAffine(_Described):
     """See ``contact.synthetic.self_affine``."""
 
     kind: Literal["self_affine"]
-    seed: Count
+    seed: Whole
     hurst: PositiveNumber
     roll_off: Length
     cut_off: Length
     rms_height: Length | None = None
     rms_slope: PositiveNumber | None = None
     amplitudes: Amplitudes = "fixed"
+    height_distribution: HeightDistribution | None = None
 
 
-class Gaussian(_Made):
+class Gaussian(_Described):
     """See ``contact.synthetic.gaussian``."""
 
     kind: Literal["gaussian"]
-    seed: Count
+    seed: Whole
     rms_height: Length
     correlation_length: Length
     anisotropy: PositiveNumber = 1.0
     lay_angle: Angle = 0.0
     autocorrelation: Autocorrelation = "gaussian"
     amplitudes: Amplitudes = "fixed"
+    height_distribution: HeightDistribution | None = None
 
 
-Description = Annotated[SelfAffine | Gaussian, Field(discriminator="kind")]
+class Sinusoid(_Described):
+    """See ``contact.synthetic.sinusoids``."""
 
-MAKERS = {"self_affine": self_affine, "gaussian": gaussian}
-_READER: TypeAdapter[Any] = TypeAdapter(Description)
+    kind: Literal["sinusoid"]
+    amplitude: Length
+    wavelength_x: Length | None = None
+    wavelength_y: Length | None = None
+    combination: Combination = "product"
 
 
-def read_description(path: Path) -> Any:
+class CrossHatch(_Described):
+    """See ``contact.synthetic.cross_hatch``."""
+
+    kind: Literal["cross_hatch"]
+    spacing: Length
+    half_angle: Angle
+    depth: Length
+    width: Length
+
+
+class Milled(_Described):
+    """See ``contact.synthetic.milled``."""
+
+    kind: Literal["milled"]
+    radius: Length
+    feed: Length
+    depth: Length
+    offset: Coordinate = 0.0
+    back_lift: Coordinate | None = None
+
+
+class PlateauHoned(_Described):
+    """See ``contact.synthetic.plateau_honed``."""
+
+    kind: Literal["plateau_honed"]
+    seed: Whole
+    plateau_rms_height: Length
+    plateau_correlation_length: Length
+    valley_rms_height: Length
+    valley_correlation_length: Length
+    material_ratio: PositiveNumber
+    valley_anisotropy: PositiveNumber = 1.0
+    half_angle: Angle = 0.0
+
+
+Description = SelfAffine | Gaussian | Sinusoid | CrossHatch | Milled | PlateauHoned
+
+KINDS: Mapping[str, tuple[type[BaseModel], Callable[..., Surface]]] = {
+    "self_affine": (SelfAffine, self_affine),
+    "gaussian": (Gaussian, gaussian),
+    "sinusoid": (Sinusoid, sinusoid),
+    "cross_hatch": (CrossHatch, cross_hatch),
+    "milled": (Milled, milled),
+    "plateau_honed": (PlateauHoned, plateau_honed),
+}
+
+_READER: TypeAdapter[Description] = TypeAdapter(Annotated[Description, Field(discriminator="kind")])
+
+
+def read_description(path: Path) -> Description:
+    """Read the description of a surface from a TOML file.
+
+    Its keys are the arguments of the function that makes the kind, lengths and angles with units ("1 mm", "30 deg"). To
+    "self_affine" and "gaussian" a table ``[height_distribution]`` with ``skewness`` may be added.
+
+    Raises
+    ------
+    InputError
+        One line that names the key, what was got there and what to write instead.
+    """
     return read_entries(read_toml(path, 'kind = "self_affine"'))
 
 
-def read_entries(entries: Mapping[str, Any]) -> Any:
+def read_entries(entries: Mapping[str, Any]) -> Description:
+    """A description from entries as a TOML file, or ``source["synthetic"]`` of a surface, holds them.
+
+    Raises InputError as ``read_description`` does.
+    """
     try:
         return _READER.validate_python(entries)
     except ValidationError as error:
-        raise InputError(in_one_line(error, "surface", lambda location: "", lambda loc: loc[1:])) from None
+
+        def unknown(location: Location) -> str:
+            *table, key = location
+            known = HeightDistribution.model_fields if table else KINDS[entries["kind"]][0].model_fields
+            return unknown_key(key, known)
+
+        raise InputError(in_one_line(error, "surface", unknown, lambda location: location[1:])) from None
 
 
-def make(description: Any) -> Surface:
-    names = [name for name in type(description).model_fields if name != "kind"]
-    return MAKERS[description.kind](**{name: getattr(description, name) for name in names})
+def description_entries(description: Description) -> dict[str, Any]:
+    """The complete description, defaults written out, units as text; ``read_entries`` reads it back unchanged."""
+    return description.model_dump(mode="json", exclude_none=True)
+
+
+def make(description: Description) -> Surface:
+    """The surface that a description tells of: periodic, and the same bytes for the same description.
+
+    ``source["synthetic"]`` holds the complete description, ``source["achieved"]`` what came of it. A height
+    distribution keeps the rms height or, where that was given, the rms slope; ``source["distribution"]`` tells more.
+
+    Raises
+    ------
+    InputError
+        One line, for what makes no sense; see the function that makes the kind.
+    """
+    given = {name: getattr(description, name) for name in type(description).model_fields}
+    kind, distribution = given.pop("kind"), given.pop("height_distribution", None)
+    surface = KINDS[kind][1](**given)
+    if distribution is None:
+        return surface
+    shaped = with_skewness(surface, distribution.skewness)
+    slope = rms_slope(shaped)
+    wanted = given.get("rms_slope") or slope
+    heights = shaped.heights * (wanted / slope)
+    achieved = {**surface.source["achieved"], "rms_height": metres(heights.std()), "rms_slope": wanted}
+    return shaped.with_heights(
+        heights,
+        source={**shaped.source, "synthetic": description_entries(description), "achieved": achieved},
+    )

@@ -7,9 +7,9 @@ import numpy as np
 
 from contact.errors import InputError
 from contact.surface import Array, Surface
-from contact.synthetic.checks import angle, length, number_between
+from contact.synthetic.checks import length, number_between, whole_between
 from contact.synthetic.grid import Grid, metres, radians
-from contact.synthetic.waves import Amplitudes, check_seed, random_waves
+from contact.synthetic.waves import LARGEST_SEED, Amplitudes, random_waves
 
 Autocorrelation = Literal["gaussian", "exponential"]
 
@@ -31,8 +31,8 @@ def gaussian(
 ) -> Surface:
     """A random surface of Gaussian heights whose autocorrelation is known.
 
-    R(t) = 0.2^(ρ²) ("gaussian") or 0.2^ρ ("exponential"), with ρ² = (t_along / (γ λ))² + (t_across / λ)²: across the lay
-    it falls to 0.2 within λ, so that Sal = λ and Str = 1/γ for γ >= 1.
+    R(t) = 0.2^(ρ²) ("gaussian") or 0.2^ρ ("exponential"), with ρ² = (t_along / (γ λ))² + (t_across / λ)²: across the
+    lay it falls to 0.2 within λ, so that Sal = λ and Str = 1/γ for γ >= 1.
 
     Parameters
     ----------
@@ -58,20 +58,20 @@ def gaussian(
 
     Notes
     -----
-    Waves below two pixels are left out. For "gaussian" that is nothing from λ of four pixels on, so that a finer grid
-    holds the same surface to rounding; for "exponential" it is a part of about dx/λ of the variance, which is spread over
-    the other waves. The wave q = 0 is left out as well: R is lower by about 2 λ² γ / (Lx Ly) than stated, everywhere.
+    Waves below two pixels are left out. For "gaussian" that is next to nothing, so that a finer grid holds the same
+    surface; for "exponential" it is a part of about dx/(2λ) of the variance, which is spread over the other waves. The
+    wave q = 0 is left out as well: R is lower by about 2 λ² γ / (Lx Ly) than stated, everywhere.
 
     Sources: ISO 25178-2:2021; Patir and Cheng, J. Lubr. Technol. 100 (1978) 12, doi:10.1115/1.3453103.
     """
     grid = Grid(kind="gaussian", size=size, points=points)
-    check_seed(grid.kind, seed)
+    whole_between("gaussian.seed", seed, 0, LARGEST_SEED)
     length("gaussian.rms_height", rms_height)
-    number_between("gaussian.anisotropy", anisotropy, 1e-4, 1e4, "it must be 1e-4 to 1e4")
-    angle("gaussian.lay_angle", lay_angle)
-    lengths = correlation_lengths(grid, "correlation_length", correlation_length, anisotropy, lay_angle)
+    number_between("gaussian.lay_angle", lay_angle, -7, 7, "it must be -7 to 7 rad")
     if autocorrelation not in ("gaussian", "exponential"):
         raise InputError(f"gaussian.autocorrelation: got {autocorrelation!r}; write 'gaussian' or 'exponential'")
+    number_between("gaussian.anisotropy", anisotropy, 1e-4, 1e4, "it must be 1e-4 to 1e4")
+    lengths = correlation_lengths(grid, "correlation_length", correlation_length, anisotropy, lay_angle)
     waves = random_waves(
         grid,
         spectrum=lambda qx, qy: spectrum(qx, qy, lengths, lay_angle, autocorrelation),
@@ -99,32 +99,33 @@ def correlation_lengths(
     grid: Grid, name: str, across: float, anisotropy: float, *lay_angles: float
 ) -> tuple[float, float]:
     """(along, across), m, if two pixels resolve both and half a period holds them at every lay angle."""
-    along = anisotropy * across
+    along = anisotropy * length(f"{grid.kind}.{name}", across)
     grid.resolves(name, min(along, across))
     for lay in lay_angles:
-        reach = (
+        reaches = (
             math.hypot(along * math.cos(lay), across * math.sin(lay)),
             math.hypot(along * math.sin(lay), across * math.cos(lay)),
         )
-        for axis, extent, side in zip("xy", reach, grid.size, strict=True):
-            if extent > side / 2 * (1 + 1e-9):
+        for axis, reach, side in zip("xy", reaches, grid.size, strict=True):
+            if reach > side / 2 * (1 + 1e-9):
                 raise InputError(
-                    f"{grid.kind}.{name}: got an autocorrelation that reaches {extent:.5g} m along {axis}, beyond half the "
-                    f"period; write at most {across * side / 2 / extent:.5g} m, or a longer size"
+                    f"{grid.kind}.{name}: got an autocorrelation that reaches {reach:.5g} m along {axis}, beyond half "
+                    f"the period; write at most {across * side / 2 / reach:.5g} m, or a longer size"
                 )
     return along, across
 
 
 def spectrum(qx: Array, qy: Array, lengths: tuple[float, float], lay: float, autocorrelation: Autocorrelation) -> Array:
-    """The spectrum of R, but for a factor: exp(-s²/(4 ln 5)) or (1 + s²/ln²5)^(-3/2), s² = (q_along γλ)² + (q_across λ)²."""
+    """The spectrum of R, but for a factor: exp(-s²/(4 ln 5)) or (1 + s²/ln²5)^(-3/2).
+
+    s² = (q_along γ λ)² + (q_across λ)², with ``lengths`` (γ λ, λ), m.
+    """
     along = (qx * math.cos(lay) + qy * math.sin(lay)) * lengths[0]
     across = (qy * math.cos(lay) - qx * math.sin(lay)) * lengths[1]
     squared = along**2 + across**2
     decay = -math.log(LEVEL)
-    if autocorrelation == "gaussian":
-        return np.exp(-squared / (4 * decay))
-    smooth: Array = (1 + squared / decay**2) ** -1.5
-    return smooth
+    shape: Array = np.exp(-squared / (4 * decay)) if autocorrelation == "gaussian" else (1 + squared / decay**2) ** -1.5
+    return shape
 
 
 def correlation_length_at(

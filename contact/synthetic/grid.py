@@ -8,7 +8,7 @@ import numpy as np
 
 from contact.errors import InputError
 from contact.surface import Array, Surface
-from contact.synthetic.checks import length
+from contact.synthetic.checks import length, whole_between
 from contact.units import with_unit
 
 MOST_POINTS = 100_000_000
@@ -32,14 +32,11 @@ class Grid:
         for side in self.size:
             length(f"{self.kind}.size", side)
         for count in self.points:
-            if isinstance(count, bool) or not isinstance(count, int) or count < 2:
-                raise InputError(f"{self.kind}.points: got {count!r}; write a whole number, at least 2")
+            whole_between(f"{self.kind}.points", count, 2, MOST_POINTS)
         if self.points[0] * self.points[1] > MOST_POINTS:
-            raise InputError(f"{self.kind}.points: got {self.points[0]} x {self.points[1]}; at most 1e8 in total")
+            raise InputError(f"{self.kind}.points: got {self.points[0]} x {self.points[1]}; write at most 1e8 in total")
         if not 1e-6 <= self.size[0] / self.size[1] <= 1e6:
-            raise InputError(
-                f"{self.kind}.size: got sides {self.size[0]:.3g} and {self.size[1]:.3g} m; look at the units"
-            )
+            raise InputError(f"{self.kind}.size: got {self.size[0]:.3g} m by {self.size[1]:.3g} m; look at the units")
 
     @property
     def spacing(self) -> tuple[float, float]:
@@ -57,13 +54,12 @@ class Grid:
         nx, ny = self.points
         return np.arange(nx)[:, None] / nx, np.arange(ny)[None, :] / ny
 
-    def resolves(self, name: str, value: float) -> float:
-        """A length, m, if it is at least two pixels; InputError otherwise."""
-        length(f"{self.kind}.{name}", value)
-        if value < self.shortest_wavelength * (1 - 1e-9):
+    def resolves(self, name: str, value: float, pixel: float | None = None) -> float:
+        """A length, m, if it is at least two pixels (by default their longer side); InputError otherwise."""
+        least = self.shortest_wavelength if pixel is None else 2 * pixel
+        if length(f"{self.kind}.{name}", value) < least * (1 - 1e-9):
             raise InputError(
-                f"{self.kind}.{name}: got {value:.5g} m, below two pixels; write at least {self.shortest_wavelength:.5g} m "
-                "or more points"
+                f"{self.kind}.{name}: got {value:.5g} m, below two pixels; write at least {least:.5g} m, or more points"
             )
         return value
 

@@ -4,9 +4,9 @@ import numpy as np
 
 from contact.errors import InputError
 from contact.surface import Array, Surface
-from contact.synthetic.checks import length, number_between
+from contact.synthetic.checks import length, number_between, whole_between
 from contact.synthetic.grid import Grid, metres
-from contact.synthetic.waves import Amplitudes, check_seed, random_waves
+from contact.synthetic.waves import LARGEST_SEED, Amplitudes, random_waves
 
 
 def self_affine(
@@ -31,7 +31,7 @@ def self_affine(
     ----------
     size, points : the period, m, and the grid over it, along x and y.
     seed : 0 to 2^63 - 1; the same surface for the same seed, on every grid (see ``random_waves``).
-    hurst : H, above 0 to 1.
+    hurst : H, above 0 and at most 1.
     roll_off : m, at most the longer side: as long as it, the surface is self-affine up to its own size.
     cut_off : m, below the roll-off, at least two pixels.
     rms_height, rms_slope : m, and a number; exactly one.
@@ -48,12 +48,12 @@ def self_affine(
 
     Notes
     -----
-    Heights are Gaussian as far as many waves add up: the fewer waves there are at the roll-off, the less they are.
+    Heights are Gaussian as far as many waves add up: the fewer there are at the roll-off, the less they are.
 
     Source: Persson et al., J. Phys. Condens. Matter 17 (2005) R1, doi:10.1088/0953-8984/17/1/R01.
     """
     grid = Grid(kind="self_affine", size=size, points=points)
-    check_seed(grid.kind, seed)
+    whole_between("self_affine.seed", seed, 0, LARGEST_SEED)
     number_between("self_affine.hurst", hurst, 1e-6, 1, "it must be above 0 and at most 1")
     length("self_affine.roll_off", roll_off)
     grid.resolves("cut_off", cut_off)

@@ -14,9 +14,8 @@ from contact.synthetic.grid import Grid
 
 Index = NDArray[np.int64]
 Amplitudes = Literal["fixed", "random"]
-Seed = int | tuple[int, int]
 Spectrum = Callable[[Array, Array], Array]
-"""C(qx, qy) but for a factor; qx and qy in rad/m, positive where a wave is wanted."""
+"""C(qx, qy) but for a factor; qx and qy in rad/m."""
 
 LARGEST_SEED = 2**63 - 1
 
@@ -55,15 +54,8 @@ class Waves:
         spectrum[self.m % nx, self.n] = self.amplitudes
         level = self.n == 0
         spectrum[-self.m[level] % nx, 0] = self.amplitudes[level].conj()
-        heights: Array = scipy.fft.irfft2(spectrum, s=points, norm="forward")
+        heights: Array = scipy.fft.irfft2(spectrum, s=tuple(points), norm="forward")
         return heights
-
-
-def check_seed(place: str, seed: int) -> int:
-    """The seed, if it is a whole number from 0 to 2^63 - 1; InputError otherwise."""
-    if isinstance(seed, bool) or not isinstance(seed, int) or not 0 <= seed <= LARGEST_SEED:
-        raise InputError(f"{place}.seed: got {seed!r}; write a whole number from 0 to {LARGEST_SEED}")
-    return seed
 
 
 def random_waves(
@@ -71,17 +63,17 @@ def random_waves(
     *,
     spectrum: Spectrum,
     cut_off: float,
-    seed: Seed,
+    seed: int | tuple[int, int],
     amplitudes: Amplitudes = "fixed",
     rms_height: float | None = None,
     rms_slope: float | None = None,
 ) -> Waves:
     """Waves longer than ``cut_off`` (m) with a given spectrum, scaled to one of rms height (m) and rms slope exactly.
 
-    One pair of normal numbers z is drawn for each wave vector in order of growing |q|, ties by n and then m: with
-    ``fixed`` amplitudes |a|² is C(q) itself and only the phase of z counts, so that every seed has the spectrum that was
-    asked; with ``random`` ones a = z sqrt(C(q)), the waves of a Gaussian process. The order knows no grid, so a finer
-    grid, or a shorter cut-off, keeps the waves it had and adds others.
+    For each wave vector a complex z of two normal numbers is drawn, in order of growing |q|, ties by n and then m. With
+    "fixed" amplitudes |a|² is C(q) itself and only the phase of z counts, so that every seed has the spectrum that was
+    asked; with "random" ones a = z sqrt(C(q)), the waves of a Gaussian process. The order knows no grid: with the same
+    cut-off a finer grid has the same waves; with a shorter one it keeps them, but for the scaling, and has others too.
 
     Raises
     ------
@@ -93,8 +85,8 @@ def random_waves(
     m, n, qx, qy = _wave_vectors(grid, cut_off)
     if not m.size:
         raise InputError(
-            f"{grid.kind}: got no wave between the cut-off, {cut_off:.5g} m, and the longer side, {max(grid.size):.5g} m; "
-            "shorten the one or lengthen the other"
+            f"{grid.kind}: got no wave between the cut-off, {cut_off:.5g} m, and the longer side, "
+            f"{max(grid.size):.5g} m; shorten the one or lengthen the other"
         )
     drawn = np.random.default_rng(seed).standard_normal((m.size, 2)).view(complex)[:, 0]
     if amplitudes == "fixed":
@@ -105,11 +97,12 @@ def random_waves(
 
 
 def _wave_vectors(grid: Grid, cut_off: float) -> tuple[Index, Index, Array, Array]:
-    """m, n, qx, qy of half the wave vectors with 0 < |q| < 2π/cut_off that the grid resolves, in order of growing |q|."""
-    counts = [min(int(side / cut_off), (count - 1) // 2) for side, count in zip(grid.size, grid.points, strict=True)]
-    n, m = np.meshgrid(np.arange(counts[1] + 1), np.arange(-counts[0], counts[0] + 1), indexing="ij")
-    length_squared = (m / grid.size[0]) ** 2 + (n / grid.size[1]) ** 2
-    wanted = ((n > 0) | (m > 0)) & (length_squared * cut_off**2 < 1 - 1e-9)
-    order = np.argsort(length_squared[wanted], kind="stable")
-    m, n = m[wanted][order], n[wanted][order]
-    return m, n, 2 * np.pi * m / grid.size[0], 2 * np.pi * n / grid.size[1]
+    """m, n, qx, qy of half the wave vectors 0 < |q| < 2π/cut_off that the grid resolves, in order of growing |q|."""
+    most = [min(int(side / cut_off), (count - 1) // 2) for side, count in zip(grid.size, grid.points, strict=True)]
+    m, n = np.arange(-most[0], most[0] + 1)[None, :], np.arange(most[1] + 1)[:, None]
+    squared: Array = (m / grid.size[0]) ** 2 + (n / grid.size[1]) ** 2
+    wanted = np.flatnonzero(((n > 0) | (m > 0)) & (squared * cut_off**2 < 1 - 1e-9))
+    wanted = wanted[np.argsort(squared.ravel()[wanted], kind="stable")]
+    rows, columns = np.divmod(wanted, m.size)
+    chosen_m, chosen_n = m[0, columns], n[rows, 0]
+    return chosen_m, chosen_n, 2 * np.pi * chosen_m / grid.size[0], 2 * np.pi * chosen_n / grid.size[1]

@@ -1,0 +1,80 @@
+"""Two families of equal grooves that cross each other, as honing leaves them."""
+
+import math
+
+import numpy as np
+
+from contact.errors import InputError
+from contact.surface import Array, Surface
+from contact.synthetic.checks import length, number_between
+from contact.synthetic.grid import Grid, metres, radians
+
+NEAR_SPACING, NEAR_ANGLE = 0.1, math.radians(3)
+"""How far the grooves that close over the period may be from those that were asked."""
+
+
+def cross_hatch(
+    *,
+    size: tuple[float, float],
+    points: tuple[int, int],
+    spacing: float,
+    half_angle: float,
+    depth: float,
+    width: float,
+) -> Surface:
+    """Flat land at height 0 with two families of parallel grooves at ± the half angle to the x axis.
+
+    Across a groove h = -d (1 + cos(2π t/w))/2 for |t| < w/2, with t from its middle line; where two cross, the deeper
+    counts. One groove of each family passes through x = y = 0.
+
+    Parameters
+    ----------
+    size, points : the period, m, and the grid over it, along x and y.
+    spacing : m, between neighbouring grooves of a family, square to them.
+    half_angle : between the grooves and the x axis, above 0 and below π/2, rad: half the honing angle.
+    depth, width : d and w, m; the width at least two pixels and at most the spacing.
+
+    Returns
+    -------
+    Periodic surface. Grooves close over the period only if m = Lx sin(angle)/spacing and n = Ly cos(angle)/spacing are
+    whole numbers; the nearest are taken, and ``source["achieved"]`` tells the spacing and the half angle they give.
+
+    Raises
+    ------
+    InputError
+        One line, for what makes no sense, or if the nearest grooves that close are 10 % off the spacing or 3° off the
+        angle; it tells which those are.
+    """
+    grid = Grid(kind="cross_hatch", size=size, points=points)
+    length("cross_hatch.spacing", spacing)
+    length("cross_hatch.depth", depth)
+    number_between("cross_hatch.half_angle", half_angle, 1e-6, math.pi / 2 - 1e-6, "it must lie between 0 and π/2 rad")
+    m = max(1, round(size[0] * math.sin(half_angle) / spacing))
+    n = max(1, round(size[1] * math.cos(half_angle) / spacing))
+    across = (m / size[0], n / size[1])
+    near_spacing, near_angle = 1 / math.hypot(*across), math.atan2(*across)
+    if abs(near_spacing / spacing - 1) > NEAR_SPACING or abs(near_angle - half_angle) > NEAR_ANGLE:
+        raise InputError(
+            f"cross_hatch: got spacing {spacing:.4g} m at {math.degrees(half_angle):.4g} deg, which does not close "
+            f"over the period; write {near_spacing:.4g} m at {math.degrees(near_angle):.4g} deg, or a longer size"
+        )
+    grid.resolves("width", width)
+    if width > near_spacing:
+        raise InputError(f"cross_hatch.width: got {width:.5g} m; write at most the spacing, {near_spacing:.5g} m")
+    x, y = grid.axes
+
+    def groove(phase: Array) -> Array:
+        aside = np.minimum(np.abs(phase - np.round(phase)) * near_spacing / width, 0.5)
+        shape: Array = (1 + np.cos(2 * np.pi * aside)) / 2
+        return shape
+
+    return grid.surface(
+        -depth * np.maximum(groove(m * x - n * y), groove(m * x + n * y)),
+        {
+            "spacing": metres(spacing),
+            "half_angle": radians(half_angle),
+            "depth": metres(depth),
+            "width": metres(width),
+        },
+        {"spacing": metres(near_spacing), "half_angle": radians(near_angle)},
+    )
