@@ -1,4 +1,4 @@
-"""Closed forms for surfaces of known spectrum: moments of self-affine ones, autocorrelation and slope of Gaussian ones."""
+"""Closed forms for surfaces of known spectrum: moments of self-affine ones, correlation and slope of Gaussian ones."""
 
 import math
 
@@ -21,8 +21,8 @@ def self_affine_moment(order: int, *, hurst: float, roll_off: float, cut_off: fl
 
     Returns
     -------
-    In 1/m^(k + 2), per unit of C. Ratios are those of mean squares: the second over the zeroth moment is the mean square
-    slope of an isotropic surface over its mean square height, exact as long as the period holds many roll-off lengths.
+    In 1/m^(k + 2), per unit of C. Ratios are those of mean squares: the second over the zeroth moment is the mean
+    square slope over the mean square height, of a surface whose period holds many roll-off lengths.
 
     Raises
     ------
@@ -40,8 +40,8 @@ def self_affine_moment(order: int, *, hurst: float, roll_off: float, cut_off: fl
     """
     if not (0 < hurst <= 1 and 0 < cut_off <= roll_off < math.inf and order in (0, 2, 4)):
         raise InputError(
-            f"self_affine_moment: got order {order!r}, hurst {hurst!r}, roll_off {roll_off!r} m, cut_off {cut_off!r} m; "
-            "write 0, 2 or 4, 0 < hurst <= 1, and a cut-off up to the roll-off"
+            f"self_affine_moment: got order {order!r}, hurst {hurst!r}, roll_off {roll_off!r} m, cut_off {cut_off!r} m;"
+            " write 0, 2 or 4, 0 < hurst <= 1, and a cut-off up to the roll-off"
         )
     exponent, ratio = order - 2 * hurst, roll_off / cut_off
     tail = math.log(ratio) if exponent == 0 else (ratio**exponent - 1) / exponent
@@ -50,9 +50,7 @@ def self_affine_moment(order: int, *, hurst: float, roll_off: float, cut_off: fl
 
 def rms_slope_over_height(*, hurst: float, roll_off: float, cut_off: float) -> float:
     """sqrt(<|∇h|²>/<h²>) of a self-affine surface, 1/m; see ``self_affine_moment``."""
-    second, zeroth = (
-        self_affine_moment(order, hurst=hurst, roll_off=roll_off, cut_off=cut_off) for order in (2, 0)
-    )
+    second, zeroth = (self_affine_moment(order, hurst=hurst, roll_off=roll_off, cut_off=cut_off) for order in (2, 0))
     return math.sqrt(second / zeroth)
 
 
@@ -92,4 +90,3 @@ def gaussian_rms_slope(rms_height: float, along: float, across: float) -> float:
     along, across : correlation lengths, m, where R = 0.2.
     """
     return rms_height * math.sqrt(2 * math.log(5) * (1 / along**2 + 1 / across**2))
-

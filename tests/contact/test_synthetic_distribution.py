@@ -71,7 +71,7 @@ def test_turns_bring_the_spectrum_nearer(surface):
     assert errors[2] < 0.5 * errors[1]
 
 
-@pytest.mark.parametrize("skewness", [-4.0, -1.0, -0.01, -2e-3, 2e-3, 0.3, 4.0])
+@pytest.mark.parametrize("skewness", [-4.0, -1.0, -0.01, 4e-3, 0.3, 4.0])
 def test_quantiles_are_those_of_pearson_type_three(skewness):
     p = np.array([1e-7, 0.01, 0.3, 0.5, 0.9, 1 - 1e-7])
     assert_allclose(pearson_quantile(p, skewness), stats.pearson3.ppf(p, skewness), rtol=1e-7, atol=1e-9)
@@ -79,10 +79,10 @@ def test_quantiles_are_those_of_pearson_type_three(skewness):
 
 def test_quantiles_grow_and_join_where_the_expansion_begins():
     p = (np.arange(200_000) + 0.5) / 200_000
-    expanded, exact = pearson_quantile(p, 0.999e-3), pearson_quantile(p, 1.001e-3)
+    expanded, exact = pearson_quantile(p, 3e-3 * (1 - 1e-9)), pearson_quantile(p, 3e-3 * (1 + 1e-9))
     assert (np.diff(expanded) > 0).all()
     assert (np.diff(exact) > 0).all()
-    assert_allclose(expanded, exact, atol=2e-5)
+    assert_allclose(expanded, exact, rtol=0, atol=2e-8)
 
 
 def test_a_described_surface_keeps_its_rms_slope():

@@ -55,9 +55,7 @@ def test_every_seed_has_the_periodic_autocorrelation_without_its_mean(points):
 @pytest.mark.parametrize(("name", "exponent"), [("gaussian", 2), ("exponential", 1)])
 def test_random_amplitudes_have_the_autocorrelation_in_the_mean_over_seeds(name, exponent):
     """Within four standard errors, and for the exponential form within what waves below two pixels carry, dx/(2λ)."""
-    found = np.array(
-        [measured(surface(seed=500 + k, amplitudes="random", autocorrelation=name)) for k in range(25)]
-    )
+    found = np.array([measured(surface(seed=500 + k, amplitudes="random", autocorrelation=name)) for k in range(25)])
     below = 0.0 if exponent == 2 else 1 / 20
     mean = 4 * 100 / 256**2
     for lag in ((5, 0), (0, 5), (10, 0), (0, 10), (7, 7), (15, 0), (60, 60)):

@@ -92,7 +92,7 @@ def test_a_shorter_cut_off_keeps_the_waves_and_adds_others():
 @pytest.mark.parametrize("kind", SHAPED)
 @pytest.mark.parametrize("points", [(128, 96), (131, 99)])
 def test_the_joint_is_like_any_other_place(kind, points):
-    """Steps across the joint are neither greater nor, on the whole, beyond those elsewhere."""
+    """Steps across the joint are no greater than elsewhere, and their rms value within a tenth of those elsewhere."""
     made = surface(kind, points)
     assert made.periodic
     for axis in (0, 1):
@@ -100,7 +100,7 @@ def test_the_joint_is_like_any_other_place(kind, points):
         joint = np.abs(np.take(made.heights, 0, axis) - np.take(made.heights, -1, axis))
         columns = np.sqrt(np.mean(inside**2, axis=1 - axis))
         assert joint.max() <= inside.max() * (1 + 1e-9)
-        assert columns.min() * 0.95 <= np.sqrt(np.mean(joint**2)) <= columns.max() * 1.05
+        assert columns.min() * 0.9 <= np.sqrt(np.mean(joint**2)) <= columns.max() * 1.1
 
 
 def digests():

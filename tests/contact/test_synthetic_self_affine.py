@@ -69,7 +69,9 @@ def test_random_amplitudes_have_the_exponent_within_its_standard_error():
 @pytest.mark.parametrize("points", [(256, 256), (301, 270)])
 @pytest.mark.parametrize("amplitudes", ["fixed", "random"])
 def test_rms_height_and_rms_slope_are_met_to_rounding(points, amplitudes):
-    assert surface(points=points, amplitudes=amplitudes, rms_height=3e-7).heights.std() == pytest.approx(3e-7, rel=1e-12)
+    assert surface(points=points, amplitudes=amplitudes, rms_height=3e-7).heights.std() == pytest.approx(
+        3e-7, rel=1e-12
+    )
     steep = surface(points=points, amplitudes=amplitudes, rms_height=None, rms_slope=0.1)
     along_x, along_y, _ = slopes(steep)
     assert np.sqrt(along_x + along_y) == pytest.approx(0.1, rel=1e-12)

@@ -31,7 +31,7 @@ def metres(text):
 )
 @pytest.mark.parametrize("points", [(400, 300), (399, 301)])
 def test_sinusoids(wavelengths, combination, rms_height, rms_slope, points):
-    """σ = A/sqrt 2 and A/2; rms slope 2π A/(λ sqrt 2) and, for products, π A sqrt(1/λx² + 1/λy²), for means sqrt 2 less."""
+    """σ = A/sqrt 2 and A/2; rms slope 2π A/(λ sqrt 2); π A sqrt(1/λx² + 1/λy²) for a product, sqrt 2 less for a mean."""
     made = sinusoid(size=(MM, MM), points=points, amplitude=1e-6, combination=combination, **wavelengths)
     assert made.heights.std() == pytest.approx(1e-6 * rms_height, rel=1e-12)
     assert abs(made.heights.mean()) < 1e-20
