@@ -88,5 +88,12 @@ def gaussian_rms_slope(rms_height: float, along: float, across: float) -> float:
     ----------
     rms_height : σ, m.
     along, across : correlation lengths, m, where R = 0.2.
+
+    Raises
+    ------
+    InputError
+        If a correlation length is not above zero.
     """
+    if not min(along, across) > 0:
+        raise InputError(f"gaussian_rms_slope: got lengths {along!r} and {across!r} m; write two above zero")
     return rms_height * math.sqrt(2 * math.log(5) * (1 / along**2 + 1 / across**2))

@@ -58,9 +58,9 @@ def gaussian(
 
     Notes
     -----
-    Waves below two pixels are left out. For "gaussian" that is next to nothing, so that a finer grid holds the same
-    surface; for "exponential" it is a part of about dx/(2λ) of the variance, which is spread over the other waves. The
-    wave q = 0 is left out as well: R is lower by about 2 λ² γ / (Lx Ly) than stated, everywhere.
+    Waves below two pixels are left out. For "gaussian" they carry 0.2 % of the variance for a λ of two pixels and 1e-10
+    for one of four, so that a finer grid holds the same surface; for "exponential" about dx/(2λ), which is spread over
+    the other waves. The wave q = 0 is left out as well: R is lower by about 2 λ² γ / (Lx Ly) than stated, everywhere.
 
     Sources: ISO 25178-2:2021; Patir and Cheng, J. Lubr. Technol. 100 (1978) 12, doi:10.1115/1.3453103.
     """

@@ -31,7 +31,7 @@ def metres(text):
 )
 @pytest.mark.parametrize("points", [(400, 300), (399, 301)])
 def test_sinusoids(wavelengths, combination, rms_height, rms_slope, points):
-    """σ = A/sqrt 2 and A/2; rms slope 2π A/(λ sqrt 2); π A sqrt(1/λx² + 1/λy²) for a product, sqrt 2 less for a mean."""
+    """σ = A/sqrt 2 and A/2; rms slope 2π A/(λ sqrt 2); π A sqrt(1/λx² + 1/λy²), sqrt 2 less for a mean."""
     made = sinusoid(size=(MM, MM), points=points, amplitude=1e-6, combination=combination, **wavelengths)
     assert made.heights.std() == pytest.approx(1e-6 * rms_height, rel=1e-12)
     assert abs(made.heights.mean()) < 1e-20
@@ -109,6 +109,16 @@ def test_milled_marks_lie_on_circles_of_the_mill(offset):
     assert b == pytest.approx(metres(made.source["achieved"]["offset"]), abs=1e-3 * MM)
     assert b == pytest.approx(offset, abs=0.16 * MM)
     assert a < x.min()
+
+
+@pytest.mark.parametrize("offset", [0.4 * MM, 0.9 * MM, -0.6 * MM, 1.2 * MM])
+def test_arcs_come_to_the_joint_a_whole_number_of_feeds_apart(offset):
+    made = milled(size=(MM, MM), points=(64, 400), radius=1.8 * MM, feed=0.25 * MM, depth=2e-6, offset=offset)
+    middle = 0.5 * MM + metres(made.source["achieved"]["offset"])
+    sides = [math.sqrt((1.8 * MM) ** 2 - (edge - middle) ** 2) for edge in (0, MM)]
+    feeds = (sides[1] - sides[0]) / (0.25 * MM)
+    assert abs(feeds) > 0.5
+    assert feeds == pytest.approx(round(feeds), abs=1e-9)
 
 
 def test_milled_scallops_are_parabolas():
