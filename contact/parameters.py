@@ -6,7 +6,7 @@ from numpy.typing import ArrayLike
 from contact.autocorrelation import autocorrelation, decay_lengths
 from contact.bearing import Core, bearing_core, descending
 from contact.errors import InputError
-from contact.heights import HeightStatistics, height_statistics
+from contact.heights import height_statistics
 from contact.peaks import highest_peaks, lowest_valleys
 from contact.spectrum import power_spectrum, texture_direction
 from contact.surface import Surface
@@ -69,14 +69,15 @@ def profile_parameters(heights: ArrayLike) -> dict[str, Quantity]:
     shape = np.shape(heights)
     if len(shape) != 1:
         raise InputError(f"profile: got heights of shape {shape}; give one line of them")
-    statistics: HeightStatistics = height_statistics(heights)
+    ordered = descending(heights)
+    statistics = height_statistics(ordered)
     return {
         "Ra": _length(statistics.average),
         "Rq": _length(statistics.rms),
         "Rt": _length(statistics.total),
         "Rsk": _number(statistics.skewness),
         "Rku": _number(statistics.kurtosis),
-        **_core("R", bearing_core(descending(heights))),
+        **_core("R", bearing_core(ordered)),
     }
 
 
