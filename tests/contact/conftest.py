@@ -1,6 +1,5 @@
 """Measured surfaces, and random ones whose spectrum is known."""
 
-import os
 import warnings
 from functools import cache
 from pathlib import Path
@@ -11,11 +10,9 @@ from scipy import stats
 
 from contact.surface import Surface
 
-BESIDE = Path(__file__).parents[2].parent / "shared" / "surfaces"
-
 
 def open_measured(path: Path) -> Surface:
-    """A measured surface as the instrument wrote it, in metres."""
+    """A measured surface as the instrument wrote it, in metres, without a process of its own for each."""
     topography = pytest.importorskip("SurfaceTopography")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -37,12 +34,9 @@ def without_form(surface: Surface) -> Surface:
 
 
 @pytest.fixture(scope="session")
-def measured():
+def measured(measured_file):
     """Opens a measured surface by the name of its file, with its form removed."""
-    folder = BESIDE if BESIDE.is_dir() else Path(os.environ.get("ROUGHFILM_SURFACES", "."))
-    if not (folder / "milled_NT1100.opd").is_file():
-        pytest.skip(f"no measured surfaces in {BESIDE}; name their folder in ROUGHFILM_SURFACES")
-    return cache(lambda name: without_form(open_measured(folder / name)))
+    return cache(lambda name: without_form(open_measured(measured_file(name))))
 
 
 @pytest.fixture
