@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
+import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -17,7 +18,7 @@ from scripts.figures import svg
 MOST_PIXELS = 640
 """Of a picture along a side; finer surfaces are drawn by every second, third ... pixel."""
 
-COLOURS = "cividis"
+COLOURS = mpl.colormaps["cividis"].with_extremes(bad="#d7301f")
 BEFORE, AFTER = "#e08214", "#2166ac"
 
 
@@ -131,7 +132,6 @@ def _map(axes: Axes, surface: Surface, heights: Array, limits: tuple[float, floa
     step = max(1, -(-max(heights.shape) // MOST_PIXELS))
     width, height = (count * length * 1e6 for count, length in zip(heights.shape, surface.spacing, strict=True))
     axes.grid(visible=False)
-    axes.set_facecolor("#d7301f")
     axes.set_xlabel("x, µm")
     axes.set_ylabel("y, µm")
     return axes.imshow(
