@@ -31,7 +31,7 @@ def replacing(path: Path) -> Iterator[Path]:
     """
     scratch = None
     try:
-        path = Path(path).resolve()
+        path = _resolved(Path(path))
         if path.is_dir():
             raise InputError(f"{path}: is a directory; name a file")
         if path.exists() and not path.is_file():
@@ -48,6 +48,13 @@ def replacing(path: Path) -> Iterator[Path]:
     finally:
         if scratch is not None:
             scratch.unlink(missing_ok=True)
+
+
+def _resolved(path: Path) -> Path:
+    try:
+        return path.expanduser().resolve()
+    except RuntimeError as error:  # pathlib's word for a home that is not known and for links that go in circles
+        raise InputError(f"{path}: leads nowhere ({error}); choose another place") from error
 
 
 def _umask() -> int:

@@ -42,7 +42,7 @@ def _read(path: str, channel: str | None, most: int) -> tuple[dict[str, Any], An
         return {"fault": f"channel {chosen.name!r} holds no heights; its channels are {names}"}, None
     nx, ny = (int(count) for count in chosen.nb_grid_pts)
     if nx * ny > most:
-        return {"fault": f"claims {nx} x {ny} points; at most {most} are read, export a part of it"}, None
+        return {"fault": f"claims {nx} x {ny} points; at most {most} fit a file of its length"}, None
     known = chosen.physical_sizes is not None
     topography = reader.topography(
         channel_index=chosen.index, **({} if known else {"physical_sizes": (float(nx), float(ny))})
@@ -59,6 +59,8 @@ def main(request: dict[str, Any], out: BinaryIO) -> None:
     """Read what ``request`` names and write it to ``out``; a fault of the file is told as ``{"fault": text}``."""
     try:
         told, heights = _read(request["path"], request["channel"], request["most"])
+    except ImportError as error:
+        told, heights = {"missing": " ".join(str(error).split())[:120]}, None
     except MemoryError:
         told, heights = {"fault": "needs more memory than a file of its length should; it may be damaged"}, None
     except Exception as error:  # forty readers of damaged files raise whatever they like

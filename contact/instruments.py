@@ -15,10 +15,10 @@ from pathlib import Path
 import numpy as np
 
 from contact.errors import InputError, UnavailableError
-from contact.surface import Array
+from contact.surface import MOST_POINTS, Array
 
-MOST_POINTS = 100_000_000
-"""A measurement with more is refused before any height is read."""
+POINTS_PER_BYTE = 50
+"""No format packs more points into a byte of a file that holds a measurement."""
 
 MEMORY = 4 << 30, 40
 """Bytes that reading may take: this many, and so many for each byte of the file."""
@@ -44,10 +44,10 @@ def read_instrument(path: Path, channel: str | None = None) -> Measurement:
     Raises
     ------
     InputError
-        If no reader knows the file, it is damaged, holds more than 100 million points, or has no such channel of
-        heights.
+        If no reader knows the file, it is damaged, claims more points than fit into its length or than 100 million,
+        or has no such channel of heights.
     UnavailableError
-        If SurfaceTopography is not installed.
+        If SurfaceTopography is not installed, or does not load.
     """
     if find_spec("SurfaceTopography") is None:
         raise UnavailableError(
@@ -55,7 +55,7 @@ def read_instrument(path: Path, channel: str | None = None) -> Measurement:
         )
     length = path.stat().st_size
     memory, seconds = (int(least + each * length) for least, each in (MEMORY, SECONDS))
-    asked = {"path": str(path.resolve()), "channel": channel, "most": MOST_POINTS}
+    asked = {"path": str(path.resolve()), "channel": channel, "most": min(MOST_POINTS, POINTS_PER_BYTE * length)}
     request = json.dumps({**asked, "memory": memory, "seconds": seconds})
     places = os.pathsep.join([str(Path(__file__).resolve().parent.parent), *filter(None, sys.path)])
     try:
@@ -73,6 +73,8 @@ def read_instrument(path: Path, channel: str | None = None) -> Measurement:
     if child.returncode != 0 or not head:
         raise InputError(f"{path}: its reader broke down (exit {child.returncode}); the file may be damaged")
     told = json.loads(head)
+    if "missing" in told:
+        raise UnavailableError(f"{path}: SurfaceTopography does not load ({told['missing']}); install it again")
     if "fault" in told:
         raise InputError(f"{path}: {told['fault']}")
     size = told["size"]

@@ -15,6 +15,12 @@ Mask = NDArray[np.bool_]
 LARGEST_LENGTH = 1e6
 """m; what lies beyond is a wrong unit, and its powers overflow."""
 
+LEAST_SPACING = 1e-15
+"""m; likewise."""
+
+MOST_POINTS = 100_000_000
+"""No file or grid with more points is read or made."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Surface:
@@ -32,7 +38,7 @@ class Surface:
     ------
     InputError
         If there are fewer than 2 x 2 pixels, a height that counts is not finite, every pixel is invalid, or a length is
-        not positive or beyond 1000 km.
+        below 1e-15 m or beyond 1000 km.
     """
 
     heights: Array
@@ -58,8 +64,8 @@ class Surface:
         if np.abs(heights).max() > LARGEST_LENGTH:
             raise InputError(f"surface: got a height of {np.abs(heights).max():.3g} m; look at the unit")
         spacing = tuple(float(length) for length in self.spacing)
-        if len(spacing) != 2 or not all(0 < length < LARGEST_LENGTH for length in spacing):
-            raise InputError(f"surface: got spacing {self.spacing!r}; give two lengths in m, above zero")
+        if len(spacing) != 2 or not all(LEAST_SPACING <= length < LARGEST_LENGTH for length in spacing):
+            raise InputError(f"surface: got spacing {self.spacing!r}; give two lengths in m, 1e-15 or more")
         heights.flags.writeable = invalid.flags.writeable = False
         object.__setattr__(self, "heights", heights)
         object.__setattr__(self, "invalid", invalid)

@@ -1,6 +1,5 @@
 """Surfaces from files: our own HDF5, NPY and CSV, and all else that instruments write."""
 
-import csv
 import hashlib
 import re
 from pathlib import Path
@@ -9,15 +8,16 @@ from typing import Any
 import numpy as np
 
 from contact import surface_store
-from contact.errors import InputError
-from contact.instruments import MOST_POINTS, Measurement, read_instrument
-from contact.surface import Array, Surface
+from contact.errors import ConvergenceError, InputError
+from contact.instruments import Measurement, read_instrument
+from contact.surface import MOST_POINTS, Array, Surface
 from contact.units import to_si
 
 LARGEST_TEXT = 2_000_000_000
 """Bytes; a longer CSV is refused unread."""
 
 HEADER = "# spacing: 1.5 um, 1.5 um; heights: um"
+_CELLS = re.compile(r"[-+0-9.eE, \tnaNAinfINF\r]*")
 _HEADER = re.compile(r"#\s*spacing:\s*([^,;]+),\s*([^,;]+);\s*heights:\s*(\S+)\s*")
 
 
@@ -30,14 +30,15 @@ def read_surface(
 ) -> Surface:
     """Read a surface from a file of any kind.
 
-    HDF5 as :func:`contact.surface_store.save_surface` writes it; NPY, an array [x, y]; CSV, a line for each y and a
-    column for each x, after a header such as ``# spacing: 1.5 um, 1.5 um; heights: um`` where nothing else tells
-    these. NaN (in a CSV an empty cell too) marks an invalid point. Every other file goes to SurfaceTopography.
+    HDF5 as :func:`contact.surface_store.save_surface` writes it, whatever its name; NPY, an array [x, y]; CSV, a line
+    for each y and a column for each x, after a header such as ``# spacing: 1.5 um, 1.5 um; heights: um`` where nothing
+    else tells these. NaN (in a CSV an empty cell too) marks an invalid point. Every other file goes to
+    SurfaceTopography.
 
     Parameters
     ----------
     channel : which one, where an instrument's file holds several.
-    spacing : (dx, dy), m; in place of what the file says, if it says it at all.
+    spacing : (dx, dy), m; in place of what the file says, if it says it at all. Not for our own HDF5.
     height_unit : likewise, such as "um"; heights of NPY are in m unless told.
 
     Raises
@@ -47,15 +48,17 @@ def read_surface(
     UnavailableError
         If the file needs SurfaceTopography and it is not installed.
     """
-    path = Path(path).expanduser()
     try:
+        path = Path(path).expanduser()
         if not path.is_file():
             raise InputError(f"{path}: {'is no' if path.exists() else 'no such'} file; name a measured surface")
         if path.stat().st_size == 0:
             raise InputError(f"{path}: is empty; export it again from the instrument")
-        suffix = path.suffix.lower()
-        if suffix in (".h5", ".hdf5") and surface_store.is_surface(path):
+        if surface_store.is_surface(path):
+            if channel or spacing or height_unit:
+                raise InputError(f"{path}: says all of itself; leave out the recipe's table read")
             return surface_store.load_surface(path)
+        suffix = path.suffix.lower()
         found = _read_npy(path) if suffix == ".npy" else _read_csv(path) if suffix == ".csv" else None
         if found is None:
             found = read_instrument(path, channel)
@@ -64,6 +67,10 @@ def read_surface(
         return _surface(path, found, spacing, height_unit)
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror or error}); check the file") from error
+    except RuntimeError as error:  # pathlib's word for a home that is not known and for links that go in circles
+        if isinstance(error, ConvergenceError):
+            raise
+        raise InputError(f"{path}: leads nowhere ({error}); write the path out") from error
 
 
 def _surface(path: Path, found: Measurement, spacing: tuple[float, float] | None, height_unit: str | None) -> Surface:
@@ -121,39 +128,48 @@ def _read_csv(path: Path) -> Measurement:
         text = path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError as error:
         raise InputError(f"{path}: byte {error.start} is not UTF-8; save it as UTF-8 text") from error
-    lines = text.splitlines()
-    size = unit = None
-    if lines and lines[0].startswith("#"):
-        head = _HEADER.fullmatch(lines.pop(0))
+    lines = [(number, line) for number, line in enumerate(text.split("\n"), 1) if line.strip()]
+    step = unit = None
+    if lines and lines[0][1].startswith("#"):
+        number, line = lines.pop(0)
+        head = _HEADER.fullmatch(line)
         if head is None:
-            raise InputError(f"{path}: line 1 is no header of a surface; write for example: {HEADER}")
+            raise InputError(f"{path}: line {number} is no header of a surface; write for example: {HEADER}")
         try:
             step = to_si(head[1], "m"), to_si(head[2], "m")
         except ValueError as error:
-            raise InputError(f"{path}: line 1: {error}") from None
-        size, unit = step, head[3]
-    heights = _numbers(path, [line for line in lines if line.strip()], first=1 + (size is not None))
-    if size is not None:
-        size = (size[0] * heights.shape[0], size[1] * heights.shape[1])
+            raise InputError(f"{path}: line {number}: {error}") from None
+        unit = head[3]
+    heights = _numbers(path, lines)
+    size = None if step is None else (step[0] * heights.shape[0], step[1] * heights.shape[1])
     return Measurement(heights=heights, height_unit=unit, size=size, format="csv", channel="")
 
 
-def _numbers(path: Path, lines: list[str], first: int) -> Array:
-    rows: list[list[float]] = []
-    for number, cells in enumerate(csv.reader(lines), first):
-        if rows and len(cells) != len(rows[0]):
+def _numbers(path: Path, lines: list[tuple[int, str]]) -> Array:
+    rows: list[Array] = []
+    for number, line in lines:
+        cells = line.split(",")
+        if rows and len(cells) != rows[0].size:
             raise InputError(
-                f"{path}: line {number} has {len(cells)} cells, the first {len(rows[0])}; write a matrix with commas"
+                f"{path}: line {number} has {len(cells)} cells, the first {rows[0].size}; write a matrix with commas"
             )
+        for cell in () if _CELLS.fullmatch(line) else cells:
+            if not _CELLS.fullmatch(cell):
+                raise InputError(f"{path}: line {number}: got {cell.strip()[:40]!r}; write numbers with commas between")
         try:
-            rows.append([float(cell) if cell.strip() else np.nan for cell in cells])
+            rows.append(np.array([float(cell) if cell.strip() else np.nan for cell in cells]))
         except ValueError as error:
             reason = str(error).rpartition(": ")[2][:40]
-            raise InputError(f"{path}: line {number}: got {reason}; write numbers separated by commas") from None
+            raise InputError(f"{path}: line {number}: got {reason}; write numbers with commas between") from None
         _count(path, (len(rows), len(cells)))
     if not rows:
         raise InputError(f"{path}: holds no numbers; write a matrix of heights, separated by commas")
-    return np.array(rows).T
+    heights = np.array(rows).T
+    empty = np.isnan(heights).all(axis=1)
+    if empty.any() and not empty.all():
+        column = int(np.argmax(empty)) + 1
+        raise InputError(f"{path}: column {column} is empty; take it out, or a comma at the end of each line")
+    return heights
 
 
 def _count(path: Path, shape: tuple[Any, ...]) -> None:

@@ -22,7 +22,7 @@ def render(template: str, path: Path, **entries: Any) -> None:
     )
     page = environment.get_template(template).render(**entries)
     with replacing(path) as scratch:
-        scratch.write_text(page, encoding="utf-8")
+        scratch.write_text(page, encoding="utf-8", errors="replace")
 
 
 def embedded(path: Path) -> str:

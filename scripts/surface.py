@@ -2,6 +2,8 @@
 
 import os
 import time
+from collections.abc import Mapping
+from contextlib import ExitStack
 from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any
@@ -11,9 +13,10 @@ from rich.markup import escape
 from rich.table import Table
 
 from contact.errors import InputError
+from contact.files import replacing
 from contact.parameters import parameters
 from contact.preparation.prepare import Prepared, prepare
-from contact.preparation.recipe import Recipe, load_recipe, read_recipe, recipe_entries
+from contact.preparation.recipe import AS_IT_IS, Reading, Recipe, load_recipe, recipe_entries
 from contact.surface import Surface
 from contact.surface_files import read_surface
 from contact.surface_store import save_surface
@@ -21,15 +24,6 @@ from contact.synthetic.description import make, read_description
 from contact.units import Quantity
 from rom.provenance import circumstances
 from scripts.common import AsJson, in_one_line, messages, output, print_json, progress_bar, run_alone
-
-AS_IT_IS = {
-    "form": "none",
-    "outliers": {"points": 0},
-    "grid": {"points": "kept"},
-    "edges": {"direction": "none"},
-    "smoothing": 1,
-}
-"""What a surface that is periodic already needs."""
 
 SOURCES = ("ISO 25178-2:2021", "F. Sahlin, Luleå University of Technology 2008:26, sections E.3.1 and F.3")
 
@@ -51,14 +45,14 @@ def command(
     as_json: AsJson = False,
 ) -> None:
     """Read a surface, prepare it as a periodic cell, and show it before and after."""
-    _refuse_same(file, recipe, out, report)
+    _refuse_same({"FILE": file, "--prepare": recipe, "--out": out, "--report": report})
     started, cpu = time.perf_counter(), sum(os.times()[:4])
     asked = load_recipe(recipe, set_ or ())
     with progress_bar(STEPS) as advance:
         advance(0, f"reading {file.name}")
         surface = _read(file, asked)
-        if surface.periodic and recipe is None and not set_:
-            asked = read_recipe(AS_IT_IS)
+        if surface.periodic and recipe is None:
+            asked = load_recipe(None, set_ or (), AS_IT_IS)
         advance(1, "preparing")
         prepared = prepare(surface, asked)
         advance(2, "parameters")
@@ -77,14 +71,16 @@ def command(
             "sources": list(SOURCES),
             **circumstances(),
         }
-        if out is not None:
-            advance(3, f"writing {out.name}")
-            save_surface(prepared.surface, out)
-        if report is not None:
-            from scripts.surface_page import write_page  # matplotlib is slow to import
+        with ExitStack() as both:  # neither is renamed into place before both are whole
+            places = [path and both.enter_context(replacing(path)) for path in (out, report)]
+            if places[0] is not None:
+                advance(3, "writing the surface")
+                save_surface(prepared.surface, places[0])
+            if places[1] is not None:
+                from scripts.surface_page import write_page  # matplotlib is slow to import
 
-            advance(4, f"drawing {report.name}")
-            write_page(prepared, quantities, provenance, report)
+                advance(4, "drawing the page")
+                write_page(prepared, quantities, provenance, places[1])
     if as_json:
         entries = {name: asdict(quantity) for name, quantity in quantities.items()}
         print_json({"quantities": entries, "numerics": numerics, "provenance": provenance})
@@ -98,22 +94,24 @@ def command(
         messages.print(f"[yellow]warning:[/] {escape(warning)}", soft_wrap=True)
 
 
-def _refuse_same(file: Path, recipe: Path | None, out: Path | None, report: Path | None) -> None:
+def _refuse_same(named: Mapping[str, Path | None]) -> None:
     """No output may replace an input, or the other output."""
-    named = {"FILE": file, "--prepare": recipe, "--out": out, "--report": report}
-    seen: dict[Path, str] = {}
+    seen: dict[str, str] = {}
     for name, path in named.items():
         if path is None:
             continue
-        if name in ("--out", "--report") and path.resolve() in seen:
-            raise InputError(f"{name} {path}: is the same file as {seen[path.resolve()]}; choose another place")
-        seen[path.resolve()] = name
+        place = os.path.realpath(os.path.expanduser(path))
+        if name in ("--out", "--report") and place in seen:
+            raise InputError(f"{name} {path}: is the same file as {seen[place]}; choose another place")
+        seen[place] = name
 
 
 def _read(file: Path, recipe: Recipe) -> Surface:
-    if file.suffix.lower() == ".toml":
-        return make(read_description(file))
     read = recipe.read
+    if file.suffix.lower() == ".toml":
+        if read != Reading():
+            raise InputError(f"{file}: says all of itself; leave out the recipe's table read")
+        return make(read_description(file))
     return read_surface(file, channel=read.channel, spacing=read.spacing, height_unit=read.height_unit)
 
 
@@ -153,17 +151,20 @@ def told(prepared: Prepared) -> list[str]:
     record: Any = prepared.record
     recipe = prepared.surface.source["recipe"]
     window, grid, cut, edges = record["window"], record["grid"], record["outliers"], record["edges"]
-    size = " x ".join(f"{length * 1e6:.4g}" for length in prepared.surface.size)
-    lines = [
-        f"form: {recipe['form']}",
-        f"filled: {record['invalid']['points']} invalid points",
-        f"cut: {cut['above']} points above, {cut['below']} below",
-        f"window: {window['pixels'][0]} x {window['pixels'][1]} pixels from {window['start']}, {size} µm",
-        f"grid: {grid['points'][0]} x {grid['points'][1]} points",
-        f"edges: joined along {edges['direction']} ({edges['reason']}), filter {edges['width'] * 1e6:.3g} µm wide",
-        f"smoothing: {recipe['smoothing']} points",
-    ]
-    return [line for line in lines if line not in ("form: none", "filled: 0 invalid points", "smoothing: 1 points")]
+    size, width = (
+        " x ".join(f"{length * 1e6:.4g}" for length in pair) for pair in (prepared.surface.size, edges["width"])
+    )
+    steps = {
+        f"form: {recipe['form']}": recipe["form"] != "none",
+        f"filled: {record['invalid']['points']} invalid points": record["invalid"]["points"],
+        f"cut: {cut['above']} points above, {cut['below']} below": recipe["outliers"]["points"],
+        f"window: {window['pixels'][0]} x {window['pixels'][1]} pixels from {window['start']}, {size} µm": True,
+        f"grid: {grid['points'][0]} x {grid['points'][1]} points": True,
+        f"edges: joined along {edges['direction']} ({edges['reason']}), filter {width} µm wide": edges["direction"]
+        != "none",
+        f"smoothing: {recipe['smoothing']} points": recipe["smoothing"] > 1,
+    }
+    return [line for line, changed in steps.items() if changed]
 
 
 if __name__ == "__main__":

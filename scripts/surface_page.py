@@ -41,6 +41,8 @@ def write_page(
         for name, meaning in MEANINGS.items()
     ]
     source = provenance["surface"]
+    while "prepared_from" in source:
+        source = source["prepared_from"]
     render(
         "surface.html.j2",
         path,

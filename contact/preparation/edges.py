@@ -13,31 +13,34 @@ Direction = Literal["x", "y", "both", "none"]
 REACH = 3
 """Standard deviations at which the Gaussian filter ends; its autocorrelation ends at twice as many."""
 
+LEAST_WIDTH = 0.5
+"""Pixels: a finer filter blurs nothing."""
+
 AXES: dict[Direction, tuple[int, ...]] = {"x": (0,), "y": (1,), "both": (0, 1), "none": ()}
 
 
-def make_periodic(surface: Surface, direction: Direction, *, width: float) -> Surface:
+def make_periodic(surface: Surface, direction: Direction, *, width: tuple[float, float]) -> Surface:
     """Blend the heights near the edges into a low-passed copy that knows of the opposite edge.
 
-    h' = (1 − w) h + w (g ∗ h), with g a Gaussian that ends at 3 standard deviations and is wrapped round, and
+    h' = (1 − w) h + w (g ∗ h), with g a Gaussian that is cut at r = ⌈3 σ⌉ pixels and wrapped round, and
     1 − w = (1 − a(x)) (1 − a(y)), where a is the autocorrelation of g over the distance from the nearer edge: 1 at
-    the edge, 0 beyond 6 standard deviations. There the heights stay untouched to the last bit. In one direction only,
-    g and a act along that one alone, and ridges across it stay sharp; the edges of the other direction stay as they
-    are.
+    the edge, 0 beyond 2 r pixels, from where on heights stay untouched to the last bit. In one direction only, g and
+    a act along that one alone, and ridges across it stay sharp; the edges of the other direction stay as they are.
 
     Parameters
     ----------
     direction : "x" joins the edges x = 0 and x = nx dx, "y" the others, "both" all, "none" nothing.
-    width : standard deviation of g along each direction, m; at least half a pixel, at most a twelfth of the surface.
+    width : standard deviation σ of g along x and y, m: from half a pixel to what leaves pixels untouched in the middle,
+        ⌈3 σ⌉ ≤ (n − 1)/4. That of a direction which is not joined does not count.
 
     Returns
     -------
-    The surface, marked periodic.
+    The surface, marked periodic unless nothing was joined.
 
     Raises
     ------
     InputError
-        If the width is out of range or pixels are invalid.
+        If a width is out of range, there are fewer than 9 pixels to join, or pixels are invalid.
 
     References
     ----------
@@ -48,23 +51,32 @@ def make_periodic(surface: Surface, direction: Direction, *, width: float) -> Su
     blurred, untouched = surface.heights, np.ones(surface.shape)
     for axis in AXES[direction]:
         spacing, count = surface.spacing[axis], surface.shape[axis]
-        filter_ = _gaussian(width / spacing, count, axis)
+        filter_ = _gaussian(width[axis] / spacing, count, axis)
         blurred = correlate1d(blurred, filter_, axis=axis, mode="wrap")
         weight = _weight(filter_, count)
         untouched = untouched * (1 - (weight[:, None] if axis == 0 else weight[None, :]))
     heights = np.where(untouched == 1, surface.heights, untouched * surface.heights + (1 - untouched) * blurred)
-    return surface.with_heights(heights, periodic=True)
+    return surface.with_heights(heights, periodic=surface.periodic or direction != "none")
+
+
+def widest(count: int) -> float:
+    """The largest standard deviation, in pixels, that leaves the middle of so many pixels untouched.
+
+    >>> widest(240)
+    19.666666666666668
+    """
+    return (count - 1) // 4 / REACH
 
 
 def _gaussian(sigma: float, count: int, axis: int) -> Array:
-    if count < 2 * REACH:
-        raise InputError(f"edges: got {count} pixels along {'xy'[axis]}; joining edges needs {2 * REACH} and more")
-    if not 0.5 <= sigma <= count / (4 * REACH):
+    if widest(count) < LEAST_WIDTH:
+        raise InputError(f"edges: got {count} pixels along {'xy'[axis]}; joining edges needs 9 and more")
+    if not LEAST_WIDTH <= sigma <= widest(count) * (1 + 1e-12):
         raise InputError(
             f"edges: got a width of {sigma:.3g} pixels along {'xy'[axis]}; "
-            f"give 0.5 to {count // (4 * REACH)} of the {count}"
+            f"give {LEAST_WIDTH} to {widest(count):.4g} of the {count}"
         )
-    reach = int(np.ceil(REACH * sigma))
+    reach = int(np.ceil(REACH * sigma * (1 - 1e-12)))
     filter_ = np.exp(-0.5 * (np.arange(-reach, reach + 1) / sigma) ** 2)
     return np.asarray(filter_ / filter_.sum())
 

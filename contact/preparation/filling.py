@@ -9,7 +9,7 @@ from contact.errors import ConvergenceError, Outcome
 from contact.surface import Array, Mask, Surface
 
 TOLERANCE = 1e-9
-"""Of the true residual, relative to that of a fill by the nearest valid points or of the right-hand side."""
+"""Of the true residual, relative to the right-hand side."""
 
 MOST_ITERATIONS = 20_000
 

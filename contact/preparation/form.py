@@ -18,7 +18,7 @@ def remove_form(surface: Surface, form: Form) -> Surface:
 
     Minimises Σ (h − Σ c_ij x^i y^j)² over the valid points, i + j ≤ 0 (``"mean"``), 1 (``"tilt"``) or 2
     (``"quadratic"``), with Legendre polynomials so that the normal equations stay well conditioned. ``"none"`` leaves
-    the surface as it is. Exact to rounding for a form of that order.
+    the surface as it is. Exact to rounding for a form of that order. What was tilted or bent is no longer periodic.
 
     Raises
     ------
@@ -46,4 +46,5 @@ def remove_form(surface: Surface, form: Form) -> Surface:
     found = np.zeros((order + 1, order + 1))
     found[tuple(np.transpose(terms))] = np.linalg.solve(normal, right)
     shape: Array = x @ found @ y.T
-    return surface.with_heights(np.where(surface.invalid, 0.0, surface.heights - shape))
+    heights = np.where(surface.invalid, 0.0, surface.heights - shape)
+    return surface.with_heights(heights, periodic=surface.periodic and order == 0)

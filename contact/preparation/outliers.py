@@ -28,13 +28,16 @@ def cut_outliers(surface: Surface, *, bins: int = 1000, points: int = 10) -> tup
     Raises
     ------
     InputError
-        If no bin holds so many points.
+        If no bin holds so many points, or bins are finer than the heights are known.
 
     References
     ----------
     F. Sahlin, Luleå 2008, section E.3.1 (1000 bins, 10 points).
     """
-    counts, edges = np.histogram(surface.heights[surface.valid], bins=bins)
+    try:
+        counts, edges = np.histogram(surface.heights[surface.valid], bins=bins)
+    except ValueError as error:
+        raise InputError(f"outliers: {bins} bins are finer than the digits of the heights; take fewer") from error
     full = np.flatnonzero(counts >= points)
     if full.size == 0:
         raise InputError(f"outliers: no bin of {bins} holds {points} points; take fewer bins or points")

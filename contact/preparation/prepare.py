@@ -1,5 +1,6 @@
 """All steps of a recipe, taken in turn, and a record of what each did."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -9,7 +10,7 @@ import numpy as np
 from contact.autocorrelation import autocorrelation, decay_lengths
 from contact.errors import InputError
 from contact.periodicity import THRESHOLD, periodicity_mismatch
-from contact.preparation.edges import Direction, make_periodic
+from contact.preparation.edges import LEAST_WIDTH, Direction, make_periodic, widest
 from contact.preparation.filling import fill_invalid
 from contact.preparation.form import remove_form
 from contact.preparation.grid import next_power_of_two, resample
@@ -18,10 +19,13 @@ from contact.preparation.recipe import Edges, Grid, Recipe, Sampling, recipe_ent
 from contact.preparation.smoothing import smooth
 from contact.preparation.window import Window, best_window, cut_window
 from contact.spectrum import power_spectrum, texture_direction
-from contact.surface import Surface
+from contact.surface import MOST_POINTS, Mask, Surface
 
-WIDTH = 1 / 80
-"""Standard deviation of the edges' filter over the shorter side, where the recipe does not tell it."""
+WIDTH = 1 / 2
+"""Standard deviation of the edges' filter over Sal, where the recipe does not tell it."""
+
+LEAST_WIDTH_OF_SIDE, MOST_WIDTH_OF_SIDE = 1 / 80, 1 / 40
+"""And its bounds over the shorter side, so that most of the surface is kept."""
 
 STRONG_LAY = 0.3
 """Texture aspect ratio Str below which ISO 25178-3 calls a surface anisotropic."""
@@ -29,8 +33,17 @@ STRONG_LAY = 0.3
 NEAR_AXIS = 30.0
 """Degrees between lay and axis within which the lay counts as lying along that axis."""
 
+FARTHEST = 1e9
+"""Pixels: a window that reaches farther is outside of any surface."""
+
 MANY_INVALID = 0.15
-"""Part of invalid points above which what was filled in may decide the result."""
+"""Part of the window's points that were invalid above which what was filled in may decide the result."""
+
+TOO_MANY_INVALID = 0.9
+"""Part of the measurement's points that are invalid above which it is refused."""
+
+MANY_CUT = 0.01
+"""Part of the points cut above which more than outliers is cut."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,7 +71,7 @@ class Prepared:
 def prepare(surface: Surface, recipe: Recipe) -> Prepared:
     """Take every step of the recipe; the same surface and recipe give the same bytes.
 
-    The prepared surface's ``source`` holds where it came from, the complete recipe and the record.
+    The prepared surface's ``source`` holds that of the given one, the complete recipe and the record.
 
     Raises
     ------
@@ -71,34 +84,45 @@ def prepare(surface: Surface, recipe: Recipe) -> Prepared:
     ----------
     F. Sahlin, Lubrication, contact mechanics and leakage between rough surfaces, Luleå 2008, sections E.3.1 and F.3.
     """
+    invalid = float(surface.invalid.mean())
+    if invalid > TOO_MANY_INVALID:
+        raise InputError(f"invalid points: they are {100 * invalid:.0f} % of all; measure again")
     measured = remove_form(surface, recipe.form)
     _refuse_constant(measured, surface)
     filled, residual = fill_invalid(measured)
     cut, told = cut_outliers(filled, bins=recipe.outliers.bins, points=recipe.outliers.points)
-    window = _window(cut, recipe.window)
+    window = _window(cut, recipe.window, surface.invalid)
+    in_window = float(surface.invalid[window.slices].mean())
+    if in_window > TOO_MANY_INVALID:
+        raise InputError(f"window: {100 * in_window:.0f} % of its points are invalid; choose another window")
     cell = resample(cut_window(cut, window), _points(window.shape, recipe.grid), recipe.grid.method)
     direction, width, reason = _edges(cell, recipe.edges)
     joined = make_periodic(cell, direction, width=width)
     smoothed = smooth(joined, recipe.smoothing)
     _refuse_constant(smoothed, surface)
     mismatch = periodicity_mismatch(smoothed)
-    invalid = float(surface.invalid.mean())
     record = {
-        "invalid": {"points": int(surface.invalid.sum()), "fraction": invalid, "residual": residual},
+        "invalid": {
+            "points": int(surface.invalid.sum()),
+            "measured": surface.heights.size,
+            "fraction": invalid,
+            "in_window": in_window,
+            "residual": residual,
+        },
         "outliers": asdict(told),
         "window": {"start": list(window.start), "pixels": list(window.shape)},
         "grid": {"points": list(cell.shape), "spacing": list(cell.spacing)},
-        "edges": {"direction": direction, "width": width, "reason": reason},
+        "edges": {"direction": direction, "width": list(width), "reason": reason},
         "periodicity_mismatch": {"before": periodicity_mismatch(cell), "after": mismatch},
     }
-    source = {**surface.source, "recipe": recipe_entries(recipe), "record": record}
+    source = {"prepared_from": dict(surface.source), "recipe": recipe_entries(recipe), "record": record}
     return Prepared(
         measured=measured,
         cell=cell,
         joined=joined,
         surface=smoothed.with_heights(smoothed.heights, source=source),
         record=record,
-        warnings=tuple(_warnings(invalid, mismatch)),
+        warnings=tuple(_warnings(record)),
     )
 
 
@@ -108,15 +132,18 @@ def _refuse_constant(surface: Surface, original: Surface) -> None:
         raise InputError("surface: all heights are the same once its form is removed; there is no roughness to prepare")
 
 
-def _window(surface: Surface, sampling: Sampling | None) -> Window:
+def _window(surface: Surface, sampling: Sampling | None, guessed: Mask) -> Window:
     if sampling is None:
         return Window(start=(0, 0), shape=surface.shape)
-    pairs = list(zip(sampling.size, surface.spacing, strict=True))
+    sizes, places = (
+        [min(abs(length) / step, FARTHEST) for length, step in zip(lengths, surface.spacing, strict=True)]
+        for lengths in (sampling.size, sampling.start or (0.0, 0.0))
+    )
     if sampling.start is None:
-        nx, ny = (int(np.ceil(length / step - 1e-9)) for length, step in pairs)
-        return best_window(surface, (nx, ny))
-    nx, ny = (round(length / step) for length, step in pairs)
-    i, j = (round(place / step) for place, step in zip(sampling.start, surface.spacing, strict=True))
+        nx, ny = (math.ceil(size - 1e-9) for size in sizes)
+        return best_window(surface, (nx, ny), guessed)
+    i, j = (round(math.copysign(place, start)) for place, start in zip(places, sampling.start, strict=True))
+    nx, ny = (round(size) for size in sizes)
     return Window(start=(i, j), shape=(nx, ny))
 
 
@@ -125,33 +152,56 @@ def _points(shape: tuple[int, int], grid: Grid) -> tuple[int, int]:
         case "kept":
             return shape
         case "powers of two":
-            return next_power_of_two(shape[0]), next_power_of_two(shape[1])
+            nx, ny = next_power_of_two(shape[0]), next_power_of_two(shape[1])
         case points:
-            return points
+            nx, ny = points
+    if nx * ny > MOST_POINTS:
+        raise InputError(f"grid: got {nx} x {ny} points; at most {MOST_POINTS} are made, say fewer in grid.points")
+    return nx, ny
 
 
-def _edges(surface: Surface, edges: Edges) -> tuple[Direction, float, str]:
-    width = edges.width if edges.width is not None else max(WIDTH * min(surface.size), max(surface.spacing) / 2)
+def _edges(surface: Surface, edges: Edges) -> tuple[Direction, tuple[float, float], str]:
+    decay = decay_lengths(autocorrelation(surface), surface.spacing)
+    width = _width(surface, decay.shortest) if edges.width is None else (edges.width, edges.width)
     if edges.direction != "auto":
         return edges.direction, width, "given"
-    ratio = decay_lengths(autocorrelation(surface), surface.spacing).aspect
     angle = texture_direction(power_spectrum(surface))
     from_x = min(angle, 180 - angle)
-    told = f"Str {ratio:.2f}, lay at {round(angle) % 180} degrees"
-    if ratio < STRONG_LAY and from_x <= NEAR_AXIS:
+    told = f"Str {decay.aspect:.2f}, lay at {round(angle) % 180} degrees"
+    if decay.aspect < STRONG_LAY and from_x <= NEAR_AXIS:
         return "x", width, f"{told}: joined along the lay only"
-    if ratio < STRONG_LAY and 90 - from_x <= NEAR_AXIS:
+    if decay.aspect < STRONG_LAY and 90 - from_x <= NEAR_AXIS:
         return "y", width, f"{told}: joined along the lay only"
     return "both", width, f"{told}: no strong lay along an axis"
 
 
-def _warnings(invalid: float, mismatch: float) -> list[str]:
+def _width(surface: Surface, correlation_length: float) -> tuple[float, float]:
+    """The usual width, brought into the range that each direction's pixels allow."""
+    side = min(surface.size)
+    usual = min(max(WIDTH * correlation_length, LEAST_WIDTH_OF_SIDE * side), MOST_WIDTH_OF_SIDE * side)
+    x, y = (
+        max(min(usual, widest(count) * step), LEAST_WIDTH * step)
+        for count, step in zip(surface.shape, surface.spacing, strict=True)
+    )
+    return x, y
+
+
+def _warnings(record: Mapping[str, Any]) -> list[str]:
     told = []
+    invalid, mismatch = record["invalid"]["in_window"], record["periodicity_mismatch"]["after"]
+    cut = record["outliers"]["above"] + record["outliers"]["below"]
+    points = record["invalid"]["measured"]
     if invalid > MANY_INVALID:
         told.append(f"{100 * invalid:.0f} % of the points were invalid and are filled in; measure again if you can")
+    if cut > MANY_CUT * points:
+        told.append(
+            f"{100 * cut / points:.1f} % of the points were cut as outliers; take fewer: outliers.bins=100, or "
+            "outliers.points=0 to cut none"
+        )
     if mismatch > THRESHOLD:
         told.append(
             f"periodicity mismatch {mismatch:.2f}, above {THRESHOLD}: ridges or steps end at the joint, which "
-            "throttles flow; choose another window (or let one be found: window.size without start)"
+            "throttles flow; choose another window (or let one be found: window.size without start), or a larger "
+            "edges.width"
         )
     return told

@@ -1,5 +1,6 @@
 """The recipe: every step of a preparation with its numbers, as a TOML file holds it."""
 
+import copy
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -48,7 +49,7 @@ class Grid(Part):
 
 
 class Edges(Part):
-    """Which edges are made to meet, and the standard deviation of the filter (m), by default 1/80 of the shorter side.
+    """Which edges are made to meet, and the standard deviation of the filter (m), by default half of Sal.
 
     ``"auto"`` joins along a strong lay only, and otherwise in both directions.
     """
@@ -69,15 +70,27 @@ class Recipe(Part):
     smoothing: Annotated[int, Field(strict=True, ge=1, le=101)] = 3
 
 
-def load_recipe(path: Path | None = None, overrides: Iterable[str] = ()) -> Recipe:
-    """Read a recipe file (or take the defaults) and apply overrides such as ``edges.direction=x``.
+AS_IT_IS: Mapping[str, Any] = {
+    "form": "none",
+    "outliers": {"points": 0},
+    "grid": {"points": "kept"},
+    "edges": {"direction": "none"},
+    "smoothing": 1,
+}
+"""What a surface that is periodic already needs."""
+
+
+def load_recipe(
+    path: Path | None = None, overrides: Iterable[str] = (), usual: Mapping[str, Any] | None = None
+) -> Recipe:
+    """Read a recipe file, or else take the ``usual`` entries, and apply overrides such as ``edges.direction=x``.
 
     Raises
     ------
     InputError
         One line that names the key, what was got there and what to write instead.
     """
-    entries = read_toml(path, EXAMPLE) if path is not None else {}
+    entries = read_toml(path, EXAMPLE) if path is not None else copy.deepcopy(dict(usual or {}))
     for override in overrides:
         set_entry(entries, override, "edges.direction=x")
     return read_recipe(entries)

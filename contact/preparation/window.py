@@ -6,7 +6,7 @@ from itertools import product
 import numpy as np
 
 from contact.errors import InputError
-from contact.surface import Array, Surface
+from contact.surface import Array, Mask, Surface
 
 COARSE = 48
 """Positions along each direction in the first search."""
@@ -22,6 +22,12 @@ class Window:
     start: tuple[int, int]
     shape: tuple[int, int]
 
+    @property
+    def slices(self) -> tuple[slice, slice]:
+        """What picks its pixels from an array."""
+        (i, j), (nx, ny) = self.start, self.shape
+        return slice(i, i + nx), slice(j, j + ny)
+
 
 def cut_window(surface: Surface, window: Window) -> Surface:
     """The pixels of a window; InputError if it is not inside the surface."""
@@ -31,21 +37,23 @@ def cut_window(surface: Surface, window: Window) -> Surface:
                 f"window: got {count} pixels from pixel {first} along {'xy'[axis]}, where the surface has {most}; "
                 "choose a window inside it"
             )
-    (i, j), (nx, ny) = window.start, window.shape
-    part = (slice(i, i + nx), slice(j, j + ny))
     whole = window.shape == surface.shape
     return surface.with_heights(
-        surface.heights[part], invalid=surface.invalid[part], periodic=surface.periodic and whole
+        surface.heights[window.slices],
+        invalid=surface.invalid[window.slices],
+        periodic=surface.periodic and whole,
     )
 
 
-def best_window(surface: Surface, least: tuple[int, int]) -> Window:
+def best_window(surface: Surface, least: tuple[int, int], guessed: Mask) -> Window:
     """The window of at least ``least`` pixels whose opposite edges match best.
 
-    Minimises ⟨(h(x₁ + k, y) − h(x₀ + k, y))²⟩ + ⟨(h(x, y₁ + k) − h(x, y₀ + k))²⟩, the means over the edges and over a
-    band of lines k, where the window holds the pixels x₀ … x₁ − 1 and y₀ … y₁ − 1: what begins again at its end is
-    what began at its beginning. All windows on 48 positions a direction are tried, then the neighbours of the best
-    with steps halved down to a pixel: not always the very best of all, but deterministic and independent of scale.
+    Minimises ⟨(h(x₁ + k, y) − h(x₀ + k, y))²⟩ + ⟨(h(x, y₁ + k) − h(x, y₀ + k))²⟩ + 4 Sq² g, the means over the edges
+    and over a band of lines k, where the window holds the pixels x₀ … x₁ − 1 and y₀ … y₁ − 1: what begins again at its
+    end is what began at its beginning. g, which weighs as much as edges that know nothing of each other, is the part
+    of its points that are ``guessed`` (they were invalid and filled, and smooth fills match too well). All windows on
+    at most 48 positions a direction are tried, then the neighbours of the best with steps halved down to a pixel: not
+    always the very best of all, but deterministic and independent of scale.
 
     Raises
     ------
@@ -61,9 +69,9 @@ def best_window(surface: Surface, least: tuple[int, int]) -> Window:
                 f"window: got at least {count} pixels along {'xy'[axis]}, where the surface has {most}; "
                 f"ask for at most {most * BAND // (BAND + 1)}, so that its edges can be compared"
             )
-    mismatch = _Mismatch(surface.heights, bands)
+    mismatch = _Mismatch(surface.heights, bands, guessed)
     last = [most - band for most, band in zip(surface.shape, bands, strict=True)]
-    steps = [max(1, most // COARSE) for most in surface.shape]
+    steps = [max(1, -(-most // COARSE)) for most in surface.shape]
     pairs = [
         [(a, b) for a in range(0, n, s) for b in range(n, a, -s) if b - a >= count]
         for n, s, count in zip(last, steps, least, strict=True)
@@ -91,9 +99,11 @@ def _near(edges: Pair, step: int, last: int, least: int) -> list[Pair]:
 class _Mismatch:
     """The mismatch of windows, by sums along the edges that are made once for each pair of edges."""
 
-    def __init__(self, heights: Array, bands: list[int]) -> None:
+    def __init__(self, heights: Array, bands: list[int], guessed: Mask) -> None:
         self.lines = (heights, heights.T)
         self.bands = bands
+        self.variance = float(heights[~guessed].var())
+        self.guessed = np.pad(guessed.cumsum(axis=0).cumsum(axis=1), ((1, 0), (1, 0)))
         self.known: tuple[dict[Pair, Array], dict[Pair, Array]] = ({}, {})
 
     def sums(self, axis: int, edges: Pair) -> Array:
@@ -110,5 +120,8 @@ class _Mismatch:
         at_x = np.stack([self.sums(0, pair)[[*y0, *y1]] for pair in along_x]).reshape(len(along_x), 2, len(along_y))
         at_y = np.stack([self.sums(1, pair)[[*x0, *x1]] for pair in along_y]).reshape(len(along_y), 2, len(along_x))
         total = (at_x[:, 1] - at_x[:, 0]) / (y1 - y0) + ((at_y[:, 1] - at_y[:, 0]) / (x1 - x0)).T
+        counts = self.guessed[np.ix_(x1, y1)] - self.guessed[np.ix_(x0, y1)]
+        counts = counts - self.guessed[np.ix_(x1, y0)] + self.guessed[np.ix_(x0, y0)]
+        total += 4 * self.variance * counts / np.outer(x1 - x0, y1 - y0)
         i, j = np.unravel_index(int(np.argmin(total)), total.shape)
         return along_x[int(i)], along_y[int(j)]

@@ -262,7 +262,7 @@ def test_doctor():
     result = run("doctor", "--json")
     assert result.exit_code == 0
     found = json.loads(result.stdout)
-    assert list(found) == ["Python", "OpenFOAM", "MPI", "rendering"]
+    assert list(found) == ["Python", "OpenFOAM", "MPI", "rendering", "instrument files"]
     assert all(part["detail"] for part in found.values())
     assert found["Python"]["available"]
 

@@ -98,7 +98,7 @@ def test_a_synthetic_surface_is_made_from_its_description(run, tmp_path):
     assert done.exit_code == 0
     told = json.loads(done.stdout)
     assert told["quantities"]["Sq"]["value"] == pytest.approx(2e-6, rel=1e-9)
-    assert read_surface(tmp_path / "s.h5").source["synthetic"]["seed"] == 852
+    assert read_surface(tmp_path / "s.h5").source["prepared_from"]["synthetic"]["seed"] == 852
 
 
 HEAD = "# spacing: 1 um, 1 um; heights: um\n"
@@ -107,7 +107,7 @@ BAD = [
     ("constant.csv", HEAD + "3,3,3,3\n" * 4, "there is no roughness to prepare"),
     ("row.csv", HEAD + "1,2,3,4\n", "a surface has at least 2 x 2"),
     ("infinite.csv", HEAD + "1,2\n3,-inf\n", "is infinite"),
-    ("letter.csv", "Dear colleague\n", "write numbers separated by commas"),
+    ("letter.csv", "Dear colleague\n", "write numbers with commas between"),
     ("units.csv", "# spacing: 1 um, 1 kg; heights: um\n1,2\n3,4\n", "wrong dimension"),
     ("bare.csv", "1,2\n3,5\n", "tells no spacing"),
     ("few.csv", HEAD + "1,2\n3,5\n", "choose a simpler one"),

@@ -9,12 +9,13 @@ from contact.preparation.window import Window, best_window, cut_window
 from contact.surface import Surface
 
 X, Y = np.meshgrid(np.arange(157), np.arange(131), indexing="ij")
+NOTHING = np.zeros(X.shape, bool)
 
 
 @pytest.mark.parametrize("scale", [1.0, 1e-9])
 def test_whole_periods_are_found(scale):
     waves = np.sin(2 * np.pi * X / 37) + np.sin(2 * np.pi * Y / 29 + 1) + 0.5 * np.cos(2 * np.pi * (X / 37 + Y / 29))
-    found = best_window(Surface(heights=scale * waves, spacing=(1e-6, 2e-6)), (90, 60))
+    found = best_window(Surface(heights=scale * waves, spacing=(1e-6, 2e-6)), (90, 60), NOTHING)
     assert (found.shape[0] % 37, found.shape[1] % 29) == (0, 0)
     assert found.shape[0] >= 90
     assert found.shape[1] >= 60
@@ -26,8 +27,19 @@ def test_a_found_window_repeats_itself_better_than_the_whole():
     low = np.abs(np.fft.fftfreq(256)) < 12 / 256
     smooth = np.fft.irfft2(np.fft.rfft2(smooth) * low[:, None], s=(256, 256))[:157, :131]
     whole = Surface(heights=smooth, spacing=(1.0, 1.0))
-    part = cut_window(whole, best_window(whole, (90, 80)))
+    part = cut_window(whole, best_window(whole, (90, 80), NOTHING))
     assert periodicity_mismatch(part) < 0.5 * periodicity_mismatch(whole)
+
+
+def test_a_hole_that_was_filled_smoothly_is_no_window():
+    rng = np.random.default_rng(817)
+    guessed = np.zeros(X.shape, bool)
+    guessed[20:90, 30:100] = True
+    heights = np.where(guessed, 0.0, rng.normal(size=X.shape))
+    surface = Surface(heights=heights, spacing=(1.0, 1.0))
+    blind, seeing = (best_window(surface, (40, 40), mask) for mask in (NOTHING, guessed))
+    assert guessed[blind.slices].mean() > 0.9
+    assert guessed[seeing.slices].mean() < 0.1
 
 
 def test_a_window_holds_its_pixels_and_their_mask():
@@ -48,4 +60,4 @@ def test_a_least_window_as_large_as_the_surface_cannot_be_compared():
     with pytest.raises(
         InputError, match=r"^window: got at least 157 pixels along x, where the surface has 157; ask for"
     ):
-        best_window(Surface(heights=1.0 * X, spacing=(1.0, 1.0)), (157, 50))
+        best_window(Surface(heights=1.0 * X, spacing=(1.0, 1.0)), (157, 50), NOTHING)
