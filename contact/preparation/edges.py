@@ -31,7 +31,7 @@ def make_periodic(surface: Surface, direction: Direction, *, width: tuple[float,
     ----------
     direction : "x" joins the edges x = 0 and x = nx dx, "y" the others, "both" all, "none" nothing.
     width : standard deviation σ of g along x and y, m: from half a pixel to what leaves pixels untouched in the middle,
-        ⌈3 σ⌉ ≤ (n − 1)/4. That of a direction which is not joined does not count.
+        ⌈3 σ⌉ ≤ (n − 3)/4. That of a direction which is not joined does not count.
 
     Returns
     -------
@@ -40,7 +40,7 @@ def make_periodic(surface: Surface, direction: Direction, *, width: tuple[float,
     Raises
     ------
     InputError
-        If a width is out of range, there are fewer than 9 pixels to join, or pixels are invalid.
+        If a width is out of range, there are fewer than 11 pixels to join, or pixels are invalid.
 
     References
     ----------
@@ -65,12 +65,12 @@ def widest(count: int) -> float:
     >>> widest(240)
     19.666666666666668
     """
-    return (count - 1) // 4 / REACH
+    return (count - 3) // 4 / REACH
 
 
 def _gaussian(sigma: float, count: int, axis: int) -> Array:
     if widest(count) < LEAST_WIDTH:
-        raise InputError(f"edges: got {count} pixels along {'xy'[axis]}; joining edges needs 9 and more")
+        raise InputError(f"edges: got {count} pixels along {'xy'[axis]}; joining edges needs 11 and more")
     if not LEAST_WIDTH <= sigma <= widest(count) * (1 + 1e-12):
         raise InputError(
             f"edges: got a width of {sigma:.3g} pixels along {'xy'[axis]}; "

@@ -92,10 +92,11 @@ def prepare(surface: Surface, recipe: Recipe) -> Prepared:
     filled, residual = fill_invalid(measured)
     cut, told = cut_outliers(filled, bins=recipe.outliers.bins, points=recipe.outliers.points)
     window = _window(cut, recipe.window, surface.invalid)
+    part = cut_window(cut, window)
     in_window = float(surface.invalid[window.slices].mean())
     if in_window > TOO_MANY_INVALID:
         raise InputError(f"window: {100 * in_window:.0f} % of its points are invalid; choose another window")
-    cell = resample(cut_window(cut, window), _points(window.shape, recipe.grid), recipe.grid.method)
+    cell = resample(part, _points(window.shape, recipe.grid), recipe.grid.method)
     direction, width, reason = _edges(cell, recipe.edges)
     joined = make_periodic(cell, direction, width=width)
     smoothed = smooth(joined, recipe.smoothing)

@@ -2,9 +2,14 @@
 
 import io
 import json
+import re
+import signal
 import struct
+import subprocess
 import sys
+import tracemalloc
 
+import h5py
 import numpy as np
 import pytest
 
@@ -33,7 +38,7 @@ def child(path, channel=None):
     instrument_reader.main({"path": str(path), "channel": channel, "most": instruments.MOST_POINTS}, out)
     head, _, rest = out.getvalue().partition(b"\n")
     told = json.loads(head)
-    return told, None if "fault" in told else np.frombuffer(rest).reshape(told["shape"])
+    return told, None if "shape" not in told else np.frombuffer(rest).reshape(told["shape"])
 
 
 @pytest.mark.measured
@@ -79,24 +84,40 @@ def test_a_truncated_file_is_refused_or_still_holds_all_its_heights(measured_fil
 
 
 @pytest.mark.measured
-def test_a_sur_header_of_thirty_thousand_squared_is_refused_before_its_heights_are_read(measured_file, tmp_path):
+def test_a_sur_header_of_thirty_thousand_squared_is_refused_in_little_memory(measured_file, tmp_path):
     data = bytearray(measured_file("polished_with_spikes.sur").read_bytes())
     data[108:116] = struct.pack("<ii", 30_000, 30_000)
     (tmp_path / "large.sur").write_bytes(data)
+    tracemalloc.start()
     told, heights = child(tmp_path / "large.sur")
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
     assert heights is None
-    assert "30000 x 30000" in told["fault"] or "damaged" in told["fault"]
+    assert re.match(r"claims 30000 x 30000 points|cannot be read|is in no format", told["fault"])
+    assert peak < 100e6
 
 
-def test_a_text_header_of_thirty_thousand_squared_is_refused_in_little_memory(tmp_path, monkeypatch):
-    monkeypatch.setattr(instruments, "MEMORY", (2 << 30, 40))
+def test_more_points_than_a_file_of_its_length_can_hold_are_refused(tmp_path):
+    """A few kilobytes of compressed zeros that claim 2000 x 2000 points."""
+    path = tmp_path / "bomb.h5"
+    with h5py.File(path, "w") as file:
+        file.create_dataset("heights", data=np.zeros((2000, 2000)), chunks=(2000, 2000), compression="gzip")
+    assert path.stat().st_size < 60_000
+    with pytest.raises(InputError, match=r"bomb\.h5: claims 2000 x 2000 points; at most \d+ fit a file of its length"):
+        read_surface(path)
+
+
+def test_a_text_header_of_thirty_thousand_squared_is_refused(tmp_path):
     path = tmp_path / "large.txt"
     path.write_text(
-        "h=30000 w=30000\npixel size=3.7e-007 m\nheight conversion factor (-> m)=6e-008\n1.0 2.0\n3.0 4.0\n"
+        "h=30000 w=30000\npixel size=3.7e-007 m\nheight conversion factor (-> m)=6e-008\n1 2 3 4\n5 6 7 8\n"
     )
-    with pytest.raises(InputError, match=r"large\.txt: ") as raised:
-        read_surface(path)
-    assert "\n" not in str(raised.value)
+    tracemalloc.start()
+    told, _ = child(path)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert re.match(r"is in no format|cannot be read", told["fault"])
+    assert peak < 100e6
 
 
 @pytest.mark.parametrize(
@@ -128,12 +149,30 @@ def test_a_channel_is_chosen_by_name(measured_file):
     assert told["fault"].startswith("has no channel 'nonsense'; its channels are 'Raw'")
 
 
-def test_a_reader_that_takes_all_memory_is_stopped(tmp_path, monkeypatch):
-    monkeypatch.setattr(instruments, "MEMORY", (300 << 20, 0))
-    path = tmp_path / "plain.txt"
-    path.write_text("1 2\n3 4\n")
-    with pytest.raises(InputError, match=r"plain\.txt: .*(damaged|memory)"):
-        read_surface(path)
+@pytest.mark.parametrize(("greedy", "end"), [("bytearray(3 << 30)", 1), ("while True: pass", -signal.SIGKILL)])
+def test_a_child_gets_no_more_memory_and_time_than_it_is_given(greedy, end):
+    program = f"from contact.instrument_reader import _limit\n_limit(2 << 30, 1)\n{greedy}"
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=False)
+    assert done.returncode == end
+    assert ("MemoryError" in done.stderr) == (end == 1)
+
+
+def test_a_reader_that_takes_all_memory_is_told(tmp_path, monkeypatch):
+    def greedy(*_):
+        raise MemoryError
+
+    monkeypatch.setattr(instrument_reader, "_read", greedy)
+    told, _ = child(tmp_path / "s.opd")
+    assert told["fault"] == "needs more memory than a file of its length should; it may be damaged"
+
+
+def test_a_library_that_does_not_load_is_no_fault_of_the_file(tmp_path, monkeypatch):
+    def broken(*_):
+        raise ImportError("no module named scipy")
+
+    monkeypatch.setattr(instrument_reader, "_read", broken)
+    told, _ = child(tmp_path / "s.opd")
+    assert told == {"missing": "no module named scipy"}
 
 
 def test_a_reader_that_never_ends_is_stopped(tmp_path, monkeypatch):

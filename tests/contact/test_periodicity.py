@@ -26,6 +26,15 @@ def test_truly_periodic_surfaces_pass_and_windows_of_them_fail():
     assert np.median(part) > 0.5
 
 
+def test_a_scratch_hides_no_joint():
+    """One place inside that is steeper than the joint must not pass for what is usual there."""
+    window = periodic(943).heights[:192, :192].copy()
+    plain = periodicity_mismatch(Surface(heights=window, spacing=(1.0, 1.0)))
+    window[50] -= 6e-6
+    window[:, 70] -= 6e-6
+    assert periodicity_mismatch(Surface(heights=window, spacing=(1.0, 1.0))) > 0.4 * plain > 2 * THRESHOLD
+
+
 def test_a_ridge_that_does_not_go_on_is_found_through_a_smooth_joint():
     """Slanted ridges, faded to nothing over three lines at the joint: no jump is left, the mismatch is."""
     x, y = np.meshgrid(np.arange(256), np.arange(256), indexing="ij")

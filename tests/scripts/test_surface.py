@@ -1,6 +1,7 @@
 """``roughfilm surface``: what it prints, what it writes, and how it fails."""
 
 import json
+import os
 import re
 
 import numpy as np
@@ -68,6 +69,27 @@ def test_a_prepared_surface_read_again_stays_as_it_is(run, csv, tmp_path):
     done = run(tmp_path / "s.h5", "--out", tmp_path / "t.h5", "--json")
     assert json.loads(done.stdout)["provenance"]["record"]["edges"]["direction"] == "none"
     assert np.array_equal(read_surface(tmp_path / "t.h5").heights, read_surface(tmp_path / "s.h5").heights)
+
+
+def test_overrides_of_a_prepared_surface_change_nothing_else(run, csv, tmp_path):
+    run(csv, "--out", tmp_path / "s.h5")
+    done = run(tmp_path / "s.h5", "--json", "--set", "smoothing=3")
+    recipe = json.loads(done.stdout)["provenance"]["recipe"]
+    assert (recipe["form"], recipe["edges"]["direction"], recipe["smoothing"]) == ("none", "none", 3)
+
+
+def test_one_output_that_cannot_be_written_leaves_none(run, csv, tmp_path):
+    done = run(csv, "--out", tmp_path / "s.h5", "--report", "/proc/nowhere/page.html")
+    assert done.exit_code == 2
+    assert not (tmp_path / "s.h5").exists()
+    assert [path.name for path in tmp_path.iterdir()] == ["measured.csv"]
+
+
+def test_a_name_of_odd_bytes_does_no_harm(run, csv, tmp_path):
+    odd = tmp_path / os.fsdecode(b"odd \xff [bold].csv")
+    odd.write_bytes(csv.read_bytes())
+    assert run(odd, "--report", tmp_path / "page.html", "--json").exit_code == 0
+    assert "[bold]" in (tmp_path / "page.html").read_text()
 
 
 def test_people_get_a_table_and_the_warnings(run, csv):

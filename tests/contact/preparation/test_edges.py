@@ -5,7 +5,7 @@ import pytest
 
 from contact.errors import InputError
 from contact.periodicity import THRESHOLD, periodicity_mismatch
-from contact.preparation.edges import make_periodic
+from contact.preparation.edges import make_periodic, widest
 from contact.surface import Surface
 
 
@@ -62,6 +62,29 @@ def test_corners_take_part_in_both_joints():
     joined = make_periodic(rough(824), "both", width=(4.0, 3.2))
     corners = joined.heights[np.ix_([0, -1], [0, -1])]
     assert np.ptp(corners) < 0.5 * joined.heights.std()
+
+
+def test_joining_nothing_leaves_a_measurement_what_it_is():
+    given = rough(826)
+    for periodic in (False, True):
+        left = make_periodic(given.with_heights(given.heights, periodic=periodic), "none", width=(0.0, 0.0))
+        assert left.periodic is periodic
+        assert np.array_equal(left.heights, given.heights)
+
+
+@pytest.mark.parametrize("count", [11, 12, 50, 51, 52, 53, 240])
+def test_the_widest_filter_leaves_the_middle_alone_and_a_wider_one_is_refused(count):
+    heights = np.random.default_rng(827).normal(size=(count, 9))
+    given = Surface(heights=heights, spacing=(1.0, 1.0))
+    joined = make_periodic(given, "x", width=(widest(count), 0.0))
+    assert np.array_equal(joined.heights[count // 2], heights[count // 2])
+    with pytest.raises(InputError, match=r"^edges: got a width"):
+        make_periodic(given, "x", width=(widest(count) * 1.01, 0.0))
+
+
+def test_too_few_pixels_are_told():
+    with pytest.raises(InputError, match=r"^edges: got 10 pixels along y; joining edges needs 11 and more"):
+        make_periodic(rough(828, shape=(40, 10)), "y", width=(1.0, 1.0))
 
 
 @pytest.mark.parametrize("width", [0.1, 60.0])

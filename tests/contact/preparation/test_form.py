@@ -50,6 +50,16 @@ def test_none_leaves_the_surface_as_it_is():
     assert remove_form(given, "none") is given
 
 
+def test_only_a_form_that_repeats_itself_leaves_a_surface_periodic():
+    given = surface(FORMS["tilt"]).with_heights(FORMS["tilt"], periodic=True)
+    assert [remove_form(given, form).periodic for form in ("none", "mean", "tilt", "quadratic")] == [
+        True,
+        True,
+        False,
+        False,
+    ]
+
+
 def test_points_on_one_line_do_not_tell_a_tilt():
     invalid = np.ones((NX, NY), bool)
     invalid[:, 5] = False

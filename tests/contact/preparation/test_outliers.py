@@ -46,6 +46,14 @@ def test_invalid_points_neither_count_nor_change():
     assert cut.heights[7, 7] == 0
 
 
+def test_bins_finer_than_the_digits_of_the_heights_are_refused():
+    heights = 1.0 + 1e-15 * np.arange(100.0).reshape(10, 10)
+    with pytest.raises(
+        InputError, match=r"^outliers: 1000000 bins are finer than the digits of the heights; take fewer"
+    ):
+        cut_outliers(Surface(heights=heights, spacing=(1e-6, 1e-6)), bins=1_000_000)
+
+
 def test_more_points_than_any_bin_holds_is_refused():
     with pytest.raises(InputError, match=r"^outliers: no bin of 1000 holds 200 points"):
         cut_outliers(body_with_spikes().with_heights(np.random.default_rng(815).random((100, 100))), points=200)

@@ -93,6 +93,42 @@ def test_a_surface_of_guesses_warns():
     assert any("40 % of the points were invalid" in warning for warning in warnings)
 
 
+def test_a_surface_too_small_for_its_bins_warns_that_more_than_outliers_were_cut():
+    """Of 64 x 64 points a bin of a thousand holds ten only inside the body."""
+    given = measured(844)
+    part = given.with_heights(given.heights[:64, 100:164], invalid=given.invalid[:64, 100:164])
+    assert any("% of the points were cut as outliers" in warning for warning in prepare(part, Recipe()).warnings)
+    fewer = prepare(part, read_recipe({"outliers": {"bins": 50}}))
+    assert not any("outliers" in warning for warning in fewer.warnings)
+
+
+def test_a_window_of_guesses_is_refused_and_the_measurement_too():
+    given = measured(845)
+    invalid = np.zeros(given.shape, bool)
+    invalid[100:250, 20:200] = True
+    hole = {"window": {"start": ["132 um", "51 um"], "size": ["120 um", "170 um"]}}
+    with pytest.raises(InputError, match=r"^window: 100 % of its points are invalid; choose another window"):
+        prepare(given.with_heights(given.heights, invalid=invalid), read_recipe(hole))
+    invalid[:] = True
+    invalid[:, ::20] = False
+    with pytest.raises(InputError, match=r"^invalid points: they are 95 % of all; measure again"):
+        prepare(given.with_heights(given.heights, invalid=invalid), Recipe())
+
+
+def test_a_second_preparation_keeps_the_record_of_the_first():
+    first = prepare(measured(), Recipe()).surface
+    again = prepare(first, read_recipe({"smoothing": 1})).surface
+    assert again.source["prepared_from"] == first.source
+    assert first.source["prepared_from"] == measured().source
+
+
+def test_pixels_far_from_square_get_a_width_each():
+    given = measured(846)
+    flat = Surface(heights=given.heights[:, :24], spacing=(1e-6, 20e-6), invalid=given.invalid[:, :24])
+    prepared = prepare(flat, read_recipe({"grid": {"points": "kept"}, "edges": {"direction": "both"}}))
+    assert prepared.record["edges"]["width"][1] >= 10e-6
+
+
 def test_a_joint_that_stays_bad_warns():
     """The thesis's surface 3a: slanted ridges that a blend along them cannot make meet."""
     x, y = np.meshgrid(np.arange(256), np.arange(256), indexing="ij")
@@ -111,7 +147,13 @@ def test_a_joint_that_stays_bad_warns():
         ({"window": {"size": ["1 mm", "1 mm"]}}, "^window: got at least 834 pixels along x, where the surface has 300"),
         ({"edges": {"direction": "x", "width": "1 mm"}}, "^edges: got a width of .* pixels along x; give"),
         ({"outliers": {"points": 100_000}}, "^outliers: no bin of 1000 holds 100000 points"),
-        ({"grid": {"points": [8, 8]}, "smoothing": 9}, "^(edges|smoothing): "),
+        ({"grid": {"points": [12, 12]}, "smoothing": 13}, "^smoothing: got 13 points"),
+        ({"grid": {"points": [50_000, 50_000]}}, "^grid: got 50000 x 50000 points; at most 100000000 are made"),
+        ({"window": {"size": ["1e305 m", "1e305 m"]}}, "^window: got at least 1000000000 pixels along x"),
+        (
+            {"window": {"size": ["10 um", "10 um"], "start": ["-1e305 m", "0 m"]}},
+            "^window: got .* from pixel -1000000000",
+        ),
     ],
 )
 def test_a_step_that_cannot_be_taken_says_which(entries, message):
