@@ -50,6 +50,11 @@ def parameters(surface: Surface) -> dict[str, Quantity]:
     }
 
 
+def bearing_parameters(surface: Surface) -> dict[str, Quantity]:
+    """Sk, Spk, Svk, m, and Smr1, Smr2, ratios, of the valid points (`contact.bearing`): a part of `parameters`."""
+    return _core("S", bearing_core(descending(surface.heights[surface.valid])))
+
+
 def profile_parameters(heights: ArrayLike) -> dict[str, Quantity]:
     """Roughness parameters of ISO 21920-2 of one profile, over its whole length; nothing is filtered or levelled.
 

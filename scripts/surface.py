@@ -14,7 +14,7 @@ from rich.table import Table
 
 from contact.errors import InputError
 from contact.files import replacing
-from contact.parameters import parameters
+from contact.parameters import bearing_parameters, parameters
 from contact.preparation.prepare import Prepared, prepare
 from contact.preparation.recipe import AS_IT_IS, Reading, Recipe, load_recipe, recipe_entries
 from contact.surface import Surface
@@ -116,11 +116,16 @@ def _read(file: Path, recipe: Recipe) -> Surface:
 
 
 def _quantities(prepared: Prepared) -> dict[str, Quantity]:
-    """Parameters of the prepared surface, the same of the measured one as ``raw_...``, and how good the cell is."""
+    """Parameters of the prepared surface, the same of the measured one as ``raw_...``, and how good the cell is.
+
+    A bearing ratio is a part of the whole area, and what was not measured lies mostly in pits and on flanks: so the
+    bearing curve of the measured surface counts its invalid points at their filled heights. All else leaves them out.
+    """
     record = prepared.record
+    raw = {**parameters(prepared.measured), **bearing_parameters(prepared.filled)}
     return {
         **parameters(prepared.surface),
-        **{f"raw_{name}": quantity for name, quantity in parameters(prepared.measured).items()},
+        **{f"raw_{name}": quantity for name, quantity in raw.items()},
         "invalid_fraction": Quantity(value=record["invalid"]["fraction"], unit="1"),
         "periodicity_mismatch": Quantity(value=record["periodicity_mismatch"]["after"], unit="1"),
         "raw_periodicity_mismatch": Quantity(value=record["periodicity_mismatch"]["before"], unit="1"),

@@ -62,8 +62,8 @@ def bearing_curves(prepared: Prepared) -> str:
     """Height against the part of the surface above it, with the cut levels."""
     figure = Figure(figsize=(5.4, 4.0), layout="constrained")
     axes = figure.add_subplot()
-    for surface, label, colour in _both(prepared):
-        ratio, height = bearing_curve(surface.heights[surface.valid])
+    for surface, label, colour in ((prepared.filled, "measured", BEFORE), (prepared.surface, "prepared", AFTER)):
+        ratio, height = bearing_curve(surface.heights)
         axes.plot(100 * ratio, height * 1e6, color=colour, label=label)
     for level in ("highest", "lowest"):
         axes.axhline(prepared.record["outliers"][level] * 1e6, color="black", linestyle=":", linewidth=1)

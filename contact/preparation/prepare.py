@@ -53,6 +53,7 @@ class Prepared:
     Attributes
     ----------
     measured : form removed, nothing else; invalid points still marked.
+    filled : the same with invalid points filled.
     cell : filled, cut, in its window and on its grid; edges as they were measured.
     joined : with edges that meet.
     surface : smoothed too: the periodic cell.
@@ -61,6 +62,7 @@ class Prepared:
     """
 
     measured: Surface
+    filled: Surface
     cell: Surface
     joined: Surface
     surface: Surface
@@ -119,6 +121,7 @@ def prepare(surface: Surface, recipe: Recipe) -> Prepared:
     source = {"prepared_from": dict(surface.source), "recipe": recipe_entries(recipe), "record": record}
     return Prepared(
         measured=measured,
+        filled=filled,
         cell=cell,
         joined=joined,
         surface=smoothed.with_heights(smoothed.heights, source=source),

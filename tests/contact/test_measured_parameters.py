@@ -7,7 +7,8 @@ import pytest
 
 from contact.autocorrelation import autocorrelation, decay_lengths
 from contact.bearing import bearing_core, descending
-from contact.parameters import parameters
+from contact.parameters import bearing_parameters, parameters
+from contact.preparation.filling import fill_invalid
 from contact.spectrum import power_spectrum, texture_direction
 from contact.surface import Surface
 
@@ -66,6 +67,15 @@ def test_peaks_and_valleys_of_the_bearing_curve_are_those_of_the_table(measured,
     *_, peak, valley = TABLE[name]
     assert core.peak == pytest.approx(peak, rel=5e-3)
     assert core.valley == pytest.approx(valley, rel=5e-3)
+
+
+@pytest.mark.parametrize("name", sorted(TABLE.keys() - {"polished_with_spikes.sur"}))
+def test_a_harmonic_fill_gives_the_same_peaks_and_valleys(measured, name):
+    filled, _ = fill_invalid(measured(name))
+    found = bearing_parameters(filled)
+    *_, peak, valley = TABLE[name]
+    assert found["Spk"].value * 1e6 == pytest.approx(peak, rel=5e-3)
+    assert found["Svk"].value * 1e6 == pytest.approx(valley, rel=5e-3)
 
 
 def test_spikes_weigh_what_their_points_do(measured):
