@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from contact.errors import InputError, UnavailableError
+from contact.leash import leash
 from contact.surface import MOST_POINTS, Array
 
 POINTS_PER_BYTE = 50
@@ -60,7 +61,7 @@ def read_instrument(path: Path, channel: str | None = None) -> Measurement:
     places = os.pathsep.join([str(Path(__file__).resolve().parent.parent), *filter(None, sys.path)])
     try:
         child = subprocess.run(
-            [sys.executable, "-m", "contact.instrument_reader", request],
+            [*leash(), sys.executable, "-m", "contact.instrument_reader", request],
             capture_output=True,
             stdin=subprocess.DEVNULL,
             env={**os.environ, "PYTHONPATH": places, "OPENBLAS_NUM_THREADS": "1"},

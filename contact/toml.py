@@ -5,7 +5,7 @@ import json
 import tomllib
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 from pydantic import BaseModel, ValidationError
 
@@ -115,10 +115,11 @@ def in_one_line(
 
 
 def known_keys(model: type[BaseModel], path: Location) -> list[str]:
-    """The keys of the table at ``path`` inside a model whose tables are models too."""
+    """The keys of the table at ``path`` inside a model whose tables are models too, some of them optional."""
     part: Any = model
     for name in path:
-        part = part.model_fields[name].annotation
+        annotation = part.model_fields[name].annotation
+        part = next(one for one in (annotation, *get_args(annotation)) if hasattr(one, "model_fields"))
     return [*part.model_fields]
 
 

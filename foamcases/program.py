@@ -1,15 +1,14 @@
 """One program of OpenFOAM run to its end in a case: its log, its own CPU time, and nothing left running."""
 
 import os
-import shutil
 import subprocess
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 
 from contact.errors import ConvergenceError, Outcome
+from contact.leash import leash
 from foamcases.openfoam import environment
 
 POLL_S = 0.02
@@ -75,20 +74,6 @@ def failure(
     if tail:
         error.add_note("\n".join(tail))
     return error
-
-
-@cache
-def leash() -> tuple[str, ...]:
-    """What stands before a command so that Linux ends it when the thread that started it ends; nothing elsewhere.
-
-    That thread waits for it, so it ends first only if this process is killed. (Python's own ``preexec_fn`` is not safe
-    beside threads.)
-    """
-    command = ("setpriv", "--pdeathsig", "TERM")
-    if shutil.which(command[0]) is None:
-        return ()
-    tried = subprocess.run([*command, "true"], stdin=subprocess.DEVNULL, capture_output=True, check=False)
-    return command if tried.returncode == 0 else ()
 
 
 def _stop(process: "subprocess.Popen[bytes]") -> None:

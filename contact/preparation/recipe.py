@@ -12,7 +12,7 @@ from contact.errors import InputError
 from contact.preparation.edges import Direction
 from contact.preparation.form import Form
 from contact.preparation.grid import Method
-from contact.toml import in_one_line, known_keys, read_toml, set_entry, unknown_key
+from contact.toml import Location, in_one_line, known_keys, read_toml, set_entry, unknown_key
 
 EXAMPLE = 'form = "quadratic"'
 
@@ -109,7 +109,6 @@ def recipe_entries(recipe: Recipe) -> dict[str, Any]:
     return recipe.model_dump(mode="json", exclude_none=True)
 
 
-def _unknown(location: Any) -> str:
+def _unknown(location: Location) -> str:
     *path, key = location
-    known = ["size", "start"] if path == ["window"] else known_keys(Recipe, path)
-    return unknown_key(key, known)
+    return unknown_key(key, known_keys(Recipe, path))

@@ -7,7 +7,9 @@ import signal
 import struct
 import subprocess
 import sys
+import time
 import tracemalloc
+from pathlib import Path
 
 import h5py
 import numpy as np
@@ -15,6 +17,7 @@ import pytest
 
 from contact import instrument_reader, instruments
 from contact.errors import InputError, UnavailableError
+from contact.leash import leash
 from contact.surface_files import read_surface
 
 pytest.importorskip("SurfaceTopography")
@@ -183,6 +186,41 @@ def test_a_reader_that_never_ends_is_stopped(tmp_path, monkeypatch):
     (tmp_path / "s.opd").write_bytes(b"x")
     with pytest.raises(InputError, match=r"s\.opd: reading it took more than 4 s; the file may be damaged"):
         read_surface(tmp_path / "s.opd")
+
+
+@pytest.mark.skipif(not leash(), reason="no setpriv (util-linux) on this machine")
+def test_a_killed_parent_leaves_no_reader(tmp_path):
+    """The reader is a stand-in that tells its number and then sleeps."""
+    (tmp_path / "python").write_text(
+        f"#!/bin/sh\necho $$ > {tmp_path}/number.part\nmv {tmp_path}/number.part {tmp_path}/number\nexec sleep 60\n"
+    )
+    (tmp_path / "python").chmod(0o755)
+    (tmp_path / "s.opd").write_bytes(b"x")
+    program = (
+        "import sys; from pathlib import Path; from contact.instruments import read_instrument\n"
+        f"sys.executable = '{tmp_path}/python'; read_instrument(Path('{tmp_path}/s.opd'))"
+    )
+    parent = subprocess.Popen([sys.executable, "-c", program])
+    number = tmp_path / "number"
+    deadline = time.monotonic() + 60
+    while not number.exists() and time.monotonic() < deadline:
+        time.sleep(0.05)
+    reader = int(number.read_text())
+    assert runs(reader)
+    parent.kill()
+    parent.wait()
+    deadline = time.monotonic() + 10
+    while runs(reader) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    assert not runs(reader)
+
+
+def runs(process_id):
+    """Whether a process is there and has not ended, as one that waits to be counted has."""
+    try:
+        return (Path("/proc") / str(process_id) / "stat").read_text().rpartition(")")[2].split()[0] not in "XZ"
+    except OSError:
+        return False
 
 
 def test_without_the_library_the_message_says_how_to_get_it(tmp_path, monkeypatch):

@@ -1,6 +1,7 @@
 """Programs end with us, and each is charged with its own CPU time alone."""
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -11,8 +12,8 @@ from pathlib import Path
 import pytest
 
 from contact.errors import ConvergenceError
-from foamcases import program
-from foamcases.program import execute, leash, succeed
+from contact.leash import leash
+from foamcases.program import execute, succeed
 
 SOLVE = """
 from foamcases.models.navier_stokes import MODEL
@@ -43,7 +44,7 @@ def test_a_program_that_stops_in_error_is_one_of_our_errors_with_its_last_words(
 
 
 def test_without_setpriv_programs_run_all_the_same(tmp_path, monkeypatch):
-    monkeypatch.setattr(program.shutil, "which", lambda _: None)
+    monkeypatch.setattr(shutil, "which", lambda _: None)
     leash.cache_clear()
     try:
         assert leash() == ()
