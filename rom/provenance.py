@@ -11,7 +11,8 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from rom.scene import Scene, scene_entries
+from rom.kind import Scene
+from rom.scene import scene_entries
 
 
 @cache
