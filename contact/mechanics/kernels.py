@@ -1,8 +1,8 @@
 """Fused loops over the grid: each reads and writes every array once, in pieces that threads share.
 
-A piece is the range of nodes [low, high). Its free nodes, those whose pressure may change, are listed at the front of the same
-range of ``index``; what belongs to them stands at the same places of ``residual``, ``held`` (their pressure), ``move`` and
-``taken`` (their step), so that most loops run through memory in order.
+A piece is the range of nodes [low, high). Its free nodes, those whose pressure may change, are listed at the front of
+the same range of ``index``; what belongs to them stands at the same places of ``residual``, ``held`` (their pressure),
+``move`` and ``taken`` (their step), so that most loops run through memory in order.
 """
 
 from typing import Any
@@ -15,7 +15,7 @@ _jit: Any = njit(nogil=True, cache=True, error_model="numpy", fastmath={"reassoc
 
 @_jit
 def advance(low, high, fraction, image, gap, plane, pressure, hardness, source, index, residual, held, out):  # type: ignore[no-untyped-def]
-    """g += t K∗s; list the free nodes, their residual g − plane and pressure; the residual in ``source`` too."""
+    """Let g grow by t K∗s; list the free nodes, their residual g − plane and pressure; the residual in ``source`` too."""
     part = np.float32(fraction)
     level = np.float32(plane)
     count = low
