@@ -12,8 +12,8 @@ from contact.heights import deviations
 from contact.mechanics.checks import positive
 from contact.surface import Array
 
-LEAST_SUMMIT_SPREAD = 0.8968
-"""Nayak's parameter of a surface whose summits would all have one height (Bush, Gibson and Thomas)."""
+SUMMIT_SPREAD = 0.8968
+"""By how much, over α, the variance of summit heights is below that of all heights, relatively (McCool)."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -80,7 +80,7 @@ class SpectralMoments:
 
     @property
     def nayak(self) -> float:
-        """α = m0 m4/m2², breadth of the spectrum: 1 of one wave along a line, 3/2 of an isotropic surface of one |q|."""
+        """α = m0 m4/m2², breadth of the spectrum: 1 of one wave along a line, 3/2 of a surface of one wave number."""
         return self.m0 / self.m2 * (self.m4 / self.m2)
 
     @property
@@ -90,7 +90,7 @@ class SpectralMoments:
 
     @property
     def rms_slope(self) -> float:
-        """g' = sqrt(<|∇z|²>): sqrt(2 m2) of a surface, sqrt(m2) of a profile."""
+        """Slope g' = sqrt(<|∇z|²>): sqrt(2 m2) of a surface, sqrt(m2) of a profile."""
         return math.sqrt(self.m2 if self.line else 2 * self.m2)
 
     @property
@@ -112,23 +112,20 @@ class SpectralMoments:
     @property
     def summit_mean(self) -> float:
         """Mean height of summits over the mean plane, 4 sqrt(m0/(πα)), m; of profile peaks sqrt(πm0/(2α)). Gaussian."""
-        return (
-            math.sqrt(math.pi * self.m0 / (2 * self.nayak))
-            if self.line
-            else 4 * math.sqrt(self.m0 / (math.pi * self.nayak))
-        )
+        part = math.pi / 2 if self.line else 16 / math.pi
+        return math.sqrt(part * self.m0 / self.nayak)
 
     @property
     def summit_spread(self) -> float:
         """Standard deviation of summit heights, sqrt((1 − 0.8968/α) m0), m; of peaks sqrt((1 − (π/2 − 1)/α) m0)."""
-        least = math.pi / 2 - 1 if self.line else LEAST_SUMMIT_SPREAD
-        return math.sqrt(max(1 - least / self.nayak, 0.0) * self.m0)
+        part = math.pi / 2 - 1 if self.line else SUMMIT_SPREAD
+        return math.sqrt(max(1 - part / self.nayak, 0.0) * self.m0)
 
 
 def wave_power(heights: ArrayLike, spacing: tuple[float, float]) -> WavePower:
     """Power of every wave of a periodic array of heights, by Parseval's theorem.
 
-    z = Σ a exp(i q·x) through all points; |a|² and |(−q)| share an entry.
+    z = Σ a exp(i q·x) through all points; opposite waves share an entry.
 
     Parameters
     ----------

@@ -15,8 +15,7 @@ from contact.mechanics.pressure_diffusion import PressureDiffusion
 from contact.surface import Array
 
 SOFTNESS = 0.45
-"""γ: of the elastic energy that contact with Persson's area would hold if it were flattened as in full contact, the
-part held at light load."""
+"""γ of Yang and Persson: at light load the elastic energy is this part of what the same area of full contact holds."""
 
 FARTHEST = 6.5
 """Beyond which exp(−t²) is 0 to rounding."""

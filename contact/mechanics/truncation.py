@@ -10,8 +10,8 @@ from contact.errors import InputError
 from contact.mechanics.checks import not_negative, positive
 from contact.mechanics.estimate import Estimate
 
-ELASTIC_SHARE = 0.1
-"""Of the rms slope: below this H/E* hardly any contact is elastic and the rest of the surface hardly moves."""
+LARGEST_HARDNESS = 0.1
+"""Of E* g': below it hardly any contact is elastic and the rest of the surface hardly moves."""
 
 
 def bearing_area(
@@ -78,7 +78,7 @@ def bearing_area(
         plastic_fraction=ratio,
         mean_gap=float(np.maximum(plane - ordered, 0.0).mean()),
         pressure_density=None,
-        trusted=hardness <= ELASTIC_SHARE * stiffness,
-        range_of_validity=f"hardness below {ELASTIC_SHARE:g} E* g', where nearly all contact is plastic",
+        trusted=hardness <= LARGEST_HARDNESS * stiffness,
+        range_of_validity=f"hardness below {LARGEST_HARDNESS:g} E* g', where nearly all contact is plastic",
         cannot_say="elastic contact, pressures below the hardness, and where the displaced material goes",
     )
