@@ -172,8 +172,8 @@ class _Search:
         while True:
             found = self.pieces.over_free(kernels.excess, shift, self.held, self.hardness, self.move, out=True)
             excess, within = float(found[:, 0].sum()), int(found[:, 1].sum())
-            if within == self.free and shift == 0:
-                return 0.0, False
+            if within == self.free:
+                return shift - excess / within, False
             if abs(excess) <= SUM * self.sum:
                 return shift, True
             if excess > 0:
