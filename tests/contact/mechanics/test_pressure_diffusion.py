@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from scipy.integrate import quad
-from scipy.linalg import expm
+from scipy.linalg import eigh_tridiagonal
 from scipy.special import erf
 
 from contact.mechanics.pressure_diffusion import PressureDiffusion
@@ -22,18 +22,19 @@ def inner(diffusion):
 @pytest.mark.parametrize("load", [0.1, 0.97])
 @pytest.mark.parametrize("spread", [0.1, 0.4, 1.1])
 def test_it_is_the_diffusion_on_a_grid(load, spread):
-    """H = 1, 300 cells, walls at 0: f' = ½ f'' by its matrix exponential; walls take ½ |f'| each."""
+    """H = 1, 300 cells, walls at 0: f' = ½ f'' by the modes of its matrix; walls take ½ |f'| each."""
     count = 300
     step = 1 / count
     p = np.arange(1, count) * step
-    laplacian = (np.diag(np.ones(count - 2), 1) + np.diag(np.ones(count - 2), -1) - 2 * np.eye(count - 1)) / step**2
+    rates, shapes = eigh_tridiagonal(-2 * np.ones(count - 1) / step**2, np.ones(count - 2) / step**2)
     start = np.zeros(count - 1)
     start[round(load / step) - 1] = 1 / step
-    density = expm(spread**2 / 2 * laplacian) @ start
+    decayed = np.exp(rates * spread**2 / 2)
+    density = shapes @ (decayed * (shapes.T @ start))
     found = PressureDiffusion(load=load, spread=spread, hardness=1.0)
     np.testing.assert_allclose(found.density(p), density, rtol=0, atol=5e-3 * density.max())
     assert found.elastic == pytest.approx(density.sum() * step, abs=1e-4)
-    taken = np.linalg.solve(laplacian, density - start)  # ½ ∫ f dV
+    taken = shapes @ ((decayed - 1) / rates * (shapes.T @ start))  # ½ ∫ f dV
     assert found.plastic == pytest.approx(taken[-1] / step, abs=1e-4)
 
 
