@@ -126,6 +126,7 @@ class _Search:
     def descend(self) -> None:
         """Point ``move`` down the gradient, by the length of Barzilai and Borwein."""
         length = self.square / self.curvature if self.curvature > 0 else 1.0
+        self.length = 1.0
         self.pieces.over_free(kernels.descend, length, self.residual, self.move)
 
     def step(self) -> bool:
