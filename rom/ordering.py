@@ -55,7 +55,8 @@ def ordering(
     number = product(features, powers)
     thresholds = {tolerance: threshold(number, error, tolerance) for tolerance in tolerances}
     covered = [0.0 if limit is None else float(np.mean(number <= limit)) for limit in thresholds.values()]
-    rank = float(spearmanr(number, error).statistic)
+    constant = number.max() <= (1 + 1e-9) * number.min()
+    rank = 0.0 if constant else float(spearmanr(number, error).statistic)
     return Ordering(powers=powers, rank=rank, thresholds=thresholds, coverage=sum(covered) / len(covered))
 
 

@@ -7,9 +7,12 @@ from contact.mechanics.estimate import Estimate
 from contact.surface import Array
 from rom.dry_contact import DryContact
 
-BINS = 64
+BINS = 40
 NODES = 8
 """Of Gauss's rule in a bin."""
+
+FINE = 60
+"""Parts of a bin's width at which the load of a density is added up."""
 
 FARTHEST = 8.0
 """E* g' beyond the mean pressure, where hardly any estimate has pressures left."""
@@ -49,7 +52,7 @@ def load_mismatch(scene: DryContact, estimate: Estimate) -> float:
         farthest = scene.load.pressure + FARTHEST * scene.pressure_unit
         top = min(scene.hardness, farthest) if bounded else farthest
         nodes, weights = np.polynomial.legendre.leggauss(NODES)
-        edges = np.linspace(0, top, 40 * BINS + 1)
+        edges = np.linspace(0, top, FINE * BINS + 1)
         middle, half = (edges[1:] + edges[:-1]) / 2, np.diff(edges) / 2
         pressure = middle[:, None] + half[:, None] * nodes
         carried += float(((pressure * estimate.pressure_density(pressure)) @ weights * half).sum())

@@ -10,7 +10,6 @@ from pydantic import BeforeValidator, PlainSerializer, model_validator
 
 from contact.entries import Length, Part
 from contact.errors import InputError
-from contact.heights import deviations
 from contact.mechanics.moments import WavePower, wave_power
 from contact.surface import Surface
 from contact.surface_files import read_surface
@@ -64,7 +63,9 @@ class SurfaceGeometry(Part):
         try:
             surface = self.read()
         except InputError as error:
-            raise ValueError(f"surface: {str(error).removeprefix(f'{self._kind}.')}") from None
+            told = str(error).removeprefix(f"{self._kind}: ")
+            inner = told.removeprefix(f"{self._kind}.")
+            raise ValueError(f"surface: {told}" if inner == told or not self._kind else f"surface.{inner}") from None
         if surface.invalid.any():
             count = int(surface.invalid.sum())
             raise ValueError(f"surface: has {count} invalid points; fill them by preparing it: roughfilm surface")
@@ -136,4 +137,7 @@ def _read(path: str, spacing: tuple[float, float] | None, _modified: int, _size:
 @lru_cache(maxsize=2)
 def _spectrum(geometry: str) -> WavePower | None:
     surface = SurfaceGeometry.model_validate_json(geometry).read()
-    return wave_power(surface.heights, surface.spacing) if deviations(surface.heights).any() else None
+    try:
+        return wave_power(surface.heights, surface.spacing)
+    except InputError:  # the heights are finite, so they are all the same
+        return None

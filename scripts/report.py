@@ -12,6 +12,7 @@ from rich.table import Table
 
 from contact.errors import InputError
 from contact.files import replacing
+from rom.gap import Array
 from rom.kind import kinds
 from rom.ladder import best
 from rom.ordering import Ordering, fitted_powers, ordering
@@ -63,7 +64,7 @@ def command(
     heads = [head for title in compared.values() for head in (f"{title} error", "95 %")]
     shown = Table("setting", "CPU, s", *heads, title=f"{len(sweep.names)} cases")
     for row in rows:
-        errors = [f"{100 * row['error'][q][part]:.3g} %" for q in compared for part in ("median", "high")]
+        errors = [_percent(row["error"][quantity][part]) for quantity in compared for part in ("median", "high")]
         shown.add_row(row["setting"], f"{row['cpu_s']:.3g}", *errors)
     output.print(shown)
     output.print(f"report: {escape(str(path))}", soft_wrap=True)
@@ -85,7 +86,7 @@ def _reference(sweep: Sweep) -> str:
     return next((name for scheme in top.schemes for name in named if scheme in name.split("-")), named[-1])
 
 
-def _known(sweep: Sweep, setting: str, reference: str, quantity: str) -> tuple[dict[str, Any], np.ndarray[Any, Any]]:
+def _known(sweep: Sweep, setting: str, reference: str, quantity: str) -> tuple[dict[str, Array], Array]:
     error = relative_error(sweep, setting, reference, quantity)
     features = sweep.features()
     known = np.isfinite(error) & np.isfinite(sum(features.values())) & loaded(sweep, reference)
@@ -93,8 +94,13 @@ def _known(sweep: Sweep, setting: str, reference: str, quantity: str) -> tuple[d
 
 
 def _orderings(sweep: Sweep, setting: str, reference: str, quantity: str) -> dict[str, Ordering]:
-    """Each candidate, the fitted powers and the ``chosen`` one; nothing for an error that is the same everywhere."""
+    """Each candidate, the fitted powers and the ``chosen`` one.
+
+    Nothing for a quantity that the setting does not give, and for an error that is the same everywhere.
+    """
     features, error = _known(sweep, setting, reference, quantity)
+    if not np.isfinite(sweep.found[setting][quantity]).any():
+        return {}
     if error.size < 8:
         raise InputError(f"{setting}: has {error.size} cases beside {reference}; a report needs at least 8")
     if error.max() <= (1 + SAME) * error.min():
@@ -112,11 +118,11 @@ def _orderings(sweep: Sweep, setting: str, reference: str, quantity: str) -> dic
 def _row(
     sweep: Sweep, setting: str, reference: str, numbers: Mapping[tuple[str, str], Mapping[str, Ordering]]
 ) -> dict[str, Any]:
-    errors, orders = {}, {}
+    errors: dict[str, Any] = {}
+    orders = {}
     for quantity in kinds()[sweep.kind].compared:
         _, error = _known(sweep, setting, reference, quantity)
-        median, high, worst = (float(value) for value in (np.median(error), np.percentile(error, 95), error.max()))
-        errors[quantity] = {"median": median, "high": high, "worst": worst}
+        errors[quantity] = _spread(error) if error.size else dict.fromkeys(("median", "high", "worst"))
         if numbers.get((setting, quantity)):
             chosen = numbers[setting, quantity]["chosen"]
             orders[quantity] = {
@@ -135,6 +141,15 @@ def _row(
         "error": errors,
         "ordered_by": orders,
     }
+
+
+def _spread(error: Array) -> dict[str, float]:
+    median, high, worst = np.median(error), np.percentile(error, 95), error.max()
+    return {"median": float(median), "high": float(high), "worst": float(worst)}
+
+
+def _percent(part: float | None) -> str:
+    return "-" if part is None else f"{100 * part:.3g} %"
 
 
 def _write_page(

@@ -13,17 +13,18 @@ from contact.files import replacing
 from rom.table import write_csv
 from scripts.common import AsJson, in_one_line, make_directory, messages, output, print_json, run_alone
 from scripts.pages import render
+from scripts.stability_contact import CONTACT
 from scripts.stability_made import Family
 from scripts.stability_pocket import POCKET
 from scripts.workplace import alone
 
-FAMILIES: dict[str, Family] = {"pocket": POCKET}
+FAMILIES: dict[str, Family] = {"pocket": POCKET, "contact": CONTACT}
 
 
 @in_one_line
 def command(
     family: Annotated[str, typer.Argument(metavar="FAMILY", help=f"What is mapped: {', '.join(FAMILIES)}.")],
-    out: Annotated[Path, typer.Option(help="Runs, tables and the page go here; finished runs are used again.")],
+    out: Annotated[Path, typer.Option(help="Tables and the page go here, and runs of models, which are used again.")],
     resolution: Annotated[
         int | None,
         typer.Option(help="; ".join(f"{name}: {one.resolution_meaning}" for name, one in FAMILIES.items()) + "."),

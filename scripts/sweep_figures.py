@@ -25,7 +25,7 @@ def errors_in_order(
         for axes, (quantity, title) in zip(line, kind.compared.items(), strict=True):
             if (setting, quantity) not in orderings:
                 axes.set_axis_off()
-                axes.set_title(f"{setting}: {title}, the same error everywhere", fontsize=9)
+                axes.set_title(f"{setting}: {title}, nothing to order", fontsize=9)
                 continue
             found = orderings[setting, quantity]
             number = product(sweep.features(), found.powers)

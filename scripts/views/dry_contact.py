@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 from numpy.typing import NDArray
 
 from rom.dry_contact import DryContact
@@ -23,6 +24,9 @@ STYLES = {
 MOST_PIXELS = 512
 """Of a map along a side; finer ones are drawn by every second, third ... point."""
 
+DEEPEST = 1e-5
+"""Of the highest density; lower ones are not drawn."""
+
 LEAST_AREA = 1e-6
 """Of the nominal area; a curve is drawn down to there."""
 
@@ -41,13 +45,14 @@ def pressures(scene: DryContact, results: Mapping[str, Result]) -> str:
             more[edges <= scene.hardness * 1e-9 * (1 + 1e-12)] += plastic
         look = {"color": style.colour, "linestyle": style.line, "linewidth": 1.8, "label": name}
         if values.any():
-            density.stairs(np.where(values > 0, values, np.nan), edges, **look)
+            density.stairs(np.where(values > 0, values, np.nan), edges, baseline=None, **look)
         above.plot(edges, np.where(more > LEAST_AREA, more, np.nan), **look)
     for axes in (density, above):
         axes.set_yscale("log")
         axes.set_xlabel("pressure, GPa" + (" (dotted: hardness)" if scene.solid.hardness else ""))
         if scene.solid.hardness and scene.solid.hardness * 1e-9 <= axes.get_xlim()[1]:
             axes.axvline(scene.solid.hardness * 1e-9, color="black", linewidth=0.8, linestyle=":")
+    density.set_ylim(bottom=DEEPEST * density.get_ylim()[1])
     density.set_ylabel("density of pressures below the hardness, 1/GPa")
     above.set_ylabel("part of the nominal area that bears more")
     above.legend(fontsize=8)
@@ -59,7 +64,7 @@ def maps(scene: DryContact, results: Mapping[str, Result]) -> str:
     resolved = {name: result for name, result in results.items() if "gap" in result.fields}
     length, width = (side * 1e6 for side in scene.surface().size)
     height = min(4.0, max(1.5, 3.6 * width / length))
-    figure = Figure(figsize=(9.5, 0.4 + height * len(resolved)), layout="constrained")
+    figure = Figure(figsize=(10, 0.4 + height * len(resolved)), layout=ConstrainedLayoutEngine(w_pad=0.15))
     panels = figure.subplots(len(resolved), 2, squeeze=False)
     kinds = (("pressure", "pressure, GPa", 1e-9, "magma"), ("gap", "gap, µm", 1e6, "cividis"))
     for column, (field, label, factor, colours) in zip(panels.T, kinds, strict=True):
@@ -111,7 +116,6 @@ VIEW = View(
         "mean_gap": "mean gap",
         "mean_contact_pressure": "mean pressure<br>in contact",
         "pressure_max": "greatest<br>pressure",
-        "approach": "approach",
     },
     plots=plots,
     groups=groups,

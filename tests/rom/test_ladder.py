@@ -6,9 +6,12 @@ import pytest
 import foamcases.models
 import rom.models
 from contact.errors import InputError
-from rom.ladder import Effect, best, find, ladder, one_effect_away
+from rom.kind import kinds
+from rom.ladder import Effect, best, find, ladder, of_kind, one_effect_away
 
-MODELS = ladder(rom.models, foamcases.models)
+ALL = ladder(rom.models, foamcases.models)
+MODELS = of_kind(ALL, "pocket")
+CONTACTS = of_kind(ALL, "dry_contact")
 NEEDS_OPENFOAM = [pytest.param(m, marks=pytest.mark.openfoam) if m.write else m for m in MODELS]
 
 
@@ -32,6 +35,27 @@ def test_the_lattice():
         ("stokes", "navier_stokes"): Effect.INERTIA,
     }
     assert best(MODELS).name == "navier_stokes"
+
+
+def test_the_lattice_of_contacts():
+    assert [model.name for model in CONTACTS] == [
+        "greenwood_williamson",
+        "elastic",
+        "bearing_area",
+        "persson",
+        "elastic_plastic",
+    ]
+    steps = {(a.name, b.name): effect for a in CONTACTS for b, effect in one_effect_away(a, CONTACTS)}
+    assert steps == {
+        ("elastic", "elastic_plastic"): Effect.PLASTICITY,
+        ("bearing_area", "elastic_plastic"): Effect.DEFORMATION,
+    }
+    assert best(CONTACTS).name == "elastic_plastic"
+
+
+def test_every_model_solves_a_kind_of_scene_and_has_a_name_of_its_own():
+    assert {model.kind for model in ALL} == set(kinds())
+    assert len({model.name for model in ALL}) == len(ALL)
 
 
 def test_an_unknown_name_is_refused_with_the_known_ones():

@@ -42,8 +42,12 @@ def one_line(text: str) -> str:
 def test_models():
     result = run("models", "--json")
     assert result.exit_code == 0
-    names = [model["name"] for model in json.loads(result.stdout)["models"]]
-    assert names == ["reynolds", "inertial_reynolds", "film", "stokes", "film_slope", "navier_stokes"]
+    told = json.loads(result.stdout)["models"]
+    names = {kind: [model["name"] for model in told if model["kind"] == kind] for kind in ("pocket", "dry_contact")}
+    assert names == {
+        "pocket": ["reynolds", "inertial_reynolds", "film", "stokes", "film_slope", "navier_stokes"],
+        "dry_contact": ["greenwood_williamson", "elastic", "bearing_area", "persson", "elastic_plastic"],
+    }
     assert "inertial" in run("models").stdout
 
 
