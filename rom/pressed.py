@@ -6,7 +6,6 @@ from functools import cache, partial
 
 import numpy as np
 
-from contact.mechanics.press import TOLERANCE, Press
 from contact.units import Quantity
 from rom.contact_rung import Answer, Task, contact_model, one
 from rom.dry_contact import DryContact
@@ -17,8 +16,14 @@ from rom.result import Field
 RESIDUAL_MEANING = "largest break of the conditions of contact, computed afresh, relative to the rms height"
 
 
+TOLERANCE = 1e-8
+"""Of the residual."""
+
+
 def prepare(task: Task) -> None:
     """Compile the kernels and plan the transforms, which is done once on a machine."""
+    from contact.mechanics.press import Press  # numba is slow to import
+
     _compile()
     Press(task.heights, task.spacing, task.scene.composite_modulus)
 
@@ -26,12 +31,16 @@ def prepare(task: Task) -> None:
 @cache
 def _compile() -> None:
     """Press a wave on a small grid."""
+    from contact.mechanics.press import Press
+
     wave = np.cos(2 * np.pi * np.arange(8) / 8)
     Press(np.outer(wave, wave), (1.0, 1.0), 1.0).at(0.05)
 
 
 def press(task: Task, *, plastic: bool) -> Answer:
     """The contact of a scene, its hardness left out if it is to stay elastic."""
+    from contact.mechanics.press import Press
+
     scene = task.scene
     hardness = scene.hardness if plastic else math.inf
     found = Press(task.heights, task.spacing, scene.composite_modulus, hardness=hardness).at(

@@ -2,7 +2,6 @@
 
 from contact.errors import InputError
 from contact.mechanics.estimate import Estimate
-from contact.mechanics.greenwood_williamson import greenwood_williamson
 from contact.mechanics.moments import wave_power
 from rom.contact_rung import Task
 from rom.estimated import estimated_model
@@ -11,6 +10,8 @@ from rom.ladder import Effect
 
 def guess(task: Task) -> Estimate:
     """The estimate from the spectral moments of the heights at hand; InputError for a flat surface."""
+    from contact.mechanics.greenwood_williamson import greenwood_williamson  # scipy is slow to import
+
     scene = task.scene
     own = task.heights.shape == scene.surface().shape
     spectrum = scene.spectrum() if own else wave_power(task.heights, task.spacing)

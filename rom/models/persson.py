@@ -3,7 +3,6 @@
 from contact.errors import InputError
 from contact.mechanics.estimate import Estimate
 from contact.mechanics.moments import wave_power
-from contact.mechanics.persson import persson
 from rom.contact_rung import Task
 from rom.estimated import estimated_model
 from rom.ladder import Effect
@@ -11,6 +10,8 @@ from rom.ladder import Effect
 
 def guess(task: Task) -> Estimate:
     """The estimate from the spectrum of the heights at hand; InputError for a flat surface."""
+    from contact.mechanics.persson import persson  # scipy is slow to import
+
     scene = task.scene
     own = task.heights.shape == scene.surface().shape
     spectrum = scene.spectrum() if own else wave_power(task.heights, task.spacing)

@@ -60,24 +60,19 @@ def test_every_way_to_go_wrong_is_told(monkeypatch):
     assert tried(replace(probe, load=-1.0, expected="refused")).state is State.REFUSED
     assert tried(replace(probe, expected="refused")).state is State.WRONG
 
-    class Press(stability_contact.Press):
-        mode = "stall"
+    found = stability_contact.pressed(probe)
 
-        def at(self, load, **options):
-            if self.mode == "stall":
-                raise ConvergenceError("contact: stalled", outcome=Outcome.STALLED, iterations=7)
-            found = super().at(load, **options)
-            if self.mode == "slow":
-                return replace(found, iterations=101)
-            return replace(found, pressure=np.full(found.pressure.shape, load))
+    def stalls(_probe):
+        raise ConvergenceError("contact: stalled", outcome=Outcome.STALLED, iterations=7)
 
-    monkeypatch.setattr(stability_contact, "Press", Press)
+    monkeypatch.setattr(stability_contact, "pressed", stalls)
     stalled = tried(probe)
     assert (stalled.state, stalled.iterations) == (State.STALLED, 7)
     assert "Stalled: g: r, c (7 iterations): contact: stalled" in told([stalled])
-    Press.mode = "slow"
+    monkeypatch.setattr(stability_contact, "pressed", lambda _probe: replace(found, iterations=101))
     assert tried(probe).state is State.SLOW
-    Press.mode = "lie"
+    even = np.full(found.pressure.shape, probe.load)
+    monkeypatch.setattr(stability_contact, "pressed", lambda _probe: replace(found, pressure=even))
     assert tried(probe).state is State.WRONG
 
 
