@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-
 from rich.markup import escape
 
 from contact.errors import ConvergenceError

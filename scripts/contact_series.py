@@ -105,7 +105,12 @@ def command(
             series = estimated(at, inputs, asked, shown, out)
         told = _told(rung, rough, settings, series)
         told["numerics"] |= {"cpu_s": sum(os.times()[:4]) - cpu, "wall_s": time.perf_counter() - started}
-    _tell(surface.name, told, series, out, as_json)
+        if report is not None:
+            from scripts.contact_page import write_page  # matplotlib is slow to import
+
+            advance(len(asked), "drawing the page")
+            write_page(surface.name, told, series, [cells(row) for row in series.rows], report)
+    _tell(surface.name, told, series, [path for path in (out, report) if path is not None], as_json)
 
 
 def _solid(prefix: str, modulus: str, poisson: float, hardness: str | None = None) -> Solid:
@@ -197,20 +202,20 @@ def _index(row: Row) -> float:
     return row.plastic_fraction / pixels if pixels else 0.0
 
 
-def _tell(name: str, told: dict[str, Any], series: Series, out: Path | None, as_json: bool) -> None:
+def _tell(name: str, told: dict[str, Any], series: Series, written: list[Path], as_json: bool) -> None:
     if as_json:
         print_json(told)
     else:
-        output.print(table_of(name, series.rows))
-        if out is not None:
-            output.print(f"written: {escape(str(out))}", soft_wrap=True)
+        output.print(_table_of(name, series.rows))
+        for path in written:
+            output.print(f"written: {escape(str(path))}", soft_wrap=True)
     if series.found:
         messages.print(f"found: {series.found} of {len(series.rows)} loads, not solved again", soft_wrap=True)
     for warning in told["provenance"]["warnings"]:
         messages.print(f"[yellow]warning:[/] {escape(warning)}", soft_wrap=True)
 
 
-def table_of(name: str, rows: tuple[Row, ...]) -> Table:
+def _table_of(name: str, rows: tuple[Row, ...]) -> Table:
     """The series as people read it."""
     table = Table("load, MPa", "area, %", "plastic, %", "mean gap, µm", "p max, MPa", "iterations", title=escape(name))
     for column in table.columns:

@@ -218,10 +218,9 @@ def _arrays(contact: Contact) -> dict[str, Array]:
 
 
 def _row(attributes: Mapping[str, Any]) -> Row:
-    numbers: dict[str, Any] = {entry.name: float(attributes[entry.name]) for entry in fields(Row)}
-    told = {name: None if math.isnan(number) else number for name, number in numbers.items()}
-    if told["iterations"] is not None:
-        told["iterations"] = int(told["iterations"])
+    numbers = {entry.name: float(attributes[entry.name]) for entry in fields(Row)}
+    told: dict[str, Any] = {name: None if math.isnan(number) else number for name, number in numbers.items()}
+    told["iterations"] = None if told["iterations"] is None else int(told["iterations"])
     return Row(**told)
 
 

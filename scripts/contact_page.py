@@ -1,0 +1,52 @@
+"""The page of a series of contacts."""
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from scripts import contact_figures
+from scripts.contact_run import Series
+from scripts.pages import render
+
+MODELS = {
+    "bearing_area": "What stands above a plane is cut off and bears the hardness; nothing else moves.",
+    "greenwood_williamson": "Spherical asperities that do not feel each other, from the moments of the spectrum.",
+    "persson": "Pressures that spread as roughness is added, from the spectrum.",
+    "elastic": "Elastic half-space, solved at every point; no limit to the pressure.",
+    "elastic_plastic": "Elastic half-space, perfectly plastic where the pressure reaches the hardness, "
+    "solved at every point.",
+}
+
+
+def write_page(name: str, told: Mapping[str, Any], series: Series, rows: list[tuple[str, ...]], path: Path) -> None:
+    """Write the page; InputError if the file cannot be written.
+
+    Parameters
+    ----------
+    told : the object of ``--json``.
+    rows : the table, as people read it.
+    """
+    last, settings = series.last, told["provenance"]["settings"]
+    hardness = settings["hardness"] or math.inf
+    line = last is not None and 1 in last.heights.shape
+    render(
+        "contact.html.j2",
+        path,
+        name=name,
+        settings=settings,
+        meaning=MODELS[settings["model"]],
+        quantities=told["quantities"],
+        numerics=told["numerics"],
+        warnings=told["provenance"]["warnings"],
+        rows=rows,
+        last=series.rows[-1],
+        line=line,
+        section_at=None if last is None or line else contact_figures.section_row(last) * last.spacing[1],
+        areas=contact_figures.areas(series.rows),
+        gaps=contact_figures.mean_gaps(series.rows),
+        maps=None if last is None or line else contact_figures.maps(last),
+        pressures=contact_figures.pressures(series.spreads, hardness),
+        section=None if last is None else contact_figures.section(last),
+        provenance=told["provenance"],
+    )
