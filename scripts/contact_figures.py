@@ -74,19 +74,23 @@ def pressures(spreads: Sequence[Spread], hardness: float) -> str:
     drawn = [spread for spread in spreads if spread.density.any()]
     if not drawn:
         return ""
-    figure, axes = _small()
+    figure = Figure(figsize=(11, 3.6), layout="constrained")
+    axes = figure.add_subplot()
     colours = mpl.colormaps["viridis"](np.linspace(0.0, 0.85, len(drawn)))
     for spread, colour in zip(drawn, colours, strict=True):
         density = np.where(spread.density > 0, spread.density, np.nan) * 1e9
-        axes.plot(spread.pressure / 1e9, density, color=colour, label=f"{spread.load / 1e6:.3g} MPa", linewidth=1.4)
+        axes.plot(
+            spread.pressure / 1e9, density, ".-", color=colour, label=f"{float(f'{spread.load / 1e6:.3g}'):g} MPa"
+        )
     if math.isfinite(hardness):
         axes.axvline(hardness / 1e9, color="black", linestyle=":", linewidth=1)
     top = max(float(spread.density.max()) for spread in drawn) * 1e9
     axes.set_yscale("log")
-    axes.set_ylim(top * 1e-5, top * 3)
+    axes.set_ylim(bottom=max(axes.get_ylim()[0], top * 1e-6))
+    axes.set_xlim(left=0)
     axes.set_xlabel("pressure, GPa" + (" (dotted: hardness)" if math.isfinite(hardness) else ""))
-    axes.set_ylabel("density of the nominal area, 1/GPa")
-    axes.legend(fontsize=8)
+    axes.set_ylabel("density of the\nnominal area, 1/GPa")
+    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), title="load")
     return svg(figure)
 
 

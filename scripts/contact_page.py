@@ -18,15 +18,22 @@ MODELS = {
     "solved at every point.",
 }
 
+COLUMNS = (
+    ("load", "MPa", "load", 1e-6),
+    ("area", "%", "area_fraction", 100),
+    ("in pixels", "%", "area_fraction_pixel", 100),
+    ("plastic", "%", "plastic_fraction", 100),
+    ("mean gap", "µm", "mean_gap", 1e6),
+    ("approach", "µm", "approach", 1e6),
+    ("p max", "MPa", "pressure_max", 1e-6),
+    ("broken by", "rms heights", "complementarity", 1),
+    ("iterations", "", "iterations", 1),
+    ("CPU", "s", "cpu_s", 1),
+)
 
-def write_page(name: str, told: Mapping[str, Any], series: Series, rows: list[tuple[str, ...]], path: Path) -> None:
-    """Write the page; InputError if the file cannot be written.
 
-    Parameters
-    ----------
-    told : the object of ``--json``.
-    rows : the table, as people read it.
-    """
+def write_page(name: str, told: Mapping[str, Any], series: Series, path: Path) -> None:
+    """Write the page of a series and of what ``--json`` told; InputError if the file cannot be written."""
     last, settings = series.last, told["provenance"]["settings"]
     hardness = settings["hardness"] or math.inf
     line = last is not None and 1 in last.heights.shape
@@ -39,7 +46,8 @@ def write_page(name: str, told: Mapping[str, Any], series: Series, rows: list[tu
         quantities=told["quantities"],
         numerics=told["numerics"],
         warnings=told["provenance"]["warnings"],
-        rows=rows,
+        columns=[(head, unit) for head, unit, _, _ in COLUMNS],
+        rows=[[_cell(getattr(row, field), factor) for _, _, field, factor in COLUMNS] for row in series.rows],
         last=series.rows[-1],
         line=line,
         section_at=None if last is None or line else contact_figures.section_row(last) * last.spacing[1],
@@ -50,3 +58,7 @@ def write_page(name: str, told: Mapping[str, Any], series: Series, rows: list[tu
         section=None if last is None else contact_figures.section(last),
         provenance=told["provenance"],
     )
+
+
+def _cell(value: float | None, factor: float) -> str:
+    return "–" if value is None else f"{value * factor:.4g}"

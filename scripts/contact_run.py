@@ -16,7 +16,7 @@ from contact.mechanics.press import Press
 from contact.surface import Array
 from scripts.common import messages
 
-BINS = 80
+FEWEST_BINS, MOST_BINS = 5, 60
 """Of a histogram of pressures."""
 
 
@@ -131,13 +131,14 @@ def estimated(
 
 
 def _spread(contact: Contact) -> Spread:
-    """A histogram of the pressures above 0 and below H."""
+    """A histogram of the pressures above 0 and below H, with more bins the more points there are."""
     inside = contact.pressure[contact.in_contact & ~contact.plastic]
-    top = float(contact.pressure.max())
-    count, edges = np.histogram(inside, bins=BINS, range=(0.0, top))
-    width = top / BINS
+    bins = min(max(int(inside.size**0.5), FEWEST_BINS), MOST_BINS)
+    count, edges = np.histogram(inside, bins=bins, range=(0.0, float(contact.pressure.max())))
     return Spread(
-        load=contact.load, pressure=(edges[:-1] + edges[1:]) / 2, density=count / contact.pressure.size / width
+        load=contact.load,
+        pressure=(edges[:-1] + edges[1:]) / 2,
+        density=count / contact.pressure.size / (edges[1] - edges[0]),
     )
 
 

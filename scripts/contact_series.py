@@ -109,7 +109,7 @@ def command(
             from scripts.contact_page import write_page  # matplotlib is slow to import
 
             advance(len(asked), "drawing the page")
-            write_page(surface.name, told, series, [cells(row) for row in series.rows], report)
+            write_page(surface.name, told, series, report)
     _tell(surface.name, told, series, [path for path in (out, report) if path is not None], as_json)
 
 
@@ -221,11 +221,11 @@ def _table_of(name: str, rows: tuple[Row, ...]) -> Table:
     for column in table.columns:
         column.justify = "right"
     for row in rows:
-        table.add_row(*cells(row))
+        table.add_row(*_cells(row))
     return table
 
 
-def cells(row: Row) -> tuple[str, ...]:
+def _cells(row: Row) -> tuple[str, ...]:
     """A row in MPa, per cent and µm."""
     told = (
         (row.load, 1e-6),
