@@ -33,8 +33,11 @@ WHOLE_STEP = 0.6
 SUM = 1e-14
 """The sum of pressures is kept to this part of it in every step."""
 
-BETTER, PATIENCE = 0.9, 100
+BETTER, PATIENCE = 0.9, 500
 """A violation that has not fallen to this part of the least one in so many iterations has stalled."""
+
+JAMMED = 10
+"""After so many iterations without a better one, as many steps go down the gradient, then conjugate ones again."""
 
 SHORTEST, LONGEST = 0.2, 3.0
 """Trial lengths α stay between these; 1 is exact where every node is in contact."""
@@ -54,8 +57,8 @@ def plane_of(pressure: Array, gap: Array, hardness: float) -> float:
 def violation_of(pressure: Array, gap: Array, plane: float, hardness: float) -> float:
     """The worst of |g − g00| where 0 < p < H, g00 − g where p = 0 and g − g00 where p = H."""
     difference = gap - plane
-    wrong = np.where(pressure <= 0, -difference, np.where(pressure >= hardness, difference, np.abs(difference)))
-    return max(float(wrong.max()), 0.0)
+    worst = np.max(-difference, where=pressure < hardness, initial=0.0)
+    return float(max(worst, np.max(difference, where=pressure > 0, initial=0.0)))
 
 
 class _Search:
@@ -123,6 +126,7 @@ class _Search:
     def descend(self) -> None:
         """Point ``move`` down the gradient, by the length of Barzilai and Borwein."""
         length = self.square / self.curvature if self.curvature > 0 else 1.0
+        self.length = 1.0
         self.pieces.over_free(kernels.descend, length, self.residual, self.move)
 
     def step(self) -> bool:
@@ -172,8 +176,8 @@ class _Search:
         while True:
             found = self.pieces.over_free(kernels.excess, shift, self.held, self.hardness, self.move, out=True)
             excess, within = float(found[:, 0].sum()), int(found[:, 1].sum())
-            if within == self.free and shift == 0:
-                return 0.0, False
+            if within == self.free:
+                return shift - excess / within, False
             if abs(excess) <= SUM * self.sum:
                 return shift, True
             if excess > 0:
@@ -209,9 +213,9 @@ def minimise(
     ----------
     half_space : K, for E* = 1.
     heights : h, flat, the gap of the undeformed surface; infinite where there is none.
-    start : flat; it is not changed.
+    start : flat; it becomes the pressure found.
     hardness : H, for E* = 1.
-    tolerance : of the violation, in the unit of h.
+    tolerance : of the violation, in the unit of h, the rms height.
 
     Returns
     -------
@@ -222,7 +226,7 @@ def minimise(
     ConvergenceError
         If the violation stays above the tolerance, with how far it came.
     """
-    search = _Search(half_space, heights, start.copy(), hardness, pieces)
+    search = _Search(half_space, heights, start, hardness, pieces)
     refreshed = best = math.inf
     since = 0
     outcome = Outcome.UNFINISHED
@@ -238,7 +242,8 @@ def minimise(
         if iteration - since > PATIENCE:
             outcome = Outcome.STALLED
             break
-        if not (search.conjugate() and search.step()):
+        jammed = (iteration - since) // JAMMED % 2 == 1
+        if jammed or not (search.conjugate() and search.step()):
             search.descend()
             if not search.step():
                 outcome = Outcome.STALLED
@@ -246,7 +251,7 @@ def minimise(
         search.search()
     raise ConvergenceError(
         f"contact: {outcome} after {iteration} iterations with the conditions of contact broken by {best:.2g} "
-        f"of the unit of height, above {tolerance:.2g}; ask for a looser tolerance or a smoother surface",
+        f"of the rms height, above {tolerance:.2g}; ask for a looser tolerance or resolve the surface better",
         outcome=outcome,
         iterations=iteration,
     )
