@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from contact.mechanics.contact import Contact
 from contact.mechanics.contact_store import Row
 from contact.surface import Array
-from scripts.contact_run import Spread
+from scripts.contact_run import MOST_BINS, Spread
 from scripts.figures import svg
 
 MOST_PIXELS = 640
@@ -80,7 +80,11 @@ def pressures(spreads: Sequence[Spread], hardness: float) -> str:
     for spread, colour in zip(drawn, colours, strict=True):
         density = np.where(spread.density > 0, spread.density, np.nan) * 1e9
         axes.plot(
-            spread.pressure / 1e9, density, ".-", color=colour, label=f"{float(f'{spread.load / 1e6:.3g}'):g} MPa"
+            spread.pressure / 1e9,
+            density,
+            ".-" if density.size <= MOST_BINS else "-",
+            color=colour,
+            label=f"{float(f'{spread.load / 1e6:.3g}'):g} MPa",
         )
     if math.isfinite(hardness):
         axes.axvline(hardness / 1e9, color="black", linestyle=":", linewidth=1)

@@ -36,6 +36,7 @@ def write_page(name: str, told: Mapping[str, Any], series: Series, path: Path) -
     """Write the page of a series and of what ``--json`` told; InputError if the file cannot be written."""
     last, settings = series.last, told["provenance"]["settings"]
     hardness = settings["hardness"] or math.inf
+    shown = [column for column in COLUMNS if any(getattr(row, column[2]) is not None for row in series.rows)]
     line = last is not None and 1 in last.heights.shape
     render(
         "contact.html.j2",
@@ -46,8 +47,8 @@ def write_page(name: str, told: Mapping[str, Any], series: Series, path: Path) -
         quantities=told["quantities"],
         numerics=told["numerics"],
         warnings=told["provenance"]["warnings"],
-        columns=[(head, unit) for head, unit, _, _ in COLUMNS],
-        rows=[[_cell(getattr(row, field), factor) for _, _, field, factor in COLUMNS] for row in series.rows],
+        columns=[(head, unit) for head, unit, _, _ in shown],
+        rows=[[_cell(getattr(row, field), factor) for _, _, field, factor in shown] for row in series.rows],
         last=series.rows[-1],
         line=line,
         section_at=None if last is None or line else contact_figures.section_row(last) * last.spacing[1],

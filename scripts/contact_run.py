@@ -1,6 +1,7 @@
 """A series of contacts, load by load: each begins from the one before, and those already in the file are kept."""
 
-import os
+import math
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,7 +17,7 @@ from contact.mechanics.press import Press
 from contact.surface import Array
 from scripts.common import messages
 
-FEWEST_BINS, MOST_BINS = 5, 60
+FEWEST_POINTS, MOST_BINS = 50, 60
 """Of a histogram of pressures."""
 
 
@@ -72,7 +73,8 @@ def solved(
     stored = {} if out is None else finished(out, inputs)
     if out is not None and out.exists() and not stored:
         messages.print(f"{escape(str(out))}: holds something else, and is replaced", soft_wrap=True)
-    rows, spreads = [], []
+    rows: list[Row] = []
+    spreads: list[Spread] = []
     before: Contact | None = None
     holds, found = bool(stored), sum(load in stored for load in loads)
     try:
@@ -85,15 +87,15 @@ def solved(
             else:
                 if before is None and out is not None and done:
                     before = load_contact(out, loads[done - 1])
-                cpu = sum(os.times()[:4])
+                cpu = time.process_time()
                 before = _at(press, load, tolerance, before)
-                row = row_of(before, sum(os.times()[:4]) - cpu)
+                row = row_of(before, time.process_time() - cpu)
                 if out is not None:
                     add(out, inputs, row, before, to=holds)
                     holds = True
             rows.append(row)
             if load in shown and before is not None:
-                spreads.append(_spread(before))
+                spreads += _spread(before)
     except (KeyboardInterrupt, SystemExit):
         kept = "; the same command goes on" if out is not None else ", none kept without --out"
         messages.print(f"stopped: {len(rows)} of {len(loads)} loads{kept}", soft_wrap=True)
@@ -117,6 +119,7 @@ def estimated(
     out: Path | None,
 ) -> Series:
     """The rows of a statistical rung; they cost nothing, so that the file is made anew."""
+    hardness = inputs.settings["hardness"] or math.inf
     answers = [at(load) for load in loads]
     if out is not None:
         for number, (row, _) in enumerate(answers):
@@ -124,26 +127,28 @@ def estimated(
     return Series(
         rows=tuple(row for row, _ in answers),
         found=0,
-        spreads=tuple(spread for _, answer in answers if answer.load in shown for spread in _spread_of(answer)),
+        spreads=tuple(
+            spread for _, answer in answers if answer.load in shown for spread in _spread_of(answer, hardness)
+        ),
         last=None,
         untrusted=tuple(answer.load for _, answer in answers if not answer.trusted),
     )
 
 
-def _spread(contact: Contact) -> Spread:
+def _spread(contact: Contact) -> list[Spread]:
     """A histogram of the pressures above 0 and below H, with more bins the more points there are."""
     inside = contact.pressure[contact.in_contact & ~contact.plastic]
-    bins = min(max(int(inside.size**0.5), FEWEST_BINS), MOST_BINS)
+    if inside.size < FEWEST_POINTS:
+        return []
+    bins = min(int(inside.size**0.5), MOST_BINS)
     count, edges = np.histogram(inside, bins=bins, range=(0.0, float(contact.pressure.max())))
-    return Spread(
-        load=contact.load,
-        pressure=(edges[:-1] + edges[1:]) / 2,
-        density=count / contact.pressure.size / (edges[1] - edges[0]),
-    )
+    density = count / contact.pressure.size / (edges[1] - edges[0])
+    return [Spread(load=contact.load, pressure=(edges[:-1] + edges[1:]) / 2, density=density)]
 
 
-def _spread_of(answer: Estimate) -> list[Spread]:
+def _spread_of(answer: Estimate, hardness: float) -> list[Spread]:
+    """The density that a statistical rung gives, up to five times the mean pressure in contact."""
     if answer.pressure_density is None:
         return []
-    pressure = answer.mean_contact_pressure * np.linspace(0.01, 5.0, 200)
+    pressure = min(5 * answer.mean_contact_pressure, hardness) * np.linspace(0.005, 0.999, 200)
     return [Spread(load=answer.load, pressure=pressure, density=answer.pressure_density(pressure))]
