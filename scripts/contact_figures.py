@@ -99,7 +99,7 @@ def pressures(spreads: Sequence[Spread], hardness: float) -> str:
 
 
 def section(contact: Contact) -> str:
-    """Heights along a line through the largest pressure: undeformed, loaded, unloaded, and the plane."""
+    """Heights along a line through the largest pressure: undeformed, loaded, unloaded if plastic, and the plane."""
     figure = Figure(figsize=(11, 5.4), layout="constrained")
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1.3))
     row = section_row(contact)
@@ -107,7 +107,7 @@ def section(contact: Contact) -> str:
     plane = float(contact.heights.max()) - contact.approach
     lines = (
         (contact.heights, "undeformed", BEFORE, 1.0),
-        (contact.unloaded_heights, "unloaded again", UNLOADED, 1.2),
+        *([(contact.unloaded_heights, "unloaded again", UNLOADED, 1.2)] if contact.plastic.any() else []),
         (contact.loaded_heights, "under load", AREA, 1.2),
     )
     for heights, label, colour, width in lines:

@@ -7,6 +7,7 @@ from typing import Any
 
 from scripts import contact_figures
 from scripts.contact_run import Series
+from scripts.contact_series import digits
 from scripts.pages import render
 
 MODELS = {
@@ -62,4 +63,4 @@ def write_page(name: str, told: Mapping[str, Any], series: Series, path: Path) -
 
 
 def _cell(value: float | None, factor: float) -> str:
-    return "–" if value is None else f"{value * factor:.4g}"
+    return "–" if value is None else digits(value * factor)

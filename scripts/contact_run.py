@@ -17,7 +17,7 @@ from contact.mechanics.press import Press
 from contact.surface import Array
 from scripts.common import messages
 
-FEWEST_POINTS, MOST_BINS = 50, 60
+FEWEST_POINTS, MOST_BINS = 25, 60
 """Of a histogram of pressures."""
 
 

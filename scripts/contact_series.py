@@ -172,7 +172,8 @@ def _told(rung: Model, rough: Rough, settings: dict[str, Any], series: Series) -
     warnings = list(rough.warnings)
     if series.untrusted:
         few = f"{len(series.untrusted)} of {len(series.rows)} loads lie outside the range where {rung} is trusted"
-        warnings.append(f"{few}; compare with --model elastic")
+        better = Model.ELASTIC if settings["hardness"] is None else Model.ELASTIC_PLASTIC
+        warnings.append(f"{few}; compare with --model {better}")
     return {
         "series": [asdict(row) for row in series.rows],
         "units": {name: UNITS.get(name, "1") for name in asdict(last)},
@@ -235,7 +236,12 @@ def _cells(row: Row) -> tuple[str, ...]:
         (row.pressure_max, 1e-6),
         (row.iterations, 1),
     )
-    return tuple("-" if value is None else f"{value * factor:.4g}" for value, factor in told)
+    return tuple("-" if value is None else digits(value * factor) for value, factor in told)
+
+
+def digits(value: float) -> str:
+    """Four digits, and no power of ten below a million."""
+    return f"{value:.0f}" if 1e4 <= abs(value) < 1e6 else f"{value:.4g}"
 
 
 if __name__ == "__main__":

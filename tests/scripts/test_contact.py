@@ -106,7 +106,7 @@ def test_the_file_holds_fields_that_balance_the_load(rough, tmp_path):
         for row in answer["series"]:
             group = file[f"loads/{row['load']!r}"]
             pressure, gap = group["pressure"][()], group["gap"][()]
-            assert pressure.mean() == pytest.approx(row["load"], rel=1e-8)
+            assert pressure.mean() == pytest.approx(row["load"], rel=1e-12)
             assert np.all((pressure == 0) | (gap == 0))
             assert np.count_nonzero(pressure == 4e9) == row["plastic_fraction"] * pressure.size
 

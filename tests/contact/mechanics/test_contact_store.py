@@ -59,7 +59,7 @@ def test_other_programs_find_columns_and_units(file, contacts):
         assert list(gaps[()]) == [contacts[1].gap.mean(), contacts[0].gap.mean()]
         assert stored["loads/30000000.0/pressure"].attrs["unit"] == "Pa"
         mean = stored["loads/30000000.0/pressure"][()].mean()
-        assert mean == pytest.approx(3e7, rel=1e-8)
+        assert mean == pytest.approx(3e7, rel=1e-12)
 
 
 def test_an_elastic_contact_keeps_its_hardness(tmp_path, heights):
