@@ -175,13 +175,13 @@ def test_killed_at_any_moment_it_goes_on(tmp_path):
 
 
 def test_people_get_a_table_and_a_page(rough, tmp_path):
-    done = run(rough, *PLASTIC, "--loads", "100MPa,1GPa", "--report", tmp_path / "page.html")
+    done = run(rough, *STEEL, "--hardness", "40GPa", "--loads", "100MPa,4GPa", "--report", tmp_path / "page.html")
     assert done.exit_code == 0
     assert re.search(r"│\s+100 │", done.stdout)
     assert f"written: {tmp_path / 'page.html'}" in done.stdout
     page = (tmp_path / "page.html").read_text()
     assert page.count("<svg") == 5
-    for title in ("Area", "Mean gap", "Pressure and gap at 1 GPa", "Section at 1 GPa", "Pressures", "Numbers"):
+    for title in ("Area", "Mean gap", "Pressure and gap at 4 GPa", "Section at 4 GPa", "Pressures", "Numbers"):
         assert f"<h2>{title}</h2>" in page
     assert not re.search(r'(src|href)="http', page)
 
