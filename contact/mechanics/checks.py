@@ -1,0 +1,31 @@
+"""What the arguments of contact mechanics must be; whatever is wrong is told in one line."""
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from contact.errors import InputError
+from contact.surface import Array
+
+
+def positive(place: str, value: float) -> float:
+    """The number, if it is finite and above 0; InputError otherwise."""
+    if isinstance(value, bool) or not isinstance(value, int | float) or not 0 < value < math.inf:
+        raise InputError(f"{place}: got {value!r}; give a finite number above 0")
+    return float(value)
+
+
+def not_negative(place: str, value: float) -> float:
+    """The number, if it is finite and 0 or above; InputError otherwise."""
+    if isinstance(value, bool) or not isinstance(value, int | float) or not 0 <= value < math.inf:
+        raise InputError(f"{place}: got {value!r}; give a finite number, 0 or above")
+    return float(value)
+
+
+def finite(place: str, values: ArrayLike) -> Array:
+    """The numbers, any shape, if all are finite; InputError otherwise."""
+    array = np.asarray(values, dtype=np.float64)
+    if not np.isfinite(array).all():
+        raise InputError(f"{place}: got a number that is not finite; give finite ones")
+    return array

@@ -1,0 +1,252 @@
+"""Pressures between 0 and H of a given sum that cost least: projected conjugate gradients, preconditioned by |q|.
+
+Minimise ½ p·K p + p·h under 0 ≤ p ≤ H and Σp = N W. On the free nodes, whose pressure may change, the residual
+r = h + K p − g00 must vanish. Each iteration takes z = |q| r, makes d = −z + b s conjugate to the last step s, steps
+along d within the bounds, s = clip(p + α d + λ) − p with λ such that the sum keeps, and searches the line p + t s
+exactly. K s is the only displacement computed: it serves the search, the update of the gap and the next b, so that an
+iteration costs two pairs of transforms. Where s would not go downhill, a step down the gradient itself does, of the
+length of Barzilai and Borwein.
+
+Steps shrink as they converge, and so do the errors of their images: single precision is enough for transforms as long
+as the gap is computed afresh, in double precision, now and then.
+
+Source: I. A. Polonsky, L. M. Keer, Wear 231 (1999) 206, doi:10.1016/S0043-1648(99)00113-1, for the projection in
+elastic contact; the preconditioner, the bounds on both sides and the search are as said above.
+"""
+
+import math
+
+import numpy as np
+
+from contact.errors import ConvergenceError, Outcome
+from contact.mechanics import kernels
+from contact.mechanics.half_space import HalfSpace
+from contact.mechanics.pieces import Pieces
+from contact.surface import Array
+
+REFRESH = 1e-4
+"""The gap is computed afresh each time its violation has fallen by this factor."""
+
+WHOLE_STEP = 0.6
+"""A step that the bounds cut short is taken whole if the least energy lies beyond this part of it."""
+
+SUM = 1e-14
+"""The sum of pressures is kept to this part of it in every step."""
+
+BETTER, PATIENCE = 0.9, 100
+"""A violation that has not fallen to this part of the least one in so many iterations has stalled."""
+
+SHORTEST, LONGEST = 0.2, 3.0
+"""Trial lengths α stay between these; 1 is exact where every node is in contact."""
+
+
+def plane_of(pressure: Array, gap: Array, hardness: float) -> float:
+    """g00: the mean gap where 0 < p < H; with no such node, the middle between nodes at H and nodes at 0."""
+    inside = (pressure > 0) & (pressure < hardness)
+    if inside.any():
+        return float(gap[inside].mean())
+    at_hardness, off = gap[pressure >= hardness], gap[pressure <= 0]
+    if at_hardness.size == 0 or off.size == 0:
+        return float(at_hardness.max() if at_hardness.size else off.min())
+    return float(at_hardness.max() + off.min()) / 2
+
+
+def violation_of(pressure: Array, gap: Array, plane: float, hardness: float) -> float:
+    """The worst of |g − g00| where 0 < p < H, g00 − g where p = 0 and g − g00 where p = H."""
+    difference = gap - plane
+    wrong = np.where(pressure <= 0, -difference, np.where(pressure >= hardness, difference, np.abs(difference)))
+    return max(float(wrong.max()), 0.0)
+
+
+class _Search:
+    """One minimisation: the arrays it works on, and the steps of an iteration."""
+
+    def __init__(self, half_space: HalfSpace, heights: Array, pressure: Array, hardness: float, pieces: Pieces) -> None:
+        self.half_space, self.heights, self.pressure, self.hardness = half_space, heights, pressure, hardness
+        self.pieces = pieces
+        self.index = np.empty(heights.size, dtype=np.int32)
+        self.residual = np.empty(heights.size, dtype=np.float32)
+        self.move = np.empty(heights.size, dtype=np.float32)
+        self.taken = np.empty(heights.size, dtype=np.float32)
+        self.move_image = np.empty(heights.size, dtype=np.float32)
+        self.held = np.empty(heights.size)
+        self.sum = float(pressure.sum())
+        self.length = 1.0
+        self.slide = 0.0
+        self.fraction = 0.0
+        self.curvature = 0.0
+        self.square = 0.0
+        self.refresh()
+
+    def refresh(self) -> None:
+        """The gap over its plane from the pressure, in double precision, kept in single."""
+        displacement = self.half_space.displacement(self.pressure.reshape(self.half_space.shape)).reshape(-1)
+        displacement += self.heights
+        displacement -= plane_of(self.pressure, displacement, self.hardness)
+        self.gap = displacement.astype(np.float32)
+        self.plane = self.fraction = 0.0
+
+    def free_nodes(self) -> float:
+        """Bring the gap up to date, list the free nodes with their residual, and return the largest."""
+        half_space, pieces = self.half_space, self.pieces
+        found = pieces.over_all(
+            kernels.advance,
+            *(self.fraction, half_space.image, self.gap, self.plane, self.pressure, self.hardness),
+            *(half_space.source, self.index, self.residual, self.held),
+            out=True,
+        )
+        pieces.ends = [int(end) for end in found[:, 0]]
+        self.free = sum(end - low for end, (low, _) in zip(pieces.ends, pieces.ranges, strict=True))
+        worst = float(found[:, 2].max())
+        if self.free:
+            self.mean = float(found[:, 1].sum()) / self.free
+            pieces.over_free(kernels.centre, self.mean, half_space.source, self.index, self.residual)
+        return worst
+
+    def conjugate(self) -> bool:
+        """Point ``move`` along z = |q| r made conjugate to the last step; False if that is not downhill."""
+        half_space, pieces = self.half_space, self.pieces
+        half_space.precondition()
+        z, s, k, zk, zr, sr = pieces.over_free(
+            kernels.products,
+            *(half_space.source, half_space.step, half_space.image),
+            *(self.index, self.residual, self.move, self.taken),
+            out=True,
+        ).sum(axis=0)
+        z_mean, s_mean = z / self.free, s / self.free
+        b = (zk - z_mean * k) / self.curvature if self.curvature > 0 else 0.0
+        if b * sr >= zr:
+            b = 0.0
+        pieces.over_free(kernels.direct, self.length, z_mean, b, s_mean, self.move, self.taken)
+        return bool(zr > 0)
+
+    def descend(self) -> None:
+        """Point ``move`` down the gradient, by the length of Barzilai and Borwein."""
+        length = self.square / self.curvature if self.curvature > 0 else 1.0
+        self.pieces.over_free(kernels.descend, length, self.residual, self.move)
+
+    def step(self) -> bool:
+        """Step along ``move`` within the bounds, keeping the sum; whether that goes downhill."""
+        half_space = self.half_space
+        self.slide, self.cut = self._shift()
+        half_space.step[:] = 0
+        found = self.pieces.over_free(
+            kernels.displace,
+            *(self.slide, self.held, self.hardness, self.index, self.move, self.residual, self.taken, half_space.step),
+            out=True,
+        )
+        self.slope, self.room = float(found[:, 0].sum()), float(found[:, 1].min())
+        return self.slope < 0
+
+    def search(self) -> None:
+        """Go along the step to the least energy and change the pressure."""
+        half_space, pieces = self.half_space, self.pieces
+        half_space.displace()
+        found = pieces.over_free(kernels.curvature, half_space.image, self.index, self.taken, self.move_image, out=True)
+        self.curvature, self.square = (float(total) for total in found[:, :2].sum(axis=0))
+        best = -self.slope / self.curvature if self.curvature > 0 else 1.0
+        if self.cut:
+            self.fraction = 1.0 if best > WHOLE_STEP else best
+            best = min(max(best, 0.5), 1.5)
+        else:
+            self.fraction = min(best, self.room)
+        self.length = min(max(self.length * best, SHORTEST), LONGEST)
+        found = pieces.over_free(
+            kernels.press_on,
+            *(self.fraction, self.slide, self.held, self.hardness, self.index, self.move, self.residual),
+            *(self.move_image, self.pressure),
+            out=True,
+        )
+        total, inside = found[:, :2].sum(axis=0)
+        if inside:
+            self.plane += self.mean + float(total / inside)
+        else:
+            self.refresh()
+
+    def _shift(self) -> tuple[float, bool]:
+        """λ with Σ clip(p + move + λ) = Σp over the free nodes, by Newton's method, and whether a bound cuts a node.
+
+        The sum grows with λ and is straight between kinks, so that Newton's method ends on the root itself.
+        """
+        shift, low, high = 0.0, -math.inf, math.inf
+        while True:
+            found = self.pieces.over_free(kernels.excess, shift, self.held, self.hardness, self.move, out=True)
+            excess, within = float(found[:, 0].sum()), int(found[:, 1].sum())
+            if within == self.free and shift == 0:
+                return 0.0, False
+            if abs(excess) <= SUM * self.sum:
+                return shift, True
+            if excess > 0:
+                high = shift
+            else:
+                low = shift
+            if within:
+                new = shift - excess / within
+            elif excess > 0:
+                new = shift - (float(found[:, 3].min()) - self.hardness) * (1 + 1e-12)
+            else:
+                new = shift - float(found[:, 2].max()) * (1 + 1e-12)
+            if not low < new < high:
+                new = (low + high) / 2
+            if new in (low, high, shift) or not math.isfinite(new):
+                return shift, True
+            shift = new
+
+
+def minimise(
+    half_space: HalfSpace,
+    heights: Array,
+    start: Array,
+    hardness: float,
+    *,
+    tolerance: float,
+    most_iterations: int,
+    pieces: Pieces,
+) -> tuple[Array, int]:
+    """The pressure of least energy from a start that keeps the bounds and has the sum to keep.
+
+    Parameters
+    ----------
+    half_space : K, for E* = 1.
+    heights : h, flat, the gap of the undeformed surface; infinite where there is none.
+    start : flat; it is not changed.
+    hardness : H, for E* = 1.
+    tolerance : of the violation, in the unit of h.
+
+    Returns
+    -------
+    The pressure, flat, and how many iterations it took.
+
+    Raises
+    ------
+    ConvergenceError
+        If the violation stays above the tolerance, with how far it came.
+    """
+    search = _Search(half_space, heights, start.copy(), hardness, pieces)
+    refreshed = best = math.inf
+    since = 0
+    outcome = Outcome.UNFINISHED
+    for iteration in range(most_iterations + 1):
+        violation = search.free_nodes()
+        if violation <= max(tolerance, REFRESH * refreshed):
+            search.refresh()
+            violation = refreshed = search.free_nodes()
+        if violation <= tolerance:
+            return search.pressure, iteration
+        if violation < BETTER * best:
+            best, since = violation, iteration
+        if iteration - since > PATIENCE:
+            outcome = Outcome.STALLED
+            break
+        if not (search.conjugate() and search.step()):
+            search.descend()
+            if not search.step():
+                outcome = Outcome.STALLED
+                break
+        search.search()
+    raise ConvergenceError(
+        f"contact: {outcome} after {iteration} iterations with the conditions of contact broken by {best:.2g} "
+        f"of the unit of height, above {tolerance:.2g}; ask for a looser tolerance or a smoother surface",
+        outcome=outcome,
+        iterations=iteration,
+    )
