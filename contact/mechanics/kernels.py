@@ -15,7 +15,7 @@ _jit: Any = njit(nogil=True, cache=True, error_model="numpy", fastmath={"reassoc
 
 @_jit
 def advance(low, high, fraction, image, gap, plane, pressure, hardness, source, index, residual, held, out):  # type: ignore[no-untyped-def]
-    """Let g grow by t K∗s; list the free nodes, their residual g − plane and pressure; the residual in ``source`` too."""
+    """Let g grow by t K∗s; list the free nodes, their residual g − plane (in ``source`` too) and pressure."""
     part = np.float32(fraction)
     level = np.float32(plane)
     count = low

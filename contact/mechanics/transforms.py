@@ -15,8 +15,8 @@ from contact.files import replacing
 def plans(real: Any, spectrum: Any, threads: int) -> tuple[Any, Any]:
     """Plans for the transform of ``real`` into ``spectrum`` and for the way back, not normalised.
 
-    The way back loses its input. Both arrays are overwritten by the planning. A plan runs on other arrays of the same shape, kind and alignment by
-    ``update_arrays``.
+    The way back loses its input. Both arrays are overwritten by the planning. A plan runs on other arrays of the same
+    shape, kind and alignment by ``update_arrays``.
     """
     _recall()
     before = pyfftw.export_wisdom()
