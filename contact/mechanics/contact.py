@@ -71,7 +71,7 @@ class Contact:
             return self.area_fraction_pixel
         off, elastic = self.pressure == 0, self.in_contact & ~self.plastic
         edges = sum(np.count_nonzero(elastic & np.roll(off, shift, axis)) for axis in (0, 1) for shift in (1, -1))
-        return self.area_fraction_pixel - CORNERS * float(edges) / off.size
+        return float(self.area_fraction_pixel - CORNERS * edges / off.size)
 
     @property
     def plastic_fraction(self) -> float:
