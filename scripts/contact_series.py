@@ -30,6 +30,10 @@ from scripts.surface import refuse_same
 SHOWN = 5
 """Loads whose pressures are drawn."""
 
+MOST_THREADS = 256
+
+LEAST_TOLERANCE = 1e-13
+
 
 class Boundary(StrEnum):
     """What lies beyond the edges."""
@@ -75,6 +79,10 @@ def command(
     rung = chosen(model, body.hardness)
     bound = math.inf if rung in WITHOUT_HARDNESS else body.hardness
     _refuse(rung, boundary, asked, bound)
+    if not 1 <= threads <= MOST_THREADS:
+        raise InputError(f"--threads: got {threads} threads; it must be 1 to {MOST_THREADS}")
+    if not LEAST_TOLERANCE <= tolerance < 1:
+        raise InputError(f"--tolerance: got a tolerance of {tolerance:g}; it must be {LEAST_TOLERANCE:g} to 1")
     stiffness = composite_modulus(body, counter)
     periodic = boundary is Boundary.PERIODIC
     for path in filter(None, (out, report)):

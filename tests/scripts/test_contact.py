@@ -251,7 +251,9 @@ BAD = [
     (("--spacing", "1um"), "says its spacing itself"),
     (("--spacing", "1kg"), "wrong dimension"),
     (("--tolerance", "0"), "tolerance of 0"),
+    (("--tolerance", "nan"), "tolerance of nan"),
     (("--threads", "0"), "0 threads"),
+    (("--threads", "100000"), "it must be 1 to 256"),
     (("--boundary", "free", "--model", "persson"), "persson knows no edges"),
     (("--report", "/proc/nowhere/page.html"), "cannot be written"),
 ]
