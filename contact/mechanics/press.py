@@ -107,11 +107,11 @@ class Press:
         if start is not None and start.pressure.shape != self.heights.shape:
             raise InputError(f"contact: got a start of shape {start.pressure.shape}; it must be {self.heights.shape}")
         if load == self.hardness:
-            return self._contact(load, np.full(self.heights.shape, self.hardness), 0)
+            return self.contact_of(load, np.full(self.heights.shape, self.hardness), 0)
         if self.boundary == "periodic":
             full = load + self._full_pressure
             if full.min() >= 0 and full.max() <= self.hardness:
-                return self._contact(load, full, 0)
+                return self.contact_of(load, full, 0)
         return self._search(load, tolerance, start)
 
     @cached_property
@@ -137,13 +137,13 @@ class Press:
             pieces=Pieces(heights.size, self._threads),
         )
         found = found.reshape(self._grid)[self._part]
-        return self._contact(load, np.where(found >= hardness, self.hardness, found * pressure_unit), iterations)
+        return self.contact_of(load, np.where(found >= hardness, self.hardness, found * pressure_unit), iterations)
 
     def _unit(self, load: float) -> float:
         """The rms height, or for a flat punch what the load moves, m."""
         return float(self._down.std()) or load / self.composite_modulus * self._length
 
-    def _contact(self, load: float, pressure: Array, iterations: int) -> Contact:
+    def contact_of(self, load: float, pressure: Array, iterations: int) -> Contact:
         """What a pressure does, and how well it keeps the conditions of contact, computed afresh."""
         base = load if self.boundary == "periodic" else 0.0
         elastic = self._length * self._half_space.displacement((pressure - base) / self.composite_modulus)
