@@ -21,7 +21,7 @@ def waves(shape, seed=83):
         i, j = random.integers(-12, 13), random.integers(-12, 13) if shape[1] > 1 else 0
         q = max(math.hypot(i, j), 1.0)
         heights += q**-1.6 * np.cos(2 * np.pi * (i * x[:, None] + j * y[None, :] + random.uniform()))
-    return 3e-7 * heights / heights.std(), (1e-4 / shape[0], 1e-4 / shape[0])
+    return 3e-7 * heights / heights.std(), (1e-4 / max(shape), 1e-4 / max(shape))
 
 
 @pytest.mark.parametrize("shape", [(128, 1), (1, 128), (48, 48)])
