@@ -96,7 +96,7 @@ class HalfSpace:
         forward.execute()
         self._modes.over_all(kernels.scale_modes, self._spectrum_double.reshape(-1), factors)
         backward.execute()
-        return grid[part].copy()
+        return np.array(grid[part])
 
     def _transform(self, grid: Single, factors: Single, result: Single) -> None:
         forward, backward = self._plans

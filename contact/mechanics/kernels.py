@@ -1,7 +1,8 @@
 """Fused loops over the grid: each reads and writes every array once, in pieces that threads share.
 
-A piece is the range of nodes [low, high). Its free nodes, those whose pressure may change, are listed at the front of the same
-range of ``index``, and what belongs to them stands at the same places of ``residual`` and ``move``.
+A piece is the range of nodes [low, high). Its free nodes, those whose pressure may change, are listed at the front of
+the same range of ``index``; what belongs to them stands at the same places of ``residual``, ``held`` (their pressure),
+``move`` and ``taken`` (their step), so that most loops run through memory in order.
 """
 
 from typing import Any
@@ -13,19 +14,22 @@ _jit: Any = njit(nogil=True, cache=True, error_model="numpy", fastmath={"reassoc
 
 
 @_jit
-def advance(low, high, fraction, image, gap, plane, pressure, hardness, source, index, residual, out):  # type: ignore[no-untyped-def]
-    """g += t K∗s; list the free nodes and their residual g − plane, in ``source`` for the transform too."""
+def advance(low, high, fraction, image, gap, plane, pressure, hardness, source, index, residual, held, out):  # type: ignore[no-untyped-def]
+    """Let g grow by t K∗s; list the free nodes, their residual g − plane (in ``source`` too) and pressure."""
+    part = np.float32(fraction)
+    level = np.float32(plane)
     count = low
     total = 0.0
-    worst = 0.0
+    worst = np.float32(0)
     for node in range(low, high):
-        value = gap[node] + fraction * image[node]
+        value = gap[node] + part * image[node]
         gap[node] = value
-        difference = value - plane
+        difference = value - level
         p = pressure[node]
         if (p > 0 or difference < 0) and (p < hardness or difference > 0):
             index[count] = node
             residual[count] = difference
+            held[count] = p
             source[node] = difference
             count += 1
             total += difference
@@ -40,20 +44,23 @@ def advance(low, high, fraction, image, gap, plane, pressure, hardness, source, 
 @_jit
 def centre(low, end, mean, source, index, residual):  # type: ignore[no-untyped-def]
     """Take the mean from the residual of the free nodes."""
+    offset = np.float32(mean)
     for place in range(low, end):
-        value = residual[place] - mean
+        value = residual[place] - offset
         residual[place] = value
         source[index[place]] = value
 
 
 @_jit
-def products(low, end, preconditioned, step, image, index, residual, out):  # type: ignore[no-untyped-def]
-    """Σz, Σs, ΣKs, ΣzKs, Σzr, Σsr over the free nodes."""
+def products(low, end, preconditioned, step, image, index, residual, move, taken, out):  # type: ignore[no-untyped-def]
+    """Gather z and s of the free nodes; Σz, Σs, ΣKs, ΣzKs, Σzr, Σsr."""
     z_sum = s_sum = k_sum = zk = zr = sr = 0.0
     for place in range(low, end):
         node = index[place]
-        z = np.float64(preconditioned[node])
-        s = np.float64(step[node])
+        z = preconditioned[node]
+        s = step[node]
+        move[place] = z
+        taken[place] = s
         k = np.float64(image[node])
         r = np.float64(residual[place])
         z_sum += z
@@ -71,39 +78,36 @@ def products(low, end, preconditioned, step, image, index, residual, out):  # ty
 
 
 @_jit
-def direct(low, end, scale, z_mean, conjugate, s_mean, preconditioned, step, index, move):  # type: ignore[no-untyped-def]
-    """The move along the conjugate direction, α (−(z − z̄) + b (s − s̄))."""
+def direct(low, end, length, z_mean, conjugate, s_mean, move, taken):  # type: ignore[no-untyped-def]
+    """From z, the move along the conjugate direction, α (−(z − z̄) + b (s − s̄))."""
+    back, along = np.float32(-length), np.float32(length * conjugate)
+    offset = np.float32(length * (z_mean - conjugate * s_mean))
     for place in range(low, end):
-        node = index[place]
-        move[place] = scale * (z_mean - preconditioned[node] + conjugate * (step[node] - s_mean))
+        move[place] = back * move[place] + along * taken[place] + offset
 
 
 @_jit
-def descend(low, end, scale, residual, move):  # type: ignore[no-untyped-def]
+def descend(low, end, length, residual, move):  # type: ignore[no-untyped-def]
     """The move down the gradient, −α r."""
     for place in range(low, end):
-        move[place] = -scale * residual[place]
+        move[place] = -length * residual[place]
 
 
 @_jit
-def excess(low, end, shift, pressure, hardness, index, move, out):  # type: ignore[no-untyped-def]
-    """What clip(p + move + shift) − p adds up to, how many nodes keep within bounds, and how far the nearest are beyond."""
+def excess(low, end, shift, held, hardness, move, out):  # type: ignore[no-untyped-def]
+    """What clip(p + move + λ) − p adds up to, how many nodes keep within bounds, and how far the nearest are beyond."""
     total = 0.0
     within = 0
     below = -np.inf
     above = np.inf
     for place in range(low, end):
-        p = pressure[index[place]]
+        p = held[place]
         moved = p + move[place] + shift
-        if moved < 0:
-            below = max(below, moved)
-            moved = 0.0
-        elif moved > hardness:
-            above = min(above, moved)
-            moved = hardness
-        else:
-            within += 1
-        total += moved - p
+        kept = min(max(moved, 0.0), hardness)
+        total += kept - p
+        within += kept == moved
+        below = max(below, moved if moved < 0 else -np.inf)
+        above = min(above, moved if moved > hardness else np.inf)
     out[0] = total
     out[1] = within
     out[2] = below
@@ -111,15 +115,15 @@ def excess(low, end, shift, pressure, hardness, index, move, out):  # type: igno
 
 
 @_jit
-def displace(low, end, shift, pressure, hardness, index, move, residual, step, out):  # type: ignore[no-untyped-def]
-    """The step s = clip(p + move + shift) − p, its Σrs, and how many times it fits between the bounds."""
+def displace(low, end, shift, held, hardness, index, move, residual, taken, step, out):  # type: ignore[no-untyped-def]
+    """The step s = clip(p + move + λ) − p, its Σrs, and how many times it fits between the bounds."""
     slope = 0.0
     room = np.inf
     for place in range(low, end):
-        node = index[place]
-        p = pressure[node]
+        p = held[place]
         s = min(max(p + move[place] + shift, 0.0), hardness) - p
-        step[node] = s
+        taken[place] = s
+        step[index[place]] = s
         slope += s * residual[place]
         if s < 0:
             room = min(room, -p / s)
@@ -130,35 +134,32 @@ def displace(low, end, shift, pressure, hardness, index, move, residual, step, o
 
 
 @_jit
-def curvature(low, end, step, image, index, out):  # type: ignore[no-untyped-def]
-    """ΣsKs and Σss."""
+def curvature(low, end, image, index, taken, move_image, out):  # type: ignore[no-untyped-def]
+    """Gather Ks of the free nodes; ΣsKs and Σss."""
     bend = 0.0
     square = 0.0
     for place in range(low, end):
-        node = index[place]
-        s = np.float64(step[node])
-        bend += s * np.float64(image[node])
+        k = image[index[place]]
+        move_image[place] = k
+        s = np.float64(taken[place])
+        bend += s * k
         square += s * s
     out[0] = bend
     out[1] = square
 
 
 @_jit
-def press_on(low, end, fraction, shift, pressure, hardness, index, move, gap, image, out):  # type: ignore[no-untyped-def]
-    """Carry out a part t of the step on p; Σg and the number of nodes with 0 < p < H, with g as it becomes."""
+def press_on(low, end, fraction, shift, held, hardness, index, move, residual, move_image, pressure, out):  # type: ignore[no-untyped-def]
+    """Carry out a part t of the step; Σ(r + t Ks) over the nodes with 0 < p < H, and their number."""
     total = 0.0
     count = 0
     for place in range(low, end):
-        node = index[place]
-        p = pressure[node]
-        if fraction == 1.0:
-            p = min(max(p + move[place] + shift, 0.0), hardness)
-        else:
-            s = min(max(p + move[place] + shift, 0.0), hardness) - p
-            p = min(max(p + fraction * s, 0.0), hardness)
-        pressure[node] = p
+        p = held[place]
+        s = min(max(p + move[place] + shift, 0.0), hardness) - p
+        p = min(max(p + fraction * s, 0.0), hardness)
+        pressure[index[place]] = p
         if 0 < p < hardness:
-            total += gap[node] + fraction * image[node]
+            total += residual[place] + fraction * move_image[place]
             count += 1
     out[0] = total
     out[1] = count

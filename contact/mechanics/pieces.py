@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,7 @@ class Pieces:
 
     def __init__(self, nodes: int, threads: int) -> None:
         bounds = np.linspace(0, nodes, threads + 1).astype(int)
-        self.ranges = [(int(low), int(high)) for low, high in zip(bounds[:-1], bounds[1:], strict=True)]
+        self.ranges = [(int(low), int(high)) for low, high in pairwise(bounds)]
         self.ends = [high for _, high in self.ranges]
         self._pool = ThreadPoolExecutor(threads) if threads > 1 else None
         self._out = np.zeros((threads, NUMBERS))

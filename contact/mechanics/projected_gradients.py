@@ -67,6 +67,9 @@ class _Search:
         self.index = np.empty(heights.size, dtype=np.int32)
         self.residual = np.empty(heights.size, dtype=np.float32)
         self.move = np.empty(heights.size, dtype=np.float32)
+        self.taken = np.empty(heights.size, dtype=np.float32)
+        self.move_image = np.empty(heights.size, dtype=np.float32)
+        self.held = np.empty(heights.size)
         self.sum = float(pressure.sum())
         self.length = 1.0
         self.slide = 0.0
@@ -76,11 +79,12 @@ class _Search:
         self.refresh()
 
     def refresh(self) -> None:
-        """The gap and its plane from the pressure, in double precision."""
-        shape = self.half_space.shape
-        self.gap = self.heights + self.half_space.displacement(self.pressure.reshape(shape)).reshape(-1)
-        self.plane = plane_of(self.pressure, self.gap, self.hardness)
-        self.fraction = 0.0
+        """The gap over its plane from the pressure, in double precision, kept in single."""
+        displacement = self.half_space.displacement(self.pressure.reshape(self.half_space.shape)).reshape(-1)
+        displacement += self.heights
+        displacement -= plane_of(self.pressure, displacement, self.hardness)
+        self.gap = displacement.astype(np.float32)
+        self.plane = self.fraction = 0.0
 
     def free_nodes(self) -> float:
         """Bring the gap up to date, list the free nodes with their residual, and return the largest."""
@@ -88,57 +92,57 @@ class _Search:
         found = pieces.over_all(
             kernels.advance,
             *(self.fraction, half_space.image, self.gap, self.plane, self.pressure, self.hardness),
-            *(half_space.source, self.index, self.residual),
+            *(half_space.source, self.index, self.residual, self.held),
             out=True,
         )
         pieces.ends = [int(end) for end in found[:, 0]]
         self.free = sum(end - low for end, (low, _) in zip(pieces.ends, pieces.ranges, strict=True))
         worst = float(found[:, 2].max())
         if self.free:
-            mean = float(found[:, 1].sum()) / self.free
-            pieces.over_free(kernels.centre, mean, half_space.source, self.index, self.residual)
+            self.mean = float(found[:, 1].sum()) / self.free
+            pieces.over_free(kernels.centre, self.mean, half_space.source, self.index, self.residual)
         return worst
 
     def conjugate(self) -> bool:
         """Point ``move`` along z = |q| r made conjugate to the last step; False if that is not downhill."""
         half_space, pieces = self.half_space, self.pieces
         half_space.precondition()
-        fields = (half_space.source, half_space.step, half_space.image, self.index)
-        z, s, k, zk, zr, sr = pieces.over_free(kernels.products, *fields, self.residual, out=True).sum(axis=0)
+        z, s, k, zk, zr, sr = pieces.over_free(
+            kernels.products,
+            *(half_space.source, half_space.step, half_space.image),
+            *(self.index, self.residual, self.move, self.taken),
+            out=True,
+        ).sum(axis=0)
         z_mean, s_mean = z / self.free, s / self.free
         b = (zk - z_mean * k) / self.curvature if self.curvature > 0 else 0.0
         if b * sr >= zr:
             b = 0.0
-        if zr <= 0:
-            return False
-        pieces.over_free(
-            kernels.direct, self.length, z_mean, b, s_mean, half_space.source, half_space.step, self.index, self.move
-        )
-        return True
+        pieces.over_free(kernels.direct, self.length, z_mean, b, s_mean, self.move, self.taken)
+        return bool(zr > 0)
 
     def descend(self) -> None:
         """Point ``move`` down the gradient, by the length of Barzilai and Borwein."""
         length = self.square / self.curvature if self.curvature > 0 else 1.0
         self.pieces.over_free(kernels.descend, length, self.residual, self.move)
 
-    def step(self) -> float:
-        """The step within the bounds that keeps the sum, and its image; returns Σrs, below 0 if it goes downhill."""
-        half_space, pieces = self.half_space, self.pieces
+    def step(self) -> bool:
+        """Step along ``move`` within the bounds, keeping the sum; whether that goes downhill."""
+        half_space = self.half_space
         self.slide, self.cut = self._shift()
         half_space.step[:] = 0
-        found = pieces.over_free(
+        found = self.pieces.over_free(
             kernels.displace,
-            *(self.slide, self.pressure, self.hardness, self.index, self.move, self.residual, half_space.step),
+            *(self.slide, self.held, self.hardness, self.index, self.move, self.residual, self.taken, half_space.step),
             out=True,
         )
         self.slope, self.room = float(found[:, 0].sum()), float(found[:, 1].min())
-        return self.slope
+        return self.slope < 0
 
     def search(self) -> None:
         """Go along the step to the least energy and change the pressure."""
         half_space, pieces = self.half_space, self.pieces
         half_space.displace()
-        found = pieces.over_free(kernels.curvature, half_space.step, half_space.image, self.index, out=True)
+        found = pieces.over_free(kernels.curvature, half_space.image, self.index, self.taken, self.move_image, out=True)
         self.curvature, self.square = (float(total) for total in found[:, :2].sum(axis=0))
         best = -self.slope / self.curvature if self.curvature > 0 else 1.0
         if self.cut:
@@ -149,17 +153,15 @@ class _Search:
         self.length = min(max(self.length * best, SHORTEST), LONGEST)
         found = pieces.over_free(
             kernels.press_on,
-            *(self.fraction, self.slide, self.pressure, self.hardness, self.index, self.move, self.gap),
-            half_space.image,
+            *(self.fraction, self.slide, self.held, self.hardness, self.index, self.move, self.residual),
+            *(self.move_image, self.pressure),
             out=True,
         )
         total, inside = found[:, :2].sum(axis=0)
         if inside:
-            self.plane = float(total / inside)
+            self.plane += self.mean + float(total / inside)
         else:
-            self.gap += self.fraction * half_space.image
-            self.fraction = 0.0
-            self.plane = plane_of(self.pressure, self.gap, self.hardness)
+            self.refresh()
 
     def _shift(self) -> tuple[float, bool]:
         """λ with Σ clip(p + move + λ) = Σp over the free nodes, by Newton's method, and whether a bound cuts a node.
@@ -168,12 +170,10 @@ class _Search:
         """
         shift, low, high = 0.0, -math.inf, math.inf
         while True:
-            found = self.pieces.over_free(
-                kernels.excess, shift, self.pressure, self.hardness, self.index, self.move, out=True
-            )
+            found = self.pieces.over_free(kernels.excess, shift, self.held, self.hardness, self.move, out=True)
             excess, within = float(found[:, 0].sum()), int(found[:, 1].sum())
-            if within == self.free and shift == 0:
-                return 0.0, False
+            if within == self.free:
+                return shift - excess / within, False
             if abs(excess) <= SUM * self.sum:
                 return shift, True
             if excess > 0:
@@ -238,9 +238,9 @@ def minimise(
         if iteration - since > PATIENCE:
             outcome = Outcome.STALLED
             break
-        if not (search.conjugate() and search.step() < 0):
+        if not (search.conjugate() and search.step()):
             search.descend()
-            if not search.step() < 0:
+            if not search.step():
                 outcome = Outcome.STALLED
                 break
         search.search()

@@ -13,10 +13,10 @@ from contact.files import replacing
 
 
 def plans(real: Any, spectrum: Any, threads: int) -> tuple[Any, Any]:
-    """Plans for the transform of ``real`` into ``spectrum`` and for the way back, which loses its input; not normalised.
+    """Plans for the transform of ``real`` into ``spectrum`` and for the way back, not normalised.
 
-    Both arrays are overwritten by the planning. A plan runs on other arrays of the same shape, kind and alignment by
-    ``update_arrays``.
+    The way back loses its input. Both arrays are overwritten by the planning. A plan runs on other arrays of the same
+    shape, kind and alignment by ``update_arrays``.
     """
     _recall()
     before = pyfftw.export_wisdom()
