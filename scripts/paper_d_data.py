@@ -1,0 +1,182 @@
+"""Profiles made to Table D.1 of Paper D, pressed at every load, and with their waves cut off one after the other."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from contact.errors import ConvergenceError
+from contact.heights import height_statistics
+from contact.mechanics.contact import Contact
+from contact.mechanics.press import Press
+from contact.mechanics.solid import Solid, composite_modulus
+from contact.mechanics.stanley_kato import stanley_kato
+from contact.surface import Array
+
+STEEL = Solid(modulus=210e9, poisson=0.3, hardness=4e9)
+LENGTH = 0.42e-3
+POINTS = 512
+LOADS = tuple(1e3 * load for load in (2, 5, 10, 20, 30, 40, 50, 60, 70, 80, 90, 100))
+"""N per metre of width."""
+
+WAVES = (*range(1, 21), *range(22, 41, 2), 45, 50, 60, 70, 80, 90, 100, 120, 150, 180, 220, 255)
+SEEDS = tuple(range(101, 109))
+SPECTRA = {"self-affine": 255, "smooth": 32}
+"""The highest wave of each: all that the nodes can hold, or a few only."""
+
+LONGEST, HURST = 4, 0.8
+FINER = 8
+TOLERANCE = 1e-7
+
+State = dict[str, Array]
+"""By quantity: shape (seeds, loads), or (seeds, waves)."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Row:
+    """A row of Table D.1: Ra and Rq, m; skewness; kurtosis."""
+
+    machining: str
+    average: float
+    rms: float
+    skewness: float
+    kurtosis: float
+
+
+TABLE = {
+    "A": Row(machining="ground, phosphated", average=0.93e-6, rms=1.2e-6, skewness=-1.0, kurtosis=4.4),
+    "B": Row(machining="ground", average=0.30e-6, rms=0.38e-6, skewness=-0.25, kurtosis=3.2),
+    "C": Row(machining="ground, chemically deburred", average=0.14e-6, rms=0.18e-6, skewness=-0.022, kurtosis=3.5),
+    "D": Row(machining="ground, shot-peened", average=0.35e-6, rms=0.45e-6, skewness=-0.069, kurtosis=3.1),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Paper:
+    """All that is drawn and judged, by spectrum and profile."""
+
+    loads: Sequence[float]
+    waves: Sequence[int]
+    profiles: dict[tuple[str, str], list[Array]]
+    pressed: dict[tuple[str, str], State]
+    cut: dict[str, State]
+    """Of profile D at the highest load, by spectrum: "elastic" and "elastic-plastic" area."""
+    shown: Contact
+    """Self-affine profile D of the first seed at the highest load."""
+    finer: dict[tuple[str, str], State]
+    """The same as ``pressed`` on ``FINER`` times as many nodes, at the least and the greatest load."""
+
+
+def made_profile(row: Row, seed: int, highest: int, points: int = POINTS) -> Array:
+    """A random periodic profile with the rms, skewness and kurtosis of a row of the table, shape (points,), m.
+
+    Waves 1 to ``highest`` have random phases and powers that fall as k^(-1 - 2H) from the wave ``LONGEST`` on. Then
+    heights are stretched by z = sinh((asinh x + a)/b), which is smooth, so that no rough waves come of it.
+    """
+    k = np.arange(1, highest + 1)
+    random = np.random.default_rng(seed)
+    modes = np.zeros(points // 2 + 1, dtype=complex)
+    modes[k] = np.maximum(k / LONGEST, 1.0) ** (-0.5 - HURST) * np.exp(2j * np.pi * random.uniform(size=highest))
+    x = np.fft.irfft(modes, points)
+    x /= x.std()
+
+    def stretched(parameters: Array) -> Array:
+        a, b = parameters
+        return np.asarray(np.sinh((np.arcsinh(x) + a) / b))
+
+    def missed(parameters: Array) -> list[float]:
+        found = height_statistics(stretched(parameters))
+        return [found.skewness - row.skewness, found.kurtosis - row.kurtosis]
+
+    fit = least_squares(missed, [0.0, 1.0], bounds=([-3, 0.2], [3, 5]), xtol=1e-12, ftol=1e-12, gtol=1e-12)
+    if np.abs(fit.fun).max() > 1e-6:
+        raise ConvergenceError(f"profile: seed {seed} misses the table by {np.abs(fit.fun).max():.2g}; take another")
+    z = stretched(fit.x)
+    return np.asarray((z - z.mean()) * (row.rms / z.std()))
+
+
+def low_pass(heights: Array, waves: int) -> Array:
+    """The profile without the waves above the n-th."""
+    modes = np.fft.rfft(heights)
+    modes[waves + 1 :] = 0
+    return np.fft.irfft(modes, heights.size)
+
+
+def refined(heights: Array, times: int) -> Array:
+    """The same waves on more nodes."""
+    return np.fft.irfft(np.fft.rfft(heights), times * heights.size) * times
+
+
+def line_contacts(heights: Array, loads: Sequence[float], *, hardness: float = STEEL.hardness) -> list[Contact]:
+    """A profile of ``LENGTH`` under loads in N/m; where ``Press`` stalls, by the algorithm of the thesis."""
+    z, spacing, modulus = heights[:, None], (LENGTH / heights.size, LENGTH / heights.size), composite_modulus(STEEL)
+    press = Press(z, spacing, modulus, hardness=hardness)
+    contacts = []
+    for load in loads:
+        try:
+            contacts.append(press.at(load / LENGTH, tolerance=TOLERANCE))
+        except ConvergenceError:
+            contacts.append(stanley_kato(z, spacing, modulus, load / LENGTH, hardness=hardness, tolerance=TOLERANCE))
+    return contacts
+
+
+QUANTITIES: dict[str, Callable[[Contact], float]] = {
+    "area": lambda contact: contact.area_fraction_pixel,
+    "plasticity_index": lambda contact: contact.plasticity_index,
+    "Ra": lambda contact: height_statistics(contact.loaded_heights).average,
+    "Rq": lambda contact: height_statistics(contact.loaded_heights).rms,
+    "skewness": lambda contact: height_statistics(contact.loaded_heights).skewness,
+    "kurtosis": lambda contact: height_statistics(contact.loaded_heights).kurtosis,
+    "separation": lambda contact: contact.mean_gap,
+}
+
+
+def press_all(profiles: Sequence[Array], loads: Sequence[float]) -> State:
+    """Every quantity of every profile under every load."""
+    state = {name: np.empty((len(profiles), len(loads))) for name in QUANTITIES}
+    for i, heights in enumerate(profiles):
+        for j, contact in enumerate(line_contacts(heights, loads)):
+            for name, of in QUANTITIES.items():
+                state[name][i, j] = of(contact)
+    return state
+
+
+def area_by_waves(profiles: Sequence[Array], waves: Sequence[int], load: float) -> State:
+    """The area under a load with waves 1 to n only, elastic and elastic-plastic."""
+    state = {name: np.empty((len(profiles), len(waves))) for name in ("elastic", "elastic-plastic")}
+    for (i, heights), (j, n) in product(enumerate(profiles), enumerate(waves)):
+        for name, hardness in (("elastic", np.inf), ("elastic-plastic", STEEL.hardness)):
+            state[name][i, j] = line_contacts(low_pass(heights, n), [load], hardness=hardness)[0].area_fraction_pixel
+    return state
+
+
+def compute(
+    advance: Callable[[float, str], None],
+    *,
+    seeds: Sequence[int] = SEEDS,
+    loads: Sequence[float] = LOADS,
+    waves: Sequence[int] = WAVES,
+) -> Paper:
+    """Everything; ``advance`` is told how many of the 5 parts of each spectrum are done."""
+    profiles, pressed, cut, finer = {}, {}, {}, {}
+    for part, (spectrum, highest) in enumerate(SPECTRA.items()):
+        for step, (name, row) in enumerate(TABLE.items()):
+            advance(5 * part + step, f"pressing profile {name}, {spectrum}")
+            made = [made_profile(row, seed, highest) for seed in seeds]
+            profiles[spectrum, name] = made
+            pressed[spectrum, name] = press_all(made, loads)
+            finer[spectrum, name] = press_all([refined(z, FINER) for z in made], (loads[0], loads[-1]))
+        advance(5 * part + 4, f"cutting off waves, {spectrum}")
+        made = profiles[spectrum, "D"]
+        cut[spectrum] = area_by_waves(made, waves, loads[-1])
+    return Paper(
+        loads=tuple(loads),
+        waves=tuple(waves),
+        profiles=profiles,
+        pressed=pressed,
+        cut=cut,
+        shown=line_contacts(profiles["self-affine", "D"][0], loads[-1:])[0],
+        finer=finer,
+    )
