@@ -1,7 +1,7 @@
 """Figures D.1 to D.7 of Paper D and E.4 of Paper E, and the claims of Paper D judged, on one page.
 
 python -m scripts.paper_d --out OUT. The measured profiles of the paper are not public: random ones with the numbers of
-its Table D.1 stand for them. Source: Almqvist et al. 2007, doi:10.1016/j.triboint.2005.11.008.
+its Table D.1 stand for them. Source: Almqvist, Sahlin, Larsson and Glavatskih, Tribol. Int. 40 (2007) 574.
 """
 
 import json
@@ -15,11 +15,12 @@ from rich.markup import escape
 from contact.files import replacing
 from contact.heights import height_statistics
 from contact.mechanics.contact import Contact
+from contact.synthetic.profile import STEEL_PROFILES
 from scripts.common import AsJson, in_one_line, make_directory, output, print_json, progress_bar, run_alone
 from scripts.pages import render
 from scripts.paper_a_claims import Claim
 from scripts.paper_d_claims import judge
-from scripts.paper_d_data import LOADS, SEEDS, SPECTRA, TABLE, WAVES, Paper, compute
+from scripts.paper_d_data import LOADS, MACHINING, SEEDS, SPECTRA, WAVES, Paper, compute
 from scripts.paper_e_surface import Reloading, load_model, reload
 
 
@@ -61,7 +62,8 @@ def command(
         plots=plots,
         captions=captions,
         claims=claims,
-        table=TABLE,
+        table=STEEL_PROFILES,
+        machining=MACHINING,
         made=told["profiles"],
         seeds=len(next(iter(paper.profiles.values()))),
         model=list(zip(model, again, strict=True)),
@@ -94,10 +96,10 @@ def numbers(paper: Paper, claims: list[Claim], model: list[Contact], again: list
 
     return {
         "claims": [asdict(claim) for claim in claims],
-        "profiles": {spectrum: {name: made(spectrum, name) for name in TABLE} for spectrum in SPECTRA},
+        "profiles": {spectrum: {name: made(spectrum, name) for name in STEEL_PROFILES} for spectrum in SPECTRA},
         "loads": list(paper.loads),
-        "pressed": {spectrum: {name: spread(paper.pressed[spectrum, name]) for name in TABLE} for spectrum in SPECTRA},
-        "finer": {spectrum: {name: spread(paper.finer[spectrum, name]) for name in TABLE} for spectrum in SPECTRA},
+        "pressed": {spectrum: {name: spread(paper.pressed[spectrum, name]) for name in STEEL_PROFILES} for spectrum in SPECTRA},
+        "finer": {spectrum: {name: spread(paper.finer[spectrum, name]) for name in STEEL_PROFILES} for spectrum in SPECTRA},
         "waves": list(paper.waves),
         "cut": {spectrum: spread(state) for spectrum, state in paper.cut.items()},
         "model_surface": [

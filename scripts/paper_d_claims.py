@@ -3,8 +3,9 @@
 import numpy as np
 
 from contact.surface import Array
+from contact.synthetic.profile import STEEL_PROFILES
 from scripts.paper_a_claims import Claim
-from scripts.paper_d_data import LENGTH, SPECTRA, STEEL, TABLE, Paper
+from scripts.paper_d_data import LENGTH, SPECTRA, STEEL, Paper
 
 LEAST_NODES = 4
 """Fits take loads from which on the real area has at least so many nodes on average."""
@@ -58,13 +59,13 @@ def area_grows(paper: Paper) -> Claim:
 
 def area_by_roughness(paper: Paper) -> Claim:
     """Claim 16."""
-    rough = np.array([row.average for row in TABLE.values()])
+    rough = np.array([row.average for row in STEEL_PROFILES.values()])
     bound = paper.loads[-1] / LENGTH / STEEL.hardness
     powers, ratios, told = {}, {}, []
     for spectrum in SPECTRA:
-        areas = np.array([paper.pressed[spectrum, name]["area"][:, -1].mean() for name in TABLE])
+        areas = np.array([paper.pressed[spectrum, name]["area"][:, -1].mean() for name in STEEL_PROFILES])
         powers[spectrum], ratios[spectrum] = power_of(rough, areas), float(areas.max() / areas.min())
-        told.append(f"{spectrum}: {', '.join(f'{n} {100 * a:.1f} %' for n, a in zip(TABLE, areas, strict=True))}")
+        told.append(f"{spectrum}: {', '.join(f'{n} {100 * a:.1f} %' for n, a in zip(STEEL_PROFILES, areas, strict=True))}")
     worst = max(ratios.values())
     return Claim(
         number=16,
@@ -78,12 +79,12 @@ def area_by_roughness(paper: Paper) -> Claim:
 
 def plasticity(paper: Paper) -> Claim:
     """Claim 17."""
-    rough = [row.average for row in TABLE.values()]
+    rough = [row.average for row in STEEL_PROFILES.values()]
     told, ranked, starts = [], [], []
     for spectrum in SPECTRA:
-        index = {name: float(paper.pressed[spectrum, name]["plasticity_index"][:, -1].mean()) for name in TABLE}
-        light = {name: float(paper.pressed[spectrum, name]["plasticity_index"][:, 0].mean()) for name in TABLE}
-        finer = {name: float(paper.finer[spectrum, name]["plasticity_index"][:, 0].mean()) for name in TABLE}
+        index = {name: float(paper.pressed[spectrum, name]["plasticity_index"][:, -1].mean()) for name in STEEL_PROFILES}
+        light = {name: float(paper.pressed[spectrum, name]["plasticity_index"][:, 0].mean()) for name in STEEL_PROFILES}
+        finer = {name: float(paper.finer[spectrum, name]["plasticity_index"][:, 0].mean()) for name in STEEL_PROFILES}
         ranked.append(bool((np.argsort(list(index.values())) == np.argsort(rough)).all()))
         starts += list(finer.values())
         told.append(

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from contact.errors import ConvergenceError
 from contact.heights import height_statistics
@@ -14,6 +13,7 @@ from contact.mechanics.press import Press
 from contact.mechanics.solid import Solid, composite_modulus
 from contact.mechanics.stanley_kato import stanley_kato
 from contact.surface import Array
+from contact.synthetic.profile import STEEL_PROFILES, ground_profile
 
 STEEL = Solid(modulus=210e9, poisson=0.3, hardness=4e9)
 LENGTH = 0.42e-3
@@ -23,10 +23,10 @@ LOADS = tuple(1e3 * load for load in (2, 5, 10, 20, 30, 40, 50, 60, 70, 80, 90, 
 
 WAVES = (*range(1, 21), *range(22, 41, 2), 45, 50, 60, 70, 80, 90, 100, 120, 150, 180, 220, 255)
 SEEDS = tuple(range(101, 109))
-SPECTRA = {"self-affine": 255, "smooth": 32}
+SPECTRA = {"self-affine": 256, "smooth": 32}
 """The highest wave of each: all that the nodes can hold, or a few only."""
 
-LONGEST, HURST = 4, 0.8
+ROLL_OFF = LENGTH / 4
 FINER = 8
 TOLERANCE = 1e-7
 
@@ -34,22 +34,11 @@ State = dict[str, Array]
 """By quantity: shape (seeds, loads), or (seeds, waves)."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Row:
-    """A row of Table D.1: Ra and Rq, m; skewness; kurtosis."""
-
-    machining: str
-    average: float
-    rms: float
-    skewness: float
-    kurtosis: float
-
-
-TABLE = {
-    "A": Row(machining="ground, phosphated", average=0.93e-6, rms=1.2e-6, skewness=-1.0, kurtosis=4.4),
-    "B": Row(machining="ground", average=0.30e-6, rms=0.38e-6, skewness=-0.25, kurtosis=3.2),
-    "C": Row(machining="ground, chemically deburred", average=0.14e-6, rms=0.18e-6, skewness=-0.022, kurtosis=3.5),
-    "D": Row(machining="ground, shot-peened", average=0.35e-6, rms=0.45e-6, skewness=-0.069, kurtosis=3.1),
+MACHINING = {
+    "A": "ground, phosphated, dephosphated",
+    "B": "ground",
+    "C": "ground, chemically deburred",
+    "D": "ground, shot-peened",
 }
 
 
@@ -67,34 +56,6 @@ class Paper:
     """Self-affine profile D of the first seed at the highest load."""
     finer: dict[tuple[str, str], State]
     """The same as ``pressed`` on ``FINER`` times as many nodes, at the least and the greatest load."""
-
-
-def made_profile(row: Row, seed: int, highest: int, points: int = POINTS) -> Array:
-    """A random periodic profile with the rms, skewness and kurtosis of a row of the table, shape (points,), m.
-
-    Waves 1 to ``highest`` have random phases and powers that fall as k^(-1 - 2H) from the wave ``LONGEST`` on. Then
-    heights are stretched by z = sinh((asinh x + a)/b), which is smooth, so that no rough waves come of it.
-    """
-    k = np.arange(1, highest + 1)
-    random = np.random.default_rng(seed)
-    modes = np.zeros(points // 2 + 1, dtype=complex)
-    modes[k] = np.maximum(k / LONGEST, 1.0) ** (-0.5 - HURST) * np.exp(2j * np.pi * random.uniform(size=highest))
-    x = np.fft.irfft(modes, points)
-    x /= x.std()
-
-    def stretched(parameters: Array) -> Array:
-        a, b = parameters
-        return np.asarray(np.sinh((np.arcsinh(x) + a) / b))
-
-    def missed(parameters: Array) -> list[float]:
-        found = height_statistics(stretched(parameters))
-        return [found.skewness - row.skewness, found.kurtosis - row.kurtosis]
-
-    fit = least_squares(missed, [0.0, 1.0], bounds=([-3, 0.2], [3, 5]), xtol=1e-12, ftol=1e-12, gtol=1e-12)
-    if np.abs(fit.fun).max() > 1e-6:
-        raise ConvergenceError(f"profile: seed {seed} misses the table by {np.abs(fit.fun).max():.2g}; take another")
-    z = stretched(fit.x)
-    return np.asarray((z - z.mean()) * (row.rms / z.std()))
 
 
 def low_pass(heights: Array, waves: int) -> Array:
@@ -162,9 +123,19 @@ def compute(
     """Everything; ``advance`` is told how many of the 5 parts of each spectrum are done."""
     profiles, pressed, cut, finer = {}, {}, {}, {}
     for part, (spectrum, highest) in enumerate(SPECTRA.items()):
-        for step, (name, row) in enumerate(TABLE.items()):
+        for step, (name, moments) in enumerate(STEEL_PROFILES.items()):
             advance(5 * part + step, f"pressing profile {name}, {spectrum}")
-            made = [made_profile(row, seed, highest) for seed in seeds]
+            made = [
+                ground_profile(
+                    moments,
+                    length=LENGTH,
+                    points=POINTS,
+                    seed=seed,
+                    roll_off=ROLL_OFF,
+                    cut_off=LENGTH / highest,
+                )
+                for seed in seeds
+            ]
             profiles[spectrum, name] = made
             pressed[spectrum, name] = press_all(made, loads)
             finer[spectrum, name] = press_all([refined(z, FINER) for z in made], (loads[0], loads[-1]))

@@ -16,7 +16,7 @@ from contact.surface import Array
 FARTHEST, NEAREST = 36.0, -30.0
 """Separations, in standard deviations of the summits, between which the load is looked for."""
 
-LARGEST_AREA = 0.1
+LARGEST_AREA = 0.03
 """Up to which asperities may be taken as apart."""
 
 
@@ -46,10 +46,12 @@ def greenwood_williamson(moments: SpectralMoments, *, composite_modulus: float, 
 
     Notes
     -----
-    Trusted for A/A0 up to 0.1, a separation above 0 and α >= 3/2, below which no isotropic Gaussian surface lies. At
-    light load solved contacts have an area near κ P/(E* g') with κ = 2.0 to 2.2; here κ falls slowly with the load, and
-    with α growing. Counting ellipsoidal summits of all curvatures gives sqrt(2π) in the limit of far separation (Bush,
-    Gibson and Thomas; `contact.mechanics.light_load`). For ridges it has no meaning: a cylinder has no approach.
+    Trusted for A/A0 up to 0.03, a separation above 0 and α >= 3/2, below which no isotropic Gaussian surface lies.
+    Beside contacts solved on Gaussian self-affine surfaces (256 x 256 points, α = 3.5 to 8) the area is 0.9 to 1.1 of
+    theirs and the gap within 4 % at 0.2 % of contact, 0.8 to 0.94 and 4 % too small at 2 %, 0.7 to 0.85 and 10 to 17 %
+    too small at 7 %; beyond 20 % the plane sinks below the mean height. Counting ellipsoidal summits of all
+    curvatures gives A/A0 = sqrt(2π) P/(E* g') in the limit of far separation (Bush, Gibson and Thomas;
+    `contact.mechanics.light_load`). For ridges it has no meaning: a cylinder has no approach.
 
     Source: Greenwood and Williamson, Proc. R. Soc. A 295 (1966) 300, doi:10.1098/rspa.1966.0242; McCool, Wear 107
     (1986) 37, doi:10.1016/0043-1648(86)90045-1.

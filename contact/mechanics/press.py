@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 import scipy.fft
 
-from contact.errors import InputError
+from contact.errors import ConvergenceError, InputError, Outcome
 from contact.mechanics.contact import Contact
 from contact.mechanics.half_space import Boundary, HalfSpace
 from contact.mechanics.pieces import Pieces
@@ -137,7 +137,16 @@ class Press:
             pieces=Pieces(heights.size, self._threads),
         )
         found = found.reshape(self._grid)[self._part]
-        return self.contact_of(load, np.where(found >= hardness, self.hardness, found * pressure_unit), iterations)
+        found = np.where(found >= hardness, self.hardness, found * pressure_unit)
+        contact = self.contact_of(load, _scaled(found, load, self.hardness), iterations)
+        if contact.complementarity > 2 * tolerance:
+            raise ConvergenceError(
+                f"contact: {Outcome.STALLED} with the conditions of contact broken by {contact.complementarity:.2g} "
+                f"of the rms height once computed afresh, above {tolerance:.2g}; ask for a looser tolerance",
+                outcome=Outcome.STALLED,
+                iterations=iterations,
+            )
+        return contact
 
     def _unit(self, load: float) -> float:
         """The rms height, or for a flat punch what the load moves, m."""

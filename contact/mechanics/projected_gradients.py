@@ -33,8 +33,11 @@ WHOLE_STEP = 0.6
 SUM = 1e-14
 """The sum of pressures is kept to this part of it in every step."""
 
-BETTER, PATIENCE = 0.9, 100
+BETTER, PATIENCE = 0.9, 500
 """A violation that has not fallen to this part of the least one in so many iterations has stalled."""
+
+JAMMED = 10
+"""After so many iterations without a better one, as many steps go down the gradient, then conjugate ones again."""
 
 SHORTEST, LONGEST = 0.2, 3.0
 """Trial lengths α stay between these; 1 is exact where every node is in contact."""
@@ -211,7 +214,7 @@ def minimise(
     heights : h, flat, the gap of the undeformed surface; infinite where there is none.
     start : flat; it is not changed.
     hardness : H, for E* = 1.
-    tolerance : of the violation, in the unit of h.
+    tolerance : of the violation, in the unit of h, the rms height.
 
     Returns
     -------
@@ -238,7 +241,8 @@ def minimise(
         if iteration - since > PATIENCE:
             outcome = Outcome.STALLED
             break
-        if not (search.conjugate() and search.step()):
+        jammed = (iteration - since) // JAMMED % 2 == 1
+        if jammed or not (search.conjugate() and search.step()):
             search.descend()
             if not search.step():
                 outcome = Outcome.STALLED
@@ -246,7 +250,7 @@ def minimise(
         search.search()
     raise ConvergenceError(
         f"contact: {outcome} after {iteration} iterations with the conditions of contact broken by {best:.2g} "
-        f"of the unit of height, above {tolerance:.2g}; ask for a looser tolerance or a smoother surface",
+        f"of the rms height, above {tolerance:.2g}; ask for a looser tolerance or resolve the surface better",
         outcome=outcome,
         iterations=iteration,
     )

@@ -1,0 +1,109 @@
+"""Heights whose mean distance, rms, skewness and kurtosis are all given."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from scipy.optimize import minimize
+from scipy.special import ndtri
+
+from contact.errors import InputError
+from contact.surface import Array
+from contact.synthetic.checks import length, number_between, whole_between
+
+ORDER = 6
+"""Of the polynomial by which the distribution departs from the normal one: three conditions and room to be smooth."""
+
+FEWEST, MOST = 32, 1_000_000
+CLOSE = 1e-8
+"""How near the conditions have to be met, relatively (skewness: absolutely)."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class FourMoments:
+    """What heights are asked to be like; of a profile Ra, Rq, Rsk, Rku, of a surface Sa, Sq, Ssk, Sku.
+
+    Attributes
+    ----------
+    average : Ra, m, mean distance from the mean.
+    rms : Rq, m.
+    skewness : Rsk.
+    kurtosis : Rku, 3 for normal heights.
+
+    Raises
+    ------
+    InputError
+        If no heights have them: Ra > Rq, or Rku < 1 + Rsk².
+    """
+
+    average: float
+    rms: float
+    skewness: float
+    kurtosis: float
+
+    def __post_init__(self) -> None:
+        length("heights.rms", self.rms)
+        number_between("heights.average", self.average, 1e-15, self.rms, "it must be above 0 m and at most the rms")
+        number_between("heights.skewness", self.skewness, -10, 10, "it must be -10 to 10")
+        least = 1 + self.skewness**2
+        number_between("heights.kurtosis", self.kurtosis, least, 200, f"it must be {least:.6g}, 1 + Rsk², to 200")
+
+
+def heights_with(moments: FourMoments, count: int) -> Array:
+    """Growing heights with a mean of 0 that have the four moments, as smoothly spread as these allow.
+
+    They are z(x) at the normal quantiles x = Φ⁻¹((k + ½)/n), with dz/dx = c exp(Σ b_j T_j(x/x_max)), j = 1 ... 6, which
+    is above 0 whatever the b_j, so that z has a density. Of all b that give the moments it has the least Σ (j b_j)²;
+    normal heights have b = 0.
+
+    Parameters
+    ----------
+    moments : that the n heights themselves have, not only the distribution they come from.
+    count : n, 32 to 1 000 000.
+
+    Returns
+    -------
+    Shape (n,), m; moments are met to 1e-8.
+
+    Raises
+    ------
+    InputError
+        If no such b is found: the moments do not go together, as those of heights of two levels.
+
+    Examples
+    --------
+    >>> z = heights_with(FourMoments(average=0.93e-6, rms=1.2e-6, skewness=-1.0, kurtosis=4.4), 512)
+    >>> round(1e6 * float(np.abs(z).mean()), 6), round(1e6 * float(z.std()), 6), bool((np.diff(z) > 0).all())
+    (0.93, 1.2, True)
+    """
+    whole_between("heights.count", count, FEWEST, MOST)
+    x = ndtri((np.arange(count) + 0.5) / count)
+    departures = chebyshev.chebvander((x[1:] + x[:-1]) / (2 * x[-1]), ORDER)[:, 1:]
+    weights = np.arange(1.0, ORDER + 1) ** 2
+
+    def scaled(b: Array) -> Array:
+        growth = departures @ b
+        z = np.concatenate([[0.0], np.cumsum(np.diff(x) * np.exp(growth - growth.max()))])
+        z -= z.mean()
+        return np.asarray(z / z.std())
+
+    def missed(b: Array) -> Array:
+        z = scaled(b)
+        found = np.abs(z).mean() * moments.rms / moments.average - 1, np.mean(z**4) / moments.kurtosis - 1
+        return np.array([found[0], np.mean(z**3) - moments.skewness, found[1]])
+
+    found = minimize(
+        lambda b: float(weights @ b**2),
+        np.zeros(ORDER),
+        jac=lambda b: 2 * weights * b,
+        constraints={"type": "eq", "fun": missed},
+        method="SLSQP",
+        options={"maxiter": 500, "ftol": 1e-12},
+    ).x
+    heights = moments.rms * scaled(found)
+    if not np.abs(missed(found)).max() < CLOSE or not (np.diff(heights) > 0).all():
+        raise InputError(
+            f"heights: got Ra/Rq {moments.average / moments.rms:.4g}, Rsk {moments.skewness:.4g}, Rku "
+            f"{moments.kurtosis:.4g}, which no smooth distribution was found for; normal heights have 0.798, 0, 3"
+        )
+    return heights
