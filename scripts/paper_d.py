@@ -20,16 +20,13 @@ from scripts.common import AsJson, in_one_line, make_directory, output, print_js
 from scripts.pages import render
 from scripts.paper_a_claims import Claim
 from scripts.paper_d_claims import judge
-from scripts.paper_d_data import LOADS, MACHINING, SEEDS, SPECTRA, WAVES, Paper, compute
+from scripts.paper_d_data import MACHINING, SPECTRA, Paper, compute
 from scripts.paper_e_surface import Reloading, load_model, reload
 
 
 @in_one_line
 def command(
     out: Annotated[Path, typer.Option(help="The page, every figure by its number, and the numbers go here.")],
-    quick: Annotated[
-        bool, typer.Option("--quick", help="Two seeds, few loads and waves: to look at the page.")
-    ] = False,
     as_json: AsJson = False,
 ) -> None:
     """Press the profiles of Paper D and the model surface of Paper E, and judge the claims."""
@@ -38,11 +35,7 @@ def command(
 
     make_directory(out)
     with progress_bar(5 * len(SPECTRA)) as advance:
-        paper = (
-            compute(advance, seeds=SEEDS[:2], loads=LOADS[::3] + LOADS[-1:], waves=WAVES[::6] + WAVES[-1:])
-            if quick
-            else compute(advance)
-        )
+        paper = compute(advance)
     model = load_model()
     again = [reload(contact) for contact in model]
     claims = judge(paper)
@@ -98,8 +91,12 @@ def numbers(paper: Paper, claims: list[Claim], model: list[Contact], again: list
         "claims": [asdict(claim) for claim in claims],
         "profiles": {spectrum: {name: made(spectrum, name) for name in STEEL_PROFILES} for spectrum in SPECTRA},
         "loads": list(paper.loads),
-        "pressed": {spectrum: {name: spread(paper.pressed[spectrum, name]) for name in STEEL_PROFILES} for spectrum in SPECTRA},
-        "finer": {spectrum: {name: spread(paper.finer[spectrum, name]) for name in STEEL_PROFILES} for spectrum in SPECTRA},
+        "pressed": {
+            spectrum: {name: spread(paper.pressed[spectrum, name]) for name in STEEL_PROFILES} for spectrum in SPECTRA
+        },
+        "finer": {
+            spectrum: {name: spread(paper.finer[spectrum, name]) for name in STEEL_PROFILES} for spectrum in SPECTRA
+        },
         "waves": list(paper.waves),
         "cut": {spectrum: spread(state) for spectrum, state in paper.cut.items()},
         "model_surface": [

@@ -65,7 +65,9 @@ def area_by_roughness(paper: Paper) -> Claim:
     for spectrum in SPECTRA:
         areas = np.array([paper.pressed[spectrum, name]["area"][:, -1].mean() for name in STEEL_PROFILES])
         powers[spectrum], ratios[spectrum] = power_of(rough, areas), float(areas.max() / areas.min())
-        told.append(f"{spectrum}: {', '.join(f'{n} {100 * a:.1f} %' for n, a in zip(STEEL_PROFILES, areas, strict=True))}")
+        told.append(
+            f"{spectrum}: {', '.join(f'{n} {100 * a:.1f} %' for n, a in zip(STEEL_PROFILES, areas, strict=True))}"
+        )
     worst = max(ratios.values())
     return Claim(
         number=16,
@@ -82,7 +84,9 @@ def plasticity(paper: Paper) -> Claim:
     rough = [row.average for row in STEEL_PROFILES.values()]
     told, ranked, starts = [], [], []
     for spectrum in SPECTRA:
-        index = {name: float(paper.pressed[spectrum, name]["plasticity_index"][:, -1].mean()) for name in STEEL_PROFILES}
+        index = {
+            name: float(paper.pressed[spectrum, name]["plasticity_index"][:, -1].mean()) for name in STEEL_PROFILES
+        }
         light = {name: float(paper.pressed[spectrum, name]["plasticity_index"][:, 0].mean()) for name in STEEL_PROFILES}
         finer = {name: float(paper.finer[spectrum, name]["plasticity_index"][:, 0].mean()) for name in STEEL_PROFILES}
         ranked.append(bool((np.argsort(list(index.values())) == np.argsort(rough)).all()))

@@ -24,9 +24,11 @@ LOADS = tuple(1e3 * load for load in (2, 5, 10, 20, 30, 40, 50, 60, 70, 80, 90, 
 WAVES = (*range(1, 21), *range(22, 41, 2), 45, 50, 60, 70, 80, 90, 100, 120, 150, 180, 220, 255)
 SEEDS = tuple(range(101, 109))
 SPECTRA = {"self-affine": 256, "smooth": 32}
-"""The highest wave of each: all that the nodes can hold, or a few only."""
+"""The highest wave of each: all that the nodes hold, or the same profiles without the shorter ones."""
 
 ROLL_OFF = LENGTH / 4
+"""Longer waves are as high as this one; the plasticity indices are then about as high as those of Fig. D.4."""
+
 FINER = 8
 TOLERANCE = 1e-7
 
@@ -126,14 +128,7 @@ def compute(
         for step, (name, moments) in enumerate(STEEL_PROFILES.items()):
             advance(5 * part + step, f"pressing profile {name}, {spectrum}")
             made = [
-                ground_profile(
-                    moments,
-                    length=LENGTH,
-                    points=POINTS,
-                    seed=seed,
-                    roll_off=ROLL_OFF,
-                    cut_off=LENGTH / highest,
-                )
+                low_pass(ground_profile(moments, length=LENGTH, points=POINTS, seed=seed, roll_off=ROLL_OFF), highest)
                 for seed in seeds
             ]
             profiles[spectrum, name] = made
