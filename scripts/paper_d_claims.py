@@ -126,5 +126,7 @@ def highest_waves(paper: Paper) -> Claim:
         number=18,
         text="The highest frequencies do not change the real area of contact",
         verdict="true" if all(kept) else "partly" if any(kept) else "false",
-        evidence=f"mean area of profile D at the highest load, of {waves[-1]} waves: " + "; ".join(told),
+        evidence=f"mean area of profile D at the highest load, of {waves[-1]} waves: "
+        + "; ".join(told)
+        + f"; the smooth ones have none beyond {SPECTRA['smooth']}",
     )

@@ -17,8 +17,8 @@ LOADS = (50e6, 100e6, 400e6, 800e6)
 """Mean pressures, Pa."""
 
 HEIGHT = 80e-6
-WAVES = ((1, 1.0, 0.35), (3, 0.55, 0.10), (7, 0.22, 0.62), (16, 0.05, 0.20))
-"""Waves in a length, amplitude over the first, and phase in turns."""
+WAVES = ((1, 0.3, 0.4), (3, 1.0, 0.1), (7, 0.35, 0.62), (16, 0.07, 0.2))
+"""Waves in a length, amplitude over the largest, and phase in turns."""
 
 TOLERANCE = 1e-9
 

@@ -50,8 +50,8 @@ def persson(spectrum: WavePower, *, composite_modulus: float, load: float, hardn
     Exact in full contact, and A/A0 = P/H for H/(E* g') → 0. Between, beside contacts solved on Gaussian self-affine
     surfaces (three at a time, 256 x 256 points): the elastic area is 0.7 of theirs up to 7 % of contact, 0.83 at 38 %,
     0.98 at 91 %; for ridges (plane strain) 0.55 to 0.63 at 8 %, 0.75 at 41 %. With H = E* g' the area is 0.68 to 0.92
-    of theirs and the plastic area 1.3 (P/H = 0.6) to 7 times (0.01) as large; with H <= E* g'/4 both are those of the
-    bearing area, within 10 % of theirs but for the plastic area at light load, 1.2 times.
+    of theirs and the plastic area 1.3 (P/H = 0.6) to 7 times (0.01) as large; with H = E* g'/4 all contact is
+    plastic, the area is within 3 % of theirs and the plastic area 1.05 to 1.2 times as large.
 
     Source: Persson, J. Chem. Phys. 115 (2001) 3840, doi:10.1063/1.1388626; Yang and Persson, J. Phys. Condens. Matter
     20 (2008) 215214, doi:10.1088/0953-8984/20/21/215214.

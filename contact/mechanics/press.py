@@ -109,12 +109,17 @@ class Press:
         if load == self.hardness:
             return self.contact_of(load, np.full(self.heights.shape, self.hardness), 0)
         if self.boundary == "periodic":
-            full = load + self._full_pressure
-            if full.min() >= 0 and full.max() <= self.hardness:
-                return self.contact_of(load, full, 0)
+            least, most = self._full_contact
+            if load + least >= 0 and load + most <= self.hardness:
+                return self.contact_of(load, load + self._full_pressure(), 0)
         return self._search(load, tolerance, start)
 
     @cached_property
+    def _full_contact(self) -> tuple[float, float]:
+        """The least and the most that full contact adds to the mean pressure, Pa."""
+        pressure = self._full_pressure()
+        return float(pressure.min()), float(pressure.max())
+
     def _full_pressure(self) -> Array:
         """What full contact adds to the mean pressure, Pa."""
         return -self.composite_modulus * self._half_space.pressure(self._down / self._length)
@@ -122,19 +127,17 @@ class Press:
     def _search(self, load: float, tolerance: float, start: Contact | None) -> Contact:
         unit = self._unit(load)
         pressure_unit = self.composite_modulus * unit / self._length
-        begin = np.full(self.heights.shape, load) if start is None else _scaled(start.pressure, load, self.hardness)
-        heights, pressure = np.full(self._grid, math.inf), np.zeros(self._grid)
-        heights[self._part] = self._down / unit
-        pressure[self._part] = begin / pressure_unit
         hardness = self.hardness / pressure_unit
         found, iterations = minimise(
             self._half_space,
-            heights.reshape(-1),
-            pressure.reshape(-1),
+            self._spread(self._down / unit, math.inf),
+            self._spread(
+                (load if start is None else _scaled(start.pressure, load, self.hardness)) / pressure_unit, 0.0
+            ),
             hardness,
             tolerance=tolerance,
             most_iterations=MOST_ITERATIONS,
-            pieces=Pieces(heights.size, self._threads),
+            pieces=Pieces(math.prod(self._grid), self._threads),
         )
         found = found.reshape(self._grid)[self._part]
         found = np.where(found >= hardness, self.hardness, found * pressure_unit)
@@ -148,6 +151,12 @@ class Press:
             )
         return contact
 
+    def _spread(self, values: Array | float, beyond: float) -> Array:
+        """Values at the surface's nodes, and another beyond them, over the whole grid, flat."""
+        grid = np.full(self._grid, beyond)
+        grid[self._part] = values
+        return grid.reshape(-1)
+
     def _unit(self, load: float) -> float:
         """The rms height, or for a flat punch what the load moves, m."""
         return float(self._down.std()) or load / self.composite_modulus * self._length
@@ -155,11 +164,12 @@ class Press:
     def contact_of(self, load: float, pressure: Array, iterations: int) -> Contact:
         """What a pressure does, and how well it keeps the conditions of contact, computed afresh."""
         base = load if self.boundary == "periodic" else 0.0
-        elastic = self._length * self._half_space.displacement((pressure - base) / self.composite_modulus)
+        elastic = self._half_space.displacement((pressure - base) / self.composite_modulus)
+        elastic *= self._length
         deformed = self._down + elastic
         plane = plane_of(pressure, deformed, self.hardness)
-        under = plane - deformed
-        plastic = pressure >= self.hardness
+        violation = violation_of(pressure, deformed, plane, self.hardness)
+        over = np.subtract(deformed, plane, out=deformed)
         return Contact(
             load=load,
             hardness=self.hardness,
@@ -167,10 +177,10 @@ class Press:
             spacing=self.spacing,
             pressure=pressure,
             elastic_displacement=elastic,
-            plastic_displacement=np.where(plastic, np.maximum(under, 0), 0.0),
+            plastic_displacement=np.where(pressure >= self.hardness, np.maximum(-over, 0), 0.0),
             approach=plane - float(self._down.min()),
-            gap=np.where(pressure > 0, 0.0, np.maximum(-under, 0)),
-            complementarity=violation_of(pressure, deformed, plane, self.hardness) / self._unit(load),
+            gap=np.where(pressure > 0, 0.0, np.maximum(over, 0)),
+            complementarity=violation / self._unit(load),
             iterations=iterations,
         )
 

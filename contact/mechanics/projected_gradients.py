@@ -57,8 +57,8 @@ def plane_of(pressure: Array, gap: Array, hardness: float) -> float:
 def violation_of(pressure: Array, gap: Array, plane: float, hardness: float) -> float:
     """The worst of |g − g00| where 0 < p < H, g00 − g where p = 0 and g − g00 where p = H."""
     difference = gap - plane
-    wrong = np.where(pressure <= 0, -difference, np.where(pressure >= hardness, difference, np.abs(difference)))
-    return max(float(wrong.max()), 0.0)
+    worst = np.max(-difference, where=pressure < hardness, initial=0.0)
+    return float(max(worst, np.max(difference, where=pressure > 0, initial=0.0)))
 
 
 class _Search:
@@ -126,6 +126,7 @@ class _Search:
     def descend(self) -> None:
         """Point ``move`` down the gradient, by the length of Barzilai and Borwein."""
         length = self.square / self.curvature if self.curvature > 0 else 1.0
+        self.length = 1.0
         self.pieces.over_free(kernels.descend, length, self.residual, self.move)
 
     def step(self) -> bool:
@@ -212,7 +213,7 @@ def minimise(
     ----------
     half_space : K, for E* = 1.
     heights : h, flat, the gap of the undeformed surface; infinite where there is none.
-    start : flat; it is not changed.
+    start : flat; it becomes the pressure found.
     hardness : H, for E* = 1.
     tolerance : of the violation, in the unit of h, the rms height.
 
@@ -225,7 +226,7 @@ def minimise(
     ConvergenceError
         If the violation stays above the tolerance, with how far it came.
     """
-    search = _Search(half_space, heights, start.copy(), hardness, pieces)
+    search = _Search(half_space, heights, start, hardness, pieces)
     refreshed = best = math.inf
     since = 0
     outcome = Outcome.UNFINISHED
