@@ -6,12 +6,10 @@ from itertools import product
 
 import numpy as np
 
-from contact.errors import ConvergenceError
 from contact.heights import height_statistics
 from contact.mechanics.contact import Contact
 from contact.mechanics.press import Press
 from contact.mechanics.solid import Solid, composite_modulus
-from contact.mechanics.stanley_kato import stanley_kato
 from contact.surface import Array
 from contact.synthetic.profile import STEEL_PROFILES, ground_profile
 
@@ -73,16 +71,10 @@ def refined(heights: Array, times: int) -> Array:
 
 
 def line_contacts(heights: Array, loads: Sequence[float], *, hardness: float = STEEL.hardness) -> list[Contact]:
-    """A profile of ``LENGTH`` under loads in N/m; where ``Press`` stalls, by the algorithm of the thesis."""
-    z, spacing, modulus = heights[:, None], (LENGTH / heights.size, LENGTH / heights.size), composite_modulus(STEEL)
-    press = Press(z, spacing, modulus, hardness=hardness)
-    contacts = []
-    for load in loads:
-        try:
-            contacts.append(press.at(load / LENGTH, tolerance=TOLERANCE))
-        except ConvergenceError:
-            contacts.append(stanley_kato(z, spacing, modulus, load / LENGTH, hardness=hardness, tolerance=TOLERANCE))
-    return contacts
+    """A profile of ``LENGTH`` under loads in N/m."""
+    spacing = LENGTH / heights.size
+    press = Press(heights[:, None], (spacing, spacing), composite_modulus(STEEL), hardness=hardness)
+    return [press.at(load / LENGTH, tolerance=TOLERANCE) for load in loads]
 
 
 QUANTITIES: dict[str, Callable[[Contact], float]] = {
