@@ -9,7 +9,7 @@ from contact.errors import InputError
 from foamcases import mesh
 from foamcases.dictionaries import SIDES, write_dictionaries
 from foamcases.openfoam import OPEN_MPI
-from rom.scene import Scene
+from rom.pocket import Pocket
 
 CARD = "case.json"
 COARSEST, FINEST = 12, 4000
@@ -65,7 +65,7 @@ class Card:
 
 
 def write_case(
-    scene: Scene,
+    scene: Pocket,
     directory: Path,
     *,
     reynolds_number: float,

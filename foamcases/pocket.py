@@ -14,9 +14,9 @@ from foamcases.fields import read_channel
 from foamcases.openfoam import availability
 from foamcases.run import Run, run_case
 from rom.ladder import Applicability, Effect, Model, Progress, Write, chosen_scheme, silent
+from rom.pocket import Pocket, pocket_quantities
 from rom.provenance import provenance
-from rom.result import Field, Numerics, Result, pocket_quantities
-from rom.scene import Scene
+from rom.result import Field, Numerics, Result
 from rom.validity import cautions
 
 SOURCES = ("10.1115/1.1828067", "10.1063/1.168744", "10.1080/01495728408961817")
@@ -25,13 +25,13 @@ RESOLUTION_MEANING = "mesh columns along the film, with a fifth as many layers a
 RESIDUAL_MEANING = "largest initial residual of velocity and pressure that a new process finds in the fields on disk"
 
 
-def cost(_scene: Scene, resolution: int) -> float:
+def cost(_scene: Pocket, resolution: int) -> float:
     """CPU seconds of one run, measured over 60 to 480 columns: start-up, then cells times iterations."""
     return float(0.3 + 2.4 * (resolution / 240) ** 2.4)
 
 
 def write(
-    scene: Scene,
+    scene: Pocket,
     directory: Path,
     *,
     model: str,
@@ -54,7 +54,7 @@ def write(
     )
 
 
-def read(scene: Scene, directory: Path, run: Run, *, model: str, keeps: frozenset[Effect]) -> Result:
+def read(scene: Pocket, directory: Path, run: Run, *, model: str, keeps: frozenset[Effect]) -> Result:
     """The result of a case that was run; see :func:`foamcases.fields.read_channel` for the errors."""
     card, channel = read_card(directory), read_channel(directory)
     film, pascal = scene.geometry.film, scene.pressure_unit
@@ -103,7 +103,7 @@ def read(scene: Scene, directory: Path, run: Run, *, model: str, keeps: frozense
 
 
 def solve(
-    scene: Scene,
+    scene: Pocket,
     *,
     model: str,
     keeps: frozenset[Effect],
@@ -133,7 +133,7 @@ def openfoam_model(
     name: str,
     summary: str,
     keeps: frozenset[Effect],
-    applies: Callable[[Scene], Applicability],
+    applies: Callable[[Pocket], Applicability],
     reynolds_number: float | None = None,
     schemes: tuple[str, ...] = (),
 ) -> Model:
@@ -141,6 +141,7 @@ def openfoam_model(
     write_model = partial(write, model=name, schemes=schemes, reynolds_number=reynolds_number)
     return Model(
         name=name,
+        kind="pocket",
         summary=summary,
         keeps=keeps,
         sources=SOURCES,

@@ -3,13 +3,9 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from rom.kind import kind_of
 from rom.ladder import Effect, Model, best, one_effect_away
 from rom.result import Result
-
-COMPARED = ("load_plus", "friction_plus")
-
-LEAST_LOAD = 1e-3
-"""A load below this part of the greatest pressure is no load to divide by; the pressure is taken instead."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,7 +22,7 @@ class Difference:
 
 @dataclass(frozen=True, kw_only=True)
 class Point:
-    """One run on the speed-accuracy chart: CPU seconds, and error in each compared quantity against the best rung."""
+    """One run on the speed-accuracy chart: CPU seconds, and its error against the best rung in what both give."""
 
     model: str
     resolution: int
@@ -35,12 +31,8 @@ class Point:
 
 
 def scale(result: Result, quantity: str) -> float:
-    """What an error in a quantity is divided by: its size, or the greatest pressure where there is hardly any load."""
-    size = abs(result.quantities[quantity].value)
-    if quantity != "load_plus":
-        return size
-    pressure = max(abs(result.quantities[name].value) for name in ("pressure_max_plus", "pressure_min_plus"))
-    return size if size > LEAST_LOAD * pressure else pressure
+    """What an error in a quantity is divided by, as the kind of scene says: mostly its size."""
+    return kind_of(result).scale_of(result, quantity)
 
 
 def _difference(result: Result, other: Result, quantity: str, effect: Effect | None, top: Result) -> Difference:
@@ -63,7 +55,7 @@ def to_best(models: Sequence[Model], results: Mapping[str, Result]) -> tuple[Dif
         _difference(results[model.name], top, quantity, None, top)
         for model in solved
         if model.name != top.model
-        for quantity in COMPARED
+        for quantity in kind_of(top).shared(results[model.name], top)
     )
 
 
@@ -75,7 +67,7 @@ def effects(models: Sequence[Model], results: Mapping[str, Result]) -> tuple[Dif
         _difference(results[other.name], results[model.name], quantity, effect, top)
         for model in solved
         for other, effect in one_effect_away(model, solved)
-        for quantity in COMPARED
+        for quantity in kind_of(top).shared(results[model.name], results[other.name], top)
     )
 
 
@@ -89,7 +81,7 @@ def points(reference: Result, runs: Sequence[Result]) -> tuple[Point, ...]:
             error={
                 quantity: abs(run.quantities[quantity].value - reference.quantities[quantity].value)
                 / scale(reference, quantity)
-                for quantity in COMPARED
+                for quantity in kind_of(reference).shared(run, reference)
             },
         )
         for run in runs
@@ -100,7 +92,8 @@ def points(reference: Result, runs: Sequence[Result]) -> tuple[Point, ...]:
 def pareto_front(chart: Sequence[Point], quantity: str) -> tuple[Point, ...]:
     """The points that no other point beats in both cost and error, cheapest first."""
     front: list[Point] = []
-    for point in sorted(chart, key=lambda point: (point.cpu_s, point.error[quantity])):
+    known = [point for point in chart if quantity in point.error]
+    for point in sorted(known, key=lambda point: (point.cpu_s, point.error[quantity])):
         if not front or point.error[quantity] < front[-1].error[quantity]:
             front.append(point)
     return tuple(front)

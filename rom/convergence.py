@@ -7,8 +7,9 @@ from enum import StrEnum
 import numpy as np
 
 from contact.errors import InputError
-from rom.comparison import COMPARED, scale
+from rom.comparison import scale
 from rom.gap import Array
+from rom.kind import kind_of
 from rom.ladder import Model
 from rom.result import Result
 
@@ -156,5 +157,5 @@ def convergence(model: Model, runs: Sequence[Result]) -> Mapping[str, Convergenc
             formal_order=model.order,
             noise=own[-1].numerics.residual * scale(own[-1], quantity),
         )
-        for quantity in COMPARED
+        for quantity in kind_of(own[-1]).shared(*own)
     }

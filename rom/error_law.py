@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from rom.ladder import Applicability
-from rom.scene import Scene
+from rom.pocket import Pocket
 
 SYMBOLS = {"reynolds_number": "Re", "depth": "d/Ly", "aspect": "2d/w", "slope": "slope"}
 """``slope`` is that of the steeper side of a groove, 2d/w if its lowest point is in the middle."""
@@ -23,17 +23,17 @@ class ErrorLaw:
     powers: Mapping[str, float]
     thresholds: Mapping[float, float]
 
-    def number(self, scene: Scene) -> float:
+    def number(self, scene: Pocket) -> float:
         """The product of powers; of several grooves the deepest and steepest count."""
         factors: list[float] = [getattr(scene, name) ** power for name, power in self.powers.items()]
         return math.prod(factors)
 
-    def within(self, scene: Scene) -> float | None:
+    def within(self, scene: Pocket) -> float | None:
         """The smallest tolerance that the load is expected to keep, None beyond the last threshold."""
         number = self.number(scene)
         return min((t for t, limit in self.thresholds.items() if number <= limit), default=None)
 
-    def told(self, scene: Scene) -> str:
+    def told(self, scene: Pocket) -> str:
         """What is to be expected, in words."""
         kept, worst = self.within(scene), max(self.thresholds)
         found = f"{words(self.powers)} = {self.number(scene):.3g}"
@@ -41,7 +41,7 @@ class ErrorLaw:
             return f"{found}: load more than {worst:.0%} off where this is above {self.thresholds[worst]:.3g}"
         return f"{found}: load within {kept:.0%} up to {self.thresholds[kept]:.3g}"
 
-    def applicability(self, scene: Scene, words_before: str) -> Applicability:
+    def applicability(self, scene: Pocket, words_before: str) -> Applicability:
         """What a model says of a scene: these words, then what is to be expected."""
         return Applicability(applies=True, within=self.within(scene), reason=f"{words_before}; {self.told(scene)}")
 

@@ -12,9 +12,9 @@ from rom.across import Basis, even_basis, gauss_basis, sliding_wall_slope
 from rom.error_law import ErrorLaw
 from rom.gap import Array
 from rom.ladder import Applicability, Effect, Model, Progress, chosen_scheme, one_process, silent
+from rom.pocket import Pocket, pocket_quantities
 from rom.provenance import provenance
-from rom.result import Field, Numerics, Result, pocket_quantities
-from rom.scene import Scene
+from rom.result import Field, Numerics, Result
 from rom.thin_film import Flow, Strip
 from rom.validity import cautions
 
@@ -113,7 +113,7 @@ def _with_slope(
 
 
 def solve(
-    scene: Scene,
+    scene: Pocket,
     *,
     model: str,
     keeps: frozenset[Effect],
@@ -216,13 +216,14 @@ def film_model(
     summary: str,
     keeps: frozenset[Effect],
     sources: tuple[str, ...],
-    applies: Callable[[Scene], Applicability],
+    applies: Callable[[Pocket], Applicability],
     law: ErrorLaw | None = None,
     complete: bool,
 ) -> Model:
     """A rung that solves the thin-film equations; its cost was measured from 50 to 800 cells."""
     return Model(
         name=name,
+        kind="pocket",
         summary=summary,
         keeps=keeps,
         complete=complete,

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 from types import ModuleType
-from typing import Protocol
+from typing import Any, Protocol
 
 from contact.errors import InputError
+from rom.kind import Scene
 from rom.result import Result
-from rom.scene import Scene
 
 
 class Effect(StrEnum):
@@ -19,6 +19,10 @@ class Effect(StrEnum):
 
     SLOPE = "slope"
     INERTIA = "inertia"
+    DEFORMATION = "deformation"
+    """Elastic, of the whole solid: where it is pressed, and around."""
+    PLASTICITY = "plasticity"
+    """Pressure that the hardness bounds."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,7 +66,7 @@ class Solve(Protocol):
 
     def __call__(
         self,
-        scene: Scene,
+        scene: Any,
         *,
         resolution: int | None = None,
         tolerance: float | None = None,
@@ -79,7 +83,7 @@ class Write(Protocol):
 
     def __call__(
         self,
-        scene: Scene,
+        scene: Any,
         directory: Path,
         *,
         resolution: int | None = None,
@@ -93,40 +97,60 @@ class Write(Protocol):
 
 @dataclass(frozen=True, kw_only=True)
 class Model:
-    """One rung: what it keeps, what it costs, where it applies, and how to solve it.
+    """One rung: which kind of scene it solves, what it keeps, what it costs, where it applies, and how to solve it.
 
     ``resolutions`` go from coarse to fine, for charts; ``resolution`` is the default one, and
-    ``resolution_meaning`` and ``residual_meaning`` say in words what the numbers count.
+    ``resolution_meaning`` and ``residual_meaning`` say in words what the numbers count. Where the scene decides,
+    ``resolution`` is None, ``own_resolutions`` gives them, and the finest is the default.
     ``complete`` says that the effects it keeps are kept in full, not to some order of smallness.
     ``order`` is that of load and friction in the resolution, None for a spectral method.
     ``schemes`` names the advection schemes it offers, the default first; empty where there is no choice.
     """
 
     name: str
+    kind: str
     summary: str
     keeps: frozenset[Effect]
     complete: bool = True
     sources: tuple[str, ...]
-    resolution: int
+    resolution: int | None
     resolutions: tuple[int, ...]
     resolution_meaning: str
     residual_meaning: str
     order: int | None
-    cost: Callable[[Scene, int], float]
-    applies: Callable[[Scene], Applicability]
+    cost: Callable[[Any, int], float]
+    applies: Callable[[Any], Applicability]
     solve: Solve
     available: Callable[[], Availability] = always
     write: Write | None = None
     schemes: tuple[str, ...] = ()
+    own_resolutions: Callable[[Any], tuple[int, ...]] | None = None
+
+    def resolutions_of(self, scene: Scene) -> tuple[int, ...]:
+        """Those for charts of a scene, from coarse to fine."""
+        return self.resolutions if self.own_resolutions is None else self.own_resolutions(scene)
+
+    def resolution_of(self, scene: Scene) -> int:
+        """The default one on a scene."""
+        return self.resolutions_of(scene)[-1] if self.resolution is None else self.resolution
 
 
 def ladder(*packages: ModuleType) -> tuple[Model, ...]:
-    """The ``MODEL`` of every module in the packages, from the one that keeps least to the one that keeps most."""
+    """The ``MODEL`` of every module in the packages, by kind of scene from what keeps least to what keeps most."""
     names = [
         module.name for package in packages for module in pkgutil.iter_modules(package.__path__, package.__name__ + ".")
     ]
     models: list[Model] = [importlib.import_module(name).MODEL for name in names]
-    return tuple(sorted(models, key=lambda model: (len(model.keeps), sorted(model.keeps), model.complete, model.name)))
+
+    def place(model: Model) -> tuple[Any, ...]:
+        return model.kind, len(model.keeps), sorted(model.keeps), model.complete, model.name
+
+    return tuple(sorted(models, key=place))
+
+
+def of_kind(models: Sequence[Model], kind: str) -> tuple[Model, ...]:
+    """The models that solve scenes of that kind, in their order."""
+    return tuple(model for model in models if model.kind == kind)
 
 
 def find(models: Sequence[Model], name: str) -> Model:
@@ -157,7 +181,7 @@ def one_process(model: str, processes: int) -> None:
 
 
 def best(models: Sequence[Model]) -> Model:
-    """The rung that keeps the most, and in full; every other model's error is measured against it."""
+    """The rung of one kind that keeps the most, and in full; every other model's error is measured against it."""
     return max(models, key=lambda model: (len(model.keeps), model.complete))
 
 

@@ -11,13 +11,14 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from rom.scene import Scene, scene_entries
+from rom.kind import Scene
+from rom.scene import scene_entries
 
 
 @cache
 def versions() -> dict[str, str]:
     """Versions of roughfilm, of Python and of the libraries that compute."""
-    names = ("roughfilm", "numpy", "scipy", "h5py", "foamlib", "pydantic", "pint")
+    names = ("roughfilm", "numpy", "scipy", "h5py", "foamlib", "pydantic", "pint", "numba", "pyfftw")
     return {"python": platform.python_version(), **{name: metadata.version(name) for name in names}}
 
 

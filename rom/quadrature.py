@@ -13,9 +13,9 @@ from rom.error_law import ErrorLaw
 from rom.gap import Array, Gap
 from rom.ladder import Applicability, Effect, Model, Progress, chosen_scheme, one_process, silent
 from rom.piecewise import Rule, extrema, gauss_rule
+from rom.pocket import Pocket, pocket_quantities
 from rom.provenance import provenance
-from rom.result import Field, Numerics, Result, pocket_quantities
-from rom.scene import Scene
+from rom.result import Field, Numerics, Result
 from rom.validity import cautions
 
 RESOLUTION = 24
@@ -56,7 +56,7 @@ def _flow_and_residual(gap: Gap, film: _Film, rule: Rule) -> tuple[float, float]
 
 
 def solve(
-    scene: Scene,
+    scene: Pocket,
     *,
     model: str,
     keeps: frozenset[Effect],
@@ -164,12 +164,13 @@ def quadrature_model(
     keeps: frozenset[Effect],
     complete: bool = True,
     sources: tuple[str, ...],
-    applies: Callable[[Scene], Applicability],
+    applies: Callable[[Pocket], Applicability],
     law: ErrorLaw | None = None,
 ) -> Model:
     """A rung that solves by quadrature; its cost is that of the default rule (a half circle takes seconds)."""
     return Model(
         name=name,
+        kind="pocket",
         summary=summary,
         keeps=keeps,
         complete=complete,

@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.units import Quantity
-from rom.scene import Scene
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,35 +38,10 @@ class Numerics:
 
 @dataclass(frozen=True, kw_only=True)
 class Result:
-    """What one model says of one scene.
-
-    ``fields`` of a pocket scene, all along the sliding (upper) wall: ``position``, ``film_thickness`` (m), ``pressure``
-    and ``shear_stress`` (Pa). Models that resolve the film add ``vertices`` (nx+1, ny+1, 2), ``cell_velocity``
-    (nx, ny, 2) and ``cell_pressure`` (nx, ny).
-    """
+    """What one model says of one scene; which quantities and fields, the kind of scene says."""
 
     model: str
     quantities: Mapping[str, Quantity]
     fields: Mapping[str, Field]
     numerics: Numerics
     provenance: Mapping[str, Any] = field(repr=False)
-
-
-def pocket_quantities(
-    scene: Scene, *, load: float, friction: float, pressure_max: float, pressure_min: float, backflow: float
-) -> dict[str, Quantity]:
-    """The quantities of a pocket scene from forces per area and pressures in units of η u / Ly.
-
-    p+ = 100 p Ly² / (η u Lx) with p = 0 at the periodic boundary; load and friction likewise, per area of the sliding
-    wall, so that smooth parallel walls have friction_plus = 100 Ly / Lx. ``backflow`` is a fraction of the speed.
-    """
-    plus, pascal = scene.plus_factor, scene.pressure_unit
-    return {
-        "load_plus": Quantity(value=load * plus, unit="1"),
-        "friction_plus": Quantity(value=friction * plus, unit="1"),
-        "pressure_max_plus": Quantity(value=pressure_max * plus, unit="1"),
-        "pressure_min_plus": Quantity(value=pressure_min * plus, unit="1"),
-        "load_per_area": Quantity(value=load * pascal, unit="Pa"),
-        "friction_per_area": Quantity(value=friction * pascal, unit="Pa"),
-        "backflow": Quantity(value=backflow, unit="1"),
-    }

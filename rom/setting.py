@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from contact.errors import InputError, UnavailableError
+from rom.kind import Scene
 from rom.ladder import Model, Progress, silent
 from rom.result import Result
-from rom.scene import Scene
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,7 +25,7 @@ class Setting:
 
     def cost(self, scene: Scene) -> float:
         """Expected CPU seconds."""
-        return self.model.cost(scene, self.resolution or self.model.resolution)
+        return self.model.cost(scene, self.resolution or self.model.resolution_of(scene))
 
     def solve(self, scene: Scene, progress: Progress = silent) -> Result:
         """Solve a scene; raises what the model's ``solve`` raises."""

@@ -12,9 +12,10 @@ from pathlib import Path
 from typing import Any
 
 from contact.errors import InputError
-from rom.ladder import Model
+from rom.kind import Scene
+from rom.ladder import Model, of_kind
 from rom.relative import resolve_relative
-from rom.scene import Scene, load_entries, read_scene, scene_entries
+from rom.scene import kind_named, load_entries, read_scene, scene_entries
 from rom.setting import Setting, read_settings
 
 MOST_CASES = 1_000_000
@@ -55,8 +56,8 @@ def load_study(path: Path, models: Sequence[Model]) -> Study:
 
     ``[[variants]]`` are tables laid over the scene one by one, to vary keys together. ``[study]`` names ``models``
     (by default all that are available) and, by model, ``resolution`` and ``scheme``, one or a list. In geometry a
-    length may be a multiple of another one: "0.3 width". Lists of lists and lists of tables are values themselves;
-    the lists inside such tables are swept.
+    length may be a multiple of another one: "0.3 width". Lists of lists and lists of tables are values themselves,
+    and so are lists where the kind of scene has a list; the lists inside such tables are swept.
 
     Raises
     ------
@@ -66,20 +67,24 @@ def load_study(path: Path, models: Sequence[Model]) -> Study:
         If a model that the study names cannot run here.
     """
     entries = load_entries(path)
-    settings = read_settings(entries.pop("study", {}), models)
+    kind = kind_named(entries)
+    settings = read_settings(entries.pop("study", {}), models if kind is None else of_kind(models, kind.name))
     variants = entries.pop("variants", [{}])
     if not isinstance(variants, list) or not all(isinstance(variant, dict) for variant in variants):
         raise InputError("variants: is not a list of tables; write each under [[variants]]")
+    if any("kind" in variant for variant in variants):
+        raise InputError("variants: got a kind; write it once for all, and a study for each kind of scene")
     try:
-        keys, cases = _multiplied([_merged(entries, variant) for variant in variants])
+        bases = [_merged(entries, variant) for variant in variants]
+        keys, cases = _multiplied(bases, frozenset[Key]() if kind is None else kind.lists)
     except RecursionError:
         raise InputError(f"{path}: tables are nested too deep; a scene has two or three levels") from None
     return Study(name=cases[0].scene.name, keys=keys, cases=cases, settings=settings)
 
 
-def _multiplied(bases: Sequence[Mapping[str, Any]]) -> tuple[dict[str, Key], tuple[Case, ...]]:
-    """What varies, by its short name, and the cases of all bases."""
-    axes = [dict(_axes(base)) for base in bases]
+def _multiplied(bases: Sequence[Mapping[str, Any]], lists: frozenset[Key]) -> tuple[dict[str, Key], tuple[Case, ...]]:
+    """What varies, by its short name, and the cases of all bases; ``lists`` are the keys whose value is a list."""
+    axes = [dict(_axes(base, lists)) for base in bases]
     count = sum(math.prod(len(values) for values in options.values()) for options in axes)
     if not 1 <= count <= MOST_CASES:
         raise InputError(f"the lists make {count} cases; a study has 1 to {MOST_CASES}")
@@ -122,14 +127,17 @@ def _tables(*values: object) -> bool:
     return all(isinstance(value, dict) for value in values)
 
 
-def _axes(entry: Any, key: Key = ()) -> Iterator[tuple[Key, list[Any]]]:
+def _axes(entry: Any, lists: frozenset[Key], key: Key = ()) -> Iterator[tuple[Key, list[Any]]]:
     """Every entry that is no table, with the values it takes."""
     if isinstance(entry, dict):
         for name, value in entry.items():
-            yield from _axes(value, (*key, name))
+            yield from _axes(value, lists, (*key, name))
     elif isinstance(entry, list) and entry and _tables(*entry):
         for place, value in enumerate(entry):
-            yield from _axes(value, (*key, place))
+            yield from _axes(value, lists, (*key, place))
+    elif isinstance(entry, list) and key in lists:
+        swept = bool(entry) and all(isinstance(value, list) for value in entry)
+        yield key, entry if swept else [entry]
     elif isinstance(entry, list) and not any(isinstance(value, list) for value in entry):
         kinds = {_kind(value) for value in entry}
         if len(kinds) != 1:

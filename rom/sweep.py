@@ -8,33 +8,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.errors import InputError
-from rom.comparison import LEAST_LOAD
 from rom.gap import Array
-
-LOADED = 0.05
-"""A smaller load, over the greatest pressure, is the difference of two larger ones; its error follows no number."""
+from rom.kind import Kind, kinds
+from rom.sweeping import Sweeping
 
 SOLVED = "solved"
 """The outcome of a row that holds numbers; any other says why it does not."""
-
-QUANTITIES = (
-    "load_plus",
-    "friction_plus",
-    "pressure_max_plus",
-    "pressure_min_plus",
-    "backflow",
-)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Sweep:
     """Cases, what they were given, shape (cases,), and what was found by setting and quantity, NaN for nothing.
 
-    ``given`` holds ``profile`` (texts), ``width_plus`` = w/Lx, ``depth_plus`` = d/Ly, ``shift_plus`` = xd/w,
-    ``reynolds_number`` and ``film_plus`` = Ly/Lx. A setting is a model's name and
-    what the study chose for it: navier_stokes-240-upwind.
+    ``kind`` names the kind of their scenes, which says what ``given`` holds. A setting is a model's name and what the
+    study chose for it: navier_stokes-240-upwind.
     """
 
+    kind: str
     names: tuple[str, ...]
     given: Mapping[str, NDArray[Any]]
     found: Mapping[str, Mapping[str, Array]]
@@ -42,35 +32,38 @@ class Sweep:
     failures: tuple[tuple[str, str, str], ...]
 
     def features(self) -> dict[str, Array]:
-        """The numbers by which errors are ordered: Re, d/Ly, 2d/w, and the mean slope of the steeper side."""
-        width, depth = self.given["width_plus"] / self.given["film_plus"], self.given["depth_plus"]
+        """The numbers by which errors are ordered, shape (cases,)."""
         return {
-            "reynolds_number": np.asarray(self.given["reynolds_number"], dtype=float),
-            "depth": np.asarray(depth, dtype=float),
-            "aspect": np.asarray(2 * depth / width, dtype=float),
-            "slope": np.asarray(depth / (width * (0.5 - np.abs(self.given["shift_plus"]))), dtype=float),
+            name: np.asarray(values, dtype=float)
+            for name, values in sweeping(kinds()[self.kind]).features(self.given).items()
         }
 
 
-def read_sweep(table: Mapping[str, NDArray[Any]]) -> Sweep:
+def sweeping(kind: Kind) -> Sweeping:
+    """How sweeps over a kind of scene are judged; InputError if nobody has said."""
+    if kind.sweeping is None:
+        raise InputError(f"the table holds {kind.name} scenes; there is no report over many of them yet")
+    return kind.sweeping
+
+
+def read_sweep(table: Mapping[str, NDArray[Any]], kind: str) -> Sweep:
     """The sweep in a table of ``roughfilm batch``; InputError if columns are missing."""
+    judged = sweeping(kinds()[kind])
     try:
         cases, first, index = np.unique(table["case"], return_index=True, return_inverse=True)
         settings = table["setting"]
-        names = ("profile", "width_plus", "depth_plus", "reynolds_number", "film_plus")
-        given = {name: table[name][first] for name in names}
-        shift = table["shift_plus"][first] if "shift_plus" in table else np.zeros(cases.size)
-        given["shift_plus"] = np.nan_to_num(shift)
+        given = {name: _given(table, name, default)[first] for name, default in judged.given.items()}
         found, cpu_s = {}, {}
         for setting in dict.fromkeys(str(name) for name in settings):
             rows = settings == setting
-            found[setting] = {name: _spread(table[name], index, rows, cases.size) for name in QUANTITIES}
+            found[setting] = {name: _spread(table[name], index, rows, cases.size) for name in judged.quantities}
             cpu_s[setting] = _spread(table["cpu_s"], index, rows, cases.size)
         failed = np.flatnonzero(table["outcome"] != SOLVED)
         failures = tuple((str(table["case"][i]), str(settings[i]), str(table["outcome"][i])) for i in failed)
     except (KeyError, IndexError) as error:
         raise InputError(f"the table has no column {error}; make it again with roughfilm batch") from None
     return Sweep(
+        kind=kind,
         names=tuple(str(case) for case in cases),
         given=given,
         found=found,
@@ -80,20 +73,22 @@ def read_sweep(table: Mapping[str, NDArray[Any]]) -> Sweep:
 
 
 def loaded(sweep: Sweep, reference: str) -> NDArray[np.bool_]:
-    """Which cases carry a load worth dividing by, above ``LOADED`` of the greatest pressure; shape (cases,)."""
-    best = sweep.found[reference]
-    pressure = np.maximum(np.abs(best["pressure_max_plus"]), np.abs(best["pressure_min_plus"]))
-    return np.asarray(np.abs(best["load_plus"]) > LOADED * pressure)
+    """Which cases have a load (or what else is compared) worth dividing by; shape (cases,)."""
+    return np.asarray(sweeping(kinds()[sweep.kind]).worth(sweep.found[reference]))
 
 
 def relative_error(sweep: Sweep, setting: str, reference: str, quantity: str) -> Array:
-    """|difference to the reference| / its size, or / the greatest pressure where there is hardly any load; (cases,)."""
+    """|difference to the reference| / what the kind of scene says to divide by, mostly its size; shape (cases,)."""
     best = sweep.found[reference]
-    size = np.abs(best[quantity])
-    if quantity == "load_plus":
-        pressure = np.maximum(np.abs(best["pressure_max_plus"]), np.abs(best["pressure_min_plus"]))
-        size = np.where(size > LEAST_LOAD * pressure, size, pressure)
-    return np.asarray(np.abs(sweep.found[setting][quantity] - best[quantity]) / size)
+    scale = kinds()[sweep.kind].scale(best, quantity)
+    return np.asarray(np.abs(sweep.found[setting][quantity] - best[quantity]) / scale)
+
+
+def _given(table: Mapping[str, NDArray[Any]], name: str, default: float | None) -> NDArray[Any]:
+    if default is None:
+        return table[name]
+    values = table[name] if name in table else np.full(table["case"].size, default)
+    return np.where(np.isnan(values), default, values)
 
 
 def _spread(values: NDArray[Any], index: NDArray[np.int64], rows: NDArray[np.bool_], cases: int) -> Array:

@@ -1,7 +1,7 @@
 """Where a model leaves the ground on which it was compared or may be assumed: cautions, in words."""
 
 from rom.error_law import ErrorLaw
-from rom.scene import Scene
+from rom.pocket import Pocket
 
 TURBULENT = 1440.0
 """Re of the film at which plane shear flow turns turbulent: 360 for half the speed and half the gap.
@@ -10,7 +10,7 @@ Source: Tillmark and Alfredsson 1992, doi:10.1017/S0022112092001046.
 """
 
 
-def cautions(scene: Scene, law: ErrorLaw | None = None) -> tuple[str, ...]:
+def cautions(scene: Pocket, law: ErrorLaw | None = None) -> tuple[str, ...]:
     """What a reader must know before believing a model whose errors follow this law, if one is known."""
     told = []
     if scene.reynolds_number > TURBULENT:

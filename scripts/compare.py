@@ -15,9 +15,10 @@ from contact.errors import ConvergenceError
 from contact.files import replacing
 from rom.comparison import effects, points, scale, to_best
 from rom.convergence import GRIDS, Convergence, convergence
-from rom.ladder import Model, best
+from rom.kind import Scene, kinds
+from rom.ladder import Model, best, of_kind
 from rom.result import Result
-from rom.scene import Scene, load_scene
+from rom.scene import load_scene
 from rom.store import as_entries
 from scripts.common import (
     NOT_CONVERGED,
@@ -36,6 +37,7 @@ from scripts.comparison import Picture, Report, cheapest_within, write_compariso
 from scripts.rendering import draw_apart
 from scripts.runs import Job, jobs_of, run_all
 from scripts.solve import table_of
+from scripts.view import views
 
 RESULTS = "results"
 
@@ -53,16 +55,17 @@ def command(
     """Run every model that applies and write report.html, results (.h5) and figures."""
     read = load_scene(scene, set_ or ())
     make_directory(out)
-    left_out = {model.name: reason for model in models() if (reason := _reason_to_leave_out(model, read))}
+    ladder = of_kind(models(), read.kind)
+    left_out = {model.name: reason for model in ladder if (reason := _reason_to_leave_out(model, read))}
     failed: dict[str, str] = {}
-    jobs = jobs_of(read, [model for model in models() if model.name not in left_out], out / RESULTS, grids)
+    jobs = jobs_of(read, [model for model in ladder if model.name not in left_out], out / RESULTS, grids)
     runs = run_all(jobs, failed)
     results = _finest(runs)
     absent = {**left_out, **failed}
     if not results:
         raise ConvergenceError("no model solved the scene: " + "; ".join(f"{k}: {v}" for k, v in absent.items()))
 
-    report = _judge(read, results, [result for _, result in runs], absent, out)
+    report = _judge(read, ladder, results, [result for _, result in runs], absent, out)
     write_comparison(report, out / "report.html")
     if as_json:
         print_json(_entries(report, out))
@@ -106,11 +109,16 @@ def _table_of_convergence(model: str, study: Mapping[str, Convergence]) -> Table
 
 
 def _judge(
-    scene: Scene, results: Mapping[str, Result], runs: Sequence[Result], absent: Mapping[str, str], out: Path
+    scene: Scene,
+    ladder: tuple[Model, ...],
+    results: Mapping[str, Result],
+    runs: Sequence[Result],
+    absent: Mapping[str, str],
+    out: Path,
 ) -> Report:
-    from scripts.figures import grid_convergence, pressure, speed_against_accuracy  # matplotlib is slow to import
+    from scripts.figures import grid_convergence, speed_against_accuracy  # matplotlib is slow to import
 
-    ladder = models()
+    view, titles = views()[scene.kind], kinds()[scene.kind].compared
     top = best([model for model in ladder if model.name in results])
     chart = points(results[top.name], runs)
     studies = {
@@ -120,12 +128,14 @@ def _judge(
     }
     floor = {name: found.uncertainty / scale(results[top.name], name) for name, found in convergence(top, runs).items()}
     plots = {
-        "pressure": pressure(scene, results),
-        "chart": speed_against_accuracy(chart, floor),
-        **({"convergence": grid_convergence(studies)} if studies else {}),
+        **view.plots(scene, results),
+        "chart": speed_against_accuracy(chart, floor, titles, view),
+        **({"convergence": grid_convergence(studies, titles, view)} if studies else {}),
     }
     report = Report(
         scene=scene,
+        kind=kinds()[scene.kind],
+        view=view,
         models=ladder,
         results=results,
         absent=absent,

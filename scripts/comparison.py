@@ -6,10 +6,12 @@ from pathlib import Path
 
 from rom.comparison import Difference, Point
 from rom.convergence import Convergence
+from rom.kind import Kind, Scene
 from rom.ladder import Model
 from rom.result import Result
-from rom.scene import Scene, scene_entries
+from rom.scene import scene_entries
 from scripts.pages import embedded, render
+from scripts.view import View
 
 LINKS = "https://doi.org/"
 
@@ -28,6 +30,8 @@ class Report:
     """Everything the page shows."""
 
     scene: Scene
+    kind: Kind
+    view: View
     models: tuple[Model, ...]
     results: Mapping[str, Result]
     absent: Mapping[str, str]
@@ -42,10 +46,14 @@ class Report:
 
 
 def cheapest_within(report: Report, part: float) -> str:
-    """The model with the least CPU time whose load and friction are within ``part`` of the best rung's."""
-    worst: dict[str, float] = {report.best: 0.0}
+    """The model with the least CPU time that has all compared quantities within ``part`` of the best rung's."""
+    asked = report.kind.shared(report.results[report.best])
+    worst = {
+        name: 0.0 if asked == report.kind.shared(report.results[report.best], result) else float("inf")
+        for name, result in report.results.items()
+    }
     for difference in report.to_best:
-        worst[difference.model] = max(worst.get(difference.model, 0.0), abs(difference.relative))
+        worst[difference.model] = max(worst[difference.model], abs(difference.relative))
     enough = [name for name, error in worst.items() if error <= part]
     return min(enough, key=lambda name: report.results[name].numerics.cpu_s)
 
@@ -53,9 +61,11 @@ def cheapest_within(report: Report, part: float) -> str:
 def write_comparison(report: Report, path: Path) -> None:
     """Write the page; InputError if it cannot be written."""
     render(
-        "comparison.html.j2",
+        report.view.page,
         path,
         report=report,
+        view=report.view,
+        compared=report.kind.compared,
         best=report.results[report.best],
         entries=scene_entries(report.scene),
         cheapest={part: cheapest_within(report, part) for part in (0.01, 0.10)},

@@ -1,8 +1,7 @@
 """The plots of a comparison, by matplotlib, as SVG text."""
 
 import io
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from collections.abc import Mapping, Sequence
 
 import matplotlib as mpl
 import numpy as np
@@ -10,35 +9,7 @@ from matplotlib.figure import Figure
 
 from rom.comparison import Point, pareto_front
 from rom.convergence import Convergence, Kind
-from rom.result import Result
-from rom.scene import Scene
-
-COLOURS = {
-    "reynolds": "#7f7f7f",
-    "inertial_reynolds": "#e08214",
-    "film": "#b2182b",
-    "film_slope": "#762a83",
-    "stokes": "#5aae61",
-    "navier_stokes": "#2166ac",
-}
-STYLES = {
-    "reynolds": "--",
-    "inertial_reynolds": "-.",
-    "film": (0, (5, 1)),
-    "film_slope": (0, (3, 1, 1, 1)),
-    "stokes": ":",
-    "navier_stokes": "-",
-}
-MARKERS = {
-    "reynolds": "s",
-    "inertial_reynolds": "D",
-    "film": "v",
-    "film_slope": "P",
-    "stokes": "^",
-    "navier_stokes": "o",
-}
-
-TITLES = {"load_plus": "load", "friction_plus": "friction"}
+from scripts.view import View
 
 mpl.rcParams.update(
     {
@@ -55,39 +26,23 @@ mpl.rcParams.update(
 )
 
 
-def pressure(scene: Scene, results: Mapping[str, Result]) -> str:
-    """Pressure on the sliding wall by every model, with the edges of the grooves."""
-    figure = Figure(figsize=(9, 4.2), layout="constrained")
-    axes = figure.add_subplot()
-    for name, result in results.items():
-        plus = result.fields["pressure"].values / scene.pressure_unit * scene.plus_factor
-        x = result.fields["position"].values * 1e3
-        axes.plot(x, plus, linestyle=STYLES.get(name, "-"), color=COLOURS.get(name), label=name, linewidth=2)
-    for edge in {edge for groove in scene.grooves for edge in groove.span}:
-        axes.axvline(edge * 1e3, color="black", linewidth=0.8, linestyle=(0, (4, 3)), alpha=0.6)
-    axes.set_xlabel("position along the sliding wall, mm (dashed: groove edges)")
-    axes.set_ylabel("p+ = 100 p Ly² / (η u Lx)")
-    pascal = scene.pressure_unit / scene.plus_factor
-    right = axes.secondary_yaxis("right", functions=(_times(pascal / 1e3), _times(1e3 / pascal)))
-    right.set_ylabel("pressure, kPa")
-    axes.legend()
-    return svg(figure)
-
-
-def speed_against_accuracy(chart: Sequence[Point], floor: Mapping[str, float]) -> str:
+def speed_against_accuracy(
+    chart: Sequence[Point], floor: Mapping[str, float], titles: Mapping[str, str], view: View
+) -> str:
     """CPU seconds against error, a panel for each compared quantity, with the Pareto front.
 
-    ``floor`` is the numerical uncertainty of the reference itself, below which errors mean nothing.
+    ``floor`` is the numerical uncertainty of the reference itself, below which errors mean nothing; ``titles`` names
+    the compared quantities.
     """
     figure = Figure(figsize=(10, 4.6), layout="constrained")
-    panels = figure.subplots(1, len(TITLES))
-    names = list(dict.fromkeys(point.model for point in chart))
-    for axes, (quantity, title) in zip(panels, TITLES.items(), strict=True):
-        for name in names:
-            run = sorted((point for point in chart if point.model == name), key=lambda point: point.resolution)
+    panels = figure.subplots(1, len(titles))
+    for axes, (quantity, title) in zip(panels, titles.items(), strict=True):
+        known = [point for point in chart if quantity in point.error]
+        for name in dict.fromkeys(point.model for point in known):
+            run = sorted((point for point in known if point.model == name), key=lambda point: point.resolution)
             times, errors = [p.cpu_s for p in run], [100 * max(p.error[quantity], 1e-9) for p in run]
-            colour, marker = COLOURS.get(name), MARKERS.get(name, "o")
-            axes.plot(times, errors, marker, color=colour, label=name, alpha=0.85, markersize=6)
+            style = view.style(name)
+            axes.plot(times, errors, style.marker, color=style.colour, label=name, alpha=0.85, markersize=6)
             axes.annotate(f"{run[-1].resolution}", (times[-1], errors[-1]), (5, 5), textcoords="offset points", size=8)
             if len(run) > 1:
                 axes.annotate(
@@ -114,24 +69,25 @@ def speed_against_accuracy(chart: Sequence[Point], floor: Mapping[str, float]) -
     return svg(figure)
 
 
-def grid_convergence(studies: Mapping[str, Mapping[str, Convergence]]) -> str:
+def grid_convergence(studies: Mapping[str, Mapping[str, Convergence]], titles: Mapping[str, str], view: View) -> str:
     """Cell size against the difference to the extrapolated value, where there is one, with slope 2 for the eye."""
     figure = Figure(figsize=(10, 3.6), layout="constrained")
-    panels = figure.subplots(1, len(TITLES))
-    for axes, (quantity, title) in zip(panels, TITLES.items(), strict=True):
-        drawn = {name: study[quantity] for name, study in studies.items() if study[quantity].kind is Kind.MONOTONE}
+    panels = figure.subplots(1, len(titles))
+    for axes, (quantity, title) in zip(panels, titles.items(), strict=True):
+        found = {name: study[quantity] for name, study in studies.items() if quantity in study}
+        drawn = {name: one for name, one in found.items() if one.kind is Kind.MONOTONE}
         if not drawn:
             axes.set_axis_off()
             axes.text(0.5, 0.5, f"{title}: nothing to extrapolate", ha="center", transform=axes.transAxes)
             continue
-        for name, found in drawn.items():
-            sizes = [1 / grid for grid in found.grids]
-            errors = [100 * abs(value / found.value - 1) for value in found.values]
-            label, colour = f"{name}: order {found.order_told}", COLOURS.get(name)
-            axes.plot(sizes, errors, MARKERS.get(name, "o") + "-", color=colour, label=label, linewidth=1.2)
+        for name, one in drawn.items():
+            sizes = [1 / grid for grid in one.grids]
+            errors = [100 * abs(value / one.value - 1) for value in one.values]
+            label, style = f"{name}: order {one.order_told}", view.style(name)
+            axes.plot(sizes, errors, style.marker + "-", color=style.colour, label=label, linewidth=1.2)
             slope = [errors[0] * (size / sizes[0]) ** 2 for size in sizes]
-            axes.plot(sizes, slope, ":", color=colour, linewidth=1)
-        grids = sorted({grid for found in drawn.values() for grid in found.grids})
+            axes.plot(sizes, slope, ":", color=style.colour, linewidth=1)
+        grids = sorted({grid for one in drawn.values() for grid in one.grids})
         axes.set_xscale("log")
         axes.set_xticks([1 / grid for grid in grids], [f"1/{grid}" for grid in grids])
         axes.xaxis.minorticks_off()
@@ -142,21 +98,6 @@ def grid_convergence(studies: Mapping[str, Mapping[str, Convergence]]) -> str:
         axes.set_ylabel(f"{title}: from the extrapolated, %")
         axes.legend(fontsize=8)
     return svg(figure)
-
-
-def _times(factor: float) -> Callable[[Any], Any]:
-    return lambda value: value * factor
-
-
-def colour(setting: str) -> str | None:
-    """The colour of a model, or of a setting that begins with its name."""
-    return COLOURS.get(setting.split("-")[0])
-
-
-def marker(setting: str) -> str:
-    """The marker of a model; a cross for a setting that is not its only one."""
-    name, *chosen = setting.split("-")
-    return "X" if chosen else MARKERS.get(name, "o")
 
 
 def svg(figure: Figure) -> str:

@@ -6,7 +6,8 @@ from typing import Annotated
 import typer
 from rich.markup import escape
 
-from rom.ladder import chosen_scheme
+from contact.errors import InputError
+from rom.ladder import chosen_scheme, of_kind
 from rom.provenance import provenance
 from rom.scene import load_scene
 from scripts.common import (
@@ -39,22 +40,25 @@ def command(
 ) -> None:
     """Write the OpenFOAM cases alone; run each with its ./Allrun."""
     read = load_scene(scene, set_ or ())
+    writers = [(model, model.write) for model in of_kind(models(), read.kind) if model.write is not None]
+    if not writers:
+        known = " or ".join(sorted({model.kind for model in models() if model.write is not None}))
+        raise InputError(f"scene.kind: got {read.kind!r}, which no model solves in OpenFOAM; give a scene of {known}")
     make_directory(out)
-    for model in models():
-        if model.write is not None and model.schemes:
+    for model, _ in writers:
+        if model.schemes:
             chosen_scheme(model.name, model.schemes, scheme)  # refused before anything is written
     cases = []
-    for model in models():
-        if model.write is not None:
-            model.write(
-                read,
-                out / model.name,
-                resolution=resolution,
-                tolerance=tolerance,
-                scheme=scheme if model.schemes else None,
-                processes=processes,
-            )
-            cases.append({"model": model.name, "directory": str(out / model.name)})
+    for model, write in writers:
+        write(
+            read,
+            out / model.name,
+            resolution=resolution,
+            tolerance=tolerance,
+            scheme=scheme if model.schemes else None,
+            processes=processes,
+        )
+        cases.append({"model": model.name, "directory": str(out / model.name)})
     if as_json:
         print_json({"cases": cases, "provenance": provenance(read, keeps=(), sources=())})
     else:

@@ -1,7 +1,8 @@
-"""roughfilm models: the ladder: name, what it adds, available here or why not."""
+"""roughfilm models: the ladder of each kind of scene: name, what it adds, available here or why not."""
 
 from rich.table import Column, Table
 
+from rom.kind import kinds
 from scripts.common import AsJson, in_one_line, models, output, print_json, run_alone
 
 
@@ -15,6 +16,7 @@ def command(as_json: AsJson = False) -> None:
                 "models": [
                     {
                         "name": model.name,
+                        "kind": model.kind,
                         "adds": model.summary,
                         "keeps": sorted(model.keeps),
                         "resolution": model.resolution,
@@ -28,16 +30,20 @@ def command(as_json: AsJson = False) -> None:
             }
         )
         return
-    name = Column("model", no_wrap=True)
-    table = Table(name, "what it adds", "resolution and schemes", "here", title="The ladder, plainest first")
-    for model, found in rows:
-        table.add_row(
-            model.name,
-            model.summary,
-            "; ".join((f"{model.resolution} {model.resolution_meaning}", *model.schemes)),
-            ("[green]yes[/]: " if found.available else "[red]no[/]: ") + found.detail,
-        )
-    output.print(table)
+    for kind in kinds().values():
+        name = Column("model", no_wrap=True)
+        title = f"The ladder of {kind.name}, {kind.summary}, plainest first"
+        table = Table(name, "what it adds", "resolution and schemes", "here", title=title)
+        for model, found in rows:
+            if model.kind == kind.name:
+                own = "the scene's own" if model.resolution is None else model.resolution
+                table.add_row(
+                    model.name,
+                    model.summary,
+                    "; ".join((f"{own} {model.resolution_meaning}", *model.schemes)),
+                    ("[green]yes[/]: " if found.available else "[red]no[/]: ") + found.detail,
+                )
+        output.print(table)
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ from typing import Any
 import jinja2
 
 from contact.files import replacing
+from contact.units import Quantity
 
 
 def render(template: str, path: Path, **entries: Any) -> None:
@@ -18,7 +19,15 @@ def render(template: str, path: Path, **entries: Any) -> None:
         trim_blocks=True,
     )
     environment.filters.update(
-        percent=_percent, share=_share, seconds=_seconds, number=_number, digits=_digits, si=_si, micro=_micro
+        percent=_percent,
+        share=_share,
+        seconds=_seconds,
+        number=_number,
+        digits=_digits,
+        si=_si,
+        micro=_micro,
+        quantity=_quantity,
+        difference=_difference,
     )
     page = environment.get_template(template).render(**entries)
     with replacing(path) as scratch:
@@ -53,6 +62,18 @@ def _number(value: float) -> str:
 
 def _digits(value: float) -> str:
     return "0" if abs(value) < 5e-7 else f"{value:.6g}"
+
+
+def _quantity(found: Quantity) -> str:
+    """A quantity with its unit, in µm and MPa where these fit."""
+    known = {"1": _number, "m": _micro, "Pa": _si}
+    return known[found.unit](found.value) if found.unit in known else f"{found.value:.4g} {found.unit}"
+
+
+def _difference(value: float, unit: str) -> str:
+    if unit == "1":
+        return f"{value:+.4f}"
+    return ("+" if value >= 0 else "−") + _quantity(Quantity(value=abs(value), unit=unit))
 
 
 def _micro(value: float) -> str:

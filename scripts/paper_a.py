@@ -75,7 +75,7 @@ def command(
 
 def read_paper(directory: Path) -> Paper:
     """The sweep with the settings that stand for Navier-Stokes at second order, with upwind, and Stokes."""
-    sweep = read_sweep(read_table(directory / "table.h5"))
+    sweep = read_sweep(read_table(directory / "table.h5"), "pocket")
 
     def setting(model: str, scheme: str | None = None) -> str | None:
         known = (name.split("-") for name in sweep.found)

@@ -12,33 +12,17 @@ from rich.table import Table
 
 from contact.errors import InputError
 from contact.files import replacing
-from rom.comparison import COMPARED
-from rom.error_law import words
+from rom.kind import kinds
 from rom.ladder import best
 from rom.ordering import Ordering, fitted_powers, ordering
 from rom.provenance import machine
-from rom.sweep import Sweep, loaded, read_sweep, relative_error
+from rom.sweep import Sweep, loaded, read_sweep, relative_error, sweeping
 from rom.table import read_table
 from scripts.common import AsJson, in_one_line, make_directory, models, output, print_json, run_alone
 from scripts.pages import render
+from scripts.view import views
 
 TOLERANCES = (0.01, 0.02, 0.05, 0.10)
-
-CANDIDATES: dict[str, dict[str, float]] = {
-    "Re": {"reynolds_number": 1},
-    "d/Ly": {"depth": 1},
-    "2d/w": {"aspect": 1},
-    "slope": {"slope": 1},
-    "2Ly/w": {"depth": -1, "aspect": 1},
-    "Re 2Ly/w": {"reynolds_number": 1, "depth": -1, "aspect": 1},
-    "Re 2d/w": {"reynolds_number": 1, "aspect": 1},
-    "Re slope": {"reynolds_number": 1, "slope": 1},
-    "Re (2d/w)²": {"reynolds_number": 1, "aspect": 2},
-    "2d²/(w Ly)": {"depth": 1, "aspect": 1},
-}
-"""Numbers that an engineer would try, each a product of powers of Re, d/Ly, 2d/w and the steeper side's slope."""
-
-FITTED = ("reynolds_number", "depth", "aspect")
 
 SAME = 0.01
 """Errors within this part of each other have no order: a model without any load is 100 % off everywhere."""
@@ -54,7 +38,9 @@ def command(
     as_json: AsJson = False,
 ) -> None:
     """Write the page of a sweep: errors of every model, the number that orders them, speed against accuracy."""
-    sweep = read_sweep(read_table(directory / "table.h5"))
+    table = read_table(directory / "table.h5")
+    sweep = read_sweep(table, _kind(table))
+    compared = kinds()[sweep.kind].compared
     reference = _reference(sweep)
     settings = [name for name in sweep.found if name != reference]
     if not settings:
@@ -62,7 +48,7 @@ def command(
     numbers = {
         (setting, quantity): _orderings(sweep, setting, reference, quantity)
         for setting in settings
-        for quantity in COMPARED
+        for quantity in compared
     }
     rows = [_row(sweep, setting, reference, numbers) for setting in [*settings, reference]]
     told = {"reference": reference, "cases": len(sweep.names), "settings": rows, "failures": list(sweep.failures)}
@@ -74,22 +60,27 @@ def command(
     if as_json:
         print_json({**told, "report": str(path)})
         return
-    table = Table(
-        "setting", "CPU, s", "load error", "95 %", "friction error", "95 %", title=f"{len(sweep.names)} cases"
-    )
+    heads = [head for title in compared.values() for head in (f"{title} error", "95 %")]
+    shown = Table("setting", "CPU, s", *heads, title=f"{len(sweep.names)} cases")
     for row in rows:
-        errors = [f"{100 * row['error'][q][part]:.3g} %" for q in COMPARED for part in ("median", "high")]
-        table.add_row(row["setting"], f"{row['cpu_s']:.3g}", *errors)
-    output.print(table)
+        errors = [f"{100 * row['error'][q][part]:.3g} %" for q in compared for part in ("median", "high")]
+        shown.add_row(row["setting"], f"{row['cpu_s']:.3g}", *errors)
+    output.print(shown)
     output.print(f"report: {escape(str(path))}", soft_wrap=True)
+
+
+def _kind(table: Mapping[str, Any]) -> str:
+    """The kind of scene that the models of a table solve."""
+    names = set(table.get("model", ()))
+    found = next((model.kind for model in models() if model.name in names), None)
+    if found is None:
+        raise InputError("the table holds no results of this ladder; run the study again")
+    return found
 
 
 def _reference(sweep: Sweep) -> str:
     """The best rung of the sweep, at its finest and best scheme: the one named first in the study."""
-    known = [model for model in models() if any(name.split("-")[0] == model.name for name in sweep.found)]
-    if not known:
-        raise InputError("the table holds no results of this ladder; run the study again")
-    top = best(known)
+    top = best([model for model in models() if any(name.split("-")[0] == model.name for name in sweep.found)])
     named = [name for name in sweep.found if name.split("-")[0] == top.name]
     return next((name for scheme in top.schemes for name in named if scheme in name.split("-")), named[-1])
 
@@ -108,10 +99,11 @@ def _orderings(sweep: Sweep, setting: str, reference: str, quantity: str) -> dic
         raise InputError(f"{setting}: has {error.size} cases beside {reference}; a report needs at least 8")
     if error.max() <= (1 + SAME) * error.min():
         return {}
-    found = {name: ordering(features, powers, error, TOLERANCES) for name, powers in CANDIDATES.items()}
-    fitted = fitted_powers({name: features[name] for name in FITTED}, error, step=0.25)
-    found["fitted"] = ordering(features, fitted or {"reynolds_number": 1}, error, TOLERANCES)
-    simple = found[max(CANDIDATES, key=lambda name: found[name].rank)]
+    judged = sweeping(kinds()[sweep.kind])
+    found = {name: ordering(features, powers, error, TOLERANCES) for name, powers in judged.candidates.items()}
+    fitted = fitted_powers({name: features[name] for name in judged.fitted}, error, step=0.25)
+    found["fitted"] = ordering(features, fitted or {judged.fitted[0]: 1}, error, TOLERANCES)
+    simple = found[max(judged.candidates, key=lambda name: found[name].rank)]
     better = found["fitted"].rank > simple.rank + SIMPLE_ENOUGH
     found["chosen"] = found["fitted"] if better and found["fitted"].coverage >= simple.coverage else simple
     return found
@@ -121,14 +113,14 @@ def _row(
     sweep: Sweep, setting: str, reference: str, numbers: Mapping[tuple[str, str], Mapping[str, Ordering]]
 ) -> dict[str, Any]:
     errors, orders = {}, {}
-    for quantity in COMPARED:
+    for quantity in kinds()[sweep.kind].compared:
         _, error = _known(sweep, setting, reference, quantity)
         median, high, worst = (float(value) for value in (np.median(error), np.percentile(error, 95), error.max()))
         errors[quantity] = {"median": median, "high": high, "worst": worst}
         if numbers.get((setting, quantity)):
             chosen = numbers[setting, quantity]["chosen"]
             orders[quantity] = {
-                "number": words(chosen.powers),
+                "number": sweeping(kinds()[sweep.kind]).words(chosen.powers),
                 "powers": dict(chosen.powers),
                 "rank": chosen.rank,
                 "thresholds": {f"{tolerance:g}": limit for tolerance, limit in chosen.thresholds.items()},
@@ -155,6 +147,7 @@ def _write_page(
 ) -> None:
     from scripts import sweep_figures  # matplotlib is slow to import
 
+    kind, view = kinds()[sweep.kind], views()[sweep.kind]
     chosen = {key: found["chosen"] for key, found in numbers.items() if found}
     render(
         "sweep.html.j2",
@@ -166,10 +159,13 @@ def _write_page(
         chart=sweep_figures.sweep_chart(sweep, reference, settings),
         order=sweep_figures.errors_in_order(sweep, reference, chosen, settings),
         maps={
-            (setting, quantity): sweep_figures.error_maps(sweep, setting, reference, quantity)
+            (setting, quantity): view.maps(sweep, setting, reference, quantity)
             for setting in settings
-            for quantity in COMPARED
+            for quantity in kind.compared
+            if view.maps is not None
         },
+        compared=kind.compared,
+        view=view,
         machine=machine(),
     )
 

@@ -12,10 +12,11 @@ from rich.markup import escape
 from contact.errors import ConvergenceError, InputError, Outcome, UnavailableError
 from contact.files import replacing
 from rom.convergence import GRIDS
+from rom.kind import Scene
 from rom.ladder import Model
 from rom.provenance import code, versions
 from rom.result import Result
-from rom.scene import Scene, scene_entries
+from rom.scene import scene_entries
 from rom.setting import Setting
 from rom.store import as_bytes, load
 from scripts.common import messages, progress_bar
@@ -154,8 +155,9 @@ def jobs_of(scene: Scene, models: Sequence[Model], directory: Path, grids: int =
     """
     settings = []
     for model in models:
-        finer = [model.resolution * 2**k for k in range(1, grids - GRIDS + 1)] if model.order else []
-        others = [n for n in (*model.resolutions, *finer) if n != model.resolution]
+        default = model.resolution_of(scene)
+        finer = [default * 2**k for k in range(1, grids - GRIDS + 1)] if model.order else []
+        others = [n for n in (*model.resolutions_of(scene), *finer) if n != default]
         settings += [Setting(model=model, resolution=resolution) for resolution in (None, *others)]
     return [Job(scene=scene, setting=setting, path=directory / f"{setting.name}.h5") for setting in settings]
 

@@ -7,7 +7,7 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
-from rom.ladder import find
+from rom.ladder import find, of_kind
 from rom.result import Result
 from rom.scene import load_scene
 from rom.store import as_entries, save
@@ -41,8 +41,8 @@ def command(
     as_json: AsJson = False,
 ) -> None:
     """Solve a scene with one model."""
-    rung = find(models(), model)
     read = load_scene(scene, set_ or ())
+    rung = find(of_kind(models(), read.kind), model)
     with progress_bar(1.0) as advance:
         result = rung.solve(
             read, resolution=resolution, tolerance=tolerance, scheme=scheme, processes=processes, progress=advance

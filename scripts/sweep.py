@@ -13,10 +13,10 @@ from signal import SIGINT, SIGTERM
 from typing import Any
 
 from contact.errors import UnavailableError
+from rom.kind import Scene
 from rom.ladder import find
 from rom.provenance import code, versions
 from rom.result import Result
-from rom.scene import Scene
 from rom.setting import Setting
 from rom.store import as_bytes
 from scripts.common import models

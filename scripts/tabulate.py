@@ -6,19 +6,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from contact.units import Quantity
+from rom.kind import kinds
 from rom.result import Result
 from rom.scene import scene_entries
 from rom.study import Case, Key
 from rom.table import Column
 from scripts.runs import Failure, Job
-
-RATIOS = {
-    "film_plus": ("film", "length"),
-    "width_plus": ("width", "length"),
-    "depth_plus": ("depth", "film"),
-    "shift_plus": ("shift", "width"),
-}
-"""The dimensionless numbers of a groove and the lengths they divide: w+, d+ and xd+ of doi:10.1115/1.1828067."""
 
 Cell = Quantity | str
 
@@ -38,7 +31,7 @@ def row_of(keys: Mapping[str, Key], case: Case, job: Job, answer: Result | Failu
     if isinstance(answer, Result):
         scheme, resolution = answer.numerics.scheme, answer.numerics.resolution
     else:
-        scheme, resolution = setting.scheme or "", setting.resolution or setting.model.resolution
+        scheme, resolution = setting.scheme or "", setting.resolution or setting.model.resolution_of(case.scene)
     asked: dict[str, Cell] = {
         "case": job.path.parent.name,
         "setting": setting.name,
@@ -46,9 +39,7 @@ def row_of(keys: Mapping[str, Key], case: Case, job: Job, answer: Result | Failu
         "scheme": scheme,
         "resolution": _number(resolution),
         **{label: _cell(_at(entries, keys[label], spelt)) for label, spelt in case.varied.items()},
-        "profile": str(entries["geometry"].get("profile", "several grooves")),
-        **_ratios(entries["geometry"]),
-        "reynolds_number": _number(case.scene.reynolds_number),
+        **kinds()[case.scene.kind].columns(case.scene),
     }
     if isinstance(answer, Failure):
         return Row(asked=asked, answer={"outcome": f"{answer.kind}: {answer.message}"})
@@ -64,14 +55,6 @@ def row_of(keys: Mapping[str, Key], case: Case, job: Job, answer: Result | Failu
             "warnings": "; ".join(answer.provenance.get("warnings", [])),
         },
     )
-
-
-def _ratios(geometry: Mapping[str, Any]) -> dict[str, Cell]:
-    return {
-        plus: _number(float(f"{_length(geometry[one]) / _length(geometry[other]):.12g}"))
-        for plus, (one, other) in RATIOS.items()
-        if one in geometry and other in geometry
-    }
 
 
 def columns(rows: Sequence[Row]) -> dict[str, Column]:
@@ -117,7 +100,3 @@ def _cell(value: Any) -> Cell:
         except ValueError:
             return value
     return json.dumps(value)
-
-
-def _length(text: str) -> float:
-    return float(text.partition(" ")[0])

@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 
 from foamcases.openfoam import availability
-from rom.scene import Scene, load_scene
+from rom.kind import Scene
+from rom.scene import load_scene
 
 POCKET = Path(__file__).parent.parent / "scripts" / "scenes" / "pocket.toml"
 MEASURED = Path(__file__).parent.parent.parent / "shared" / "surfaces"

@@ -2,10 +2,10 @@
 
 from foamcases.pocket import openfoam_model
 from rom.ladder import Applicability, Effect
-from rom.scene import Scene
+from rom.pocket import Pocket
 
 
-def applies(scene: Scene) -> Applicability:
+def applies(scene: Pocket) -> Applicability:
     """Always; says that the flow is taken as laminar and steady."""
     return Applicability(
         applies=True, reason=f"leaves nothing out of a steady laminar flow (Re = {scene.reynolds_number:.3g})"

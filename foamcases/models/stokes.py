@@ -2,13 +2,13 @@
 
 from foamcases.pocket import openfoam_model
 from rom.ladder import Applicability, Effect
-from rom.scene import Scene
+from rom.pocket import Pocket
 
 CREEPING = 1e-6
 """The Reynolds number of the run: advection is then a millionth of viscous stress (there is no scheme "none")."""
 
 
-def applies(scene: Scene) -> Applicability:
+def applies(scene: Pocket) -> Applicability:
     """Always; says how much inertia it leaves out."""
     return Applicability(applies=True, reason=f"leaves out inertia (Re Ly/w = {scene.reduced_reynolds_number:.3g})")
 

@@ -3,12 +3,12 @@
 from rom.error_law import ErrorLaw
 from rom.film import film_model
 from rom.ladder import Applicability, Effect
-from rom.scene import Scene
+from rom.pocket import Pocket
 
 LAW = ErrorLaw(powers={"depth": -1, "aspect": 1}, thresholds={0.05: 0.4})
 
 
-def applies(scene: Scene) -> Applicability:
+def applies(scene: Pocket) -> Applicability:
     """Always; says how far its load may be off."""
     return LAW.applicability(scene, "keeps all of inertia, leaves out slope")
 

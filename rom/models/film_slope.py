@@ -3,12 +3,12 @@
 from rom.error_law import ErrorLaw
 from rom.film import film_model
 from rom.ladder import Applicability, Effect
-from rom.scene import Scene
+from rom.pocket import Pocket
 
 LAW = ErrorLaw(powers={"slope": 1}, thresholds={0.01: 0.46, 0.02: 0.75, 0.05: 1.25})
 
 
-def applies(scene: Scene) -> Applicability:
+def applies(scene: Pocket) -> Applicability:
     """Always; says how far its load may be off."""
     return LAW.applicability(scene, "keeps all of inertia, and slope to second order")
 

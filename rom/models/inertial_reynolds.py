@@ -2,13 +2,13 @@
 
 from rom.error_law import ErrorLaw
 from rom.ladder import Applicability, Effect
+from rom.pocket import Pocket
 from rom.quadrature import quadrature_model
-from rom.scene import Scene
 
 LAW = ErrorLaw(powers={"reynolds_number": 1, "aspect": 1}, thresholds={0.02: 1.2, 0.05: 3.0, 0.10: 5.3})
 
 
-def applies(scene: Scene) -> Applicability:
+def applies(scene: Pocket) -> Applicability:
     """Always; says how far its load may be off."""
     return LAW.applicability(scene, f"keeps inertia to first order, leaves out slope (2d/w = {scene.slope:.3g})")
 

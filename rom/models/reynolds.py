@@ -1,11 +1,11 @@
 """The Reynolds equation: viscous film flow, no inertia, lowest order in slope."""
 
 from rom.ladder import Applicability
+from rom.pocket import Pocket
 from rom.quadrature import quadrature_model
-from rom.scene import Scene
 
 
-def applies(scene: Scene) -> Applicability:
+def applies(scene: Pocket) -> Applicability:
     """Always; says how much inertia and slope it leaves out."""
     return Applicability(
         applies=True,

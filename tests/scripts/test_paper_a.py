@@ -6,7 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rom.sweep import QUANTITIES, Sweep
+from rom.kinds.pocket import KIND
+from rom.sweep import Sweep
 from scripts.paper_a_claims import judge
 from scripts.paper_a_data import DEPTHS, NUMBERS, SHAPES, WIDTHS, Paper, first_zero, highest
 
@@ -21,12 +22,13 @@ def paper(load, friction, stokes=lambda *_: 0.0):
     given["film_plus"] = np.full(len(KEYS), 0.03)
 
     def found(load):
-        values = {name: np.ones(len(KEYS)) for name in QUANTITIES}
+        values = {name: np.ones(len(KEYS)) for name in KIND.sweeping.quantities}
         values["load_plus"] = np.array([load(*shape, *rest) for shape, *rest in KEYS])
         values["friction_plus"] = np.array([friction(*shape, *rest) for shape, *rest in KEYS])
         return values
 
     sweep = Sweep(
+        kind="pocket",
         names=tuple(str(n) for n in range(len(KEYS))),
         given=given,
         found={"navier_stokes": found(load), "stokes": found(stokes)},

@@ -45,7 +45,7 @@ def finished(tmp_path_factory):
 
 
 def test_a_sweep_is_read_side_by_side(finished):
-    sweep = read_sweep(read_table(finished / "table.h5"))
+    sweep = read_sweep(read_table(finished / "table.h5"), "pocket")
     assert len(sweep.names) == 36
     assert set(sweep.found) == {"reynolds", "inertial_reynolds", "film-100", "film_slope-100"}
     assert np.unique(sweep.given["width_plus"]) == pytest.approx([0.2, 0.3, 0.5])
@@ -63,7 +63,7 @@ def test_the_report_orders_the_errors_of_every_model(finished):
     assert told["reference"] == "film_slope-100"
     assert told["cases"] == 36
     rows = {row["setting"]: row for row in told["settings"]}
-    sweep = read_sweep(read_table(finished / "table.h5"))
+    sweep = read_sweep(read_table(finished / "table.h5"), "pocket")
     error = relative_error(sweep, "film-100", "film_slope-100", "load_plus")[loaded(sweep, "film_slope-100")]
     assert rows["film-100"]["error"]["load_plus"]["worst"] == pytest.approx(error.max())
     law = rows["inertial_reynolds"]["ordered_by"]["friction_plus"]

@@ -11,8 +11,8 @@ from rom.ladder import find
 from rom.scene import load_scene
 from scripts import compare
 from scripts.common import models
-from scripts.figures import pressure
 from scripts.streamlines import shown
+from scripts.views.pocket import pressure
 
 ONE = ["geometry.profile=points", "geometry.points=[[-1e-4,0],[0,1e-5],[2e-4,0]]"]
 FIVE = "geometry.grooves=[{}]".format(

@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 from contact.errors import ConvergenceError, InputError, Outcome
 from rom.ladder import find
 from rom.setting import Setting
-from scripts import stability
+from scripts import stability, stability_pocket
 from scripts.cli import app
 from scripts.common import models
 from scripts.runs import failure_of
@@ -29,8 +29,8 @@ def small(monkeypatch, pocket_file):
 
     def family(names, reynolds_numbers=(2000.0,), depths_plus=(0.25, 1e-6)):
         chosen = tuple(model for model in models() if model.name in names)
-        monkeypatch.setattr(stability, "models", lambda: chosen)
-        made = stability.Family(scene=pocket_file, reynolds_numbers=reynolds_numbers, depths_plus=depths_plus)
+        monkeypatch.setattr(stability_pocket, "models", lambda: chosen)
+        made = stability_pocket.Family(scene=pocket_file, reynolds_numbers=reynolds_numbers, depths_plus=depths_plus)
         monkeypatch.setitem(stability.FAMILIES, "pocket", made)
 
     return family

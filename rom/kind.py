@@ -1,0 +1,96 @@
+"""A kind of scene, as data: what is in it, what is compared in it, and all else that no command knows by itself."""
+
+import importlib
+import pkgutil
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cache, partial
+from typing import Annotated, Any
+
+from pydantic import Field, ValidationError
+
+from contact.entries import Part
+from contact.errors import InputError
+from contact.toml import Location, in_one_line, known_keys, unknown_key
+from contact.units import Quantity
+from rom.result import Result
+from rom.sweeping import Sweeping
+
+
+class Scene(Part):
+    """What is there; each kind adds its own tables."""
+
+    name: Annotated[str, Field(min_length=1, max_length=200)]
+    kind: str
+
+
+def plain_fault(error: ValidationError, _entries: Mapping[str, Any], *, scene: type[Scene]) -> str:
+    """The first fault of a scene whose tables are models all the way down, in one line."""
+
+    def unknown(location: Location) -> str:
+        *path, key = location
+        return unknown_key(key, known_keys(scene, path))
+
+    return in_one_line(error, "scene", unknown)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Kind:
+    """One kind of scene; every file under ``rom/kinds/`` ends with ``KIND``.
+
+    Attributes
+    ----------
+    scene : the model of its scenes, whose ``kind`` is ``name``.
+    summary : what its scenes are, in words.
+    compared : the quantities by which models are judged, with their names in a sentence, the first one first.
+    scale : scale(values, quantity): what an error in a compared quantity is divided by, from the reference's values by
+        quantity, numbers or arrays alike.
+    columns : what a table of many cases tells of a scene, beside what varies: dimensionless numbers, texts.
+    files : keys whose texts name files, which are sought beside the scene.
+    replaces : keys that an override makes meaningless: it takes them away from the same table.
+    lists : where lists stand that are one value; a study sweeps every other list, and lists of these.
+    told : the first fault of a scene in one line, from pydantic's error and the entries; by default by the models.
+    sweeping : how a report over many cases judges them; None if there is none.
+    """
+
+    name: str
+    scene: type[Scene]
+    summary: str
+    compared: Mapping[str, str]
+    scale: Callable[[Mapping[str, Any], str], Any]
+    columns: Callable[[Any], Mapping[str, Quantity | str]]
+    files: frozenset[str] = frozenset()
+    replaces: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    lists: frozenset[tuple[str | int, ...]] = frozenset()
+    told: Callable[[ValidationError, Mapping[str, Any]], str] | None = None
+    sweeping: Sweeping | None = None
+
+    def read(self, entries: Mapping[str, Any]) -> Scene:
+        """A scene of this kind; InputError in one line for the first fault."""
+        try:
+            return self.scene.model_validate(entries)
+        except ValidationError as error:
+            raise InputError((self.told or partial(plain_fault, scene=self.scene))(error, entries)) from None
+
+    def scale_of(self, result: Result, quantity: str) -> float:
+        """What an error in a quantity is divided by where this result is the reference."""
+        return float(self.scale({name: found.value for name, found in result.quantities.items()}, quantity))
+
+    def shared(self, *results: Result) -> tuple[str, ...]:
+        """The compared quantities that all of these results give."""
+        return tuple(name for name in self.compared if all(name in result.quantities for result in results))
+
+
+@cache
+def kinds() -> Mapping[str, Kind]:
+    """The ``KIND`` of every module in ``rom.kinds``, by its name."""
+    import rom.kinds  # whose modules import this one
+
+    names = [module.name for module in pkgutil.iter_modules(rom.kinds.__path__, "rom.kinds.")]
+    found: list[Kind] = [importlib.import_module(name).KIND for name in names]
+    return {kind.name: kind for kind in found}
+
+
+def kind_of(result: Result) -> Kind:
+    """The kind of scene that a result solves."""
+    return kinds()[result.provenance["scene"]["kind"]]

@@ -1,0 +1,32 @@
+"""Persson: pressures that diffuse as roughness is added, scale by scale."""
+
+from contact.errors import InputError
+from contact.mechanics.estimate import Estimate
+from contact.mechanics.moments import wave_power
+from contact.mechanics.persson import persson
+from rom.contact_rung import Task
+from rom.estimated import estimated_model
+from rom.ladder import Effect
+
+
+def guess(task: Task) -> Estimate:
+    """The estimate from the spectrum of the heights at hand; InputError for a flat surface."""
+    scene = task.scene
+    own = task.heights.shape == scene.surface().shape
+    spectrum = scene.spectrum() if own else wave_power(task.heights, task.spacing)
+    if spectrum is None:
+        raise InputError("persson: got a flat surface, which has no spectrum; take elastic")
+    return persson(
+        spectrum, composite_modulus=scene.composite_modulus, load=scene.load.pressure, hardness=scene.hardness
+    )
+
+
+MODEL = estimated_model(
+    name="persson",
+    summary="elastic contact of all scales, bounded by the hardness, in closed form from the spectrum",
+    what="keeps deformation and plasticity on average over all surfaces of this spectrum",
+    keeps=frozenset({Effect.DEFORMATION, Effect.PLASTICITY}),
+    complete=False,
+    sources=("10.1063/1.1388626", "10.1088/0953-8984/20/21/215214"),
+    guess=guess,
+)

@@ -1,0 +1,1 @@
+"""One file, one kind of scene as its pages show it; each ends with ``VIEW``."""
