@@ -23,9 +23,10 @@ class Model(StrEnum):
     PERSSON = "persson"
     ELASTIC = "elastic"
     ELASTIC_PLASTIC = "elastic_plastic"
+    STANLEY_KATO = "stanley_kato"
 
 
-SOLVED = (Model.ELASTIC, Model.ELASTIC_PLASTIC)
+SOLVED = (Model.ELASTIC, Model.ELASTIC_PLASTIC, Model.STANLEY_KATO)
 """The rungs that solve on the grid; the others estimate from statistics."""
 
 WITHOUT_HARDNESS = (Model.ELASTIC, Model.GREENWOOD_WILLIAMSON)
@@ -36,6 +37,7 @@ SOURCES = {
     Model.PERSSON: "B. N. J. Persson, doi:10.1063/1.1388626",
     Model.ELASTIC: "I. A. Polonsky, L. M. Keer, doi:10.1016/S0043-1648(99)00113-1",
     Model.ELASTIC_PLASTIC: "F. Sahlin, Luleå University of Technology 2008:26, section E.2.2",
+    Model.STANLEY_KATO: "H. M. Stanley, T. Kato, doi:10.1115/1.2833523",
 }
 
 

@@ -17,6 +17,7 @@ MODELS = {
     "elastic": "Elastic half-space, solved at every point; no limit to the pressure.",
     "elastic_plastic": "Elastic half-space, perfectly plastic where the pressure reaches the hardness, "
     "solved at every point.",
+    "stanley_kato": "The same contact by the older algorithm of constant steps, for comparison.",
 }
 
 COLUMNS = (

@@ -13,12 +13,13 @@ from contact.errors import ConvergenceError
 from contact.mechanics.contact import Contact
 from contact.mechanics.contact_store import Inputs, Row, add, finished, load_contact, row_of
 from contact.mechanics.estimate import Estimate
-from contact.mechanics.press import Press
 from contact.surface import Array
 from scripts.common import messages
 
 FEWEST_POINTS, MOST_BINS = 25, 60
 """Of a histogram of pressures."""
+
+Solver = Callable[[float, Contact | None], Contact]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,11 +49,10 @@ class Series:
 
 
 def solved(
-    press: Press,
+    at: Solver,
     inputs: Inputs,
     loads: tuple[float, ...],
     shown: tuple[float, ...],
-    tolerance: float,
     out: Path | None,
     advance: Callable[[float, str], None],
 ) -> Series:
@@ -60,6 +60,7 @@ def solved(
 
     Parameters
     ----------
+    at : gives the contact at a load, from the one before if that helps.
     shown : the loads whose pressures are drawn.
     out : the file; None to keep nothing.
 
@@ -88,7 +89,7 @@ def solved(
                 if before is None and out is not None and done:
                     before = load_contact(out, loads[done - 1])
                 cpu = time.process_time()
-                before = _at(press, load, tolerance, before)
+                before = _at(at, load, before)
                 row = row_of(before, time.process_time() - cpu)
                 if out is not None:
                     add(out, inputs, row, before, to=holds)
@@ -103,9 +104,9 @@ def solved(
     return Series(rows=tuple(rows), found=found, spreads=tuple(spreads), last=before)
 
 
-def _at(press: Press, load: float, tolerance: float, start: Contact | None) -> Contact:
+def _at(at: Solver, load: float, start: Contact | None) -> Contact:
     try:
-        return press.at(load, tolerance=tolerance, start=start)
+        return at(load, start)
     except ConvergenceError as error:
         told = f"at {load / 1e6:.6g} MPa: {error}"
         raise ConvergenceError(told, outcome=error.outcome, iterations=error.iterations) from None

@@ -18,11 +18,12 @@ from contact.files import replacing
 from contact.mechanics.contact_store import UNITS, Inputs, Row
 from contact.mechanics.press import TOLERANCE, Press
 from contact.mechanics.solid import Solid, composite_modulus
+from contact.mechanics.stanley_kato import stanley_kato
 from contact.units import to_si
 from rom.provenance import circumstances, code
 from scripts.common import AsJson, in_one_line, messages, output, print_json, progress_bar, run_alone
 from scripts.contact_models import SOLVED, SOURCES, WITHOUT_HARDNESS, Model, chosen, estimator
-from scripts.contact_run import Series, estimated, solved
+from scripts.contact_run import Series, Solver, estimated, solved
 from scripts.contact_surface import Rough, read_rough, spacing_of
 from scripts.load_range import loads_of
 from scripts.surface import refuse_same
@@ -104,13 +105,11 @@ def command(
         inputs = Inputs(heights=rough.heights, spacing=rough.spacing, settings={**settings, "code": code()})
         shown = _spaced(asked)
         if rung in SOLVED:
-            press = Press(
-                *(rough.heights, rough.spacing, stiffness), hardness=bound, boundary=boundary.value, threads=threads
-            )
-            series = solved(press, inputs, asked, shown, tolerance, out, advance)
+            at = _solver(rung, rough, stiffness, bound, boundary, tolerance, threads)
+            series = solved(at, inputs, asked, shown, out, advance)
         else:
-            at = estimator(rung, rough.heights, rough.spacing, stiffness, bound)
-            series = estimated(at, inputs, asked, shown, out)
+            estimate = estimator(rung, rough.heights, rough.spacing, stiffness, bound)
+            series = estimated(estimate, inputs, asked, shown, out)
         told = _told(rung, rough, settings, series)
         told["numerics"] |= {"cpu_s": sum(os.times()[:4]) - cpu, "wall_s": time.perf_counter() - started}
         if report is not None:
@@ -119,6 +118,22 @@ def command(
             advance(len(asked), "drawing the page")
             write_page(surface.name, told, series, report)
     _tell(surface.name, told, series, [path for path in (out, report) if path is not None], as_json)
+
+
+def _solver(
+    rung: Model,
+    rough: Rough,
+    stiffness: float,
+    hardness: float,
+    boundary: Boundary,
+    tolerance: float,
+    threads: int,
+) -> Solver:
+    body = (rough.heights, rough.spacing, stiffness)
+    if rung is Model.STANLEY_KATO:
+        return lambda load, _: stanley_kato(*body, load, hardness=hardness, tolerance=tolerance)
+    press = Press(*body, hardness=hardness, boundary=boundary.value, threads=threads)
+    return lambda load, start: press.at(load, tolerance=tolerance, start=start)
 
 
 def _solid(prefix: str, modulus: str, poisson: float, hardness: str | None = None) -> Solid:
@@ -150,7 +165,7 @@ def _refuse(rung: Model, boundary: Boundary, asked: tuple[float, ...], hardness:
             f"--loads: {len(above)} of {len(asked)}, up to {above[-1]:g} Pa, are above the hardness of "
             f"{hardness:g} Pa, which is all that the whole area can bear; lower them"
         )
-    if boundary is Boundary.FREE and rung not in SOLVED:
+    if boundary is Boundary.FREE and (rung not in SOLVED or rung is Model.STANLEY_KATO):
         raise InputError(f"--boundary free: {rung} knows no edges; take --model elastic or elastic_plastic")
 
 

@@ -209,6 +209,16 @@ def test_statistical_rungs_tell_what_they_can(rough, tmp_path, model):
         assert row["plastic_fraction"] == pytest.approx(0.01, rel=1e-12)
 
 
+def test_the_older_algorithm_finds_the_same_contact(rough):
+    rows = [
+        told(rough, *PLASTIC, "--loads", "345MPa", "--model", m)["series"][0]
+        for m in ("stanley_kato", "elastic_plastic")
+    ]
+    for name in ("area_fraction", "plastic_fraction", "mean_gap", "approach"):
+        assert rows[0][name] == pytest.approx(rows[1][name], rel=1e-6), name
+    assert rows[0]["iterations"] > rows[1]["iterations"]
+
+
 def test_invalid_points_and_steps_at_the_edges_are_told(tmp_path):
     heights = np.random.default_rng(5323).normal(scale=1e-8, size=(40, 40)) + 1e-8 * np.arange(40)[:, None]
     np.save(tmp_path / "tilted.npy", heights)
