@@ -4,7 +4,7 @@ import sys
 
 import typer
 
-from scripts import batch, compare, doctor, generate, models, report, solve, stability, surface
+from scripts import batch, compare, contact_series, doctor, generate, models, report, solve, stability, surface
 from scripts.common import launch
 
 app = typer.Typer(
@@ -15,6 +15,7 @@ app = typer.Typer(
 )
 for module in (models, solve, compare, batch, report, stability, generate, surface, doctor):
     app.command(module.__name__.rpartition(".")[2])(module.command)
+app.command("contact")(contact_series.command)
 
 
 def main() -> None:

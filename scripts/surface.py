@@ -45,7 +45,7 @@ def command(
     as_json: AsJson = False,
 ) -> None:
     """Read a surface, prepare it as a periodic cell, and show it before and after."""
-    _refuse_same({"FILE": file, "--prepare": recipe, "--out": out, "--report": report})
+    refuse_same({"FILE": file, "--prepare": recipe, "--out": out, "--report": report})
     started, cpu = time.perf_counter(), sum(os.times()[:4])
     asked = load_recipe(recipe, set_ or ())
     with progress_bar(STEPS) as advance:
@@ -94,7 +94,7 @@ def command(
         messages.print(f"[yellow]warning:[/] {escape(warning)}", soft_wrap=True)
 
 
-def _refuse_same(named: Mapping[str, Path | None]) -> None:
+def refuse_same(named: Mapping[str, Path | None]) -> None:
     """No output may replace an input, or the other output."""
     seen: dict[str, str] = {}
     for name, path in named.items():

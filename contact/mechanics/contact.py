@@ -60,16 +60,18 @@ class Contact:
 
     @property
     def area_fraction(self) -> float:
-        """Real area of contact over the nominal one, less what whole pixels add along its perimeter (area only).
+        """Real area of contact over the nominal one, less what whole pixels add along its perimeter.
 
-        A = A_pix − (π − 1 + ln 2)/24 S Δx, with S the length of the pixels' edges between contact and not. Source:
-        V. A. Yastrebov, G. Anciaux, J. F. Molinari, Tribol. Int. 114 (2017) 161, doi:10.1016/j.triboint.2017.04.023.
+        A = A_pix − (π − 1 + ln 2)/24 S Δx, with S the length of the pixels' edges between contact and not; no such
+        thing in line contact. Pixels at the hardness carry it on all their area (else A H < W could follow), so that
+        their edges do not count. Source: V. A. Yastrebov, G. Anciaux, J. F. Molinari, Tribol. Int. 114 (2017) 161,
+        doi:10.1016/j.triboint.2017.04.023.
         """
         if 1 in self.pressure.shape:
             return self.area_fraction_pixel
-        contact = self.in_contact
-        edges = sum(np.count_nonzero(contact != np.roll(contact, 1, axis)) for axis in (0, 1))
-        return self.area_fraction_pixel - CORNERS * edges / contact.size
+        off, elastic = self.pressure == 0, self.in_contact & ~self.plastic
+        edges = sum(np.count_nonzero(elastic & np.roll(off, shift, axis)) for axis in (0, 1) for shift in (1, -1))
+        return float(self.area_fraction_pixel - CORNERS * edges / off.size)
 
     @property
     def plastic_fraction(self) -> float:

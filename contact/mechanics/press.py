@@ -107,11 +107,11 @@ class Press:
         if start is not None and start.pressure.shape != self.heights.shape:
             raise InputError(f"contact: got a start of shape {start.pressure.shape}; it must be {self.heights.shape}")
         if load == self.hardness:
-            return self._contact(load, np.full(self.heights.shape, self.hardness), 0)
+            return self.contact_of(load, np.full(self.heights.shape, self.hardness), 0)
         if self.boundary == "periodic":
             least, most = self._full_contact
             if load + least >= 0 and load + most <= self.hardness:
-                return self._contact(load, load + self._full_pressure(), 0)
+                return self.contact_of(load, load + self._full_pressure(), 0)
         return self._search(load, tolerance, start)
 
     @cached_property
@@ -141,7 +141,7 @@ class Press:
         )
         found = found.reshape(self._grid)[self._part]
         found = np.where(found >= hardness, self.hardness, found * pressure_unit)
-        contact = self._contact(load, _scaled(found, load, self.hardness), iterations)
+        contact = self.contact_of(load, _scaled(found, load, self.hardness), iterations)
         if contact.complementarity > 2 * tolerance:
             raise ConvergenceError(
                 f"contact: {Outcome.STALLED} with the conditions of contact broken by {contact.complementarity:.2g} "
@@ -161,7 +161,7 @@ class Press:
         """The rms height, or for a flat punch what the load moves, m."""
         return float(self._down.std()) or load / self.composite_modulus * self._length
 
-    def _contact(self, load: float, pressure: Array, iterations: int) -> Contact:
+    def contact_of(self, load: float, pressure: Array, iterations: int) -> Contact:
         """What a pressure does, and how well it keeps the conditions of contact, computed afresh."""
         base = load if self.boundary == "periodic" else 0.0
         elastic = self._half_space.displacement((pressure - base) / self.composite_modulus)

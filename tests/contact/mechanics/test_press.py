@@ -274,3 +274,23 @@ def test_what_makes_no_sense_is_one_clear_line(change, word):
     with pytest.raises(InputError, match=word) as caught:
         Press(heights, spacing, modulus, **known).at(load, tolerance=tolerance)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("hardness", [3e-3, 1e-2, 3e-2, np.inf])
+def test_no_area_carries_more_than_its_hardness(hardness):
+    press = Press(rough(128), (SIDE / 128,) * 2, MODULUS, hardness=hardness * MODULUS)
+    for part in (0.05, 0.3, 0.7):
+        contact = press.at(part * min(hardness, 0.1) * MODULUS)
+        assert contact.area_fraction * contact.hardness >= contact.load
+        assert contact.plastic_fraction <= contact.area_fraction <= contact.area_fraction_pixel
+
+
+def test_counting_pixels_less_their_perimeter_finds_the_area_of_hertz():
+    exact = HertzSphere(radius=0.01, composite_modulus=MODULUS, force=100.0)
+    corrected, counted = [], []
+    for n in range(60, 76):
+        contact, _ = sphere(n, exact.force)
+        area = math.pi * exact.contact_radius**2 / 1e-6
+        corrected.append(contact.area_fraction / area - 1)
+        counted.append(contact.area_fraction_pixel / area - 1)
+    assert abs(np.mean(corrected)) < 0.4 * abs(np.mean(counted))

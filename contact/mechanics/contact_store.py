@@ -1,0 +1,243 @@
+"""A series of contacts in HDF5: every finished load at once, and never a half of one.
+
+The HDF5 file stands behind a block of 512 bytes with the digest of all that follows, as those of surfaces do. A load is
+added to a copy, which then takes the place of the file.
+"""
+
+import hashlib
+import json
+import math
+import os
+import shutil
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+from contact.errors import InputError
+from contact.files import replacing
+from contact.mechanics.contact import Contact
+from contact.surface import Array
+
+SCHEMA = 1
+MARK = b"roughfilm contact, HDF5 behind 512 bytes, sha256 "
+BLOCK = 512
+PIECE = 1 << 22
+
+
+@dataclass(frozen=True, kw_only=True)
+class Inputs:
+    """What a series is computed from.
+
+    Attributes
+    ----------
+    heights : of the undeformed surface z, shape (nx, ny), m.
+    spacing : (dx, dy), m.
+    settings : all else that the numbers depend on, as entries that JSON can hold.
+    """
+
+    heights: Array
+    spacing: tuple[float, float]
+    settings: Mapping[str, Any]
+
+    @property
+    def digest(self) -> str:
+        """Of all inputs: equal digests give equal contacts."""
+        told = json.dumps([self.heights.shape, self.spacing, self.settings], sort_keys=True, allow_nan=False)
+        return hashlib.sha256(told.encode() + np.ascontiguousarray(self.heights).tobytes()).hexdigest()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Row:
+    """The numbers of one load, those of `Contact` among them; None where the model has none.
+
+    Attributes
+    ----------
+    pressure_max : Pa.
+    cpu_s : s.
+    """
+
+    load: float
+    area_fraction: float
+    area_fraction_pixel: float | None
+    plastic_fraction: float
+    mean_gap: float | None
+    approach: float | None
+    complementarity: float | None
+    iterations: int | None
+    pressure_max: float | None
+    cpu_s: float
+
+
+UNITS = {"load": "Pa", "mean_gap": "m", "approach": "m", "pressure_max": "Pa", "cpu_s": "s"}
+"""Of the numbers of a row; all others are pure numbers."""
+
+
+def row_of(contact: Contact, cpu_s: float) -> Row:
+    """The numbers of a contact that took ``cpu_s`` seconds of processor time."""
+    return Row(
+        load=contact.load,
+        area_fraction=contact.area_fraction,
+        area_fraction_pixel=contact.area_fraction_pixel,
+        plastic_fraction=contact.plastic_fraction,
+        mean_gap=contact.mean_gap,
+        approach=contact.approach,
+        complementarity=contact.complementarity,
+        iterations=contact.iterations,
+        pressure_max=float(contact.pressure.max()),
+        cpu_s=cpu_s,
+    )
+
+
+def add(path: Path, inputs: Inputs, row: Row, contact: Contact | None, *, to: bool) -> None:
+    """Write a load to a file of a series, whole or not at all.
+
+    Parameters
+    ----------
+    contact : its fields, if the model has them.
+    to : whether to add to the loads that the file holds, which :func:`finished` must have found; else the file is new.
+
+    Raises
+    ------
+    InputError
+        If ``path`` cannot be written.
+    """
+    with replacing(path) as scratch:
+        if to:
+            shutil.copyfile(path, scratch)
+        mode = {"name": scratch, "mode": "r+"} if to else {"name": scratch, "mode": "w", "userblock_size": BLOCK}
+        with h5py.File(**mode) as file:
+            if not to:
+                _begin(file, inputs)
+            group = file.create_group(f"loads/{row.load!r}")
+            group.attrs.update({name: math.nan if value is None else value for name, value in vars(row).items()})
+            if contact is not None:
+                group.attrs["hardness"] = contact.hardness
+                for name, values in _arrays(contact).items():
+                    written = group.create_dataset(
+                        name, data=values, compression="gzip", compression_opts=1, shuffle=True
+                    )
+                    written.attrs["unit"] = "Pa" if name == "pressure" else "m"
+            _tabulate(file)
+        block = _block(_digest(scratch))
+        with scratch.open("r+b") as raw:
+            raw.write(block)
+            os.fsync(raw.fileno())
+
+
+def finished(path: Path, inputs: Inputs) -> dict[float, Row]:
+    """The loads that a file holds for these inputs, by load; none if there is no such file or it holds another series.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or was damaged or changed.
+    """
+    try:
+        with path.open("rb") as raw:
+            if raw.read(len(MARK)) != MARK:
+                return {}
+        _refuse_damaged(path)
+        with h5py.File(path) as file:
+            if file.attrs["schema"] != SCHEMA or file.attrs["digest"] != inputs.digest:
+                return {}
+            rows = [_row(group.attrs) for group in file["loads"].values()]
+            return {row.load: row for row in sorted(rows, key=lambda row: row.load)}
+    except FileNotFoundError:
+        return {}
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read ({error.strerror or error}); choose another place") from error
+
+
+def load_contact(path: Path, load: float) -> Contact:
+    """The contact at a load that a file holds; u_e = g00 − h1 − u_p + gap, which holds where the solver left it.
+
+    Raises
+    ------
+    InputError
+        If the file was damaged or changed, or holds no fields at this load.
+    """
+    _refuse_damaged(path)
+    with h5py.File(path) as file:
+        name = f"loads/{load!r}"
+        if name not in file or "pressure" not in file[name]:
+            raise InputError(f"{path}: holds no fields at {load!r} Pa; solve this load")
+        group = file[name]
+        row = _row(group.attrs)
+        heights, dx_dy = file["heights"][()], file.attrs["spacing"]
+        gap, plastic = group["gap"][()], group["plastic_displacement"][()]
+        approach = float(group.attrs["approach"])
+        return Contact(
+            load=load,
+            hardness=float(group.attrs["hardness"]),
+            heights=heights,
+            spacing=(float(dx_dy[0]), float(dx_dy[1])),
+            pressure=group["pressure"][()],
+            elastic_displacement=approach - (heights.max() - heights) - plastic + gap,
+            plastic_displacement=plastic,
+            approach=approach,
+            gap=gap,
+            complementarity=float(group.attrs["complementarity"]),
+            iterations=int(row.iterations or 0),
+        )
+
+
+def _begin(file: h5py.File, inputs: Inputs) -> None:
+    file.attrs["schema"] = SCHEMA
+    file.attrs["digest"] = inputs.digest
+    file.attrs["settings"] = json.dumps(inputs.settings, sort_keys=True, allow_nan=False)
+    file.attrs["spacing"] = inputs.spacing
+    file.attrs["spacing_unit"] = "m"
+    _write(file, "heights", inputs.heights, "m")
+
+
+def _write(group: h5py.Group, name: str, values: Array, unit: str) -> None:
+    written = group.create_dataset(name, data=values, compression="gzip", compression_opts=1, shuffle=True)
+    written.attrs["unit"] = unit
+
+
+def _tabulate(file: h5py.File) -> None:
+    """Write ``series``: every number of all loads as a column, loads rising; NaN where there is none."""
+    if "series" in file:
+        del file["series"]
+    groups = sorted(file["loads"].values(), key=lambda group: float(group.attrs["load"]))
+    for entry in fields(Row):
+        column = np.array([float(group.attrs[entry.name]) for group in groups])
+        file.create_dataset(f"series/{entry.name}", data=column).attrs["unit"] = UNITS.get(entry.name, "1")
+
+
+def _arrays(contact: Contact) -> dict[str, Array]:
+    return {
+        "pressure": contact.pressure,
+        "gap": contact.gap,
+        "plastic_displacement": contact.plastic_displacement,
+    }
+
+
+def _row(attributes: Mapping[str, Any]) -> Row:
+    numbers = {entry.name: float(attributes[entry.name]) for entry in fields(Row)}
+    told: dict[str, Any] = {name: None if math.isnan(number) else number for name, number in numbers.items()}
+    told["iterations"] = None if told["iterations"] is None else int(told["iterations"])
+    return Row(**told)
+
+
+def _block(digest: str) -> bytes:
+    return (MARK + digest.encode() + b"\n").ljust(BLOCK, b"\0")
+
+
+def _digest(path: Path) -> str:
+    digest = hashlib.sha256()
+    with path.open("rb") as file:
+        file.seek(BLOCK)
+        while piece := file.read(PIECE):
+            digest.update(piece)
+    return digest.hexdigest()
+
+
+def _refuse_damaged(path: Path) -> None:
+    with path.open("rb") as file:
+        if file.read(BLOCK) != _block(_digest(path)):
+            raise InputError(f"{path}: was damaged or changed since it was written; remove it or choose another place")

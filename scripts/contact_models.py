@@ -1,0 +1,85 @@
+"""The rungs of contact: solved on the grid, or estimated from statistics of the heights."""
+
+import math
+import time
+from collections.abc import Callable
+from enum import StrEnum
+
+from contact.errors import InputError
+from contact.mechanics.contact_store import Row
+from contact.mechanics.estimate import Estimate
+from contact.mechanics.greenwood_williamson import greenwood_williamson
+from contact.mechanics.moments import wave_power
+from contact.mechanics.persson import persson
+from contact.mechanics.truncation import bearing_area
+from contact.surface import Array
+
+
+class Model(StrEnum):
+    """The rung."""
+
+    BEARING_AREA = "bearing_area"
+    GREENWOOD_WILLIAMSON = "greenwood_williamson"
+    PERSSON = "persson"
+    ELASTIC = "elastic"
+    ELASTIC_PLASTIC = "elastic_plastic"
+    STANLEY_KATO = "stanley_kato"
+
+
+SOLVED = (Model.ELASTIC, Model.ELASTIC_PLASTIC, Model.STANLEY_KATO)
+"""The rungs that solve on the grid; the others estimate from statistics."""
+
+WITHOUT_HARDNESS = (Model.ELASTIC, Model.GREENWOOD_WILLIAMSON)
+
+SOURCES = {
+    Model.BEARING_AREA: "E. J. Abbott, F. A. Firestone, Mech. Eng. 55 (1933) 569",
+    Model.GREENWOOD_WILLIAMSON: "J. A. Greenwood, J. B. P. Williamson, doi:10.1098/rspa.1966.0242",
+    Model.PERSSON: "B. N. J. Persson, doi:10.1063/1.1388626",
+    Model.ELASTIC: "I. A. Polonsky, L. M. Keer, doi:10.1016/S0043-1648(99)00113-1",
+    Model.ELASTIC_PLASTIC: "F. Sahlin, Luleå University of Technology 2008:26, section E.2.2",
+    Model.STANLEY_KATO: "H. M. Stanley, T. Kato, doi:10.1115/1.2833523",
+}
+
+
+def chosen(model: Model | None, hardness: float) -> Model:
+    """The model asked for, or the best one that the hardness allows."""
+    found = model or (Model.ELASTIC if math.isinf(hardness) else Model.ELASTIC_PLASTIC)
+    if math.isinf(hardness) and found in (Model.ELASTIC_PLASTIC, Model.BEARING_AREA):
+        raise InputError(f"--hardness: {found} needs one; give it, such as --hardness 4GPa, or choose --model elastic")
+    return found
+
+
+def estimator(
+    model: Model, heights: Array, spacing: tuple[float, float], composite_modulus: float, hardness: float
+) -> Callable[[float], tuple[Row, Estimate]]:
+    """What a statistical rung gives at a load: its numbers, and all of its estimate."""
+    spectrum = wave_power(heights, spacing)
+
+    def estimate(load: float) -> Estimate:
+        if model is Model.PERSSON:
+            return persson(spectrum, composite_modulus=composite_modulus, load=load, hardness=hardness)
+        if model is Model.GREENWOOD_WILLIAMSON:
+            return greenwood_williamson(spectrum.moments, composite_modulus=composite_modulus, load=load)
+        slope = spectrum.moments.rms_slope
+        return bearing_area(heights, load=load, hardness=hardness, composite_modulus=composite_modulus, rms_slope=slope)
+
+    def row(load: float) -> tuple[Row, Estimate]:
+        started = time.process_time()
+        found = estimate(load)
+        return (
+            Row(
+                load=load,
+                area_fraction=found.area_fraction,
+                area_fraction_pixel=None,
+                plastic_fraction=found.plastic_fraction,
+                mean_gap=found.mean_gap,
+                approach=None,
+                complementarity=None,
+                iterations=None,
+                pressure_max=hardness if found.plastic_fraction > 0 else None,
+                cpu_s=time.process_time() - started,
+            ),
+            found,
+        )
+
+    return row

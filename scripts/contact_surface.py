@@ -1,0 +1,121 @@
+"""Surfaces to press: files of any kind that `roughfilm surface` takes, synthetic ones, and arrays of heights."""
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from contact.errors import InputError
+from contact.periodicity import THRESHOLD, periodicity_mismatch
+from contact.surface import Array, Surface
+from contact.surface_files import read_surface
+from contact.surface_store import is_surface
+from contact.synthetic.description import make, read_description
+from contact.units import to_si
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rough:
+    """Heights to press, shape (nx, ny), m, with spacing, m; ny = 1 for a profile."""
+
+    heights: Array
+    spacing: tuple[float, float]
+    source: Mapping[str, Any]
+    warnings: tuple[str, ...]
+
+
+def spacing_of(text: str | None) -> tuple[float, float] | None:
+    """One length or two, such as "1um" or "1um,2um", in m; InputError for anything else."""
+    if text is None:
+        return None
+    parts = text.split(",")
+    try:
+        lengths = [to_si(part.strip(), "m") for part in parts]
+    except ValueError as error:
+        raise InputError(f"--spacing {text}: {error}") from None
+    if len(lengths) > 2 or not min(lengths) > 0:
+        raise InputError(f"--spacing {text}: give one length above 0 or two, such as 1um or 1um,2um")
+    return lengths[0], lengths[-1]
+
+
+def read_rough(file: Path, spacing: tuple[float, float] | None, *, periodic: bool) -> Rough:
+    """Read what is to be pressed, as it is.
+
+    Parameters
+    ----------
+    spacing : (dx, dy), m, of an array of heights.
+    periodic : whether it will be taken as periodic, and a warning is due if it is not.
+
+    Raises
+    ------
+    InputError
+        One line, if the file is no surface, tells no spacing, or has invalid points.
+    """
+    suffix = file.suffix.lower()
+    whole = suffix == ".toml" or (file.is_file() and is_surface(file))
+    if whole and spacing is not None:
+        raise InputError(f"{file}: says its spacing itself; leave out --spacing")
+    if suffix == ".npy" and spacing is None:
+        raise InputError(f"{file}: tells no spacing of its points; give --spacing, such as 1um")
+    if suffix == ".npy":
+        profile = _profile(file)
+        if profile is not None and spacing is not None:
+            return _rough(file, profile, spacing, periodic)
+    if suffix == ".toml":
+        surface = make(read_description(file))
+    else:
+        try:
+            surface = read_surface(file, spacing=spacing)
+        except InputError as error:
+            told = " in a recipe of roughfilm surface, and press its --out"
+            raise InputError(str(error).replace(" in the recipe", told)) from None
+    if surface.invalid.any():
+        count = int(surface.invalid.sum())
+        raise InputError(f"{file}: has {count} invalid points; fill them: roughfilm surface {file} --out S.h5")
+    return Rough(
+        heights=surface.heights,
+        spacing=surface.spacing,
+        source=surface.source,
+        warnings=_warnings(file, surface, measured=not whole and suffix != ".npy") if periodic else (),
+    )
+
+
+def _profile(file: Path) -> Array | None:
+    """Heights along a line, shape (nx, 1); None if the file holds something else."""
+    try:
+        array = np.load(file, mmap_mode="r", allow_pickle=False)
+    except (OSError, ValueError, EOFError, SyntaxError):
+        return None
+    if array.dtype.kind not in "fiu" or not (array.ndim == 1 or (array.ndim == 2 and 1 in array.shape)):
+        return None
+    return np.array(array, dtype=np.float64).reshape(-1, 1)
+
+
+def _rough(file: Path, heights: Array, spacing: tuple[float, float], periodic: bool) -> Rough:
+    if heights.size < 2:
+        raise InputError(f"{file}: holds {heights.size} points; a profile has at least 2")
+    if not np.isfinite(heights).all():
+        count = int((~np.isfinite(heights)).sum())
+        raise InputError(f"{file}: has {count} heights that are not finite; fill them first")
+    surface = Surface(heights=np.repeat(heights, 2, axis=1), spacing=spacing)
+    return Rough(
+        heights=heights,
+        spacing=spacing,
+        source={"file": file.name, "sha256": hashlib.sha256(file.read_bytes()).hexdigest(), "format": "npy"},
+        warnings=_warnings(file, surface, measured=False) if periodic else (),
+    )
+
+
+def _warnings(file: Path, surface: Surface, *, measured: bool) -> tuple[str, ...]:
+    if surface.periodic:
+        return ()
+    mismatch = periodicity_mismatch(surface)
+    remedy = f"roughfilm surface {file} --out S.h5 prepares it, --boundary free takes it as it stands"
+    if mismatch > THRESHOLD:
+        return (f"{file}: is not periodic (mismatch {mismatch:.2g}), so that its edges meet in steps; {remedy}",)
+    if measured:
+        return (f"{file}: is pressed as it was measured, with its form and without preparation; {remedy}",)
+    return ()

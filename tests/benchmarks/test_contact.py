@@ -1,0 +1,204 @@
+"""Our contact solver beside its peers on the very same arrays: agreement, and times as ratios, as JSON.
+
+ROUGHFILM_PEERS names the environment of the peers, which ``peers/setup`` makes; without it ours runs alone. Minutes of
+a peer are marked: ``-m "benchmark and not slow"`` leaves them out, ``-k`` chooses a case or a peer.
+"""
+
+import json
+import os
+import subprocess
+import sys
+from dataclasses import asdict, dataclass
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from contact.files import replacing
+from contact.synthetic.self_affine import self_affine
+from rom.provenance import circumstances
+
+ROOT = Path(__file__).parent.parent.parent
+PROGRAM = Path(__file__).parent / "peers" / "run.py"
+RESULTS = ROOT / "runs" / "benchmarks" / "contact.json"
+SIDE = 1e-3
+VIOLATION, AREA, MEAN_GAP = 1e-8, 1e-5, 1e-6
+TOLERANCES = {
+    "roughfilm_": (1e-8,),
+    "aspher_": (1e-9, 3e-10, 1e-10, 3e-11, 1e-11, 1e-12),
+    "tamaas_": (1e-8, 3e-9, 1e-9, 1e-10, 1e-11, 1e-12),
+    "contact_mechanics_": (1e-8, 5e-9, 2e-9, 1e-9, 1e-10),
+}
+"""Each solver's own, the loosest first: the first that brings the violation down to VIOLATION is the one timed."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Case:
+    """Loads and hardness are over E*; slow peers take more than half a minute."""
+
+    name: str
+    points: int
+    loads: tuple[float, ...]
+    peers: tuple[str, ...] = ()
+    slow_peers: tuple[str, ...] = ()
+    hardness: float | None = None
+    threads: int = 1
+    repeats: int = 1
+
+
+CASES = [
+    Case(
+        name="512, 10 %",
+        points=512,
+        loads=(0.00466,),
+        peers=("aspher_", "tamaas_", "contact_mechanics_"),
+        repeats=3,
+    ),
+    Case(
+        name="512, 30 %, H/E* = 0.05",
+        points=512,
+        loads=(0.01225,),
+        hardness=0.05,
+        peers=("contact_mechanics_",),
+        slow_peers=("tamaas_",),
+        repeats=3,
+    ),
+    Case(
+        name="512, 20 loads",
+        points=512,
+        loads=tuple(np.geomspace(0.00041, 0.0355, 20)),
+        peers=("aspher_",),
+        slow_peers=("tamaas_", "contact_mechanics_"),
+    ),
+    Case(
+        name="1024, 10 %",
+        points=1024,
+        loads=(0.00477,),
+        peers=("aspher_",),
+        slow_peers=("tamaas_", "contact_mechanics_"),
+        repeats=3,
+    ),
+    Case(name="1024, 10 %, 2 threads", points=1024, loads=(0.00477,), peers=("aspher_",), threads=2, repeats=3),
+    Case(
+        name="1024, 60 %",
+        points=1024,
+        loads=(0.0361,),
+        peers=("aspher_",),
+        slow_peers=("tamaas_", "contact_mechanics_"),
+    ),
+    Case(
+        name="2048, 10 %",
+        points=2048,
+        loads=(0.00488,),
+        peers=("aspher_",),
+        slow_peers=("tamaas_", "contact_mechanics_"),
+    ),
+    Case(name="4096, 10 %", points=4096, loads=(0.00498,), slow_peers=("aspher_",)),
+]
+PAIRS = [
+    pytest.param(case, peer, id=f"{case.name}-{peer}", marks=[pytest.mark.slow] if peer in case.slow_peers else [])
+    for case in CASES
+    for peer in case.peers + case.slow_peers
+]
+
+
+@pytest.fixture(scope="module")
+def solved(tmp_path_factory):
+    """What a solver made of a case, in a process of its own, once; all of it is written down at the end."""
+    folder = tmp_path_factory.mktemp("contact")
+    rows = {}
+
+    @cache
+    def heights(points):
+        surface = self_affine(
+            size=(SIDE, SIDE),
+            points=(points, points),
+            seed=20071,
+            hurst=0.8,
+            roll_off=SIDE / 4,
+            cut_off=8 * SIDE / points,
+            rms_slope=0.1,
+        )
+        np.save(folder / f"{points}.npy", surface.heights)
+        return folder / f"{points}.npy"
+
+    def solve(case, solver):
+        key = (case.name, solver)
+        if key not in rows:
+            problem, result = folder / "problem.json", folder / "result.json"
+            asked = {"tolerances": TOLERANCES[solver], "violation": VIOLATION, "spacing": [SIDE / case.points] * 2}
+            if solver in case.slow_peers:
+                asked["repeats"] = 1
+            problem.write_text(json.dumps(asdict(case) | asked))
+            subprocess.run(
+                [python(solver), PROGRAM, solver, heights(case.points), problem, result],
+                env=os.environ | one_library(case.threads),
+                check=True,
+            )
+            rows[key] = {"load_average": os.getloadavg()[0], **json.loads(result.read_text())}
+        return rows[key]
+
+    yield solve
+    with replacing(RESULTS) as scratch:
+        scratch.write_text(json.dumps({**circumstances(), "cases": [table(case, rows) for case in CASES]}, indent=1))
+
+
+def python(solver):
+    """Of the project, or of the peers' environment."""
+    if solver == "roughfilm_":
+        return sys.executable
+    if "ROUGHFILM_PEERS" not in os.environ:
+        pytest.skip("the peers are not here: make them by tests/benchmarks/peers/setup, name them in ROUGHFILM_PEERS")
+    return Path(os.environ["ROUGHFILM_PEERS"]) / "bin" / "python"
+
+
+def one_library(threads):
+    """This very tree, and as many threads for every library."""
+    names = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
+    return {"PYTHONPATH": str(ROOT)} | dict.fromkeys(names, str(threads))
+
+
+def table(case, rows):
+    """A case with all its solvers, and the peers' times over ours."""
+    found = {solver: row for (name, solver), row in rows.items() if name == case.name}
+    ours = found.get("roughfilm_")
+    for solver, row in found.items():
+        if ours and "failed" not in row:
+            row["cpu_over_ours"] = row["cpu_s"] / ours["cpu_s"]
+            row["wall_over_ours"] = row["wall_s"] / ours["wall_s"]
+            row["apart"] = apart(ours, row)
+        alone = rows.get((case.name.removesuffix(f", {case.threads} threads"), solver))
+        if case.threads > 1 and alone:
+            row["speed_up"] = alone["wall_s"] / row["wall_s"]
+    return {**asdict(case), "solvers": found}
+
+
+def apart(ours, theirs):
+    """The largest differences of area and of mean gap over the rms height, over all loads."""
+    pairs = list(zip(ours["solutions"], theirs["solutions"], strict=True))
+    return {
+        name: max(abs(mine[name] - other[name]) for mine, other in pairs)
+        for name in ("area_fraction", "plastic_fraction", "mean_gap_over_rms")
+    }
+
+
+@pytest.mark.benchmark
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
+def test_ours_keeps_the_conditions_of_contact(solved, case):
+    ours = solved(case, "roughfilm_")
+    assert ours["violation"] <= VIOLATION
+    for solution in ours["solutions"]:
+        assert solution["load_error"] < 1e-10
+        assert solution["below_zero"] == solution["above_hardness"] == 0
+
+
+@pytest.mark.benchmark
+@pytest.mark.parametrize(("case", "peer"), PAIRS)
+def test_ours_agrees_with_a_peer(solved, case, peer):
+    theirs, ours = solved(case, peer), solved(case, "roughfilm_")
+    assert "failed" not in theirs
+    found = apart(ours, theirs)
+    assert found["area_fraction"] <= AREA
+    assert found["plastic_fraction"] <= AREA
+    assert found["mean_gap_over_rms"] <= MEAN_GAP
