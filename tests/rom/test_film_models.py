@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 
 import rom.models
 from contact.errors import ConvergenceError, InputError
-from rom.ladder import find, ladder
+from rom.ladder import find, ladder, of_kind
 from rom.scene import load_scene, read_scene
 
-MODELS = ladder(rom.models)
+MODELS = of_kind(ladder(rom.models), "pocket")
 QUADRATURE = [model for model in MODELS if model.order is None]
 PLUS = ("load_plus", "friction_plus", "pressure_max_plus", "pressure_min_plus")
 
