@@ -5,12 +5,22 @@ the same range of ``index``; what belongs to them stands at the same places of `
 ``move`` and ``taken`` (their step), so that most loops run through memory in order.
 """
 
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numba import njit
 
-_jit: Any = njit(nogil=True, cache=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz", "arcp"})
+_njit: Any = partial(njit, nogil=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz", "arcp"})
+
+
+def _jit(loop: Callable[..., None]) -> Any:
+    """Compiled at the first call; kept for the next run where there is a place for it."""
+    try:
+        return _njit(cache=True)(loop)
+    except RuntimeError:
+        return _njit(loop)
 
 
 @_jit
