@@ -105,7 +105,7 @@ PAIRS = [
 
 @pytest.fixture(scope="module")
 def solved(tmp_path_factory):
-    """What a solver made of a case, in a process of its own, once; all of it is written down at the end."""
+    """What a solver made of a case, in a process of its own, once; what is known by then is written down."""
     folder = tmp_path_factory.mktemp("contact")
     rows = {}
 
@@ -137,11 +137,12 @@ def solved(tmp_path_factory):
                 check=True,
             )
             rows[key] = {"load_average": os.getloadavg()[0], **json.loads(result.read_text())}
+            with replacing(RESULTS) as scratch:
+                tables = [table(case, rows) for case in CASES]
+                scratch.write_text(json.dumps({**circumstances(), "cases": tables}, indent=1))
         return rows[key]
 
-    yield solve
-    with replacing(RESULTS) as scratch:
-        scratch.write_text(json.dumps({**circumstances(), "cases": [table(case, rows) for case in CASES]}, indent=1))
+    return solve
 
 
 def python(solver):
