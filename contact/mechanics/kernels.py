@@ -2,7 +2,7 @@
 
 A piece is the range of nodes [low, high). Its free nodes, those whose pressure may change, are listed at the front of
 the same range of ``index``; what belongs to them stands at the same places of ``residual``, ``held`` (their pressure),
-``move`` and ``taken`` (their step), so that most loops run through memory in order.
+``move``, ``taken`` (their step s) and ``move_image`` (K∗s), so that most loops run through memory in order.
 """
 
 from collections.abc import Callable
@@ -23,55 +23,102 @@ def _jit(loop: Callable[..., None]) -> Any:
         return _njit(loop)
 
 
+OFF, INSIDE, HARD = 0, 1, 2
+"""What a node's ``state`` says: p = 0, 0 < p < H, p = H."""
+
+WORD = 8
+"""Nodes that are looked at together, as most are far from contact; pieces begin at whole words."""
+
+LISTED = 4
+"""Added to it for a free node, whose pressure is in the list. Others have theirs in the grid, and no source or step."""
+
+
 @_jit
-def advance(low, high, fraction, image, gap, plane, pressure, hardness, source, index, residual, held, out):  # type: ignore[no-untyped-def]
-    """Let g grow by t K∗s; list the free nodes, their residual g − plane (in ``source`` too) and pressure."""
+def advance(low, high, fraction, image, gap, plane, state, touched):  # type: ignore[no-untyped-def]
+    """Let g grow by t K∗s, and mark the nodes that may be free: listed ones, p > 0, g < g00."""
     part = np.float32(fraction)
     level = np.float32(plane)
-    count = low
-    total = 0.0
-    worst = np.float32(0)
-    for node in range(low, high):
+    image, gap, state, touched = image[low:high], gap[low:high], state[low:high], touched[low:high]
+    for node in range(gap.size):
         value = gap[node] + part * image[node]
         gap[node] = value
-        difference = value - level
-        p = pressure[node]
-        if (p > 0 or difference < 0) and (p < hardness or difference > 0):
-            index[count] = node
-            residual[count] = difference
-            held[count] = p
-            source[node] = difference
-            count += 1
-            total += difference
-            worst = max(worst, abs(difference))
-        else:
-            source[node] = 0
-    out[0] = count
+        touched[node] = (state[node] != 0) | (value < level)
+
+
+@_jit
+def gather(low, high, words, gap, plane, image, state, pressure, source, step, held, taken, index, residual, now_held, now_taken, move_image, out):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
+    """List the free nodes among the marked, eight of which are a word: residual g − g00, pressure, s and K∗s.
+
+    Those that were free before have pressure and step in the old lists, in the same order; all others in the grids.
+    """
+    level = np.float32(plane)
+    count = before = 0
+    total = 0.0
+    worst = np.float32(0)
+    words, gap, image, state = words[low // WORD : -(-high // WORD)], gap[low:high], image[low:high], state[low:high]
+    pressure, source, step, held, taken = pressure[low:high], source[low:high], step[low:high], held[low:], taken[low:]
+    index, residual, now_held, now_taken = index[low:high], residual[low:high], now_held[low:high], now_taken[low:high]
+    move_image = move_image[low:high]
+    for word in range(words.size):
+        if words[word] == 0:
+            continue
+        for part in range(min(WORD, gap.size - word * WORD)):
+            node = word * WORD + part
+            difference = gap[node] - level
+            known = state[node]
+            kind = known & 3
+            listed = known & LISTED
+            if kind == INSIDE or (kind == OFF and difference < 0) or (kind == HARD and difference > 0):
+                index[count] = low + node
+                residual[count] = difference
+                now_held[count] = held[before] if listed else pressure[node]
+                now_taken[count] = taken[before] if listed else 0
+                move_image[count] = image[node]
+                state[node] = kind | LISTED
+                count += 1
+                total += difference
+                worst = max(worst, abs(difference))
+            elif listed:
+                pressure[node] = held[before]
+                state[node] = kind
+                source[node] = 0
+                step[node] = 0
+            before += listed != 0
+    out[0] = low + count
     out[1] = total
     out[2] = worst
+
+
+@_jit
+def spread(low, end, index, held, pressure):  # type: ignore[no-untyped-def]
+    """Put the pressure of the free nodes into the grid."""
+    index, held = index[low:end], held[low:end]
+    for place in range(index.size):
+        pressure[index[place]] = held[place]
 
 
 @_jit
 def centre(low, end, mean, source, index, residual):  # type: ignore[no-untyped-def]
     """Take the mean from the residual of the free nodes."""
     offset = np.float32(mean)
-    for place in range(low, end):
+    index, residual = index[low:end], residual[low:end]
+    for place in range(index.size):
         value = residual[place] - offset
         residual[place] = value
         source[index[place]] = value
 
 
 @_jit
-def products(low, end, preconditioned, step, image, index, residual, move, taken, out):  # type: ignore[no-untyped-def]
-    """Gather z and s of the free nodes; Σz, Σs, ΣKs, ΣzKs, Σzr, Σsr."""
+def products(low, end, preconditioned, index, residual, taken, move_image, move, out):  # type: ignore[no-untyped-def]
+    """Gather z of the free nodes; Σz, Σs, ΣKs, ΣzKs, Σzr, Σsr."""
     z_sum = s_sum = k_sum = zk = zr = sr = 0.0
-    for place in range(low, end):
-        node = index[place]
-        z = preconditioned[node]
-        s = step[node]
+    index, residual, move = index[low:end], residual[low:end], move[low:end]
+    taken, move_image = taken[low:end], move_image[low:end]
+    for place in range(index.size):
+        z = np.float64(preconditioned[index[place]])
         move[place] = z
-        taken[place] = s
-        k = np.float64(image[node])
+        s = np.float64(taken[place])
+        k = np.float64(move_image[place])
         r = np.float64(residual[place])
         z_sum += z
         s_sum += s
@@ -92,36 +139,47 @@ def direct(low, end, length, z_mean, conjugate, s_mean, move, taken):  # type: i
     """From z, the move along the conjugate direction, α (−(z − z̄) + b (s − s̄))."""
     back, along = np.float32(-length), np.float32(length * conjugate)
     offset = np.float32(length * (z_mean - conjugate * s_mean))
-    for place in range(low, end):
+    move, taken = move[low:end], taken[low:end]
+    for place in range(move.size):
         move[place] = back * move[place] + along * taken[place] + offset
 
 
 @_jit
 def descend(low, end, length, residual, move):  # type: ignore[no-untyped-def]
     """The move down the gradient, −α r."""
-    for place in range(low, end):
+    residual, move = residual[low:end], move[low:end]
+    for place in range(move.size):
         move[place] = -length * residual[place]
 
 
 @_jit
 def excess(low, end, shift, held, hardness, move, out):  # type: ignore[no-untyped-def]
-    """What clip(p + move + λ) − p adds up to, how many nodes keep within bounds, and how far the nearest are beyond."""
+    """What clip(p + move + λ) − p adds up to, and how many nodes keep within bounds."""
     total = 0.0
     within = 0
-    below = -np.inf
-    above = np.inf
-    for place in range(low, end):
+    held, move = held[low:end], move[low:end]
+    for place in range(held.size):
         p = held[place]
         moved = p + move[place] + shift
         kept = min(max(moved, 0.0), hardness)
         total += kept - p
         within += kept == moved
-        below = max(below, moved if moved < 0 else -np.inf)
-        above = min(above, moved if moved > hardness else np.inf)
     out[0] = total
     out[1] = within
-    out[2] = below
-    out[3] = above
+
+
+@_jit
+def beyond(low, end, shift, held, hardness, move, out):  # type: ignore[no-untyped-def]
+    """Of p + move + λ, the greatest below 0 and the least above H."""
+    below = -np.inf
+    above = np.inf
+    held, move = held[low:end], move[low:end]
+    for place in range(held.size):
+        moved = held[place] + move[place] + shift
+        below = max(below, moved if moved < 0 else -np.inf)
+        above = min(above, moved if moved > hardness else np.inf)
+    out[0] = below
+    out[1] = above
 
 
 @_jit
@@ -129,16 +187,17 @@ def displace(low, end, shift, held, hardness, index, move, residual, taken, step
     """The step s = clip(p + move + λ) − p, its Σrs, and how many times it fits between the bounds."""
     slope = 0.0
     room = np.inf
-    for place in range(low, end):
+    index, held, move = index[low:end], held[low:end], move[low:end]
+    residual, taken = residual[low:end], taken[low:end]
+    for place in range(index.size):
         p = held[place]
         s = min(max(p + move[place] + shift, 0.0), hardness) - p
         taken[place] = s
         step[index[place]] = s
         slope += s * residual[place]
-        if s < 0:
-            room = min(room, -p / s)
-        elif s > 0:
-            room = min(room, (hardness - p) / s)
+        bound = hardness if s > 0 else 0.0
+        if s * room > bound - p if s > 0 else s * room < bound - p:
+            room = (bound - p) / s
     out[0] = slope
     out[1] = room
 
@@ -148,7 +207,8 @@ def curvature(low, end, image, index, taken, move_image, out):  # type: ignore[n
     """Gather Ks of the free nodes; ΣsKs and Σss."""
     bend = 0.0
     square = 0.0
-    for place in range(low, end):
+    index, taken, move_image = index[low:end], taken[low:end], move_image[low:end]
+    for place in range(index.size):
         k = image[index[place]]
         move_image[place] = k
         s = np.float64(taken[place])
@@ -159,24 +219,29 @@ def curvature(low, end, image, index, taken, move_image, out):  # type: ignore[n
 
 
 @_jit
-def press_on(low, end, fraction, shift, held, hardness, index, move, residual, move_image, pressure, out):  # type: ignore[no-untyped-def]
+def press_on(low, end, fraction, shift, held, hardness, index, move, residual, move_image, state, out):  # type: ignore[no-untyped-def]  # fmt: skip
     """Carry out a part t of the step; Σ(r + t Ks) over the nodes with 0 < p < H, and their number."""
     total = 0.0
     count = 0
-    for place in range(low, end):
+    index, held, move = index[low:end], held[low:end], move[low:end]
+    residual, move_image = residual[low:end], move_image[low:end]
+    for place in range(index.size):
         p = held[place]
         s = min(max(p + move[place] + shift, 0.0), hardness) - p
         p = min(max(p + fraction * s, 0.0), hardness)
-        pressure[index[place]] = p
-        if 0 < p < hardness:
-            total += residual[place] + fraction * move_image[place]
-            count += 1
+        held[place] = p
+        inside = 0 < p < hardness
+        state[index[place]] = LISTED | (INSIDE if inside else HARD if p > 0 else OFF)
+        total += residual[place] + fraction * move_image[place] if inside else 0.0
+        count += inside
     out[0] = total
     out[1] = count
 
 
 @_jit
-def scale_modes(low, high, spectrum, factors):  # type: ignore[no-untyped-def]
-    """Multiply every mode by its real factor."""
-    for mode in range(low, high):
-        spectrum[mode] *= factors[mode]
+def scale_modes(spectrum, left, factors):  # type: ignore[no-untyped-def]
+    """Multiply the modes of some columns, from ``left`` on, by their real factors."""
+    rows, columns = factors.shape
+    for row in range(rows):
+        for column in range(columns):
+            spectrum[row, left + column] *= factors[row, column]

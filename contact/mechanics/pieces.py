@@ -1,12 +1,12 @@
-"""The grid cut into pieces, one a thread, and the loops run over them."""
+"""The grid cut into pieces, one for each member of a team, and the loops run over them."""
 
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
+from contact.mechanics.kernels import WORD
+from contact.mechanics.team import Team
 from contact.surface import Array
 
 NUMBERS = 6
@@ -14,14 +14,13 @@ NUMBERS = 6
 
 
 class Pieces:
-    """Ranges of nodes that threads work on side by side; ``ends`` says where each range's list of free nodes ends."""
+    """Ranges of nodes that a team works on side by side; ``ends`` says where each range's list of free nodes ends."""
 
-    def __init__(self, nodes: int, threads: int) -> None:
-        bounds = np.linspace(0, nodes, threads + 1).astype(int)
-        self.ranges = [(int(low), int(high)) for low, high in pairwise(bounds)]
-        self.ends = [high for _, high in self.ranges]
-        self._pool = ThreadPoolExecutor(threads) if threads > 1 else None
-        self._out = np.zeros((threads, NUMBERS))
+    def __init__(self, nodes: int, team: Team) -> None:
+        self.ranges = team.ranges(nodes, WORD)
+        self.ends = [low for low, _ in self.ranges]
+        self._team = team
+        self._out = np.zeros((team.members, NUMBERS))
 
     def over_all(self, kernel: Callable[..., None], *arguments: Any, out: bool = False) -> Array:
         """Run a loop over every node; the numbers of each piece, a row each, if it returns some."""
@@ -38,8 +37,5 @@ class Pieces:
         def one(piece: int) -> None:
             kernel(*ranges[piece], *arguments, *((self._out[piece],) if out else ()))
 
-        if self._pool is None:
-            one(0)
-        else:
-            list(self._pool.map(one, range(len(ranges))))
+        self._team.share(one)
         return self._out

@@ -11,6 +11,7 @@ from contact.mechanics.contact import Contact
 from contact.mechanics.half_space import Boundary, HalfSpace
 from contact.mechanics.pieces import Pieces
 from contact.mechanics.projected_gradients import minimise, plane_of, violation_of
+from contact.mechanics.team import Team
 from contact.surface import LARGEST_LENGTH, LEAST_SPACING, MOST_POINTS, Array
 
 TOLERANCE = 1e-8
@@ -75,9 +76,9 @@ class Press:
         self._part = tuple(slice(n) for n in shape)
         self._length = max(n * d for n, d in zip(shape, self.spacing, strict=True))
         self._down = self.heights.mean() - self.heights
-        self._threads = threads
+        self._team = Team(threads)
         dx, dy = self.spacing
-        self._half_space = HalfSpace(self._grid, (dx / self._length, dy / self._length), boundary, threads)
+        self._half_space = HalfSpace(self._grid, (dx / self._length, dy / self._length), boundary, self._team)
 
     def at(self, load: float, *, tolerance: float = TOLERANCE, start: Contact | None = None) -> Contact:
         """The contact under a mean pressure over the nominal area.
@@ -137,7 +138,7 @@ class Press:
             hardness,
             tolerance=tolerance,
             most_iterations=MOST_ITERATIONS,
-            pieces=Pieces(math.prod(self._grid), self._threads),
+            pieces=Pieces(math.prod(self._grid), self._team),
         )
         found = found.reshape(self._grid)[self._part]
         found = np.where(found >= hardness, self.hardness, found * pressure_unit)

@@ -70,9 +70,12 @@ class _Search:
         self.index = np.empty(heights.size, dtype=np.int32)
         self.residual = np.empty(heights.size, dtype=np.float32)
         self.move = np.empty(heights.size, dtype=np.float32)
-        self.taken = np.empty(heights.size, dtype=np.float32)
+        self.taken, self.was_taken = (np.empty(heights.size, dtype=np.float32) for _ in range(2))
         self.move_image = np.empty(heights.size, dtype=np.float32)
-        self.held = np.empty(heights.size)
+        self.held, self.was_held = np.empty(heights.size), np.empty(heights.size)
+        self.state = np.where(pressure > 0, np.where(pressure < hardness, kernels.INSIDE, kernels.HARD), kernels.OFF)
+        self.state = self.state.astype(np.uint8)
+        self.touched = np.zeros(-(-heights.size // kernels.WORD) * kernels.WORD, dtype=np.uint8)
         self.sum = float(pressure.sum())
         self.length = 1.0
         self.slide = 0.0
@@ -83,6 +86,7 @@ class _Search:
 
     def refresh(self) -> None:
         """The gap over its plane from the pressure, in double precision, kept in single."""
+        self.pieces.over_free(kernels.spread, self.index, self.held, self.pressure)
         displacement = self.half_space.displacement(self.pressure.reshape(self.half_space.shape)).reshape(-1)
         displacement += self.heights
         displacement -= plane_of(self.pressure, displacement, self.hardness)
@@ -92,10 +96,14 @@ class _Search:
     def free_nodes(self) -> float:
         """Bring the gap up to date, list the free nodes with their residual, and return the largest."""
         half_space, pieces = self.half_space, self.pieces
+        image, source, step = half_space.image, half_space.source, half_space.step
+        self.held, self.was_held = self.was_held, self.held
+        self.taken, self.was_taken = self.was_taken, self.taken
+        pieces.over_all(kernels.advance, self.fraction, image, self.gap, self.plane, self.state, self.touched)
         found = pieces.over_all(
-            kernels.advance,
-            *(self.fraction, half_space.image, self.gap, self.plane, self.pressure, self.hardness),
-            *(half_space.source, self.index, self.residual, self.held),
+            kernels.gather,
+            *(self.touched.view(np.uint64), self.gap, self.plane, image, self.state, self.pressure, source, step),
+            *(self.was_held, self.was_taken, self.index, self.residual, self.held, self.taken, self.move_image),
             out=True,
         )
         pieces.ends = [int(end) for end in found[:, 0]]
@@ -112,8 +120,7 @@ class _Search:
         half_space.precondition()
         z, s, k, zk, zr, sr = pieces.over_free(
             kernels.products,
-            *(half_space.source, half_space.step, half_space.image),
-            *(self.index, self.residual, self.move, self.taken),
+            *(half_space.image, self.index, self.residual, self.taken, self.move_image, self.move),
             out=True,
         ).sum(axis=0)
         z_mean, s_mean = z / self.free, s / self.free
@@ -133,7 +140,6 @@ class _Search:
         """Step along ``move`` within the bounds, keeping the sum; whether that goes downhill."""
         half_space = self.half_space
         self.slide, self.cut = self._shift()
-        half_space.step[:] = 0
         found = self.pieces.over_free(
             kernels.displace,
             *(self.slide, self.held, self.hardness, self.index, self.move, self.residual, self.taken, half_space.step),
@@ -158,7 +164,7 @@ class _Search:
         found = pieces.over_free(
             kernels.press_on,
             *(self.fraction, self.slide, self.held, self.hardness, self.index, self.move, self.residual),
-            *(self.move_image, self.pressure),
+            *(self.move_image, self.state),
             out=True,
         )
         total, inside = found[:, :2].sum(axis=0)
@@ -186,10 +192,10 @@ class _Search:
                 low = shift
             if within:
                 new = shift - excess / within
-            elif excess > 0:
-                new = shift - (float(found[:, 3].min()) - self.hardness) * (1 + 1e-12)
             else:
-                new = shift - float(found[:, 2].max()) * (1 + 1e-12)
+                nearest = self.pieces.over_free(kernels.beyond, shift, self.held, self.hardness, self.move, out=True)
+                over, under = float(nearest[:, 1].min()) - self.hardness, float(nearest[:, 0].max())
+                new = shift - (over if excess > 0 else under) * (1 + 1e-12)
             if not low < new < high:
                 new = (low + high) / 2
             if new in (low, high, shift) or not math.isfinite(new):
@@ -227,16 +233,15 @@ def minimise(
         If the violation stays above the tolerance, with how far it came.
     """
     search = _Search(half_space, heights, start, hardness, pieces)
-    refreshed = best = math.inf
+    violation = refreshed = best = search.free_nodes()
     since = 0
     outcome = Outcome.UNFINISHED
     for iteration in range(most_iterations + 1):
-        violation = search.free_nodes()
         if violation <= max(tolerance, REFRESH * refreshed):
             search.refresh()
             violation = refreshed = search.free_nodes()
-        if violation <= tolerance:
-            return search.pressure, iteration
+            if violation <= tolerance:
+                return search.pressure, iteration
         if violation < BETTER * best:
             best, since = violation, iteration
         if iteration - since > PATIENCE:
@@ -249,6 +254,7 @@ def minimise(
                 outcome = Outcome.STALLED
                 break
         search.search()
+        violation = search.free_nodes()
     raise ConvergenceError(
         f"contact: {outcome} after {iteration} iterations with the conditions of contact broken by {best:.2g} "
         f"of the rms height, above {tolerance:.2g}; ask for a looser tolerance or resolve the surface better",

@@ -1,31 +1,106 @@
-"""Planned Fourier transforms of real grids; what planning finds out is kept for the next run on this machine."""
+"""Real grids filtered by Fourier transforms; what planning finds out is kept for the next run on this machine."""
 
 import json
 import os
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pyfftw
 
 from contact.errors import InputError
 from contact.files import replacing
+from contact.mechanics import kernels
+from contact.mechanics.team import Team
+from contact.surface import Array
+
+SLAB = 1 << 19
+"""Bytes of the columns that are taken forth, multiplied and taken back at a time, while the cache holds them."""
+
+ALIGNED = 16
+"""Modes; a row of modes is a whole number of these, and one more, so that no two lie a power of two apart."""
 
 
-def plans(real: Any, spectrum: Any, threads: int) -> tuple[Any, Any]:
-    """Plans for the transform of ``real`` into ``spectrum`` and for the way back, not normalised.
+class Filter:
+    """Multiplies the modes of real grids by real factors, from some grids into another, on which it is planned.
 
-    The way back loses its input. Both arrays are overwritten by the planning. A plan runs on other arrays of the same
-    shape, kind and alignment by ``update_arrays``.
+    Rows are transformed forth; columns forth, multiplied, and back, a slab at a time; rows back. Each member of the
+    team has its rows and its columns.
+
+    Parameters
+    ----------
+    sources : grids (nx, ny), C-contiguous and aligned by pyfftw; planning overwrites them.
+    result : a grid like these, or one of them.
     """
+
+    def __init__(self, sources: Sequence[Any], result: Any, team: Team) -> None:
+        self._team, self._nodes = team, result.size
+        rows, columns = result.shape[0], result.shape[1] // 2 + 1
+        kind = np.result_type(result.dtype, np.complex64)
+        padded = (columns // ALIGNED + 2) * ALIGNED
+        self._spectrum = pyfftw.empty_aligned((rows, padded), kind)
+        modes = self._spectrum[:, :columns]
+        width = max(SLAB // (rows * kind.itemsize * ALIGNED), 1) * ALIGNED
+        with _wisdom():
+            self._rows = [
+                [_plan(source[low:high], modes[low:high], 1) for low, high in team.ranges(rows)] for source in sources
+            ]
+            self._rows_back = [
+                _plan(modes[low:high], result[low:high], 1, back=True) for low, high in team.ranges(rows)
+            ]
+            self._slabs = [
+                [
+                    (left, right, _plan(modes[:, left:right], modes[:, left:right], 0),
+                     _plan(modes[:, left:right], modes[:, left:right], 0, back=True))
+                    for left, right in _cut(first, last, width)
+                ]
+                for first, last in team.ranges(columns, ALIGNED)
+            ]  # fmt: skip
+
+    def cut(self, factors: Array) -> list[list[Array]]:
+        """Factors (nx, ny // 2 + 1) of the modes as ``apply`` takes them, with the normalisation of the transforms."""
+        factors = factors / self._nodes
+        return [
+            [np.ascontiguousarray(factors[:, left:right], dtype=self._spectrum.real.dtype) for left, right, *_ in slabs]
+            for slabs in self._slabs
+        ]
+
+    def apply(self, source: int, factors: list[list[Array]]) -> None:
+        """Filter the grid of that number into the result; the other grids keep what they hold."""
+        self._team.share(lambda member: self._rows[source][member].execute())
+        self._team.share(lambda member: self._columns(self._slabs[member], factors[member]))
+        self._team.share(lambda member: self._rows_back[member].execute())
+
+    def _columns(self, slabs: list[Any], factors: list[Array]) -> None:
+        for (left, _, forth, back), factor in zip(slabs, factors, strict=True):
+            forth.execute()
+            kernels.scale_modes(self._spectrum, left, factor)
+            back.execute()
+
+
+def _plan(before: Any, after: Any, axis: int, *, back: bool = False) -> Any:
+    direction = "FFTW_BACKWARD" if back else "FFTW_FORWARD"
+    flags = ("FFTW_MEASURE", "FFTW_DESTROY_INPUT") if back else ("FFTW_MEASURE",)
+    return pyfftw.FFTW(before, after, axes=(axis,), direction=direction, flags=flags)
+
+
+def _cut(first: int, last: int, width: int) -> list[tuple[int, int]]:
+    """Ranges of at most that width."""
+    return list(pairwise([*range(first, last, width), last]))
+
+
+@contextmanager
+def _wisdom() -> Iterator[None]:
+    """Plan with what earlier runs learned, and keep what is learned now."""
     _recall()
     before = pyfftw.export_wisdom()
-    options = {"axes": (0, 1), "flags": ("FFTW_MEASURE",), "threads": threads}
-    forward = pyfftw.FFTW(real, spectrum, **options)
-    backward = pyfftw.FFTW(spectrum, real, direction="FFTW_BACKWARD", **options)
+    yield
     if pyfftw.export_wisdom() != before:
         _keep()
-    return forward, backward
 
 
 def _file() -> Path:

@@ -77,9 +77,9 @@ CASES = [
         loads=(0.00477,),
         peers=("aspher_",),
         slow_peers=("tamaas_", "contact_mechanics_"),
-        repeats=3,
+        repeats=9,
     ),
-    Case(name="1024, 10 %, 2 threads", points=1024, loads=(0.00477,), peers=("aspher_",), threads=2, repeats=3),
+    Case(name="1024, 10 %, 2 threads", points=1024, loads=(0.00477,), peers=("aspher_",), threads=2, repeats=9),
     Case(
         name="1024, 60 %",
         points=1024,

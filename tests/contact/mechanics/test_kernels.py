@@ -12,9 +12,9 @@ import sys
 import numpy as np
 module = {"__name__": "kernels"}
 exec(compile(open(sys.argv[1]).read(), "/proc/nowhere/kernels.py", "exec"), module)
-modes = np.array([1 + 2j, 3j])
-module["scale_modes"](0, 2, modes, np.array([2.0, 3.0]))
-print(modes.tolist() == [2 + 4j, 9j])
+modes = np.array([[1 + 2j, 3j], [5j, 1 + 0j]])
+module["scale_modes"](modes, 1, np.array([[2.0], [3.0]]))
+print(modes.tolist() == [[1 + 2j, 6j], [5j, 3 + 0j]])
 """
 
 

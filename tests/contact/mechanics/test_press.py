@@ -184,7 +184,7 @@ def test_a_start_changes_nothing_but_the_work():
     first = press.at(0.01 * MODULUS)
     cold, warm = press.at(0.012 * MODULUS), press.at(0.012 * MODULUS, start=first)
     assert warm.mean_gap == pytest.approx(cold.mean_gap, abs=1e-7 * press.heights.std())
-    assert warm.iterations <= cold.iterations
+    assert press.at(0.012 * MODULUS, start=cold).iterations <= 2 < cold.iterations
 
 
 def test_threads_change_nothing_but_the_time():
