@@ -79,7 +79,7 @@ def probes(points: int) -> Iterator[Probe]:
 
 
 def rough(
-    points: int, slope: float = 0.1, side: float = SIDE, ratio: float = 1.0
+    points: int, slope: float = 0.1, side: float = SIDE, ratio: float = 1.0, hurst: float = 0.8
 ) -> tuple[Heights, tuple[float, float]]:
     """Self-affine heights and their spacing, the period ``ratio`` times as long as wide."""
     cut_off = 8 * side * max(ratio, 1.0) / points
@@ -87,7 +87,7 @@ def rough(
         size=(side * ratio, side),
         points=(points, points),
         seed=SEED,
-        hurst=0.8,
+        hurst=hurst,
         roll_off=max(side * min(ratio, 1.0) / 4, 1.5 * cut_off),
         cut_off=cut_off,
         rms_slope=slope,
@@ -156,6 +156,11 @@ def _surfaces(points: int) -> Iterator[tuple[str, str, Heights, tuple[float, flo
         (1, n - 1),
     ):
         yield "sizes", f"{shape[0]} × {shape[1]}", whole[: shape[0], : shape[1]], square
+    for hurst in (0.8, 0.3):
+        section, spacing = rough(FINE, hurst=hurst)
+        yield "lines", f"section of {FINE}, Hurst {hurst:g}", section[:, :1], spacing
+    noise = np.random.default_rng(SEED).standard_normal((FINE, 1))
+    yield "lines", f"white noise on {FINE}", 1e-7 * noise, square
     for ratio in (0.01, 0.1, 0.3, 3.0, 10.0, 100.0):
         yield "cells", f"dx/dy = {ratio:g}", whole, (step * ratio, step)
     i, j = np.indices((n, n), dtype=float)

@@ -97,10 +97,13 @@ CASES = [
     Case(name="4096, 10 %", points=4096, loads=(0.00498,), slow_peers=("aspher_",)),
 ]
 PAIRS = [
-    pytest.param(case, peer, id=f"{case.name}-{peer}", marks=[pytest.mark.slow] if peer in case.slow_peers else [])
+    pytest.param(
+        case, solver, id=f"{case.name}-{solver}", marks=[pytest.mark.slow] if solver in case.slow_peers else []
+    )
     for case in CASES
-    for peer in case.peers + case.slow_peers
+    for solver in ("roughfilm_", *case.peers, *case.slow_peers)
 ]
+"""Ours and its peers one after the other, so that what else the machine does slows all of them."""
 
 
 @pytest.fixture(scope="module")
@@ -185,21 +188,16 @@ def apart(ours, theirs):
 
 
 @pytest.mark.benchmark
-@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
-def test_ours_keeps_the_conditions_of_contact(solved, case):
-    ours = solved(case, "roughfilm_")
-    assert ours["violation"] <= VIOLATION
-    for solution in ours["solutions"]:
-        assert solution["load_error"] < 1e-10
-        assert solution["below_zero"] == solution["above_hardness"] == 0
-
-
-@pytest.mark.benchmark
-@pytest.mark.parametrize(("case", "peer"), PAIRS)
-def test_ours_agrees_with_a_peer(solved, case, peer):
-    theirs, ours = solved(case, peer), solved(case, "roughfilm_")
-    assert "failed" not in theirs
-    found = apart(ours, theirs)
-    assert found["area_fraction"] <= AREA
-    assert found["plastic_fraction"] <= AREA
-    assert found["mean_gap_over_rms"] <= MEAN_GAP
+@pytest.mark.parametrize(("case", "solver"), PAIRS)
+def test_a_solver_keeps_the_conditions_of_contact_and_agrees_with_ours(solved, case, solver):
+    found, ours = solved(case, solver), solved(case, "roughfilm_")
+    assert "failed" not in found
+    if solver == "roughfilm_":
+        assert found["violation"] <= VIOLATION
+        for solution in found["solutions"]:
+            assert solution["load_error"] < 1e-10
+            assert solution["below_zero"] == solution["above_hardness"] == 0
+    differences = apart(ours, found)
+    assert differences["area_fraction"] <= AREA
+    assert differences["plastic_fraction"] <= AREA
+    assert differences["mean_gap_over_rms"] <= MEAN_GAP
