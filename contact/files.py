@@ -1,5 +1,6 @@
-"""Files that are whole or absent: written beside their place, then renamed into it."""
+"""Files that are whole or absent: written beside their place, then renamed into it; locks that end with a process."""
 
+import fcntl
 import os
 import tempfile
 from collections.abc import Iterator
@@ -48,6 +49,50 @@ def replacing(path: Path) -> Iterator[Path]:
     finally:
         if scratch is not None:
             scratch.unlink(missing_ok=True)
+
+
+@contextmanager
+def locked(lock: Path, told: str) -> Iterator[None]:
+    """Hold a lock file against every other process until the end, then remove it; it ends with this process anyhow.
+
+    Parameters
+    ----------
+    told : who is in the way, for the error: "{process}" in it becomes the number of the process that holds the lock.
+
+    Raises
+    ------
+    InputError
+        If another process holds it, or it cannot be written.
+    """
+    while True:
+        try:
+            lock.parent.mkdir(parents=True, exist_ok=True)
+            file = lock.open("a+", encoding="utf-8")
+        except OSError as error:
+            raise InputError(f"{lock.parent}: cannot be written ({error.strerror}); choose another place") from error
+        with file:
+            try:
+                fcntl.lockf(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except OSError:
+                file.seek(0)
+                raise InputError(told.replace("{process}", file.read().strip() or "unknown")) from None
+            if not _is_at(file.fileno(), lock):  # removed by the last holder since it was opened
+                continue
+            file.truncate(0)
+            file.write(str(os.getpid()))
+            file.flush()
+            try:
+                yield
+            finally:
+                lock.unlink(missing_ok=True)
+            return
+
+
+def _is_at(descriptor: int, path: Path) -> bool:
+    try:
+        return os.path.samestat(os.fstat(descriptor), path.stat())
+    except FileNotFoundError:
+        return False
 
 
 def _resolved(path: Path) -> Path:

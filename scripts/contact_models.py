@@ -4,6 +4,9 @@ import math
 import time
 from collections.abc import Callable
 from enum import StrEnum
+from functools import partial
+
+import numpy as np
 
 from contact.errors import InputError
 from contact.mechanics.contact_store import Row
@@ -53,19 +56,18 @@ def estimator(
     model: Model, heights: Array, spacing: tuple[float, float], composite_modulus: float, hardness: float
 ) -> Callable[[float], tuple[Row, Estimate]]:
     """What a statistical rung gives at a load: its numbers, and all of its estimate."""
-    spectrum = wave_power(heights, spacing)
-
-    def estimate(load: float) -> Estimate:
+    if model is Model.BEARING_AREA:
+        estimate = partial(bearing_area, heights, hardness=hardness, **_stiffness(heights, spacing, composite_modulus))
+    else:
+        spectrum = wave_power(heights, spacing)
         if model is Model.PERSSON:
-            return persson(spectrum, composite_modulus=composite_modulus, load=load, hardness=hardness)
-        if model is Model.GREENWOOD_WILLIAMSON:
-            return greenwood_williamson(spectrum.moments, composite_modulus=composite_modulus, load=load)
-        slope = spectrum.moments.rms_slope
-        return bearing_area(heights, load=load, hardness=hardness, composite_modulus=composite_modulus, rms_slope=slope)
+            estimate = partial(persson, spectrum, composite_modulus=composite_modulus, hardness=hardness)
+        else:
+            estimate = partial(greenwood_williamson, spectrum.moments, composite_modulus=composite_modulus)
 
     def row(load: float) -> tuple[Row, Estimate]:
         started = time.process_time()
-        found = estimate(load)
+        found = estimate(load=load)
         return (
             Row(
                 load=load,
@@ -83,3 +85,10 @@ def estimator(
         )
 
     return row
+
+
+def _stiffness(heights: Array, spacing: tuple[float, float], composite_modulus: float) -> dict[str, float]:
+    """What tells whether a bearing curve is to be trusted; nothing of a flat surface, of which it knows all."""
+    if np.ptp(heights) == 0:
+        return {}
+    return {"composite_modulus": composite_modulus, "rms_slope": wave_power(heights, spacing).moments.rms_slope}

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from rich.markup import escape
 
 from contact.errors import ConvergenceError
 from contact.mechanics.contact import Contact
@@ -67,17 +66,15 @@ def solved(
     Raises
     ------
     InputError
-        If the file was damaged or cannot be written.
+        If the file was damaged, holds something else or cannot be written.
     ConvergenceError
         At the first load that does not converge; those below it stay in the file.
     """
     stored = {} if out is None else finished(out, inputs)
-    if out is not None and out.exists() and not stored:
-        messages.print(f"{escape(str(out))}: holds something else, and is replaced", soft_wrap=True)
     rows: list[Row] = []
     spreads: list[Spread] = []
     before: Contact | None = None
-    holds, found = bool(stored), sum(load in stored for load in loads)
+    found = sum(load in stored for load in loads)
     try:
         for done, load in enumerate(loads):
             advance(done, f"{load / 1e6:.4g} MPa")
@@ -92,8 +89,7 @@ def solved(
                 before = _at(at, load, before)
                 row = row_of(before, time.process_time() - cpu)
                 if out is not None:
-                    add(out, inputs, row, before, to=holds)
-                    holds = True
+                    add(out, inputs, [(row, before)])
             rows.append(row)
             if load in shown and before is not None:
                 spreads += _spread(before)
@@ -119,12 +115,11 @@ def estimated(
     shown: tuple[float, ...],
     out: Path | None,
 ) -> Series:
-    """The rows of a statistical rung; they cost nothing, so that the file is made anew."""
+    """The rows of a statistical rung; they cost nothing, so that all are written at once."""
     hardness = inputs.settings["hardness"] or math.inf
     answers = [at(load) for load in loads]
     if out is not None:
-        for number, (row, _) in enumerate(answers):
-            add(out, inputs, row, None, to=number > 0)
+        add(out, inputs, [(row, None) for row, _ in answers])
     return Series(
         rows=tuple(row for row, _ in answers),
         found=0,

@@ -3,7 +3,7 @@
 import math
 import os
 import time
-from contextlib import suppress
+from contextlib import AbstractContextManager, nullcontext, suppress
 from dataclasses import asdict
 from enum import StrEnum
 from pathlib import Path
@@ -14,7 +14,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from contact.errors import InputError
-from contact.files import replacing
+from contact.files import locked, replacing
 from contact.mechanics.contact_store import UNITS, Inputs, Row
 from contact.mechanics.press import TOLERANCE, Press
 from contact.mechanics.solid import Solid, composite_modulus
@@ -88,7 +88,7 @@ def command(
     periodic = boundary is Boundary.PERIODIC
     for path in filter(None, (out, report)):
         _try(path)
-    with progress_bar(len(asked) + 1) as advance:
+    with _alone(out), progress_bar(len(asked) + 1) as advance:
         advance(0, f"reading {surface.name}")
         rough = read_rough(surface, spacing_of(spacing), periodic=periodic)
         settings = {
@@ -108,7 +108,10 @@ def command(
             at = _solver(rung, rough, stiffness, bound, boundary, tolerance, threads)
             series = solved(at, inputs, asked, shown, out, advance)
         else:
-            estimate = estimator(rung, rough.heights, rough.spacing, stiffness, bound)
+            try:
+                estimate = estimator(rung, rough.heights, rough.spacing, stiffness, bound)
+            except InputError as error:
+                raise InputError(f"{surface}, {rung}: {error}; take --model elastic") from None
             series = estimated(estimate, inputs, asked, shown, out)
         told = _told(rung, rough, settings, series)
         told["numerics"] |= {"cpu_s": sum(os.times()[:4]) - cpu, "wall_s": time.perf_counter() - started}
@@ -139,10 +142,12 @@ def _solver(
 def _solid(prefix: str, modulus: str, poisson: float, hardness: str | None = None) -> Solid:
     try:
         numbers = {
-            name: to_si(text.strip(), "Pa") for name, text in (("modulus", modulus), ("hardness", hardness)) if text
+            name: to_si(text.strip(), "Pa")
+            for name, text in (("modulus", modulus), ("hardness", hardness))
+            if text is not None
         }
     except ValueError as error:
-        place = f"--{prefix}modulus {modulus}" + (f", --{prefix}hardness {hardness}" if hardness else "")
+        place = f"--{prefix}modulus {modulus}" + ("" if hardness is None else f", --{prefix}hardness {hardness}")
         raise InputError(f"{place}: {error}") from None
     try:
         return Solid(poisson=poisson, **numbers)
@@ -162,8 +167,8 @@ def _refuse(rung: Model, boundary: Boundary, asked: tuple[float, ...], hardness:
     above = [load for load in asked if load > hardness]
     if above:
         raise InputError(
-            f"--loads: {len(above)} of {len(asked)}, up to {above[-1]:g} Pa, are above the hardness of "
-            f"{hardness:g} Pa, which is all that the whole area can bear; lower them"
+            f"--loads: {len(above)} of {len(asked)}, up to {above[-1] / 1e6:.10g} MPa, are above the hardness of "
+            f"{hardness / 1e6:.10g} MPa, which is all that the whole area can bear; lower them"
         )
     if boundary is Boundary.FREE and (rung not in SOLVED or rung is Model.STANLEY_KATO):
         raise InputError(f"--boundary free: {rung} knows no edges; take --model elastic or elastic_plastic")
@@ -177,6 +182,14 @@ def _try(path: Path) -> None:
     """InputError if a file cannot be written there; nothing is."""
     with suppress(_OnlyTriedError), replacing(path):
         raise _OnlyTriedError
+
+
+def _alone(out: Path | None) -> AbstractContextManager[None]:
+    """Hold the file against another series that goes into it."""
+    if out is None:
+        return nullcontext()
+    told = f"--out {out}: another series goes into it (process {{process}}); wait for it or choose another place"
+    return locked(out.with_name(f".{out.name}.lock"), told)
 
 
 def _spaced(loads: tuple[float, ...]) -> tuple[float, ...]:

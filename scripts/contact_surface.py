@@ -55,6 +55,12 @@ def read_rough(file: Path, spacing: tuple[float, float] | None, *, periodic: boo
         One line, if the file is no surface, tells no spacing, or has invalid points.
     """
     suffix = file.suffix.lower()
+    try:
+        there = file.exists()
+    except OSError as error:
+        raise InputError(f"{file}: cannot be read ({error.strerror}); name a surface") from None
+    if not there:
+        raise InputError(f"{file}: there is no such file; name a surface")
     whole = suffix == ".toml" or (file.is_file() and is_surface(file))
     if whole and spacing is not None:
         raise InputError(f"{file}: says its spacing itself; leave out --spacing")
@@ -63,7 +69,7 @@ def read_rough(file: Path, spacing: tuple[float, float] | None, *, periodic: boo
     if suffix == ".npy":
         profile = _profile(file)
         if profile is not None and spacing is not None:
-            return _rough(file, profile, spacing, periodic)
+            return _rough(file, *_along_x(profile, spacing), periodic)
     if suffix == ".toml":
         surface = make(read_description(file))
     else:
@@ -84,14 +90,22 @@ def read_rough(file: Path, spacing: tuple[float, float] | None, *, periodic: boo
 
 
 def _profile(file: Path) -> Array | None:
-    """Heights along a line, shape (nx, 1); None if the file holds something else."""
+    """Heights along a line, of shape (n,), (n, 1) or (1, n); None if the file holds something else."""
+    if not file.is_file():
+        return None
     try:
         array = np.load(file, mmap_mode="r", allow_pickle=False)
     except (OSError, ValueError, EOFError, SyntaxError):
         return None
     if array.dtype.kind not in "fiu" or not (array.ndim == 1 or (array.ndim == 2 and 1 in array.shape)):
         return None
-    return np.array(array, dtype=np.float64).reshape(-1, 1)
+    return np.array(array, dtype=np.float64)
+
+
+def _along_x(heights: Array, spacing: tuple[float, float]) -> tuple[Array, tuple[float, float]]:
+    """A profile as (n, 1), its spacing that between its points."""
+    dx, dy = spacing
+    return heights.reshape(-1, 1), (dy, dx) if heights.ndim == 2 and heights.shape[0] == 1 else (dx, dy)
 
 
 def _rough(file: Path, heights: Array, spacing: tuple[float, float], periodic: bool) -> Rough:

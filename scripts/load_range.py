@@ -8,8 +8,11 @@ import numpy as np
 from contact.errors import InputError
 from contact.units import to_si
 
-MOST = 10_000
+MOST = 1000
 """Loads of one series."""
+
+LEAST, GREATEST = 1e-30, 1e30
+"""Pa."""
 
 _UNIT = re.compile(r"^\s*[-+.\d]*([eE][-+]?\d+)?\s*")
 """What stands before a unit."""
@@ -41,13 +44,16 @@ def loads_of(text: str) -> tuple[float, ...]:
     if ".." not in text:
         return tuple(sorted(set(_pressures(text, text.split(",")))))
     ends, _, count = text.rpartition(":")
-    if not (count.strip().isascii() and count.strip().isdigit() and 2 <= int(count) <= MOST):
-        raise InputError(f"--loads {text}: a range ends with how many loads, 2 to {MOST}; {EXAMPLE}")
+    if not (re.fullmatch(r"\s*[0-9]{1,6}\s*", count) and 2 <= int(count) <= MOST):
+        raise InputError(f"--loads {text:.60}: a range ends with how many loads, 2 to {MOST}; {EXAMPLE}")
     first, last = _pressures(text, ends.split("..", 1))
     if not first < last:
         raise InputError(f"--loads {text}: the first of a range must be below the last; {EXAMPLE}")
     inner = np.geomspace(first, last, int(count))[1:-1]
-    return (first, *(float(load) for load in inner), last)
+    loads = dict.fromkeys((first, *(float(load) for load in inner), last))
+    if len(loads) < int(count):
+        raise InputError(f"--loads {text}: its ends are too close for {int(count)} different loads; {EXAMPLE}")
+    return tuple(loads)
 
 
 def _pressures(text: str, parts: Sequence[str]) -> list[float]:
@@ -63,5 +69,7 @@ def _pressures(text: str, parts: Sequence[str]) -> list[float]:
             raise InputError(f"--loads {text}: {error}") from None
         if not pressure > 0:
             raise InputError(f"--loads {text}: got {part.strip()}; a load must be above 0")
+        if not LEAST <= pressure <= GREATEST:
+            raise InputError(f"--loads {text}: got {part.strip()}; look at the unit")
         pressures.append(pressure)
     return pressures

@@ -1,14 +1,11 @@
 """The directory of a batch: a place for each case, one batch at a time, nothing left over from one that was killed."""
 
-import fcntl
-import os
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from contact.errors import InputError
-from contact.files import replacing
+from contact.files import locked, replacing
 from rom.study import Case, as_toml
 
 CASES = "cases"
@@ -39,21 +36,8 @@ def alone(out: Path) -> Iterator[Path]:
 
     The lock ends with this process, however it ends. Raises InputError if another process holds it.
     """
-    try:
-        lock = (out / LOCK).open("a+", encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"--out {out}: cannot be written ({error.strerror}); choose another place") from error
-    with lock:
-        try:
-            fcntl.lockf(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
-            lock.seek(0)
-            holder = lock.read().strip() or "unknown"
-            told = f"--out {out}: another batch works here (process {holder}); wait for it or choose another place"
-            raise InputError(told) from None
-        lock.truncate(0)
-        lock.write(str(os.getpid()))
-        lock.flush()
+    told = f"--out {out}: another batch works here (process {{process}}); wait for it or choose another place"
+    with locked(out / LOCK, told):
         scratch = out / SCRATCH
         _tidy(out)
         scratch.mkdir(exist_ok=True)

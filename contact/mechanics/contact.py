@@ -63,15 +63,15 @@ class Contact:
         """Real area of contact over the nominal one, less what whole pixels add along its perimeter.
 
         A = A_pix − (π − 1 + ln 2)/24 S Δx, with S the length of the pixels' edges between contact and not; no such
-        thing in line contact. Pixels at the hardness carry it on all their area (else A H < W could follow), so that
-        their edges do not count. Source: V. A. Yastrebov, G. Anciaux, J. F. Molinari, Tribol. Int. 114 (2017) 161,
+        thing in line contact. Pixels at the hardness carry it on all their area, so that their edges do not count, and
+        A is at least W/H. Source: V. A. Yastrebov, G. Anciaux, J. F. Molinari, Tribol. Int. 114 (2017) 161,
         doi:10.1016/j.triboint.2017.04.023.
         """
         if 1 in self.pressure.shape:
             return self.area_fraction_pixel
         off, elastic = self.pressure == 0, self.in_contact & ~self.plastic
         edges = sum(np.count_nonzero(elastic & np.roll(off, shift, axis)) for axis in (0, 1) for shift in (1, -1))
-        return float(self.area_fraction_pixel - CORNERS * edges / off.size)
+        return max(float(self.area_fraction_pixel - CORNERS * edges / off.size), self.load / self.hardness)
 
     @property
     def plastic_fraction(self) -> float:

@@ -9,7 +9,7 @@ import json
 import math
 import os
 import shutil
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
@@ -92,19 +92,19 @@ def row_of(contact: Contact, cpu_s: float) -> Row:
     )
 
 
-def add(path: Path, inputs: Inputs, row: Row, contact: Contact | None, *, to: bool) -> None:
-    """Write a load to a file of a series, whole or not at all.
+def add(path: Path, inputs: Inputs, found: Sequence[tuple[Row, Contact | None]]) -> None:
+    """Write loads to a file of a series, all or none; those that it holds for these inputs stay.
 
     Parameters
     ----------
-    contact : its fields, if the model has them.
-    to : whether to add to the loads that the file holds, which :func:`finished` must have found; else the file is new.
+    found : the numbers of each load, and its fields, if the model has them.
 
     Raises
     ------
     InputError
-        If ``path`` cannot be written.
+        If ``path`` cannot be written, was damaged, or holds something else.
     """
+    to = bool(finished(path, inputs))
     with replacing(path) as scratch:
         if to:
             shutil.copyfile(path, scratch)
@@ -112,15 +112,8 @@ def add(path: Path, inputs: Inputs, row: Row, contact: Contact | None, *, to: bo
         with h5py.File(**mode) as file:
             if not to:
                 _begin(file, inputs)
-            group = file.create_group(f"loads/{row.load!r}")
-            group.attrs.update({name: math.nan if value is None else value for name, value in vars(row).items()})
-            if contact is not None:
-                group.attrs["hardness"] = contact.hardness
-                for name, values in _arrays(contact).items():
-                    written = group.create_dataset(
-                        name, data=values, compression="gzip", compression_opts=1, shuffle=True
-                    )
-                    written.attrs["unit"] = "Pa" if name == "pressure" else "m"
+            for row, contact in found:
+                _put(file, row, contact)
             _tabulate(file)
         block = _block(_digest(scratch))
         with scratch.open("r+b") as raw:
@@ -128,28 +121,56 @@ def add(path: Path, inputs: Inputs, row: Row, contact: Contact | None, *, to: bo
             os.fsync(raw.fileno())
 
 
+def _put(file: h5py.File, row: Row, contact: Contact | None) -> None:
+    name = f"loads/{row.load!r}"
+    if name in file:
+        del file[name]
+    group = file.create_group(name)
+    group.attrs.update({name: math.nan if value is None else value for name, value in vars(row).items()})
+    if contact is not None:
+        group.attrs["hardness"] = contact.hardness
+        for name, values in _arrays(contact).items():
+            _write(group, name, values, "Pa" if name == "pressure" else "m")
+
+
 def finished(path: Path, inputs: Inputs) -> dict[float, Row]:
-    """The loads that a file holds for these inputs, by load; none if there is no such file or it holds another series.
+    """The loads that a file holds for these inputs, by load; none if there is no such file, or an empty one.
 
     Raises
     ------
     InputError
-        If the file cannot be read, or was damaged or changed.
+        If the file cannot be read, was damaged or changed, or holds another series or something else.
     """
+    remedy = "remove it or choose another place"
     try:
         with path.open("rb") as raw:
-            if raw.read(len(MARK)) != MARK:
-                return {}
+            head = raw.read(len(MARK))
+        if not head:
+            return {}
+        if head != MARK:
+            raise InputError(f"{path}: is no series of contacts; {remedy}")
         _refuse_damaged(path)
         with h5py.File(path) as file:
-            if file.attrs["schema"] != SCHEMA or file.attrs["digest"] != inputs.digest:
-                return {}
+            if file.attrs["schema"] != SCHEMA:
+                raise InputError(f"{path}: is of another version of roughfilm; {remedy}")
+            if file.attrs["digest"] != inputs.digest:
+                raise InputError(f"{path}: holds another series, {_difference(file, inputs)}; {remedy}")
             rows = [_row(group.attrs) for group in file["loads"].values()]
             return {row.load: row for row in sorted(rows, key=lambda row: row.load)}
     except FileNotFoundError:
         return {}
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror or error}); choose another place") from error
+
+
+def _difference(file: h5py.File, inputs: Inputs) -> str:
+    """What a series in a file differs in, in words."""
+    there = json.loads(file.attrs["settings"])
+    for name in sorted(there.keys() | inputs.settings.keys()):
+        mine, its = inputs.settings.get(name), there.get(name)
+        if mine != its:
+            return "of another version of roughfilm" if name == "code" else f"with {name} {its}, not {mine}"
+    return "of another surface"
 
 
 def load_contact(path: Path, load: float) -> Contact:

@@ -11,6 +11,7 @@ from contact.mechanics.contact import Contact
 from contact.mechanics.half_space import Boundary, HalfSpace
 from contact.mechanics.pieces import Pieces
 from contact.mechanics.projected_gradients import minimise, plane_of, violation_of
+from contact.mechanics.shifted import shifted
 from contact.mechanics.team import Team
 from contact.surface import LARGEST_LENGTH, LEAST_SPACING, MOST_POINTS, Array
 
@@ -18,6 +19,9 @@ TOLERANCE = 1e-8
 """Of the complementarity, over the rms height."""
 
 MOST_ITERATIONS = 2000
+
+TURN = 0.3
+"""A gap of one spacing stands for the pressure -0.3 E* where a contact is taken to another load."""
 
 
 class Press:
@@ -132,9 +136,7 @@ class Press:
         found, iterations = minimise(
             self._half_space,
             self._spread(self._down / unit, math.inf),
-            self._spread(
-                (load if start is None else _scaled(start.pressure, load, self.hardness)) / pressure_unit, 0.0
-            ),
+            self._spread((load if start is None else self._moved(start, load)) / pressure_unit, 0.0),
             hardness,
             tolerance=tolerance,
             most_iterations=MOST_ITERATIONS,
@@ -151,6 +153,13 @@ class Press:
                 iterations=iterations,
             )
         return contact
+
+    def _moved(self, start: Contact, load: float) -> Array:
+        """The pressure of another load brought to this one: gaps count as negative pressures, and all are shifted."""
+        over = (
+            self.composite_modulus * TURN / min(d for n, d in zip(start.gap.shape, self.spacing, strict=True) if n > 1)
+        )
+        return shifted(start.pressure - over * start.gap, load, self.hardness)
 
     def _spread(self, values: Array | float, beyond: float) -> Array:
         """Values at the surface's nodes, and another beyond them, over the whole grid, flat."""

@@ -76,6 +76,7 @@ class _Search:
         self.state = np.where(pressure > 0, np.where(pressure < hardness, kernels.INSIDE, kernels.HARD), kernels.OFF)
         self.state = self.state.astype(np.uint8)
         self.touched = np.zeros(-(-heights.size // kernels.WORD) * kernels.WORD, dtype=np.uint8)
+        half_space.step[:] = half_space.source[:] = 0
         self.sum = float(pressure.sum())
         self.length = 1.0
         self.slide = 0.0

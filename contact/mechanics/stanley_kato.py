@@ -3,7 +3,6 @@
 import math
 
 import numpy as np
-from scipy.optimize import brentq
 
 from contact.errors import ConvergenceError, InputError, Outcome
 from contact.mechanics.checks import positive
@@ -11,6 +10,7 @@ from contact.mechanics.contact import Contact
 from contact.mechanics.half_space import HalfSpace
 from contact.mechanics.press import Press
 from contact.mechanics.projected_gradients import plane_of, violation_of
+from contact.mechanics.shifted import shifted
 from contact.surface import Array
 
 TOLERANCE = 1e-6
@@ -74,6 +74,8 @@ def stanley_kato(
     positive("stanley_kato.tolerance", tolerance)
     if positive("stanley_kato.load", load) > hardness:
         raise InputError(f"stanley_kato.load: got {load:g} Pa, above the hardness of {hardness:g} Pa; lower it")
+    if load == hardness:
+        return press.at(load)
     length = max(n * d for n, d in zip(press.heights.shape, press.spacing, strict=True))
     half_space = HalfSpace(press.heights.shape, (press.spacing[0] / length, press.spacing[1] / length), "periodic")
     down = (press.heights.mean() - press.heights) / length
@@ -87,32 +89,18 @@ def stanley_kato(
         if elastic and violation_of(pressure, deformed, plane, most) <= tolerance * unit:
             found = np.where(pressure >= most, hardness, pressure * composite_modulus)
             return press.contact_of(load, found, iteration)
-        corrected = _cut(pressure - STEP * np.pi * (deformed - plane), mean, most)
+        corrected = shifted(pressure - STEP * np.pi * (deformed - plane), mean, most)
         if not elastic and np.array_equal(corrected, pressure):
             raise ConvergenceError(
                 f"stanley_kato: no elastic node is left after {iteration} iterations, so that nothing fixes the plane; "
-                "change the load a little or use Press",
+                "change the load a little or take elastic_plastic",
                 outcome=Outcome.STALLED,
                 iterations=iteration,
             )
         pressure = corrected
     raise ConvergenceError(
         f"stanley_kato: unfinished after {most_iterations} iterations, the plane not flat to {tolerance:.2g} of the "
-        "rms height; allow more, ask for less or use Press",
+        "rms height; allow more, ask for less or take elastic_plastic",
         outcome=Outcome.UNFINISHED,
         iterations=most_iterations,
     )
-
-
-def _cut(pressure: Array, mean: float, most: float) -> Array:
-    """The pressure shifted so that, cut to 0 and H, it has the mean."""
-
-    def missing(shift: float) -> float:
-        return float(np.clip(pressure + shift, 0, most).mean()) - mean
-
-    low = -float(pressure.max())
-    high = min(mean, most) - float(pressure.min())
-    if missing(high) <= 0:
-        return np.clip(pressure + high, 0, most)
-    shift = float(brentq(missing, low, high, xtol=1e-15 * mean, rtol=8.9e-16))
-    return np.clip(pressure + shift, 0, most)

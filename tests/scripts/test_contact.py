@@ -14,6 +14,7 @@ import pytest
 from typer.testing import CliRunner
 
 from contact.errors import ConvergenceError, InputError
+from contact.files import locked
 from contact.mechanics.press import Press
 from contact.surface import Surface
 from contact.surface_store import save_surface
@@ -131,12 +132,67 @@ def test_loads_in_the_file_are_not_solved_again(rough, tmp_path, monkeypatch):
     assert len(loads) == 1
 
 
-def test_other_inputs_are_solved_anew(rough, tmp_path):
+@pytest.mark.parametrize("model", ["elastic_plastic", "persson"])
+def test_another_series_is_never_written_over(rough, tmp_path, model):
     out = tmp_path / "c.h5"
-    first = told(rough, *PLASTIC, "--loads", "1GPa", "--out", out)["series"][0]
-    done = run(rough, *STEEL, "--hardness", "3GPa", "--loads", "1GPa", "--out", out, "--json")
-    assert "is replaced" in done.stderr
-    assert json.loads(done.stdout)["series"][0]["plastic_fraction"] > first["plastic_fraction"]
+    told(rough, *PLASTIC, "--loads", "1GPa", "--out", out)
+    before = out.read_bytes()
+    done = run(rough, *STEEL, "--hardness", "3GPa", "--loads", "1GPa", "--out", out, "--model", model)
+    assert done.exit_code == 2
+    assert "holds another series, with hardness" in done.stderr
+    assert out.read_bytes() == before
+    assert sorted(os.listdir(tmp_path)) == ["c.h5", "s.h5"]
+
+
+def test_two_series_into_one_file_are_kept_apart(rough, tmp_path):
+    out = tmp_path / "c.h5"
+    with locked(tmp_path / ".c.h5.lock", "held"):
+        holder = subprocess.Popen(
+            [sys.executable, "-m", "scripts.contact_series", rough, *PLASTIC, "--loads", "1GPa", "--out", out],
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        _, errors = holder.communicate(timeout=60)
+    assert holder.returncode == 2
+    assert errors.strip() == (
+        f"error: --out {out}: another series goes into it (process {os.getpid()}); wait for it or choose another place"
+    )
+    assert not out.exists()
+
+
+def test_a_row_of_heights_has_its_points_along_y(tmp_path):
+    heights = np.random.default_rng(5323).normal(scale=1e-7, size=64)
+    np.save(tmp_path / "row.npy", heights[None, :])
+    np.save(tmp_path / "line.npy", heights)
+    row = told(tmp_path / "row.npy", *STEEL, "--loads", "100MPa", "--spacing", "1um,2um")
+    line = told(tmp_path / "line.npy", *STEEL, "--loads", "100MPa", "--spacing", "2um")
+    assert row["series"][0]["mean_gap"] == line["series"][0]["mean_gap"]
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (("--loads", "1MPa..1.0000000000000004MPa:6"), "too close for 6"),
+        (("--loads", "1MPa..1GPa:" + "9" * 5000), "how many loads, 2 to 1000"),
+        (("--loads", "1e-300Pa"), "look at the unit"),
+        (("--loads", "1MPa", "--hardness", ""), "--hardness"),
+        (("--loads", "1.0000001GPa", "--hardness", "1GPa"), "up to 1000.0001 MPa"),
+    ],
+)
+def test_what_makes_no_sense_is_one_line(rough, options, words):
+    done = run(rough, *STEEL, *options)
+    assert done.exit_code == 2
+    assert words in done.stderr
+    assert len(done.stderr.strip().splitlines()) == 1
+
+
+def test_a_surface_that_is_a_pipe_or_not_there_is_one_line(tmp_path):
+    os.mkfifo(tmp_path / "pipe.npy")
+    for name, words in (("pipe.npy", "pipe.npy"), ("none.toml", "no such file"), ("a" * 300 + ".npy", "too long")):
+        done = run(tmp_path / name, *STEEL, "--loads", "1MPa", "--spacing", "1um")
+        assert done.exit_code == 2
+        assert words in done.stderr
+        assert "standard output" not in done.stderr
 
 
 def test_a_load_that_fails_keeps_those_before(rough, tmp_path, monkeypatch):

@@ -34,8 +34,8 @@ def inputs(heights):
 @pytest.fixture
 def file(tmp_path, inputs, contacts):
     path = tmp_path / "c.h5"
-    for number, contact in enumerate(contacts):
-        add(path, inputs, row_of(contact, 0.25), contact, to=number > 0)
+    for contact in contacts:
+        add(path, inputs, [(row_of(contact, 0.25), contact)])
     return path
 
 
@@ -67,26 +67,38 @@ def test_an_elastic_contact_keeps_its_hardness(tmp_path, heights):
     add(
         tmp_path / "c.h5",
         Inputs(heights=heights, spacing=(1e-6, 1e-6), settings={}),
-        row_of(contact, 0.0),
-        contact,
-        to=False,
+        [(row_of(contact, 0.0), contact)],
     )
     assert load_contact(tmp_path / "c.h5", 1e8).hardness == math.inf
 
 
 @pytest.mark.parametrize(
-    "change",
+    ("change", "told"),
     [
-        {"spacing": (1e-6, 2.0000001e-6)},
-        {"settings": {**SETTINGS, "hardness": 3e9}},
-        {"heights": lambda z: np.where(np.arange(z.size).reshape(z.shape) == 100, z * (1 + 1e-15), z)},
-        {"heights": lambda z: z.reshape(18, 24)},
+        ({"spacing": (1e-6, 2.0000001e-6)}, "of another surface"),
+        ({"settings": {**SETTINGS, "hardness": 3e9}}, r"with hardness 4000000000\.0, not 3000000000\.0"),
+        (
+            {"heights": lambda z: np.where(np.arange(z.size).reshape(z.shape) == 100, z * (1 + 1e-15), z)},
+            "of another surface",
+        ),
+        ({"heights": lambda z: z.reshape(18, 24)}, "of another surface"),
     ],
 )
-def test_other_inputs_find_nothing(file, inputs, change):
+def test_another_series_is_refused_and_kept(file, inputs, contacts, change, told):
     changed = {name: value(inputs.heights) if callable(value) else value for name, value in change.items()}
     other = Inputs(**{**vars(inputs), **changed})
-    assert finished(file, other) == {}
+    before = file.read_bytes()
+    with pytest.raises(InputError, match=f"holds another series, {told}; remove it"):
+        finished(file, other)
+    with pytest.raises(InputError, match="holds another series"):
+        add(file, other, [(row_of(contacts[0], 0.0), contacts[0])])
+    assert file.read_bytes() == before
+
+
+def test_a_load_that_is_there_is_written_again(file, inputs, contacts):
+    add(file, inputs, [(row_of(contacts[0], 7.0), contacts[0])])
+    assert finished(file, inputs)[2e8].cpu_s == 7.0
+    assert len(finished(file, inputs)) == 2
 
 
 @pytest.mark.parametrize("place", [700, -1])
@@ -106,11 +118,14 @@ def test_a_cut_file_is_refused(file, inputs):
         finished(file, inputs)
 
 
-def test_files_of_others_and_none_find_nothing(tmp_path, inputs):
+def test_a_file_of_others_is_refused_and_none_holds_nothing(tmp_path, inputs):
     assert finished(tmp_path / "none.h5", inputs) == {}
+    (tmp_path / "empty.h5").touch()
+    assert finished(tmp_path / "empty.h5", inputs) == {}
     with h5py.File(tmp_path / "other.h5", "w") as other:
         other["loads"] = 1
-    assert finished(tmp_path / "other.h5", inputs) == {}
+    with pytest.raises(InputError, match="is no series of contacts"):
+        finished(tmp_path / "other.h5", inputs)
 
 
 def test_a_load_it_does_not_hold_is_refused(file):
@@ -128,6 +143,6 @@ def test_a_writer_that_dies_leaves_the_loads_before(file, inputs, contacts, monk
     monkeypatch.setattr(contact_store, dies, die)
     row = row_of(contacts[0], 0.5)
     with pytest.raises(KeyboardInterrupt):
-        add(file, inputs, type(row)(**{**vars(row), "load": 1e9}), contacts[0], to=True)
+        add(file, inputs, [(type(row)(**{**vars(row), "load": 1e9}), contacts[0])])
     assert file.read_bytes() == before
     assert os.listdir(file.parent) == ["c.h5"]

@@ -187,6 +187,12 @@ def test_a_start_changes_nothing_but_the_work():
     assert press.at(0.012 * MODULUS, start=cold).iterations <= 2 < cold.iterations
 
 
+def test_what_was_solved_before_leaves_nothing_behind():
+    used, new = (Press(rough(128), (SIDE / 128,) * 2, MODULUS, hardness=0.06 * MODULUS) for _ in range(2))
+    used.at(0.03 * MODULUS)
+    assert np.array_equal(used.at(0.012 * MODULUS).pressure, new.at(0.012 * MODULUS).pressure)
+
+
 def test_threads_change_nothing_but_the_time():
     one, two = (Press(rough(64), (SIDE / 64,) * 2, MODULUS, threads=threads).at(0.01 * MODULUS) for threads in (1, 2))
     assert two.mean_gap == pytest.approx(one.mean_gap, abs=1e-7 * one.heights.std())
