@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -197,61 +197,40 @@ def _surfaces(points: int) -> Iterator[tuple[str, str, Heights, tuple[float, flo
 
 
 def _limits(points: int) -> Iterator[Probe]:
+    """Loads, heights, spacings and hardnesses that are at the edge of sense or beyond."""
     heights, spacing = rough(points)
     hardness = 0.3 * MODULUS * 0.1
-    broken = {"NaN": np.nan, "inf": np.inf}
-    for name, load, expected in (
-        ("P = H", hardness, ALL_PLASTIC),
-        ("P just above H", hardness * (1 + 1e-12), REFUSED),
-        ("P = 2 H", 2 * hardness, REFUSED),
-        ("P = 0", 0.0, REFUSED),
-        ("P < 0", -1e6, REFUSED),
-        ("P = NaN", math.nan, REFUSED),
-        ("P = inf", math.inf, REFUSED),
+    sound = Probe(
+        group="limits",
+        row="load",
+        column="P = H",
+        heights=heights,
+        spacing=spacing,
+        hardness=hardness,
+        load=hardness,
+        expected=ALL_PLASTIC,
+    )
+    yield sound
+    broken = replace(sound, expected=REFUSED)
+    for name, load in (
+        ("P just above H", hardness * (1 + 1e-12)),
+        ("P = 2 H", 2 * hardness),
+        ("P = 0", 0.0),
+        ("P < 0", -1e6),
+        ("P = NaN", math.nan),
+        ("P = inf", math.inf),
     ):
-        yield Probe(
-            group="limits",
-            row="load",
-            column=name,
-            heights=heights,
-            spacing=spacing,
-            hardness=hardness,
-            load=load,
-            expected=expected,
-        )
-    spoilt = {
-        f"a height of {name}": np.where(np.indices(heights.shape)[0] == 3, v, heights) for name, v in broken.items()
-    }
-    for name, values in {**spoilt, "no heights": np.zeros((0, 0)), "one height": np.zeros((1, 1))}.items():
-        yield Probe(
-            group="limits",
-            row="heights",
-            column=name,
-            heights=values,
-            spacing=spacing,
-            hardness=hardness,
-            load=0.1 * hardness,
-            expected=REFUSED,
-        )
+        yield replace(broken, column=name, load=load)
+    broken = replace(broken, load=0.1 * hardness)
+    third = np.indices(heights.shape)[0] == 3
+    for name, values in {
+        "a height of NaN": np.where(third, np.nan, heights),
+        "a height of inf": np.where(third, np.inf, heights),
+        "no heights": np.zeros((0, 0)),
+        "one height": np.zeros((1, 1)),
+    }.items():
+        yield replace(broken, row="heights", column=name, heights=values)
     for name, steps in {"dx = 0": (0.0, 1e-6), "dx < 0": (-1e-6, 1e-6), "dx = NaN": (math.nan, 1e-6)}.items():
-        yield Probe(
-            group="limits",
-            row="spacing",
-            column=name,
-            heights=heights,
-            spacing=steps,
-            hardness=hardness,
-            load=0.1 * hardness,
-            expected=REFUSED,
-        )
+        yield replace(broken, row="spacing", column=name, spacing=steps)
     for name, value in {"H = 0": 0.0, "H < 0": -1e9, "H = NaN": math.nan}.items():
-        yield Probe(
-            group="limits",
-            row="hardness",
-            column=name,
-            heights=heights,
-            spacing=spacing,
-            hardness=value,
-            load=1e6,
-            expected=REFUSED,
-        )
+        yield replace(broken, row="hardness", column=name, hardness=value, load=1e6)
