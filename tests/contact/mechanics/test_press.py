@@ -199,6 +199,14 @@ def test_threads_change_nothing_but_the_time():
     assert (two.in_contact == one.in_contact).mean() > 0.9999
 
 
+@pytest.mark.parametrize("shape", [(64, 1), (1, 64), (3, 64), (64, 3), (5, 7)])
+@pytest.mark.parametrize("boundary", ["periodic", "free"])
+def test_more_threads_than_rows_or_columns_share_too(shape, boundary):
+    heights = np.random.default_rng(20072).standard_normal(shape) * 1e-3
+    one, many = (Press(heights, (1.0, 1.0), 1.0, boundary=boundary, threads=threads).at(1e-4) for threads in (1, 16))
+    assert many.pressure == pytest.approx(one.pressure, abs=1e-6 * one.pressure.max())
+
+
 def test_units_change_nothing():
     heights = rough(64)
     press = Press(heights, (SIDE / 64,) * 2, MODULUS, hardness=0.05 * MODULUS)
