@@ -28,7 +28,7 @@ class Contact:
     gap : between the deformed surface and the plane, m; 0 in contact.
     complementarity : by how much the conditions of contact are broken at the worst node, over the rms height: certified
         on the pressure returned, with u_e computed afresh.
-    iterations : of the solver.
+    iterations : of the solver, on the grid itself.
     """
 
     load: float

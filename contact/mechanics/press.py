@@ -11,7 +11,7 @@ from contact.mechanics.contact import Contact
 from contact.mechanics.half_space import Boundary, HalfSpace
 from contact.mechanics.pieces import Pieces
 from contact.mechanics.projected_gradients import minimise, plane_of, violation_of
-from contact.mechanics.shifted import shifted
+from contact.mechanics.starts import refined, shifted, signed
 from contact.mechanics.team import Team
 from contact.surface import LARGEST_LENGTH, LEAST_SPACING, MOST_POINTS, Array
 
@@ -20,8 +20,11 @@ TOLERANCE = 1e-8
 
 MOST_ITERATIONS = 2000
 
-TURN = 0.3
-"""A gap of one spacing stands for the pressure -0.3 E* where a contact is taken to another load."""
+COARSEST = 128
+"""Points along the shorter side of the coarsest grid that a search begins on."""
+
+ROUGH = 0.03
+"""Tolerance of the coarser grids."""
 
 
 class Press:
@@ -91,7 +94,8 @@ class Press:
         ----------
         load : W, Pa, above 0 and at most H.
         tolerance : of the complementarity, over the rms height.
-        start : the contact of this surface under another load, to begin from.
+        start : the contact of this surface under another load, to begin from; by default that under this load on a grid
+            twice as coarse, roughly.
 
         Raises
         ------
@@ -136,7 +140,7 @@ class Press:
         found, iterations = minimise(
             self._half_space,
             self._spread(self._down / unit, math.inf),
-            self._spread((load if start is None else self._moved(start, load)) / pressure_unit, 0.0),
+            self._spread((self._begin(load) if start is None else self._moved(start, load)) / pressure_unit, 0.0),
             hardness,
             tolerance=tolerance,
             most_iterations=MOST_ITERATIONS,
@@ -154,12 +158,29 @@ class Press:
             )
         return contact
 
-    def _moved(self, start: Contact, load: float) -> Array:
-        """The pressure of another load brought to this one: gaps count as negative pressures, and all are shifted."""
-        over = (
-            self.composite_modulus * TURN / min(d for n, d in zip(start.gap.shape, self.spacing, strict=True) if n > 1)
+    def _begin(self, load: float) -> Array:
+        """Pressure to begin from: that of a grid twice as coarse, which costs a fourth; the load, on a small one."""
+        everywhere = np.full(self.heights.shape, load)
+        if min(self.heights.shape) < 2 * COARSEST or any(n % 2 for n in self.heights.shape):
+            return everywhere
+        dx, dy = self.spacing
+        coarser = Press(
+            self.heights[::2, ::2],
+            (2 * dx, 2 * dy),
+            self.composite_modulus,
+            hardness=self.hardness,
+            boundary=self.boundary,
+            threads=self._team.members,
         )
-        return shifted(start.pressure - over * start.gap, load, self.hardness)
+        try:
+            found = coarser.at(load, tolerance=ROUGH)
+        except ConvergenceError:
+            return everywhere
+        return shifted(refined(signed(found, self.composite_modulus)), load, self.hardness)
+
+    def _moved(self, start: Contact, load: float) -> Array:
+        """The pressure at another load brought to this one."""
+        return shifted(signed(start, self.composite_modulus), load, self.hardness)
 
     def _spread(self, values: Array | float, beyond: float) -> Array:
         """Values at the surface's nodes, and another beyond them, over the whole grid, flat."""

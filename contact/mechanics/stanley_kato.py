@@ -10,7 +10,7 @@ from contact.mechanics.contact import Contact
 from contact.mechanics.half_space import HalfSpace
 from contact.mechanics.press import Press
 from contact.mechanics.projected_gradients import plane_of, violation_of
-from contact.mechanics.shifted import shifted
+from contact.mechanics.starts import shifted
 from contact.surface import Array
 
 TOLERANCE = 1e-6

@@ -45,17 +45,16 @@ class Filter:
         self._spectrum = pyfftw.empty_aligned((rows, padded), kind)
         modes = self._spectrum[:, :columns]
         width = max(SLAB // (rows * kind.itemsize * ALIGNED), 1) * ALIGNED
-        with _wisdom():
+        with _planner() as planner:
+            plan = planner.plan
             self._rows = [
-                [_plan(source[low:high], modes[low:high], 1) for low, high in team.ranges(rows)] for source in sources
+                [plan(source[low:high], modes[low:high], 1) for low, high in team.ranges(rows)] for source in sources
             ]
-            self._rows_back = [
-                _plan(modes[low:high], result[low:high], 1, back=True) for low, high in team.ranges(rows)
-            ]
+            self._rows_back = [plan(modes[low:high], result[low:high], 1, back=True) for low, high in team.ranges(rows)]
             self._slabs = [
                 [
-                    (left, right, _plan(modes[:, left:right], modes[:, left:right], 0),
-                     _plan(modes[:, left:right], modes[:, left:right], 0, back=True))
+                    (left, right, plan(modes[:, left:right], modes[:, left:right], 0),
+                     plan(modes[:, left:right], modes[:, left:right], 0, back=True))
                     for left, right in _cut(first, last, width)
                 ]
                 for first, last in team.ranges(columns, ALIGNED)
@@ -82,24 +81,35 @@ class Filter:
             back.execute()
 
 
-def _plan(before: Any, after: Any, axis: int, *, back: bool = False) -> Any:
-    direction = "FFTW_BACKWARD" if back else "FFTW_FORWARD"
-    flags = ("FFTW_MEASURE", "FFTW_DESTROY_INPUT") if back else ("FFTW_MEASURE",)
-    return pyfftw.FFTW(before, after, axes=(axis,), direction=direction, flags=flags)
-
-
 def _cut(first: int, last: int, width: int) -> list[tuple[int, int]]:
     """Ranges of at most that width."""
     return list(pairwise([*range(first, last, width), last]))
 
 
+class _Planner:
+    """Plans from what is known where that suffices; ``learned`` says whether it had to measure."""
+
+    def __init__(self) -> None:
+        self.learned = False
+
+    def plan(self, before: Any, after: Any, axis: int, *, back: bool = False) -> Any:
+        """A transform along an axis, which may overwrite what it reads if it goes back."""
+        options = {"axes": (axis,), "direction": "FFTW_BACKWARD" if back else "FFTW_FORWARD"}
+        flags = ("FFTW_MEASURE", "FFTW_DESTROY_INPUT") if back else ("FFTW_MEASURE",)
+        try:
+            return pyfftw.FFTW(before, after, flags=(*flags, "FFTW_WISDOM_ONLY"), **options)
+        except RuntimeError:
+            self.learned = True
+            return pyfftw.FFTW(before, after, flags=flags, **options)
+
+
 @contextmanager
-def _wisdom() -> Iterator[None]:
+def _planner() -> Iterator[_Planner]:
     """Plan with what earlier runs learned, and keep what is learned now."""
     _recall()
-    before = pyfftw.export_wisdom()
-    yield
-    if pyfftw.export_wisdom() != before:
+    planner = _Planner()
+    yield planner
+    if planner.learned:
         _keep()
 
 

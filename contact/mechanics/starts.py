@@ -1,8 +1,12 @@
-"""Pressures moved by one amount, so that, cut to their bounds, they carry the load."""
+"""What a search begins from: the contact at another load, or on a coarser grid, brought within its own bounds."""
 
 import numpy as np
 
+from contact.mechanics.contact import Contact
 from contact.surface import Array
+
+TURN = 0.3
+"""A gap of one spacing counts as the pressure −0.3 E*."""
 
 CARRIED = 1e-14
 """The mean is met to this part of it."""
@@ -40,3 +44,20 @@ def shifted(pressure: Array, mean: float, most: float) -> Array:
         if shift in (low, high):
             break
     return kept
+
+
+def signed(contact: Contact, composite_modulus: float) -> Array:
+    """One field of what is pressed and what is open, p − 0.3 E* g/d, Pa, with d the shorter spacing.
+
+    It goes through 0 at the edges of contact, so that shifting it moves them.
+    """
+    shortest = min(d for n, d in zip(contact.gap.shape, contact.spacing, strict=True) if n > 1)
+    return contact.pressure - TURN * composite_modulus / shortest * contact.gap
+
+
+def refined(field: Array) -> Array:
+    """A periodic field on a grid twice as fine both ways, linear between its nodes, which it keeps."""
+    for axis in (0, 1):
+        between = (field + np.roll(field, -1, axis)) / 2
+        field = np.stack([field, between], axis + 1).reshape([n * (1 + (k == axis)) for k, n in enumerate(field.shape)])
+    return field
