@@ -3,9 +3,11 @@
 import math
 import os
 import time
-from contextlib import AbstractContextManager, nullcontext, suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import asdict
 from enum import StrEnum
+from glob import escape as escape_pattern
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -184,12 +186,17 @@ def _try(path: Path) -> None:
         raise _OnlyTriedError
 
 
-def _alone(out: Path | None) -> AbstractContextManager[None]:
-    """Hold the file against another series that goes into it."""
+@contextmanager
+def _alone(out: Path | None) -> Iterator[None]:
+    """Hold the file against another series that goes into it, and remove what one that was killed was writing."""
     if out is None:
-        return nullcontext()
+        yield
+        return
     told = f"--out {out}: another series goes into it (process {{process}}); wait for it or choose another place"
-    return locked(out.with_name(f".{out.name}.lock"), told)
+    with locked(out.with_name(f".{out.name}.lock"), told):
+        for left in out.parent.glob(f".{escape_pattern(out.stem)}-????????{escape_pattern(out.suffix)}"):
+            left.unlink(missing_ok=True)
+        yield
 
 
 def _spaced(loads: tuple[float, ...]) -> tuple[float, ...]:
