@@ -70,11 +70,14 @@ class HalfSpace:
         self._single.apply(1, self._inverse_single)
 
     def displacement(self, pressure: Array) -> Array:
-        """K ∗ p in double precision, a new array of the shape of ``pressure``, which may be a part of the grid."""
+        """K ∗ p in double precision, of the shape of ``pressure``, which may be a part of the grid.
+
+        It is good until the next transform in double precision, which is written over it.
+        """
         return self._in_double(pressure, self._response)
 
     def pressure(self, displacement: Array) -> Array:
-        """The pressure of zero mean that makes a displacement, in double precision (periodic only)."""
+        """The pressure of zero mean that makes a displacement, in double precision (periodic only); good as long."""
         return self._in_double(displacement, self._inverse)
 
     def _in_double(self, values: Array, factors: list[list[Array]]) -> Array:
@@ -83,4 +86,4 @@ class HalfSpace:
             self._grid[:] = 0
         self._grid[part] = values
         self._double.apply(0, factors)
-        return np.array(self._grid[part])
+        return np.asarray(self._grid[part])

@@ -23,6 +23,9 @@ MOST_ITERATIONS = 2000
 COARSEST = 128
 """Points along the shorter side of the coarsest grid that a search begins on."""
 
+SHARE = 1 << 18
+"""Nodes for each thread, at least: with fewer, waiting for each other costs more than is shared."""
+
 ROUGH = 0.03
 """Tolerance of the coarser grids."""
 
@@ -83,7 +86,8 @@ class Press:
         self._part = tuple(slice(n) for n in shape)
         self._length = max(n * d for n, d in zip(shape, self.spacing, strict=True))
         self._down = self.heights.mean() - self.heights
-        self._team = Team(threads)
+        self._team = Team(min(threads, max(1, math.prod(self._grid) // SHARE)))
+        self._threads = threads
         dx, dy = self.spacing
         self._half_space = HalfSpace(self._grid, (dx / self._length, dy / self._length), boundary, self._team)
 
@@ -170,7 +174,7 @@ class Press:
             self.composite_modulus,
             hardness=self.hardness,
             boundary=self.boundary,
-            threads=self._team.members,
+            threads=self._threads,
         )
         try:
             found = coarser.at(load, tolerance=ROUGH)
@@ -195,8 +199,7 @@ class Press:
     def contact_of(self, load: float, pressure: Array, iterations: int) -> Contact:
         """What a pressure does, and how well it keeps the conditions of contact, computed afresh."""
         base = load if self.boundary == "periodic" else 0.0
-        elastic = self._half_space.displacement((pressure - base) / self.composite_modulus)
-        elastic *= self._length
+        elastic = self._half_space.displacement((pressure - base) / self.composite_modulus) * self._length
         deformed = self._down + elastic
         plane = plane_of(pressure, deformed, self.hardness)
         violation = violation_of(pressure, deformed, plane, self.hardness)

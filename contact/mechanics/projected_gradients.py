@@ -67,6 +67,7 @@ class _Search:
     def __init__(self, half_space: HalfSpace, heights: Array, pressure: Array, hardness: float, pieces: Pieces) -> None:
         self.half_space, self.heights, self.pressure, self.hardness = half_space, heights, pressure, hardness
         self.pieces = pieces
+        self.gap = np.empty(heights.size, dtype=np.float32)
         self.index = np.empty(heights.size, dtype=np.int32)
         self.residual = np.empty(heights.size, dtype=np.float32)
         self.move = np.empty(heights.size, dtype=np.float32)
@@ -90,8 +91,8 @@ class _Search:
         self.pieces.over_free(kernels.spread, self.index, self.held, self.pressure)
         displacement = self.half_space.displacement(self.pressure.reshape(self.half_space.shape)).reshape(-1)
         displacement += self.heights
-        displacement -= plane_of(self.pressure, displacement, self.hardness)
-        self.gap = displacement.astype(np.float32)
+        plane = plane_of(self.pressure, displacement, self.hardness)
+        np.subtract(displacement, plane, out=self.gap, casting="same_kind")
         self.plane = self.fraction = 0.0
 
     def free_nodes(self) -> float:
