@@ -18,6 +18,9 @@ from contact.surface import LARGEST_LENGTH, LEAST_SPACING, MOST_POINTS, Array
 TOLERANCE = 1e-8
 """Of the complementarity, over the rms height."""
 
+MARGIN = 0.9
+"""The search goes to this part of the tolerance, as what it finds is rounded to the load and judged afresh."""
+
 MOST_ITERATIONS = 2000
 
 COARSEST = 128
@@ -146,14 +149,14 @@ class Press:
             self._spread(self._down / unit, math.inf),
             self._spread((self._begin(load) if start is None else self._moved(start, load)) / pressure_unit, 0.0),
             hardness,
-            tolerance=tolerance,
+            tolerance=MARGIN * tolerance,
             most_iterations=MOST_ITERATIONS,
             pieces=Pieces(math.prod(self._grid), self._team),
         )
         found = found.reshape(self._grid)[self._part]
         found = np.where(found >= hardness, self.hardness, found * pressure_unit)
         contact = self.contact_of(load, _scaled(found, load, self.hardness), iterations)
-        if contact.complementarity > 2 * tolerance:
+        if contact.complementarity > tolerance:
             raise ConvergenceError(
                 f"contact: {Outcome.STALLED} with the conditions of contact broken by {contact.complementarity:.2g} "
                 f"of the rms height once computed afresh, above {tolerance:.2g}; ask for a looser tolerance",
