@@ -72,6 +72,8 @@ class Row:
     cpu_s: float
 
 
+NUMBERS = tuple(entry.name for entry in fields(Row))
+
 UNITS = {"load": "Pa", "mean_gap": "m", "approach": "m", "pressure_max": "Pa", "cpu_s": "s"}
 """Of the numbers of a row; all others are pure numbers."""
 
@@ -104,17 +106,17 @@ def add(path: Path, inputs: Inputs, found: Sequence[tuple[Row, Contact | None]])
     InputError
         If ``path`` cannot be written, was damaged, or holds something else.
     """
-    to = bool(finished(path, inputs))
+    before = finished(path, inputs)
     with replacing(path) as scratch:
-        if to:
+        if before:
             shutil.copyfile(path, scratch)
-        mode = {"name": scratch, "mode": "r+"} if to else {"name": scratch, "mode": "w", "userblock_size": BLOCK}
+        mode = {"name": scratch, "mode": "r+"} if before else {"name": scratch, "mode": "w", "userblock_size": BLOCK}
         with h5py.File(**mode) as file:
-            if not to:
+            if not before:
                 _begin(file, inputs)
             for row, contact in found:
                 _put(file, row, contact)
-            _tabulate(file)
+            _tabulate(file, before | {row.load: row for row, _ in found})
         block = _block(_digest(scratch))
         with scratch.open("r+b") as raw:
             raw.write(block)
@@ -126,7 +128,7 @@ def _put(file: h5py.File, row: Row, contact: Contact | None) -> None:
     if name in file:
         del file[name]
     group = file.create_group(name)
-    group.attrs.update({name: math.nan if value is None else value for name, value in vars(row).items()})
+    group.attrs.update(_numbers(row))
     if contact is not None:
         group.attrs["hardness"] = contact.hardness
         for name, values in _arrays(contact).items():
@@ -155,8 +157,9 @@ def finished(path: Path, inputs: Inputs) -> dict[float, Row]:
                 raise InputError(f"{path}: is of another version of roughfilm; {remedy}")
             if file.attrs["digest"] != inputs.digest:
                 raise InputError(f"{path}: holds another series, {_difference(file, inputs)}; {remedy}")
-            rows = [_row(group.attrs) for group in file["loads"].values()]
-            return {row.load: row for row in sorted(rows, key=lambda row: row.load)}
+            columns = [file[f"series/{name}"][()] for name in NUMBERS]
+            rows = [_row(dict(zip(NUMBERS, numbers, strict=True))) for numbers in zip(*columns, strict=True)]
+            return {row.load: row for row in rows}
     except FileNotFoundError:
         return {}
     except OSError as error:
@@ -220,14 +223,18 @@ def _write(group: h5py.Group, name: str, values: Array, unit: str) -> None:
     written.attrs["unit"] = unit
 
 
-def _tabulate(file: h5py.File) -> None:
+def _tabulate(file: h5py.File, rows: Mapping[float, Row]) -> None:
     """Write ``series``: every number of all loads as a column, loads rising; NaN where there is none."""
     if "series" in file:
         del file["series"]
-    groups = sorted(file["loads"].values(), key=lambda group: float(group.attrs["load"]))
-    for entry in fields(Row):
-        column = np.array([float(group.attrs[entry.name]) for group in groups])
-        file.create_dataset(f"series/{entry.name}", data=column).attrs["unit"] = UNITS.get(entry.name, "1")
+    ordered = [_numbers(rows[load]) for load in sorted(rows)]
+    for name in NUMBERS:
+        column = np.array([numbers[name] for numbers in ordered])
+        file.create_dataset(f"series/{name}", data=column).attrs["unit"] = UNITS.get(name, "1")
+
+
+def _numbers(row: Row) -> dict[str, float]:
+    return {name: math.nan if value is None else float(value) for name, value in vars(row).items()}
 
 
 def _arrays(contact: Contact) -> dict[str, Array]:
@@ -239,7 +246,7 @@ def _arrays(contact: Contact) -> dict[str, Array]:
 
 
 def _row(attributes: Mapping[str, Any]) -> Row:
-    numbers = {entry.name: float(attributes[entry.name]) for entry in fields(Row)}
+    numbers = {name: float(attributes[name]) for name in NUMBERS}
     told: dict[str, Any] = {name: None if math.isnan(number) else number for name, number in numbers.items()}
     told["iterations"] = None if told["iterations"] is None else int(told["iterations"])
     return Row(**told)
