@@ -1,9 +1,12 @@
 """One program of OpenFOAM run to its end in a case: its log, its own CPU time, and nothing left running."""
 
 import os
+import signal
 import subprocess
+import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -32,16 +35,17 @@ class Ended:
 def execute(directory: Path, command: Sequence[str], log_name: str, watch: Watch = lambda: False) -> Ended:
     """Run a command in a directory with its output in a log there; it ends with this process, however that ends."""
     log = directory / log_name
-    with log.open("wb") as output:
-        process = subprocess.Popen(
-            [*leash(), *command],
-            cwd=directory,
-            env=environment(),
-            stdin=subprocess.DEVNULL,
-            stdout=output,
-            stderr=output,
-        )
+    process = None
     try:
+        with log.open("wb") as output, uninterrupted():
+            process = subprocess.Popen(
+                [*leash(), *command],
+                cwd=directory,
+                env=environment(),
+                stdin=subprocess.DEVNULL,
+                stdout=output,
+                stderr=output,
+            )
         while True:
             ended, status, used = os.wait4(process.pid, os.WNOHANG)
             if ended:
@@ -50,11 +54,29 @@ def execute(directory: Path, command: Sequence[str], log_name: str, watch: Watch
                 process.terminate()
             time.sleep(POLL_S)
     except BaseException:
-        _stop(process)
+        if process is not None:
+            _stop(process)
         raise
     process.returncode = os.waitstatus_to_exitcode(status)
     text = log.read_text(encoding="utf-8", errors="replace")
     return Ended(code=process.returncode, log=text, cpu_s=used.ru_utime + used.ru_stime)
+
+
+@contextmanager
+def uninterrupted() -> Iterator[None]:
+    """Let signals to stop wait: one that came while a program is being started would leave it running, in no hand."""
+    if threading.current_thread() is not threading.main_thread():
+        yield  # signals are the main thread's
+        return
+    came: list[int] = []
+    before = {number: signal.signal(number, lambda n, _: came.append(n)) for number in (signal.SIGTERM, signal.SIGINT)}
+    try:
+        yield
+    finally:
+        for stop, handler in before.items():
+            signal.signal(stop, signal.SIG_DFL if handler is None else handler)
+        for number in came:
+            signal.raise_signal(number)
 
 
 def succeed(directory: Path, command: Sequence[str], log_name: str) -> Ended:

@@ -37,6 +37,21 @@ def test_a_program_can_be_stopped_by_who_watches_it(tmp_path):
     assert ended.code == -signal.SIGTERM
 
 
+def test_a_signal_that_comes_while_a_program_is_started_ends_it_too(tmp_path, monkeypatch):
+    start, started = subprocess.Popen, []
+
+    def interrupted(*arguments, **options):
+        started.append(start(*arguments, **options))
+        signal.raise_signal(signal.SIGINT)
+        return started[-1]
+
+    monkeypatch.setattr(subprocess, "Popen", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        execute(tmp_path, ["sleep", "60"], "log")
+    assert started[0].poll() is not None
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
 def test_a_program_that_stops_in_error_is_one_of_our_errors_with_its_last_words(tmp_path):
     with pytest.raises(ConvergenceError, match="sh stopped with code 7") as caught:
         succeed(tmp_path, ["sh", "-c", "echo last words; exit 7"], "log")

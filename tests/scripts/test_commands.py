@@ -208,7 +208,10 @@ def test_a_terminated_solve_leaves_no_program_and_no_directory(pocket_file, tmp_
     while not list(tmp_path.rglob("log.simpleFoam")) and time.monotonic() < deadline:
         time.sleep(0.05)
     assert list(tmp_path.rglob("log.simpleFoam"))
-    (child,) = (Path("/proc") / str(process.pid) / "task" / str(process.pid) / "children").read_text().split()
+    children = Path("/proc") / str(process.pid) / "task" / str(process.pid) / "children"
+    while not children.read_text() and time.monotonic() < deadline:
+        pass
+    (child,) = children.read_text().split()
     process.terminate()
     assert process.wait(timeout=30) == 128 + signal.SIGTERM
     assert not (Path("/proc") / child).exists()
