@@ -23,6 +23,12 @@ class Effect(StrEnum):
     """Elastic, of the whole solid: where it is pressed, and around."""
     PLASTICITY = "plasticity"
     """Pressure that the hardness bounds."""
+    SIDE_FLOW = "side flow"
+    """Across the sliding, and through the sides of a film."""
+    CAVITATION = "cavitation"
+    """Films that rupture where pressure would fall below what the liquid bears, mass kept."""
+    PRESSURE_DEPENDENCE = "pressure dependence"
+    """Density and viscosity that grow with pressure."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,0 +1,181 @@
+"""A bearing: a lubricant film between a shaped still wall and a flat sliding one."""
+
+import math
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import BeforeValidator, Field, field_validator, model_validator
+
+from contact.entries import InUnit, Part, PositiveNumber
+from contact.errors import InputError
+from rom.bearing_geometry import SHAPES, AnyShape, Journal, Sector
+from rom.cavitation.discretise import Ends
+from rom.cavitation.problem import Problem
+from rom.kind import Scene
+from rom.lubricants.compressibility import Compressibility, Incompressible
+from rom.lubricants.viscosity import ConstantViscosity, Piezoviscosity
+
+
+def _any(value: float) -> float:
+    return value
+
+
+GaugePressure = Annotated[float, InUnit("Pa", _any)]
+Speed = Annotated[float, InUnit("m/s", _any)]
+Viscosity = Annotated[float, InUnit("Pa*s")]
+
+
+def _law(entries: Any) -> Any:
+    """A law may be named alone where it needs no numbers."""
+    return {"law": entries} if isinstance(entries, str) else entries
+
+
+class Lubricant(Part):
+    """Viscosity at the pressure of cavitation, Pa s, what pressure does to it and to density, and that pressure, Pa.
+
+    The pressure of cavitation counts from ambient.
+    """
+
+    viscosity: Viscosity
+    cavitation_pressure: GaugePressure = 0.0
+    compressibility: Annotated[Compressibility, Field(discriminator="law"), BeforeValidator(_law)] = Incompressible()
+    piezoviscosity: Annotated[Piezoviscosity, Field(discriminator="law"), BeforeValidator(_law)] = ConstantViscosity()
+
+
+class Motion(Part):
+    """Speed of the flat wall, m/s; at the mean radius of a sector. Below zero it slides backwards."""
+
+    speed: Speed
+
+
+class Inlet(Part):
+    """Where sliding brings lubricant from: its pressure above ambient, Pa, or its density θ; ambient by default.
+
+    θ < 1 is starved, θ = 1 flooded at the pressure of cavitation, θ > 1 pressurised as the compressibility says.
+    """
+
+    theta: PositiveNumber | None = None
+    pressure: GaugePressure | None = None
+
+    @model_validator(mode="after")
+    def _one_of_two(self) -> Self:
+        if self.theta is not None and self.pressure is not None:
+            raise ValueError("got both theta and pressure; give one of them")
+        return self
+
+
+class Outlet(Part):
+    """Pressure above ambient, Pa."""
+
+    pressure: GaugePressure = 0.0
+
+
+class Sides(Part):
+    """Pressures above ambient, Pa: at y = 0 (the inner radius) and at the width (the outer one)."""
+
+    low: GaugePressure = 0.0
+    high: GaugePressure = 0.0
+
+
+class Boundary(Part):
+    """What holds where the film ends."""
+
+    inlet: Inlet = Inlet()
+    outlet: Outlet = Outlet()
+    sides: Sides = Sides()
+
+
+class Bearing(Scene):
+    """Steady isothermal flow in a thin film that may rupture; pressures count from ambient.
+
+    ``fields`` of its results, of the shape of the grid: ``x``, ``y`` (m, or rad and m), ``film_thickness`` (m),
+    ``pressure`` (Pa), ``density_ratio`` θ (1), which below 1 is the part of the gap that liquid fills.
+    """
+
+    kind: Literal["bearing"]
+    geometry: Annotated[AnyShape, Field(discriminator="shape")]
+    lubricant: Lubricant
+    motion: Motion
+    boundary: Boundary = Boundary()
+
+    @field_validator("geometry", mode="before")
+    @classmethod
+    def _names_a_shape(cls, entries: Any) -> Any:
+        if isinstance(entries, dict) and entries.get("shape") not in SHAPES:
+            got = f"got {entries['shape']!r:.60}" if "shape" in entries else "is missing"
+            raise ValueError(f"shape: {got}; it must be {', '.join(map(repr, SHAPES))}")
+        return entries
+
+    @model_validator(mode="after")
+    def _can_be_solved(self) -> Self:
+        lowest = self.lubricant.cavitation_pressure
+        places = {"inlet": self.boundary.inlet.pressure, "outlet": self.boundary.outlet.pressure}
+        sides = {"sides.low": self.boundary.sides.low, "sides.high": self.boundary.sides.high}
+        for place, pressure in (places | (sides if self.wide is False else {})).items():
+            found = 0.0 if pressure is None and place == "inlet" and self.boundary.inlet.theta is None else pressure
+            if found is not None and found < lowest:
+                raise ValueError(
+                    f"boundary.{place}.pressure: got {found!r} Pa, below the pressure of cavitation, {lowest!r} Pa; "
+                    "no liquid has it, raise it"
+                )
+        theta = self.boundary.inlet.theta
+        if theta is not None:
+            if isinstance(self.geometry, Sector) and self.geometry.joined:
+                raise ValueError("boundary.inlet.theta: got a number for joined pads, which have no inlet; leave it")
+            try:
+                self.lubricant.compressibility.pressure_at(theta)
+            except InputError as error:
+                raise ValueError(f"boundary.inlet.{error}") from None
+        self.geometry.film_shape()
+        return self
+
+    @property
+    def wide(self) -> bool:
+        """Whether the bearing is infinitely wide."""
+        return self.geometry.width is None
+
+    @property
+    def ends(self) -> Ends:
+        """What holds at the ends, above the pressure of cavitation."""
+        lowest, boundary = self.lubricant.cavitation_pressure, self.boundary
+        theta = boundary.inlet.theta
+        if theta is None:
+            inlet: float | None = (boundary.inlet.pressure or 0.0) - lowest
+        else:
+            inlet = self.lubricant.compressibility.pressure_at(theta) if theta > 1 else None
+        sides = (boundary.sides.low - lowest, boundary.sides.high - lowest)
+        return Ends(
+            inlet=inlet,
+            theta=1.0 if theta is None else min(theta, 1.0),
+            outlet=boundary.outlet.pressure - lowest,
+            sides=None if self.wide else sides,
+        )
+
+    def problem(self) -> Problem:
+        """The film to be solved."""
+        geometry, lubricant = self.geometry, self.lubricant
+        radius = geometry.radius if isinstance(geometry, Sector) else 1.0
+        return Problem(
+            shape=geometry.film_shape(),
+            ends=self.ends,
+            speed=self.motion.speed / radius,
+            viscosity=lubricant.viscosity,
+            compressibility=lubricant.compressibility,
+            piezoviscosity=lubricant.piezoviscosity,
+        )
+
+    @property
+    def pressure_unit(self) -> float:
+        """6 η u L / h², Pa, with the least film thickness: the size of the pressures that sliding makes."""
+        geometry = self.geometry
+        return 6 * self.lubricant.viscosity * abs(self.motion.speed) * geometry.length / geometry.film**2
+
+    @property
+    def is_journal(self) -> bool:
+        """Whether loads add up round a shaft."""
+        return isinstance(self.geometry, Journal)
+
+    @property
+    def revolutions(self) -> float:
+        """Of a shaft, 1/s."""
+        assert isinstance(self.geometry, Journal)
+        return abs(self.motion.speed) / (2 * math.pi * self.geometry.radius)

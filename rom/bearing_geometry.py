@@ -1,0 +1,277 @@
+"""The shape of a bearing's film, as a scene file writes it: one class a shape, each with its film thickness."""
+
+import math
+from typing import Annotated, Literal, Self
+
+import numpy as np
+from pydantic import BeforeValidator, Field, model_validator
+
+from contact.entries import InUnit, Length, Part, plain_number
+from rom.cavitation.shape import Shape
+from rom.gap import Array
+from rom.texture import Texture, pocketed
+
+Angle = Annotated[float, InUnit("rad")]
+
+
+def _below_one(value: object) -> float:
+    number = plain_number(value)
+    if not 0 <= number < 1:
+        raise ValueError(f"got {number!r}; it must be 0 or more and below 1")
+    return number
+
+
+Ratio = Annotated[float, BeforeValidator(_below_one)]
+Count = Annotated[int, Field(strict=True, ge=1, le=10_000)]
+
+
+class Pad(Part):
+    """A film over a rectangle: ``length`` along the sliding, ``width`` across, infinitely wide without it; m.
+
+    ``film`` is the least film thickness without texture.
+    """
+
+    length: Length
+    width: Length | None = None
+    film: Length
+    texture: Texture | None = None
+
+    def breaks(self) -> tuple[float, ...]:
+        """Where h or its slope jumps, m."""
+        return 0.0, self.length
+
+    def untextured(self, x: Array) -> Array:
+        """h(x), m."""
+        raise NotImplementedError
+
+    def film_shape(self) -> Shape:
+        """The film."""
+        across = (0.0, self.length if self.width is None else self.width)
+        smooth = Shape(
+            thickness=lambda x, y: self.untextured(x) + 0 * y,
+            breaks=self.breaks(),
+            across=across,
+            wide=self.width is None,
+        )
+        return smooth if self.texture is None else pocketed(smooth, self.texture)
+
+    @model_validator(mode="after")
+    def _thin(self) -> Self:
+        if self.film > self.length:
+            raise ValueError(f"film: got {self.film!r} m, thicker than the bearing is long; look at the units")
+        return self
+
+
+class Parallel(Pad):
+    """h = film."""
+
+    shape: Literal["parallel"]
+
+    def untextured(self, x: Array) -> Array:
+        """h(x), m."""
+        return np.full_like(x, self.film)
+
+
+class Linear(Pad):
+    """h falls evenly from film + rise at the inlet to film at the outlet."""
+
+    shape: Literal["linear"]
+    rise: Length
+
+    def untextured(self, x: Array) -> Array:
+        """h(x), m."""
+        return np.asarray(self.film + self.rise * (1 - x / self.length))
+
+
+class Step(Pad):
+    """h = film + rise up to ``step`` from the inlet, m, film from there on: Rayleigh's bearing."""
+
+    shape: Literal["step"]
+    rise: Length
+    step: Length
+
+    @model_validator(mode="after")
+    def _inside(self) -> Self:
+        if self.step >= self.length:
+            raise ValueError(f"step: got {self.step!r} m; it must lie inside the length of {self.length!r} m")
+        return self
+
+    def breaks(self) -> tuple[float, ...]:
+        """Where h or its slope jumps, m."""
+        return 0.0, self.step, self.length
+
+    def untextured(self, x: Array) -> Array:
+        """h(x), m."""
+        return np.where(x < self.step, self.film + self.rise, self.film)
+
+
+class Parabolic(Pad):
+    """``count`` equal parabolas one after the other, each from film + rise at its ends down to film in its middle."""
+
+    shape: Literal["parabolic"]
+    rise: Length
+    count: Count = 1
+
+    def breaks(self) -> tuple[float, ...]:
+        """Where h or its slope jumps, m."""
+        return (*(self.length * number / self.count for number in range(self.count)), self.length)
+
+    def untextured(self, x: Array) -> Array:
+        """h(x), m."""
+        part = self.length / self.count
+        along = x - part * np.clip(np.floor(x / part), 0, self.count - 1)
+        return np.asarray(self.film + self.rise * (2 * along / part - 1) ** 2)
+
+
+class Wavy(Pad):
+    """A parallel film whose inlet, up to ``extent``, is wavy; half of the length by default."""
+
+    amplitude: Length
+    wavelength: Length
+    extent: Length | None = None
+
+    @property
+    def end(self) -> float:
+        """Where the waves end, m."""
+        return self.length / 2 if self.extent is None else self.extent
+
+    @model_validator(mode="after")
+    def _inside(self) -> Self:
+        if self.end > self.length:
+            raise ValueError(f"extent: got {self.extent!r} m; it must be at most the length, {self.length!r} m")
+        return self
+
+    def breaks(self) -> tuple[float, ...]:
+        """Where h or its slope jumps, m."""
+        return tuple(sorted({0.0, self.end, self.length}))
+
+
+class SinusoidalInlet(Wavy):
+    """h = film + amplitude sin(2π x/wavelength) at the inlet."""
+
+    shape: Literal["sinusoidal_inlet"]
+
+    @model_validator(mode="after")
+    def _open(self) -> Self:
+        if self.amplitude >= self.film:
+            raise ValueError(f"amplitude: got {self.amplitude!r} m; it must be below film, or the walls would touch")
+        return self
+
+    def untextured(self, x: Array) -> Array:
+        """h(x), m."""
+        wave = self.amplitude * np.sin(2 * np.pi * x / self.wavelength)
+        return np.asarray(self.film + np.where(x < self.end, wave, 0.0))
+
+
+class SquaredCosineInlet(Wavy):
+    """h = film + amplitude cos²(π x/wavelength) at the inlet: pockets, with a step where they end."""
+
+    shape: Literal["squared_cosine_inlet"]
+
+    def untextured(self, x: Array) -> Array:
+        """h(x), m."""
+        wave = self.amplitude * np.cos(np.pi * x / self.wavelength) ** 2
+        return np.asarray(self.film + np.where(x < self.end, wave, 0.0))
+
+
+class Journal(Part):
+    """A full journal bearing, unrolled from the widest place on: h = clearance (1 + eccentricity cos φ), x = R φ."""
+
+    shape: Literal["journal"]
+    radius: Length
+    clearance: Length
+    eccentricity: Ratio
+    width: Length | None = None
+    texture: Texture | None = None
+
+    @property
+    def film(self) -> float:
+        """The least film thickness, m."""
+        return self.clearance * (1 - self.eccentricity)
+
+    @property
+    def length(self) -> float:
+        """Once round, m."""
+        return 2 * math.pi * self.radius
+
+    @model_validator(mode="after")
+    def _thin(self) -> Self:
+        if self.clearance > 0.1 * self.radius:
+            raise ValueError(f"clearance: got {self.clearance!r} m; it must be at most a tenth of the radius")
+        return self
+
+    def film_shape(self) -> Shape:
+        """The film."""
+        smooth = Shape(
+            thickness=lambda x, y: self.clearance * (1 + self.eccentricity * np.cos(x / self.radius)) + 0 * y,
+            breaks=(0.0, self.length),
+            across=(0.0, self.length if self.width is None else self.width),
+            wide=self.width is None,
+        )
+        return smooth if self.texture is None else pocketed(smooth, self.texture)
+
+
+class Sector(Part):
+    """One pad of a thrust bearing: over ``angle``, the film falls evenly by ``rise`` over the first ``taper`` of it.
+
+    Behind the taper the land is parallel. ``joined`` pads follow one another without a groove between them.
+    """
+
+    shape: Literal["sector"]
+    inner_radius: Length
+    outer_radius: Length
+    angle: Angle
+    film: Length
+    rise: Length
+    taper: Annotated[float, BeforeValidator(plain_number), Field(gt=0, le=1)] = 1.0
+    joined: bool = False
+
+    @model_validator(mode="after")
+    def _can_be(self) -> Self:
+        if self.outer_radius <= self.inner_radius:
+            raise ValueError(f"outer_radius: got {self.outer_radius!r} m; it must be above inner_radius")
+        if self.angle > 2 * math.pi * (1 + 1e-12):
+            raise ValueError(f"angle: got {self.angle!r} rad; it must be at most a full turn")
+        if self.film > self.outer_radius:
+            raise ValueError(f"film: got {self.film!r} m, thicker than the bearing is wide; look at the units")
+        return self
+
+    @property
+    def radius(self) -> float:
+        """The mean one, where the sliding speed is given, m."""
+        return (self.inner_radius + self.outer_radius) / 2
+
+    @property
+    def width(self) -> float:
+        """From the inner to the outer radius, m."""
+        return self.outer_radius - self.inner_radius
+
+    @property
+    def length(self) -> float:
+        """Along the mean radius, m."""
+        return self.angle * self.radius
+
+    def film_shape(self) -> Shape:
+        """The film, over (angle, radius)."""
+        end = self.taper * self.angle
+        return Shape(
+            thickness=lambda x, y: self.film + self.rise * np.clip(1 - x / end, 0, None) + 0 * y,
+            breaks=tuple(sorted({0.0, end, self.angle})),
+            across=(self.inner_radius, self.outer_radius),
+            wide=False,
+            polar=True,
+            joined=(self.joined, False),
+        )
+
+
+AnyShape = Parallel | Linear | Step | Parabolic | SinusoidalInlet | SquaredCosineInlet | Journal | Sector
+SHAPES: dict[str, type[Part]] = {
+    "parallel": Parallel,
+    "linear": Linear,
+    "step": Step,
+    "parabolic": Parabolic,
+    "sinusoidal_inlet": SinusoidalInlet,
+    "squared_cosine_inlet": SquaredCosineInlet,
+    "journal": Journal,
+    "sector": Sector,
+}

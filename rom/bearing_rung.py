@@ -1,0 +1,157 @@
+"""What the rungs of a bearing share: the grid they work on, their quantities, fields and bookkeeping."""
+
+import time
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+
+from contact.errors import InputError
+from rom.bearing import Bearing
+from rom.bearing_quantities import bearing_quantities, density_ratio
+from rom.cavitation.problem import Problem
+from rom.cavitation.solve import TOLERANCE, Solution
+from rom.cavitation.solve import solve as balance
+from rom.ladder import Applicability, Effect, Model, Progress, chosen_scheme, one_process, silent
+from rom.provenance import provenance
+from rom.result import Field, Numerics, Result
+
+RESOLUTION_MEANING = "cells along the sliding, and as many across where the bearing has a width"
+RESIDUAL_MEANING = "largest net flow into a node over the largest flow through a face"
+WIDE, PLANE = (64, 256, 1024, 4096), (32, 64, 128, 256)
+"""Cells, for infinitely wide bearings and for others."""
+
+LEAST, MOST = 8, {True: 4_000_000, False: 2048}
+SAFETY = 3.0
+"""Of an error estimated from two grids: Roache 1994, doi:10.1115/1.2910291."""
+
+SOURCES = ("10.1115/1.3251669", "10.1016/j.triboint.2007.02.021")
+
+
+def solve(
+    scene: Bearing,
+    *,
+    model: str,
+    keeps: frozenset[Effect],
+    sources: tuple[str, ...],
+    simplified: Callable[[Problem], Problem],
+    ruptures: bool,
+    resolution: int | None = None,
+    tolerance: float | None = None,
+    scheme: str | None = None,
+    processes: int = 1,
+    progress: Progress = silent,
+) -> Result:
+    """Solve a bearing's film on ``resolution`` cells, and on half as many to say how far off it is.
+
+    Raises
+    ------
+    InputError
+        For a resolution or tolerance out of range, a scheme, or more than one process.
+    ConvergenceError
+        If the film does not come into balance.
+    """
+    wall, cpu = time.perf_counter(), time.process_time()
+    scheme = chosen_scheme(model, (), scheme)
+    one_process(model, processes)
+    tolerance = TOLERANCE if tolerance is None else tolerance
+    if not 1e-13 <= tolerance < 1:
+        raise InputError(f"--tolerance: got {tolerance}; it must be 1e-13 to 1")
+    problem = simplified(scene.problem())
+    wide = problem.shape.wide
+    cells = (WIDE if wide else PLANE)[-1] if resolution is None else resolution
+    if not LEAST <= cells <= MOST[wide]:
+        raise InputError(f"--resolution: got {cells}; {model} takes {LEAST} to {MOST[wide]} {RESOLUTION_MEANING}")
+    found = balance(problem, (cells, cells), tolerance=tolerance, ruptures=ruptures, progress=progress)
+    quantities = bearing_quantities(scene, found)
+    uncertainty, warnings = {}, []
+    if found.coarser is not None:
+        before = bearing_quantities(scene, found.coarser)
+        uncertainty = {
+            name: SAFETY * abs(quantity.value - before[name].value) / 3
+            for name, quantity in quantities.items()
+            if name in before
+        }
+    if not (found.state.pressure > 0).any():
+        warnings.append("no film forms: the inlet brings less than the narrowest place lets through")
+    return Result(
+        model=model,
+        quantities=quantities,
+        fields=_fields(scene, found),
+        numerics=Numerics(
+            residual=found.residual,
+            iterations=sum(level.iterations for level in found.levels),
+            cpu_s=time.process_time() - cpu,
+            wall_s=time.perf_counter() - wall,
+            degrees_of_freedom=found.state.pressure.size,
+            resolution=cells,
+            tolerance=tolerance,
+            scheme=scheme,
+        ),
+        provenance=provenance(
+            scene,
+            keeps=tuple(keeps),
+            sources=sources,
+            warnings=warnings,
+            uncertainty=uncertainty,
+            grids=[{"nodes": list(level.shape), "iterations": level.iterations} for level in found.levels],
+        ),
+    )
+
+
+def _fields(scene: Bearing, found: Solution) -> dict[str, Field]:
+    """Over the grid, shape (nx, ny); x as the scene counts it, whichever way the wall slides."""
+    shape = found.problem.shape
+    places = np.meshgrid(found.grid.x, found.grid.y, indexing="ij")
+    values = {
+        "x": (places[0], "rad" if shape.polar else "m"),
+        "y": (places[1], "m"),
+        "film_thickness": (found.faces.thickness, "m"),
+        "pressure": (found.state.pressure + scene.lubricant.cavitation_pressure, "Pa"),
+        "density_ratio": (density_ratio(found), "1"),
+    }
+    if found.turned:
+        x, unit = values["x"]
+        values = {name: (field[::-1], told) for name, (field, told) in values.items()}
+        values["x"] = (shape.breaks[0] + shape.breaks[-1] - x[::-1], unit)
+    return {name: Field(values=np.ascontiguousarray(field), unit=unit) for name, (field, unit) in values.items()}
+
+
+def cost(scene: Bearing, cells: int, *, wide: bool) -> float:
+    """Expected CPU seconds."""
+    return 4e-3 + 8e-7 * cells if wide or scene.wide else 2e-2 + 6e-6 * cells**2
+
+
+def as_it_is(problem: Problem) -> Problem:
+    """Nothing left out."""
+    return problem
+
+
+def bearing_model(
+    *,
+    name: str,
+    summary: str,
+    keeps: frozenset[Effect],
+    applies: Callable[[Bearing], Applicability],
+    sources: tuple[str, ...] = SOURCES,
+    simplified: Callable[[Problem], Problem] = as_it_is,
+    ruptures: bool = True,
+    wide: bool = False,
+) -> Model:
+    """A rung of a bearing: ``simplified`` leaves physics out of its film; one that is ``wide`` solves a single line."""
+    return Model(
+        name=name,
+        kind="bearing",
+        summary=summary,
+        keeps=keeps,
+        sources=sources,
+        resolution=None,
+        resolutions=(),
+        own_resolutions=lambda scene: WIDE if wide or scene.wide else PLANE,
+        resolution_meaning=RESOLUTION_MEANING,
+        residual_meaning=RESIDUAL_MEANING,
+        order=2,
+        cost=partial(cost, wide=wide),
+        applies=applies,
+        solve=partial(solve, model=name, keeps=keeps, sources=sources, simplified=simplified, ruptures=ruptures),
+    )

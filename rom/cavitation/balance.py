@@ -1,0 +1,114 @@
+"""What flows into every node of a film, and how that changes: the loops of Newton's method."""
+
+from contact.compiled import compiled
+
+FILM, CAVITY, FIXED, FLOODED = 0, 1, 2, 3
+"""What is unknown at a node: its pressure; its filled part; nothing; nothing, as the inlet brings more than enough."""
+
+
+@compiled
+def linearise(couette, upstream, east, north, storage, stored, supply, periodic_x, periodic_y, kind, pressure, fill, excess, excess_slope, mobility, mobility_slope, balance, centre, to_west, to_east, to_south, to_north):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
+    """Outflow less inflow of every node, and its derivatives by the unknowns of the node and its four neighbours.
+
+    Rows of nodes without an unknown become 1 · change = 0. Returns the largest flow through a face.
+    """
+    nx, ny = couette.shape
+    largest = 0.0
+    for i in range(nx):
+        for j in range(ny):
+            balance[i, j] = storage[i, j] * (fill[i, j] + excess[i, j]) - stored[i, j]
+            centre[i, j] = storage[i, j] * (excess_slope[i, j] if kind[i, j] == FILM else 1.0)
+            to_west[i, j] = to_east[i, j] = to_south[i, j] = to_north[i, j] = 0.0
+    for j in range(supply.size):
+        balance[0, j] -= supply[j]
+    for i in range(nx if periodic_x else nx - 1):
+        k = i + 1 if i + 1 < nx else 0
+        for j in range(ny):
+            c, w = couette[i, j], upstream[i, j]
+            g = 0.5 * east[i, j]
+            rise = pressure[k, j] - pressure[i, j]
+            phi = mobility[i, j] + mobility[k, j]
+            flow = c * (fill[i, j] + w * excess[i, j] + (1.0 - w) * excess[k, j]) - g * phi * rise
+            largest = max(largest, abs(flow))
+            by_left = by_right = 0.0
+            if kind[i, j] == FILM:
+                by_left = c * w * excess_slope[i, j] + g * phi - g * mobility_slope[i, j] * rise
+            elif kind[i, j] == CAVITY:
+                by_left = c
+            if kind[k, j] == FILM:
+                by_right = c * (1.0 - w) * excess_slope[k, j] - g * phi - g * mobility_slope[k, j] * rise
+            balance[i, j] += flow
+            balance[k, j] -= flow
+            centre[i, j] += by_left
+            to_east[i, j] += by_right
+            centre[k, j] -= by_right
+            to_west[k, j] -= by_left
+    for i in range(nx if ny > 1 else 0):
+        for j in range(ny if periodic_y else ny - 1):
+            k = j + 1 if j + 1 < ny else 0
+            g = 0.5 * north[i, j]
+            rise = pressure[i, k] - pressure[i, j]
+            phi = mobility[i, j] + mobility[i, k]
+            flow = -g * phi * rise
+            largest = max(largest, abs(flow))
+            by_left = g * phi - g * mobility_slope[i, j] * rise if kind[i, j] == FILM else 0.0
+            by_right = -g * phi - g * mobility_slope[i, k] * rise if kind[i, k] == FILM else 0.0
+            balance[i, j] += flow
+            balance[i, k] -= flow
+            centre[i, j] += by_left
+            to_north[i, j] += by_right
+            centre[i, k] -= by_right
+            to_south[i, k] -= by_left
+    for i in range(nx):
+        for j in range(ny):
+            if kind[i, j] >= FIXED:
+                centre[i, j] = 1.0
+                to_west[i, j] = to_east[i, j] = to_south[i, j] = to_north[i, j] = 0.0
+    return largest
+
+
+@compiled
+def advance(kind, pressure, fill, change):  # type: ignore[no-untyped-def]
+    """Add the change to the unknowns; where p < 0 the film ruptures, where ξ > 1 it begins. Returns how many did."""
+    changed = 0
+    for node in range(kind.size):
+        if kind[node] == FILM:
+            pressure[node] += change[node]
+            if pressure[node] < 0.0:
+                pressure[node] = 0.0
+                kind[node] = CAVITY
+                changed += 1
+        elif kind[node] == CAVITY:
+            fill[node] += change[node]
+            if fill[node] > 1.0:
+                fill[node] = 1.0
+                kind[node] = FILM
+                changed += 1
+    return changed
+
+
+@compiled
+def settle_inlet(kind, balance):  # type: ignore[no-untyped-def]
+    """Flood the inlet nodes that are full, let those dry that would need more than is brought. Returns how many."""
+    changed = 0
+    for j in range(kind.size):
+        if kind[j] == FILM:
+            kind[j] = FLOODED
+        elif kind[j] == FLOODED and balance[j] > 0.0:
+            kind[j] = CAVITY
+            changed += 1
+    return changed
+
+
+@compiled
+def along(lower, centre, upper, right_hand_side, scratch):  # type: ignore[no-untyped-def]
+    """Solve a tridiagonal system, lower[n] x[n-1] + centre[n] x[n] + upper[n] x[n+1] = right_hand_side[n], in place."""
+    n = centre.size
+    pivot = centre[0]
+    right_hand_side[0] /= pivot
+    for i in range(1, n):
+        scratch[i] = upper[i - 1] / pivot
+        pivot = centre[i] - lower[i] * scratch[i]
+        right_hand_side[i] = (right_hand_side[i] - lower[i] * right_hand_side[i - 1]) / pivot
+    for i in range(n - 2, -1, -1):
+        right_hand_side[i] -= scratch[i + 1] * right_hand_side[i + 1]

@@ -1,0 +1,146 @@
+"""From a film to its network: what every face lets through, from the film thickness inside it."""
+
+from dataclasses import dataclass
+from math import sqrt
+
+import numpy as np
+
+from rom.cavitation.grid import Grid
+from rom.cavitation.network import Network
+from rom.cavitation.shape import Shape
+from rom.gap import Array
+
+GAUSS = (-0.5 / sqrt(3), 0.5 / sqrt(3))
+"""Two points, in spacings from the middle: the integrals of h⁻² and h⁻³ over a face are exact to fourth order."""
+
+QUARTERS = (-0.25, 0.25)
+"""Of a control volume, where a face is sampled across the flow, so that a step at a node counts on both its sides."""
+
+BESIDE = (-1e-9, 1e-9)
+"""Of a spacing, where the film at a node is sampled: the mean of both sides of a step."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ends:
+    """What holds at the ends in x and y: pressures above that of cavitation, Pa, and how full the inlet is.
+
+    ``inlet`` is None where θ = ``theta`` <= 1 is brought instead of a pressure; ``sides`` is None where nothing flows
+    through them.
+    """
+
+    inlet: float | None = None
+    theta: float = 1.0
+    outlet: float = 0.0
+    sides: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Faces:
+    """The film between neighbouring nodes, shape (nx, ny): what does not change with speed, ends or pressure.
+
+    ``thickness`` of the nodes, m; ``mean`` = <h⁻²>/<h⁻³> between (i, j) and (i+1, j), which drives as much flow through
+    the face as the film does; ``east`` and ``north``: <h⁻³>⁻¹, m³, towards i+1 and j+1.
+    """
+
+    thickness: Array
+    mean: Array
+    east: Array
+    north: Array
+
+
+def faces(shape: Shape, grid: Grid) -> Faces:
+    """Sample the film thickness; the flow that follows is exact to fourth order where h is smooth along it."""
+    nx, ny = grid.shape
+    mean, east, north, thickness = (np.zeros((nx, ny)) for _ in range(4))
+    across = [0.0] if ny == 1 else QUARTERS
+    x, y = grid.x[:, None], grid.y
+    for part in BESIDE:
+        thickness += shape.thickness(*np.broadcast_arrays(x + _towards(grid, part), y)) / len(BESIDE)
+    last = nx if grid.spacing_x[-1] else nx - 1
+    dx, x = grid.spacing_x[:last, None], grid.x[:last, None]
+    for part in across:
+        squared, cubed = np.zeros((last, ny)), np.zeros((last, ny))
+        for point in GAUSS:
+            inverse = 1 / shape.thickness(*np.broadcast_arrays(x + (0.5 + point) * dx, y + part * grid.share_y))
+            square = inverse * inverse
+            squared += square
+            cubed += square * inverse
+        mean[:last] += squared / cubed / len(across)
+        east[:last] += len(GAUSS) / cubed / len(across)
+    if ny > 1:
+        last = ny if grid.spacing_y[-1] else ny - 1
+        dy, y = grid.spacing_y[:last], grid.y[:last]
+        for part in QUARTERS:
+            cubed = np.zeros((nx, last))
+            for point in GAUSS:
+                place = np.broadcast_arrays(grid.x[:, None] + _towards(grid, part), y + (0.5 + point) * dy)
+                cubed += shape.thickness(*place) ** -3
+            north[:, :last] += len(GAUSS) / cubed / len(QUARTERS)
+    return Faces(thickness=thickness, mean=mean, east=east, north=north)
+
+
+def _towards(grid: Grid, part: float) -> Array:
+    """From the nodes towards a quarter of their volumes, but never out of the film, shape (nx, 1)."""
+    if part > 0:
+        return part * grid.spacing_x[:, None]
+    before = np.append(grid.spacing_x[-1], grid.spacing_x[:-1])
+    return part * before[:, None]
+
+
+def network(
+    grid: Grid,
+    faces: Faces,
+    ends: Ends,
+    *,
+    speed: float,
+    viscosity: float,
+    compressibility: float,
+    storage: tuple[float, Array] | None = None,
+) -> Network:
+    """The network of a film.
+
+    Parameters
+    ----------
+    speed : of the sliding wall towards growing x, >= 0, m/s; rad/s where x is an angle.
+    viscosity : at the pressure of cavitation, Pa s.
+    compressibility : dθ/dp at the pressure of cavitation, 1/Pa.
+    storage : of transient flow: the time step, s, and θh of the step before, m, shape (nx, ny).
+    """
+    nx, ny = grid.shape
+    across = grid.share_y * grid.radius
+    couette = 0.5 * speed * across * faces.mean
+    with np.errstate(divide="ignore", invalid="ignore"):
+        east = faces.east * grid.share_y / (12 * viscosity * grid.radius * grid.spacing_x[:, None])
+        towards = (grid.radius + np.roll(grid.radius, -1)) / 2
+        north = faces.north * grid.share_x[:, None] * towards / (12 * viscosity * grid.spacing_y)
+        east[faces.east == 0] = north[faces.north == 0] = 0
+        upstream = np.maximum(0.5, 1 - east / (couette * compressibility))
+    upstream[couette * compressibility == 0] = 0.5
+    fixed, pressure = np.zeros((nx, ny), dtype=bool), np.zeros((nx, ny))
+    supply = None
+    if grid.spacing_x[-1] == 0:
+        fixed[-1], pressure[-1] = True, ends.outlet
+        if ends.inlet is None:
+            supply = 0.5 * speed * across * ends.theta * faces.thickness[0]
+        else:
+            fixed[0], pressure[0] = True, ends.inlet
+    if ends.sides is not None:
+        for j, side in zip((0, -1), ends.sides, strict=True):
+            fixed[:, j], pressure[:, j] = True, side
+        if supply is not None:
+            supply[[0, -1]] = 0
+    if supply is not None:
+        north[0] = 0
+    step, stored = (np.inf, np.zeros((nx, ny))) if storage is None else storage
+    return Network(
+        couette=couette,
+        upstream=upstream,
+        east=east,
+        north=north,
+        supply=supply,
+        fixed=fixed,
+        pressure=pressure,
+        storage=grid.areas * faces.thickness / step,
+        stored=grid.areas * stored / step,
+        periodic=(bool(grid.spacing_x[-1]), bool(grid.spacing_y[-1])),
+    )

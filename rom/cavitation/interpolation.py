@@ -1,0 +1,34 @@
+"""A state carried from one grid to another."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rom.cavitation.grid import Grid
+from rom.cavitation.network import State
+from rom.gap import Array
+
+
+def carried(state: State, coarse: Grid, fine: Grid, joined: tuple[bool, bool]) -> State:
+    """Linear in pressure and filled part; a node is film where its pressure then is above zero."""
+    x = _between(coarse.x, coarse.spacing_x, fine.x, joined=joined[0])
+    y = _between(coarse.y, coarse.spacing_y, fine.y, joined=joined[1])
+    pressure, fill = (_spread(_spread(values, *x).T, *y).T for values in (state.pressure, state.fill))
+    return State(pressure=np.ascontiguousarray(pressure), fill=np.where(pressure > 0, 1.0, fill))
+
+
+def _between(
+    known: Array, spacing: Array, wanted: Array, *, joined: bool
+) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
+    """The neighbours of every wanted place, and how far it is from the first to the second."""
+    if known.size == 1:
+        nothing = np.zeros(wanted.size, dtype=np.intp)
+        return nothing, nothing, np.zeros(wanted.size)
+    ends = np.append(known, known[-1] + spacing[-1]) if joined else known
+    left = np.clip(np.searchsorted(ends, wanted, side="right") - 1, 0, ends.size - 2)
+    part = (wanted - ends[left]) / (ends[left + 1] - ends[left])
+    return left, (left + 1) % known.size, np.clip(part, 0.0, 1.0)
+
+
+def _spread(values: Array, left: NDArray[np.intp], right: NDArray[np.intp], part: Array) -> Array:
+    weight = part.reshape(-1, *[1] * (values.ndim - 1))
+    return np.asarray(values[left] * (1 - weight) + values[right] * weight)

@@ -1,0 +1,29 @@
+"""A step of Newton's method for an infinitely wide film: a tridiagonal system."""
+
+import numpy as np
+
+from rom.cavitation.balance import along
+from rom.cavitation.network import Network
+from rom.cavitation.newton import Linear
+from rom.gap import Array
+
+
+def line_step(network: Network, linear: Linear, accuracy: float) -> Array:  # noqa: ARG001
+    """The change of every unknown, shape (nx, 1)."""
+    lower, centre, upper = (part[:, 0].copy() for part in (linear.west, linear.centre, linear.east))
+    change = -linear.balance[:, 0]
+    scratch = np.empty_like(change)
+    if not network.periodic[0]:
+        along(lower, centre, upper, change, scratch)
+        return change[:, None]
+    # Sherman and Morrison: the two corners are a product of vectors
+    first, last = lower[0], upper[-1]
+    shift = -centre[0]
+    centre[0] -= shift
+    centre[-1] -= first * last / shift
+    bent = np.zeros_like(change)
+    bent[0], bent[-1] = shift, last
+    along(lower, centre, upper, change, scratch)
+    along(lower, centre, upper, bent, scratch)
+    part = (change[0] + first / shift * change[-1]) / (1 + bent[0] + first / shift * bent[-1])
+    return np.asarray(change - part * bent)[:, None]

@@ -1,0 +1,62 @@
+"""The film as a network: nodes that hold lubricant, faces through which it flows."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rom.gap import Array
+
+
+@dataclass(frozen=True, kw_only=True)
+class Network:
+    """Nodes (i, j), sliding towards growing i, each with a control volume; all arrays of shape (nx, ny).
+
+    With p the pressure above that of cavitation, θ = ξ + ϑ(p), ξ <= 1 the filled part (1 where p > 0) and ϑ the
+    compression, what flows through the face from (i, j) to (i+1, j) is
+
+        F = C (ξ_i + ω ϑ_i + (1 - ω) ϑ_(i+1)) - K φ (p_(i+1) - p_i),    φ = mean of (1 + ϑ) η0/η of the two nodes,
+
+    in m³/s at the density of the cavitation pressure; towards (i, j+1) it is the second part alone. The liquid that
+    fills a node comes from upstream, its compression from both sides: F is continuous where a film begins or ends, and
+    of second order inside it.
+
+    Attributes
+    ----------
+    couette : C of the face towards i+1, m³/s; of the last i only if periodic.
+    upstream : ω, 1/2 but where cells are so coarse that compression travels faster than pressure.
+    east, north : K of the faces towards i+1 and j+1, m³/(Pa s); of the last i or j only if periodic.
+    supply : what the inlet brings to the nodes i = 0, m³/s, shape (ny,); None if these are fixed, or x is periodic.
+    fixed : where ``pressure``, Pa, is given.
+    storage : volume over time step, m³/s; zero in steady flow. ``stored``: the same of the step before, times its θ.
+    periodic : in i, in j.
+    """
+
+    couette: Array
+    upstream: Array
+    east: Array
+    north: Array
+    supply: Array | None
+    fixed: NDArray[np.bool_]
+    pressure: Array
+    storage: Array
+    stored: Array
+    periodic: tuple[bool, bool] = (False, False)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """(nx, ny)."""
+        return self.couette.shape[0], self.couette.shape[1]
+
+    @property
+    def supplied(self) -> Array:
+        """``supply``, empty where there is none."""
+        return np.zeros(0) if self.supply is None else self.supply
+
+
+@dataclass(frozen=True, kw_only=True)
+class State:
+    """Pressure above that of cavitation, Pa, and filled part ξ of every node, shape (nx, ny)."""
+
+    pressure: Array
+    fill: Array

@@ -1,0 +1,52 @@
+"""A film to be solved: where it is, what slides, what is in it, what holds at its ends."""
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from rom.cavitation.discretise import Ends
+from rom.cavitation.shape import Shape
+from rom.gap import Array
+from rom.lubricants.compressibility import Compressibility, Incompressible
+from rom.lubricants.viscosity import ConstantViscosity, Piezoviscosity
+
+
+@dataclass(frozen=True, kw_only=True)
+class Problem:
+    """Steady flow of one lubricant between a shaped still wall and a flat sliding one.
+
+    Attributes
+    ----------
+    shape : the film.
+    ends : what holds at its ends; the inlet is where sliding brings lubricant from.
+    speed : of the sliding wall, m/s, or rad/s where x is an angle; below zero it slides towards falling x.
+    viscosity : η0, at the pressure of cavitation, Pa s.
+    compressibility, piezoviscosity : what pressure does to density and viscosity.
+    """
+
+    shape: Shape
+    ends: Ends
+    speed: float
+    viscosity: float
+    compressibility: Compressibility = field(default_factory=Incompressible)
+    piezoviscosity: Piezoviscosity = field(default_factory=ConstantViscosity)
+
+    def compression(self, pressure: Array) -> tuple[Array, Array]:
+        """ϑ = θ - 1 and dθ/dp, 1/Pa."""
+        return self.compressibility.compression(pressure)
+
+    def mobility(self, pressure: Array) -> tuple[Array, Array]:
+        """φ = θ η0/η and dφ/dp, 1/Pa."""
+        excess, excess_slope = self.compressibility.compression(pressure)
+        fluidity, fluidity_slope = self.piezoviscosity.fluidity(pressure, self.viscosity)
+        return (1 + excess) * fluidity, excess_slope * fluidity + (1 + excess) * fluidity_slope
+
+    @property
+    def initial_compressibility(self) -> float:
+        """dθ/dp at the pressure of cavitation, 1/Pa."""
+        return float(self.compressibility.compression(np.zeros(1))[1][0])
+
+
+def unchanging(problem: Problem) -> Problem:
+    """The same film, of a lubricant that pressure does nothing to."""
+    return replace(problem, compressibility=Incompressible(), piezoviscosity=ConstantViscosity())

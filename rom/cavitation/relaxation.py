@@ -1,0 +1,95 @@
+"""Node after node brought into balance: slow, but it comes near from any start, as the balances are an M-function."""
+
+import numpy as np
+
+from contact.compiled import compiled
+from rom.cavitation.balance import CAVITY, FILM, FIXED
+from rom.cavitation.fluid import Fluid
+from rom.cavitation.network import Network, State
+
+
+@compiled
+def relax(couette, upstream, east, north, storage, stored, supply, periodic_x, periodic_y, kind, pressure, fill, excess, excess_slope, mobility, sweeps):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
+    """Nonlinear Gauss–Seidel, along the flow, with φ held and ϑ linear about the start. ``excess`` follows.
+
+    Every node takes the pressure that balances it or, if that is negative, the filled part that does: p >= 0, ξ <= 1.
+    Source: Elrod and Adams 1975 for the two cases; Ortega and Rheinboldt 1970, theorem 13.5.9, for convergence.
+    """
+    nx, ny = couette.shape
+    for _ in range(sweeps):
+        for i in range(nx):
+            before = i - 1 if i > 0 else (nx - 1 if periodic_x else -1)
+            after = i + 1 if i + 1 < nx else (0 if periodic_x else -1)
+            for j in range(ny):
+                if kind[i, j] == FIXED:
+                    continue
+                source = stored[i, j]
+                drain = 0.0
+                out = storage[i, j]
+                weight = storage[i, j]
+                if before >= 0:
+                    c, w = couette[before, j], upstream[before, j]
+                    g = 0.5 * east[before, j] * (mobility[before, j] + mobility[i, j])
+                    source += c * (fill[before, j] + w * excess[before, j]) + g * pressure[before, j]
+                    drain += g
+                    weight -= c * (1.0 - w)
+                elif supply.size:
+                    source += supply[j]
+                if after >= 0:
+                    c, w = couette[i, j], upstream[i, j]
+                    g = 0.5 * east[i, j] * (mobility[i, j] + mobility[after, j])
+                    source += g * pressure[after, j] - c * (1.0 - w) * excess[after, j]
+                    drain += g
+                    out += c
+                    weight += c * w
+                for side in range(2 if ny > 1 else 0):
+                    if side == 0:
+                        k = j - 1 if j > 0 else (ny - 1 if periodic_y else -1)
+                        g = north[i, k] if k >= 0 else 0.0
+                    else:
+                        k = j + 1 if j + 1 < ny else (0 if periodic_y else -1)
+                        g = north[i, j]
+                    if k >= 0:
+                        g *= 0.5 * (mobility[i, j] + mobility[i, k])
+                        source += g * pressure[i, k]
+                        drain += g
+                left = source - out
+                film = 0.0
+                if left > 0.0 and not (i == 0 and supply.size):
+                    slope = weight * excess_slope[i, j]
+                    film = (left - weight * excess[i, j] + slope * pressure[i, j]) / (drain + slope)
+                if film > 0.0:
+                    excess[i, j] = max(0.0, excess[i, j] + excess_slope[i, j] * (film - pressure[i, j]))
+                    pressure[i, j] = film
+                    fill[i, j] = 1.0
+                    kind[i, j] = FILM
+                else:
+                    pressure[i, j] = excess[i, j] = 0.0
+                    fill[i, j] = min(1.0, source / out) if out > 0.0 else 1.0
+                    kind[i, j] = CAVITY
+
+
+def relaxed(network: Network, fluid: Fluid, state: State, sweeps: int) -> State:
+    """A state after some sweeps."""
+    pressure = np.where(network.fixed, network.pressure, state.pressure)
+    fill = state.fill.copy()
+    kind = np.where(network.fixed, np.int8(FIXED), np.where(fill < 1, np.int8(CAVITY), np.int8(FILM)))
+    excess, slope = fluid.compression(pressure)
+    relax(
+        network.couette,
+        network.upstream,
+        network.east,
+        network.north,
+        network.storage,
+        network.stored,
+        network.supplied,
+        *network.periodic,
+        kind,
+        pressure,
+        fill,
+        excess.copy(),
+        slope,
+        fluid.mobility(pressure)[0],
+        sweeps,
+    )
+    return State(pressure=pressure, fill=fill)

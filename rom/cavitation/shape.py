@@ -1,0 +1,35 @@
+"""Where the film is: its thickness over the plane that both walls share, cartesian or polar."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from rom.gap import Array
+
+Thickness = Callable[[Array, Array], Array]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shape:
+    """A film of thickness h(x, y), m, over a rectangle of the plane, or of (angle, radius).
+
+    Attributes
+    ----------
+    thickness : thickness(x, y), vectorised; x in m, or rad where ``polar``; y in m.
+    breaks : where h or its slope jumps in x, from one end to the other, increasing; a node stands at each.
+    across : the range of y, m; for an infinitely wide film any range, over which nothing is cut.
+    wide : infinitely wide: h(x) alone counts, and flow is per width.
+    polar : x is an angle, rad, and y the radius, m.
+    joined : whether the ends in x are the same place, and those in y.
+    """
+
+    thickness: Thickness
+    breaks: tuple[float, ...]
+    across: tuple[float, float] = (0.0, 1.0)
+    wide: bool = True
+    polar: bool = False
+    joined: tuple[bool, bool] = (False, False)
+
+    @property
+    def length(self) -> float:
+        """Extent in x, m or rad."""
+        return self.breaks[-1] - self.breaks[0]

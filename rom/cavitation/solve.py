@@ -1,0 +1,151 @@
+"""Steady films: solved on grid after finer grid, each the start of the next."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rom.cavitation.discretise import Faces, faces, network
+from rom.cavitation.grid import Grid, grid
+from rom.cavitation.interpolation import carried
+from rom.cavitation.line import line_step
+from rom.cavitation.network import Network, State
+from rom.cavitation.newton import settle
+from rom.cavitation.plane import plane_step
+from rom.cavitation.problem import Problem
+from rom.cavitation.relaxation import relaxed
+
+COARSEST = 16
+"""Cells along each side where it begins, from a film everywhere at the pressure of cavitation."""
+
+COLD, WARM = 400, 6
+"""Sweeps of relaxation before Newton's method, on the coarsest grid and on all others."""
+
+TOLERANCE = 1e-9
+"""Of the residual, by default."""
+
+Progress = Callable[[float, str], None]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Level:
+    """What one grid gave: nodes, steps of Newton's method, and the integral of p over the film, N (N/m if wide)."""
+
+    shape: tuple[int, int]
+    iterations: int
+    load: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Solution:
+    """A film in balance, on its grid; pressures are above that of cavitation, x grows with sliding.
+
+    ``turned`` says that the wall slid towards falling x: ``problem`` is then the mirrored one.
+    ``residual`` is the largest net flow into a node over the largest through a face, recomputed at the end.
+    ``coarser`` is the solution on the grid before, which has none of its own.
+    """
+
+    problem: Problem
+    turned: bool
+    grid: Grid
+    faces: Faces
+    network: Network
+    state: State
+    kind: NDArray[np.int8]
+    residual: float
+    levels: tuple[Level, ...]
+    coarser: "Solution | None"
+
+
+def solve(
+    problem: Problem,
+    cells: tuple[int, int],
+    *,
+    tolerance: float = TOLERANCE,
+    start: State | None = None,
+    ruptures: bool = True,
+    progress: Progress = lambda _fraction, _words: None,
+) -> Solution:
+    """Solve (u/2) ∂(θh)/∂x - ∇·(θh³/12η ∇p) = 0 where p > 0, and its first part alone with p = 0 where θ < 1.
+
+    Load and pressure are of second order in the cells. Sliding towards falling x is solved mirrored.
+
+    Parameters
+    ----------
+    cells : in x and in y; the latter do not count where the film is infinitely wide.
+    start : of another solution, to begin from on the grid asked for; by default it is sought on coarser ones.
+    ruptures : whether the film ruptures; without, it bears any tension, and the inlet is full.
+
+    Raises
+    ------
+    ConvergenceError
+        If the residual does not meet the tolerance: no result leaves that does not balance.
+
+    Sources: Jakobsson and Floberg 1957; Elrod 1981, doi:10.1115/1.3251669; Sahlin et al. 2007,
+    doi:10.1016/j.triboint.2007.02.021.
+    """
+    turned = problem.speed < 0
+    if turned:
+        problem = mirrored(problem)
+    wide = problem.shape.wide
+    sizes = [cells] if start is not None else _coarsening(cells, wide=wide)
+    work = [float(nx * (1 if wide else ny)) for nx, ny in sizes]
+    if not ruptures:
+        problem = replace(problem, ends=replace(problem.ends, inlet=problem.ends.inlet or 0.0))
+    levels: list[Level] = []
+    state = start or State(pressure=np.zeros((0, 0)), fill=np.ones((0, 0)))
+    found: Solution | None = None
+    for number, size in enumerate(sizes):
+        progress(sum(work[:number]) / sum(work), " × ".join(map(str, size[:1] if wide else size)) + " cells")
+        nodes = grid(problem.shape, size)
+        sampled = faces(problem.shape, nodes)
+        net = network(
+            nodes,
+            sampled,
+            problem.ends,
+            speed=problem.speed,
+            viscosity=problem.viscosity,
+            compressibility=problem.initial_compressibility,
+        )
+        if found is not None:
+            state = carried(found.state, found.grid, nodes, problem.shape.joined)
+        elif start is None:
+            state = State(pressure=np.zeros(net.shape), fill=np.ones(net.shape))
+        if ruptures:
+            state = relaxed(net, problem, state, COLD if found is None and start is None else WARM)
+        settled = settle(net, problem, state, line_step if wide else plane_step, tolerance=tolerance, ruptures=ruptures)
+        load = float((nodes.areas * settled.state.pressure).sum())
+        levels.append(Level(shape=nodes.shape, iterations=settled.iterations, load=load))
+        found = Solution(
+            problem=problem,
+            turned=turned,
+            grid=nodes,
+            faces=sampled,
+            network=net,
+            state=settled.state,
+            kind=settled.kind,
+            residual=settled.residual,
+            levels=tuple(levels),
+            coarser=None if found is None else replace(found, coarser=None),
+        )
+    assert found is not None
+    return found
+
+
+def _coarsening(cells: tuple[int, int], *, wide: bool) -> list[tuple[int, int]]:
+    """From the coarsest grid to the one that is asked for, each side about doubled at a time."""
+    sizes = [cells]
+    while max(sizes[-1][:1] if wide else sizes[-1]) > COARSEST:
+        nx, ny = sizes[-1]
+        sizes.append((max(-(-nx // 2), min(nx, COARSEST)), max(-(-ny // 2), min(ny, COARSEST))))
+    return sizes[::-1]
+
+
+def mirrored(problem: Problem) -> Problem:
+    """The same film with x turned round; it slides the other way."""
+    shape = problem.shape
+    low, high = shape.breaks[0], shape.breaks[-1]
+    breaks = tuple(low + high - place for place in reversed(shape.breaks))
+    turned = replace(shape, breaks=breaks, thickness=lambda x, y: shape.thickness(low + high - x, y))
+    return replace(problem, shape=turned, speed=-problem.speed)

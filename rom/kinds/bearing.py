@@ -1,0 +1,85 @@
+"""Bearings: load and friction of a film that may rupture."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact.units import Quantity
+from rom.bearing import Bearing
+from rom.kind import Kind
+from rom.sweeping import Columns, Powers, Sweeping
+
+NEVER_COMPRESSED = 1e-12
+"""p dθ/dp that stands for an incompressible lubricant."""
+
+SYMBOLS = {"compression": "ϑ", "starvation": "θ", "slenderness": "B/L"}
+
+
+def scale(values: Mapping[str, Any], quantity: str) -> Any:
+    """The size of a quantity."""
+    return np.abs(values[quantity])
+
+
+def columns(scene: Bearing) -> dict[str, Quantity | str]:
+    """The shape, how dense the inlet is, 6ηuL/h², how much that compresses, and width over length if there is one."""
+    theta = scene.boundary.inlet.theta
+    numbers = {
+        "inlet_theta": 1.0 if theta is None else theta,
+        "compression": float(scene.problem().compression(np.array([scene.pressure_unit]))[0][0]),
+    }
+    if scene.geometry.width is not None:
+        numbers["width_ratio"] = scene.geometry.width / scene.geometry.length
+    return {
+        "shape": scene.geometry.shape,
+        "pressure_unit": Quantity(value=scene.pressure_unit, unit="Pa"),
+        **{name: Quantity(value=float(f"{number:.12g}"), unit="1") for name, number in numbers.items()},
+    }
+
+
+def features(given: Columns) -> dict[str, NDArray[Any]]:
+    """θ of the inlet, ϑ at 6ηuL/h², and B/L; ``given`` as in :func:`columns`."""
+    return {
+        "starvation": given["inlet_theta"],
+        "compression": np.maximum(given["compression"], NEVER_COMPRESSED),
+        "slenderness": given["width_ratio"],
+    }
+
+
+def worth(values: Columns) -> NDArray[np.bool_]:
+    """Every case with a film."""
+    return np.asarray(values["pressure_max"] > 0)
+
+
+def words(powers: Powers) -> str:
+    """A product of powers as people write it."""
+    return " · ".join(SYMBOLS[name] if power == 1 else f"({SYMBOLS[name]})^{power:g}" for name, power in powers.items())
+
+
+KIND = Kind(
+    name="bearing",
+    scene=Bearing,
+    summary="a film between a shaped wall and a sliding one, which may rupture",
+    compared={"load_per_width": "load", "friction_per_width": "friction"},
+    scale=scale,
+    columns=columns,
+    files=frozenset({"table"}),
+    replaces={
+        "boundary.inlet.theta": ("pressure",),
+        "boundary.inlet.pressure": ("theta",),
+    },
+    sweeping=Sweeping(
+        given={"shape": None, "inlet_theta": 1.0, "compression": NEVER_COMPRESSED, "width_ratio": 1e3},
+        quantities=("load_per_width", "friction_per_width", "pressure_max"),
+        features=features,
+        worth=worth,
+        candidates={
+            "θ": {"starvation": 1},
+            "ϑ": {"compression": 1},
+            "B/L": {"slenderness": 1},
+        },
+        fitted=("starvation", "compression", "slenderness"),
+        words=words,
+    ),
+)

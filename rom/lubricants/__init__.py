@@ -1,0 +1,1 @@
+"""How density and viscosity of a lubricant grow with pressure."""

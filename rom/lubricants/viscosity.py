@@ -1,0 +1,51 @@
+"""Laws of viscosity over pressure as data: η0/η, which is 1 at the pressure of cavitation."""
+
+from typing import Annotated, Literal
+
+import numpy as np
+
+from contact.entries import InUnit, Part, PositiveNumber
+from rom.gap import Array
+
+PressureCoefficient = Annotated[float, InUnit("1/Pa")]
+LOG_VISCOSITY, ROELANDS_PRESSURE = 9.67, 1.962e8
+"""Roelands' constants: η = exp(-9.67) Pa s where all isotherms meet, at -0.1962 GPa."""
+
+
+class ConstantViscosity(Part):
+    """η = η0."""
+
+    law: Literal["constant"] = "constant"
+
+    def fluidity(self, pressure: Array, viscosity: float) -> tuple[Array, Array]:  # noqa: ARG002
+        """η0/η and its derivative, 1/Pa; shape of ``pressure``."""
+        return np.ones_like(pressure), np.zeros_like(pressure)
+
+
+class Barus(Part):
+    """η = η0 exp(α p), with α in 1/Pa; below about 0.1 GPa. Source: Barus 1893."""
+
+    law: Literal["barus"]
+    pressure_coefficient: PressureCoefficient
+
+    def fluidity(self, pressure: Array, viscosity: float) -> tuple[Array, Array]:  # noqa: ARG002
+        """η0/η and its derivative, 1/Pa; shape of ``pressure``."""
+        found = np.exp(-self.pressure_coefficient * pressure)
+        return found, -self.pressure_coefficient * found
+
+
+class Roelands(Part):
+    """η = η0 exp((ln η0 + 9.67) ((1 + p/0.1962 GPa)^Z - 1)), η0 in Pa s; to about 1 GPa. Source: Roelands 1966."""
+
+    law: Literal["roelands"]
+    index: PositiveNumber
+
+    def fluidity(self, pressure: Array, viscosity: float) -> tuple[Array, Array]:
+        """η0/η and its derivative, 1/Pa; shape of ``pressure``."""
+        depth = np.log(viscosity) + LOG_VISCOSITY
+        base = 1 + pressure / ROELANDS_PRESSURE
+        found = np.exp(-depth * (base**self.index - 1))
+        return found, -found * depth * self.index * base ** (self.index - 1) / ROELANDS_PRESSURE
+
+
+Piezoviscosity = ConstantViscosity | Barus | Roelands

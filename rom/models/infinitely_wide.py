@@ -1,0 +1,32 @@
+"""A bearing of finite width as if nothing flowed out at its sides: one line of the film stands for all."""
+
+from dataclasses import replace
+
+from rom.bearing import Bearing
+from rom.bearing_rung import bearing_model
+from rom.cavitation.problem import Problem
+from rom.ladder import Applicability, Effect
+
+
+def one_line(problem: Problem) -> Problem:
+    """The film along its middle, infinitely wide."""
+    return replace(problem, shape=replace(problem.shape, wide=True), ends=replace(problem.ends, sides=None))
+
+
+def applies(scene: Bearing) -> Applicability:
+    """Where there are sides; says how far they are."""
+    width = scene.geometry.width
+    if width is None:
+        return Applicability(applies=False, reason="the bearing is infinitely wide: reynolds_cavitating solves a line")
+    ratio = width / scene.geometry.length
+    return Applicability(applies=True, reason=f"leaves out flow through the sides: width over length = {ratio:.3g}")
+
+
+MODEL = bearing_model(
+    name="infinitely_wide",
+    summary="one line of the film, with cavitation and any compressibility, without flow through the sides",
+    keeps=frozenset({Effect.CAVITATION, Effect.PRESSURE_DEPENDENCE}),
+    applies=applies,
+    simplified=one_line,
+    wide=True,
+)

@@ -1,0 +1,27 @@
+"""The Reynolds equation with cavitation, for a lubricant that pressure does nothing to."""
+
+import numpy as np
+
+from rom.bearing import Bearing
+from rom.bearing_rung import bearing_model
+from rom.cavitation.problem import unchanging
+from rom.ladder import Applicability, Effect
+
+
+def applies(scene: Bearing) -> Applicability:
+    """Always; says how much density and viscosity would change."""
+    problem = scene.problem()
+    pressure = np.array([scene.pressure_unit / 10])
+    denser = float(problem.compression(pressure)[0][0])
+    thicker = 1 / float(problem.piezoviscosity.fluidity(pressure, problem.viscosity)[0][0]) - 1
+    told = f"density by {100 * denser:.2g} % and viscosity by {100 * thicker:.2g} % at {pressure[0]:.2g} Pa"
+    return Applicability(applies=True, reason=f"leaves out what pressure does to the lubricant: {told}")
+
+
+MODEL = bearing_model(
+    name="reynolds_incompressible",
+    summary="Reynolds equation with mass-conserving cavitation, incompressible",
+    keeps=frozenset({Effect.SIDE_FLOW, Effect.CAVITATION}),
+    applies=applies,
+    simplified=unchanging,
+)
