@@ -136,7 +136,7 @@ def _begins(found: Solution, row: int, first: int, x: Array) -> float:
 
 
 def _ends(found: Solution, row: int, last: int, x: Array) -> float:
-    """Where θ, going back from the nodes behind the film, is 1; the film ends between its last node and the second behind it."""
+    """Where θ, going back from the nodes behind the film, is 1: between its last node and the second behind it."""
     if last + 2 >= x.size:
         return float(x[min(last + 1, x.size - 1)])
     theta = _carried(found)[:, row]
