@@ -11,8 +11,9 @@ from rom.bearing_geometry import SHAPES, AnyShape, Journal, Sector
 from rom.cavitation.discretise import Ends
 from rom.cavitation.problem import Problem
 from rom.kind import Scene
-from rom.lubricants.compressibility import Compressibility, Incompressible
-from rom.lubricants.viscosity import ConstantViscosity, Piezoviscosity
+from rom.lubricants.compressibility import Incompressible
+from rom.lubricants.laws import Compressibility, Piezoviscosity
+from rom.lubricants.viscosity import ConstantViscosity
 
 
 def _any(value: float) -> float:

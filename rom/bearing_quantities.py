@@ -79,8 +79,11 @@ def friction(found: Solution) -> float:
     fluidity = problem.piezoviscosity.fluidity(found.state.pressure, problem.viscosity)[0]
     stretch = grid.spacing_x[:, None] * grid.radius
     speed = problem.speed * (grid.radius if problem.shape.polar else 1.0)
+    fill = found.state.fill
+    if problem.ends.sides is not None:  # the line where the bath begins is no part of the film
+        fill = np.pad(fill[:, 1:-1], ((0, 0), (1, 1)), mode="edge")
     with np.errstate(divide="ignore"):
-        shear = np.where(mean > 0, problem.viscosity * speed * found.state.fill / mean, 0.0)
+        shear = np.where(mean > 0, problem.viscosity * speed * fill / mean, 0.0)
     shear = shear * (1 / fluidity + np.roll(1 / fluidity, -1, axis=0)) / 2
     rise = np.roll(found.state.pressure, -1, axis=0) - found.state.pressure
     return float((grid.share_y * (shear * stretch + mean / 2 * rise)).sum())

@@ -1,26 +1,19 @@
 """The measured profile of a groove: depth at points along the wall, checked, and read from a file."""
 
-import csv
 import math
-import re
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from contact.entries import plain_number
-from contact.units import to_si
+from rom.two_columns import MOST, read_rows
 
 Points = tuple[tuple[float, float], ...]
 """(position, depth) in m."""
 
-FEWEST, MOST = 3, 2000
-LARGEST = 1_000_000
-"""Bytes; a longer file is refused unread."""
-
+FEWEST = 3
+COLUMNS = {"position": "m", "depth": "m"}
 HEADER = "position (um), depth (um)"
-_COLUMN = re.compile(r"(\w{1,20}) ?[(\[]([^()\[\]]{1,40})[)\]]")
 
 
 def checked(points: object) -> Points:
@@ -30,7 +23,7 @@ def checked(points: object) -> Points:
     """
     if isinstance(points, str):
         try:
-            return checked(read_rows(Path(points)))
+            return checked(read_rows(Path(points), COLUMNS, header=HEADER))
         except ValueError as error:
             raise ValueError(f"file {points!r:.200}: {error}") from error
     if not isinstance(points, list | tuple):
@@ -61,68 +54,3 @@ def _row(row: Any, number: int) -> tuple[float, float]:
     if not (math.isfinite(place) and math.isfinite(depth)):
         raise ValueError(f"got {row!r} as point {number}; both numbers must be finite")
     return place, depth
-
-
-def read_rows(path: Path) -> list[list[float]]:
-    """The rows of a file: NPY of shape (n, 2) in m, or else CSV whose header gives two names and units.
-
-    Such a header is ``position (um), depth (um)``. Raises ValueError that says what is wrong in the file.
-    """
-    try:
-        path = path.expanduser()
-        if not path.is_file():
-            raise ValueError("is not there; name a file of points" if not path.exists() else "is no file; name one")
-        if path.stat().st_size > LARGEST:
-            raise ValueError(f"is larger than {LARGEST} bytes; {MOST} points are the most, thin them out")
-        return _read_npy(path) if path.suffix.lower() == ".npy" else _read_csv(path)
-    except OSError as error:
-        raise ValueError(f"cannot be read ({error.strerror or error}); check its permissions") from error
-    except RuntimeError as error:
-        raise ValueError("has a home that is not known; write the path out") from error
-
-
-def _read_npy(path: Path) -> list[list[float]]:
-    try:
-        # A map, since it refuses a header that claims more than the file holds before any memory is taken.
-        array = np.lib.format.open_memmap(path, mode="r")
-    except Exception as error:  # a damaged header ends in many kinds of error
-        raise ValueError("is no NPY array; save one of shape (n, 2) with numpy.save") from error
-    if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "fiu":
-        raise ValueError(
-            f"got {array.dtype} of shape {array.shape}; save numbers of shape (n, 2), position and depth in m"
-        )
-    return [[float(value) for value in row] for row in array]
-
-
-def _read_csv(path: Path) -> list[list[float]]:
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise ValueError(f"byte {error.start} is not UTF-8; save the points as UTF-8 text") from error
-    try:
-        lines = [(number, row) for number, row in enumerate(csv.reader(text.splitlines()), 1) if any(row)]
-    except csv.Error as error:
-        raise ValueError(f"is no CSV ({error}); write lines such as: 12.5, 3.2") from error
-    if not lines:
-        raise ValueError(f"is empty; begin with the line: {HEADER}")
-    units = _units(lines[0][1])
-    rows = []
-    for number, row in lines[1:]:
-        if len(row) != 2:
-            raise ValueError(f"line {number}: got {len(row)} columns; write two, position and depth")
-        try:
-            rows.append([to_si(f"{cell.strip()} {unit}", "m") for cell, unit in zip(row, units, strict=True)])
-        except ValueError as error:
-            raise ValueError(f"line {number}: {error}") from None
-    return rows
-
-
-def _units(header: list[str]) -> list[str]:
-    columns = [_COLUMN.fullmatch(cell.strip()) for cell in header]
-    names = [column[1].lower() for column in columns if column]
-    if names != ["position", "depth"] or len(header) != 2:
-        raise ValueError(f"line 1: got {', '.join(header)!r:.60}; write two columns with units, such as: {HEADER}")
-    units = [column[2] for column in columns if column]
-    for unit in units:
-        to_si(f"1 {unit}", "m")
-    return units

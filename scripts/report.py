@@ -14,7 +14,7 @@ from contact.errors import InputError
 from contact.files import replacing
 from rom.gap import Array
 from rom.kind import kinds
-from rom.ladder import best
+from rom.ladder import best, of_kind
 from rom.ordering import Ordering, fitted_powers, ordering
 from rom.provenance import machine
 from rom.sweep import Sweep, loaded, read_sweep, relative_error, sweeping
@@ -71,17 +71,17 @@ def command(
 
 
 def _kind(table: Mapping[str, Any]) -> str:
-    """The kind of scene that the models of a table solve."""
-    names = set(table.get("model", ()))
-    found = next((model.kind for model in models() if model.name in names), None)
-    if found is None:
-        raise InputError("the table holds no results of this ladder; run the study again")
-    return found
+    """The kind of the scenes of a table."""
+    found = set(map(str, table.get("kind", ())))
+    if len(found) != 1 or not found <= set(kinds()):
+        raise InputError("the table does not say which kind of scenes it holds; run the study again")
+    return found.pop()
 
 
 def _reference(sweep: Sweep) -> str:
     """The best rung of the sweep, at its finest and best scheme: the one named first in the study."""
-    top = best([model for model in models() if any(name.split("-")[0] == model.name for name in sweep.found)])
+    ladder = of_kind(models(), sweep.kind)
+    top = best([model for model in ladder if any(name.split("-")[0] == model.name for name in sweep.found)])
     named = [name for name in sweep.found if name.split("-")[0] == top.name]
     return next((name for scheme in top.schemes for name in named if scheme in name.split("-")), named[-1])
 

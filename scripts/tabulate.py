@@ -34,6 +34,7 @@ def row_of(keys: Mapping[str, Key], case: Case, job: Job, answer: Result | Failu
         scheme, resolution = setting.scheme or "", setting.resolution or setting.model.resolution_of(case.scene)
     asked: dict[str, Cell] = {
         "case": job.path.parent.name,
+        "kind": case.scene.kind,
         "setting": setting.name,
         "model": setting.model.name,
         "scheme": scheme,

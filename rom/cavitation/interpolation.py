@@ -10,10 +10,15 @@ from rom.gap import Array
 
 def carried(state: State, coarse: Grid, fine: Grid, joined: tuple[bool, bool]) -> State:
     """Linear in pressure and filled part; a node is film where its pressure then is above zero."""
-    x = _between(coarse.x, coarse.spacing_x, fine.x, joined=joined[0])
-    y = _between(coarse.y, coarse.spacing_y, fine.y, joined=joined[1])
-    pressure, fill = (_spread(_spread(values, *x).T, *y).T for values in (state.pressure, state.fill))
-    return State(pressure=np.ascontiguousarray(pressure), fill=np.where(pressure > 0, 1.0, fill))
+    pressure, fill = (interpolated(values, coarse, fine, joined) for values in (state.pressure, state.fill))
+    return State(pressure=pressure, fill=np.where(pressure > 0, 1.0, fill))
+
+
+def interpolated(values: Array, known: Grid, wanted: Grid, joined: tuple[bool, bool]) -> Array:
+    """Values of the nodes of one grid at those of another, linear in x and y; shape of the latter."""
+    x = _between(known.x, known.spacing_x, wanted.x, joined=joined[0])
+    y = _between(known.y, known.spacing_y, wanted.y, joined=joined[1])
+    return np.ascontiguousarray(_spread(_spread(values, *x).T, *y).T)
 
 
 def _between(

@@ -1,24 +1,144 @@
-"""A step of Newton's method in the plane."""
+"""A step of Newton's method in the plane: filled parts eliminated along the flow, pressures by a Krylov method.
+
+With cavities (c) and film (f) apart, a step solves
+
+    A_ff δp + A_fc δξ = r_f,    A_cf δp + A_cc δξ = r_c.
+
+A_cc is bidiagonal along the flow, so a sweep applies its inverse; what is left, (A_ff − A_fc A_cc⁻¹ A_cf) δp, goes to
+BiCGSTAB. It is near a symmetric operator: the pressure flow inside the film, with p = 0 where the film ends, but
+no condition where it begins, as there a cavity brings what it brings whatever the pressure. Multigrid inverts it.
+"""
 
 import numpy as np
-import scipy.sparse as sp
-import scipy.sparse.linalg as sl
+from scipy.sparse.linalg import LinearOperator, bicgstab
+
+from contact.compiled import compiled
+from contact.errors import ConvergenceError, Outcome
+from rom.cavitation.balance import CAVITY, FILM
+from rom.cavitation.network import Network
+from rom.cavitation.newton import Linear
+from rom.gap import Array
+from rom.multigrid.multigrid import Multigrid
+
+REDUCTION = 1e-4
+"""Of the residual in a step: as the film's ends still move, more would be in vain."""
+
+LIMIT = 200
+"""Iterations of BiCGSTAB."""
 
 
-def plane_step(network, linear, accuracy):
-    nx, ny = network.shape
-    n = nx * ny
-    idx = np.arange(n).reshape(nx, ny)
-    rows = np.concatenate([idx.ravel()] * 5)
-    cols = np.concatenate(
-        [
-            idx.ravel(),
-            np.roll(idx, 1, 0).ravel(),
-            np.roll(idx, -1, 0).ravel(),
-            np.roll(idx, 1, 1).ravel(),
-            np.roll(idx, -1, 1).ravel(),
-        ]
+def plane_step(network: Network, linear: Linear, accuracy: float) -> Array:
+    """The change of every unknown, shape (nx, ny); ConvergenceError where the Krylov method stalls."""
+    shape, size = network.shape, network.couette.size
+    parts = (linear.kind, linear.centre, linear.west, linear.east, linear.south, linear.north)
+    source = -linear.balance
+    nothing = np.zeros(shape)
+    values, image = np.zeros(shape), np.zeros(shape)
+
+    def product(pressure: Array) -> Array:
+        values[:] = pressure.reshape(shape)
+        carry(*parts, network.periodic[0], nothing, values)
+        film_image(*parts, values, image)
+        return image.reshape(size).copy()
+
+    carry(*parts, network.periodic[0], source, values)
+    film_image(*parts, values, image)
+    wanted = np.where(linear.kind == FILM, source - image, 0.0)
+    size_of = float(np.linalg.norm(wanted)) or 1.0
+    inverse = Multigrid(*conductances(network, linear), periodic=network.periodic)
+    pressure, failed = bicgstab(
+        LinearOperator((size, size), matvec=product, dtype=float),
+        wanted.reshape(size) / size_of,  # breakdown is judged by absolute size
+        rtol=REDUCTION,
+        atol=accuracy / 10 / size_of,
+        maxiter=LIMIT,
+        M=LinearOperator((size, size), matvec=lambda one: inverse.cycle(one.reshape(shape)).reshape(size), dtype=float),
     )
-    vals = np.concatenate([a.ravel() for a in (linear.centre, linear.west, linear.east, linear.south, linear.north)])
-    A = sp.csc_matrix((vals, (rows, cols)), shape=(n, n))
-    return sl.spsolve(A, -linear.balance.ravel()).reshape(nx, ny)
+    if failed or not np.isfinite(pressure).all():
+        raise ConvergenceError(
+            f"cavitation: the linear solver did not reduce its residual to {REDUCTION:g} in {LIMIT} iterations; "
+            "take other cells",
+            outcome=Outcome.STALLED,
+        )
+    values[:] = np.where(linear.kind == FILM, size_of * pressure.reshape(shape), 0.0)
+    carry(*parts, network.periodic[0], source, values)
+    return values
+
+
+def conductances(network: Network, linear: Linear) -> tuple[Array, Array, Array]:
+    """The symmetric operator inside the film: centre, and couplings towards i+1 and j+1, shape (nx, ny)."""
+    centre, east, north = (np.zeros(network.shape) for _ in range(3))
+    couple(linear.kind, linear.mobility, network.east, network.north, *network.periodic, centre, east, north)
+    return centre, east, north
+
+
+@compiled
+def couple(kind, mobility, east, north, periodic_x, periodic_y, centre, to_east, to_north):  # type: ignore[no-untyped-def]
+    """Fill in what joins nodes of the film; nodes that are none stand alone."""
+    nx, ny = kind.shape
+    feeds = np.zeros(kind.shape, dtype=np.bool_)
+    for _ in range(2 if periodic_x else 1):
+        for i in range(nx - 1 if periodic_x else nx - 2, -1, -1):
+            k = i + 1 if i + 1 < nx else 0
+            for j in range(ny):
+                feeds[i, j] = kind[i, j] == CAVITY and (kind[k, j] == FILM or feeds[k, j])
+    for i in range(nx if periodic_x else nx - 1):
+        k = i + 1 if i + 1 < nx else 0
+        for j in range(ny):
+            g = 0.5 * east[i, j] * (mobility[i, j] + mobility[k, j])
+            here, there = kind[i, j] == FILM, kind[k, j] == FILM
+            if here:
+                centre[i, j] += g
+            if there and kind[i, j] != CAVITY:
+                centre[k, j] += g
+            if here and there:
+                to_east[i, j] = g
+    for i in range(nx):
+        for j in range(ny if periodic_y else ny - 1):
+            k = j + 1 if j + 1 < ny else 0
+            g = 0.5 * north[i, j] * (mobility[i, j] + mobility[i, k])
+            here, there = kind[i, j] == FILM, kind[i, k] == FILM
+            if here and not feeds[i, k]:
+                centre[i, j] += g
+            if there and not feeds[i, j]:
+                centre[i, k] += g
+            if here and there:
+                to_north[i, j] = g
+    for i in range(nx):
+        for j in range(ny):
+            if kind[i, j] != FILM or centre[i, j] == 0.0:
+                centre[i, j] = 1.0
+
+
+@compiled
+def carry(kind, centre, west, east, south, north, periodic_x, source, values):  # type: ignore[no-untyped-def]
+    """Set the filled parts that balance the cavities, given the pressures beside them."""
+    nx, ny = kind.shape
+    for _ in range(2 if periodic_x else 1):
+        for i in range(nx):
+            before = i - 1 if i > 0 else nx - 1
+            after = i + 1 if i + 1 < nx else 0
+            for j in range(ny):
+                if kind[i, j] == CAVITY:
+                    below = j - 1 if j > 0 else ny - 1
+                    above = j + 1 if j + 1 < ny else 0
+                    rest = source[i, j] - east[i, j] * values[after, j] - west[i, j] * values[before, j]
+                    rest -= south[i, j] * values[i, below] + north[i, j] * values[i, above]
+                    values[i, j] = rest / centre[i, j]
+
+
+@compiled
+def film_image(kind, centre, west, east, south, north, values, image):  # type: ignore[no-untyped-def]
+    """The balance that values of all unknowns bring to the nodes of the film; zero elsewhere."""
+    nx, ny = kind.shape
+    for i in range(nx):
+        before = i - 1 if i > 0 else nx - 1
+        after = i + 1 if i + 1 < nx else 0
+        for j in range(ny):
+            found = 0.0
+            if kind[i, j] == FILM:
+                below = j - 1 if j > 0 else ny - 1
+                above = j + 1 if j + 1 < ny else 0
+                found = centre[i, j] * values[i, j] + west[i, j] * values[before, j] + east[i, j] * values[after, j]
+                found += south[i, j] * values[i, below] + north[i, j] * values[i, above]
+            image[i, j] = found

@@ -7,8 +7,9 @@ import numpy as np
 from rom.cavitation.discretise import Ends
 from rom.cavitation.shape import Shape
 from rom.gap import Array
-from rom.lubricants.compressibility import Compressibility, Incompressible
-from rom.lubricants.viscosity import ConstantViscosity, Piezoviscosity
+from rom.lubricants.compressibility import Incompressible
+from rom.lubricants.laws import Compressibility, Piezoviscosity
+from rom.lubricants.viscosity import ConstantViscosity
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -8,13 +8,14 @@ from numpy.typing import NDArray
 
 from rom.cavitation.discretise import Faces, faces, network
 from rom.cavitation.grid import Grid, grid
-from rom.cavitation.interpolation import carried
+from rom.cavitation.interpolation import carried, interpolated
 from rom.cavitation.line import line_step
 from rom.cavitation.network import Network, State
 from rom.cavitation.newton import settle
 from rom.cavitation.plane import plane_step
 from rom.cavitation.problem import Problem
 from rom.cavitation.relaxation import relaxed
+from rom.gap import Array
 
 COARSEST = 16
 """Cells along each side where it begins, from a film everywhere at the pressure of cavitation."""
@@ -65,6 +66,7 @@ def solve(
     tolerance: float = TOLERANCE,
     start: State | None = None,
     ruptures: bool = True,
+    storage: tuple[float, Array] | None = None,
     progress: Progress = lambda _fraction, _words: None,
 ) -> Solution:
     """Solve (u/2) ∂(θh)/∂x - ∇·(θh³/12η ∇p) = 0 where p > 0, and its first part alone with p = 0 where θ < 1.
@@ -76,6 +78,7 @@ def solve(
     cells : in x and in y; the latter do not count where the film is infinitely wide.
     start : of another solution, to begin from on the grid asked for; by default it is sought on coarser ones.
     ruptures : whether the film ruptures; without, it bears any tension, and the inlet is full.
+    storage : of a step in time: its length, s, and θh before it at the nodes of the finest grid, m.
 
     Raises
     ------
@@ -88,49 +91,82 @@ def solve(
     turned = problem.speed < 0
     if turned:
         problem = mirrored(problem)
+    if problem.speed == 0 and storage is None:
+        ruptures = False  # no film widens, and pressure lies between those of the ends
+    if not ruptures:
+        problem = replace(problem, ends=replace(problem.ends, inlet=problem.ends.inlet or 0.0))
     wide = problem.shape.wide
     sizes = [cells] if start is not None else _coarsening(cells, wide=wide)
     work = [float(nx * (1 if wide else ny)) for nx, ny in sizes]
-    if not ruptures:
-        problem = replace(problem, ends=replace(problem.ends, inlet=problem.ends.inlet or 0.0))
-    levels: list[Level] = []
-    state = start or State(pressure=np.zeros((0, 0)), fill=np.ones((0, 0)))
+    finest = grid(problem.shape, cells)
     found: Solution | None = None
     for number, size in enumerate(sizes):
         progress(sum(work[:number]) / sum(work), " × ".join(map(str, size[:1] if wide else size)) + " cells")
-        nodes = grid(problem.shape, size)
-        sampled = faces(problem.shape, nodes)
-        net = network(
-            nodes,
-            sampled,
-            problem.ends,
-            speed=problem.speed,
-            viscosity=problem.viscosity,
-            compressibility=problem.initial_compressibility,
-        )
+        nodes = finest if size == cells else grid(problem.shape, size)
         if found is not None:
-            state = carried(found.state, found.grid, nodes, problem.shape.joined)
-        elif start is None:
-            state = State(pressure=np.zeros(net.shape), fill=np.ones(net.shape))
-        if ruptures:
-            state = relaxed(net, problem, state, COLD if found is None and start is None else WARM)
-        settled = settle(net, problem, state, line_step if wide else plane_step, tolerance=tolerance, ruptures=ruptures)
-        load = float((nodes.areas * settled.state.pressure).sum())
-        levels.append(Level(shape=nodes.shape, iterations=settled.iterations, load=load))
-        found = Solution(
-            problem=problem,
+            start = carried(found.state, found.grid, nodes, problem.shape.joined)
+        before, cold = found, start is None
+        found = on_grid(
+            problem,
+            nodes,
+            start=start,
+            sweeps=0 if not ruptures else COLD if cold else WARM,
+            tolerance=tolerance,
+            ruptures=ruptures,
+            storage=storage and (storage[0], interpolated(storage[1], finest, nodes, problem.shape.joined)),
+        )
+        found = replace(
+            found,
             turned=turned,
-            grid=nodes,
-            faces=sampled,
-            network=net,
-            state=settled.state,
-            kind=settled.kind,
-            residual=settled.residual,
-            levels=tuple(levels),
-            coarser=None if found is None else replace(found, coarser=None),
+            levels=(*(before.levels if before else ()), *found.levels),
+            coarser=replace(before, coarser=None) if before else None,
         )
     assert found is not None
     return found
+
+
+def on_grid(
+    problem: Problem,
+    nodes: Grid,
+    *,
+    start: State | None,
+    sweeps: int,
+    tolerance: float,
+    ruptures: bool = True,
+    storage: tuple[float, Array] | None = None,
+) -> Solution:
+    """Solve on one grid, after some sweeps of relaxation from ``start``, or from a film at the pressure of cavitation.
+
+    ``storage``: of transient flow, as :func:`rom.cavitation.discretise.network` takes it.
+    """
+    sampled = faces(problem.shape, nodes)
+    net = network(
+        nodes,
+        sampled,
+        problem.ends,
+        speed=problem.speed,
+        viscosity=problem.viscosity,
+        compressibility=problem.initial_compressibility,
+        storage=storage,
+    )
+    state = start or State(pressure=np.zeros(net.shape), fill=np.ones(net.shape))
+    if sweeps:
+        state = relaxed(net, problem, state, sweeps)
+    step = line_step if problem.shape.wide else plane_step
+    settled = settle(net, problem, state, step, tolerance=tolerance, ruptures=ruptures)
+    load = float((nodes.areas * settled.state.pressure).sum())
+    return Solution(
+        problem=problem,
+        turned=False,
+        grid=nodes,
+        faces=sampled,
+        network=net,
+        state=settled.state,
+        kind=settled.kind,
+        residual=settled.residual,
+        levels=(Level(shape=nodes.shape, iterations=settled.iterations, load=load),),
+        coarser=None,
+    )
 
 
 def _coarsening(cells: tuple[int, int], *, wide: bool) -> list[tuple[int, int]]:

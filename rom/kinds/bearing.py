@@ -5,16 +5,29 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import ValidationError
 
+from contact.entries import Part
+from contact.toml import Location, in_one_line, known_keys, unknown_key
 from contact.units import Quantity
 from rom.bearing import Bearing
+from rom.bearing_geometry import SHAPES
 from rom.kind import Kind
+from rom.lubricants.laws import LAWS
 from rom.sweeping import Columns, Powers, Sweeping
 
 NEVER_COMPRESSED = 1e-12
 """p dθ/dp that stands for an incompressible lubricant."""
 
 SYMBOLS = {"compression": "ϑ", "starvation": "θ", "slenderness": "B/L"}
+
+
+CHOSEN: Mapping[tuple[str, ...], Mapping[str, type[Part]]] = {
+    ("geometry",): SHAPES,
+    ("lubricant", "compressibility"): LAWS,
+    ("lubricant", "piezoviscosity"): LAWS,
+}
+"""Tables that say by one key what else is in them."""
 
 
 def scale(values: Mapping[str, Any], quantity: str) -> Any:
@@ -57,6 +70,28 @@ def words(powers: Powers) -> str:
     return " · ".join(SYMBOLS[name] if power == 1 else f"({SYMBOLS[name]})^{power:g}" for name, power in powers.items())
 
 
+def _without_tags(path: Location) -> tuple[list[int | str], type[Part] | None]:
+    """Where a fault stands in the file, and the shape or law whose table that is, if it is one."""
+    for place, classes in CHOSEN.items():
+        depth = len(place)
+        if tuple(path[:depth]) == place and len(path) > depth and path[depth] in classes:
+            return [*place, *path[depth + 1 :]], classes[str(path[depth])]
+    return list(path), None
+
+
+def told(error: ValidationError, _entries: Mapping[str, Any]) -> str:
+    """The first fault in one line; keys of a table that chooses a shape or a law are known by what it chooses."""
+    found = sorted(error.errors(include_url=False), key=lambda fault: fault["type"] != "extra_forbidden")[0]
+    chosen = _without_tags(found["loc"])[1]
+
+    def unknown(location: Location) -> str:
+        *path, key = location
+        within = path in [list(place) for place in CHOSEN]
+        return unknown_key(key, [*chosen.model_fields] if chosen and within else known_keys(Bearing, path))
+
+    return in_one_line(error, "scene", unknown, lambda path: _without_tags(path)[0])
+
+
 KIND = Kind(
     name="bearing",
     scene=Bearing,
@@ -65,7 +100,10 @@ KIND = Kind(
     scale=scale,
     columns=columns,
     files=frozenset({"table"}),
+    told=told,
     replaces={
+        "lubricant.compressibility.law": ("bulk_modulus", "c1", "c2", "table", "fit"),
+        "lubricant.piezoviscosity.law": ("pressure_coefficient", "index"),
         "boundary.inlet.theta": ("pressure",),
         "boundary.inlet.pressure": ("theta",),
     },

@@ -72,6 +72,3 @@ class DowsonHigginson(Part):
         if theta >= self.c2:
             raise InputError(f"theta: got {theta!r}; the lubricant cannot be denser than c2 = {self.c2!r}")
         return self.c1 * (theta - 1) / (self.c2 - theta)
-
-
-Compressibility = Incompressible | ConstantBulkModulus | DowsonHigginson

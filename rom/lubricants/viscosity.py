@@ -46,6 +46,3 @@ class Roelands(Part):
         base = 1 + pressure / ROELANDS_PRESSURE
         found = np.exp(-depth * (base**self.index - 1))
         return found, -found * depth * self.index * base ** (self.index - 1) / ROELANDS_PRESSURE
-
-
-Piezoviscosity = ConstantViscosity | Barus | Roelands

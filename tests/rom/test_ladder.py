@@ -55,7 +55,7 @@ def test_the_lattice_of_contacts():
 
 def test_every_model_solves_a_kind_of_scene_and_has_a_name_of_its_own():
     assert {model.kind for model in ALL} == set(kinds())
-    assert len({model.name for model in ALL}) == len(ALL)
+    assert len({(model.kind, model.name) for model in ALL}) == len(ALL)
 
 
 def test_an_unknown_name_is_refused_with_the_known_ones():

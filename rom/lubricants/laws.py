@@ -1,0 +1,18 @@
+"""All laws that a scene may name."""
+
+from contact.entries import Part
+from rom.lubricants.compressibility import ConstantBulkModulus, DowsonHigginson, Incompressible
+from rom.lubricants.tabulated import Tabulated
+from rom.lubricants.viscosity import Barus, ConstantViscosity, Roelands
+
+Compressibility = Incompressible | ConstantBulkModulus | DowsonHigginson | Tabulated
+Piezoviscosity = ConstantViscosity | Barus | Roelands
+LAWS: dict[str, type[Part]] = {
+    "incompressible": Incompressible,
+    "constant_bulk_modulus": ConstantBulkModulus,
+    "dowson_higginson": DowsonHigginson,
+    "tabulated": Tabulated,
+    "constant": ConstantViscosity,
+    "barus": Barus,
+    "roelands": Roelands,
+}

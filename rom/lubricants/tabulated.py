@@ -1,0 +1,132 @@
+"""Measured compressibility: a table, interpolated without overshoot, or the law that fits it."""
+
+import math
+from functools import cached_property
+from itertools import pairwise
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import BeforeValidator, PlainSerializer, model_validator
+
+from contact.entries import Part, plain_number
+from contact.errors import InputError
+from contact.units import with_unit
+from rom.gap import Array
+from rom.lubricants.compressibility import DowsonHigginson
+from rom.two_columns import MOST, read_rows
+
+FEWEST = 3
+COLUMNS = {"pressure": "Pa", "density": "kg/m^3"}
+HEADER = "pressure (MPa), density (kg/m^3)"
+
+Table = tuple[tuple[float, float], ...]
+"""(pressure above that of cavitation, Pa; density, kg/m³ or over anything else)."""
+
+
+def checked(table: object) -> Table:
+    """The rows of a table, from rows of two numbers in SI units or from a file of that name.
+
+    Raises ValueError that says which row is wrong, and how: both columns must grow from row to row.
+    """
+    if isinstance(table, str):
+        try:
+            return checked(read_rows(Path(table), COLUMNS, header=HEADER))
+        except ValueError as error:
+            raise ValueError(f"file {table!r:.200}: {error}") from error
+    if not isinstance(table, list | tuple) or not FEWEST <= len(table) <= MOST:
+        got = f"{len(table)} rows" if isinstance(table, list | tuple) else f"{table!r:.60}"
+        raise ValueError(f"got {got}; name a file, or give {FEWEST} to {MOST} rows [pressure, density] in Pa, kg/m^3")
+    rows = tuple(_row(row, number) for number, row in enumerate(table, 1))
+    if rows[0][0] != 0 or rows[0][1] <= 0:
+        raise ValueError(f"got {rows[0]!r} as row 1; it must be the density at pressure 0, that of cavitation")
+    for number, (before, after) in enumerate(pairwise(rows), 2):
+        if not (after[0] > before[0] and after[1] > before[1]):
+            raise ValueError(f"got {after!r} at row {number} after {before!r}; pressure and density must both grow")
+    return rows
+
+
+def _row(row: Any, number: int) -> tuple[float, float]:
+    if not isinstance(row, list | tuple) or len(row) != 2:
+        raise ValueError(f"got {row!r:.60} as row {number}; write pressure and density in Pa and kg/m^3")
+    pressure, density = (plain_number(value) for value in row)
+    if not (math.isfinite(pressure) and math.isfinite(density)):
+        raise ValueError(f"got {row!r} as row {number}; both numbers must be finite")
+    return pressure, density
+
+
+class Tabulated(Part):
+    """θ through measured points by monotone cubics (PCHIP), straight on beyond the last; or a law fitted to them.
+
+    ``table``: a CSV file (``pressure (MPa), density (kg/m^3)``), pressure from that of cavitation on. Source: Fritsch
+    and Carlson 1980, doi:10.1137/0717021.
+    """
+
+    law: Literal["tabulated"]
+    table: Annotated[Table, BeforeValidator(checked), PlainSerializer(lambda table: [list(row) for row in table])]
+    fit: Literal["dowson_higginson"] | None = None
+
+    @model_validator(mode="after")
+    def _can_be_fitted(self) -> "Tabulated":
+        if self.fit is not None:
+            try:
+                _ = self.fitted
+            except InputError as error:
+                raise ValueError(f"fit: {error}") from None
+        return self
+
+    @property
+    def valid_to(self) -> float:
+        """The last pressure of the table, Pa."""
+        return self.table[-1][0]
+
+    @cached_property
+    def fitted(self) -> DowsonHigginson:
+        """The law nearest to the points by least squares; InputError if none is near."""
+        return fitted(self.table)
+
+    @cached_property
+    def _curve(self) -> Any:
+        from scipy.interpolate import PchipInterpolator  # slow to import
+
+        pressure, density = np.array(self.table).T
+        return PchipInterpolator(pressure, density / density[0] - 1)
+
+    def compression(self, pressure: Array) -> tuple[Array, Array]:
+        """ϑ = θ - 1 and dθ/dp, 1/Pa, where p >= 0; shape of ``pressure``."""
+        if self.fit is not None:
+            return self.fitted.compression(pressure)
+        inside = np.minimum(pressure, self.valid_to)
+        slope = self._curve(inside, 1)
+        return self._curve(inside) + slope * (pressure - inside), slope
+
+    def pressure_at(self, theta: float) -> float:
+        """The pressure, Pa, of a density θ >= 1; InputError beyond the table."""
+        if self.fit is not None:
+            return self.fitted.pressure_at(theta)
+        from scipy.optimize import brentq  # slow to import
+
+        densest = self.table[-1][1] / self.table[0][1]
+        if theta > densest:
+            raise InputError(f"theta: got {theta!r}; the table ends at {densest:.6g}")
+        return float(brentq(lambda pressure: float(self._curve(pressure)) - (theta - 1), 0.0, self.valid_to))
+
+
+def fitted(table: Table) -> DowsonHigginson:
+    """C1 and C2 of Dowson and Higginson's law by least squares in θ; InputError if the points are not of that shape."""
+    from scipy.optimize import least_squares  # slow to import
+
+    pressure, density = np.array(table).T
+    excess = density / density[0] - 1
+    scale = pressure[-1]
+
+    def misfit(numbers: Array) -> Array:
+        c1, rise = np.exp(numbers)
+        return np.asarray((rise * pressure / scale / (c1 + pressure / scale) - excess) / excess[-1])
+
+    found = least_squares(misfit, np.log([1.0, 2 * excess[-1]]), xtol=1e-14, ftol=1e-14, gtol=1e-14)
+    c1, rise = np.exp(found.x)
+    if not (found.success and 1e-4 < c1 < 1e6):
+        raise InputError("the points bend the wrong way for Dowson and Higginson's law; leave fit out")
+    numbers = {"law": "dowson_higginson", "c1": with_unit(float(scale * c1), "Pa"), "c2": 1 + float(rise)}
+    return DowsonHigginson.model_validate(numbers)
