@@ -5,23 +5,9 @@ the same range of ``index``; what belongs to them stands at the same places of `
 ``move``, ``taken`` (their step s) and ``move_image`` (K∗s), so that most loops run through memory in order.
 """
 
-from collections.abc import Callable
-from functools import partial
-from typing import Any
-
 import numpy as np
-from numba import njit
 
-_njit: Any = partial(njit, nogil=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz", "arcp"})
-
-
-def _jit(loop: Callable[..., None]) -> Any:
-    """Compiled at the first call; kept for the next run where there is a place for it."""
-    try:
-        return _njit(cache=True)(loop)
-    except RuntimeError:
-        return _njit(loop)
-
+from contact.compiled import jit as _jit
 
 OFF, INSIDE, HARD = 0, 1, 2
 """What a node's ``state`` says: p = 0, 0 < p < H, p = H."""
