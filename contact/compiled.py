@@ -6,16 +6,12 @@ from typing import Any
 
 from numba import njit
 
-FAST = frozenset({"reassoc", "contract", "nsz", "arcp"})
-"""Freedoms of rounding that let sums be vectorised, infinities and NaN kept."""
+_njit: Any = partial(njit, nogil=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz", "arcp"})
 
 
-def compiled(loop: Callable[..., Any] | None = None, *, fastmath: frozenset[str] = FAST) -> Any:
-    """A decorator: no check of divisions, no lock of the interpreter; ``fastmath`` names what may be reordered."""
-    if loop is None:
-        return partial(compiled, fastmath=fastmath)
-    options: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": set(fastmath)}
+def compiled(loop: Callable[..., Any]) -> Any:
+    """A decorator for loops: sums may be reordered to be vectorised, infinities and NaN are kept."""
     try:
-        return njit(cache=True, **options)(loop)
+        return _njit(cache=True)(loop)
     except RuntimeError:
-        return njit(**options)(loop)
+        return _njit(loop)

@@ -5,23 +5,9 @@ the same range of ``index``; what belongs to them stands at the same places of `
 ``move``, ``taken`` (their step s) and ``move_image`` (K∗s), so that most loops run through memory in order.
 """
 
-from collections.abc import Callable
-from functools import partial
-from typing import Any
-
 import numpy as np
-from numba import njit
 
-_njit: Any = partial(njit, nogil=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz", "arcp"})
-
-
-def _jit(loop: Callable[..., None]) -> Any:
-    """Compiled at the first call; kept for the next run where there is a place for it."""
-    try:
-        return _njit(cache=True)(loop)
-    except RuntimeError:
-        return _njit(loop)
-
+from contact.compiled import compiled
 
 OFF, INSIDE, HARD = 0, 1, 2
 """What a node's ``state`` says: p = 0, 0 < p < H, p = H."""
@@ -33,7 +19,7 @@ LISTED = 4
 """Added to it for a free node, whose pressure is in the list. Others have theirs in the grid, and no source or step."""
 
 
-@_jit
+@compiled
 def advance(low, high, fraction, image, gap, plane, state, touched):  # type: ignore[no-untyped-def]
     """Let g grow by t K∗s, and mark the nodes that may be free: listed ones, p > 0, g < g00."""
     part = np.float32(fraction)
@@ -45,7 +31,7 @@ def advance(low, high, fraction, image, gap, plane, state, touched):  # type: ig
         touched[node] = (state[node] != 0) | (value < level)
 
 
-@_jit
+@compiled
 def gather(low, high, words, gap, plane, image, state, pressure, source, step, held, taken, index, residual, now_held, now_taken, move_image, out):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
     """List the free nodes among the marked, eight of which are a word: residual g − g00, pressure, s and K∗s.
 
@@ -89,7 +75,7 @@ def gather(low, high, words, gap, plane, image, state, pressure, source, step, h
     out[2] = worst
 
 
-@_jit
+@compiled
 def spread(low, end, index, held, pressure):  # type: ignore[no-untyped-def]
     """Put the pressure of the free nodes into the grid."""
     index, held = index[low:end], held[low:end]
@@ -97,7 +83,7 @@ def spread(low, end, index, held, pressure):  # type: ignore[no-untyped-def]
         pressure[index[place]] = held[place]
 
 
-@_jit
+@compiled
 def centre(low, end, mean, source, index, residual):  # type: ignore[no-untyped-def]
     """Take the mean from the residual of the free nodes."""
     offset = np.float32(mean)
@@ -108,7 +94,7 @@ def centre(low, end, mean, source, index, residual):  # type: ignore[no-untyped-
         source[index[place]] = value
 
 
-@_jit
+@compiled
 def products(low, end, preconditioned, index, residual, taken, move_image, move, out):  # type: ignore[no-untyped-def]
     """Gather z of the free nodes; Σz, Σs, ΣKs, ΣzKs, Σzr, Σsr."""
     z_sum = s_sum = k_sum = zk = zr = sr = 0.0
@@ -134,7 +120,7 @@ def products(low, end, preconditioned, index, residual, taken, move_image, move,
     out[5] = sr
 
 
-@_jit
+@compiled
 def direct(low, end, length, z_mean, conjugate, s_mean, move, taken):  # type: ignore[no-untyped-def]
     """From z, the move along the conjugate direction, α (−(z − z̄) + b (s − s̄))."""
     back, along = np.float32(-length), np.float32(length * conjugate)
@@ -144,7 +130,7 @@ def direct(low, end, length, z_mean, conjugate, s_mean, move, taken):  # type: i
         move[place] = back * move[place] + along * taken[place] + offset
 
 
-@_jit
+@compiled
 def descend(low, end, length, residual, move):  # type: ignore[no-untyped-def]
     """The move down the gradient, −α r."""
     residual, move = residual[low:end], move[low:end]
@@ -152,7 +138,7 @@ def descend(low, end, length, residual, move):  # type: ignore[no-untyped-def]
         move[place] = -length * residual[place]
 
 
-@_jit
+@compiled
 def excess(low, end, shift, held, hardness, move, out):  # type: ignore[no-untyped-def]
     """What clip(p + move + λ) − p adds up to, and how many nodes keep within bounds."""
     total = 0.0
@@ -168,7 +154,7 @@ def excess(low, end, shift, held, hardness, move, out):  # type: ignore[no-untyp
     out[1] = within
 
 
-@_jit
+@compiled
 def beyond(low, end, shift, held, hardness, move, out):  # type: ignore[no-untyped-def]
     """Of p + move + λ, the greatest below 0 and the least above H."""
     below = -np.inf
@@ -182,7 +168,7 @@ def beyond(low, end, shift, held, hardness, move, out):  # type: ignore[no-untyp
     out[1] = above
 
 
-@_jit
+@compiled
 def displace(low, end, shift, held, hardness, index, move, residual, taken, step, out):  # type: ignore[no-untyped-def]
     """The step s = clip(p + move + λ) − p, its Σrs, and how many times it fits between the bounds."""
     slope = 0.0
@@ -202,7 +188,7 @@ def displace(low, end, shift, held, hardness, index, move, residual, taken, step
     out[1] = room
 
 
-@_jit
+@compiled
 def curvature(low, end, image, index, taken, move_image, out):  # type: ignore[no-untyped-def]
     """Gather Ks of the free nodes; ΣsKs and Σss."""
     bend = 0.0
@@ -218,7 +204,7 @@ def curvature(low, end, image, index, taken, move_image, out):  # type: ignore[n
     out[1] = square
 
 
-@_jit
+@compiled
 def press_on(low, end, fraction, shift, held, hardness, index, move, residual, move_image, state, out):  # type: ignore[no-untyped-def]  # fmt: skip
     """Carry out a part t of the step; Σ(r + t Ks) over the nodes with 0 < p < H, and their number."""
     total = 0.0
@@ -238,7 +224,7 @@ def press_on(low, end, fraction, shift, held, hardness, index, move, residual, m
     out[1] = count
 
 
-@_jit
+@compiled
 def scale_modes(spectrum, left, factors):  # type: ignore[no-untyped-def]
     """Multiply the modes of some columns, from ``left`` on, by their real factors."""
     rows, columns = factors.shape
