@@ -67,10 +67,13 @@ def command(
 
 def table_of(result: Result) -> Table:
     """The quantities of a result, as people read them."""
-    table = Table("quantity", "value", "unit", title=f"{escape(result.provenance['scene']['name'])} by {result.model}")
+    known = result.provenance.get("uncertainty", {})
+    columns = ("quantity", "value", "±", "unit") if known else ("quantity", "value", "unit")
+    table = Table(*columns, title=f"{escape(result.provenance['scene']['name'])} by {result.model}")
     table.columns[1].justify = "right"
     for name, quantity in result.quantities.items():
-        table.add_row(name, f"{quantity.value:.5g}", "" if quantity.unit == "1" else quantity.unit)
+        told = [f"{known[name]:.1e}" if name in known else ""] if known else []
+        table.add_row(name, f"{quantity.value:.5g}", *told, "" if quantity.unit == "1" else quantity.unit)
     return table
 
 

@@ -10,15 +10,15 @@ no condition where it begins, as there a cavity brings what it brings whatever t
 """
 
 import numpy as np
-from scipy.sparse.linalg import LinearOperator, bicgstab
 
 from contact.compiled import compiled
-from contact.errors import ConvergenceError, Outcome
 from rom.cavitation.balance import CAVITY, FILM
 from rom.cavitation.network import Network
 from rom.cavitation.newton import Linear
 from rom.gap import Array
+from rom.multigrid.gradients import dot
 from rom.multigrid.multigrid import Multigrid
+from rom.stabilised_gradients import bicgstab
 
 REDUCTION = 1e-4
 """Of the residual in a step: as the film's ends still move, more would be in vain."""
@@ -29,38 +29,23 @@ LIMIT = 200
 
 def plane_step(network: Network, linear: Linear, accuracy: float) -> Array:
     """The change of every unknown, shape (nx, ny); ConvergenceError where the Krylov method stalls."""
-    shape, size = network.shape, network.couette.size
     parts = (linear.kind, linear.centre, linear.west, linear.east, linear.south, linear.north)
-    source = -linear.balance
-    nothing = np.zeros(shape)
-    values, image = np.zeros(shape), np.zeros(shape)
+    source, nothing = -linear.balance, np.zeros(network.shape)
 
     def product(pressure: Array) -> Array:
-        values[:] = pressure.reshape(shape)
-        carry(*parts, network.periodic[0], nothing, values)
-        film_image(*parts, values, image)
-        return image.reshape(size).copy()
+        carry(*parts, network.periodic[0], nothing, pressure)
+        image = np.empty(network.shape)
+        film_image(*parts, pressure, image)
+        return image
 
+    values, image = np.zeros(network.shape), np.zeros(network.shape)
     carry(*parts, network.periodic[0], source, values)
     film_image(*parts, values, image)
     wanted = np.where(linear.kind == FILM, source - image, 0.0)
-    size_of = float(np.linalg.norm(wanted)) or 1.0
     inverse = Multigrid(*conductances(network, linear), periodic=network.periodic)
-    pressure, failed = bicgstab(
-        LinearOperator((size, size), matvec=product, dtype=float),
-        wanted.reshape(size) / size_of,  # breakdown is judged by absolute size
-        rtol=REDUCTION,
-        atol=accuracy / 10 / size_of,
-        maxiter=LIMIT,
-        M=LinearOperator((size, size), matvec=lambda one: inverse.cycle(one.reshape(shape)).reshape(size), dtype=float),
-    )
-    if failed or not np.isfinite(pressure).all():
-        raise ConvergenceError(
-            f"cavitation: the linear solver did not reduce its residual to {REDUCTION:g} in {LIMIT} iterations; "
-            "take other cells",
-            outcome=Outcome.STALLED,
-        )
-    values[:] = np.where(linear.kind == FILM, size_of * pressure.reshape(shape), 0.0)
+    tolerance = max(REDUCTION * float(np.sqrt(dot(wanted, wanted))), accuracy / 10)
+    values = bicgstab(product, inverse.cycle, wanted, tolerance=tolerance, limit=LIMIT)
+    values[linear.kind != FILM] = 0.0
     carry(*parts, network.periodic[0], source, values)
     return values
 
