@@ -82,7 +82,7 @@ def friction(found: Solution) -> float:
     fill = found.state.fill
     if problem.ends.sides is not None:  # the line where the bath begins is no part of the film
         fill = np.pad(fill[:, 1:-1], ((0, 0), (1, 1)), mode="edge")
-    with np.errstate(divide="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore"):
         shear = np.where(mean > 0, problem.viscosity * speed * fill / mean, 0.0)
     shear = shear * (1 / fluidity + np.roll(1 / fluidity, -1, axis=0)) / 2
     rise = np.roll(found.state.pressure, -1, axis=0) - found.state.pressure

@@ -1,7 +1,7 @@
 """Newton's method on an active set: which nodes are film, what their pressure is, how full the others are."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,10 +10,14 @@ from contact.errors import ConvergenceError, Outcome
 from rom.cavitation.balance import CAVITY, FILM, FIXED, FLOODED, advance, linearise, settle_inlet
 from rom.cavitation.fluid import Fluid
 from rom.cavitation.network import Network, State
+from rom.cavitation.relaxation import relaxed
 from rom.gap import Array
 
-LIMIT = 100
-"""Steps, at most; from a coarser grid it takes 2 to 6."""
+STEPS = 25
+"""Of Newton's method in a round, at most; from a good start it takes 2 to 6."""
+
+ROUNDS, MORE = 5, 4
+"""Where a round fails, so many times as many sweeps of relaxation go before the next one."""
 
 
 @dataclass(frozen=True)
@@ -50,37 +54,52 @@ def settle(
     start: State,
     step: Step,
     *,
+    sweeps: int,
     tolerance: float,
     ruptures: bool = True,
-    limit: int = LIMIT,
 ) -> Settled:
     """Find the state in which every node lets out what flows in, beginning from ``start``.
 
-    Where p > 0 the unknown is p, where ξ < 1 it is ξ; a node changes over where its unknown leaves its range. Without
-    ``ruptures`` the film bears any tension.
+    Where p > 0 the unknown is p, where ξ < 1 it is ξ; a node changes over where its unknown leaves its range. Some
+    sweeps of relaxation go first, and more of them where Newton's method runs in circles. Without ``ruptures`` the film
+    bears any tension.
 
     Raises
     ------
-    ConvergenceError
-        If after ``limit`` steps nodes still change over, or the residual stays above the tolerance.
+    UnsettledError
+        If the residual stays above the tolerance; it holds the relaxed state.
     """
-    shape = network.shape
-    pressure, fill = start.pressure.copy(), start.fill.copy()
-    kind = np.where(fill < 1, np.int8(CAVITY), np.int8(FILM))
-    supplied = network.supply is not None
-    if supplied:
-        pressure[0] = 0
-        kind[0] = np.where(fill[0] < 1, CAVITY, FLOODED)
-    kind[network.fixed] = FIXED
-    pressure = np.where(network.fixed, network.pressure, pressure)
-    fill = np.where(kind == CAVITY, fill, 1.0)
-    pressure[kind == CAVITY] = 0
-    parts = [np.empty(shape) for _ in range(6)]
+    state, rounds, iterations, told = start, ROUNDS if ruptures else 1, 0, ""
+    for number in range(rounds):
+        if ruptures:
+            state = relaxed(network, fluid, state, sweeps * MORE**number)
+        try:
+            found = newton(network, fluid, state, step, tolerance=tolerance, ruptures=ruptures)
+        except ConvergenceError as error:
+            iterations, told = iterations + (error.iterations or STEPS), str(error)
+        else:
+            return replace(found, iterations=iterations + found.iterations)
+    raise UnsettledError(told, state=state, iterations=iterations)
+
+
+class UnsettledError(ConvergenceError):
+    """No state balances that could be found; ``state`` is as near as relaxation comes."""
+
+    def __init__(self, message: str, *, state: State, iterations: int) -> None:
+        super().__init__(message, outcome=Outcome.STALLED, iterations=iterations)
+        self.state = state
+
+
+def newton(network: Network, fluid: Fluid, start: State, step: Step, *, tolerance: float, ruptures: bool) -> Settled:
+    """One round of Newton's method; raises ConvergenceError after ``STEPS`` steps, or where numbers overflow."""
+    pressure, fill, kind = _begun(network, start)
+    parts = [np.empty(network.shape) for _ in range(6)]
     balance = parts[0]
-    changed, residual = 1, np.inf
-    for iteration in range(limit + 1):
-        excess, excess_slope = fluid.compression(pressure)
-        mobility, mobility_slope = fluid.mobility(pressure)
+    changed, residual = 0, np.inf
+    for iteration in range(STEPS + 1):
+        with np.errstate(over="ignore", invalid="ignore"):
+            excess, excess_slope = fluid.compression(pressure)
+            mobility, mobility_slope = fluid.mobility(pressure)
         largest = linearise(
             network.couette,
             network.upstream,
@@ -99,24 +118,33 @@ def settle(
             mobility_slope,
             *parts,
         )
-        if supplied:
-            changed += settle_inlet(kind[0], balance[0])
+        if network.supply is not None:
+            settle_inlet(kind[0], balance[0])
         balance[kind >= FIXED] = 0
         residual = float(np.abs(balance).max()) / (largest or 1.0)
         if not np.isfinite(residual):
             break
-        if changed == 0 and residual <= tolerance:
-            return Settled(
-                state=State(pressure=pressure, fill=fill), kind=kind, residual=residual, iterations=iteration
-            )
+        if residual <= tolerance:
+            state = State(pressure=pressure, fill=fill)
+            return Settled(state=state, kind=kind, residual=residual, iterations=iteration)
         change = step(network, Linear(kind, mobility, *parts), tolerance * largest)
         if ruptures:
             changed = advance(kind.reshape(-1), pressure.reshape(-1), fill.reshape(-1), change.reshape(-1))
         else:
-            pressure, changed = pressure + change, 0
+            pressure = pressure + change
     raise ConvergenceError(
-        f"cavitation: {changed} nodes still change over and residual {residual:.1e} misses the tolerance "
-        f"{tolerance:.1e} after {limit} steps; take more nodes or a smaller change",
+        f"cavitation: the residual of {residual:.1e} misses the tolerance of {tolerance:.1e}, {changed} nodes still "
+        "change between film and cavity; take more cells, or a law that bears such pressures",
         outcome=Outcome.UNFINISHED if np.isfinite(residual) else Outcome.DIVERGED,
-        iterations=limit,
+        iterations=iteration,
     )
+
+
+def _begun(network: Network, start: State) -> tuple[Array, Array, NDArray[np.int8]]:
+    """Pressure, filled part and kind of every node, as ``start`` has them."""
+    kind = np.where(start.fill < 1, np.int8(CAVITY), np.int8(FILM))
+    if network.supply is not None:
+        kind[0] = np.where(start.fill[0] < 1, CAVITY, FLOODED)
+    kind[network.fixed] = FIXED
+    pressure = np.where(network.fixed, network.pressure, np.where(kind == FILM, start.pressure, 0.0))
+    return pressure, np.where(kind == CAVITY, start.fill, 1.0), kind

@@ -11,10 +11,9 @@ from rom.cavitation.grid import Grid, grid
 from rom.cavitation.interpolation import carried, interpolated
 from rom.cavitation.line import line_step
 from rom.cavitation.network import Network, State
-from rom.cavitation.newton import settle
+from rom.cavitation.newton import UnsettledError, settle
 from rom.cavitation.plane import plane_step
 from rom.cavitation.problem import Problem
-from rom.cavitation.relaxation import relaxed
 from rom.gap import Array
 
 COARSEST = 16
@@ -103,24 +102,30 @@ def solve(
     for number, size in enumerate(sizes):
         progress(sum(work[:number]) / sum(work), " × ".join(map(str, size[:1] if wide else size)) + " cells")
         nodes = finest if size == cells else grid(problem.shape, size)
-        if found is not None:
-            start = carried(found.state, found.grid, nodes, problem.shape.joined)
         before, cold = found, start is None
-        found = on_grid(
-            problem,
-            nodes,
-            start=start,
-            sweeps=0 if not ruptures else COLD if cold else WARM,
-            tolerance=tolerance,
-            ruptures=ruptures,
-            storage=storage and (storage[0], interpolated(storage[1], finest, nodes, problem.shape.joined)),
-        )
+        try:
+            found = on_grid(
+                problem,
+                nodes,
+                start=start,
+                sweeps=COLD if cold else WARM,
+                tolerance=tolerance,
+                ruptures=ruptures,
+                storage=storage and (storage[0], interpolated(storage[1], finest, nodes, problem.shape.joined)),
+            )
+        except UnsettledError as error:
+            if nodes is finest:
+                raise
+            start = carried(error.state, nodes, grid(problem.shape, sizes[number + 1]), problem.shape.joined)
+            continue
         found = replace(
             found,
             turned=turned,
             levels=(*(before.levels if before else ()), *found.levels),
             coarser=replace(before, coarser=None) if before else None,
         )
+        if nodes is not finest:
+            start = carried(found.state, nodes, grid(problem.shape, sizes[number + 1]), problem.shape.joined)
     assert found is not None
     return found
 
@@ -150,10 +155,8 @@ def on_grid(
         storage=storage,
     )
     state = start or State(pressure=np.zeros(net.shape), fill=np.ones(net.shape))
-    if sweeps:
-        state = relaxed(net, problem, state, sweeps)
     step = line_step if problem.shape.wide else plane_step
-    settled = settle(net, problem, state, step, tolerance=tolerance, ruptures=ruptures)
+    settled = settle(net, problem, state, step, sweeps=sweeps, tolerance=tolerance, ruptures=ruptures)
     load = float((nodes.areas * settled.state.pressure).sum())
     return Solution(
         problem=problem,
