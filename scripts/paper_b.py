@@ -17,7 +17,20 @@ from scripts.common import AsJson, in_one_line, make_directory, output, print_js
 from scripts.pages import render
 from scripts.paper_a_claims import Claim
 from scripts.paper_b_claims import MAXIMA_APART, Row, judge, maxima, rows
-from scripts.paper_b_data import CASES, COARSE, CONSTANT, MODULUS, PARTS, READINGS, ROUNDED, Paper, compute, difference
+from scripts.paper_b_data import (
+    CASES,
+    COARSE,
+    CONSTANT,
+    HALF,
+    MODULUS,
+    ORIGINAL,
+    PARTS,
+    READINGS,
+    ROUNDED,
+    Paper,
+    compute,
+    difference,
+)
 
 OPEN = (
     (
@@ -36,6 +49,10 @@ OPEN = (
     ("pressures", "above ambient", "the paper's are absolute where it writes pw = 2·10⁵ Pa; add 0.1 MPa"),
 )
 """What the paper leaves open, what is taken, and why."""
+
+
+FRONTS = {"starved": ORIGINAL, "starved, moduli": HALF}
+"""Films that begin a little behind the reference."""
 
 
 @in_one_line
@@ -68,6 +85,7 @@ def command(
         rows=compared,
         cells=paper.cells,
         maxima=told["maxima"],
+        fronts=told["fronts"],
         maxima_apart=MAXIMA_APART,
         readings=told["readings"],
         moduli=told["moduli"],
@@ -108,6 +126,7 @@ def numbers(paper: Paper, claims: list[Claim], compared: list[Row]) -> dict[str,
             }
             for name, films in paper.films.items()
         },
+        "fronts": {case: 1e3 * front_apart(paper, case, law) for case, law in FRONTS.items()},
         "maxima": {law: list(maxima(film)) for law, film in paper.films["twin"].items()},
         "readings": {told: {name: _reading(paper, name, told) for name in ("single", "twin")} for told in READINGS},
         "moduli": {
@@ -134,6 +153,13 @@ def numbers(paper: Paper, claims: list[Claim], compared: list[Row]) -> dict[str,
             for name, sweep in paper.sweeps.items()
         },
     }
+
+
+def front_apart(paper: Paper, case: str, law: str) -> float:
+    """By how much the film begins behind that of the reference, m."""
+    films = paper.films[case]
+    reference = next(iter(films.values()))
+    return (films[law].start - reference.start) * float(reference.x[-1])
 
 
 def _reading(paper: Paper, case: str, told: str) -> dict[str, float]:

@@ -1,4 +1,4 @@
-"""Figures B.1 to B.17 of Paper B, and one of claim 9; pressures count from ambient, which is also that of cavitation."""
+"""Figures B.1 to B.17 of Paper B, and one of claim 9; pressures count from ambient, where liquid also cavitates."""
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -256,7 +256,11 @@ def reach(paper: Paper) -> Figure:
     axes.axvspan(50, 100, color="#5b6675", alpha=0.12, lw=0)
     axes.set_xscale("log")
     axes.set_yscale("log")
+    axes.set_xlim(0.5, 1000)
     axes.set_ylim(1e-3, 100)
+    axes.set_xticks([1, 10, 50, 100, 500], ["1", "10", "50", "100", "500"])
+    axes.set_yticks([0.001, 0.01, 0.1, 1, 10, 100], ["0.001", "0.01", "0.1", "1", "10", "100"])
+    axes.minorticks_off()
     axes.set_xlabel("greatest pressure, MPa")
     axes.set_ylabel("load differs by, %")
     axes.legend(fontsize=8, ncols=1, loc="upper left", bbox_to_anchor=(1, 1))
