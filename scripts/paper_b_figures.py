@@ -197,17 +197,20 @@ def b14(paper: Paper) -> Figure:
         axes.plot(film.x[_thin(film)], film.pressure[_thin(film)] / 1e6, color=colour, label=number, lw=1.2)
     axes.set_xlabel("x, m")
     axes.set_ylabel("p, MPa")
-    axes.set_ylim(bottom=0)
+    axes.set_ylim(0, 1.5)
     axes.legend()
     return figure
 
 
 def b15(paper: Paper) -> Figure:
-    """Density over the first sine waves: the liquid above, on a scale of its own, and the cavities below."""
+    """Density over the first sine waves: the liquid above, on a scale of its own, and the cavities below.
+
+    The paper shows the first 8 mm; the first cavity of 1 ends at 10 mm.
+    """
     figure = Figure(figsize=(8, 4.8), layout="constrained")
     panels: list[Axes] = list(figure.subplots(2, 1, sharex=True, height_ratios=(1, 1)))
     for number, colour, film in _patterns(paper, "sinusoidal", "pc"):
-        near = film.x <= 8e-3
+        near = film.x <= 10.5e-3
         liquid: Array = np.where(film.pressure > 0, film.theta, np.nan)
         panels[0].plot(1e3 * film.x[near], 1e4 * (liquid[near] - 1), color=colour, label=number, lw=1.6)
         panels[1].plot(1e3 * film.x[near], np.minimum(film.theta[near], 1), color=colour, lw=1.6)
@@ -217,7 +220,7 @@ def b15(paper: Paper) -> Figure:
     panels[1].set_ylabel("θ")
     panels[1].set_ylim(top=1.02)
     panels[1].set_xlabel("x, mm")
-    panels[1].set_xlim(0, 8)
+    panels[1].set_xlim(0, 10.5)
     return figure
 
 
