@@ -8,8 +8,8 @@ from contact.entries import InUnit, Part, PositiveNumber
 from rom.gap import Array
 
 PressureCoefficient = Annotated[float, InUnit("1/Pa")]
-LOG_VISCOSITY, ROELANDS_PRESSURE = 9.67, 1.962e8
-"""Roelands' constants: η = exp(-9.67) Pa s where all isotherms meet, at -0.1962 GPa."""
+LOG_VISCOSITY, ROELANDS_PRESSURE = 9.67, 1 / 5.1e-9
+"""Roelands' constants: η = exp(-9.67) Pa s where all isotherms meet, at -0.196 GPa."""
 
 
 class ConstantViscosity(Part):
@@ -35,7 +35,7 @@ class Barus(Part):
 
 
 class Roelands(Part):
-    """η = η0 exp((ln η0 + 9.67) ((1 + p/0.1962 GPa)^Z - 1)), η0 in Pa s; to about 1 GPa. Source: Roelands 1966."""
+    """η = η0 exp((ln η0 + 9.67) ((1 + p/0.196 GPa)^Z - 1)), η0 in Pa s; to about 1 GPa. Source: Roelands 1966."""
 
     law: Literal["roelands"]
     index: PositiveNumber
