@@ -87,17 +87,17 @@ def test_the_front_of_a_film_is_of_first_order_in_the_step():
 def test_what_a_film_gains_is_what_flows_in_less_what_flows_out():
     def closing(time):
         shape = Shape(thickness=lambda x, y: (1 - 0.3 * time) * (1.5 - x) + 0 * y, breaks=(0.0, 1.0))
-        return Problem(shape=shape, ends=Ends(theta=0.4), speed=1.0, viscosity=1e-3)
+        return Problem(shape=shape, ends=Ends(theta=0.5), speed=1.0, viscosity=1e-3)
 
-    start = State(pressure=np.zeros((201, 1)), fill=np.full((201, 1), 0.5))
+    start = State(pressure=np.zeros((201, 1)), fill=np.full((201, 1), 0.8))
     times = np.linspace(0, 0.5, 21)
-    held = 0.5 * closing(0).shape.thickness(np.linspace(0, 1, 201), 0.0)
+    held = 0.8 * closing(0).shape.thickness(np.linspace(0, 1, 201), 0.0)
     share = np.append(np.full(200, 1 / 200), 0.0)  # the outlet node holds what it will
     share[0] /= 2
     for now, found in march(closing, (200, 1), times, start=start):
         assert found.kind[0, 0] == CAVITY  # or the inlet turned some of it away
         film = closing(now).shape.thickness(found.grid.x, 0.0)
-        entered = 0.5 * 0.4 * film[0]
+        entered = 0.5 * 0.5 * film[0]
         left = 0.5 * found.faces.mean[-2, 0] * found.state.fill[-2, 0]
         left += found.faces.east[-2, 0] / 12e-3 * 200 * found.state.pressure[-2, 0]
         gained = (share * (found.state.fill[:, 0] * film - held)).sum() / (times[1] - times[0])
