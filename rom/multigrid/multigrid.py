@@ -1,5 +1,6 @@
 """Multigrid by halves of the rows: the preconditioner, and conjugate gradients with it."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -147,7 +148,7 @@ class Multigrid:
         """
         b = self._inner(right_hand_side)
         p = np.zeros(b.shape) if start is None else np.array(self._inner(start), order="C")
-        norm = float(np.linalg.norm(b))
+        norm = math.sqrt(gradients.dot(b, b))
         if norm == 0:
             return Solved(solution=np.zeros(self.shape), iterations=0, residual=0.0)
         iterations, before = 0, np.inf
@@ -225,7 +226,7 @@ class Multigrid:
         self._apply(p)
         source = self._finest[0]
         np.subtract(b, self._image, out=source)
-        return float(np.linalg.norm(source))
+        return math.sqrt(gradients.dot(source, source))
 
     def _gradients(self, p: Array, goal: float, limit: int) -> int:
         """Improve p until the residual that is carried along is below the ``goal``; how many iterations it took."""
