@@ -248,15 +248,16 @@ def coarsen(fine, coarse, work):  # type: ignore[no-untyped-def]
     count, coarse_count = fine.centre.shape[0], coarse.centre.shape[0]
     first, second = work[0], work[1]
     work[3, :] = 1.0
-    coarse.centre[:] = fine.centre[::2]
-    coarse.north[:] = fine.north[::2]
+    length = fine.centre.shape[1]
+    for row in range(coarse_count):
+        for j in range(length):
+            coarse.centre[row, j] = fine.centre[2 * row, j]
+            coarse.north[row, j] = fine.north[2 * row, j]
     if count % 2:
-        coarse.east[-1] = fine.east[-1]
-        coarse.up[-1] = 0.0
-        coarse.down[-1] = 0.0
-        if fine.up.shape[1]:
-            coarse.up[-1] = fine.up[-1]
-            coarse.down[-1] = fine.down[-1]
+        for j in range(length):
+            coarse.east[coarse_count - 1, j] = fine.east[count - 1, j]
+            coarse.up[coarse_count - 1, j] = fine.up[count - 1, j] if fine.up.shape[1] else 0.0
+            coarse.down[coarse_count - 1, j] = fine.down[count - 1, j] if fine.up.shape[1] else 0.0
     for row in range(1, count, 2):
         share(fine, row, work)
         left, right = row // 2, (row // 2 + 1) % coarse_count
@@ -360,6 +361,7 @@ def cycle(counts, rows, across, source, values, total):  # type: ignore[no-untyp
         here = level_rows(rows, start, stop, counts[0])
         given, found = source[start:stop], values[start:stop]
         for row in range(0, count, 2):
-            found[row] += values[stop + row // 2]
+            for j in range(total.size):
+                found[row, j] += values[stop + row // 2, j]
         sweep(here, (1, count, 2), False, False, given, found, total)
         sweep(here, ((count - 1) // 2 * 2, -1, -2), False, False, given, found, total)
