@@ -15,3 +15,7 @@ def compiled(loop: Callable[..., Any]) -> Any:
         return _njit(cache=True)(loop)
     except RuntimeError:
         return _njit(loop)
+
+
+inlined: Any = _njit(inline="always")
+"""For a small loop that others call for every row: it becomes part of them, and costs no call."""

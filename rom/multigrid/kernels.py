@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from contact.compiled import compiled
+from contact.compiled import compiled, inlined
 
 GROUNDED = 1e-12
 """Of its diagonal: an unknown with a smaller pivot is set to 0, as the mean of its component is free."""
@@ -57,29 +57,31 @@ def inverted(pivot, centre):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def eliminate(centre, north, inverse, factor):  # type: ignore[no-untyped-def]
-    """Factorise a tridiagonal T from both ends to the middle, which are two chains for the processor to work on."""
-    size = inverse.size
+def eliminate(rows, row, size):  # type: ignore[no-untyped-def]
+    """Factorise a row's T, or its first ``size`` unknowns, from both ends to the middle: two chains at a time."""
+    centre, north, inverse, factor = rows.centre, rows.north, rows.inverse, rows.factor
     middle = size // 2
     left = right = 0.0
     for j in range(middle):
         end = size - 1 - j
-        inverse[j] = inverted(centre[j] - (north[j - 1] * left if j else 0.0), centre[j])
-        left = factor[j] = north[j] * inverse[j]
+        pivot = centre[row, j] - (north[row, j - 1] * left if j else 0.0)
+        inverse[row, j] = inverted(pivot, centre[row, j])
+        left = factor[row, j] = north[row, j] * inverse[row, j]
         if end > middle:
-            inverse[end] = inverted(centre[end] - (north[end] * right if j else 0.0), centre[end])
-            right = factor[end] = north[end - 1] * inverse[end]
-    pivot = centre[middle]
-    pivot -= north[middle - 1] * left if middle > 0 else 0.0
-    pivot -= north[middle] * right if middle + 1 < size else 0.0
-    inverse[middle] = inverted(pivot, centre[middle])
-    factor[middle] = 0.0
+            pivot = centre[row, end] - (north[row, end] * right if j else 0.0)
+            inverse[row, end] = inverted(pivot, centre[row, end])
+            right = factor[row, end] = north[row, end - 1] * inverse[row, end]
+    pivot = centre[row, middle]
+    pivot -= north[row, middle - 1] * left if middle > 0 else 0.0
+    pivot -= north[row, middle] * right if middle + 1 < size else 0.0
+    inverse[row, middle] = inverted(pivot, centre[row, middle])
+    factor[row, middle] = 0.0
 
 
-@compiled
-def substitute(total, inverse, factor, values):  # type: ignore[no-untyped-def]
-    """Solve Tx = total for the ``values`` x, to the middle and back; ``total`` is used up."""
-    size = inverse.size
+@inlined
+def substitute(rows, row, size, total, values, place):  # type: ignore[no-untyped-def]
+    """Solve Tx = total for x, row ``place`` of the ``values``, to the middle and back; ``total`` is used up."""
+    inverse, factor = rows.inverse, rows.factor
     middle = size // 2
     pairs = size - 1 - middle
     left = right = before = after = 0.0
@@ -87,88 +89,90 @@ def substitute(total, inverse, factor, values):  # type: ignore[no-untyped-def]
         end = size - 1 - j
         left = total[j] + before * left
         right = total[end] + after * right
-        before, after = factor[j], factor[end]
+        before, after = factor[row, j], factor[row, end]
         total[j], total[end] = left, right
     if pairs < middle:
         left = total[pairs] + before * left
-        before = factor[pairs]
+        before = factor[row, pairs]
         total[pairs] = left
-    left = right = (total[middle] + before * left + after * right) * inverse[middle]
-    values[middle] = left
+    left = right = (total[middle] + before * left + after * right) * inverse[row, middle]
+    values[place, middle] = left
     if pairs < middle:
-        left = total[pairs] * inverse[pairs] + factor[pairs] * left
-        values[pairs] = left
+        left = total[pairs] * inverse[row, pairs] + factor[row, pairs] * left
+        values[place, pairs] = left
     for j in range(pairs - 1, -1, -1):
         end = size - 1 - j
-        left = total[j] * inverse[j] + factor[j] * left
-        right = total[end] * inverse[end] + factor[end] * right
-        values[j], values[end] = left, right
+        left = total[j] * inverse[row, j] + factor[row, j] * left
+        right = total[end] * inverse[row, end] + factor[row, end] * right
+        values[place, j], values[place, end] = left, right
 
 
 @compiled
-def factorise_row(rows, row):  # type: ignore[no-untyped-def]
+def factorise_row(rows, row, total):  # type: ignore[no-untyped-def]
     """Factorise T; of a ring the last unknown apart, with the others' answer to it in the ``border``."""
-    centre, north, inverse, factor = rows.centre[row], rows.north[row], rows.inverse[row], rows.factor[row]
-    border = rows.border[row]
-    if border.size == 0:
-        eliminate(centre, north, inverse, factor)
+    last = rows.centre.shape[1] - 1
+    if rows.border.shape[1] == 0:
+        eliminate(rows, row, last + 1)
         return
-    last = centre.size - 1
-    eliminate(centre, north, inverse[:last], factor[:last])
-    border[:] = 0.0
-    border[0] = north[last]
-    border[last - 1] = north[last - 1]
-    substitute(border[:last].copy(), inverse[:last], factor[:last], border)
-    pivot = centre[last] - north[last] * border[0] - north[last - 1] * border[last - 1]
-    inverse[last] = inverted(pivot, centre[last])
+    north, border = rows.north, rows.border
+    eliminate(rows, row, last)
+    total[:] = 0.0
+    total[0] = north[row, last]
+    total[last - 1] = north[row, last - 1]
+    substitute(rows, row, last, total, border, row)
+    pivot = rows.centre[row, last] - north[row, last] * border[row, 0] - north[row, last - 1] * border[row, last - 1]
+    rows.inverse[row, last] = inverted(pivot, rows.centre[row, last])
 
 
-@compiled
-def solve_row(rows, row, total, values):  # type: ignore[no-untyped-def]
-    """Solve Tx = total for the ``values`` x of a row; ``total`` is used up."""
-    inverse, factor, border = rows.inverse[row], rows.factor[row], rows.border[row]
-    if border.size == 0:
-        substitute(total, inverse, factor, values)
-        return
-    north = rows.north[row]
+@inlined
+def solve_row(rows, row, total, values, place):  # type: ignore[no-untyped-def]
+    """Solve Tx = total of a row for x, row ``place`` of the ``values``; ``total`` is used up."""
     last = total.size - 1
-    substitute(total, inverse[:last], factor[:last], values)
-    closing = (total[last] + north[last] * values[0] + north[last - 1] * values[last - 1]) * inverse[last]
+    if rows.border.shape[1] == 0:
+        substitute(rows, row, last + 1, total, values, place)
+        return
+    north, border = rows.north, rows.border
+    substitute(rows, row, last, total, values, place)
+    closing = total[last] + north[row, last] * values[place, 0] + north[row, last - 1] * values[place, last - 1]
+    closing *= rows.inverse[row, last]
     for j in range(last):
-        values[j] += closing * border[j]
-    values[last] = closing
+        values[place, j] += closing * border[row, j]
+    values[place, last] = closing
 
 
-@compiled
-def add_next(rows, row, values, total):  # type: ignore[no-untyped-def]
-    """Add to a row what its couplings bring from the ``values`` of the next row."""
-    east, up, down = rows.east[row], rows.up[row], rows.down[row]
+@inlined
+def add_next(rows, row, values, place, total):  # type: ignore[no-untyped-def]
+    """Add to a row what its couplings bring from the next row, whose values are in row ``place``."""
+    east, up, down = rows.east, rows.up, rows.down
     last = total.size - 1
-    if up.size == 0:
-        for j in range(total.size):
-            total[j] += east[j] * values[j]
+    for j in range(last + 1):
+        total[j] += east[row, j] * values[place, j]
+    if up.shape[1] == 0:
         return
-    total[0] += east[0] * values[0] + up[0] * values[min(1, last)] + down[0] * values[last]
-    for j in range(1, last):
-        total[j] += east[j] * values[j] + up[j] * values[j + 1] + down[j] * values[j - 1]
-    if last > 0:
-        total[last] += east[last] * values[last] + up[last] * values[0] + down[last] * values[last - 1]
+    for j in range(last):
+        total[j] += up[row, j] * values[place, j + 1]
+    for j in range(1, last + 1):
+        total[j] += down[row, j] * values[place, j - 1]
+    total[last] += up[row, last] * values[place, 0]
+    total[0] += down[row, 0] * values[place, last]
 
 
-@compiled
-def add_previous(rows, row, values, total):  # type: ignore[no-untyped-def]
-    """Add to a row what the couplings of the row before it bring from its ``values``."""
-    east, up, down = rows.east[row - 1], rows.up[row - 1], rows.down[row - 1]
+@inlined
+def add_previous(rows, row, values, place, total):  # type: ignore[no-untyped-def]
+    """Add to a row what couplings bring from the row before it, whose values are in row ``place``."""
+    east, up, down = rows.east, rows.up, rows.down
     last = total.size - 1
-    if up.size == 0:
-        for j in range(total.size):
-            total[j] += east[j] * values[j]
+    row = (row if row > 0 else east.shape[0]) - 1
+    for j in range(last + 1):
+        total[j] += east[row, j] * values[place, j]
+    if up.shape[1] == 0:
         return
-    total[0] += east[0] * values[0] + up[last] * values[last] + down[min(1, last)] * values[min(1, last)]
-    for j in range(1, last):
-        total[j] += east[j] * values[j] + up[j - 1] * values[j - 1] + down[j + 1] * values[j + 1]
-    if last > 0:
-        total[last] += east[last] * values[last] + up[last - 1] * values[last - 1] + down[0] * values[0]
+    for j in range(1, last + 1):
+        total[j] += up[row, j - 1] * values[place, j - 1]
+    for j in range(last):
+        total[j] += down[row, j + 1] * values[place, j + 1]
+    total[0] += up[row, last] * values[place, last]
+    total[last] += down[row, 0] * values[place, 0]
 
 
 @compiled
@@ -223,30 +227,39 @@ def set_coupling(east, up, down, rows, row, first, second):  # type: ignore[no-u
 
 
 @compiled
+def share(rows, row, work):  # type: ignore[no-untyped-def]
+    """What an odd row takes from ones, row 3 of ``work``, in the rows before and after it: T⁻¹B1, its rows 0 and 1."""
+    total = work[2]
+    for side in range(2):
+        total[:] = 0.0
+        if side == 0:
+            add_previous(rows, row, work, 3, total)
+        else:
+            add_next(rows, row, work, 3, total)
+        solve_row(rows, row, total, work, side)
+
+
+@compiled
 def coarsen(fine, coarse, work):  # type: ignore[no-untyped-def]
     """Galerkin's operator PᵀAP on the even rows.
 
     P keeps even rows, and gives odd ones what they take from ones in the row before and after, T⁻¹B1 (Schaffer).
     """
     count, coarse_count = fine.centre.shape[0], coarse.centre.shape[0]
-    first, second, total, ones = work[0], work[1], work[2], work[3]
-    ones[:] = 1.0
-    coarse.centre[:] = fine.centre[::2]
-    coarse.north[:] = fine.north[::2]
+    first, second = work[0], work[1]
+    work[3, :] = 1.0
+    length = fine.centre.shape[1]
+    for row in range(coarse_count):
+        for j in range(length):
+            coarse.centre[row, j] = fine.centre[2 * row, j]
+            coarse.north[row, j] = fine.north[2 * row, j]
     if count % 2:
-        coarse.east[-1] = fine.east[-1]
-        coarse.up[-1] = 0.0
-        coarse.down[-1] = 0.0
-        if fine.up.shape[1]:
-            coarse.up[-1] = fine.up[-1]
-            coarse.down[-1] = fine.down[-1]
+        for j in range(length):
+            coarse.east[coarse_count - 1, j] = fine.east[count - 1, j]
+            coarse.up[coarse_count - 1, j] = fine.up[count - 1, j] if fine.up.shape[1] else 0.0
+            coarse.down[coarse_count - 1, j] = fine.down[count - 1, j] if fine.up.shape[1] else 0.0
     for row in range(1, count, 2):
-        total[:] = 0.0
-        add_previous(fine, row, ones, total)
-        solve_row(fine, row, total, first)
-        total[:] = 0.0
-        add_next(fine, row, ones, total)
-        solve_row(fine, row, total, second)
+        share(fine, row, work)
         left, right = row // 2, (row // 2 + 1) % coarse_count
         add_own(coarse.centre[left], coarse.north[left], fine, row, row - 1, first, False)
         add_own(coarse.centre[right], coarse.north[right], fine, row, row, second, True)
@@ -285,7 +298,7 @@ def set_up(counts, rows, work):  # type: ignore[no-untyped-def]
         stop = start + counts[level]
         fine = level_rows(rows, start, stop, counts[0])
         for row in range(counts[level]):
-            factorise_row(fine, row)
+            factorise_row(fine, row, work[2])
         if level == 0:
             silence(fine)
         if level + 1 < counts.size:
@@ -294,66 +307,61 @@ def set_up(counts, rows, work):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def relax(rows, row, source, values, total):  # type: ignore[no-untyped-def]
-    """Solve a row's equations with the values in the rows beside it."""
-    total[:] = source[row]
-    add_previous(rows, row, values[row - 1], total)
-    add_next(rows, row, values[(row + 1) % values.shape[0]], total)
-    solve_row(rows, row, total, values[row])
+def sweep(rows, order, alone, seam, source, values, total):  # type: ignore[no-untyped-def]
+    """Solve the equations of the rows named by ``order`` (first, stop, step) with the values in the rows beside them.
 
-
-@compiled
-def descend(rows, seam, source, values, coarse_source, total):  # type: ignore[no-untyped-def]
-    """Smooth from 0, even rows first, and bring what remains in these to the next level.
-
-    At a ``seam`` the last row, an even one, is coupled to the first.
+    ``alone`` takes those for 0; but at a ``seam`` the last row, an even one, is coupled to the first and follows it.
     """
     count = values.shape[0]
-    for row in range(0, count, 2):
-        total[:] = source[row]
-        if seam and row == count - 1:
-            add_next(rows, row, values[0], total)
-        solve_row(rows, row, total, values[row])
-    for row in range(1, count, 2):
-        relax(rows, row, source, values, total)
-    for row in range(0, count, 2):
-        remainder = coarse_source[row // 2]
-        remainder[:] = 0.0
-        add_previous(rows, row, values[row - 1], remainder)
-        if row + 1 < count:
-            add_next(rows, row, values[row + 1], remainder)
+    first, stop, step = order
+    for row in range(first, stop, step):
+        for j in range(total.size):
+            total[j] = source[row, j]
+        if not alone:
+            add_previous(rows, row, values, (row if row > 0 else count) - 1, total)
+        if not alone or (seam and row + 1 == count):
+            add_next(rows, row, values, row + 1 if row + 1 < count else 0, total)
+        solve_row(rows, row, total, values, row)
 
 
 @compiled
-def ascend(rows, source, values, coarse_values, total):  # type: ignore[no-untyped-def]
-    """Correct the even rows by the next level, and smooth in the reverse order."""
+def bring_down(rows, values, remainder):  # type: ignore[no-untyped-def]
+    """Set what remains of the even rows' equations, which were solved before the rows beside them were."""
     count = values.shape[0]
     for row in range(0, count, 2):
-        values[row] += coarse_values[row // 2]
-    for row in range(1, count, 2):
-        relax(rows, row, source, values, total)
-    for row in range(count - 2 + count % 2, -1, -2):
-        relax(rows, row, source, values, total)
+        left = remainder[row // 2]
+        left[:] = 0.0
+        add_previous(rows, row, values, (row if row > 0 else count) - 1, left)
+        if row + 1 < count:
+            add_next(rows, row, values, row + 1, left)
 
 
 @compiled
 def cycle(counts, rows, across, source, values, total):  # type: ignore[no-untyped-def]
     """One V-cycle from 0: ``values`` of the finest level from its ``source``, arrays of all levels.
 
-    Odd rows are solved exactly after the even ones, and again after the correction: nothing of their residual is left
-    to bring down, and nothing to interpolate.
+    Even rows, odd rows, the next level, odd rows, even rows in reverse. Odd rows are solved exactly before and after
+    the next level: nothing of their residual is left to bring down, and nothing to interpolate.
     """
     start = 0
     for level in range(counts.size - 1):
-        stop = start + counts[level]
+        count = counts[level]
+        stop = start + count
         end = stop + counts[level + 1]
-        seam = across and counts[level] % 2 == 1
         here = level_rows(rows, start, stop, counts[0])
-        descend(here, seam, source[start:stop], values[start:stop], source[stop:end], total)
+        given, found = source[start:stop], values[start:stop]
+        sweep(here, (0, count, 2), True, across and count % 2 == 1, given, found, total)
+        sweep(here, (1, count, 2), False, False, given, found, total)
+        bring_down(here, found, source[stop:end])
         start = stop
-    total[:] = source[start]
-    solve_row(rows, start, total, values[start])
+    sweep(level_rows(rows, start, start + 1, counts[0]), (0, 1, 1), True, False, source[start:], values[start:], total)
     for level in range(counts.size - 2, -1, -1):
-        stop, start = start, start - counts[level]
+        count = counts[level]
+        stop, start = start, start - count
         here = level_rows(rows, start, stop, counts[0])
-        ascend(here, source[start:stop], values[start:stop], values[stop : stop + counts[level + 1]], total)
+        given, found = source[start:stop], values[start:stop]
+        for row in range(0, count, 2):
+            for j in range(total.size):
+                found[row, j] += values[stop + row // 2, j]
+        sweep(here, (1, count, 2), False, False, given, found, total)
+        sweep(here, ((count - 1) // 2 * 2, -1, -2), False, False, given, found, total)
