@@ -28,6 +28,11 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from contact.files import replacing
+from rom.cavitation.discretise import Ends
+from rom.cavitation.problem import Problem
+from rom.cavitation.shape import Shape
+from rom.cavitation.solve import solve
+from rom.lubricants.compressibility import ConstantBulkModulus
 from rom.provenance import circumstances
 
 ROOT = Path(__file__).parent.parent.parent
@@ -83,10 +88,16 @@ def ours(problem: Case, nodes: int):
 
     Of Bayada and Chupin's law too it is our own model that is solved.
     """
-    raise NotImplementedError(
-        "rom.cavitation is to solve the steady film here: the gap problem.h at np.linspace(0, problem.length, nodes), "
-        "both ends flooded; return (load, pressure_max)"
+    law = {"law": "constant_bulk_modulus", "bulk_modulus": f"{problem.bulk_modulus!r} Pa"}
+    film = Problem(
+        shape=Shape(thickness=lambda x, y: problem.h(x) + 0 * y, breaks=(0.0, problem.length)),
+        ends=Ends(inlet=0.0),
+        speed=problem.speed,
+        viscosity=problem.viscosity,
+        compressibility=ConstantBulkModulus.model_validate(law),
     )
+    found = solve(film, (nodes - 1, 1))
+    return found.levels[-1].load, float(found.state.pressure.max())
 
 
 @cache

@@ -1,0 +1,45 @@
+"""CPU time of films that rupture, on a line of 100 000 cells and in the plane, as JSON with the machine."""
+
+import json
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from contact.files import replacing
+from rom.cavitation.solve import solve
+from rom.provenance import circumstances
+from rom.scene import load_scene
+
+ROOT = Path(__file__).parent.parent.parent
+SLIDER = ROOT / "scripts" / "scenes" / "parabolic_slider.toml"
+RESULTS = ROOT / "runs" / "benchmarks" / "films.json"
+REPEATS = 5
+LINES = [(bulk, theta, 100_000) for bulk in (0.07, 0.3, 1, 10) for theta in (0.55, 0.8, 1)]
+PLANES = [(bulk, theta, cells) for bulk in (0.07, 10) for theta in (0.55, 1) for cells in (128, 256, 512, 1024)]
+
+
+def timed(bulk, theta, cells, *, plane):
+    """CPU seconds of some repeats, sorted, with steps on the finest grid and the load, N or N/m."""
+    changes = [f"lubricant.compressibility.bulk_modulus={bulk} GPa", f"boundary.inlet.theta={theta}"]
+    problem = load_scene(SLIDER, changes + (["geometry.width=76.2 mm"] if plane else [])).problem()
+    size = (cells, cells if plane else 1)
+    solve(replace(problem), (32, 32 if plane else 1))
+    times = []
+    for _ in range(REPEATS):
+        started = time.process_time()
+        found = solve(problem, size)
+        times.append(time.process_time() - started)
+    row = {"bulk_modulus_GPa": bulk, "theta": theta, "cells": list(size), "cpu_s": sorted(times)}
+    return row | {"iterations": [level.iterations for level in found.levels], "load": found.levels[-1].load}
+
+
+@pytest.mark.benchmark
+def test_cost_of_films():
+    lines = [timed(*one, plane=False) for one in LINES]
+    planes = [timed(*one, plane=True) for one in PLANES]
+    with replacing(RESULTS) as scratch:
+        scratch.write_text(json.dumps({**circumstances(), "lines": lines, "planes": planes}, indent=1))
+    assert max(row["cpu_s"][0] for row in lines) < 0.1
+    assert max(row["cpu_s"][0] for row in planes if row["cells"][0] == 512) < 2
