@@ -14,7 +14,7 @@ from typing import Any
 
 from contact.errors import UnavailableError
 from rom.kind import Scene
-from rom.ladder import find
+from rom.ladder import find, of_kind
 from rom.provenance import code, versions
 from rom.result import Result
 from rom.setting import Setting
@@ -145,7 +145,7 @@ def ask(questions: Sequence[Question], origin: tuple[str, dict[str, Any]]) -> li
             break
         before = sum(os.times()[:4])  # of this process, which has one job at a time, and of its ended children
         try:
-            model = find(ladder, question.model)
+            model = find(of_kind(ladder, question.scene.kind), question.model)
             setting = Setting(model=model, resolution=question.resolution, scheme=question.scheme)
             result = setting.solve(question.scene)
             answers.append(Solved(result=replace(result, fields={}), file=as_bytes(result)))

@@ -69,24 +69,25 @@ def settle(
     UnsettledError
         If the residual stays above the tolerance; it holds the relaxed state.
     """
-    state, rounds, iterations, told = start, ROUNDS if ruptures else 1, 0, ""
+    state, rounds, iterations = start, ROUNDS if ruptures else 1, 0
+    failed = ConvergenceError("")
     for number in range(rounds):
         if ruptures:
             state = relaxed(network, fluid, state, sweeps * MORE**number)
         try:
             found = newton(network, fluid, state, step, tolerance=tolerance, ruptures=ruptures)
         except ConvergenceError as error:
-            iterations, told = iterations + (error.iterations or STEPS), str(error)
+            iterations, failed = iterations + (error.iterations or STEPS), error
         else:
             return replace(found, iterations=iterations + found.iterations)
-    raise UnsettledError(told, state=state, iterations=iterations)
+    raise UnsettledError(str(failed), outcome=failed.outcome, state=state, iterations=iterations)
 
 
 class UnsettledError(ConvergenceError):
     """No state balances that could be found; ``state`` is as near as relaxation comes."""
 
-    def __init__(self, message: str, *, state: State, iterations: int) -> None:
-        super().__init__(message, outcome=Outcome.STALLED, iterations=iterations)
+    def __init__(self, message: str, *, outcome: Outcome, state: State, iterations: int) -> None:
+        super().__init__(message, outcome=outcome, iterations=iterations)
         self.state = state
 
 
@@ -97,9 +98,8 @@ def newton(network: Network, fluid: Fluid, start: State, step: Step, *, toleranc
     balance = parts[0]
     changed, residual = 0, np.inf
     for iteration in range(STEPS + 1):
-        with np.errstate(over="ignore", invalid="ignore"):
-            excess, excess_slope = fluid.compression(pressure)
-            mobility, mobility_slope = fluid.mobility(pressure)
+        excess, excess_slope = fluid.compression(pressure)
+        mobility, mobility_slope = fluid.mobility(pressure)
         largest = linearise(
             network.couette,
             network.upstream,
@@ -132,12 +132,15 @@ def newton(network: Network, fluid: Fluid, start: State, step: Step, *, toleranc
             changed = advance(kind.reshape(-1), pressure.reshape(-1), fill.reshape(-1), change.reshape(-1))
         else:
             pressure = pressure + change
-    raise ConvergenceError(
-        f"cavitation: the residual of {residual:.1e} misses the tolerance of {tolerance:.1e}, {changed} nodes still "
-        "change between film and cavity; take more cells, or a law that bears such pressures",
-        outcome=Outcome.UNFINISHED if np.isfinite(residual) else Outcome.DIVERGED,
-        iterations=iteration,
+    finite = np.isfinite(residual)
+    told = (
+        f"the residual of {residual:.1e} misses the tolerance of {tolerance:.1e}, {changed} nodes still change between "
+        "film and cavity; take more cells"
+        if finite
+        else "pressures grow beyond all bounds: no film of such a lubricant may exist; take a law that bears them"
     )
+    outcome = Outcome.UNFINISHED if finite else Outcome.DIVERGED
+    raise ConvergenceError(f"cavitation: {told}", outcome=outcome, iterations=iteration)
 
 
 def _begun(network: Network, start: State) -> tuple[Array, Array, NDArray[np.int8]]:

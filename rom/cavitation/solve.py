@@ -116,7 +116,9 @@ def solve(
         except UnsettledError as error:
             if nodes is finest:
                 raise
-            start = carried(error.state, nodes, grid(problem.shape, sizes[number + 1]), problem.shape.joined)
+            next_one, near = grid(problem.shape, sizes[number + 1]), error.state
+            sound = bool(np.isfinite(near.pressure).all())
+            start = carried(near, nodes, next_one, problem.shape.joined) if sound else None
             continue
         found = replace(
             found,
@@ -156,7 +158,8 @@ def on_grid(
     )
     state = start or State(pressure=np.zeros(net.shape), fill=np.ones(net.shape))
     step = line_step if problem.shape.wide else plane_step
-    settled = settle(net, problem, state, step, sweeps=sweeps, tolerance=tolerance, ruptures=ruptures)
+    with np.errstate(over="ignore", invalid="ignore"):  # numbers that overflow are told as a residual that is none
+        settled = settle(net, problem, state, step, sweeps=sweeps, tolerance=tolerance, ruptures=ruptures)
     load = float((nodes.areas * settled.state.pressure).sum())
     return Solution(
         problem=problem,
