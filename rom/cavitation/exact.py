@@ -8,7 +8,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq, minimize_scalar
 
-from contact.errors import ConvergenceError, InputError
+from contact.errors import ConvergenceError, InputError, Outcome
 from rom.cavitation.problem import Problem
 from rom.gap import Array
 
@@ -20,6 +20,12 @@ SAMPLES = 4000
 
 DOUBLINGS = 60
 """Of the flow, until it is more than the inlet can let in."""
+
+UNBOUNDED, NEAR = 1.0, 1e-9
+"""Over the unit of pressure: what a flow whose film has no pressure is told to exceed by, and what none need be."""
+
+STIFFEST = 1e-10
+"""Least η0/η: where the liquid is stiffer, the pressure is taken to grow beyond all bounds."""
 
 START, END, GREATEST = "start", "end", "greatest"
 
@@ -143,7 +149,10 @@ def _flow_of(problem: Problem, places: _Places, inlet: float) -> float:
     """The flow whose film has the pressure ``inlet``, Pa, where x = 0: what it lacks grows with the flow."""
 
     def excess(flow: float) -> float:
-        film = _film(problem, places, flow)
+        try:
+            film = _film(problem, places, flow)
+        except ConvergenceError:
+            return UNBOUNDED
         return (film.inlet if film.start == 0 else -film.start) - inlet / places.pressure
 
     least = problem.speed / 2 * places.thickness(places.narrowest)
@@ -154,7 +163,10 @@ def _flow_of(problem: Problem, places: _Places, inlet: float) -> float:
         least, most = most, 2 * most
     if excess(least) >= 0:
         return least
-    return float(brentq(excess, least, most, xtol=1e-300, rtol=4 * np.finfo(float).eps, maxiter=200))
+    found = float(brentq(excess, least, most, xtol=1e-300, rtol=4 * np.finfo(float).eps, maxiter=200))
+    if abs(excess(found)) > NEAR:
+        raise _unbounded()
+    return found
 
 
 def _film(problem: Problem, places: _Places, flow: float) -> _Film:
@@ -189,10 +201,11 @@ def _slope(problem: Problem, places: _Places, flow: float) -> Slope:
     def slope(x: float, state: Array) -> Array:
         h = places.thickness(x)
         pressure = np.array([max(float(state[0]), 0.0) * places.pressure])
-        with np.errstate(over="ignore", divide="ignore"):
-            theta = 1 + problem.compression(pressure)[0][0]
-            viscosity = problem.viscosity / problem.piezoviscosity.fluidity(pressure, problem.viscosity)[0][0]
-            rise = 12 * viscosity / h**3 * (problem.speed / 2 * h - flow / theta)
+        theta = 1 + problem.compression(pressure)[0][0]
+        fluidity = problem.piezoviscosity.fluidity(pressure, problem.viscosity)[0][0]
+        if fluidity < STIFFEST:
+            raise _unbounded()
+        rise = 12 * problem.viscosity / fluidity / h**3 * (problem.speed / 2 * h - flow / theta)
         return np.array([rise * places.length / places.pressure, -state[0]])
 
     return slope
@@ -236,6 +249,11 @@ def _state_at(slope: Slope, here: float, there: float, state: Array) -> Array:
 
 def _whole(found: Any) -> None:
     if not found.success or not np.isfinite(found.y).all():
-        raise ConvergenceError(
-            "cavitation: the pressure of the film grows without bound; the viscosity must grow less with pressure"
-        )
+        raise _unbounded()
+
+
+def _unbounded() -> ConvergenceError:
+    return ConvergenceError(
+        "exact: the pressure of the film grows beyond all bounds; the viscosity must grow less with pressure",
+        outcome=Outcome.DIVERGED,
+    )

@@ -116,7 +116,7 @@ def settle(
             pressure, changed = pressure + change, 0
     raise ConvergenceError(
         f"cavitation: {changed} nodes still change over and residual {residual:.1e} misses the tolerance "
-        f"{tolerance:.1e} after {limit} steps; take more nodes or a smaller change",
+        f"{tolerance:.1e} after {iteration} steps; take more nodes or a smaller change",
         outcome=Outcome.UNFINISHED if np.isfinite(residual) else Outcome.DIVERGED,
-        iterations=limit,
+        iterations=iteration,
     )
