@@ -21,11 +21,14 @@ SAMPLES = 4000
 DOUBLINGS = 60
 """Of the flow, until it is more than the inlet can let in."""
 
-UNBOUNDED, NEAR = 1.0, 1e-9
+UNBOUNDED, NEAR = 1.0, 1e-6
 """Over the unit of pressure: what a flow whose film has no pressure is told to exceed by, and what none need be."""
 
 STIFFEST = 1e-10
 """Least η0/η: where the liquid is stiffer, the pressure is taken to grow beyond all bounds."""
+
+EVALUATIONS = 6000
+"""Of the slope, for one film; most take about 1000."""
 
 START, END, GREATEST = "start", "end", "greatest"
 
@@ -68,7 +71,7 @@ def exact(problem: Problem) -> Exact:
     integrated against the sliding, in which direction errors decay. A starved inlet brings m = u θ h/2 and the film
     begins where p = 0; if it then reaches the inlet, more is brought than enters. An inlet of given pressure, or one
     that brings enough, lets in the m for which p is that pressure there. About 11 digits are right, whatever the
-    bulk modulus; the lubricant's laws are all that is shared with the finite volumes.
+    bulk modulus, and fewer where viscosity grows by orders of magnitude; the lubricant's laws are all that is shared with the finite volumes.
 
     Valid for infinitely wide films whose thickness is continuous and has one minimum, slid towards growing x, with
     the outlet at the pressure of cavitation.
@@ -78,7 +81,8 @@ def exact(problem: Problem) -> Exact:
     InputError
         If the film is not of that kind.
     ConvergenceError
-        If the pressure has no bound, as may be where viscosity grows with it without end.
+        If the pressure has no bound, as may be where viscosity grows with it without end, or changes too steeply to
+        be integrated, as where viscosity grows ten thousandfold and only compression bounds the pressure.
 
     Sources: Jakobsson and Floberg 1957 for the conditions at both ends; Elrod 1981, doi:10.1115/1.3251669.
     """
@@ -87,8 +91,8 @@ def exact(problem: Problem) -> Exact:
     drag, ends = problem.speed / 2, problem.ends
     if ends.inlet is None:
         brought = drag * ends.theta * places.thickness(0.0)
-        film = _film(problem, places, brought)
-        if film.inlet <= 0:
+        film = _tried(problem, places, brought)
+        if film is not None and film.inlet <= 0:
             return _told(problem, places, film, brought)
     flow = _flow_of(problem, places, ends.inlet or 0.0)
     return _told(problem, places, _film(problem, places, flow), flow)
@@ -149,9 +153,8 @@ def _flow_of(problem: Problem, places: _Places, inlet: float) -> float:
     """The flow whose film has the pressure ``inlet``, Pa, where x = 0: what it lacks grows with the flow."""
 
     def excess(flow: float) -> float:
-        try:
-            film = _film(problem, places, flow)
-        except ConvergenceError:
+        film = _tried(problem, places, flow)
+        if film is None:
             return UNBOUNDED
         return (film.inlet if film.start == 0 else -film.start) - inlet / places.pressure
 
@@ -167,6 +170,14 @@ def _flow_of(problem: Problem, places: _Places, inlet: float) -> float:
     if abs(excess(found)) > NEAR:
         raise _unbounded()
     return found
+
+
+def _tried(problem: Problem, places: _Places, flow: float) -> _Film | None:
+    """The film that a flow keeps; None if its pressure grows beyond all bounds, as that of all greater flows does."""
+    try:
+        return _film(problem, places, flow)
+    except ConvergenceError:
+        return None
 
 
 def _film(problem: Problem, places: _Places, flow: float) -> _Film:
@@ -197,13 +208,16 @@ Slope = Callable[[float, Any], Array]
 
 def _slope(problem: Problem, places: _Places, flow: float) -> Slope:
     """slope(x, (p, load behind x)) over the units of length and pressure."""
+    left = EVALUATIONS
 
     def slope(x: float, state: Array) -> Array:
+        nonlocal left
+        left -= 1
         h = places.thickness(x)
         pressure = np.array([max(float(state[0]), 0.0) * places.pressure])
         theta = 1 + problem.compression(pressure)[0][0]
         fluidity = problem.piezoviscosity.fluidity(pressure, problem.viscosity)[0][0]
-        if fluidity < STIFFEST:
+        if fluidity < STIFFEST or left < 0:
             raise _unbounded()
         rise = 12 * problem.viscosity / fluidity / h**3 * (problem.speed / 2 * h - flow / theta)
         return np.array([rise * places.length / places.pressure, -state[0]])
@@ -254,6 +268,6 @@ def _whole(found: Any) -> None:
 
 def _unbounded() -> ConvergenceError:
     return ConvergenceError(
-        "exact: the pressure of the film grows beyond all bounds; the viscosity must grow less with pressure",
+        "exact: the pressure of the film grows beyond all bounds or too steeply; viscosity must grow less with it",
         outcome=Outcome.DIVERGED,
     )
