@@ -24,15 +24,14 @@ def broken_balance(found: Solution) -> float:
         return math.inf
     if pressure.min() < 0 or fill.min() < 0 or fill.max() > 1 or (fill[pressure > 0] < 1).any():
         return math.inf
-    free = np.ones(pressure.shape, dtype=bool)
-    given = []
+    free, wanted = np.ones(pressure.shape, dtype=bool), pressure.copy()
+    given: list[tuple[tuple[slice, slice], float]] = []
     if not shape.joined[0]:
         given.append((np.s_[-1:, :], ends.outlet))
         if ends.inlet is not None:
             given.append((np.s_[:1, :], ends.inlet))
     if ends.sides is not None:
         given += [(np.s_[:, :1], ends.sides[0]), (np.s_[:, -1:], ends.sides[1])]
-    wanted = pressure.copy()
     for place, value in given:
         free[place], wanted[place] = False, value
     if (np.abs(pressure - wanted) > 0).any():

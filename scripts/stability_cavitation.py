@@ -14,7 +14,7 @@ from rich.table import Table
 from contact.errors import ConvergenceError, InputError
 from rom.provenance import code, commit, machine, versions
 from rom.table import Column
-from scripts.cavitation_probes import REFUSED, SECOND_ORDER, Answer, Probe, bound, liquid, off, probes, slider
+from scripts.cavitation_probes import FLOOR, REFUSED, SECOND_ORDER, Answer, Probe, bound, liquid, off, probes, slider
 from scripts.common import progress_bar
 from scripts.stability_made import Made
 
@@ -36,7 +36,7 @@ WORK = 30_000_000
 SWITCH, SCHUR, DEFAULT = "switch", "fbns", "default"
 
 NAMES = {
-    SWITCH: "the switch algorithm of the thesis, from θ = 1 everywhere",
+    SWITCH: "the switch algorithm of the thesis, from a full film without pressure",
     SCHUR: "Fischer–Burmeister–Newton–Schur, from a full film without pressure",
     DEFAULT: "the default: Newton's method on an active set, from coarse grids to fine",
 }
@@ -208,7 +208,8 @@ class CavitationFamily:
                 "probes": {name: _rows(found) for name, found in groups.items() if name not in NAMES},
                 "states": [(state, MEANING[state], _count(spots, state)) for state in State],
                 "told": told(spots),
-                "bound": f"{SECOND_ORDER:g} (cell/length)² + 1e-7",
+                "bound": f"{SECOND_ORDER:g} (cell/length)² + {FLOOR:g}",
+                "limit": f"3000 steps, or {WORK:g} steps times nodes",
             },
         )
 
@@ -222,8 +223,9 @@ def told(spots: Sequence[Spot]) -> list[str]:
         if not good:
             continue
         most, worst = max(spot.iterations or 0 for spot in good), max(spot.error or 0.0 for spot in good)
+        name = NAMES[method][0].upper() + NAMES[method][1:]
         lines.append(
-            f"{NAMES[method].capitalize()}: {len(good)} of {len(own)} sliders right, {_count(own, State.SLOW)} of "
+            f"{name}: {len(good)} of {len(own)} sliders right, {_count(own, State.SLOW)} of "
             f"these slowly, {_count(own, State.STALLED)} stalled, {_count(own, State.WRONG)} wrong; "
             f"at most {most} iterations where right, loads off by at most {worst:.1e}, "
             f"{sum(spot.cpu_s for spot in own):.2g} s in all."
@@ -244,7 +246,9 @@ def _count(spots: Sequence[Spot], state: State) -> int:
 
 
 def _rows(spots: Sequence[Spot]) -> dict[str, dict[str, Spot]]:
-    return {row: {spot.column: spot for spot in spots if spot.row == row} for row in dict.fromkeys(s.row for s in spots)}
+    return {
+        row: {spot.column: spot for spot in spots if spot.row == row} for row in dict.fromkeys(s.row for s in spots)
+    }
 
 
 def _entries(resolution: int, spots: Sequence[Spot]) -> dict[str, Any]:

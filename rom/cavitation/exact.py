@@ -70,8 +70,9 @@ def exact(problem: Problem) -> Exact:
     The film ends where p = 0 and u h/2 = m on its widening side, or else at the outlet with p = 0, from where it is
     integrated against the sliding, in which direction errors decay. A starved inlet brings m = u θ h/2 and the film
     begins where p = 0; if it then reaches the inlet, more is brought than enters. An inlet of given pressure, or one
-    that brings enough, lets in the m for which p is that pressure there. About 11 digits are right, whatever the
-    bulk modulus, and fewer where viscosity grows by orders of magnitude; the lubricant's laws are all that is shared with the finite volumes.
+    that brings enough, lets in the m for which p is that pressure there. About 11 digits are right, whatever the bulk
+    modulus, and fewer where viscosity grows by orders of magnitude; the lubricant's laws are all that is shared with
+    the finite volumes.
 
     Valid for infinitely wide films whose thickness is continuous and has one minimum, slid towards growing x, with
     the outlet at the pressure of cavitation.
@@ -189,18 +190,19 @@ def _film(problem: Problem, places: _Places, flow: float) -> _Film:
     if places.thickness(1.0) > full:
         end = float(brentq(lambda x: places.thickness(x) - full, places.narrowest, 1.0, xtol=1e-16, rtol=1e-15))
     slope = _slope(problem, places, flow)
-    here, state, greatest = end, np.zeros(2), 0.0
+    here, state = end, np.zeros(2)
+    greatest: float | None = None
     for stop in (*(place for place in reversed(places.breaks) if 0 < place < end), 0.0):
         while here > stop:
-            place, why = _integrated(slope, here, stop, state)
+            place, why = _integrated(slope, here, stop, state, rising=greatest is None)
             state = _state_at(slope, here, place, state)
             if why == START:
                 steepness = slope(place, state)[0]
-                return _Film(float(state[1]), greatest, place - float(state[0]) / steepness, end, 0.0)
+                return _Film(float(state[1]), greatest or 0.0, float(place - state[0] / steepness), end, 0.0)
             if why == GREATEST:
-                greatest = max(greatest, float(state[0]))
+                greatest = float(state[0])
             here = place
-    return _Film(float(state[1]), max(greatest, float(state[0])), 0.0, end, float(state[0]))
+    return _Film(float(state[1]), max(greatest or 0.0, float(state[0])), 0.0, end, float(state[0]))
 
 
 Slope = Callable[[float, Any], Array]
@@ -225,18 +227,20 @@ def _slope(problem: Problem, places: _Places, flow: float) -> Slope:
     return slope
 
 
-def _integrated(slope: Slope, here: float, stop: float, state: Array) -> tuple[float, str]:
-    """How far it goes from ``here`` against the sliding until the pressure is 0, greatest, or ``stop`` is reached."""
+def _integrated(slope: Slope, here: float, stop: float, state: Array, *, rising: bool) -> tuple[float, str]:
+    """How far it goes from ``here`` against the sliding until the pressure is 0, greatest, or ``stop`` is reached.
+
+    The greatest is met once, and looked for only while the pressure is still ``rising`` that way.
+    """
 
     def starts(_x: float, now: Array) -> float:
         return float(now[0])
 
-    def rises(x: float, now: Array) -> float:
+    def falls(x: float, now: Array) -> float:
         return float(slope(x, now)[0])
 
-    starts.terminal = rises.terminal = True  # type: ignore[attr-defined]
-    starts.direction, rises.direction = -1, 1  # type: ignore[attr-defined]
-    falling = state[0] == 0 or slope(here, state)[0] < 0
+    starts.terminal = falls.terminal = True  # type: ignore[attr-defined]
+    starts.direction, falls.direction = -1, 1  # type: ignore[attr-defined]
     found = solve_ivp(
         slope,
         (here, stop),
@@ -244,12 +248,12 @@ def _integrated(slope: Slope, here: float, stop: float, state: Array) -> tuple[f
         method="DOP853",
         rtol=RELATIVE,
         atol=ABSOLUTE,
-        events=[starts, rises] if falling else [starts],
+        events=[starts, falls] if rising else [starts],
     )
     _whole(found)
     if found.t_events[0].size:
         return float(found.t_events[0][0]), START
-    if falling and found.t_events[1].size and float(found.t_events[1][0]) < here:
+    if rising and found.t_events[1].size:
         return float(found.t_events[1][0]), GREATEST
     return stop, END
 

@@ -99,9 +99,7 @@ def fischer_burmeister(
         if not np.isfinite(residual):
             break
         if max(residual, float(broken.max())) <= tolerance:
-            return Balanced(
-                state=State(pressure=pressure, fill=1 - cavity), residual=residual, iterations=iteration
-            )
+            return Balanced(state=State(pressure=pressure, fill=1 - cavity), residual=residual, iterations=iteration)
         change, opened = _step(network, by_pressure, by_fill, scaled, cavity[:, 0], pressure_unit)
         if supplied:
             surplus = max(surplus + change[0], 0.0)
@@ -129,7 +127,21 @@ def _step(
     balance, centre_p, west_p, east_p = (part[:, 0] for part in by_pressure[:4])
     centre_f, west_f, east_f = (part[:, 0] for part in by_fill[1:4])
     keeps = reduced(
-        balance, centre_p, west_p, east_p, centre_f, west_f, east_f, by_p, by_c, merit, unit, lower, centre, upper, right
+        balance,
+        centre_p,
+        west_p,
+        east_p,
+        centre_f,
+        west_f,
+        east_f,
+        by_p,
+        by_c,
+        merit,
+        unit,
+        lower,
+        centre,
+        upper,
+        right,
     )
     along(lower, centre, upper, right, np.empty_like(right))
     with np.errstate(all="ignore"):

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.linalg import solve_banded
 
 from contact.errors import ConvergenceError, InputError, Outcome
@@ -43,8 +44,8 @@ def switched(problem: Problem, cells: int, *, limit: int = LIMIT) -> Switched:
 
     The Couette term has second-order backward differences, the Poiseuille term central ones: the slope is
     dp/dθ (g₂(θ₂ - 1) - g₁(θ₁ - 1)) over the distance, so that a cavity has the pressure of cavitation. Each step
-    θₙ = f(θₙ₋₁) takes g, dp/dθ and η from the one before and begins from θ = 1 everywhere. The paper does not say how
-    g is placed between nodes: here as in Elrod's scheme, which it builds on.
+    θₙ = f(θₙ₋₁) takes g, dp/dθ and η from the one before; it begins from a film everywhere, at the pressure of
+    cavitation. The paper does not say how g is placed between nodes: here as in Elrod's scheme, which it builds on.
 
     Valid for infinitely wide films slid towards growing x, of a lubricant that is compressible; at a starved inlet the
     film must not reach the inlet, whose density is given.
@@ -77,7 +78,7 @@ def switched(problem: Problem, cells: int, *, limit: int = LIMIT) -> Switched:
     seen: dict[bytes, int] = {}
     returns, before = 0, b""
     for iteration in range(1, limit + 1):
-        film = theta > 1
+        film = np.asarray(theta > 1) if iteration > 1 else np.ones(theta.size, dtype=np.bool_)
         switch = np.packbits(film).tobytes()
         returns += switch != before and switch in seen
         seen[switch], before = iteration, switch
@@ -93,7 +94,9 @@ def switched(problem: Problem, cells: int, *, limit: int = LIMIT) -> Switched:
     raise _failed(f"relative change {change:.1e} misses {TOLERANCE:g}", Outcome.UNFINISHED, limit)
 
 
-def _solved(problem: Problem, thickness: Array, step: float, theta: Array, pressure: Array, film: Array) -> Array:
+def _solved(
+    problem: Problem, thickness: Array, step: float, theta: Array, pressure: Array, film: NDArray[np.bool_]
+) -> Array:
     """One step: θ from the switch, dp/dθ and viscosity of the step before; unknowns are all nodes."""
     n = theta.size
     mobility = problem.mobility(pressure)[0] / problem.compression(pressure)[1]
