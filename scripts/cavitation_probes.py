@@ -1,93 +1,52 @@
 """What the default solver of cavitating films is tried on, each question with a judge of its own."""
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Iterator
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
-from rom.bearing_geometry import Journal, Linear, Parabolic, Parallel, Sector, Step
+from rom.bearing_geometry import Journal, Parabolic, Parallel, Sector, Step
 from rom.cavitation.discretise import Ends
-from rom.cavitation.exact import exact
 from rom.cavitation.network import State
-from rom.cavitation.problem import Problem
 from rom.cavitation.shape import Shape
-from rom.cavitation.solve import Solution, solve
+from rom.cavitation.solve import solve
 from rom.film_closed_forms import barus_pressure, linear_slider, rayleigh_step
 from rom.gap import Array
-from rom.lubricants.compressibility import Compressibility, ConstantBulkModulus, DowsonHigginson
+from rom.lubricants.compressibility import DowsonHigginson
 from rom.lubricants.viscosity import Barus, Roelands
 from rom.texture import Texture, pocketed
-from scripts.cavitation_check import broken_balance
-
-SPEED, VISCOSITY = 4.57, 0.039
-"""m/s, Pa s."""
-
-LENGTH, FILM = 76.2e-3, 25.4e-6
-"""m."""
-
-UNIT = 6 * VISCOSITY * SPEED * LENGTH / FILM**2
-"""Pa, of the pressures."""
-
-SEED = 20071
-
-SECOND_ORDER, FLOOR = 100.0, 1e-6
-"""A load may be off by so many squares of a cell over the length, and by what the tolerances leave."""
-
-BALANCED = 1e-8
-"""A net flow into a node, over the largest flow, recomputed: ten times what is asked of the solver."""
-
-SAME = 1e-12
-"""What is the same but for rounding."""
-
-CELLS = 1000
-"""On lines."""
+from scripts.cavitation_scenes import (
+    BALANCED,
+    CELLS,
+    FILM,
+    LENGTH,
+    REFUSED,
+    SAME,
+    SEED,
+    SOLVED,
+    SPEED,
+    UNIT,
+    VISCOSITY,
+    Answer,
+    Probe,
+    against,
+    balance,
+    bound,
+    film,
+    known_load,
+    linear,
+    liquid,
+    load_of,
+    metres,
+    mirrored,
+    off,
+    slider,
+    steps_of,
+)
 
 PLANE = (32, 24)
 """In the plane."""
-
-SOLVED, REFUSED = "solved", "refused"
-
-
-@dataclass(frozen=True, kw_only=True)
-class Answer:
-    """What a question gave: Newton's steps on all grids, and by how much the answer is off."""
-
-    iterations: int
-    error: float
-
-
-@dataclass(frozen=True, kw_only=True)
-class Probe:
-    """One question: where it stands on the page, how it is asked, how much the answer may be off, what is expected."""
-
-    group: str
-    row: str
-    column: str
-    ask: Callable[[], Answer]
-    bound: float
-    expected: str = SOLVED
-
-
-def bound(cells: int) -> float:
-    """What a load of second order in the cells may be off."""
-    return SECOND_ORDER / cells**2 + FLOOR
-
-
-def liquid(gigapascals: float) -> ConstantBulkModulus:
-    """A constant bulk modulus."""
-    return ConstantBulkModulus(law="constant_bulk_modulus", bulk_modulus=f"{gigapascals!r} GPa")  # type: ignore[arg-type]
-
-
-def slider(theta: float, compressibility: Compressibility) -> Problem:
-    """The parabolic slider, with so full an inlet."""
-    shape = Parabolic(shape="parabolic", length=_m(LENGTH), film=_m(FILM), rise=_m(FILM)).film_shape()
-    return _film(shape, Ends(theta=theta), compressibility=compressibility)
-
-
-def off(load: float, wanted: float) -> float:
-    """A load's error over what is wanted or, if that is nothing, over the unit."""
-    return abs(load - wanted) / (wanted or UNIT * LENGTH)
 
 
 def probes(plane: tuple[int, int] = PLANE) -> Iterator[Probe]:
@@ -103,62 +62,22 @@ def probes(plane: tuple[int, int] = PLANE) -> Iterator[Probe]:
     yield from _stiffening()
 
 
-def _m(value: float) -> float:
-    """A length as the scene's classes take it."""
-    return f"{value!r} m"  # type: ignore[return-value]
-
-
-def _film(shape: Shape, ends: Ends, **given: object) -> Problem:
-    return Problem(**{"shape": shape, "ends": ends, "speed": SPEED, "viscosity": VISCOSITY, **given})  # type: ignore[arg-type]
-
-
-def _steps_of(found: Solution) -> int:
-    return sum(level.iterations for level in found.levels)
-
-
-def _load(found: Solution) -> float:
-    return found.levels[-1].load
-
-
-def _balance(problem: Problem, cells: tuple[int, int]) -> Answer:
-    found = solve(problem, cells)
-    return Answer(iterations=_steps_of(found), error=broken_balance(found))
-
-
-def _against(problem: Problem, cells: int, wanted: Callable[[], float], start: State | None = None) -> Answer:
-    found = solve(problem, (cells, 1), start=start)
-    return Answer(iterations=_steps_of(found), error=off(_load(found), wanted()))
-
-
-def _known(problem: Problem) -> float:
-    return exact(problem).load
-
-
-def _linear() -> Shape:
-    return Linear(shape="linear", length=_m(LENGTH), film=_m(FILM), rise=_m(FILM)).film_shape()
-
-
-def _mirrored(shape: Shape) -> Shape:
-    breaks = tuple(LENGTH - place for place in reversed(shape.breaks))
-    return replace(shape, breaks=breaks, thickness=lambda x, y: shape.thickness(LENGTH - x, y))
-
-
 def _reversed() -> Iterator[Probe]:
     """The wall turned round, film and all: what it gives must be the same."""
-    texture = Texture(length=_m(6e-3), depth=_m(1e-5), start=_m(8e-3), pitch=_m(2e-2), columns=3)
-    shapes = {"linear": _linear(), "textured": pocketed(_linear(), texture)}
+    texture = Texture(length=metres(6e-3), depth=metres(1e-5), start=metres(8e-3), pitch=metres(2e-2), columns=3)
+    shapes = {"linear": linear(), "textured": pocketed(linear(), texture)}
     for name, shape in shapes.items():
-        for label, ends in {"flooded": Ends(), "starved": Ends(theta=0.6), "pressurised": Ends(inlet=UNIT)}.items():
+        for label, ends in {"flooded": Ends(), "starved": Ends(theta=0.52), "pressurised": Ends(inlet=UNIT)}.items():
 
             def ask(shape: Shape = shape, ends: Ends = ends) -> Answer:
-                forward = solve(_film(shape, ends, compressibility=liquid(0.1)), (CELLS, 1))
-                there = _film(_mirrored(shape), ends, compressibility=liquid(0.1), speed=-SPEED)
+                forward = solve(film(shape, ends, compressibility=liquid(0.1)), (CELLS, 1))
+                there = film(mirrored(shape), ends, compressibility=liquid(0.1), speed=-SPEED)
                 back = solve(there, (CELLS, 1))
                 apart = np.abs(forward.state.pressure - back.state.pressure).max() / UNIT
                 unlike = np.abs(forward.state.fill - back.state.fill).max()
-                return Answer(iterations=_steps_of(back), error=float(max(apart, unlike)))
+                return Answer(iterations=steps_of(back), error=float(max(apart, unlike)))
 
-            yield Probe(group="reversed sliding", row=name, column=label, ask=ask, bound=1e-10)
+            yield Probe(group="reversed sliding", row=name, column=label, ask=ask, bound=SAME)
 
 
 def _at_rest() -> Iterator[Probe]:
@@ -168,7 +87,7 @@ def _at_rest() -> Iterator[Probe]:
 
             def ask(pressure: float = pressure, modulus: float | None = modulus) -> Answer:
                 given = {} if modulus is None else {"compressibility": liquid(modulus)}
-                found = solve(_film(_linear(), Ends(inlet=pressure), speed=0.0, **given), (CELLS, 1))
+                found = solve(film(linear(), Ends(inlet=pressure), speed=0.0, **given), (CELLS, 1))
                 # ∫ h⁻³ dx of h = FILM (2 - x/L) from 0 to x, over that to L
                 part = ((2 - found.grid.x / LENGTH) ** -2 - 0.25) / 0.75
                 if modulus is None:
@@ -177,13 +96,13 @@ def _at_rest() -> Iterator[Probe]:
                     theta = 1 + np.expm1(pressure / (modulus * 1e9)) * (1 - part)
                     wanted = modulus * 1e9 * np.log(theta)
                 apart = np.abs(found.state.pressure[:, 0] - wanted).max() / (pressure or UNIT)
-                return Answer(iterations=_steps_of(found), error=float(apart))
+                return Answer(iterations=steps_of(found), error=float(apart))
 
             yield Probe(group="at rest", row=name, column=column, ask=ask, bound=bound(CELLS))
 
     def starved() -> Answer:
-        found = solve(_film(_linear(), Ends(theta=0.5), speed=0.0), (CELLS, 1))
-        return Answer(iterations=_steps_of(found), error=off(_load(found), 0.0))
+        found = solve(film(linear(), Ends(theta=0.5), speed=0.0), (CELLS, 1))
+        return Answer(iterations=steps_of(found), error=off(load_of(found), 0.0))
 
     yield Probe(group="at rest", row="nothing is brought", column="θ = 0.5", ask=starved, bound=SAME)
 
@@ -193,7 +112,7 @@ def _starved() -> Iterator[Probe]:
     for theta in (1e-12, 1e-6, 1e-3, 0.3, 0.4999, 0.5, 0.5001, 0.501, 0.51):
         for modulus in (0.05, 100.0):
             problem = slider(theta, liquid(modulus))
-            ask = partial(_against, problem, 10 * CELLS, partial(_known, problem))
+            ask = partial(against, problem, 10 * CELLS, partial(known_load, problem))
             # without a film errors count over the unit, of which the flooded slider carries a hundredth; a film that
             # is a few cells long is known no better than so
             allowed = bound(10 * CELLS) / 100 if theta < 0.5001 else 0.1 if theta < 0.501 else 0.01
@@ -228,10 +147,10 @@ def _restarted() -> Iterator[Probe]:
                         row=f"{name}, {cells} cells",
                         column=f"β = {modulus:g} GPa, θ = {theta:g}",
                         ask=partial(
-                            _against,
+                            against,
                             problem,
                             cells,
-                            partial(_known, problem),
+                            partial(known_load, problem),
                             State(pressure=pressure.copy(), fill=fill.copy()),
                         ),
                         bound=bound(cells),
@@ -257,9 +176,9 @@ def _laws() -> Iterator[Probe]:
                 group="laws",
                 row=name,
                 column=column,
-                ask=partial(_against, problem, CELLS, partial(_known, problem))
+                ask=partial(against, problem, CELLS, partial(known_load, problem))
                 if known
-                else partial(_balance, problem, (CELLS, 1)),
+                else partial(balance, problem, (CELLS, 1)),
                 bound=bound(CELLS) if known else BALANCED,
             )
 
@@ -267,10 +186,8 @@ def _laws() -> Iterator[Probe]:
 def _steps() -> Iterator[Probe]:
     """Film thickness that jumps: towards the narrow side Rayleigh's step, towards the wide one nothing is borne."""
     for jump in (2.0, 10.0, 100.0, 1000.0):
-        geometry = Step(
-            shape="step", length=_m(LENGTH), film=_m(FILM), rise=_m((jump - 1) * FILM), step=_m(0.7 * LENGTH)
-        )
-        shape = geometry.film_shape()
+        rise, place = metres((jump - 1) * FILM), metres(0.7 * LENGTH)
+        shape = Step(shape="step", length=metres(LENGTH), film=metres(FILM), rise=rise, step=place).film_shape()
         wanted = rayleigh_step(
             film=FILM,
             rise=(jump - 1) * FILM,
@@ -284,14 +201,14 @@ def _steps() -> Iterator[Probe]:
                 group="jumps of the film",
                 row=f"down to 1/{jump:g}",
                 column=f"{cells} cells",
-                ask=partial(_against, _film(shape, Ends()), cells, partial(float, wanted)),
+                ask=partial(against, film(shape, Ends()), cells, partial(float, wanted)),
                 bound=1e-9,
             )
         yield Probe(
             group="jumps of the film",
             row=f"up to {jump:g} times",
             column=f"{CELLS} cells",
-            ask=partial(_against, _film(_mirrored(shape), Ends()), CELLS, float),
+            ask=partial(against, film(mirrored(shape), Ends()), CELLS, float),
             bound=SAME,
         )
         for theta in (0.5, 0.05):
@@ -299,7 +216,7 @@ def _steps() -> Iterator[Probe]:
                 group="jumps of the film",
                 row=f"down to 1/{jump:g}",
                 column=f"θ = {theta:g}",
-                ask=partial(_balance, _film(shape, Ends(theta=theta), compressibility=liquid(0.3)), (CELLS, 1)),
+                ask=partial(balance, film(shape, Ends(theta=theta), compressibility=liquid(0.3)), (CELLS, 1)),
                 bound=BALANCED,
             )
 
@@ -307,23 +224,23 @@ def _steps() -> Iterator[Probe]:
 def _pockets() -> Iterator[Probe]:
     """Lines with many cavities, judged by their balance."""
     random = np.random.default_rng(SEED + 1)
-    parallel = Parallel(shape="parallel", length=_m(LENGTH), film=_m(FILM)).film_shape()
+    parallel = Parallel(shape="parallel", length=metres(LENGTH), film=metres(FILM)).film_shape()
     shapes: dict[str, Shape] = {}
     for columns in (1, 3, 10, 40):
         pitch = LENGTH / columns
         for profile in ("box", "cylindrical"):
             texture = Texture(
                 profile=profile,
-                length=_m(0.5 * pitch),
-                depth=_m(FILM),
-                start=_m(0.2 * pitch),
-                pitch=_m(pitch),
+                length=metres(0.5 * pitch),
+                depth=metres(FILM),
+                start=metres(0.2 * pitch),
+                pitch=metres(pitch),
                 columns=columns,
             )
             shapes[f"{columns} {profile} pockets"] = pocketed(parallel, texture)
     for count in (2, 8):
         shapes[f"{count} parabolas"] = Parabolic(
-            shape="parabolic", length=_m(LENGTH), film=_m(FILM), rise=_m(FILM), count=count
+            shape="parabolic", length=metres(LENGTH), film=metres(FILM), rise=metres(FILM), count=count
         ).film_shape()
     shapes["journal, ε = 0.99"] = Journal.model_validate(
         {"shape": "journal", "radius": "12 mm", "clearance": "60 um", "eccentricity": 0.99}
@@ -340,12 +257,12 @@ def _pockets() -> Iterator[Probe]:
     }
     for name, shape in shapes.items():
         for column, (ends, law) in trials.items():
-            problem = _film(shape, ends, compressibility=law)
+            problem = film(shape, ends, compressibility=law)
             yield Probe(
                 group="many cavities",
                 row=name,
                 column=column,
-                ask=partial(_balance, problem, (2 * CELLS, 1)),
+                ask=partial(balance, problem, (2 * CELLS, 1)),
                 bound=BALANCED,
             )
 
@@ -356,20 +273,20 @@ def _in_the_plane(cells: tuple[int, int]) -> Iterator[Probe]:
     shapes: dict[str, Shape] = {}
     for ratio in (0.1, 1.0, 10.0):
         shapes[f"parabola, width/length {ratio:g}"] = Parabolic(
-            shape="parabolic", length=_m(LENGTH), width=_m(ratio * LENGTH), film=_m(FILM), rise=_m(FILM)
+            shape="parabolic", length=metres(LENGTH), width=metres(ratio * LENGTH), film=metres(FILM), rise=metres(FILM)
         ).film_shape()
     pocket = Texture(
         profile="ellipsoidal",
-        length=_m(0.1 * LENGTH),
-        width=_m(0.15 * LENGTH),
-        depth=_m(FILM),
-        start=_m(0.05 * LENGTH),
-        pitch=_m(0.2 * LENGTH),
+        length=metres(0.1 * LENGTH),
+        width=metres(0.15 * LENGTH),
+        depth=metres(FILM),
+        start=metres(0.05 * LENGTH),
+        pitch=metres(0.2 * LENGTH),
         columns=4,
-        pitch_across=_m(0.3 * LENGTH),
+        pitch_across=metres(0.3 * LENGTH),
         rows=3,
     )
-    plate = Parallel(shape="parallel", length=_m(LENGTH), width=_m(LENGTH), film=_m(FILM)).film_shape()
+    plate = Parallel(shape="parallel", length=metres(LENGTH), width=metres(LENGTH), film=metres(FILM)).film_shape()
     shapes["12 pockets"] = pocketed(plate, pocket)
     trials = {
         "flooded": (Ends(sides=open_sides), liquid(0.1)),
@@ -385,7 +302,7 @@ def _in_the_plane(cells: tuple[int, int]) -> Iterator[Probe]:
                 group="in the plane",
                 row=name,
                 column=column,
-                ask=partial(_balance, _film(shape, ends, compressibility=law), cells),
+                ask=partial(balance, film(shape, ends, compressibility=law), cells),
                 bound=BALANCED,
             )
     for joined in (False, True):
@@ -394,12 +311,12 @@ def _in_the_plane(cells: tuple[int, int]) -> Iterator[Probe]:
         sector = Sector.model_validate({"shape": "sector", **radii, **films, "joined": joined})
         for column, pressure in {"no pressure at the sides": 0.0, "0.1 MPa at the sides": 1e5}.items():
             ends = Ends(inlet=pressure, outlet=pressure, sides=(pressure, pressure))
-            problem = _film(sector.film_shape(), ends, compressibility=liquid(1.0), speed=SPEED / sector.radius)
+            problem = film(sector.film_shape(), ends, compressibility=liquid(1.0), speed=SPEED / sector.radius)
             yield Probe(
                 group="in the plane",
                 row="sector, joined" if joined else "sector",
                 column=column,
-                ask=partial(_balance, problem, cells),
+                ask=partial(balance, problem, cells),
                 bound=BALANCED,
             )
 
@@ -412,10 +329,10 @@ def _stiffening() -> Iterator[Probe]:
 
             def ask(part: float = part, cells: int = cells) -> Answer:
                 law = Barus(law="barus", pressure_coefficient=f"{part / reduced!r} Pa^-1")  # type: ignore[arg-type]
-                found = solve(_film(_linear(), Ends(), piezoviscosity=law), (cells, 1))
+                found = solve(film(linear(), Ends(), piezoviscosity=law), (cells, 1))
                 wanted = barus_pressure(reduced, part / reduced) if part < 1 else np.nan
                 greatest = float(found.state.pressure.max())
-                return Answer(iterations=_steps_of(found), error=abs(greatest / wanted - 1))
+                return Answer(iterations=steps_of(found), error=abs(greatest / wanted - 1))
 
             yield Probe(
                 group="Barus",

@@ -14,7 +14,8 @@ from rich.table import Table
 from contact.errors import ConvergenceError, InputError
 from rom.provenance import code, commit, machine, versions
 from rom.table import Column
-from scripts.cavitation_probes import FLOOR, REFUSED, SECOND_ORDER, Answer, Probe, bound, liquid, off, probes, slider
+from scripts.cavitation_probes import probes
+from scripts.cavitation_scenes import FLOOR, REFUSED, SECOND_ORDER, Answer, Probe, bound, liquid, off, slider
 from scripts.common import progress_bar
 from scripts.stability_made import Made
 
@@ -153,7 +154,7 @@ def _schur(theta: float, beta: float, nodes: int) -> tuple[int, float]:
     from rom.cavitation.discretise import faces, network
     from rom.cavitation.fischer_burmeister import fischer_burmeister
     from rom.cavitation.grid import grid
-    from scripts.cavitation_probes import UNIT
+    from scripts.cavitation_scenes import UNIT
 
     problem = slider(theta, liquid(beta))
     cells = grid(problem.shape, (nodes, 1))

@@ -94,9 +94,9 @@ def exact(problem: Problem) -> Exact:
         brought = drag * ends.theta * places.thickness(0.0)
         film = _tried(problem, places, brought)
         if film is not None and film.inlet <= 0:
-            return _told(problem, places, film, brought)
+            return _told(places, film, brought)
     flow = _flow_of(problem, places, ends.inlet or 0.0)
-    return _told(problem, places, _film(problem, places, flow), flow)
+    return _told(places, _film(problem, places, flow), flow)
 
 
 def _check(problem: Problem) -> None:
@@ -140,7 +140,7 @@ class _Places:
         return cls(thickness=thickness, breaks=breaks, narrowest=narrowest, length=length, pressure=unit)
 
 
-def _told(problem: Problem, places: _Places, film: _Film, flow: float) -> Exact:
+def _told(places: _Places, film: _Film, flow: float) -> Exact:
     return Exact(
         load=film.load * places.pressure * places.length,
         pressure_max=film.greatest * places.pressure,

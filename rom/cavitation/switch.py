@@ -20,6 +20,9 @@ TOLERANCE = 1e-8
 RETURNS = 50
 """So many times the switch may come back to a state it had left before the steps are said to go round."""
 
+PATIENCE = 200
+"""So many steps with the switch at rest must halve the change."""
+
 INVERSIONS = 60
 """Steps of Newton's method from density to pressure."""
 
@@ -55,8 +58,8 @@ def switched(problem: Problem, cells: int, *, limit: int = LIMIT) -> Switched:
     InputError
         If the film is not of that kind.
     ConvergenceError
-        If the changes do not get below 1e-8 within ``limit`` steps, if the switch keeps coming back to states that it
-        has left, or if densities leave the range of the lubricant's law.
+        If the changes do not get below 1e-8 within ``limit`` steps, if they no longer fall while the switch rests, if
+        the switch keeps coming back to states that it has left, or if densities leave the range of the lubricant's law.
 
     Sources: Sahlin et al. 2007, doi:10.1016/j.triboint.2007.02.021; Elrod 1981, doi:10.1115/1.3251669.
     """
@@ -75,13 +78,17 @@ def switched(problem: Problem, cells: int, *, limit: int = LIMIT) -> Switched:
     first, last = (ends.theta if ends.inlet is None else float(given[0])), float(given[1])
     theta, pressure = np.ones_like(nodes.x), np.zeros_like(nodes.x)
     theta[0], theta[-1] = first, last
-    seen: dict[bytes, int] = {}
+    seen: set[bytes] = set()
     returns, before = 0, b""
+    least, rested = np.inf, 0
     for iteration in range(1, limit + 1):
         film = np.asarray(theta > 1) if iteration > 1 else np.ones(theta.size, dtype=np.bool_)
         switch = np.packbits(film).tobytes()
         returns += switch != before and switch in seen
-        seen[switch], before = iteration, switch
+        if switch != before:
+            least, rested = np.inf, 0
+        seen.add(switch)
+        before = switch
         if returns > RETURNS:
             raise _failed("the switch goes round states it has left", Outcome.UNSTEADY, iteration)
         found = _solved(problem, thickness, float(step.mean()), theta, pressure, film)
@@ -91,6 +98,11 @@ def switched(problem: Problem, cells: int, *, limit: int = LIMIT) -> Switched:
         theta, pressure = found, _pressure(problem, found, iteration)
         if change < TOLERANCE:
             return Switched(grid=nodes, theta=theta, pressure=pressure, iterations=iteration)
+        rested += 1
+        if change < least / 2:
+            least, rested = change, 0
+        elif rested > PATIENCE:
+            raise _failed(f"the switch rests, but the change stays near {least:.1e}", Outcome.STALLED, iteration)
     raise _failed(f"relative change {change:.1e} misses {TOLERANCE:g}", Outcome.UNFINISHED, limit)
 
 

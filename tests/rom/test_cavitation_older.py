@@ -79,6 +79,15 @@ def test_the_switch_algorithm_moves_the_film_by_a_node_a_step():
     assert raised.value.iterations == 30
 
 
+def test_the_switch_algorithm_says_when_it_no_longer_comes_nearer():
+    """A film so stiff that the node before it has no rest; a limit is not waited for."""
+    law = ConstantBulkModulus(law="constant_bulk_modulus", bulk_modulus="100 GPa")
+    with pytest.raises(ConvergenceError, match="the switch rests") as raised:
+        switched(slider(0.55, law), 1000)
+    assert raised.value.outcome is Outcome.STALLED
+    assert raised.value.iterations < 1000
+
+
 def test_the_switch_algorithm_takes_a_pressurised_inlet():
     """Its own paper's case: θ = 1.0001 at the inlet."""
     pressure = SOFT.pressure_at(1.0001)
