@@ -93,11 +93,11 @@ def flow_along(found: Solution) -> Array:
     """What flows through the faces towards i + 1, m³/s (m²/s if wide) at the density of cavitation, shape (nx, ny)."""
     net, state = found.network, found.state
     excess = found.problem.compression(state.pressure)[0]
-    mobility = found.problem.mobility(state.pressure)[0]
+    east = net.conductance(found.problem.mobility(state.pressure)[0])[0]
     ahead = np.roll(excess, -1, axis=0)
     drift = net.couette * (state.fill + net.upstream * excess + (1 - net.upstream) * ahead)
     rise = np.roll(state.pressure, -1, axis=0) - state.pressure
-    return np.asarray(drift - net.east * (mobility + np.roll(mobility, -1, axis=0)) / 2 * rise)
+    return np.asarray(drift - east * rise)
 
 
 def inlet_flow(found: Solution) -> float:
@@ -108,9 +108,8 @@ def inlet_flow(found: Solution) -> float:
 def side_leakage(found: Solution) -> float:
     """What leaves through both sides, at the density of cavitation, m³/s."""
     net, state = found.network, found.state
-    mobility = found.problem.mobility(state.pressure)[0]
-    rise = np.diff(state.pressure, axis=1)
-    flow = -net.north[:, :-1] * (mobility[:, :-1] + mobility[:, 1:]) / 2 * rise
+    north = net.conductance(found.problem.mobility(state.pressure)[0])[1]
+    flow = -north[:, :-1] * np.diff(state.pressure, axis=1)
     return float((flow[:, -1] - flow[:, 0]).sum()) if not net.periodic[1] else 0.0
 
 

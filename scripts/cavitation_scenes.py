@@ -10,7 +10,8 @@ from rom.cavitation.network import State
 from rom.cavitation.problem import Problem
 from rom.cavitation.shape import Shape
 from rom.cavitation.solve import Solution, solve
-from rom.lubricants.compressibility import Compressibility, ConstantBulkModulus
+from rom.lubricants.compressibility import ConstantBulkModulus
+from rom.lubricants.laws import Compressibility
 from scripts.cavitation_check import broken_balance
 
 SPEED, VISCOSITY = 4.57, 0.039

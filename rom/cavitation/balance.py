@@ -1,9 +1,30 @@
 """What flows into every node of a film, and how that changes: the loops of Newton's method."""
 
-from contact.compiled import compiled
+import numpy as np
+
+from contact.compiled import compiled, inlined
 
 FILM, CAVITY, FIXED, FLOODED = 0, 1, 2, 3
 """What is unknown at a node: its pressure; its filled part; nothing; nothing, as the inlet brings more than enough."""
+
+
+@inlined
+def mean(first, second):  # type: ignore[no-untyped-def]
+    """The logarithmic mean (a - b)/ln(a/b) of two mobilities: exact between them where φ is exponential in p."""
+    total, difference = first + second, first - second
+    if abs(difference) < 1e-3 * total:
+        part = difference / total
+        return 0.5 * total * (1.0 - part * part / 3.0)
+    return difference / np.log(first / second) if first > 0.0 and second > 0.0 else 0.0
+
+
+@inlined
+def slope_of_mean(first, second, between):  # type: ignore[no-untyped-def]
+    """What their mean, ``between``, grows by as the first of them does."""
+    total, difference = first + second, first - second
+    if abs(difference) < 1e-3 * total:
+        return 0.5 - difference / total / 3.0
+    return (1.0 - between / first) / np.log(first / second) if first > 0.0 and second > 0.0 else 0.0
 
 
 @compiled
@@ -25,18 +46,22 @@ def linearise(couette, upstream, east, north, storage, stored, supply, periodic_
         k = i + 1 if i + 1 < nx else 0
         for j in range(ny):
             c, w = couette[i, j], upstream[i, j]
-            g = 0.5 * east[i, j]
+            g = east[i, j]
             rise = pressure[k, j] - pressure[i, j]
-            phi = mobility[i, j] + mobility[k, j]
+            a, b = mobility[i, j], mobility[k, j]
+            phi = mean(a, b)
             flow = c * (fill[i, j] + w * excess[i, j] + (1.0 - w) * excess[k, j]) - g * phi * rise
             largest = max(largest, abs(flow))
             by_left = by_right = 0.0
             if kind[i, j] == FILM:
-                by_left = c * w * excess_slope[i, j] + g * phi - g * mobility_slope[i, j] * rise
+                by_left = (
+                    c * w * excess_slope[i, j] + g * phi - g * slope_of_mean(a, b, phi) * mobility_slope[i, j] * rise
+                )
             elif kind[i, j] == CAVITY:
                 by_left = c
             if kind[k, j] == FILM:
-                by_right = c * (1.0 - w) * excess_slope[k, j] - g * phi - g * mobility_slope[k, j] * rise
+                by_right = c * (1.0 - w) * excess_slope[k, j] - g * phi
+                by_right -= g * slope_of_mean(b, a, phi) * mobility_slope[k, j] * rise
             balance[i, j] += flow
             balance[k, j] -= flow
             centre[i, j] += by_left
@@ -46,13 +71,17 @@ def linearise(couette, upstream, east, north, storage, stored, supply, periodic_
     for i in range(nx if ny > 1 else 0):
         for j in range(ny if periodic_y else ny - 1):
             k = j + 1 if j + 1 < ny else 0
-            g = 0.5 * north[i, j]
+            g = north[i, j]
             rise = pressure[i, k] - pressure[i, j]
-            phi = mobility[i, j] + mobility[i, k]
+            a, b = mobility[i, j], mobility[i, k]
+            phi = mean(a, b)
             flow = -g * phi * rise
             largest = max(largest, abs(flow))
-            by_left = g * phi - g * mobility_slope[i, j] * rise if kind[i, j] == FILM else 0.0
-            by_right = -g * phi - g * mobility_slope[i, k] * rise if kind[i, k] == FILM else 0.0
+            by_left = by_right = 0.0
+            if kind[i, j] == FILM:
+                by_left = g * phi - g * slope_of_mean(a, b, phi) * mobility_slope[i, j] * rise
+            if kind[i, k] == FILM:
+                by_right = -g * phi - g * slope_of_mean(b, a, phi) * mobility_slope[i, k] * rise
             balance[i, j] += flow
             balance[i, k] -= flow
             centre[i, j] += by_left
@@ -65,6 +94,18 @@ def linearise(couette, upstream, east, north, storage, stored, supply, periodic_
                 centre[i, j] = 1.0
                 to_west[i, j] = to_east[i, j] = to_south[i, j] = to_north[i, j] = 0.0
     return largest
+
+
+@compiled
+def conduct(east, north, mobility, periodic_x, periodic_y, to_east, to_north):  # type: ignore[no-untyped-def]
+    """What the faces towards i + 1 and j + 1 let through for a difference of pressure, K φ."""
+    nx, ny = east.shape
+    for i in range(nx):
+        k = i + 1 if i + 1 < nx else 0
+        for j in range(ny):
+            to_east[i, j] = east[i, j] * mean(mobility[i, j], mobility[k, j]) if k or periodic_x else 0.0
+            k_north = j + 1 if j + 1 < ny else 0
+            to_north[i, j] = north[i, j] * mean(mobility[i, j], mobility[i, k_north]) if k_north or periodic_y else 0.0
 
 
 @compiled

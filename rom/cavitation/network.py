@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from rom.cavitation.balance import conduct
 from rom.gap import Array
 
 
@@ -15,7 +16,9 @@ class Network:
     With p the pressure above that of cavitation, θ = ξ + ϑ(p), ξ <= 1 the filled part (1 where p > 0) and ϑ the
     compression, what flows through the face from (i, j) to (i+1, j) is
 
-        F = C (ξ_i + ω ϑ_i + (1 - ω) ϑ_(i+1)) - K φ (p_(i+1) - p_i),    φ = mean of (1 + ϑ) η0/η of the two nodes,
+        F = C (ξ_i + ω ϑ_i + (1 - ω) ϑ_(i+1)) - K φ (p_(i+1) - p_i),
+
+    φ the logarithmic mean of (1 + ϑ) η0/η of the two nodes,
 
     in m³/s at the density of the cavitation pressure; towards (i, j+1) it is the second part alone. The liquid that
     fills a node comes from upstream, its compression from both sides: F is continuous where a film begins or ends, and
@@ -52,6 +55,12 @@ class Network:
     def supplied(self) -> Array:
         """``supply``, empty where there is none."""
         return np.zeros(0) if self.supply is None else self.supply
+
+    def conductance(self, mobility: Array) -> tuple[Array, Array]:
+        """K φ of the faces towards i+1 and j+1, m³/(Pa s), from θ η0/η at the nodes."""
+        east, north = np.empty(self.shape), np.empty(self.shape)
+        conduct(self.east, self.north, mobility, *self.periodic, east, north)
+        return east, north
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -14,10 +14,10 @@ from rom.cavitation.relaxation import relaxed
 from rom.gap import Array
 
 STEPS = 25
-"""Of Newton's method in a round, at most; from a good start it takes 2 to 6."""
+"""Of Newton's method in the first round, at most; from a good start it takes 1 to 6."""
 
 ROUNDS, MORE = 5, 4
-"""Where a round fails, so many times as many sweeps of relaxation go before the next one."""
+"""Where a round fails, so many times as many sweeps of relaxation go before the next one, of twice as many steps."""
 
 
 @dataclass(frozen=True)
@@ -75,9 +75,9 @@ def settle(
         if ruptures:
             state = relaxed(network, fluid, state, sweeps * MORE**number)
         try:
-            found = newton(network, fluid, state, step, tolerance=tolerance, ruptures=ruptures)
+            found = newton(network, fluid, state, step, tolerance=tolerance, limit=STEPS * 2**number, ruptures=ruptures)
         except ConvergenceError as error:
-            iterations, failed = iterations + (error.iterations or STEPS), error
+            iterations, failed = iterations + (error.iterations or 0), error
         else:
             return replace(found, iterations=iterations + found.iterations)
     raise UnsettledError(str(failed), outcome=failed.outcome, state=state, iterations=iterations)
@@ -91,13 +91,15 @@ class UnsettledError(ConvergenceError):
         self.state = state
 
 
-def newton(network: Network, fluid: Fluid, start: State, step: Step, *, tolerance: float, ruptures: bool) -> Settled:
-    """One round of Newton's method; raises ConvergenceError after ``STEPS`` steps, or where numbers overflow."""
+def newton(
+    network: Network, fluid: Fluid, start: State, step: Step, *, tolerance: float, limit: int, ruptures: bool
+) -> Settled:
+    """One round of Newton's method; raises ConvergenceError after ``limit`` steps, or where numbers overflow."""
     pressure, fill, kind = _begun(network, start)
     parts = [np.empty(network.shape) for _ in range(6)]
     balance = parts[0]
     changed, residual = 0, np.inf
-    for iteration in range(STEPS + 1):
+    for iteration in range(limit + 1):
         excess, excess_slope = fluid.compression(pressure)
         mobility, mobility_slope = fluid.mobility(pressure)
         largest = linearise(

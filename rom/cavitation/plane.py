@@ -53,12 +53,12 @@ def plane_step(network: Network, linear: Linear, accuracy: float) -> Array:
 def conductances(network: Network, linear: Linear) -> tuple[Array, Array, Array]:
     """The symmetric operator inside the film: centre, and couplings towards i+1 and j+1, shape (nx, ny)."""
     centre, east, north = (np.zeros(network.shape) for _ in range(3))
-    couple(linear.kind, linear.mobility, network.east, network.north, *network.periodic, centre, east, north)
+    couple(linear.kind, *network.conductance(linear.mobility), *network.periodic, centre, east, north)
     return centre, east, north
 
 
 @compiled
-def couple(kind, mobility, east, north, periodic_x, periodic_y, centre, to_east, to_north):  # type: ignore[no-untyped-def]
+def couple(kind, east, north, periodic_x, periodic_y, centre, to_east, to_north):  # type: ignore[no-untyped-def]
     """Fill in what joins nodes of the film; nodes that are none stand alone."""
     nx, ny = kind.shape
     feeds = np.zeros(kind.shape, dtype=np.bool_)
@@ -70,7 +70,7 @@ def couple(kind, mobility, east, north, periodic_x, periodic_y, centre, to_east,
     for i in range(nx if periodic_x else nx - 1):
         k = i + 1 if i + 1 < nx else 0
         for j in range(ny):
-            g = 0.5 * east[i, j] * (mobility[i, j] + mobility[k, j])
+            g = east[i, j]
             here, there = kind[i, j] == FILM, kind[k, j] == FILM
             if here:
                 centre[i, j] += g
@@ -81,7 +81,7 @@ def couple(kind, mobility, east, north, periodic_x, periodic_y, centre, to_east,
     for i in range(nx):
         for j in range(ny if periodic_y else ny - 1):
             k = j + 1 if j + 1 < ny else 0
-            g = 0.5 * north[i, j] * (mobility[i, j] + mobility[i, k])
+            g = north[i, j]
             here, there = kind[i, j] == FILM, kind[i, k] == FILM
             if here and not feeds[i, k]:
                 centre[i, j] += g

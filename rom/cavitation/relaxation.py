@@ -9,8 +9,8 @@ from rom.cavitation.network import Network, State
 
 
 @compiled
-def relax(couette, upstream, east, north, storage, stored, supply, periodic_x, periodic_y, kind, pressure, fill, excess, excess_slope, mobility, sweeps):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
-    """Nonlinear Gauss–Seidel, along the flow, with φ held and ϑ linear about the start. ``excess`` follows.
+def relax(couette, upstream, east, north, storage, stored, supply, periodic_x, periodic_y, kind, pressure, fill, excess, excess_slope, sweeps):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
+    """Nonlinear Gauss–Seidel, along the flow, with ``east`` and ``north`` Kφ and ϑ linear in p. ``excess`` follows.
 
     Every node takes the pressure that balances it or, if that is negative, the filled part that does: p >= 0, ξ <= 1.
     Source: Elrod and Adams 1975 for the two cases; Ortega and Rheinboldt 1970, theorem 13.5.9, for convergence.
@@ -29,7 +29,7 @@ def relax(couette, upstream, east, north, storage, stored, supply, periodic_x, p
                 weight = storage[i, j]
                 if before >= 0:
                     c, w = couette[before, j], upstream[before, j]
-                    g = 0.5 * east[before, j] * (mobility[before, j] + mobility[i, j])
+                    g = east[before, j]
                     source += c * (fill[before, j] + w * excess[before, j]) + g * pressure[before, j]
                     drain += g
                     weight -= c * (1.0 - w)
@@ -37,7 +37,7 @@ def relax(couette, upstream, east, north, storage, stored, supply, periodic_x, p
                     source += supply[j]
                 if after >= 0:
                     c, w = couette[i, j], upstream[i, j]
-                    g = 0.5 * east[i, j] * (mobility[i, j] + mobility[after, j])
+                    g = east[i, j]
                     source += g * pressure[after, j] - c * (1.0 - w) * excess[after, j]
                     drain += g
                     out += c
@@ -50,7 +50,6 @@ def relax(couette, upstream, east, north, storage, stored, supply, periodic_x, p
                         k = j + 1 if j + 1 < ny else (0 if periodic_y else -1)
                         g = north[i, j]
                     if k >= 0:
-                        g *= 0.5 * (mobility[i, j] + mobility[i, k])
                         source += g * pressure[i, k]
                         drain += g
                 left = source - out
@@ -78,8 +77,7 @@ def relaxed(network: Network, fluid: Fluid, state: State, sweeps: int) -> State:
     relax(
         network.couette,
         network.upstream,
-        network.east,
-        network.north,
+        *network.conductance(fluid.mobility(pressure)[0]),
         network.storage,
         network.stored,
         network.supplied,
@@ -89,7 +87,6 @@ def relaxed(network: Network, fluid: Fluid, state: State, sweeps: int) -> State:
         fill,
         excess.copy(),
         slope,
-        fluid.mobility(pressure)[0],
         sweeps,
     )
     return State(pressure=pressure, fill=fill)

@@ -75,7 +75,8 @@ def solve(
     Parameters
     ----------
     cells : in x and in y; the latter do not count where the film is infinitely wide.
-    start : of another solution, to begin from on the grid asked for; by default it is sought on coarser ones.
+    start : of another solution, to begin from on the grid asked for; without one, or if it leads nowhere, coarser grids
+        give it.
     ruptures : whether the film ruptures; without, it bears any tension, and the inlet is full.
     storage : of a step in time: its length, s, and θh before it at the nodes of the finest grid, m.
 
@@ -95,7 +96,8 @@ def solve(
     if not ruptures:
         problem = replace(problem, ends=replace(problem.ends, inlet=problem.ends.inlet or 0.0))
     wide = problem.shape.wide
-    sizes = [cells] if start is not None else _coarsening(cells, wide=wide)
+    given = start is not None
+    sizes = [cells] if given else _coarsening(cells, wide=wide)
     work = [float(nx * (1 if wide else ny)) for nx, ny in sizes]
     finest = grid(problem.shape, cells)
     found: Solution | None = None
@@ -114,6 +116,9 @@ def solve(
                 storage=storage and (storage[0], interpolated(storage[1], finest, nodes, problem.shape.joined)),
             )
         except UnsettledError as error:
+            if given:
+                again = solve(problem, cells, tolerance=tolerance, storage=storage, progress=progress)
+                return replace(again, turned=turned)
             if nodes is finest:
                 raise
             next_one, near = grid(problem.shape, sizes[number + 1]), error.state

@@ -130,7 +130,8 @@ def test_compare_in_the_plane(tmp_path):
 def test_batch_and_report(tmp_path):
     text = SLIDER.read_text(encoding="utf-8").replace("theta = 1 ", "theta = [0.55, 0.7, 1, 1.001] ")
     study = tmp_path / "study.toml"
-    study.write_text(text.replace('"0.069 GPa"', '["0.069 GPa", "0.2 GPa", "1 GPa", "3 GPa", "10 GPa"]'), encoding="utf-8")
+    moduli = '["0.069 GPa", "0.2 GPa", "1 GPa", "3 GPa", "10 GPa"]'
+    study.write_text(text.replace('"0.069 GPa"', moduli), encoding="utf-8")
     result = run("batch", study, "--out", tmp_path / "done", "--jobs", 1)
     assert result.exit_code == 0, result.output
     with (tmp_path / "done" / "table.csv").open(encoding="utf-8") as file:
