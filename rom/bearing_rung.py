@@ -38,6 +38,7 @@ def solve(
     sources: tuple[str, ...],
     simplified: Callable[[Problem], Problem],
     ruptures: bool,
+    applies: Callable[[Bearing], Applicability],
     resolution: int | None = None,
     tolerance: float | None = None,
     scheme: str | None = None,
@@ -49,7 +50,8 @@ def solve(
     Raises
     ------
     InputError
-        For a resolution or tolerance out of range, a scheme, or more than one process.
+        For a resolution or tolerance out of range, a scheme, more than one process, or a scene to which the model does
+        not apply.
     ConvergenceError
         If the film does not come into balance.
     """
@@ -58,6 +60,9 @@ def solve(
     tolerance = TOLERANCE if tolerance is None else tolerance
     if not 1e-13 <= tolerance < 1:
         raise InputError(f"--tolerance: got {tolerance}; it must be 1e-13 to 1")
+    fits = applies(scene)
+    if not fits.applies:
+        raise InputError(f"--model: got {model!r}; {fits.reason}")
     problem = simplified(scene.problem())
     wide = problem.shape.wide
     cells = (WIDE if wide else PLANE)[-1] if resolution is None else resolution
@@ -164,5 +169,13 @@ def bearing_model(
         order=2,
         cost=partial(cost, wide=wide),
         applies=applies,
-        solve=partial(solve, model=name, keeps=keeps, sources=sources, simplified=simplified, ruptures=ruptures),
+        solve=partial(
+            solve,
+            model=name,
+            keeps=keeps,
+            sources=sources,
+            simplified=simplified,
+            ruptures=ruptures,
+            applies=applies,
+        ),
     )

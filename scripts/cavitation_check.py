@@ -70,7 +70,7 @@ def _flows(problem: Problem, x: Array, y: Array, pressure: Array, fill: Array) -
     with np.errstate(divide="ignore", invalid="ignore"):
         upstream = np.where(carried * slope > 0, np.maximum(0.5, 1 - permits / (carried * slope)), 0.5)
     ahead = np.roll(excess, -1, axis=0)[:faces]
-    phi = (mobility + np.roll(mobility, -1, axis=0))[:faces] / 2
+    phi = _between(mobility, np.roll(mobility, -1, axis=0))[:faces]
     along = np.zeros(pressure.shape)
     along[:faces] = carried * (fill[:faces] + upstream * excess[:faces] + (1 - upstream) * ahead) - permits * phi * rise
     across = np.zeros(pressure.shape)
@@ -85,9 +85,16 @@ def _flows(problem: Problem, x: Array, y: Array, pressure: Array, fill: Array) -
             cubed = 2 / (h[0] ** -3.0 + h[1] ** -3.0) / 2
             middle = (radius[:-1] + radius[1:]) / 2
             permits = cubed * share_x[:, None] * middle / (12 * problem.viscosity * width)
-            flow = -permits * (mobility[:, :-1] + mobility[:, 1:]) / 2 * np.diff(pressure, axis=1)
+            flow = -permits * _between(mobility[:, :-1], mobility[:, 1:]) * np.diff(pressure, axis=1)
             across[rows, :-1] += flow[rows]
     return along, across
+
+
+def _between(first: Array, second: Array) -> Array:
+    """The mean of φ over p where φ is exponential in p: the integral of a^(1-s) b^s over s from 0 to 1."""
+    nodes, weights = np.polynomial.legendre.leggauss(12)
+    parts = [weight / 2 * first ** ((1 - node) / 2) * second ** ((1 + node) / 2) for node, weight in zip(nodes, weights, strict=True)]  # fmt: skip  # noqa: E501
+    return np.asarray(sum(parts))
 
 
 def _radius(problem: Problem, y: Array) -> Array:

@@ -43,7 +43,7 @@ def command(
     sweep = read_sweep(table, _kind(table))
     compared = kinds()[sweep.kind].compared
     reference = _reference(sweep)
-    settings = [name for name in sweep.found if name != reference]
+    settings = [name for name in sweep.found if name != reference and np.isfinite(sweep.cpu_s[name]).any()]
     if not settings:
         raise InputError(f"{directory}: holds one model only; a report compares at least two")
     numbers = {

@@ -174,6 +174,8 @@ def test_the_infinitely_wide_line_stands_for_a_wide_bearing():
 def test_a_starved_inlet_is_nothing_for_the_plain_equation():
     scene = load_scene(SCENES / "parabolic_slider.toml", ["boundary.inlet.theta=0.9"])
     assert not find(MODELS, "reynolds").applies(scene).applies
+    with pytest.raises(InputError, match="--model: got 'reynolds'; the inlet is starved"):
+        find(MODELS, "reynolds").solve(scene)
 
 
 def test_an_inlet_that_brings_too_little_makes_no_film_and_says_so():
