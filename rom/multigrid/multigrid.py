@@ -52,10 +52,11 @@ class Multigrid:
 
     Notes
     -----
-    Any size and anisotropy; pieces without any Dirichlet node may be there, their mean is then free. Iterations do not
-    grow with the grid where the film is resolved. They do where the couplings jump by more than about 1e4 from node to
-    node all over the grid: pieces that hang together strongly and hardly touch their surroundings cannot be told apart
-    on coarse grids. Couplings below 1e-12 of those beside them may count as none in the preconditioner. Where weak
+    Any size and anisotropy; pieces without any Dirichlet node may be there, their mean is then free. Where the film is
+    resolved iterations hardly grow with the grid, whatever its contrast. They do grow, and 200 may not do, where
+    couplings jump 1e4-fold and more within few nodes all over the grid (an h³ that is random at each node, roughness
+    of a Hurst exponent of 0.3): coarse rows cannot tell apart pieces that hang together strongly but hardly touch.
+    Couplings below 1e-12 of those beside them may count as none in the preconditioner. Where weak
     links hold large pressures, no residual can be below about 1e-16 ‖|A||p|‖.
 
     J. E. Dendy, Black box multigrid, J. Comput. Phys. 48 (1982) 366-386, doi:10.1016/0021-9991(82)90057-2;
@@ -163,7 +164,7 @@ class Multigrid:
             iterations += self._gradients(p, tolerance * norm, limit - iterations)
         finished = iterations < limit
         remedy = (
-            "rounding keeps it there, or a piece without a Dirichlet node has sources that do not add up to 0; ask for less"
+            "rounding keeps it there, or sources of a piece without a Dirichlet node do not add up to 0; ask for less"
             if finished
             else "allow more, or ask for less"
         )
