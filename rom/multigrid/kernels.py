@@ -14,17 +14,23 @@ import numpy as np
 
 from contact.compiled import compiled, inlined
 
-GROUNDED = 1e-12
-"""Of its diagonal: an unknown with a smaller pivot is set to 0, as the mean of its component is free."""
+GROUNDED = 1e-13
+"""Of its diagonal: an unknown with a smaller pivot is set to 0."""
+
+THIN = 1e-5
+"""A share below it is none if it comes from a hole."""
 
 
 class Rows(NamedTuple):
     """A matrix by rows and their factors, shape (rows, m) each.
 
-    ``up`` and ``down`` have no columns on the finest level, and ``border`` has none unless rows are rings. ``factor``
-    is the coupling towards the middle of the row times the ``inverse`` of the pivot.
+    ``leak`` is what the diagonal is more than all couplings. It is carried from level to level by itself, and centre
+    and pivots are made from it, as a leak may be far below the rounding of the couplings. ``up`` and ``down`` have no
+    columns on the finest level, and ``border`` has none unless rows are rings. ``factor`` is the coupling towards the
+    middle of the row times the ``inverse`` of the pivot.
     """
 
+    leak: Any
     centre: Any
     north: Any
     east: Any
@@ -39,6 +45,7 @@ class Rows(NamedTuple):
 def level_rows(rows, start, stop, finest):  # type: ignore[no-untyped-def]
     """The rows [start, stop) of one level; ``finest`` counts those of the finest, which have no up and down."""
     return Rows(
+        rows.leak[start:stop],
         rows.centre[start:stop],
         rows.north[start:stop],
         rows.east[start:stop],
@@ -51,30 +58,25 @@ def level_rows(rows, start, stop, finest):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def inverted(pivot, centre):  # type: ignore[no-untyped-def]
-    """1/pivot, or 0 where the pivot is but rounding."""
-    return 1 / pivot if pivot > GROUNDED * centre else 0.0
+def eliminate(rows, row, size, sums):  # type: ignore[no-untyped-def]
+    """Factorise a row's T, or its first ``size`` unknowns, from both ends to the middle: two chains at a time.
 
-
-@compiled
-def eliminate(rows, row, size):  # type: ignore[no-untyped-def]
-    """Factorise a row's T, or its first ``size`` unknowns, from both ends to the middle: two chains at a time."""
+    ``sums`` are T's row sums t, and become those of what is left: a pivot is t and the coupling onwards.
+    """
     centre, north, inverse, factor = rows.centre, rows.north, rows.inverse, rows.factor
     middle = size // 2
-    left = right = 0.0
     for j in range(middle):
         end = size - 1 - j
-        pivot = centre[row, j] - (north[row, j - 1] * left if j else 0.0)
-        inverse[row, j] = inverted(pivot, centre[row, j])
-        left = factor[row, j] = north[row, j] * inverse[row, j]
+        pivot = sums[j] + north[row, j]
+        inverse[row, j] = 1 / pivot if pivot > GROUNDED * centre[row, j] else 0.0
+        factor[row, j] = north[row, j] * inverse[row, j]
+        sums[j + 1] += factor[row, j] * sums[j]
         if end > middle:
-            pivot = centre[row, end] - (north[row, end] * right if j else 0.0)
-            inverse[row, end] = inverted(pivot, centre[row, end])
-            right = factor[row, end] = north[row, end - 1] * inverse[row, end]
-    pivot = centre[row, middle]
-    pivot -= north[row, middle - 1] * left if middle > 0 else 0.0
-    pivot -= north[row, middle] * right if middle + 1 < size else 0.0
-    inverse[row, middle] = inverted(pivot, centre[row, middle])
+            pivot = sums[end] + north[row, end - 1]
+            inverse[row, end] = 1 / pivot if pivot > GROUNDED * centre[row, end] else 0.0
+            factor[row, end] = north[row, end - 1] * inverse[row, end]
+            sums[end - 1] += factor[row, end] * sums[end]
+    inverse[row, middle] = 1 / sums[middle] if sums[middle] > GROUNDED * centre[row, middle] else 0.0
     factor[row, middle] = 0.0
 
 
@@ -105,23 +107,6 @@ def substitute(rows, row, size, total, values, place):  # type: ignore[no-untype
         left = total[j] * inverse[row, j] + factor[row, j] * left
         right = total[end] * inverse[row, end] + factor[row, end] * right
         values[place, j], values[place, end] = left, right
-
-
-@compiled
-def factorise_row(rows, row, total):  # type: ignore[no-untyped-def]
-    """Factorise T; of a ring the last unknown apart, with the others' answer to it in the ``border``."""
-    last = rows.centre.shape[1] - 1
-    if rows.border.shape[1] == 0:
-        eliminate(rows, row, last + 1)
-        return
-    north, border = rows.north, rows.border
-    eliminate(rows, row, last)
-    total[:] = 0.0
-    total[0] = north[row, last]
-    total[last - 1] = north[row, last - 1]
-    substitute(rows, row, last, total, border, row)
-    pivot = rows.centre[row, last] - north[row, last] * border[row, 0] - north[row, last - 1] * border[row, last - 1]
-    rows.inverse[row, last] = inverted(pivot, rows.centre[row, last])
 
 
 @inlined
@@ -176,16 +161,44 @@ def add_previous(rows, row, values, place, total):  # type: ignore[no-untyped-de
 
 
 @compiled
-def add_own(centre, north, rows, row, between, share, forward):  # type: ignore[no-untyped-def]
-    """Add to a coarse row's T what an odd row brings by its share S: STS − SB − BᵀS.
+def factorise_row(rows, row, work):  # type: ignore[no-untyped-def]
+    """Make the diagonal and factorise T; of a ring the last unknown apart, the others' answer to it in ``border``."""
+    north, border = rows.north, rows.border
+    sums, total = work[0], work[2]
+    last = sums.size - 1
+    for j in range(last + 1):
+        sums[j] = rows.leak[row, j]
+        work[3, j] = 1.0
+    add_previous(rows, row, work, 3, sums)
+    add_next(rows, row, work, 3, sums)
+    for j in range(last + 1):
+        rows.centre[row, j] = sums[j] + north[row, j] + north[row, j - 1 if j else last]
+    if border.shape[1] == 0:
+        eliminate(rows, row, last + 1, sums)
+        return
+    for j in range(last + 1):
+        total[j] = sums[j]
+    sums[0] += north[row, last]
+    sums[last - 1] += north[row, last - 1]
+    eliminate(rows, row, last, sums)
+    pivot = total[last]
+    substitute(rows, row, last, total, border, row)
+    pivot += north[row, last] * border[row, 0] + north[row, last - 1] * border[row, last - 1]
+    rows.inverse[row, last] = 1 / pivot if pivot > GROUNDED * rows.centre[row, last] else 0.0
+    total[:] = 0.0
+    total[0] = north[row, last]
+    total[last - 1] = north[row, last - 1]
+    substitute(rows, row, last, total, border, row)
+
+
+@compiled
+def add_own(north, rows, row, between, share, forward):  # type: ignore[no-untyped-def]
+    """Add to a coarse row's couplings along itself what an odd row brings by its share S: those of STS − SB − BᵀS.
 
     B are the couplings ``between`` two rows, from the odd row to the even one (``forward``) or the other way.
     """
-    east, up, down = rows.east[between], rows.up[between], rows.down[between]
-    own, along = rows.centre[row], rows.north[row]
-    last = centre.size - 1
-    for j in range(last + 1):
-        centre[j] += share[j] * (share[j] * own[j] - 2 * east[j])
+    up, down, along = rows.up[between], rows.down[between], rows.north[row]
+    last = north.size - 1
     for j in range(last):
         north[j] += share[j] * along[j] * share[j + 1]
     north[last] += share[last] * along[last] * share[0]
@@ -228,8 +241,12 @@ def set_coupling(east, up, down, rows, row, first, second):  # type: ignore[no-u
 
 @compiled
 def share(rows, row, work):  # type: ignore[no-untyped-def]
-    """What an odd row takes from ones, row 3 of ``work``, in the rows before and after it: T⁻¹B1, its rows 0 and 1."""
-    total = work[2]
+    """What an odd row takes from ones in the rows before and after it, T⁻¹B1: rows 0 and 1 of ``work``.
+
+    A thin share of a node in a hole, which has nothing else, is left out: rounding would be all of it.
+    """
+    total, centre = work[2], rows.centre
+    work[3, :] = 1.0
     for side in range(2):
         total[:] = 0.0
         if side == 0:
@@ -237,6 +254,23 @@ def share(rows, row, work):  # type: ignore[no-untyped-def]
         else:
             add_next(rows, row, work, 3, total)
         solve_row(rows, row, total, work, side)
+        beside = (row + 2 * side - 1) % centre.shape[0]
+        for j in range(total.size):
+            if abs(work[side, j]) < THIN and centre[beside, j] == 0.0:
+                work[side, j] = 0.0
+
+
+@compiled
+def leaks(rows, row, work):  # type: ignore[no-untyped-def]
+    """Whether an odd row leaks; if so, row 3 of ``work`` is what its unknowns lose by it for rows of ones beside it."""
+    total = work[2]
+    any_leak = False
+    for j in range(total.size):
+        total[j] = rows.leak[row, j]
+        any_leak |= total[j] > 0
+    if any_leak:
+        solve_row(rows, row, total, work, 3)
+    return any_leak
 
 
 @compiled
@@ -247,11 +281,10 @@ def coarsen(fine, coarse, work):  # type: ignore[no-untyped-def]
     """
     count, coarse_count = fine.centre.shape[0], coarse.centre.shape[0]
     first, second = work[0], work[1]
-    work[3, :] = 1.0
     length = fine.centre.shape[1]
     for row in range(coarse_count):
         for j in range(length):
-            coarse.centre[row, j] = fine.centre[2 * row, j]
+            coarse.leak[row, j] = fine.leak[2 * row, j]
             coarse.north[row, j] = fine.north[2 * row, j]
     if count % 2:
         for j in range(length):
@@ -261,32 +294,26 @@ def coarsen(fine, coarse, work):  # type: ignore[no-untyped-def]
     for row in range(1, count, 2):
         share(fine, row, work)
         left, right = row // 2, (row // 2 + 1) % coarse_count
-        add_own(coarse.centre[left], coarse.north[left], fine, row, row - 1, first, False)
-        add_own(coarse.centre[right], coarse.north[right], fine, row, row, second, True)
+        if leaks(fine, row, work):
+            add_next(fine, row - 1, work, 3, coarse.leak[left])
+            add_previous(fine, (row + 1) % count, work, 3, coarse.leak[right])
+        add_own(coarse.north[left], fine, row, row - 1, first, False)
+        add_own(coarse.north[right], fine, row, row, second, True)
         set_coupling(coarse.east[left], coarse.up[left], coarse.down[left], fine, row, first, second)
     if coarse_count == 1:
-        fold(coarse.centre[0], coarse.north[0], coarse.east[0], coarse.up[0], coarse.down[0])
-
-
-@compiled
-def fold(centre, north, east, up, down):  # type: ignore[no-untyped-def]
-    """Take the couplings of a single row to itself into its own T."""
-    last = centre.size - 1
-    for j in range(last + 1):
-        centre[j] -= 2 * east[j]
-        north[j] += up[j] + down[j + 1 if j < last else 0]
-    east[:] = 0.0
-    up[:] = 0.0
-    down[:] = 0.0
+        for j in range(length):
+            coarse.north[0, j] += coarse.up[0, j] + coarse.down[0, j + 1 if j + 1 < length else 0]
+        coarse.east[0, :] = coarse.up[0, :] = coarse.down[0, :] = 0.0
 
 
 @compiled
 def silence(rows):  # type: ignore[no-untyped-def]
-    """Take unknowns without couplings out of the finest level's matrix, not its factors: the smoother solves them."""
+    """Keep unknowns without couplings out of the coarse levels: the smoother alone solves them."""
     north, east = rows.north, rows.east
     for row in range(north.shape[0]):
         for j in range(north.shape[1]):
             if north[row, j] + north[row, j - 1] + east[row, j] + east[row - 1, j] == 0.0:
+                rows.leak[row, j] = 0.0
                 rows.centre[row, j] = 0.0
 
 
@@ -298,7 +325,7 @@ def set_up(counts, rows, work):  # type: ignore[no-untyped-def]
         stop = start + counts[level]
         fine = level_rows(rows, start, stop, counts[0])
         for row in range(counts[level]):
-            factorise_row(fine, row, work[2])
+            factorise_row(fine, row, work)
         if level == 0:
             silence(fine)
         if level + 1 < counts.size:

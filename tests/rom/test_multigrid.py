@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy import sparse
+from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import spsolve
 
 from contact.errors import ConvergenceError, InputError
@@ -187,6 +188,30 @@ def test_closed_pockets_beside_an_open_film():
     assert difference[~pocket] == pytest.approx(0, abs=1e-7)
 
 
+@pytest.mark.parametrize("seed", [311, 313, 317])
+def test_rough_contacts_that_no_flow_enters_close_many_pockets(seed):
+    size = 96
+    height = rough((size, size), seed)
+    height -= np.quantile(height, 0.3)
+    contact = height <= 0
+    k = np.maximum(height / height.max(), 1e-3) ** 3
+    _, east, north = film(k, mask=contact)
+    leak = np.zeros_like(k)
+    leak[[0, -1]] = np.where(contact, 0, k)[[0, -1]]
+    centre = leak + east + np.roll(east, 1, 0) + north + np.roll(north, 1, 1)
+    matrix = whole(np.where(centre == 0, 1, centre), east, north, NOWHERE)
+    matrix.eliminate_zeros()
+    label = connected_components(matrix, directed=False)[1]
+    open_piece = np.bincount(label, (leak + (centre == 0)).ravel()) > 0
+    assert np.count_nonzero(~open_piece) >= 3
+    b = np.random.default_rng(seed + 1).normal(size=k.shape) * np.sqrt(centre)
+    b -= np.where(open_piece, 0, np.bincount(label, b.ravel()) / np.bincount(label))[label].reshape(k.shape)
+    solved = Multigrid(np.where(centre == 0, 1, centre), east, north).solve(b)
+    left = b.ravel() - matrix @ solved.solution.ravel()
+    assert np.linalg.norm(left) < 2e-10 * np.linalg.norm(b)
+    assert solved.iterations <= 25
+
+
 @pytest.mark.parametrize("size", [64, 97, 128, 255, 256])
 def test_iterations_for_a_slider_hardly_depend_on_the_grid(size):
     height = np.linspace(2.5, 1, size)[:, None] * np.ones(size)
@@ -207,6 +232,12 @@ def test_iterations_hardly_depend_on_the_anisotropy(ratio, periodic):
 def test_iterations_for_rough_films_with_holes(size, periodic):
     matrix, source = masked_film(size, 20077, periodic)
     assert Multigrid(*matrix, periodic=periodic).solve(source).iterations <= 25
+
+
+@pytest.mark.parametrize("ratio", [1e-4, 1e-2, 1e2, 1e4])
+def test_iterations_for_stretched_rough_films_with_holes(ratio):
+    matrix, source = masked_film(256, 20089, ratio=ratio)
+    assert Multigrid(*matrix).solve(source, tolerance=1e-9).iterations <= 25
 
 
 def test_a_good_start_saves_iterations():

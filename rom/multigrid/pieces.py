@@ -1,0 +1,61 @@
+"""Pieces of the film without a Dirichlet node: found, and held at a node in the preconditioner, to have an inverse."""
+
+from contact.compiled import compiled
+
+ROUNDING = 4e-15
+"""Of the diagonal: if it is more than the couplings by less, it is not more."""
+
+
+@compiled
+def set_leak(centre, east, north, leak, seen, stack):  # type: ignore[no-untyped-def]
+    """Set the ``leak`` to what the diagonal is more than all couplings; a piece that leaks nowhere is held at one node.
+
+    That takes from conjugate gradients nothing but the piece's free mean. Arrays of shape (n, m); ``stack`` has n m.
+    """
+    count, length = centre.shape
+    pending = 0
+    for row in range(count):
+        for j in range(length):
+            couplings = north[row, j] + north[row, j - 1] + east[row, j] + east[row - 1, j]
+            rest = centre[row, j] - couplings
+            leaky = rest > ROUNDING * centre[row, j]
+            leak[row, j] = rest if leaky else 0.0
+            seen[row, j] = leaky or couplings == 0
+            if leaky and couplings > 0:
+                stack[pending] = row * length + j
+                pending += 1
+    spread(east, north, seen, stack, pending)
+    for row in range(count):
+        for j in range(length):
+            if not seen[row, j]:
+                leak[row, j] = centre[row, j]
+                seen[row, j] = True
+                stack[0] = row * length + j
+                spread(east, north, seen, stack, 1)
+
+
+@compiled
+def spread(east, north, seen, stack, pending):  # type: ignore[no-untyped-def]
+    """See all nodes that are linked with those ``pending`` on the stack."""
+    count, length = east.shape
+    while pending:
+        pending -= 1
+        row, j = stack[pending] // length, stack[pending] % length
+        before, back = (row if row > 0 else count) - 1, (j if j > 0 else length) - 1
+        after, on = row + 1 if row + 1 < count else 0, j + 1 if j + 1 < length else 0
+        if not seen[after, j] and east[row, j] > 0:
+            seen[after, j] = True
+            stack[pending] = after * length + j
+            pending += 1
+        if not seen[before, j] and east[before, j] > 0:
+            seen[before, j] = True
+            stack[pending] = before * length + j
+            pending += 1
+        if not seen[row, on] and north[row, j] > 0:
+            seen[row, on] = True
+            stack[pending] = row * length + on
+            pending += 1
+        if not seen[row, back] and north[row, back] > 0:
+            seen[row, back] = True
+            stack[pending] = row * length + back
+            pending += 1
