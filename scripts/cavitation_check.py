@@ -59,9 +59,11 @@ def _flows(problem: Problem, x: Array, y: Array, pressure: Array, fill: Array) -
     step = (np.append(np.diff(x), shape.breaks[-1] - x[-1]) if shape.joined[0] else np.diff(x))[:, None]
     rise = (np.roll(pressure, -1, axis=0) - pressure)[:faces]
     mean, cube = np.zeros((faces, y.size)), np.zeros((faces, y.size))
-    strips = (0.0,) if shape.wide else (-0.25, 0.25)
+    lowest = y[0] - (shape.across[1] - y[-1]) / 2 if shape.joined[1] else y[0]
+    begins = np.append(lowest, (y[:-1] + y[1:]) / 2)
+    strips = [y] if shape.wide else [begins + part * share_y for part in (0.25, 0.75)]
     for strip in strips:
-        h = [shape.thickness(*np.broadcast_arrays(x[:faces, None] + g * step, y + strip * share_y)) for g in GAUSS]
+        h = [shape.thickness(*np.broadcast_arrays(x[:faces, None] + g * step, strip)) for g in GAUSS]
         cubed = h[0] ** -3.0 + h[1] ** -3.0
         mean += (h[0] ** -2.0 + h[1] ** -2.0) / cubed / len(strips)
         cube += 2 / cubed / len(strips)

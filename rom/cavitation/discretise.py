@@ -13,8 +13,11 @@ from rom.gap import Array
 GAUSS = (-0.5 / sqrt(3), 0.5 / sqrt(3))
 """Two points, in spacings from the middle: the integrals of h⁻² and h⁻³ over a face are exact to fourth order."""
 
-QUARTERS = (-0.25, 0.25)
+QUARTERS = (0.25, 0.75)
 """Of a control volume, where a face is sampled across the flow, so that a step at a node counts on both its sides."""
+
+BOTH_WAYS = (-0.25, 0.25)
+"""Of the spacings before and behind a node, where its faces across the flow are sampled."""
 
 BESIDE = (-1e-9, 1e-9)
 """Of a spacing, where the film at a node is sampled: the mean of both sides of a step."""
@@ -52,30 +55,31 @@ def faces(shape: Shape, grid: Grid) -> Faces:
     """Sample the film thickness; the flow that follows is exact to fourth order where h is smooth along it."""
     nx, ny = grid.shape
     mean, east, north, thickness = (np.zeros((nx, ny)) for _ in range(4))
-    across = [0.0] if ny == 1 else QUARTERS
     x, y = grid.x[:, None], grid.y
+    begins = y - np.append(grid.spacing_y[-1], grid.spacing_y[:-1]) / 2
+    strips = [y] if ny == 1 else [begins + part * grid.share_y for part in QUARTERS]
     for part in BESIDE:
         thickness += shape.thickness(*np.broadcast_arrays(x + _towards(grid, part), y)) / len(BESIDE)
     last = nx if grid.spacing_x[-1] else nx - 1
     dx, x = grid.spacing_x[:last, None], grid.x[:last, None]
-    for part in across:
+    for strip in strips:
         squared, cubed = np.zeros((last, ny)), np.zeros((last, ny))
         for point in GAUSS:
-            inverse = 1 / shape.thickness(*np.broadcast_arrays(x + (0.5 + point) * dx, y + part * grid.share_y))
+            inverse = 1 / shape.thickness(*np.broadcast_arrays(x + (0.5 + point) * dx, strip))
             square = inverse * inverse
             squared += square
             cubed += square * inverse
-        mean[:last] += squared / cubed / len(across)
-        east[:last] += len(GAUSS) / cubed / len(across)
+        mean[:last] += squared / cubed / len(strips)
+        east[:last] += len(GAUSS) / cubed / len(strips)
     if ny > 1:
         last = ny if grid.spacing_y[-1] else ny - 1
         dy, y = grid.spacing_y[:last], grid.y[:last]
-        for part in QUARTERS:
+        for part in BOTH_WAYS:
             cubed = np.zeros((nx, last))
             for point in GAUSS:
                 place = np.broadcast_arrays(grid.x[:, None] + _towards(grid, part), y + (0.5 + point) * dy)
                 cubed += shape.thickness(*place) ** -3
-            north[:, :last] += len(GAUSS) / cubed / len(QUARTERS)
+            north[:, :last] += len(GAUSS) / cubed / len(BOTH_WAYS)
     return Faces(thickness=thickness, mean=mean, east=east, north=north)
 
 

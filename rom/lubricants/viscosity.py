@@ -7,7 +7,7 @@ import numpy as np
 from contact.entries import InUnit, Part, PositiveNumber
 from rom.gap import Array
 
-PressureCoefficient = Annotated[float, InUnit("1/Pa")]
+PressureCoefficient = Annotated[float, InUnit("Pa^-1")]
 LOG_VISCOSITY, ROELANDS_PRESSURE = 9.67, 1 / 5.1e-9
 """Roelands' constants: η = exp(-9.67) Pa s where all isotherms meet, at -0.196 GPa."""
 
