@@ -3,21 +3,19 @@
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from enum import StrEnum
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from rich.table import Table
 
 from contact.errors import ConvergenceError, InputError
-from rom.provenance import code, commit, machine, versions
-from rom.table import Column
+from scripts import stability_spots as spots_of
 from scripts.cavitation_probes import probes
 from scripts.cavitation_scenes import FLOOR, REFUSED, SECOND_ORDER, Answer, Probe, bound, liquid, off, slider
 from scripts.common import progress_bar
 from scripts.stability_made import Made
+from scripts.stability_spots import MEANING as ALWAYS
+from scripts.stability_spots import State, columns_of, count, entries_of, in_groups, in_rows, table_of
 
 MODULI = (0.05, 0.07, 0.3, 1.0, 10.0, 100.0)
 """β, GPa."""
@@ -44,43 +42,19 @@ NAMES = {
 """Of the methods."""
 
 
-class State(StrEnum):
-    """What became of a question."""
-
-    CONVERGED = "converged"
-    SLOW = "slow"
-    STALLED = "stalled"
-    WRONG = "wrong"
-    REFUSED = "refused"
-
-
 MEANING: Mapping[State, str] = {
     State.CONVERGED: "an answer within what its judge allows",
     State.SLOW: f"the same, after more than {SLOW} iterations",
-    State.STALLED: "the solver gave up and said so",
-    State.WRONG: "an answer that is none, an answer where there is none, or a refusal where there is one",
-    State.REFUSED: "refused in one line, as it must be",
+    **ALWAYS,
 }
 
 
 @dataclass(frozen=True, kw_only=True)
-class Spot:
+class Spot(spots_of.Spot):
     """What became of one question; None where there was no answer. ``error`` may be as large as ``allowed``."""
 
-    group: str
-    row: str
-    column: str
-    state: State
-    iterations: int | None = None
     error: float | None = None
     allowed: float
-    cpu_s: float = 0.0
-    message: str = ""
-
-    @property
-    def entries(self) -> dict[str, Any]:
-        """For JSON."""
-        return {name: value if not isinstance(value, State) else value.value for name, value in vars(self).items()}
 
 
 def tried(probe: Probe) -> Spot:
@@ -194,20 +168,18 @@ class CavitationFamily:
             for probe in asked:
                 advance(len(spots), f"{probe.group}: {probe.row}, {probe.column}")
                 spots.append(tried(probe))
-        groups = {
-            name: [spot for spot in spots if spot.group == name] for name in dict.fromkeys(s.group for s in spots)
-        }
+        groups = in_groups(spots)
         return Made(
-            entries=_entries(resolution, spots),
-            columns=_columns(spots),
-            table=_table_of(groups),
+            entries=entries_of("cavitation", resolution, spots, told(spots)),
+            columns=columns_of(spots, ("error", "allowed")),
+            table=table_of(groups),
             template="stability_cavitation.html.j2",
             page={
-                "methods": {NAMES[name]: _rows(groups[name]) for name in NAMES},
+                "methods": {NAMES[name]: in_rows(groups[name]) for name in NAMES},
                 "moduli": [f"{beta:g} GPa" for beta in MODULI],
                 "nodes": [f"1e{round(np.log10(nodes))}" for nodes in sizes(resolution)],
-                "probes": {name: _rows(found) for name, found in groups.items() if name not in NAMES},
-                "states": [(state, MEANING[state], _count(spots, state)) for state in State],
+                "probes": {name: in_rows(found) for name, found in groups.items() if name not in NAMES},
+                "states": [(state, MEANING[state], count(spots, state)) for state in State],
                 "told": told(spots),
                 "bound": f"{SECOND_ORDER:g} (cell/length)² + {FLOOR:g}",
                 "limit": f"3000 steps, or {WORK:g} steps times nodes",
@@ -226,8 +198,8 @@ def told(spots: Sequence[Spot]) -> list[str]:
         most, worst = max(spot.iterations or 0 for spot in good), max(spot.error or 0.0 for spot in good)
         name = NAMES[method][0].upper() + NAMES[method][1:]
         lines.append(
-            f"{name}: {len(good)} of {len(own)} sliders right, {_count(own, State.SLOW)} of "
-            f"these slowly, {_count(own, State.STALLED)} stalled, {_count(own, State.WRONG)} wrong; "
+            f"{name}: {len(good)} of {len(own)} sliders right, {count(own, State.SLOW)} of "
+            f"these slowly, {count(own, State.STALLED)} stalled, {count(own, State.WRONG)} wrong; "
             f"at most {most} iterations where right, loads off by at most {worst:.1e}, "
             f"{sum(spot.cpu_s for spot in own):.2g} s in all."
         )
@@ -240,51 +212,6 @@ def told(spots: Sequence[Spot]) -> list[str]:
         for spot in others + [spot for spot in spots if spot.group == DEFAULT]
         if spot.state in (State.STALLED, State.WRONG)
     ]
-
-
-def _count(spots: Sequence[Spot], state: State) -> int:
-    return sum(spot.state is state for spot in spots)
-
-
-def _rows(spots: Sequence[Spot]) -> dict[str, dict[str, Spot]]:
-    return {
-        row: {spot.column: spot for spot in spots if spot.row == row} for row in dict.fromkeys(s.row for s in spots)
-    }
-
-
-def _entries(resolution: int, spots: Sequence[Spot]) -> dict[str, Any]:
-    return {
-        "family": "cavitation",
-        "resolution": resolution,
-        "counts": {state.value: _count(spots, state) for state in State},
-        "in_words": told(spots),
-        "runs": [spot.entries for spot in spots],
-        "provenance": {"machine": machine(), "code": code(), "commit": commit(), "versions": versions()},
-    }
-
-
-def _columns(spots: Sequence[Spot]) -> dict[str, Column]:
-    def numbers(name: str, unit: str = "1") -> Column:
-        values = [getattr(spot, name) for spot in spots]
-        return Column(values=[float("nan") if value is None else float(value) for value in values], unit=unit)
-
-    texts = {
-        name: Column(values=[str(getattr(spot, name)) for spot in spots], unit="")
-        for name in ("group", "row", "column", "state")
-    }
-    found = {name: numbers(name) for name in ("iterations", "error", "allowed")}
-    message = Column(values=[spot.message for spot in spots], unit="")
-    return {**texts, **found, "cpu_time": numbers("cpu_s", "s"), "message": message}
-
-
-def _table_of(groups: Mapping[str, Sequence[Spot]]) -> Table:
-    states = [state for state in State if any(_count(spots, state) for spots in groups.values())]
-    table = Table("group", *(state.value for state in states), "most iterations", "CPU s")
-    for name, spots in groups.items():
-        most = max((spot.iterations or 0 for spot in spots), default=0)
-        counts = (str(_count(spots, state)) for state in states)
-        table.add_row(name, *counts, str(most), f"{sum(spot.cpu_s for spot in spots):.3g}")
-    return table
 
 
 CAVITATION = CavitationFamily()

@@ -3,22 +3,21 @@
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from enum import StrEnum
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from rich.table import Table
 
 from contact.errors import ConvergenceError, InputError
 from contact.mechanics.contact import Contact
-from rom.provenance import code, commit, machine, versions
-from rom.table import Column
+from scripts import stability_spots as spots_of
 from scripts.common import progress_bar
 from scripts.contact_check import broken_conditions
 from scripts.contact_probes import ALL_PLASTIC, MODULUS, REFUSED, Probe, probes
 from scripts.stability_made import Made
+from scripts.stability_spots import MEANING as ALWAYS
+from scripts.stability_spots import State, columns_of, count, entries_of, in_groups, in_rows, table_of
 
 SLOW = 100
 """More iterations than this are slow."""
@@ -27,45 +26,21 @@ ALLOWED = 1.01e-8
 """Of the conditions recomputed: what is asked of the solver, and a hundredth for additions in another order."""
 
 
-class State(StrEnum):
-    """What became of a probe."""
-
-    CONVERGED = "converged"
-    SLOW = "slow"
-    STALLED = "stalled"
-    WRONG = "wrong"
-    REFUSED = "refused"
-
-
 MEANING: Mapping[State, str] = {
     State.CONVERGED: f"the conditions of contact, recomputed, hold within {ALLOWED:g} of the rms height",
     State.SLOW: f"the same, after more than {SLOW} iterations",
-    State.STALLED: "the solver gave up and said so",
-    State.WRONG: "an answer that is none, an answer where there is none, or a refusal where there is one",
-    State.REFUSED: "refused in one line, as it must be",
+    **ALWAYS,
 }
 
 
 @dataclass(frozen=True, kw_only=True)
-class Spot:
+class Spot(spots_of.Spot):
     """What became of one probe; None where there was no answer. ``broken`` is recomputed, ``complementarity`` told."""
 
-    group: str
-    row: str
-    column: str
-    state: State
-    iterations: int | None = None
     complementarity: float | None = None
     broken: float | None = None
     area_fraction: float | None = None
     plastic_fraction: float | None = None
-    cpu_s: float = 0.0
-    message: str = ""
-
-    @property
-    def entries(self) -> dict[str, Any]:
-        """For JSON."""
-        return {name: value if not isinstance(value, State) else value.value for name, value in vars(self).items()}
 
 
 def pressed(probe: Probe) -> Contact:
@@ -132,17 +107,15 @@ class ContactFamily:
             for probe in asked:
                 advance(len(spots), f"{probe.group}: {probe.row}, {probe.column}")
                 spots.append(tried(probe))
-        groups = {
-            name: [spot for spot in spots if spot.group == name] for name in dict.fromkeys(s.group for s in spots)
-        }
+        groups = in_groups(spots)
         return Made(
-            entries=_entries(resolution, spots),
-            columns=_columns(spots),
-            table=_table_of(groups),
+            entries=entries_of("contact", resolution, spots, told(spots)),
+            columns=columns_of(spots, ("complementarity", "broken", "area_fraction", "plastic_fraction")),
+            table=table_of(groups),
             template="stability_contact.html.j2",
             page={
                 "tables": {name: _as_table(found) for name, found in groups.items()},
-                "states": [(state, MEANING[state], _count(spots, state)) for state in State],
+                "states": [(state, MEANING[state], count(spots, state)) for state in State],
                 "told": told(spots),
             },
         )
@@ -152,7 +125,7 @@ def told(spots: Sequence[Spot]) -> list[str]:
     """What a reader should know, in words."""
     answered = [spot for spot in spots if spot.iterations is not None]
     good = [spot for spot in answered if spot.state in (State.CONVERGED, State.SLOW)]
-    lines = [f"{len(good)} of {len(answered)} answers hold, {_count(spots, State.REFUSED)} questions are refused."]
+    lines = [f"{len(good)} of {len(answered)} answers hold, {count(spots, State.REFUSED)} questions are refused."]
     if good:
         slowest, worst = max(good, key=lambda spot: spot.iterations or 0), max(good, key=lambda spot: spot.broken or 0)
         lines += [
@@ -169,53 +142,10 @@ def told(spots: Sequence[Spot]) -> list[str]:
     ]
 
 
-def _count(spots: Sequence[Spot], state: State) -> int:
-    return sum(spot.state is state for spot in spots)
-
-
 def _as_table(spots: Sequence[Spot]) -> dict[str, Any]:
-    rows = {
-        row: {spot.column: spot for spot in spots if spot.row == row} for row in dict.fromkeys(s.row for s in spots)
-    }
+    rows = in_rows(spots)
     same = len({tuple(cells) for cells in rows.values()}) == 1
     return {"columns": list(next(iter(rows.values()))) if same else [], "rows": rows}
-
-
-def _entries(resolution: int, spots: Sequence[Spot]) -> dict[str, Any]:
-    return {
-        "family": "contact",
-        "resolution": resolution,
-        "counts": {state.value: _count(spots, state) for state in State},
-        "in_words": told(spots),
-        "runs": [spot.entries for spot in spots],
-        "provenance": {"machine": machine(), "code": code(), "commit": commit(), "versions": versions()},
-    }
-
-
-def _columns(spots: Sequence[Spot]) -> dict[str, Column]:
-    def numbers(name: str, unit: str = "1") -> Column:
-        values = [getattr(spot, name) for spot in spots]
-        return Column(values=[float("nan") if value is None else float(value) for value in values], unit=unit)
-
-    texts = {
-        name: Column(values=[str(getattr(spot, name)) for spot in spots], unit="")
-        for name in ("group", "row", "column", "state")
-    }
-    found = {
-        name: numbers(name) for name in ("iterations", "complementarity", "broken", "area_fraction", "plastic_fraction")
-    }
-    message = Column(values=[spot.message for spot in spots], unit="")
-    return {**texts, **found, "cpu_time": numbers("cpu_s", "s"), "message": message}
-
-
-def _table_of(groups: Mapping[str, Sequence[Spot]]) -> Table:
-    states = [state for state in State if any(_count(spots, state) for spots in groups.values())]
-    table = Table("group", *(state.value for state in states), "most iterations", "CPU s")
-    for name, spots in groups.items():
-        most = max((spot.iterations or 0 for spot in spots), default=0)
-        counts = (str(_count(spots, state)) for state in states)
-        table.add_row(name, *counts, str(most), f"{sum(spot.cpu_s for spot in spots):.3g}")
-    return table
 
 
 CONTACT = ContactFamily()
