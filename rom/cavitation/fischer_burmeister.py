@@ -6,7 +6,7 @@ import numpy as np
 
 from contact.compiled import compiled
 from contact.errors import ConvergenceError, InputError, Outcome
-from rom.cavitation.balance import CAVITY, FILM, FIXED, along, linearise
+from rom.cavitation.balance import CAVITY, FILM, FIXED, along
 from rom.cavitation.fluid import Fluid
 from rom.cavitation.network import Network, State
 from rom.gap import Array
@@ -65,27 +65,9 @@ def fischer_burmeister(
     residual = np.inf
     for iteration in range(limit + 1):
         with np.errstate(all="ignore"):
-            excess, excess_slope = fluid.compression(pressure)
-            mobility, mobility_slope = fluid.mobility(pressure)
+            laws = (*fluid.compression(pressure), *fluid.mobility(pressure))
         for kind, parts in zip(kinds, (by_pressure, by_fill), strict=True):
-            largest = linearise(
-                network.couette,
-                network.upstream,
-                network.east,
-                network.north,
-                network.storage,
-                network.stored,
-                network.supplied,
-                *network.periodic,
-                kind,
-                pressure,
-                1 - cavity,
-                excess,
-                excess_slope,
-                mobility,
-                mobility_slope,
-                *parts,
-            )
+            largest = network.linearise(kind, pressure, 1 - cavity, laws, parts)
         balance = by_pressure[0]
         scaled = pressure[:, 0] / pressure_unit
         if supplied:

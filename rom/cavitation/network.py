@@ -1,11 +1,12 @@
 """The film as a network: nodes that hold lubricant, faces through which it flows."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rom.cavitation.balance import conduct
+from rom.cavitation.balance import conduct, linearise
 from rom.gap import Array
 
 
@@ -55,6 +56,16 @@ class Network:
     def supplied(self) -> Array:
         """``supply``, empty where there is none."""
         return np.zeros(0) if self.supply is None else self.supply
+
+    def linearise(
+        self, kind: NDArray[np.int8], pressure: Array, fill: Array, laws: Sequence[Array], parts: Sequence[Array]
+    ) -> float:
+        """Fill ``parts`` with the balances and their derivatives, as :func:`rom.cavitation.balance.linearise` says.
+
+        ``laws`` are ϑ, dθ/dp, φ and dφ/dp at the pressure. Returns the largest flow through a face, m³/s.
+        """
+        faces = (self.couette, self.upstream, self.east, self.north, self.storage, self.stored, self.supplied)
+        return float(linearise(*faces, *self.periodic, kind, pressure, fill, *laws, *parts))
 
     def conductance(self, mobility: Array) -> tuple[Array, Array]:
         """K φ of the faces towards i+1 and j+1, m³/(Pa s), from θ η0/η at the nodes."""

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.errors import ConvergenceError, Outcome
-from rom.cavitation.balance import CAVITY, FILM, FIXED, FLOODED, advance, linearise, settle_inlet
+from rom.cavitation.balance import CAVITY, FILM, FIXED, FLOODED, advance, settle_inlet
 from rom.cavitation.fluid import Fluid
 from rom.cavitation.network import Network, State
 from rom.cavitation.relaxation import relaxed
@@ -100,26 +100,8 @@ def newton(
     balance = parts[0]
     changed, residual = 0, np.inf
     for iteration in range(limit + 1):
-        excess, excess_slope = fluid.compression(pressure)
-        mobility, mobility_slope = fluid.mobility(pressure)
-        largest = linearise(
-            network.couette,
-            network.upstream,
-            network.east,
-            network.north,
-            network.storage,
-            network.stored,
-            network.supplied,
-            *network.periodic,
-            kind,
-            pressure,
-            fill,
-            excess,
-            excess_slope,
-            mobility,
-            mobility_slope,
-            *parts,
-        )
+        mobility = fluid.mobility(pressure)
+        largest = network.linearise(kind, pressure, fill, (*fluid.compression(pressure), *mobility), parts)
         if network.supply is not None:
             settle_inlet(kind[0], balance[0])
         balance[kind >= FIXED] = 0
@@ -129,7 +111,7 @@ def newton(
         if residual <= tolerance:
             state = State(pressure=pressure, fill=fill)
             return Settled(state=state, kind=kind, residual=residual, iterations=iteration)
-        change = step(network, Linear(kind, mobility, *parts), tolerance * largest)
+        change = step(network, Linear(kind, mobility[0], *parts), tolerance * largest)
         if ruptures:
             changed = advance(kind.reshape(-1), pressure.reshape(-1), fill.reshape(-1), change.reshape(-1))
         else:
