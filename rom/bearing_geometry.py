@@ -40,6 +40,11 @@ class Pad(Part):
         """Where h or its slope jumps, m."""
         return 0.0, self.length
 
+    @property
+    def finest(self) -> float:
+        """The shortest feature along the sliding, m."""
+        return math.inf
+
     def untextured(self, x: Array) -> Array:
         """h(x), m."""
         raise NotImplementedError
@@ -52,6 +57,7 @@ class Pad(Part):
             breaks=self.breaks(),
             across=across,
             wide=self.width is None,
+            finest=(self.finest, math.inf),
         )
         return smooth if self.texture is None else pocketed(smooth, self.texture)
 
@@ -134,6 +140,11 @@ class Wavy(Pad):
     def end(self) -> float:
         """Where the waves end, m."""
         return self.length / 2 if self.extent is None else self.extent
+
+    @property
+    def finest(self) -> float:
+        """The shortest feature along the sliding, m."""
+        return self.wavelength
 
     @model_validator(mode="after")
     def _inside(self) -> Self:

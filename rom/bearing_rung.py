@@ -1,5 +1,6 @@
 """What the rungs of a bearing share: the grid they work on, their quantities, fields and bookkeeping."""
 
+import math
 import time
 from collections.abc import Callable
 from functools import cache, partial
@@ -24,6 +25,9 @@ WIDE, PLANE = (64, 256, 1024, 4096), (32, 64, 128, 256)
 """Cells, for infinitely wide bearings and for others."""
 
 LEAST, MOST = 8, {True: 4_000_000, False: 2048}
+RESOLVED = 8
+"""Cells that a wave or a pocket needs for its load to be within a few per cent."""
+
 SAFETY = 3.0
 """Of an error estimated from two grids: Roache 1994, doi:10.1115/1.2910291."""
 
@@ -80,6 +84,7 @@ def solve(
             for name, quantity in quantities.items()
             if name in before
         }
+    warnings += [*unresolved(found), *beyond(found)]
     if not (found.state.pressure > 0).any():
         warnings.append("no film forms: the inlet brings less than the narrowest place lets through")
     return Result(
@@ -105,6 +110,31 @@ def solve(
             grids=[{"nodes": list(level.shape), "iterations": level.iterations} for level in found.levels],
         ),
     )
+
+
+def unresolved(found: Solution) -> list[str]:
+    """What must be known of a grid that is too coarse for the wall's features."""
+    shape, grid = found.problem.shape, found.grid
+    told = []
+    for name, feature, spacing in zip(("along", "across"), shape.finest, (grid.spacing_x, grid.spacing_y), strict=True):
+        cells = feature / spacing.max() if spacing.max() > 0 else math.inf
+        if cells < 0.99 * RESOLVED:
+            told.append(
+                f"the shortest feature of the wall {name} the sliding has {cells:.2g} cells; take at least "
+                f"{RESOLVED / cells:.2g} times the resolution"
+            )
+    return told
+
+
+def beyond(found: Solution) -> list[str]:
+    """What must be known of pressures for which a law of the lubricant is not meant."""
+    problem, greatest = found.problem, float(found.state.pressure.max())
+    return [
+        f"pressure reaches {greatest:.3g} Pa above that of cavitation; the law {law.law} is meant for up to "
+        f"{law.valid_to:.3g} Pa"
+        for law in (problem.compressibility, problem.piezoviscosity)
+        if greatest > law.valid_to
+    ]
 
 
 @cache

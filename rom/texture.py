@@ -70,6 +70,7 @@ def pocketed(shape: Shape, texture: Texture) -> Shape:
     return replace(
         shape,
         breaks=_distinct(breaks, low, high, slack),
+        finest=(min(shape.finest[0], texture.length), shape.finest[1] if texture.width is None else texture.width),
         thickness=lambda x, y: shape.thickness(x, y) + _depth(texture, shape.across, x, y),
     )
 

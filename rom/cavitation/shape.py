@@ -1,5 +1,6 @@
 """Where the film is: its thickness over the plane that both walls share, cartesian or polar."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -20,6 +21,7 @@ class Shape:
     wide : infinitely wide: h(x) alone counts, and flow is per width.
     polar : x is an angle, rad, and y the radius, m.
     joined : whether the ends in x are the same place, and those in y.
+    finest : the shortest feature of the wall along x and y, in their units; infinite where there is none.
     """
 
     thickness: Thickness
@@ -28,6 +30,7 @@ class Shape:
     wide: bool = True
     polar: bool = False
     joined: tuple[bool, bool] = (False, False)
+    finest: tuple[float, float] = (math.inf, math.inf)
 
     @property
     def length(self) -> float:

@@ -5,14 +5,15 @@ from typing import Annotated, Literal, Self
 import numpy as np
 from pydantic import model_validator
 
-from contact.entries import InUnit, Part, PositiveNumber
+from contact.entries import InUnit, PositiveNumber
 from contact.errors import InputError
 from rom.gap import Array
+from rom.lubricants.law import Law
 
 Pressure = Annotated[float, InUnit("Pa")]
 
 
-class Incompressible(Part):
+class Incompressible(Law):
     """θ = 1."""
 
     law: Literal["incompressible"] = "incompressible"
@@ -29,11 +30,16 @@ class Incompressible(Part):
         return 0.0
 
 
-class ConstantBulkModulus(Part):
+class ConstantBulkModulus(Law):
     """p = β ln θ: for pressures below about a tenth of β, Pa. Source: Vijayaraghavan and Keith 1989."""
 
     law: Literal["constant_bulk_modulus"]
     bulk_modulus: Pressure
+
+    @property
+    def valid_to(self) -> float:
+        """A tenth of β, Pa."""
+        return self.bulk_modulus / 10
 
     def compression(self, pressure: Array) -> tuple[Array, Array]:
         """ϑ = θ - 1 and dθ/dp, 1/Pa, where p >= 0; shape of ``pressure``."""
@@ -45,7 +51,7 @@ class ConstantBulkModulus(Part):
         return self.bulk_modulus * float(np.log(theta))
 
 
-class DowsonHigginson(Part):
+class DowsonHigginson(Law):
     """θ = (C1 + C2 p)/(C1 + p), with C1 in Pa; by default Dowson and Higginson's mineral oil (1966).
 
     Paper B of the source fits C1 = 2.22 GPa, C2 = 1.66 to another.

@@ -9,11 +9,12 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import BeforeValidator, PlainSerializer, model_validator
 
-from contact.entries import Part, plain_number
+from contact.entries import plain_number
 from contact.errors import InputError
 from contact.units import with_unit
 from rom.gap import Array
 from rom.lubricants.compressibility import DowsonHigginson
+from rom.lubricants.law import Law
 from rom.two_columns import MOST, read_rows
 
 FEWEST = 3
@@ -55,7 +56,7 @@ def _row(row: Any, number: int) -> tuple[float, float]:
     return pressure, density
 
 
-class Tabulated(Part):
+class Tabulated(Law):
     """θ through measured points by monotone cubics (PCHIP), straight on beyond the last; or a law fitted to them.
 
     ``table``: a CSV file (``pressure (MPa), density (kg/m^3)``), pressure from that of cavitation on. Source: Fritsch

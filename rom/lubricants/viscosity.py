@@ -4,15 +4,16 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from contact.entries import InUnit, Part, PositiveNumber
+from contact.entries import InUnit, PositiveNumber
 from rom.gap import Array
+from rom.lubricants.law import Law
 
 PressureCoefficient = Annotated[float, InUnit("Pa^-1")]
 LOG_VISCOSITY, ROELANDS_PRESSURE = 9.67, 1 / 5.1e-9
 """Roelands' constants: η = exp(-9.67) Pa s where all isotherms meet, at -0.196 GPa."""
 
 
-class ConstantViscosity(Part):
+class ConstantViscosity(Law):
     """η = η0."""
 
     law: Literal["constant"] = "constant"
@@ -22,11 +23,16 @@ class ConstantViscosity(Part):
         return np.ones_like(pressure), np.zeros_like(pressure)
 
 
-class Barus(Part):
+class Barus(Law):
     """η = η0 exp(α p), with α in 1/Pa; below about 0.1 GPa. Source: Barus 1893."""
 
     law: Literal["barus"]
     pressure_coefficient: PressureCoefficient
+
+    @property
+    def valid_to(self) -> float:
+        """0.1 GPa."""
+        return 1e8
 
     def fluidity(self, pressure: Array, viscosity: float) -> tuple[Array, Array]:  # noqa: ARG002
         """η0/η and its derivative, 1/Pa; shape of ``pressure``."""
@@ -34,11 +40,16 @@ class Barus(Part):
         return found, -self.pressure_coefficient * found
 
 
-class Roelands(Part):
+class Roelands(Law):
     """η = η0 exp((ln η0 + 9.67) ((1 + p/0.196 GPa)^Z - 1)), η0 in Pa s; to about 1 GPa. Source: Roelands 1966."""
 
     law: Literal["roelands"]
     index: PositiveNumber
+
+    @property
+    def valid_to(self) -> float:
+        """1 GPa."""
+        return 1e9
 
     def fluidity(self, pressure: Array, viscosity: float) -> tuple[Array, Array]:
         """η0/η and its derivative, 1/Pa; shape of ``pressure``."""

@@ -219,3 +219,21 @@ def test_joined_pads_have_the_pressure_of_their_neighbours():
     turned = entries | {"motion": {"speed": "-4.57 m/s"}}
     back = values(CAVITATING.solve(read_scene(turned), resolution=48))
     assert back["load"] != pytest.approx(values(result)["load"], rel=1e-3)
+
+
+def test_a_grid_too_coarse_for_the_wall_says_so():
+    coarse = solve("textured_slider", resolution=40)
+    assert any("has 4 cells; take at least 2 times" in told for told in coarse.provenance["warnings"])
+    fine, enough = solve("textured_slider"), solve("textured_slider", resolution=80)
+    assert fine.provenance["warnings"] == enough.provenance["warnings"] == []
+    assert values(enough)["load_per_width"] == pytest.approx(values(fine)["load_per_width"], rel=0.05)
+
+
+def test_a_law_beyond_its_pressures_says_so():
+    rows = [[0, 870], [1e6, 870.5], [2e6, 871]]
+    entries = scene_entries(load_scene(SCENES / "parabolic_slider.toml"))
+    entries["lubricant"]["compressibility"] = {"law": "tabulated", "table": rows}
+    told = CAVITATING.solve(read_scene(entries), resolution=256).provenance["warnings"]
+    assert len(told) == 1
+    assert "the law tabulated is meant for up to 2e+06 Pa" in told[0]
+    assert solve("parabolic_slider", resolution=256).provenance["warnings"] == []
