@@ -7,13 +7,14 @@ from pydantic import BeforeValidator, Field, field_validator, model_validator
 
 from contact.entries import InUnit, Part, PositiveNumber
 from contact.errors import InputError
+from contact.units import with_unit
 from rom.bearing_geometry import SHAPES, AnyShape, Journal, Sector
 from rom.cavitation.discretise import Ends
 from rom.cavitation.problem import Problem
 from rom.kind import Scene
 from rom.lubricants.compressibility import Incompressible
 from rom.lubricants.laws import Compressibility, Piezoviscosity
-from rom.lubricants.viscosity import ConstantViscosity
+from rom.lubricants.viscosity import LOG_VISCOSITY, ConstantViscosity, Roelands
 
 
 def _any(value: float) -> float:
@@ -65,7 +66,7 @@ class Inlet(Part):
 
 
 class Outlet(Part):
-    """Pressure above ambient, Pa."""
+    """Pressure above ambient, Pa; by default ambient, but of a journal that of the inlet, which is the same groove."""
 
     pressure: GaugePressure = 0.0
 
@@ -101,8 +102,9 @@ class Bearing(Scene):
     @field_validator("geometry", mode="before")
     @classmethod
     def _names_a_shape(cls, entries: Any) -> Any:
-        if isinstance(entries, dict) and entries.get("shape") not in SHAPES:
-            got = f"got {entries['shape']!r:.60}" if "shape" in entries else "is missing"
+        named = entries.get("shape") if isinstance(entries, dict) else None
+        if isinstance(entries, dict) and not (isinstance(named, str) and named in SHAPES):
+            got = f"got {named!r:.60}" if "shape" in entries else "is missing"
             raise ValueError(f"shape: {got}; it must be {', '.join(map(repr, SHAPES))}")
         return entries
 
@@ -119,15 +121,33 @@ class Bearing(Scene):
                     "no liquid has it, raise it"
                 )
         theta = self.boundary.inlet.theta
-        if theta is not None:
-            if isinstance(self.geometry, Sector) and self.geometry.joined:
-                raise ValueError("boundary.inlet.theta: got a number for joined pads, which have no inlet; leave it")
+        if theta is not None and theta > 1:
             try:
                 self.lubricant.compressibility.pressure_at(theta)
             except InputError as error:
                 raise ValueError(f"boundary.inlet.{error}") from None
+        if isinstance(self.geometry, Sector) and self.geometry.joined:
+            self._can_be_joined()
+        if self.wide and self.boundary.sides != Sides():
+            raise ValueError("boundary.sides: got pressures for an infinitely wide bearing; leave them or add a width")
+        law, least = self.lubricant.piezoviscosity, math.exp(-LOG_VISCOSITY)
+        if isinstance(law, Roelands) and self.lubricant.viscosity <= least:
+            raise ValueError(
+                f"lubricant.piezoviscosity: got roelands for {self.lubricant.viscosity!r} Pa s; by that law liquids of "
+                f"less than {least:.2g} Pa s grow thinner under pressure, take barus or constant"
+            )
         self.geometry.film_shape()
         return self
+
+    def _can_be_joined(self) -> None:
+        boundary, lowest = self.boundary, self.lubricant.cavitation_pressure
+        if boundary.inlet != Inlet() or boundary.outlet != Outlet():
+            raise ValueError("boundary: got an inlet or outlet for joined pads, which have none; leave it out")
+        if max(boundary.sides.low, boundary.sides.high) <= lowest:
+            raise ValueError(
+                f"boundary.sides: got no pressure above that of cavitation, {lowest!r} Pa, for joined pads; nothing "
+                "would feed the ring, raise one of them"
+            )
 
     @property
     def wide(self) -> bool:
@@ -144,10 +164,13 @@ class Bearing(Scene):
         else:
             inlet = self.lubricant.compressibility.pressure_at(theta) if theta > 1 else None
         sides = (boundary.sides.low - lowest, boundary.sides.high - lowest)
+        outlet = boundary.outlet
+        if isinstance(self.geometry, Journal) and outlet == Outlet() and boundary.inlet.pressure is not None:
+            outlet = Outlet.model_validate({"pressure": with_unit(boundary.inlet.pressure, "Pa")})
         return Ends(
             inlet=inlet,
             theta=1.0 if theta is None else min(theta, 1.0),
-            outlet=boundary.outlet.pressure - lowest,
+            outlet=outlet.pressure - lowest,
             sides=None if self.wide else sides,
         )
 
@@ -169,11 +192,6 @@ class Bearing(Scene):
         """6 η u L / h², Pa, with the least film thickness: the size of the pressures that sliding makes."""
         geometry = self.geometry
         return 6 * self.lubricant.viscosity * abs(self.motion.speed) * geometry.length / geometry.film**2
-
-    @property
-    def is_journal(self) -> bool:
-        """Whether loads add up round a shaft."""
-        return isinstance(self.geometry, Journal)
 
     @property
     def revolutions(self) -> float:

@@ -65,6 +65,12 @@ class Pad(Part):
     def _thin(self) -> Self:
         if self.film > self.length:
             raise ValueError(f"film: got {self.film!r} m, thicker than the bearing is long; look at the units")
+        if self.width is not None and self.width < self.film:
+            raise ValueError(f"width: got {self.width!r} m, less than the film is thick; look at the units")
+        for name in ("rise", "amplitude"):
+            height = getattr(self, name, 0.0)
+            if height > self.length:
+                raise ValueError(f"{name}: got {height!r} m, higher than the bearing is long; look at the units")
         return self
 
 
@@ -117,6 +123,11 @@ class Parabolic(Pad):
     shape: Literal["parabolic"]
     rise: Length
     count: Count = 1
+
+    @property
+    def finest(self) -> float:
+        """The shortest feature along the sliding, m."""
+        return self.length / self.count
 
     def breaks(self) -> tuple[float, ...]:
         """Where h or its slope jumps, m."""
@@ -235,7 +246,7 @@ class Sector(Part):
     film: Length
     rise: Length
     taper: Annotated[float, BeforeValidator(plain_number), Field(gt=0, le=1)] = 1.0
-    joined: bool = False
+    joined: Annotated[bool, Field(strict=True)] = False
 
     @model_validator(mode="after")
     def _can_be(self) -> Self:
@@ -243,7 +254,7 @@ class Sector(Part):
             raise ValueError(f"outer_radius: got {self.outer_radius!r} m; it must be above inner_radius")
         if self.angle > 2 * math.pi * (1 + 1e-12):
             raise ValueError(f"angle: got {self.angle!r} rad; it must be at most a full turn")
-        if self.film > self.outer_radius:
+        if max(self.film, self.rise) > self.outer_radius:
             raise ValueError(f"film: got {self.film!r} m, thicker than the bearing is wide; look at the units")
         return self
 
@@ -265,8 +276,13 @@ class Sector(Part):
     def film_shape(self) -> Shape:
         """The film, over (angle, radius)."""
         end = self.taper * self.angle
+
+        def thickness(x: Array, y: Array) -> Array:
+            within = np.mod(x, self.angle) if self.joined else x
+            return np.asarray(self.film + self.rise * np.clip(1 - within / end, 0, None) + 0 * y)
+
         return Shape(
-            thickness=lambda x, y: self.film + self.rise * np.clip(1 - x / end, 0, None) + 0 * y,
+            thickness=thickness,
             breaks=tuple(sorted({0.0, end, self.angle})),
             across=(self.inner_radius, self.outer_radius),
             wide=False,

@@ -28,7 +28,7 @@ def bearing_quantities(scene: Bearing, found: Solution) -> dict[str, Quantity]:
     width = 1.0 if found.problem.shape.wide else scene.geometry.width or 1.0
     load = float((grid.areas * pressure).sum())
     rub = friction(found)
-    row = int(np.argmax(found.state.pressure.max(axis=0)))
+    row = int(np.argmax(np.where(found.kind == FILM, found.state.pressure, -1.0).max(axis=0)))
     start, end = film_ends(found, row)
     values: dict[str, tuple[float, str]] = {
         "load_per_width": (load / width, "N/m"),
@@ -101,15 +101,24 @@ def flow_along(found: Solution) -> Array:
 
 
 def inlet_flow(found: Solution) -> float:
-    """What enters where sliding comes from, at the density of cavitation, m³/s (m²/s if wide)."""
-    return float(flow_along(found)[0].sum())
+    """What enters where sliding comes from, at the density of cavitation, m³/s (m²/s if wide).
+
+    Beside open sides as much as in the row next to them: there the bath flows, and not the film.
+    """
+    entering = flow_along(found)[0]
+    if found.problem.ends.sides is not None:
+        share = found.grid.share_y * found.grid.radius
+        entering[[0, -1]] = entering[[1, -2]] * share[[0, -1]] / share[[1, -2]]
+    return float(entering.sum())
 
 
 def side_leakage(found: Solution) -> float:
-    """What leaves through both sides, at the density of cavitation, m³/s."""
+    """What leaves through both sides, between the nodes of inlet and outlet, at the density of cavitation, m³/s."""
     net, state = found.network, found.state
     north = net.conductance(found.problem.mobility(state.pressure)[0])[1]
     flow = -north[:, :-1] * np.diff(state.pressure, axis=1)
+    if not net.periodic[0]:
+        flow = flow[1:-1]
     return float((flow[:, -1] - flow[:, 0]).sum()) if not net.periodic[1] else 0.0
 
 

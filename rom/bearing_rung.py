@@ -2,14 +2,16 @@
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cache, partial
 
 import numpy as np
 
 from contact.errors import InputError
+from contact.units import Quantity
 from rom.bearing import Bearing
 from rom.bearing_quantities import bearing_quantities, density_ratio
+from rom.cavitation.balance import CAVITY, FILM
 from rom.cavitation.discretise import Ends
 from rom.cavitation.problem import Problem
 from rom.cavitation.shape import Shape
@@ -25,6 +27,12 @@ WIDE, PLANE = (64, 256, 1024, 4096), (32, 64, 128, 256)
 """Cells, for infinitely wide bearings and for others."""
 
 LEAST, MOST = 8, {True: 4_000_000, False: 2048}
+WARM_UP = 40
+"""Cells of a film on which every loop is run once."""
+
+PLACES = ("film_start", "rupture", "cavitated_fraction")
+"""Quantities that follow the nodes."""
+
 RESOLVED = 8
 """Cells that a wave or a pocket needs for its load to be within a few per cent."""
 
@@ -76,17 +84,10 @@ def solve(
     wall, cpu = time.perf_counter(), time.process_time()
     found = balance(problem, (cells, cells), tolerance=tolerance, ruptures=ruptures, progress=progress)
     quantities = bearing_quantities(scene, found)
-    uncertainty, warnings = {}, []
-    if found.coarser is not None:
-        before = bearing_quantities(scene, found.coarser)
-        uncertainty = {
-            name: SAFETY * abs(quantity.value - before[name].value) / 3
-            for name, quantity in quantities.items()
-            if name in before
-        }
-    warnings += [*unresolved(found), *beyond(found)]
-    if not (found.state.pressure > 0).any():
-        warnings.append("no film forms: the inlet brings less than the narrowest place lets through")
+    warnings = [*unresolved(found), *beyond(found), *odd(scene, found)]
+    uncertainty = uncertainties(scene, found, quantities)
+    if not uncertainty:
+        warnings.append("there is no coarser grid to compare with; how far off this is cannot be said")
     return Result(
         model=model,
         quantities=quantities,
@@ -137,12 +138,50 @@ def beyond(found: Solution) -> list[str]:
     ]
 
 
+def uncertainties(scene: Bearing, found: Solution, quantities: Mapping[str, Quantity]) -> dict[str, float]:
+    """How far off each quantity may be, in its unit, from the two grids before; nothing without a coarser grid.
+
+    SAFETY/3 times the larger of the last step and a quarter of the step before, as is right for second order; where a
+    film begins or ends at least a cell, and with what the residual may add up to along the film.
+    """
+    before = found.coarser
+    if before is None or before.grid.x.size > 0.75 * found.grid.x.size:
+        return {}
+    cells = found.grid.x.size
+    one, two = bearing_quantities(scene, before), None
+    if before.coarser is not None and before.coarser.grid.x.size <= 0.75 * before.grid.x.size:
+        two = bearing_quantities(scene, before.coarser)
+    told = {}
+    for name, quantity in quantities.items():
+        if name in one:
+            step = abs(quantity.value - one[name].value)
+            if two is not None and name in two:
+                step = max(step, abs(one[name].value - two[name].value) / 4)
+            least = 1 / cells if name in PLACES else 0.0
+            told[name] = max(SAFETY * step / 3, least) + abs(quantity.value) * found.residual * cells
+    return told
+
+
+def odd(scene: Bearing, found: Solution) -> list[str]:
+    """What else must be known of a film."""
+    told, ends = [], found.problem.ends
+    if (found.kind == CAVITY).any() and not (found.kind == FILM).any():
+        told.append("no film forms: the inlet brings less than the narrowest place lets through")
+    if scene.motion.speed == 0 and ends.theta < 1:
+        told.append("the wall does not slide, so that nothing is brought: the starved inlet is taken as full")
+    if ends.sides is not None and not found.problem.shape.joined[0]:
+        jumps = {ends.inlet or 0.0, ends.outlet} - set(ends.sides)
+        if jumps:
+            told.append("pressure jumps at the corners: flows through the ends grow with the logarithm of the cells")
+    return told
+
+
 @cache
 def load_loops(wide: bool) -> None:
     """Have numba compile or read the loops, once in a process: no film's clock should run meanwhile."""
     shape = Shape(thickness=lambda x, y: 1e-6 * (2 - x) + 0 * y, breaks=(0.0, 1.0), wide=wide)
     ends = Ends(sides=None if wide else (0.0, 0.0))
-    balance(Problem(shape=shape, ends=ends, speed=1.0, viscosity=1.0), (LEAST, LEAST))
+    balance(Problem(shape=shape, ends=ends, speed=1.0, viscosity=1.0), (WARM_UP, WARM_UP))
 
 
 def _fields(scene: Bearing, found: Solution) -> dict[str, Field]:

@@ -38,9 +38,11 @@ class Texture(Part):
         if self.profile == "ellipsoidal" and self.width is None:
             raise ValueError("width: is missing; an ellipsoidal pocket needs one")
         if self.columns > 1 and (self.pitch is None or self.pitch < self.length):
-            raise ValueError(f"pitch: got {self.pitch!r} m; columns of pockets need one, of at least their length")
+            raise ValueError(f"pitch: {_got(self.pitch)}; columns of pockets need one, of at least their length")
         if self.rows > 1 and (self.width is None or self.pitch_across is None or self.pitch_across < self.width):
-            raise ValueError(f"pitch_across: got {self.pitch_across!r} m; rows need one, of at least the width")
+            raise ValueError(f"pitch_across: {_got(self.pitch_across)}; rows need one, of at least the width")
+        if self.depth > self.length:
+            raise ValueError(f"depth: got {self.depth!r} m, deeper than the pocket is long; look at the units")
         return self
 
     @property
@@ -48,6 +50,10 @@ class Texture(Part):
         """Where each column begins and ends, m."""
         starts = [self.start + number * (self.pitch or 0.0) for number in range(self.columns)]
         return tuple((start, start + self.length) for start in starts)
+
+
+def _got(value: float | None) -> str:
+    return "is missing" if value is None else f"got {value!r} m"
 
 
 def pocketed(shape: Shape, texture: Texture) -> Shape:
@@ -60,13 +66,13 @@ def pocketed(shape: Shape, texture: Texture) -> Shape:
     first, last = texture.spans[0][0], texture.spans[-1][1]
     if first < low - slack or last > high + slack:
         raise ValueError(
-            f"texture: reaches from {first:.6g} to {last:.6g} m; it must stay within the film's {high!r} m"
+            f"geometry.texture: reaches from {first:.6g} to {last:.6g} m; it must stay within the film's {high!r} m"
         )
     breaks = [*shape.breaks, *(end for span in texture.spans for end in span)]
     if texture.width is not None:
         rows = (texture.rows - 1) * (texture.pitch_across or 0.0) + texture.width
         if shape.wide or rows > (shape.across[1] - shape.across[0]) * (1 + 1e-9):
-            raise ValueError(f"texture: its rows take {rows:.6g} m; give the film a width of at least that")
+            raise ValueError(f"geometry.texture: its rows take {rows:.6g} m; give the film a width of at least that")
     return replace(
         shape,
         breaks=_distinct(breaks, low, high, slack),

@@ -216,7 +216,9 @@ def command(
         print_json({**told, "report": str(out / "mechanisms.html")})
         return
     for gap, found in rows.items():
-        shown = Table("speed, m/s", "Re", "inertia, Pa", *(f"at -{t * 1e-3:g} kPa" for t in TENSIONS), title=GAPS[gap])
+        shown = Table(
+            "speed, m/s", "Re", "inertia, Pa", *(f"{t * 1e-3:g} kPa below, Pa" for t in TENSIONS), title=GAPS[gap]
+        )
         for row in found:
             shown.add_row(*(f"{value:.4g}" for value in row.values()))
         output.print(shown)

@@ -42,7 +42,12 @@ def command(
     chosen = FAMILIES[family]
     make_directory(out)
     with alone(out) as scratch:
-        made = chosen.make(resolution=resolution or chosen.resolution, out=out, processes=processes, scratch=scratch)
+        made = chosen.make(
+            resolution=chosen.resolution if resolution is None else resolution,
+            out=out,
+            processes=processes,
+            scratch=scratch,
+        )
         write_csv(made.columns, out / "stability.csv")
         with replacing(out / "stability.json") as path:
             path.write_text(json.dumps(made.entries, indent=1) + "\n", encoding="utf-8")

@@ -160,8 +160,8 @@ class CavitationFamily:
 
     def make(self, *, resolution: int, out: Path, processes: int, scratch: Path) -> Made:  # noqa: ARG002
         """Try everything, one after the other: CPU times are to be compared."""
-        if resolution < FEWEST:
-            raise InputError(f"--resolution: got {resolution}; the slider needs at least {FEWEST} nodes")
+        if not FEWEST <= resolution <= MOST:
+            raise InputError(f"--resolution: got {resolution}; the slider takes {FEWEST} to {MOST} nodes")
         asked = [*methods(resolution), *probes()]
         spots: list[Spot] = []
         with progress_bar(len(asked)) as advance:

@@ -43,7 +43,7 @@ class Solution:
 
     ``turned`` says that the wall slid towards falling x: ``problem`` is then the mirrored one.
     ``residual`` is the largest net flow into a node over the largest through a face, recomputed at the end.
-    ``coarser`` is the solution on the grid before, which has none of its own.
+    ``coarser`` is the solution on the grid before, which has one of its own, and no more.
     """
 
     problem: Problem
@@ -129,7 +129,7 @@ def solve(
             found,
             turned=turned,
             levels=(*(before.levels if before else ()), *found.levels),
-            coarser=replace(before, coarser=None) if before else None,
+            coarser=before and replace(before, coarser=before.coarser and replace(before.coarser, coarser=None)),
         )
         if nodes is not finest:
             start = carried(found.state, nodes, grid(problem.shape, sizes[number + 1]), problem.shape.joined)

@@ -24,8 +24,8 @@ def march(
 ) -> Iterator[tuple[float, Solution]]:
     """Solve ∂(θh)/∂t + (u/2) ∂(θh)/∂x - ∇·(θh³/12η ∇p) = 0 from time to time, by backward Euler steps.
 
-    Of first order in the steps, of second in the cells where the film is whole; mass is kept to rounding, and no step
-    is too long for stability.
+    Of first order in the steps, of second in the cells where the film is whole; mass is kept to the tolerance, and no
+    step is too long for stability.
 
     Parameters
     ----------
@@ -47,23 +47,27 @@ def march(
 
     Source: Elrod 1981, doi:10.1115/1.3251669.
     """
-    if len(times) < 2 or min(np.diff(times)) <= 0:
-        raise InputError(f"times: got {[*times][:4]!r:.80}; give two or more, increasing")
-    problem = film(times[0])
-    if problem.speed < 0:
-        raise InputError(f"speed: got {problem.speed!r}; turn the film round, so that it slides towards growing x")
+    if len(times) < 2 or not np.isfinite(times).all() or min(np.diff(times)) <= 0:
+        raise InputError(f"times: got {[*times][:4]!r:.80}; give two or more, finite and increasing")
+    problem = _ahead(film(times[0]))
     nodes = grid(problem.shape, cells)
     state = start or State(pressure=np.zeros(nodes.shape), fill=np.ones(nodes.shape))
     held = _held(problem, state, faces(problem.shape, nodes).thickness)
 
     for before, now in pairwise(times):
-        problem, storage = film(now), (now - before, held)
+        problem, storage = _ahead(film(now)), (now - before, held)
         try:
             found = on_grid(problem, nodes, start=state, sweeps=WARM, tolerance=tolerance, storage=storage)
         except ConvergenceError:  # a film that tears all at once
             found = solve(problem, cells, tolerance=tolerance, storage=storage)
         state, held = found.state, _held(found.problem, found.state, found.faces.thickness)
         yield now, found
+
+
+def _ahead(problem: Problem) -> Problem:
+    if problem.speed < 0:
+        raise InputError(f"speed: got {problem.speed!r}; turn the film round, so that it slides towards growing x")
+    return problem
 
 
 def _held(problem: Problem, state: State, thickness: Array) -> Array:

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 from rom.bearing import Bearing
+from rom.bearing_geometry import Sector
 from rom.bearing_rung import bearing_model
 from rom.cavitation.problem import Problem
 from rom.ladder import Applicability, Effect
@@ -18,6 +19,11 @@ def applies(scene: Bearing) -> Applicability:
     width = scene.geometry.width
     if width is None:
         return Applicability(applies=False, reason="the bearing is infinitely wide: reynolds_cavitating solves a line")
+    if isinstance(scene.geometry, Sector) and scene.geometry.joined:
+        return Applicability(applies=False, reason="joined pads are fed through their sides, which one line has not")
+    texture = getattr(scene.geometry, "texture", None)
+    if texture is not None and texture.width is not None:
+        return Applicability(applies=False, reason="the pockets have a width, and one line would hit or miss them")
     ratio = width / scene.geometry.length
     return Applicability(applies=True, reason=f"leaves out flow through the sides: width over length = {ratio:.3g}")
 

@@ -12,8 +12,9 @@ def applies(scene: Bearing) -> Applicability:
     """Always; says how much density and viscosity would change."""
     problem = scene.problem()
     pressure = np.array([scene.pressure_unit / 10])
-    denser = float(problem.compression(pressure)[0][0])
-    thicker = 1 / float(problem.piezoviscosity.fluidity(pressure, problem.viscosity)[0][0]) - 1
+    with np.errstate(all="ignore"):
+        denser = problem.compression(pressure)[0][0]
+        thicker = 1 / problem.piezoviscosity.fluidity(pressure, problem.viscosity)[0][0] - 1
     told = f"density by {100 * denser:.2g} % and viscosity by {100 * thicker:.2g} % at {pressure[0]:.2g} Pa"
     return Applicability(applies=True, reason=f"leaves out what pressure does to the lubricant: {told}")
 

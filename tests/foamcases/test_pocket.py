@@ -5,11 +5,11 @@ import pytest
 
 import foamcases.models
 import rom.models
-from rom.ladder import find, ladder
+from rom.ladder import find, ladder, of_kind
 
 pytestmark = pytest.mark.openfoam
 
-MODELS = ladder(rom.models, foamcases.models)
+MODELS = of_kind(ladder(rom.models, foamcases.models), "pocket")
 STOKES, NAVIER_STOKES = find(MODELS, "stokes"), find(MODELS, "navier_stokes")
 PLUS = ("load_plus", "friction_plus", "pressure_max_plus", "pressure_min_plus")
 

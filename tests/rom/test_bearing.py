@@ -105,6 +105,16 @@ def test_pockets_lie_where_they_are_put():
         ("boundary.outlet.pressure=-1 MPa", "scene.boundary.outlet.pressure: got -1000000.0 Pa, below"),
         ("lubricant.cavitation_pressure=1 MPa", "below the pressure of cavitation"),
         ("motion.speed=nan m/s", "write a number and a unit"),
+        ("geometry.shape=[1]", "scene.geometry.shape: got [1]; it must be"),
+        ("geometry.shape={}", "scene.geometry.shape: got {}; it must be"),
+        ("geometry.rise=1 m", "scene.geometry.rise: got 1.0 m, higher than the bearing is long"),
+        ("geometry.width=1 nm", "scene.geometry.width: got 1e-09 m, less than the film is thick"),
+        ('boundary.sides={"low": "1 bar"}', "boundary.sides: got pressures for an infinitely wide bearing"),
+        ('geometry.texture={"length": "1 mm", "depth": "1 um", "columns": 3}', "geometry.texture.pitch: is missing"),
+        (
+            'geometry.texture={"length": "1 mm", "depth": "1 um", "start": "76 mm"}',
+            "geometry.texture: reaches from",
+        ),
     ],
 )
 def test_faults_are_told_in_one_line(override, words):
@@ -136,3 +146,42 @@ def test_density_and_pressure_at_the_inlet_are_the_same_thing():
 def test_pressures_count_from_ambient():
     scene = load_scene(SLIDER, ["lubricant.cavitation_pressure=-0.5 bar", "boundary.inlet.pressure=1 bar"])
     assert (scene.ends.inlet, scene.ends.outlet) == (pytest.approx(1.5e5), pytest.approx(0.5e5))
+
+
+def sector(**more):
+    entries = load_entries(SLIDER)
+    numbers = {"inner_radius": "40 mm", "outer_radius": "80 mm", "angle": "40 deg", "rise": "20 um", "taper": 0.75}
+    entries["geometry"] = {"shape": "sector", "film": "10 um", "joined": True, **numbers}
+    entries["boundary"] = {"sides": {"low": "1 bar"}, **more}
+    return read_scene(entries)
+
+
+def test_a_ring_of_pads_that_nothing_feeds_is_refused():
+    assert sector().geometry.joined
+    with pytest.raises(InputError, match=r"boundary\.sides: got no pressure above that of cavitation, 0\.0 Pa"):
+        sector(sides={})
+    for ends in ({"inlet": {"theta": 0.5}}, {"inlet": {"pressure": "1 bar"}}, {"outlet": {"pressure": "1 bar"}}):
+        with pytest.raises(InputError, match="boundary: got an inlet or outlet for joined pads"):
+            sector(**ends)
+
+
+def test_joined_pads_follow_one_another_without_a_gap():
+    assert film_of(sector(), np.radians([-1, 39, 41, 1]), 0.05) == pytest.approx([10e-6, 10e-6, 30e-6 - 20e-6 / 30, 30e-6 - 20e-6 / 30])  # fmt: skip  # noqa: E501
+
+
+def test_a_tabulated_lubricant_may_be_starved():
+    entries = load_entries(SLIDER)
+    entries["lubricant"]["compressibility"] = {"law": "tabulated", "table": [[0, 850], [1e7, 860], [2e7, 869]]}
+    entries["boundary"]["inlet"] = {"theta": 0.55}
+    assert read_scene(entries).ends.theta == 0.55
+
+
+def test_liquids_that_roelands_law_would_thin_are_refused():
+    law = ["lubricant.piezoviscosity.law=roelands", "lubricant.piezoviscosity.index=0.6"]
+    with pytest.raises(InputError, match="got roelands for 1e-05 Pa s"):
+        load_scene(SLIDER, [*law, "lubricant.viscosity=1e-5 Pa*s"])
+
+
+def test_inlet_and_outlet_of_a_journal_are_one_groove():
+    scene = load_scene(SCENES / "journal.toml", ["boundary.inlet.pressure=1 bar"])
+    assert (scene.ends.inlet, scene.ends.outlet) == (1e5, 1e5)

@@ -4,9 +4,11 @@ import pytest
 
 import rom.models
 from rom.comparison import Point, effects, pareto_front, points, scale, to_best
-from rom.ladder import Effect, ladder
+from rom.ladder import Effect, ladder, of_kind
 
-MODELS = [model for model in ladder(rom.models) if model.name in ("reynolds", "inertial_reynolds", "film")]
+MODELS = [
+    model for model in of_kind(ladder(rom.models), "pocket") if model.name in ("reynolds", "inertial_reynolds", "film")
+]
 
 
 @pytest.fixture

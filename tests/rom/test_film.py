@@ -11,9 +11,9 @@ from contact.errors import InputError
 from rom import ring, thin_film
 from rom.across import STIFFNESS, gauss_basis
 from rom.film import MODES
-from rom.ladder import find, ladder
+from rom.ladder import find, ladder, of_kind
 
-MODELS = ladder(rom.models)
+MODELS = of_kind(ladder(rom.models), "pocket")
 FILM, FILM_SLOPE, REYNOLDS = (find(MODELS, name) for name in ("film", "film_slope", "reynolds"))
 INERTIAL_REYNOLDS = find(MODELS, "inertial_reynolds")
 

@@ -45,7 +45,7 @@ def test_entries_are_complete_and_read_back_unchanged(pocket_file):
             "geometry.profile=square",
             r"scene\.geometry\.profile: got 'square'; it must be one of 'cylindrical', 'splined'",
         ),
-        ("kind=bearing", r"scene\.kind: got 'bearing'; it must be .*'pocket'"),
+        ("kind=gearbox", r"scene\.kind: got 'gearbox'; it must be .*'pocket'"),
         ("name=7", r"scene\.name: got 7"),
         ("geometry=7", r"scene\.geometry: got 7"),
         ("lubricant.viscosity=-0.01 Pa*s", r"scene\.lubricant\.viscosity: .* above zero"),

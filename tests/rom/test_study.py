@@ -9,7 +9,7 @@ import pytest
 import foamcases.models
 import rom.models
 from contact.errors import InputError, UnavailableError
-from rom.ladder import Availability, find, ladder
+from rom.ladder import Availability, find, ladder, of_kind
 from rom.relative import resolve_relative
 from rom.scene import load_scene
 from rom.study import as_toml, load_study
@@ -228,4 +228,4 @@ def test_the_first_study_is_cheap():
     found = load_study(STUDIES / "pocket.toml", MODELS)
     assert len(found.cases) == 12
     assert sum(setting.cost(case.scene) for setting in found.settings for case in found.cases) < 1
-    assert find(MODELS, "reynolds") in [setting.model for setting in found.settings]
+    assert find(of_kind(MODELS, "pocket"), "reynolds") in [setting.model for setting in found.settings]

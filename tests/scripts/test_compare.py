@@ -130,7 +130,7 @@ def test_where_nothing_can_be_drawn_the_page_says_so(pocket_file, tmp_path, monk
 
 def sampled(monkeypatch, *, fails_at=None):
     """A single rung of formal order 2, whose load is the mean thickness over the groove by the midpoint rule."""
-    film = find(models(), "reynolds")
+    film = find(of_kind(models(), "pocket"), "reynolds")
 
     def solve(scene, *, resolution=None, **_):
         n = resolution or 16
@@ -204,7 +204,7 @@ def test_a_crash_while_drawing_is_an_answer():
 
 def test_finished_results_are_used_again_only_for_the_same_question(pocket_file, tmp_path, monkeypatch):
     scene, other = load_scene(pocket_file), load_scene(pocket_file, ["geometry.depth=8 um"])
-    setting = Setting(model=find(models(), "reynolds"), resolution=8)
+    setting = Setting(model=find(of_kind(models(), "pocket"), "reynolds"), resolution=8)
     job = Job(scene=scene, setting=setting, path=tmp_path / "reynolds-8.h5")
     first = runs.solved_once(job, lambda *_: None)
     stamp = job.path.stat().st_mtime_ns

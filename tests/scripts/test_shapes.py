@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from foamcases.mesh import layered
-from rom.ladder import find
+from rom.ladder import find, of_kind
 from rom.scene import load_scene
 from scripts import compare
 from scripts.common import models
@@ -59,7 +59,7 @@ def test_the_pressure_plot_marks_the_edges_of_every_groove_and_nothing_else(pock
     edges = []
     for name, overrides in (("pocket", []), ("pocket", ONE), ("two_grooves", [])):
         scene = load_scene(pocket_file.parent / f"{name}.toml", overrides)
-        svg = pressure(scene, {"reynolds": find(models(), "reynolds").solve(scene)})
+        svg = pressure(scene, {"reynolds": find(of_kind(models(), "pocket"), "reynolds").solve(scene)})
         edges.append(svg.count("stroke-dasharray: 3.2,2.4"))
     assert edges == [2, 2, 4]
 
