@@ -57,7 +57,7 @@ def bicgstab(product: Operator, inverse: Operator, right_hand_side: Array, *, to
         if size <= tolerance:
             return solution
     raise ConvergenceError(
-        f"linear solver: its residual fell from {start:.1e} to {size:.1e} instead of {tolerance:.1e} in {limit} "
+        f"linear solver: its residual went from {start:.1e} to {size:.1e} instead of {tolerance:.1e} in {limit} "
         "iterations; take other cells",
         outcome=Outcome.STALLED,
         iterations=limit,
