@@ -148,4 +148,4 @@ def test_the_map_is_a_page_a_table_and_json(tmp_path, monkeypatch):
 def test_too_few_nodes_are_refused(tmp_path):
     result = CliRunner().invoke(app, ["stability", "cavitation", "--out", str(tmp_path), "--resolution", "8"])
     assert result.exit_code == 2
-    assert "--resolution: got 8; the slider needs at least 100 nodes" in result.stderr
+    assert "--resolution: got 8; the slider takes 100 to 100000 nodes" in result.stderr
