@@ -17,7 +17,7 @@ from rom.cavitation.problem import Problem
 from rom.cavitation.shape import Shape
 from rom.cavitation.solve import TOLERANCE, Solution
 from rom.cavitation.solve import solve as balance
-from rom.ladder import Applicability, Effect, Model, Progress, chosen_scheme, one_process, silent
+from rom.ladder import Applicability, Effect, Model, Progress, chosen_scheme, chosen_tolerance, one_process, silent
 from rom.provenance import provenance
 from rom.result import Field, Numerics, Result
 
@@ -69,9 +69,7 @@ def solve(
     """
     scheme = chosen_scheme(model, (), scheme)
     one_process(model, processes)
-    tolerance = TOLERANCE if tolerance is None else tolerance
-    if not 1e-13 <= tolerance < 1:
-        raise InputError(f"--tolerance: got {tolerance}; it must be 1e-13 to 1")
+    tolerance = chosen_tolerance(tolerance, TOLERANCE)
     fits = applies(scene)
     if not fits.applies:
         raise InputError(f"--model: got {model!r}; {fits.reason}")

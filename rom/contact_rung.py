@@ -10,7 +10,7 @@ from contact.errors import InputError
 from contact.surface import Array
 from contact.units import Quantity
 from rom.dry_contact import COARSEST, DryContact
-from rom.ladder import Applicability, Effect, Model, Progress, chosen_scheme, one_process, silent
+from rom.ladder import Applicability, Effect, Model, Progress, chosen_scheme, chosen_tolerance, one_process, silent
 from rom.provenance import provenance
 from rom.restriction import restricted
 from rom.result import Field, Numerics, Result
@@ -79,9 +79,7 @@ def solve(
     """
     scheme = chosen_scheme(model, (), scheme)
     one_process(model, processes)
-    tolerance = default_tolerance if tolerance is None else tolerance
-    if not 1e-13 <= tolerance < 1:
-        raise InputError(f"--tolerance: got {tolerance}; it must be 1e-13 to 1")
+    tolerance = chosen_tolerance(tolerance, default_tolerance)
     surface = scene.surface()
     own = max(surface.shape)
     resolution = own if resolution is None else resolution

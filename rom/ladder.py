@@ -180,6 +180,14 @@ def chosen_scheme(model: str, schemes: Sequence[str], scheme: str | None) -> str
     return scheme
 
 
+def chosen_tolerance(tolerance: float | None, default: float) -> float:
+    """The tolerance asked for, the default for None; InputError outside 1e-13..1."""
+    tolerance = default if tolerance is None else tolerance
+    if not 1e-13 <= tolerance < 1:
+        raise InputError(f"--tolerance: got {tolerance}; it must be 1e-13 to 1")
+    return tolerance
+
+
 def one_process(model: str, processes: int) -> None:
     """InputError if a model that computes in this process is asked for more of them."""
     if processes != 1:

@@ -34,6 +34,7 @@ from scripts.common import (
     run_alone,
 )
 from scripts.comparison import Picture, Report, cheapest_within, write_comparison
+from scripts.pages import write_figures
 from scripts.rendering import draw_apart
 from scripts.runs import Job, jobs_of, run_all
 from scripts.solve import table_of
@@ -148,9 +149,7 @@ def _judge(
         plots=plots,
         pictures=_pictures(results, out),
     )
-    for name, svg in plots.items():
-        with replacing(out / f"{name}.svg") as scratch:
-            scratch.write_text('<?xml version="1.0" encoding="utf-8"?>\n' + svg, encoding="utf-8")
+    write_figures(plots, out)
     with replacing(out / "chart.json") as scratch:
         scratch.write_text(json.dumps(_raw(report), indent=1) + "\n", encoding="utf-8")
     return report

@@ -7,7 +7,7 @@ from pathlib import Path
 from rom.comparison import Difference, Point
 from rom.convergence import Convergence
 from rom.kind import Kind, Scene
-from rom.ladder import Model
+from rom.ladder import Model, best
 from rom.result import Result
 from rom.scene import scene_entries
 from scripts.pages import embedded, render
@@ -66,6 +66,7 @@ def write_comparison(report: Report, path: Path) -> None:
         report=report,
         view=report.view,
         compared=report.kind.compared,
+        reduced=report.best != best(report.models).name,
         best=report.results[report.best],
         entries=scene_entries(report.scene),
         cheapest={part: cheapest_within(report, part) for part in (0.01, 0.10)},

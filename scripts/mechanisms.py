@@ -23,7 +23,7 @@ from rom.provenance import circumstances
 from rom.result import Result
 from rom.scene import read_scene
 from scripts.common import AsJson, in_one_line, make_directory, models, output, print_json, progress_bar, run_alone
-from scripts.pages import render
+from scripts.pages import render, write_figures
 
 FILM, LENGTH, WIDTH, DEPTH = 30e-6, 1e-3, 0.3e-3, 22.5e-6
 """Of a period, m. The groove has w+ = 0.3 and d+ = 0.75, of Paper A; the waves are as deep and fill the period."""
@@ -196,9 +196,7 @@ def command(
         "loads": mechanisms_figures.loads(loads),
         "rule": mechanisms_figures.rule(rule, TENSIONS),
     }
-    for name, text in plots.items():
-        with replacing(out / f"{name}.svg") as scratch:
-            scratch.write_text('<?xml version="1.0" encoding="utf-8"?>\n' + text, encoding="utf-8")
+    write_figures(plots, out)
     rows = {gap: table(found) for gap, found in loads.items()}
     told = {"speeds": list(SPEEDS), "mean_pressure": loads, "provenance": circumstances()}
     with replacing(out / "mechanisms.json") as scratch:

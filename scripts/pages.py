@@ -1,6 +1,7 @@
 """Self-contained HTML pages that a person would rather look at than read, from the templates beside this file."""
 
 import base64
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +33,13 @@ def render(template: str, path: Path, **entries: Any) -> None:
     page = environment.get_template(template).render(**entries)
     with replacing(path) as scratch:
         scratch.write_text(page, encoding="utf-8", errors="replace")
+
+
+def write_figures(plots: Mapping[str, str], directory: Path) -> None:
+    """Write each figure, SVG text by name, as a file of its own; InputError if it cannot be written."""
+    for name, text in plots.items():
+        with replacing(directory / f"{name}.svg") as scratch:
+            scratch.write_text('<?xml version="1.0" encoding="utf-8"?>\n' + text, encoding="utf-8")
 
 
 def embedded(path: Path) -> str:

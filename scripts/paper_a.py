@@ -20,7 +20,7 @@ from contact.files import replacing
 from rom.sweep import read_sweep, relative_error
 from rom.table import read_table
 from scripts.common import AsJson, in_one_line, make_directory, output, print_json, progress_bar, run_alone
-from scripts.pages import embedded, render
+from scripts.pages import embedded, render, write_figures
 from scripts.paper_a_claims import Claim, judge
 from scripts.paper_a_data import DEPTHS, NUMBERS, SHAPES, WIDTHS, Paper, first_zero, still_wall_shear
 from scripts.rendering import draw_apart
@@ -43,9 +43,7 @@ def command(
     figures = {name: draw(paper) for name, draw in paper_a_figures.NUMBERED.items()}
     figures |= {"onset": paper_a_figures.onset(paper, onsets), "scheme": paper_a_figures.scheme(paper)}
     plots = {name: svg(figure) for name, figure in figures.items()}
-    for name, text in plots.items():
-        with replacing(out / f"{name}.svg") as scratch:
-            scratch.write_text('<?xml version="1.0" encoding="utf-8"?>\n' + text, encoding="utf-8")
+    write_figures(plots, out)
     pictures = _streamlines(paper, paper_a_figures.STREAMLINES, out)
     told = {
         "claims": [asdict(claim) for claim in claims],

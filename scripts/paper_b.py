@@ -14,7 +14,7 @@ from rich.markup import escape
 
 from contact.files import replacing
 from scripts.common import AsJson, in_one_line, make_directory, output, print_json, progress_bar, run_alone
-from scripts.pages import render
+from scripts.pages import render, write_figures
 from scripts.paper_a_claims import Claim
 from scripts.paper_b_claims import MAXIMA_APART, Row, judge, maxima, rows
 from scripts.paper_b_data import (
@@ -70,9 +70,7 @@ def command(
     claims, compared = judge(paper), rows(paper)
     drawings = paper_b_figures.NUMBERED | {"claim 9": paper_b_figures.reach}
     plots = {name: svg(draw(paper)) for name, draw in drawings.items()}
-    for name, text in plots.items():
-        with replacing(out / f"{name.replace(' ', '_')}.svg") as scratch:
-            scratch.write_text('<?xml version="1.0" encoding="utf-8"?>\n' + text, encoding="utf-8")
+    write_figures({name.replace(" ", "_"): text for name, text in plots.items()}, out)
     told = numbers(paper, claims, compared)
     with replacing(out / "paper_b.json") as scratch:
         scratch.write_text(json.dumps(told, indent=1) + "\n", encoding="utf-8")

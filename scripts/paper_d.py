@@ -17,7 +17,7 @@ from contact.heights import height_statistics
 from contact.mechanics.contact import Contact
 from contact.synthetic.profile import STEEL_PROFILES
 from scripts.common import AsJson, in_one_line, make_directory, output, print_json, progress_bar, run_alone
-from scripts.pages import render
+from scripts.pages import render, write_figures
 from scripts.paper_a_claims import Claim
 from scripts.paper_d_claims import judge
 from scripts.paper_d_data import MACHINING, SPECTRA, Paper, compute
@@ -41,9 +41,7 @@ def command(
     claims = judge(paper)
     figures = {name: draw(paper) for name, draw in paper_d_figures.NUMBERED.items()}
     plots = {name: svg(figure) for name, figure in (figures | {"E.4": paper_d_figures.e4(model)}).items()}
-    for name, text in plots.items():
-        with replacing(out / f"{name}.svg") as scratch:
-            scratch.write_text('<?xml version="1.0" encoding="utf-8"?>\n' + text, encoding="utf-8")
+    write_figures(plots, out)
     told = numbers(paper, claims, model, again)
     with replacing(out / "paper_d.json") as scratch:
         scratch.write_text(json.dumps(told, indent=1) + "\n", encoding="utf-8")

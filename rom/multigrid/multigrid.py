@@ -96,18 +96,6 @@ class Multigrid:
         self._seen, self._stack = np.zeros((count, length), dtype=bool), np.zeros(count * length, dtype=np.int64)
         self._set_up(matrix)
 
-    def rebuild(self, centre: ArrayLike, east: ArrayLike, north: ArrayLike) -> None:
-        """Take another matrix on the same grid, with as many nodes out of the problem as it likes.
-
-        Raises
-        ------
-        InputError
-            For arrays of another shape.
-        """
-        matrix = [np.asarray(part, dtype=np.float64) for part in (centre, east, north)]
-        self._check(matrix)
-        self._set_up(matrix)
-
     def cycle(self, residual: ArrayLike) -> Array:
         """One V(1,1) cycle from 0: what M r ≈ A⁻¹ r is, shape (nx, ny); M is linear, symmetric and positive definite.
 

@@ -61,6 +61,8 @@ def over(results: Mapping[str, Result]) -> str:
     for column, (field, told, scale, colours) in zip(panels.T, kinds, strict=True):
         drawn = {name: _thinned(result.fields[field].values) * scale for name, result in kept.items()}
         low, high = min(v.min() for v in drawn.values()), max(v.max() for v in drawn.values())
+        if field == "density_ratio":  # a film that is whole everywhere is to look so
+            low, high = min(low, 0.9), max(high, 1.0)
         for axes, (name, values) in zip(column, drawn.items(), strict=True):
             x, y = (_thinned(kept[name].fields[place].values) for place in ("x", "y"))
             image = axes.pcolormesh(
@@ -111,7 +113,6 @@ VIEW = View(
         "pressure_max": "greatest<br>pressure",
         "film_start": "film begins<br>x/L",
         "rupture": "ruptures<br>x/L",
-        "cavitated_fraction": "cavitated",
     },
     plots=plots,
     groups=groups,

@@ -249,15 +249,6 @@ def test_a_good_start_saves_iterations():
     assert multigrid.solve(source, start=first.solution).iterations == 0
 
 
-def test_another_matrix_on_the_same_grid():
-    multigrid = Multigrid(*masked_film(48, 71, SECOND)[0], periodic=SECOND)
-    matrix, source = masked_film(48, 72, SECOND, ratio=1e-3)
-    multigrid.rebuild(*matrix)
-    expected = spsolve(whole(*matrix, SECOND), source.ravel()).reshape(source.shape)
-    solution = multigrid.solve(source, tolerance=1e-11).solution
-    assert np.abs(solution - expected).max() < 1e-6 * np.abs(expected).max()
-
-
 def test_nothing_given_is_nothing_found_and_arguments_stay():
     matrix, source = masked_film(20, 83)
     before = [part.copy() for part in (*matrix, source)]
