@@ -1,0 +1,53 @@
+"""Flow factors: a rough gap as seen from far away."""
+
+from dataclasses import dataclass, replace
+from math import cos, sin
+from typing import Self
+
+import numpy as np
+
+from rom.gap import Array
+
+
+@dataclass(frozen=True, kw_only=True)
+class FlowFactors:
+    """Homogenized coefficients of a gap, with the wall at rest rough and the smooth one sliding along x at u.
+
+    Flow per width q = (u/2) B − A∇p/(12η), friction on the sliding wall τ = ηu (d + 3e) + C·∇p/2, p the pressure
+    averaged over the cell; C = B by the symmetry of the cell problems. A smooth gap has A = h³I, B = (h, 0), d = 1/h,
+    e = 0. The same factors hold for a lubricant of constant bulk modulus, with θ before each term (Almqvist and Dasht).
+
+    Attributes
+    ----------
+    mean_gap : m.
+    pressure : A, shape (2, 2), m³; symmetric, positive semidefinite; rows and columns of a sealed direction are 0.
+    shear : B, shape (2,), m.
+    couette : d = <1/h> over the open gap, 1/m; finite as contact is left out.
+    shear_couette : e, 1/m, of the pressure that sliding alone makes: <h ∂χ₃/∂x>.
+    sealed : whether no open path leads through in x, in y.
+
+    Sources: Sahlin 2008, E.2.3 to E.2.5 (whose C, d and e have the factors 1/2 and 6η u left out in print).
+    """
+
+    mean_gap: float
+    pressure: Array
+    shear: Array
+    couette: float
+    shear_couette: float
+    sealed: tuple[bool, bool] = (False, False)
+
+    @property
+    def relative(self) -> Self:
+        """Over those of a smooth film as thick as the mean gap: A/ĥ³, B/ĥ, d ĥ, e ĥ, and a mean gap of 1."""
+        return self.scaled(1 / self.mean_gap)
+
+    def scaled(self, factor: float) -> Self:
+        """Of the gap ``factor`` times as high: A grows with its cube, B with it, d and e shrink."""
+        return replace(
+            self,
+            mean_gap=self.mean_gap * factor,
+            pressure=self.pressure * factor**3,
+            shear=self.shear * factor,
+            couette=self.couette / factor,
+            shear_couette=self.shear_couette / factor,
+        )

@@ -1,0 +1,49 @@
+"""Whether a gap lets anything through, and in which direction: open paths that lead round a periodic cell."""
+
+import numpy as np
+from scipy import ndimage
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import breadth_first_order
+
+from rom.gap import Array
+
+FOUR = np.array([[0, 1, 0], [1, 1, 1], [0, 1, 0]])
+"""Flow goes through faces, not through corners."""
+
+
+def sealed(gap: Array) -> tuple[bool, bool]:
+    """Whether no open path leads through a periodic gap, shape (nx, ny), in x and in y.
+
+    A path is open if it goes from node to node with h > 0, and leads through a direction if it comes back to where it
+    began having gone round the cell that way. One that goes round both ways at once (an oblique groove) opens both.
+    """
+    labels, count = ndimage.label(gap > 0, structure=FOUR)
+    joints = np.concatenate([_joints(labels[-1], labels[0], (1, 0)), _joints(labels[:, -1], labels[:, 0], (0, 1))])
+    rounds = joints[joints[:, 0] == joints[:, 1], 2:]
+    rounds = np.concatenate([rounds, _closing(joints[joints[:, 0] != joints[:, 1]], count + 1)])
+    return not rounds[:, 0].any(), not rounds[:, 1].any()
+
+
+def _joints(before: Array, after: Array, step: tuple[int, int]) -> Array:
+    """Pieces that meet over a seam, once each: (piece before it, piece after it, the step in x, in y)."""
+    both = np.unique(np.stack([before, after], axis=1)[(before > 0) & (after > 0)], axis=0)
+    return np.concatenate([both, np.broadcast_to(step, (len(both), 2))], axis=1)
+
+
+def _closing(joints: Array, pieces: int) -> Array:
+    """How often round x and y the circles of a graph of joints go: each joint closes one with the tree that spans it."""
+    links = coo_array((np.ones(len(joints)), (joints[:, 0], joints[:, 1])), shape=(pieces, pieces)).tocsr()
+    steps: dict[tuple[int, int], tuple[int, int]] = {}
+    for first, second, x, y in joints.tolist():
+        steps[first, second], steps[second, first] = (x, y), (-x, -y)
+    place = np.zeros((pieces, 2), dtype=np.int64)
+    seen = np.zeros(pieces, dtype=bool)
+    for root in np.unique(joints[:, 0]):
+        if seen[root]:
+            continue
+        order, previous = breadth_first_order(links, root, directed=False)
+        seen[order] = True
+        for piece in order[1:]:
+            parent = previous[piece]
+            place[piece] = place[parent] + steps[int(parent), int(piece)]
+    return np.asarray(place[joints[:, 0]] + joints[:, 2:] - place[joints[:, 1]])
