@@ -2,13 +2,18 @@
 
 from dataclasses import dataclass
 from enum import StrEnum
+from math import log
 
 import numpy as np
 
+from contact.compiled import compiled, inlined
 from rom.gap import Array
 
 CLOSED = 1e-14
 """Of the largest h³: a node with less is contact, as rounding on coarse grids would hide what it lets through."""
+
+ALIKE = 1e-4
+"""Of the sum of two gaps: if they differ by less, ln(h₂/h₁) is taken by its series."""
 
 
 class FaceRule(StrEnum):
@@ -22,19 +27,21 @@ class FaceRule(StrEnum):
 
 @dataclass(frozen=True, kw_only=True)
 class Faces:
-    """Means over faces, shape (nx, ny), between a node and the next one in x (``east``) or y (``north``), periodic.
+    """Means over faces, between a node and the next one in x (``east``) or y (``north``), periodic.
 
     Attributes
     ----------
-    east, north : conductance <h⁻³>⁻¹; 0 where the gap is closed at either node.
-    drag : <h⁻²>/<h⁻³> in x, which carries as much of the sliding wall's flow as the gap does.
-    inverse : <h⁻¹> in x; 0 at closed faces.
+    east, north : conductance <h⁻³>⁻¹, shape (nx, ny); 0 where the gap is closed at either node.
+    drag : <h⁻²>/<h⁻³> in x, shape (nx, ny), which carries as much of the sliding wall's flow as the gap does.
+    inverse : <h⁻¹> over all faces in x, closed ones as 0.
+    inside : <h⁻¹> − <h⁻²>²/<h⁻³> likewise: what e has inside the faces.
     """
 
     east: Array
     north: Array
     drag: Array
-    inverse: Array
+    inverse: float
+    inside: float
 
 
 def without_traces(gap: Array) -> Array:
@@ -47,30 +54,55 @@ def faces(gap: Array, rule: FaceRule = FaceRule.LINEAR) -> Faces:
 
     Second order in the spacing where h is smooth; a node where h = 0 closes its four faces.
     """
-    means = _linear if rule is FaceRule.LINEAR else _harmonic
-    east, drag, inverse = means(gap, np.roll(gap, -1, axis=0))
-    north = means(gap, np.roll(gap, -1, axis=1))[0]
-    shut = ~(east > 0)
-    for part in (east, drag, inverse):
-        part[shut] = 0.0
-    north[~(north > 0)] = 0.0
-    return Faces(east=east, north=north, drag=drag, inverse=inverse)
+    east, north, drag = (np.empty(gap.shape) for _ in range(3))
+    inverse, inside = _set_faces(np.ascontiguousarray(gap), rule is FaceRule.LINEAR, east, north, drag)
+    return Faces(east=east, north=north, drag=drag, inverse=inverse / gap.size, inside=inside / gap.size)
 
 
-def _linear(first: Array, second: Array) -> tuple[Array, Array, Array]:
-    """<h⁻³>⁻¹, <h⁻²>/<h⁻³> and <h⁻¹> of a straight gap."""
-    total, product = first + second, first * second
-    with np.errstate(divide="ignore", invalid="ignore"):
-        drag = 2 * product / total
-        bend = (second - first) / total
-        # artanh(s)/s is ln(h₂/h₁)/(h₂ − h₁) (h₁ + h₂)/2, by its series where the two gaps are nearly one
-        inverse = 2 / total * np.where(np.abs(bend) < 1e-4, 1 + bend * bend / 3, np.arctanh(bend) / bend)
-    return drag * product, drag, inverse
+@inlined
+def _conductance(first, second, straight):  # type: ignore[no-untyped-def]
+    """<h⁻³>⁻¹ between two nodes."""
+    if first == 0.0 or second == 0.0:
+        return 0.0
+    if straight:
+        product = first * second
+        return 2 * product * product / (first + second)
+    one, two = first * first * first, second * second * second
+    return 2 * one * two / (one + two)
 
 
-def _harmonic(first: Array, second: Array) -> tuple[Array, Array, Array]:
-    """<h⁻³>⁻¹, <h⁻²>/<h⁻³> and <h⁻¹> of a gap that jumps in the middle."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        one, two = 1 / first, 1 / second
-        cubes = one * one * one + two * two * two
-        return 2 / cubes, (one * one + two * two) / cubes, (one + two) / 2
+@compiled
+def _set_faces(gap, straight, east, north, drag):  # type: ignore[no-untyped-def]
+    """Set the arrays of :class:`Faces`; its two sums."""
+    count, length = gap.shape
+    all_inverse = all_inside = 0.0
+    for i in range(count):
+        own, after = gap[i], gap[i + 1 if i + 1 < count else 0]
+        for j in range(length):
+            h, ahead = own[j], after[j]
+            north[i, j] = _conductance(h, own[j + 1 if j + 1 < length else 0], straight)
+            conductance = _conductance(h, ahead, straight)
+            east[i, j] = conductance
+            if conductance == 0.0:
+                drag[i, j] = 0.0
+                continue
+            if straight:
+                total, difference = h + ahead, ahead - h
+                square = 2 * h * ahead / total
+                bend = difference / total
+                if abs(bend) < ALIKE:
+                    inverse = 2 / total * (1 + bend * bend / 3)
+                    inside = 2 / total * bend * bend / 3
+                else:
+                    inverse = log(ahead / h) / difference
+                    inside = inverse - 2 / total
+            else:
+                one, two = 1 / h, 1 / ahead
+                squares = (one * one + two * two) / 2
+                square = squares * conductance
+                inverse = (one + two) / 2
+                inside = inverse - squares * square
+            drag[i, j] = square
+            all_inverse += inverse
+            all_inside += inside
+    return all_inverse, all_inside

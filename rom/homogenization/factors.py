@@ -1,10 +1,7 @@
 """Flow factors: a rough gap as seen from far away."""
 
 from dataclasses import dataclass, replace
-from math import cos, sin
 from typing import Self
-
-import numpy as np
 
 from rom.gap import Array
 

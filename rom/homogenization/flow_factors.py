@@ -1,5 +1,6 @@
 """Flow factors of a gap with an error bar: the cell on its own grid, and on every second and fourth node of it."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,10 +11,14 @@ from rom.gap import Array
 from rom.homogenization.cell import Cell, solve_cell
 from rom.homogenization.conductance import FaceRule
 from rom.homogenization.factors import FlowFactors
+from rom.homogenization.solvers import SOLVERS
 from rom.ladder import Progress, silent
 
-TOLERANCE = 1e-8
-"""Of the residuals over their right-hand sides."""
+LOOSEST, TIGHTEST = 1e-5, 1e-10
+"""Tolerances of a cell that are chosen from."""
+
+SPARE = 100
+"""The tolerance of a cell is so many times below what its grid is expected to be off by."""
 
 FEWEST = 8
 """Nodes in a direction that is coarsened."""
@@ -48,8 +53,9 @@ def flow_factors(
     *,
     rule: FaceRule = FaceRule.LINEAR,
     offset: float = 0.0,
-    tolerance: float = TOLERANCE,
+    tolerance: float | None = None,
     start: Array | None = None,
+    solvers: Sequence[str] = tuple(SOLVERS),
     progress: Progress = silent,
 ) -> Estimated:
     """Homogenized coefficients A, B, C, d and e of a periodic gap, each with an error bar.
@@ -59,8 +65,10 @@ def flow_factors(
     gap : h >= 0, m, shape (nx, ny); one period. Nodes where h = 0 are contact, whose faces are closed.
     spacing : (dx, dy), m; pixels need not be square.
     offset : m, is added to the gap everywhere: Sahlin 2008, who lets contact through, takes 1e-8.
-    tolerance : of the residuals of the cell problems over their right-hand sides.
-    start : correctors of a gap much alike on the same grid.
+    tolerance : of each cell, as :func:`rom.homogenization.cell.solve_cell` takes it; by default a hundredth of what the
+        coarser grids say that the grid is off by.
+    start : correctors of a gap much alike on the same grid, better than those of the coarser grid.
+    solvers : as :func:`rom.homogenization.cell.solve_cell` takes them.
 
     Raises
     ------
@@ -77,12 +85,22 @@ def flow_factors(
     work = [float(grid.size) for grid, _ in grids]
     for number, (grid, steps) in enumerate(grids):
         progress(sum(work[:number]) / sum(work), f"{grid.shape[0]} × {grid.shape[1]} nodes")
-        guess = start if number + 1 == len(grids) else None
-        cells.append(solve_cell(grid, steps, rule=rule, tolerance=tolerance, start=guess))
+        last = number + 1 == len(grids)
+        guess = refined(cells[-1].correctors, grid.shape) if cells else None
+        cells.append(
+            solve_cell(
+                grid,
+                steps,
+                rule=rule,
+                tolerance=tolerance or _sufficient(cells),
+                start=start if last and start is not None else guess,
+                solvers=solvers,
+            )
+        )
     finest = cells[-1]
     return Estimated(
         factors=finest.factors,
-        uncertainty=_uncertainty([cell.factors for cell in cells]),
+        uncertainty=_uncertainty(cells),
         correctors=finest.correctors,
         contact=float((h == 0).mean()),
         iterations=finest.iterations,
@@ -138,8 +156,31 @@ def _sampled(gap: Array, count: int, axis: int) -> Array:
     return np.asarray(np.take(gap, before, axis=axis) * (1 - part) + after * part)
 
 
-def _uncertainty(found: list[FlowFactors]) -> FlowFactors:
-    """Of the last of up to three on grids each twice as fine, by Richardson's rule at the order seen, one to two."""
+def refined(values: Array, shape: tuple[int, ...]) -> Array:
+    """Periodic values, shape (n, ...), between which lines are drawn, at (nx, ny) places."""
+    for axis in (0, 1):
+        values = np.array([_sampled(one, shape[axis], axis) for one in values])
+    return values
+
+
+def _sufficient(cells: list[Cell]) -> float:
+    """A tolerance for the next finer grid: of its error, if the last two tell what that will be."""
+    if len(cells) < 2:
+        return LOOSEST
+    before, last = (np.diag(cell.factors.pressure) for cell in cells[-2:])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        change = np.abs(last - before) / last
+    expected = float(np.min(change[last > 0], initial=np.inf)) / 4
+    return min(max(expected / SPARE, TIGHTEST), LOOSEST)
+
+
+def _uncertainty(cells: list[Cell]) -> FlowFactors:
+    """Of the last of up to three grids each twice as fine, by Richardson's rule at the order seen, one to two.
+
+    What is left unsolved is added.
+    """
+    found = [cell.factors for cell in cells]
+    unsolved = cells[-1].unsolved
 
     def off(values: list[Array]) -> Array:
         if len(values) < 2:
@@ -155,11 +196,13 @@ def _uncertainty(found: list[FlowFactors]) -> FlowFactors:
     def each(name: str) -> Array:
         return off([np.asarray(getattr(factors, name), dtype=float) for factors in found])
 
+    gap = found[-1].mean_gap
+    mixed = np.sqrt(unsolved[:2])
     return replace(
         found[-1],
         mean_gap=0.0,
-        pressure=each("pressure"),
-        shear=each("shear"),
+        pressure=each("pressure") + gap**3 * np.outer(mixed, mixed),
+        shear=each("shear") + gap * mixed * np.sqrt(unsolved[2]),
         couette=float(each("couette")),
-        shear_couette=float(each("shear_couette")),
+        shear_couette=float(each("shear_couette")) + unsolved[2] / gap,
     )

@@ -31,7 +31,7 @@ def _joints(before: Array, after: Array, step: tuple[int, int]) -> Array:
 
 
 def _closing(joints: Array, pieces: int) -> Array:
-    """How often round x and y the circles of a graph of joints go: each joint closes one with the tree that spans it."""
+    """How often round x and y the circles in a graph of joints go: each closes one with the spanning tree."""
     links = coo_array((np.ones(len(joints)), (joints[:, 0], joints[:, 1])), shape=(pieces, pieces)).tocsr()
     steps: dict[tuple[int, int], tuple[int, int]] = {}
     for first, second, x, y in joints.tolist():

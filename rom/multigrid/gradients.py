@@ -55,16 +55,17 @@ def dot(first, second):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def advance(length, direction, image, p, residual):  # type: ignore[no-untyped-def]
-    """Go a ``length`` t in a direction d: p += t d, r −= t Ad; Σr². Shape (nx, ny) each."""
+def advance(length, direction, image, p, residual, source):  # type: ignore[no-untyped-def]
+    """Go a ``length`` t in a direction d: p += t d, r −= t Ad, ``source`` = r; Σr². Shape (nx, ny) each."""
     square = 0.0
     for row in range(p.shape[0]):
-        solution, d, r, change = p[row], direction[row], residual[row], image[row]
+        solution, d, r, change, s = p[row], direction[row], residual[row], image[row], source[row]
         for j in range(d.size):
             solution[j] += length * d[j]
         for j in range(d.size):
             left = r[j] - length * change[j]
             r[j] = left
+            s[j] = left
             square += left * left
     return square
 

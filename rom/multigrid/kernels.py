@@ -5,40 +5,21 @@ finest level first. A row with its couplings along itself is a tridiagonal matri
 next row lead ``east`` (same column), ``up`` (one column on) and ``down`` (one column back). Couplings out of the grid
 are 0, so that indices may wrap everywhere.
 
+Arrays of a hierarchy are all of single or all of double precision.
+
 All loops that call each other stand in this file: a compiled loop is kept until its own file changes, not another one.
 """
-
-from typing import Any, NamedTuple
 
 import numpy as np
 
 from contact.compiled import compiled, inlined
+from rom.multigrid.rows import Rows
 
 GROUNDED = 1e-13
 """Of its diagonal: an unknown with a smaller pivot is set to 0."""
 
 THIN = 1e-5
 """A share below it is none if it comes from a hole."""
-
-
-class Rows(NamedTuple):
-    """A matrix by rows and their factors, shape (rows, m) each.
-
-    ``leak`` is what the diagonal is more than all couplings. It is carried from level to level by itself, and centre
-    and pivots are made from it, as a leak may be far below the rounding of the couplings. ``up`` and ``down`` have no
-    columns on the finest level, and ``border`` has none unless rows are rings. ``factor`` is the coupling towards the
-    middle of the row times the ``inverse`` of the pivot.
-    """
-
-    leak: Any
-    centre: Any
-    north: Any
-    east: Any
-    up: Any
-    down: Any
-    inverse: Any
-    factor: Any
-    border: Any
 
 
 @compiled
@@ -49,8 +30,8 @@ def level_rows(rows, start, stop, finest):  # type: ignore[no-untyped-def]
         rows.centre[start:stop],
         rows.north[start:stop],
         rows.east[start:stop],
-        rows.up[start - finest : stop - finest] if start else np.zeros((stop, 0)),
-        rows.down[start - finest : stop - finest] if start else np.zeros((stop, 0)),
+        rows.up[start - finest : stop - finest] if start else np.zeros((stop, 0), rows.up.dtype),
+        rows.down[start - finest : stop - finest] if start else np.zeros((stop, 0), rows.up.dtype),
         rows.inverse[start:stop],
         rows.factor[start:stop],
         rows.border[start:stop],
@@ -86,7 +67,7 @@ def substitute(rows, row, size, total, values, place):  # type: ignore[no-untype
     inverse, factor = rows.inverse, rows.factor
     middle = size // 2
     pairs = size - 1 - middle
-    left = right = before = after = 0.0
+    left = right = before = after = total.dtype.type(0)
     for j in range(pairs):
         end = size - 1 - j
         left = total[j] + before * left
@@ -334,41 +315,78 @@ def set_up(counts, rows, work):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def sweep(rows, order, alone, seam, source, values, total):  # type: ignore[no-untyped-def]
-    """Solve the equations of the rows named by ``order`` (first, stop, step) with the values in the rows beside them.
-
-    ``alone`` takes those for 0; but at a ``seam`` the last row, an even one, is coupled to the first and follows it.
-    """
+def relax(rows, row, previous, following, source, values, total):  # type: ignore[no-untyped-def]
+    """Solve a row's equations; ``previous`` and ``following``: with the values of the row before it, of the next."""
     count = values.shape[0]
-    first, stop, step = order
-    for row in range(first, stop, step):
-        for j in range(total.size):
-            total[j] = source[row, j]
-        if not alone:
-            add_previous(rows, row, values, (row if row > 0 else count) - 1, total)
-        if not alone or (seam and row + 1 == count):
-            add_next(rows, row, values, row + 1 if row + 1 < count else 0, total)
-        solve_row(rows, row, total, values, row)
+    for j in range(total.size):
+        total[j] = source[row, j]
+    if previous:
+        add_previous(rows, row, values, (row if row > 0 else count) - 1, total)
+    if following:
+        add_next(rows, row, values, row + 1 if row + 1 < count else 0, total)
+    solve_row(rows, row, total, values, row)
 
 
 @compiled
-def bring_down(rows, values, remainder):  # type: ignore[no-untyped-def]
-    """Set what remains of the even rows' equations, which were solved before the rows beside them were."""
+def bring_down(rows, row, values, left):  # type: ignore[no-untyped-def]
+    """Set what is ``left`` of an even row's equations, which were solved before the rows beside it were."""
+    count = values.shape[0]
+    left[:] = 0.0
+    add_previous(rows, row, values, (row if row > 0 else count) - 1, left)
+    if row + 1 < count:
+        add_next(rows, row, values, row + 1, left)
+
+
+@compiled
+def descend(rows, seam, source, values, remainder, total):  # type: ignore[no-untyped-def]
+    """From 0: even rows by themselves, odd ones with the rows beside them, and what is left of even ones' equations.
+
+    At a ``seam`` the last row, an even one, is coupled to the first and follows it. Rows are taken while they are near.
+    """
     count = values.shape[0]
     for row in range(0, count, 2):
-        left = remainder[row // 2]
-        left[:] = 0.0
-        add_previous(rows, row, values, (row if row > 0 else count) - 1, left)
-        if row + 1 < count:
-            add_next(rows, row, values, row + 1, left)
+        relax(rows, row, False, seam and row + 1 == count, source, values, total)
+        if row > 0:
+            relax(rows, row - 1, True, True, source, values, total)
+        if row > 2:
+            bring_down(rows, row - 2, values, remainder[row // 2 - 1])
+    if count % 2 == 0:
+        relax(rows, count - 1, True, True, source, values, total)
+    if count > 2:
+        bring_down(rows, (count - 1) // 2 * 2, values, remainder[(count - 1) // 2])
+    bring_down(rows, 0, values, remainder[0])
+
+
+@compiled
+def ascend(rows, source, values, correction, total):  # type: ignore[no-untyped-def]
+    """Correct even rows, then odd ones with the rows beside them, then even ones, from the last to the first."""
+    count, last = values.shape[0], (values.shape[0] - 1) // 2 * 2
+    add_row(values[0], correction[0])
+    if last > 0:
+        add_row(values[last], correction[last // 2])
+    if count % 2 == 0:
+        relax(rows, count - 1, True, True, source, values, total)
+    for row in range(last, -1, -2):
+        if row > 2:
+            add_row(values[row - 2], correction[row // 2 - 1])
+        if row > 0:
+            relax(rows, row - 1, True, True, source, values, total)
+        relax(rows, row, True, True, source, values, total)
+
+
+@inlined
+def add_row(values, correction):  # type: ignore[no-untyped-def]
+    """Add a coarse row to a fine one."""
+    for j in range(values.size):
+        values[j] += correction[j]
 
 
 @compiled
 def cycle(counts, rows, across, source, values, total):  # type: ignore[no-untyped-def]
     """One V-cycle from 0: ``values`` of the finest level from its ``source``, arrays of all levels.
 
-    Even rows, odd rows, the next level, odd rows, even rows in reverse. Odd rows are solved exactly before and after
-    the next level: nothing of their residual is left to bring down, and nothing to interpolate.
+    Odd rows are solved exactly before and after the next level: nothing of their residual is left to bring down, and
+    nothing to interpolate.
     """
     start = 0
     for level in range(counts.size - 1):
@@ -376,19 +394,12 @@ def cycle(counts, rows, across, source, values, total):  # type: ignore[no-untyp
         stop = start + count
         end = stop + counts[level + 1]
         here = level_rows(rows, start, stop, counts[0])
-        given, found = source[start:stop], values[start:stop]
-        sweep(here, (0, count, 2), True, across and count % 2 == 1, given, found, total)
-        sweep(here, (1, count, 2), False, False, given, found, total)
-        bring_down(here, found, source[stop:end])
+        descend(here, across and count % 2 == 1, source[start:stop], values[start:stop], source[stop:end], total)
         start = stop
-    sweep(level_rows(rows, start, start + 1, counts[0]), (0, 1, 1), True, False, source[start:], values[start:], total)
+    relax(level_rows(rows, start, start + 1, counts[0]), 0, False, False, source[start:], values[start:], total)
     for level in range(counts.size - 2, -1, -1):
         count = counts[level]
         stop, start = start, start - count
+        end = stop + counts[level + 1]
         here = level_rows(rows, start, stop, counts[0])
-        given, found = source[start:stop], values[start:stop]
-        for row in range(0, count, 2):
-            for j in range(total.size):
-                found[row, j] += values[stop + row // 2, j]
-        sweep(here, (1, count, 2), False, False, given, found, total)
-        sweep(here, ((count - 1) // 2 * 2, -1, -2), False, False, given, found, total)
+        ascend(here, source[start:stop], values[start:stop], values[stop:end], total)

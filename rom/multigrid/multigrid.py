@@ -1,6 +1,7 @@
 """Multigrid by halves of the rows: the preconditioner, and conjugate gradients with it."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,19 +10,27 @@ from numpy.typing import ArrayLike
 from contact.errors import ConvergenceError, InputError, Outcome
 from rom.gap import Array
 from rom.multigrid import gradients, kernels, pieces
-from rom.multigrid.kernels import Rows
+from rom.multigrid.rows import Rows
 
 TURNED = 2.0
 """Couplings along rows so many times those across them make columns the better rows."""
 
 
+SHARE, FEWEST = 3, 3
+"""Of the iterations, one in so many is looked back at to see what is left to gain, and so many at least."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Solved:
-    """A solution, shape (nx, ny), the iterations it took, and its residual ‖b − Ap‖/‖b‖."""
+    """A solution, shape (nx, ny), the iterations it took, and its residual ‖b − Ap‖/‖b‖.
+
+    ``left`` is an estimate of (p − p*)·A(p − p*), p* the exact solution: by how much b·p is short of b·p*.
+    """
 
     solution: Array
     iterations: int
     residual: float
+    left: float = 0.0
 
 
 class Multigrid:
@@ -44,6 +53,9 @@ class Multigrid:
         direction lead round to the first node where that direction is periodic, and are ignored elsewhere.
     periodic
         Whether the first and the second direction are periodic.
+    single
+        Whether the preconditioner works in single precision, at half the cost; residuals are in double always. Good for
+        couplings up to about 1e12 apart.
 
     Raises
     ------
@@ -63,7 +75,13 @@ class Multigrid:
     """
 
     def __init__(
-        self, centre: ArrayLike, east: ArrayLike, north: ArrayLike, *, periodic: tuple[bool, bool] = (False, False)
+        self,
+        centre: ArrayLike,
+        east: ArrayLike,
+        north: ArrayLike,
+        *,
+        periodic: tuple[bool, bool] = (False, False),
+        single: bool = False,
     ) -> None:
         matrix = [np.asarray(part, dtype=np.float64) for part in (centre, east, north)]
         self.shape = matrix[0].shape
@@ -79,22 +97,22 @@ class Multigrid:
         total = sum(counts)
         full, coarse = (total, length), (total - count, length)
         ring = self._along and length > 2
+        kind = np.float32 if single else np.float64
         self._rows = Rows(
-            leak=np.zeros(full),
-            centre=np.zeros(full),
-            north=np.zeros(full),
-            east=np.zeros(full),
-            up=np.zeros(coarse),
-            down=np.zeros(coarse),
-            inverse=np.zeros(full),
-            factor=np.zeros(full),
-            border=np.zeros((total, length if ring else 0)),
+            leak=np.zeros(full, kind),
+            centre=np.zeros(full, kind),
+            north=np.zeros(full, kind),
+            east=np.zeros(full, kind),
+            up=np.zeros(coarse, kind),
+            down=np.zeros(coarse, kind),
+            inverse=np.zeros(full, kind),
+            factor=np.zeros(full, kind),
+            border=np.zeros((total, length if ring else 0), kind),
         )
-        self._source, self._values = np.zeros(full), np.zeros(full)
-        self._centre, self._direction, self._image = (np.zeros((count, length)) for _ in range(3))
-        self._work = np.zeros((4, length))
-        self._seen, self._stack = np.zeros((count, length), dtype=bool), np.zeros(count * length, dtype=np.int64)
-        self._set_up(matrix)
+        self._source, self._values = np.zeros(full, kind), np.zeros(full, kind)
+        self._work = np.zeros((4, length), kind)
+        self._matrix = self._set_up(matrix)
+        self._direction, self._image, self._residual = (np.zeros((count, length)) for _ in range(3))
 
     def cycle(self, residual: ArrayLike) -> Array:
         """One V(1,1) cycle from 0: what M r ≈ A⁻¹ r is, shape (nx, ny); M is linear, symmetric and positive definite.
@@ -138,11 +156,11 @@ class Multigrid:
             If the tolerance is not met: within the limit, or because rounding keeps the residual above it.
         """
         b = self._inner(right_hand_side)
-        p = np.zeros(b.shape) if start is None else np.array(self._inner(start), order="C")
+        p = self._first(b, start)
         norm = math.sqrt(gradients.dot(b, b))
         if norm == 0:
             return Solved(solution=np.zeros(self.shape), iterations=0, residual=0.0)
-        iterations, before = 0, np.inf
+        iterations, before, goal = 0, np.inf, (tolerance * norm) ** 2
         while True:
             residual = self._set_residual(b, p) / norm
             if residual <= tolerance:
@@ -150,7 +168,7 @@ class Multigrid:
             if iterations >= limit or not residual < before / 2:
                 break
             before = residual
-            iterations += self._gradients(p, tolerance * norm, limit - iterations)
+            iterations += self._gradients(p, limit - iterations, lambda square, _gain: square <= goal)
         finished = iterations < limit
         remedy = (
             "rounding keeps it there, or sources of a piece without a Dirichlet node do not add up to 0; ask for less"
@@ -163,6 +181,69 @@ class Multigrid:
             outcome=Outcome.STALLED if finished else Outcome.UNFINISHED,
             iterations=iterations,
         )
+
+    def minimise(
+        self,
+        right_hand_side: ArrayLike,
+        whole: float | None,
+        *,
+        tolerance: float = 1e-8,
+        start: ArrayLike | None = None,
+        limit: int = 500,
+    ) -> Solved:
+        """Solve Ap = b as far as its energy G = 2b·p − p·Ap asks for, whose error is the square of that of p.
+
+        What an iteration gains of G is known, and what the last third of them gained tells what is left to gain.
+
+        Parameters
+        ----------
+        right_hand_side, start, limit
+            As in :meth:`solve`.
+        whole
+            W, if it is W − G that counts; None if it is G.
+        tolerance
+            Of what is left to gain, over the energy that counts.
+
+        Raises
+        ------
+        InputError
+            For arrays of another shape.
+        ConvergenceError
+            If the tolerance is not met.
+        """
+        b = self._inner(right_hand_side)
+        p = self._first(b, start)
+        norm = math.sqrt(gradients.dot(b, b))
+        if norm == 0:
+            return Solved(solution=np.zeros(self.shape), iterations=0, residual=0.0)
+        self._set_residual(b, p)
+        first = float(gradients.dot(b, p) + gradients.dot(self._residual, p))
+        gains: list[float] = []
+
+        def left() -> float:
+            return sum(gains[-max(FEWEST, len(gains) // SHARE) :])
+
+        def counts() -> float:
+            energy = first + sum(gains)
+            return energy if whole is None else whole - energy
+
+        def enough(_square: float, gain: float) -> bool:
+            gains.append(gain)
+            return len(gains) >= FEWEST and left() <= tolerance * counts()
+
+        iterations = self._gradients(p, limit, enough)
+        residual = self._set_residual(b, p) / norm
+        if not (len(gains) >= FEWEST and left() <= tolerance * counts() and np.isfinite(residual)):
+            raise ConvergenceError(
+                f"the film's linear system: the energy {counts():.3g} may change by {left():.3g} more after "
+                f"{iterations} iterations, over {tolerance:g} of it; allow more, or ask for less",
+                outcome=Outcome.UNFINISHED if iterations >= limit else Outcome.STALLED,
+                iterations=iterations,
+            )
+        return Solved(solution=self._outer(p), iterations=iterations, residual=residual, left=left())
+
+    def _first(self, b: Array, start: ArrayLike | None) -> Array:
+        return np.zeros(b.shape) if start is None else np.array(self._inner(start), order="C")
 
     @property
     def _finest(self) -> tuple[Array, Array]:
@@ -187,11 +268,12 @@ class Multigrid:
     def _outer(self, values: Array) -> Array:
         return np.array(values.T if self._turned else values, order="C")
 
-    def _set_up(self, matrix: list[Array]) -> None:
-        count, length = self._centre.shape
-        first, second = matrix[:0:-1] if self._turned else matrix[1:]
-        centre, east, north = self._centre, self._rows.east[:count], self._rows.north[:count]
-        centre[:], east[:], north[:] = (part.T if self._turned else part for part in (matrix[0], first, second))
+    def _set_up(self, matrix: list[Array]) -> tuple[Array, Array, Array]:
+        """The matrix by rows, with nothing that leads out of it; and the hierarchy below it."""
+        if self._turned:
+            matrix = [matrix[0].T, matrix[2].T, matrix[1].T]
+        centre, east, north = (np.array(part, order="C") for part in matrix)
+        count, length = centre.shape
         if not self._across:
             east[-1] = 0
         elif count == 1:
@@ -205,38 +287,40 @@ class Multigrid:
         elif length == 2:
             north[:, 0] += north[:, 1]
             north[:, 1] = 0
-        pieces.set_leak(centre, east, north, self._rows.leak[:count], self._seen, self._stack)
+        leak = np.zeros((count, length))
+        seen, stack = np.zeros((count, length), dtype=bool), np.zeros(count * length, dtype=np.int64)
+        pieces.set_leak(centre, east, north, leak, seen, stack)
+        self._rows.leak[:count], self._rows.east[:count], self._rows.north[:count] = leak, east, north
         kernels.set_up(self._counts, self._rows, self._work)
+        return centre, east, north
 
     def _cycle(self) -> None:
         kernels.cycle(self._counts, self._rows, self._across, self._source, self._values, self._work[0])
 
     def _apply(self, p: Array) -> float:
         """Set the image to Ap; Σ p Ap."""
-        count = self._counts[0]
-        east, north = self._rows.east[:count], self._rows.north[:count]
-        return float(gradients.set_image(self._centre, east, north, p, self._across, self._along, self._image))
+        return float(gradients.set_image(*self._matrix, p, self._across, self._along, self._image))
 
     def _set_residual(self, b: Array, p: Array) -> float:
-        """Set the finest source to b − Ap; its norm."""
+        """Set the residual and the finest source to b − Ap; its norm."""
         self._apply(p)
-        source = self._finest[0]
-        np.subtract(b, self._image, out=source)
-        return math.sqrt(gradients.dot(source, source))
+        np.subtract(b, self._image, out=self._residual)
+        self._finest[0][:] = self._residual
+        return math.sqrt(gradients.dot(self._residual, self._residual))
 
-    def _gradients(self, p: Array, goal: float, limit: int) -> int:
-        """Improve p until the residual that is carried along is below the ``goal``; how many iterations it took."""
-        residual, steepest = self._finest
+    def _gradients(self, p: Array, limit: int, enough: Callable[[float, float], bool]) -> int:
+        """Improve p until it is ``enough``, by the residual's square and the energy gained; the iterations it took."""
+        source, steepest = self._finest
         slope = np.inf
         self._direction[:] = 0
         for iteration in range(1, limit + 1):
             self._cycle()
-            before, slope = slope, gradients.dot(residual, steepest)
+            before, slope = slope, gradients.dot(self._residual, steepest)
             gradients.turn(slope / before, steepest, self._direction)
             bend = self._apply(self._direction)
             if not (slope > 0 and bend > 0):
                 return iteration
-            square = gradients.advance(slope / bend, self._direction, self._image, p, residual)
-            if square <= goal**2:
+            square = gradients.advance(slope / bend, self._direction, self._image, p, self._residual, source)
+            if enough(square, slope * slope / bend):
                 return iteration
         return limit

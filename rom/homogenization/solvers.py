@@ -1,0 +1,103 @@
+"""The linear systems of a cell, solved: by multigrid, and by elimination where that fails."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from scipy.sparse import csc_array
+from scipy.sparse.csgraph import connected_components
+from scipy.sparse.linalg import splu
+
+from contact.errors import ConvergenceError, Outcome
+from rom.gap import Array
+from rom.multigrid.gradients import apply
+from rom.multigrid.multigrid import Multigrid, Solved
+
+MOST_ELIMINATED = 1_100_000
+"""Nodes; factors of larger matrices take more than 3 GB."""
+
+BALANCED = 1e-6
+"""Of a right-hand side: an elimination that leaves a larger residual has failed."""
+
+ROUND = (True, True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Matrix:
+    """K of ∇·(h³∇χ) on a periodic grid, as :class:`rom.multigrid.multigrid.Multigrid` takes it, shape (nx, ny) each."""
+
+    centre: Array
+    east: Array
+    north: Array
+
+    def image(self, chi: Array) -> Array:
+        """Kχ, shape (nx, ny)."""
+        return np.asarray(apply(self.centre, self.east, self.north, chi, ROUND))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Source:
+    """A right-hand side b, shape (nx, ny), and E, if the energy that counts is E − b·χ and not b·χ."""
+
+    values: Array
+    whole: float | None
+    start: Array | None
+
+
+Solver = Callable[[Matrix, Sequence[Source], float], list[Solved]]
+"""solve(matrix, sources, tolerance) → solutions, each good to the tolerance of its energy; ConvergenceError if not."""
+
+
+def by_multigrid(matrix: Matrix, sources: Sequence[Source], tolerance: float, *, single: bool) -> list[Solved]:
+    """Conjugate gradients, preconditioned by multigrid in single or double precision."""
+    multigrid = Multigrid(matrix.centre, matrix.east, matrix.north, periodic=ROUND, single=single)
+    return [
+        multigrid.minimise(source.values, source.whole, tolerance=tolerance, start=source.start) for source in sources
+    ]
+
+
+def by_elimination(matrix: Matrix, sources: Sequence[Source], _tolerance: float) -> list[Solved]:
+    """Sparse elimination (SuperLU), each piece of the film held at a node; up to 1.1 million nodes."""
+    count = matrix.centre.size
+    if count > MOST_ELIMINATED:
+        raise ConvergenceError(
+            f"the cell's linear system: {count} nodes are too many to eliminate; take a coarser grid",
+            outcome=Outcome.STALLED,
+            iterations=0,
+        )
+    nodes = np.arange(count).reshape(matrix.centre.shape)
+    first = np.concatenate([nodes.ravel()] * 2)
+    second = np.concatenate([np.roll(nodes, -1, axis=0).ravel(), np.roll(nodes, -1, axis=1).ravel()])
+    couplings = np.concatenate([matrix.east.ravel(), matrix.north.ravel()])
+    linked = couplings > 0
+    first, second, couplings = first[linked], second[linked], couplings[linked]
+    links = csc_array((couplings, (first, second)), shape=(count, count))
+    links = links + links.T
+    diagonal = links.sum(axis=1)
+    _, piece = connected_components(links, directed=False)
+    held = np.unique(piece, return_index=True)[1]
+    diagonal[held] += np.where(diagonal[held] > 0, diagonal[held], 1.0)
+    whole = csc_array((diagonal, (np.arange(count),) * 2), shape=(count, count)) - links
+    factors = splu(whole.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    solved = []
+    for source in sources:
+        b = source.values
+        chi = factors.solve(b.ravel()).reshape(b.shape)
+        residual = float(np.linalg.norm(b - matrix.image(chi)) / (np.linalg.norm(b) or 1.0))
+        if not residual <= BALANCED:
+            raise ConvergenceError(
+                f"the cell's linear system: elimination leaves a residual of {residual:.3g}; the gap spans too much",
+                outcome=Outcome.STALLED,
+                iterations=0,
+            )
+        solved.append(Solved(solution=chi, iterations=1, residual=residual))
+    return solved
+
+
+SOLVERS: dict[str, Solver] = {
+    "multigrid": partial(by_multigrid, single=True),
+    "multigrid_double": partial(by_multigrid, single=False),
+    "elimination": by_elimination,
+}
+"""In the order in which they are tried."""

@@ -1,0 +1,23 @@
+"""A matrix by rows, as the multigrid hierarchy keeps it on all levels."""
+
+from typing import Any, NamedTuple
+
+
+class Rows(NamedTuple):
+    """A matrix by rows and their factors, shape (rows, m) each.
+
+    ``leak`` is what the diagonal is more than all couplings. It is carried from level to level by itself, and centre
+    and pivots are made from it, as a leak may be far below the rounding of the couplings. ``up`` and ``down`` have no
+    columns on the finest level, and ``border`` has none unless rows are rings. ``factor`` is the coupling towards the
+    middle of the row times the ``inverse`` of the pivot.
+    """
+
+    leak: Any
+    centre: Any
+    north: Any
+    east: Any
+    up: Any
+    down: Any
+    inverse: Any
+    factor: Any
+    border: Any
