@@ -14,7 +14,7 @@ from rom.homogenization.factors import FlowFactors
 from rom.homogenization.solvers import SOLVERS
 from rom.ladder import Progress, silent
 
-LOOSEST, TIGHTEST = 1e-5, 1e-10
+LOOSEST, TIGHTEST = 1e-4, 1e-10
 """Tolerances of a cell that are chosen from."""
 
 SPARE = 100

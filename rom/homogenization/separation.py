@@ -1,0 +1,82 @@
+"""The gap between an undeformed rough surface and a flat one, by how far apart their mean planes are."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from contact.errors import InputError
+from rom.gap import Array
+from rom.homogenization.conductance import without_traces
+from rom.homogenization.paths import sealed
+
+
+@dataclass(frozen=True, kw_only=True)
+class Separations:
+    """A rough surface and a flat one that come together without deforming.
+
+    At a separation α of their mean planes h = max(α − z, 0): heights that would reach into the flat one are cut off.
+
+    Attributes
+    ----------
+    heights : shape (nx, ny), m, upward, towards the flat one.
+    """
+
+    heights: Array
+
+    @cached_property
+    def _above(self) -> Array:
+        """z: heights above their mean."""
+        return np.asarray(self.heights - self.heights.mean())
+
+    @cached_property
+    def _sorted(self) -> tuple[Array, Array]:
+        """Heights in order, and the mean gap where the separation is each of them."""
+        z = np.sort(self._above, axis=None)
+        below = np.arange(z.size)
+        return z, (below * z - np.concatenate([[0.0], np.cumsum(z)[:-1]])) / z.size
+
+    @property
+    def peak(self) -> float:
+        """Sp, m."""
+        return float(self._above.max())
+
+    @property
+    def rms(self) -> float:
+        """Sq, m."""
+        return float(self._above.std())
+
+    def gap(self, separation: float) -> Array:
+        """h, m, shape (nx, ny)."""
+        return np.maximum(separation - self._above, 0.0)
+
+    def at_mean_gap(self, mean_gap: float) -> float:
+        """The separation α, m, at which <h> is ``mean_gap``.
+
+        Raises
+        ------
+        InputError
+            For a mean gap that is not above 0.
+        """
+        if not 0 < mean_gap < np.inf:
+            raise InputError(f"mean gap: got {mean_gap!r} m; give a length above 0")
+        z, means = self._sorted
+        below = int(np.searchsorted(means, mean_gap, side="right"))
+        return float(z[below - 1] + (mean_gap - means[below - 1]) * z.size / below)
+
+    def sealing(self) -> tuple[float, float]:
+        """The largest separation at which nothing gets through, in x and in y, m."""
+        z = np.unique(self._above)
+        found = []
+        for direction in (0, 1):
+            shut, open_at = 0, z.size - 1
+            if sealed(without_traces(self.gap(z[-1])))[direction]:
+                shut = open_at
+            while open_at - shut > 1:
+                middle = (shut + open_at) // 2
+                if sealed(without_traces(self.gap(z[middle])))[direction]:
+                    shut = middle
+                else:
+                    open_at = middle
+            found.append(float(z[shut]))
+        return found[0], found[1]

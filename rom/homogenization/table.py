@@ -1,0 +1,138 @@
+"""Flow factors over the mean gap: points, and what lies between and beyond them."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Self
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from contact.errors import InputError
+from rom.gap import Array
+from rom.homogenization.factors import FlowFactors
+from rom.homogenization.gap_factors import GapFactors
+
+SMOOTH = np.array([1.0, 1, 0, 1, 0, 1, 0])
+"""What :func:`relative_row` tells of a smooth film."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Point:
+    """Flow factors at one separation.
+
+    Attributes
+    ----------
+    separation : of the mean planes, m.
+    contact : the part of the surface that is closed.
+    factors, uncertainty : as :class:`rom.homogenization.flow_factors.Estimated` has them.
+    cpu_s : what it cost, s.
+    """
+
+    separation: float
+    contact: float
+    factors: FlowFactors
+    uncertainty: FlowFactors
+    iterations: int
+    residual: float
+    cpu_s: float
+
+    @property
+    def mean_gap(self) -> float:
+        """ĥ, m."""
+        return self.factors.mean_gap
+
+
+@dataclass(frozen=True, kw_only=True)
+class FactorTable:
+    """Points in order of their mean gaps ĥ, with monotone cubic interpolation (Fritsch and Carlson) over ln ĥ.
+
+    Interpolated are ∛A₁₁/ĥ, ∛A₂₂/ĥ, A₁₂/√(A₁₁A₂₂), B/ĥ, d ĥ and e ĥ, so that A stays positive semidefinite and has no
+    extremes but those of the points. Beyond the widest gap what roughness does falls with ĥ², as perturbation theory
+    has it.
+
+    Attributes
+    ----------
+    points : two or more.
+    peak : the highest point of the roughness above its mean, m.
+    interpolation_error : the largest seen half-way between points, over the tolerance's measure.
+    scale : all lengths across the film are multiplied by it: the table of the surface with its heights multiplied.
+    """
+
+    points: Sequence[Point]
+    peak: float
+    interpolation_error: float = np.nan
+    scale: float = 1.0
+
+    def scaled(self, factor: float) -> Self:
+        """Of the surface with its heights multiplied."""
+        return replace(self, scale=self.scale * factor)
+
+    @property
+    def narrowest(self) -> float:
+        """ĥ of the first point, m."""
+        return self.scale * self.points[0].mean_gap
+
+    @property
+    def widest(self) -> float:
+        """ĥ of the last point, m."""
+        return self.scale * self.points[-1].mean_gap
+
+    def __call__(self, mean_gap: Array, /) -> GapFactors:
+        """The factors at mean gaps, m, of any shape.
+
+        Raises
+        ------
+        InputError
+            Below the narrowest gap, unless the film is sealed there already, in both directions: then A = B = 0.
+        """
+        h = np.asarray(mean_gap, dtype=np.float64)
+        if h.size and h.min() < self.narrowest * (1 - 1e-12) and not all(self.points[0].factors.sealed):
+            raise InputError(
+                f"mean gap: got {h.min():.4g} m, below the narrowest in the table, {self.narrowest:.4g} m; "
+                "make a table that reaches further"
+            )
+        inside = np.clip(h, self.narrowest, self.widest)
+        share = np.minimum(self.widest / np.maximum(h, self.widest), 1.0) ** 2
+        between = self._between(np.log(inside / self.scale))
+        far = SMOOTH + (self._last - SMOOTH) * share[..., None]
+        row = np.where((h > self.widest)[..., None], far, _uncubed(between))
+        along, across, cross, drag, drag_across, couette, shear_couette = np.moveaxis(row, -1, 0)
+        return GapFactors(
+            along=along * h**3,
+            across=across * h**3,
+            cross=cross * h**3,
+            drag=drag * h,
+            drag_across=drag_across * h,
+            couette=couette / h,
+            shear_couette=shear_couette / h,
+            least=np.maximum(h - self.scale * self.peak, 0.0),
+        )
+
+    @cached_property
+    def _last(self) -> Array:
+        return relative_row(self.points[-1].factors)
+
+    @cached_property
+    def _between(self) -> PchipInterpolator:
+        gaps = np.log([point.mean_gap for point in self.points])
+        return PchipInterpolator(gaps, np.array([_cubed(relative_row(point.factors)) for point in self.points]), axis=0)
+
+
+def relative_row(factors: FlowFactors) -> Array:
+    """A₁₁/ĥ³, A₂₂/ĥ³, A₁₂/ĥ³, B₁/ĥ, B₂/ĥ, d ĥ, e ĥ."""
+    own = factors.relative
+    a = own.pressure
+    return np.array([a[0, 0], a[1, 1], a[0, 1], *own.shear, own.couette, own.shear_couette])
+
+
+def _cubed(row: Array) -> Array:
+    """The row with ∛A₁₁/ĥ, ∛A₂₂/ĥ and A₁₂/√(A₁₁A₂₂) in the place of A."""
+    mean = np.sqrt(row[0] * row[1])
+    return np.array([np.cbrt(row[0]), np.cbrt(row[1]), row[2] / mean if mean > 0 else 0.0, *row[3:]])
+
+
+def _uncubed(rows: Array) -> Array:
+    """Back from :func:`_cubed`, shape (..., 7)."""
+    first, second = rows[..., :1] ** 3, rows[..., 1:2] ** 3
+    return np.concatenate([first, second, rows[..., 2:3] * np.sqrt(first * second), rows[..., 3:]], axis=-1)

@@ -1,0 +1,138 @@
+"""Placing the points of a table of flow factors: where interpolation between those before is not good enough."""
+
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from contact.errors import InputError
+from rom.gap import Array
+from rom.homogenization.conductance import FaceRule
+from rom.homogenization.flow_factors import checked_gap, flow_factors
+from rom.homogenization.separation import Separations
+from rom.homogenization.table import FactorTable, Point, relative_row
+from rom.ladder import Progress, silent
+
+TOLERANCE = 0.005
+"""Of the factors that the cells give."""
+
+FIRST = 9
+"""Points that are placed before any is judged."""
+
+MOST = 400
+"""Points; no surface that is resolved takes more."""
+
+NEGLIGIBLE = 1e-4
+"""Of a smooth film's: by so much more a factor may always be off, for it lets next to nothing through."""
+
+CUBES = 20.0
+"""Where this times (rms/ĥ)³ is the tolerance, the film is thick: roughness counts by its mean square alone."""
+
+
+def tabulate(
+    heights: Array,
+    spacing: tuple[float, float],
+    *,
+    tolerance: float = TOLERANCE,
+    rule: FaceRule = FaceRule.LINEAR,
+    known: Mapping[float, Point] | None = None,
+    keep: Callable[[Point], object] = lambda _point: None,
+    progress: Progress = silent,
+) -> FactorTable:
+    """Flow factors of an undeformed surface from where it seals to thick films.
+
+    Half-way between two points the cell is solved; where it is further from the interpolation than the tolerance, and
+    than its own uncertainty, it is done again on both sides of it.
+
+    Parameters
+    ----------
+    heights : of one period, shape (nx, ny), m, upward, towards the flat wall.
+    spacing : (dx, dy), m.
+    tolerance : of A over √(A_ii A_jj), of B over B₁, and without contact of d and e over d: what interpolation may add.
+        In contact d has no limit to be near to: at an edge <1/h> grows with the logarithm of the nodes.
+    known : points by separation that need not be solved again.
+    keep : called with every new point.
+
+    Raises
+    ------
+    InputError
+        For heights that are no rough surface, or a tolerance that is not between 1e-6 and 1.
+    ConvergenceError
+        If a cell does not converge.
+    """
+    if not 1e-6 <= tolerance < 1:
+        raise InputError(f"--tolerance: got {tolerance!r}; it must be 1e-6 to 1")
+    body = Separations(heights=np.asarray(heights, dtype=np.float64))
+    checked_gap(body.heights - np.min(body.heights) + 1.0, spacing)
+    if body.rms == 0:
+        raise InputError("heights: are all the same; a smooth wall needs no flow factors")
+    found: dict[float, Point] = {}
+
+    def solve(separation: float) -> Point:
+        point = (known or {}).get(separation)
+        if point is None:
+            cpu = time.process_time()
+            gap = body.gap(separation)
+            one = flow_factors(gap, spacing, rule=rule)
+            point = Point(
+                separation=separation,
+                contact=one.contact,
+                factors=one.factors,
+                uncertainty=one.uncertainty,
+                iterations=one.iterations,
+                residual=one.residual,
+                cpu_s=time.process_time() - cpu,
+            )
+            keep(point)
+        found[separation] = point
+        return point
+
+    def made() -> FactorTable:
+        return FactorTable(points=tuple(sorted(found.values(), key=lambda point: point.mean_gap)), peak=body.peak)
+
+    low, high = sorted(body.sealing())
+    first, last = solve(low), body.rms * (CUBES / tolerance) ** (1 / 3)
+    last = max(last, 2 * body.at_mean_gap(first.mean_gap))
+    if high > low:
+        solve(high)
+    for mean_gap in np.geomspace(first.mean_gap, last, FIRST)[1:]:
+        progress(len(found) / 40, f"{len(found)} separations")
+        solve(body.at_mean_gap(float(mean_gap)))
+    while _beyond(table := made(), solve(body.at_mean_gap(2 * table.widest))) > tolerance:
+        progress(len(found) / (len(found) + 20), f"{len(found)} separations")
+    worst = 0.0
+    intervals = list(zip(table.points, table.points[1:], strict=False))
+    while intervals and len(found) < MOST:
+        table = made()
+        refined = []
+        for one, two in intervals:
+            progress(len(found) / (len(found) + len(intervals)), f"{len(found)} separations")
+            middle = solve(body.at_mean_gap(float(np.sqrt(one.mean_gap * two.mean_gap))))
+            off = _beyond(table, middle)
+            if off > tolerance:
+                refined += [(one, middle), (middle, two)]
+            else:
+                worst = max(worst, off)
+        intervals = refined
+    if intervals:
+        worst = max(_beyond(table, two) for _, two in intervals)
+    progress(1.0, f"{len(found)} separations")
+    return replace(made(), interpolation_error=worst)
+
+
+def _beyond(table: FactorTable, point: Point) -> float:
+    """How far a table is from a point that it does not have, in the tolerance's measure; 0 within its uncertainty."""
+    own = point.factors
+    h = np.array([point.mean_gap])
+    told = table(h)
+    guess = np.array(
+        [told.along, told.across, told.cross, told.drag, told.drag_across, told.couette, told.shear_couette]
+    )[:, 0]
+    units = np.array([h[0] ** 3] * 3 + [h[0]] * 2 + [1 / h[0]] * 2)
+    row, doubt = relative_row(own), point.uncertainty
+    unsure = np.array([doubt.pressure[0, 0], doubt.pressure[1, 1], doubt.pressure[0, 1], *doubt.shear, 0, 0]) / units
+    rub = np.inf if point.contact > 0 else row[5]
+    size = np.array([row[0], row[1], np.sqrt(row[0] * row[1]), row[3], row[3], rub, rub]) + NEGLIGIBLE
+    off = np.abs(guess / units - row)
+    return float(np.max(np.where(off > np.nan_to_num(unsure, posinf=np.inf), off / size, 0.0)))
