@@ -13,14 +13,18 @@ from rom.gap import Array
 NEAR_ONE, LARGEST = 12.0, 700.0
 """Of ln(m/(1 − m)): above the one two terms of the series about m = 1 are enough, beyond the other exp overflows."""
 
+SINGULAR = 1e-12
+"""Of A₁₁A₂₂: below it rounding rules the determinant."""
 
-def turned(across: float, along: float, angle: float) -> Array:
-    """R diag(along, across) Rᵀ, the tensor of grooves whose lay lies at an angle (rad) from x towards y.
+
+def turned(principal: ArrayLike, angle: float) -> Array:
+    """R diag(along, across) Rᵀ: ``principal`` (across, along) of grooves whose lay lies at an angle, rad, from x to y.
 
     With <h⁻³>⁻¹ and <h³> it is A; with <h⁻²>/<h⁻³> and <h> its first column is B.
     """
+    across, along = np.asarray(principal, dtype=np.float64)
     lay, normal = np.array([cos(angle), sin(angle)]), np.array([-sin(angle), cos(angle)])
-    return along * np.outer(lay, lay) + across * np.outer(normal, normal)
+    return np.asarray(along * np.outer(lay, lay) + across * np.outer(normal, normal))
 
 
 def box_factors(tensor: ArrayLike, size: tuple[float, float]) -> Array:
@@ -49,7 +53,7 @@ def box_factors(tensor: ArrayLike, size: tuple[float, float]) -> Array:
     if a.shape != (2, 2) or not abs(a[0, 1] - a[1, 0]) <= 1e-6 * sqrt(abs(a[0, 0] * a[1, 1])):
         raise InputError(f"tensor: got {a.tolist()}; give a symmetric one of shape (2, 2)")
     determinant = a[0, 0] * a[1, 1] - a[0, 1] ** 2
-    if not (a[0, 0] > 0 and determinant > 0):
+    if not (a[0, 0] > 0 and determinant > SINGULAR * a[0, 0] * a[1, 1]):
         raise InputError(f"tensor: got {a.tolist()}; give a positive definite one")
     if not min(size) > 0:
         raise InputError(f"size: got {size!r}; give two lengths above 0")

@@ -42,7 +42,7 @@ def upper_bound(tensor, size, count):
 @pytest.mark.parametrize("size", [(1, 1), (1, 3), (2.5, 1)])
 def test_the_box_lies_between_bounds_from_both_sides(angle, size):
     """φ₁ from above, and det A/φ₂ from below, as the box of stream lines is the other box."""
-    tensor = turned(0.3, 1.7, angle)
+    tensor = turned((0.3, 1.7), angle)
     above = upper_bound(tensor, size, 60)
     below = np.linalg.det(tensor) / upper_bound(tensor[::-1, ::-1], size[::-1], 60)
     first, second = box_factors(tensor, size)
@@ -52,11 +52,11 @@ def test_the_box_lies_between_bounds_from_both_sides(angle, size):
 
 
 def test_a_square_box_of_grooves_halfway_has_their_geometric_mean():
-    assert box_factors(turned(0.15, 1.735, math.pi / 4), (1, 1)) == pytest.approx(math.sqrt(0.15 * 1.735), rel=1e-10)
+    assert box_factors(turned((0.15, 1.735), math.pi / 4), (1, 1)) == pytest.approx(math.sqrt(0.15 * 1.735), rel=1e-10)
 
 
 def test_short_and_long_boxes():
-    tensor = turned(0.2, 1.5, 0.5)
+    tensor = turned((0.2, 1.5), 0.5)
     harmonic = np.linalg.det(tensor) / np.diag(tensor)[::-1]
     assert box_factors(tensor, (1, 1e4)) == pytest.approx([tensor[0, 0], harmonic[1]], rel=1e-3)
     assert box_factors(tensor, (1e4, 1)) == pytest.approx([harmonic[0], tensor[1, 1]], rel=1e-3)
@@ -66,7 +66,7 @@ def test_short_and_long_boxes():
 @pytest.mark.parametrize("angle", [0.1, 0.5, 0.7])
 def test_closed_ridges_leave_the_grooves_that_cross_the_box(angle):
     """The part 1 − tan β of the width, in which the pressure falls over 1/cos β of the length."""
-    first = box_factors(turned(1e-13, 1.4, angle), (1, 1))[0]
+    first = box_factors(turned((1e-11, 1.4), angle), (1, 1))[0]
     assert first == pytest.approx(1.4 * math.cos(angle) ** 2 * (1 - math.tan(angle)), rel=1e-3)
 
 
@@ -77,8 +77,8 @@ def test_the_cell_turns_its_tensor():
     angle = math.atan2(q, p)
     across, along = (1 - part**2) ** 2.5 / (1 + part**2 / 2), 1 + 1.5 * part**2
     found = flow_factors(gap, (1.0, 1.0)).factors
-    assert found.pressure == pytest.approx(turned(across, along, angle), rel=6e-3)
-    shear = turned((1 - part**2) / (1 + part**2 / 2), 1.0, angle)[:, 0]
+    assert found.pressure == pytest.approx(turned((across, along), angle), rel=6e-3)
+    shear = turned(((1 - part**2) / (1 + part**2 / 2), 1.0), angle)[:, 0]
     assert found.shear == pytest.approx(shear, rel=6e-3)
 
 
