@@ -44,8 +44,8 @@ class Offset:
     @property
     def added(self) -> Array:
         """What the offset adds to A₁₁ and A₂₂, over these; inf where these are 0."""
-        with np.errstate(divide="ignore"):
-            return np.asarray(self.offset / self.closed - 1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.where(self.closed > 0, self.offset / self.closed - 1, np.inf)
 
     @property
     def slit(self) -> Array:
