@@ -132,7 +132,7 @@ def boxes(lay: Lay) -> Figure:
     axes.set_ylim(0, 1.05)
     axes.set_xlabel("length of the box over its width")
     axes.set_ylabel("φ₁, over ĥ³")
-    axes.legend(fontsize=8, loc="upper right")
+    axes.legend(fontsize=8, loc="center right")
     return figure
 
 
@@ -181,7 +181,7 @@ def joints(lay: Lay) -> Figure:
             ]
             label = ("raw", "edges blended")[kind] if thickness == THIN else None
             scattered.plot(*zip(*windows, strict=True), marker, color=colour, ms=4, label=label)
-    shifted.set_xlabel("shift over distance of grooves (dashed: edges blended)")
+    shifted.set_xlabel("shift over distance (dashed: blended)")
     shifted.set_ylabel("flow along the lay, over the truth")
     shifted.legend(fontsize=8)
     scattered.axvline(0.1, color="black", linewidth=0.8, linestyle=":")
