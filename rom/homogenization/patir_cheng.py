@@ -8,8 +8,9 @@ from numpy.typing import ArrayLike
 from scipy import ndimage
 
 from rom.gap import Array
+from rom.homogenization.cell import TOLERANCE
 from rom.homogenization.conductance import FaceRule, faces, without_traces
-from rom.homogenization.flow_factors import TOLERANCE, checked_gap
+from rom.homogenization.flow_factors import checked_gap
 from rom.homogenization.paths import FOUR
 from rom.multigrid.multigrid import Multigrid
 
