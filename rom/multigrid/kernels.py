@@ -13,13 +13,7 @@ All loops that call each other stand in this file: a compiled loop is kept until
 import numpy as np
 
 from contact.compiled import compiled, inlined
-from rom.multigrid.rows import Rows
-
-GROUNDED = 1e-13
-"""Of its diagonal: an unknown with a smaller pivot is set to 0."""
-
-THIN = 1e-5
-"""A share below it is none if it comes from a hole."""
+from rom.multigrid.rows import GROUNDED, THIN, Rows
 
 
 @compiled

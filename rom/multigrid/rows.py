@@ -2,6 +2,12 @@
 
 from typing import Any, NamedTuple
 
+GROUNDED = 1e-13
+"""Of its diagonal: an unknown with a smaller pivot is set to 0."""
+
+THIN = 1e-5
+"""A share below it is none if it comes from a hole."""
+
 
 class Rows(NamedTuple):
     """A matrix by rows and their factors, shape (rows, m) each.
