@@ -26,8 +26,8 @@ from rom.provenance import circumstances, code
 from scripts.common import AsJson, in_one_line, messages, output, print_json, progress_bar, run_alone
 from scripts.contact_models import SOLVED, SOURCES, WITHOUT_HARDNESS, Model, chosen, estimator
 from scripts.contact_run import Series, Solver, estimated, solved
-from scripts.contact_surface import Rough, read_rough, spacing_of
 from scripts.load_range import loads_of
+from scripts.rough_surface import Rough, read_rough, spacing_of
 from scripts.surface import refuse_same
 
 SHOWN = 5
@@ -92,7 +92,8 @@ def command(
         _try(path)
     with _alone(out), progress_bar(len(asked) + 1) as advance:
         advance(0, f"reading {surface.name}")
-        rough = read_rough(surface, spacing_of(spacing), periodic=periodic)
+        otherwise = ", --boundary free takes it as it stands"
+        rough = read_rough(surface, spacing_of(spacing), periodic=periodic, otherwise=otherwise)
         settings = {
             "model": rung.value,
             "modulus": body.modulus,

@@ -19,13 +19,13 @@ import numpy as np
 
 from contact.errors import InputError
 from contact.files import replacing
+from contact.guarded import BLOCK, block, digest_of, refuse_damaged
 from contact.mechanics.contact import Contact
 from contact.surface import Array
 
 SCHEMA = 1
 MARK = b"roughfilm contact, HDF5 behind 512 bytes, sha256 "
-BLOCK = 512
-PIECE = 1 << 22
+REMEDY = "remove it or choose another place"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -117,9 +117,8 @@ def add(path: Path, inputs: Inputs, found: Sequence[tuple[Row, Contact | None]])
             for row, contact in found:
                 _put(file, row, contact)
             _tabulate(file, before | {row.load: row for row, _ in found})
-        block = _block(_digest(scratch))
         with scratch.open("r+b") as raw:
-            raw.write(block)
+            raw.write(block(MARK, digest_of(scratch)))
             os.fsync(raw.fileno())
 
 
@@ -143,20 +142,19 @@ def finished(path: Path, inputs: Inputs) -> dict[float, Row]:
     InputError
         If the file cannot be read, was damaged or changed, or holds another series or something else.
     """
-    remedy = "remove it or choose another place"
     try:
         with path.open("rb") as raw:
             head = raw.read(len(MARK))
         if not head:
             return {}
         if head != MARK:
-            raise InputError(f"{path}: is no series of contacts; {remedy}")
-        _refuse_damaged(path)
+            raise InputError(f"{path}: is no series of contacts; {REMEDY}")
+        refuse_damaged(path, MARK, REMEDY)
         with h5py.File(path) as file:
             if file.attrs["schema"] != SCHEMA:
-                raise InputError(f"{path}: is of another version of roughfilm; {remedy}")
+                raise InputError(f"{path}: is of another version of roughfilm; {REMEDY}")
             if file.attrs["digest"] != inputs.digest:
-                raise InputError(f"{path}: holds another series, {_difference(file, inputs)}; {remedy}")
+                raise InputError(f"{path}: holds another series, {_difference(file, inputs)}; {REMEDY}")
             columns = [file[f"series/{name}"][()] for name in NUMBERS]
             rows = [_row(dict(zip(NUMBERS, numbers, strict=True))) for numbers in zip(*columns, strict=True)]
             return {row.load: row for row in rows}
@@ -184,7 +182,7 @@ def load_contact(path: Path, load: float) -> Contact:
     InputError
         If the file was damaged or changed, or holds no fields at this load.
     """
-    _refuse_damaged(path)
+    refuse_damaged(path, MARK, REMEDY)
     with h5py.File(path) as file:
         name = f"loads/{load!r}"
         if name not in file or "pressure" not in file[name]:
@@ -250,22 +248,3 @@ def _row(attributes: Mapping[str, Any]) -> Row:
     told: dict[str, Any] = {name: None if math.isnan(number) else number for name, number in numbers.items()}
     told["iterations"] = None if told["iterations"] is None else int(told["iterations"])
     return Row(**told)
-
-
-def _block(digest: str) -> bytes:
-    return (MARK + digest.encode() + b"\n").ljust(BLOCK, b"\0")
-
-
-def _digest(path: Path) -> str:
-    digest = hashlib.sha256()
-    with path.open("rb") as file:
-        file.seek(BLOCK)
-        while piece := file.read(PIECE):
-            digest.update(piece)
-    return digest.hexdigest()
-
-
-def _refuse_damaged(path: Path) -> None:
-    with path.open("rb") as file:
-        if file.read(BLOCK) != _block(_digest(path)):
-            raise InputError(f"{path}: was damaged or changed since it was written; remove it or choose another place")

@@ -19,8 +19,8 @@ from contact.mechanics.press import Press
 from contact.surface import Surface
 from contact.surface_store import save_surface
 from scripts.cli import app
-from scripts.contact_surface import spacing_of
 from scripts.load_range import loads_of
+from scripts.rough_surface import spacing_of
 
 STEEL = ("--modulus", "210GPa", "--poisson", "0.3")
 PLASTIC = (*STEEL, "--hardness", "4GPa")
@@ -300,7 +300,7 @@ def test_a_measured_file_is_pressed_with_a_warning(tmp_path):
     (tmp_path / "s.csv").write_text(text)
     done = run(tmp_path / "s.csv", *STEEL, "--loads", "100MPa")
     assert done.exit_code == 0
-    assert "is pressed as it was measured" in done.stderr
+    assert "is taken as it was measured" in done.stderr
 
 
 BAD = [

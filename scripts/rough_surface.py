@@ -1,4 +1,4 @@
-"""Surfaces to press: files of any kind that `roughfilm surface` takes, synthetic ones, and arrays of heights."""
+"""Surfaces to press or to film: files that `roughfilm surface` takes, synthetic ones, and arrays of heights."""
 
 import hashlib
 from collections.abc import Mapping
@@ -19,7 +19,7 @@ from contact.units import to_si
 
 @dataclass(frozen=True, kw_only=True)
 class Rough:
-    """Heights to press, shape (nx, ny), m, with spacing, m; ny = 1 for a profile."""
+    """Heights, shape (nx, ny), m, with spacing, m; ny = 1 for a profile."""
 
     heights: Array
     spacing: tuple[float, float]
@@ -41,13 +41,14 @@ def spacing_of(text: str | None) -> tuple[float, float] | None:
     return lengths[0], lengths[-1]
 
 
-def read_rough(file: Path, spacing: tuple[float, float] | None, *, periodic: bool) -> Rough:
-    """Read what is to be pressed, as it is.
+def read_rough(file: Path, spacing: tuple[float, float] | None, *, periodic: bool, otherwise: str = "") -> Rough:
+    """Read a surface as it is.
 
     Parameters
     ----------
     spacing : (dx, dy), m, of an array of heights.
     periodic : whether it will be taken as periodic, and a warning is due if it is not.
+    otherwise : what else than preparing it can be done about that, for the warning.
 
     Raises
     ------
@@ -69,14 +70,14 @@ def read_rough(file: Path, spacing: tuple[float, float] | None, *, periodic: boo
     if suffix == ".npy":
         profile = _profile(file)
         if profile is not None and spacing is not None:
-            return _rough(file, *_along_x(profile, spacing), periodic)
+            return _rough(file, *_along_x(profile, spacing), periodic, otherwise)
     if suffix == ".toml":
         surface = make(read_description(file))
     else:
         try:
             surface = read_surface(file, spacing=spacing)
         except InputError as error:
-            told = " in a recipe of roughfilm surface, and press its --out"
+            told = " in a recipe of roughfilm surface, and take its --out"
             raise InputError(str(error).replace(" in the recipe", told)) from None
     if surface.invalid.any():
         count = int(surface.invalid.sum())
@@ -85,7 +86,7 @@ def read_rough(file: Path, spacing: tuple[float, float] | None, *, periodic: boo
         heights=surface.heights,
         spacing=surface.spacing,
         source=surface.source,
-        warnings=_warnings(file, surface, measured=not whole and suffix != ".npy") if periodic else (),
+        warnings=_warnings(file, surface, otherwise, measured=not whole and suffix != ".npy") if periodic else (),
     )
 
 
@@ -108,7 +109,7 @@ def _along_x(heights: Array, spacing: tuple[float, float]) -> tuple[Array, tuple
     return heights.reshape(-1, 1), (dy, dx) if heights.ndim == 2 and heights.shape[0] == 1 else (dx, dy)
 
 
-def _rough(file: Path, heights: Array, spacing: tuple[float, float], periodic: bool) -> Rough:
+def _rough(file: Path, heights: Array, spacing: tuple[float, float], periodic: bool, otherwise: str) -> Rough:
     if heights.size < 2:
         raise InputError(f"{file}: holds {heights.size} points; a profile has at least 2")
     if not np.isfinite(heights).all():
@@ -119,17 +120,17 @@ def _rough(file: Path, heights: Array, spacing: tuple[float, float], periodic: b
         heights=heights,
         spacing=spacing,
         source={"file": file.name, "sha256": hashlib.sha256(file.read_bytes()).hexdigest(), "format": "npy"},
-        warnings=_warnings(file, surface, measured=False) if periodic else (),
+        warnings=_warnings(file, surface, otherwise, measured=False) if periodic else (),
     )
 
 
-def _warnings(file: Path, surface: Surface, *, measured: bool) -> tuple[str, ...]:
+def _warnings(file: Path, surface: Surface, otherwise: str, *, measured: bool) -> tuple[str, ...]:
     if surface.periodic:
         return ()
     mismatch = periodicity_mismatch(surface)
-    remedy = f"roughfilm surface {file} --out S.h5 prepares it, --boundary free takes it as it stands"
+    remedy = f"roughfilm surface {file} --out S.h5 prepares it{otherwise}"
     if mismatch > THRESHOLD:
         return (f"{file}: is not periodic (mismatch {mismatch:.2g}), so that its edges meet in steps; {remedy}",)
     if measured:
-        return (f"{file}: is pressed as it was measured, with its form and without preparation; {remedy}",)
+        return (f"{file}: is taken as it was measured, with its form and without preparation; {remedy}",)
     return ()
