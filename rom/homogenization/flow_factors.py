@@ -82,7 +82,7 @@ def flow_factors(
     finest = cells[-1]
     return Estimated(
         factors=finest.factors,
-        uncertainty=_uncertainty([cell.factors for cell in cells]),
+        uncertainty=uncertainty_of([cell.factors for cell in cells]),
         correctors=finest.correctors,
         contact=float((h == 0).mean()),
         iterations=finest.iterations,
@@ -122,11 +122,11 @@ def coarser_grids(gap: Array, spacing: tuple[float, float]) -> list[tuple[Array,
         if counts == h.shape:
             break
         coarser = (steps[0] * h.shape[0] / counts[0], steps[1] * h.shape[1] / counts[1])
-        grids.insert(0, (_sampled(_sampled(h, counts[0], 0), counts[1], 1), coarser))
+        grids.insert(0, (sampled(sampled(h, counts[0], 0), counts[1], 1), coarser))
     return grids
 
 
-def _sampled(gap: Array, count: int, axis: int) -> Array:
+def sampled(gap: Array, count: int, axis: int) -> Array:
     """The gap at ``count`` places evenly along an axis, straight between its nodes."""
     own = gap.shape[axis]
     if own % count == 0:
@@ -138,7 +138,7 @@ def _sampled(gap: Array, count: int, axis: int) -> Array:
     return np.asarray(np.take(gap, before, axis=axis) * (1 - part) + after * part)
 
 
-def _uncertainty(found: list[FlowFactors]) -> FlowFactors:
+def uncertainty_of(found: list[FlowFactors]) -> FlowFactors:
     """Of the last of up to three on grids each twice as fine, by Richardson's rule at the order seen, one to two."""
 
     def off(values: list[Array]) -> Array:
