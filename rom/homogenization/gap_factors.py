@@ -1,0 +1,44 @@
+"""Flow factors as functions of the mean gap: what a film asks of the roughness that it averages."""
+
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+from rom.gap import Array
+
+
+@dataclass(frozen=True, kw_only=True)
+class GapFactors:
+    """Homogenized coefficients at many mean gaps, arrays of one shape, as :class:`FlowFactors` has them for one.
+
+    Attributes
+    ----------
+    along, across, cross : A₁₁, A₂₂ and A₁₂ = A₂₁, m³; 0 where no open path leads through.
+    drag, drag_across : B₁ and B₂, m.
+    couette, shear_couette : d and e, 1/m.
+    """
+
+    along: Array
+    across: Array
+    cross: Array
+    drag: Array
+    drag_across: Array
+    couette: Array
+    shear_couette: Array
+
+
+class FactorsOverGap(Protocol):
+    """factors(mean_gap): the coefficients where the gap, averaged over the roughness, is that; m, of any shape."""
+
+    def __call__(self, mean_gap: Array, /) -> GapFactors:
+        """The coefficients, each of the shape of ``mean_gap``."""
+        ...
+
+
+def mirrored_factors(factors: FactorsOverGap) -> FactorsOverGap:
+    """Of the roughness seen in a mirror across the sliding, x turned round, slid towards growing x as before."""
+
+    def mirrored(mean_gap: Array) -> GapFactors:
+        found = factors(mean_gap)
+        return replace(found, cross=-found.cross, drag_across=-found.drag_across)
+
+    return mirrored
