@@ -1,43 +1,30 @@
 """Gaps whose flow factors are known without solving anything."""
 
-import math
-
 import numpy as np
 
 from rom.gap import Array
 from rom.homogenization.factors import FlowFactors
+from rom.homogenization.gap_factors import flow_factors_at
+from rom.homogenization.ridges import sinusoidal_ridges
 
 
 def sinusoid(amplitude: float, *, mean_gap: float = 1.0, direction: float = 0.0) -> FlowFactors:
-    """Factors of h = H (1 + a cos(q n·x)), whatever the wave number q: long ridges, n = (cos φ, sin φ) across them.
+    """Factors of h = H (1 + a cos q·x), whatever the length of the waves: those of :func:`sinusoidal_ridges`.
 
-    Across them K = (1 - a²)^(5/2)/(1 + a²/2) and S = (1 - a²)/(1 + a²/2), along them <h³> = 1 + 3a²/2 and <h> = 1, so
-    that A = H³(K nn + (1 + 3a²/2)(1 - nn)) and B = H(S nn + 1 - nn) e₁; d = (1 - a²)^(-1/2)/H, and pressure made by
-    sliding rubs by the part cos²φ: e = d cos²φ a²/(2 + a²).
+    Across the ridges A/H³ = (1 - a²)^(5/2)/(1 + a²/2) and B/H = (1 - a²)/(1 + a²/2); along them 1 + 3a²/2 and 1.
 
     Parameters
     ----------
     amplitude : a over the mean gap, 0 <= a < 1.
     mean_gap : H, m.
-    direction : φ, rad: 0 for ridges across the sliding direction, π/2 for ridges along it.
+    direction : of q, rad: 0 for ridges across the sliding direction, π/2 for ridges along it.
 
     Examples
     --------
     >>> sinusoid(0.5).pressure.round(6).tolist()
     [[0.433013, 0.0], [0.0, 1.375]]
     """
-    squared = amplitude**2
-    normal = np.array([math.cos(direction), math.sin(direction)])
-    across = np.outer(normal, normal)
-    along = np.eye(2) - across
-    bend, inverse = 1 + squared / 2, 1 / math.sqrt(1 - squared)
-    return FlowFactors(
-        mean_gap=1.0,
-        pressure=across / (bend * inverse**5) + along * (1 + 1.5 * squared),
-        shear=across[:, 0] / (bend * inverse**2) + along[:, 0],
-        couette=inverse,
-        shear_couette=float(across[0, 0]) * inverse * squared / (2 + squared),
-    ).scaled(mean_gap)
+    return flow_factors_at(mean_gap, sinusoidal_ridges(amplitude * mean_gap, direction))
 
 
 def nearly_smooth(gap: Array, spacing: tuple[float, float]) -> FlowFactors:

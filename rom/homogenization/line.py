@@ -10,6 +10,7 @@ from rom.gap import Array
 from rom.homogenization.conductance import faces
 from rom.homogenization.factors import FlowFactors
 from rom.homogenization.flow_factors import coarser_grids, uncertainty_of
+from rom.homogenization.gap_factors import FactorsOverGap, GapFactors, flow_factors_at
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,21 +53,42 @@ def line_factors(gap: ArrayLike) -> LineFactors:
     to C.18).
     """
     h = checked_profile(gap)
-    found = [_straight(points[:, 0]) for points, _ in coarser_grids(h[:, None], (1.0, 1.0))]
+    found = [_of_one(points[:, 0]) for points, _ in coarser_grids(h[:, None], (1.0, 1.0))]
     return LineFactors(factors=found[-1], uncertainty=uncertainty_of(found))
+
+
+def profile_over_gap(heights: ArrayLike) -> FactorsOverGap:
+    """Factors of h = ĥ - (r - <r>) over the mean gap ĥ, as in :func:`line_factors`.
+
+    Parameters
+    ----------
+    heights : r of the rough wall, m, shape (n,), n >= 2; one period, evenly spaced; towards the smooth wall is up.
+
+    Raises
+    ------
+    InputError
+        For heights that are no profile; by the factors, where a mean gap is not above the highest point.
+    """
+    r = _numbers(heights, "heights")
+    r = r - r.mean()
+    highest = float(r.max())
+
+    def factors(mean_gap: Array) -> GapFactors:
+        clearance = np.asarray(mean_gap, dtype=np.float64)
+        if clearance.size and not clearance.min() > highest:
+            raise InputError(
+                f"mean_gap: got {clearance.min():.6g} m, where the profile rises to {highest:.6g} m; the walls would "
+                "touch, raise it"
+            )
+        found = _straight(clearance.ravel() - r[:, None])
+        return GapFactors(**{name: values.reshape(clearance.shape) for name, values in vars(found).items()})
+
+    return factors
 
 
 def checked_profile(gap: ArrayLike) -> Array:
     """The profile as numbers; InputError as in :func:`line_factors`."""
-    h = np.asarray(gap)
-    if h.ndim != 1 or h.size < 2:
-        raise InputError(f"gap: got shape {h.shape}; give a profile of at least 2 points")
-    if h.dtype.kind not in "fiu":
-        raise InputError(f"gap: got {h.dtype}; give real numbers, in m")
-    h = h.astype(np.float64)
-    if not np.isfinite(h).all():
-        place = int(np.flatnonzero(~np.isfinite(h))[0])
-        raise InputError(f"gap: got {h[place]} at [{place}]; fill such points first")
+    h = _numbers(gap, "gap")
     if h.min() < 0:
         place = int(h.argmin())
         raise InputError(f"gap: got {h[place]:.6g} m at [{place}]; walls cannot overlap, set contact to 0")
@@ -75,36 +97,42 @@ def checked_profile(gap: ArrayLike) -> Array:
     return h
 
 
-def ridges_across(
-    *, mean_gap: float, along_ridges: float, pressure: float, shear: float, couette: float, shear_couette: float
-) -> FlowFactors:
-    """Factors of a gap that varies along x alone: A₂₂, A₁₁, B₁, d and e; sealed along x where A₁₁ is 0."""
-    return FlowFactors(
-        mean_gap=mean_gap,
-        pressure=np.diag([pressure, along_ridges]),
-        shear=np.array([shear, 0.0]),
-        couette=couette,
-        shear_couette=shear_couette,
-        sealed=(pressure == 0, False),
+def _numbers(values: ArrayLike, place: str) -> Array:
+    found = np.asarray(values)
+    if found.ndim != 1 or found.size < 2:
+        raise InputError(f"{place}: got shape {found.shape}; give a profile of at least 2 points")
+    if found.dtype.kind not in "fiu":
+        raise InputError(f"{place}: got {found.dtype}; give real numbers, in m")
+    found = found.astype(np.float64)
+    if not np.isfinite(found).all():
+        point = int(np.flatnonzero(~np.isfinite(found))[0])
+        raise InputError(f"{place}: got {found[point]} at [{point}]; fill such points first")
+    return found
+
+
+def _of_one(points: Array) -> FlowFactors:
+    return flow_factors_at(float(points.mean()), lambda _mean: _straight(points[:, None]))
+
+
+def _straight(gaps: Array) -> GapFactors:
+    """Of profiles side by side, shape (n, m), straight between points; arrays of shape (m,)."""
+    scale = gaps.mean(axis=0)
+    h = gaps / scale
+    after = np.roll(h, -1, axis=0)
+    lines = faces(h)
+    is_open = lines.east.all(axis=0)
+    couette = lines.inverse.mean(axis=0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        along = np.where(is_open, 1 / (1 / lines.east).mean(axis=0), 0.0)
+        squared = np.where(is_open, (lines.drag / lines.east).mean(axis=0), 0.0)
+    drag = along * squared
+    nothing = np.zeros_like(scale)
+    return GapFactors(
+        along=along * scale**3,
+        across=((h + after) * (h * h + after * after)).mean(axis=0) / 4 * scale**3,
+        cross=nothing,
+        drag=drag * scale,
+        drag_across=nothing,
+        couette=couette / scale,
+        shear_couette=(couette - drag * squared) / scale,
     )
-
-
-def _straight(points: Array) -> FlowFactors:
-    scale = float(points.mean())
-    h = points / scale
-    after = np.roll(h, -1)
-    lines = faces(h[:, None])
-    couette = float(lines.inverse.mean())
-    pressure = shear = squared = 0.0
-    if lines.east.all():
-        pressure = float(1 / (1 / lines.east).mean())
-        squared = float((lines.drag / lines.east).mean())
-        shear = squared * pressure
-    return ridges_across(
-        mean_gap=1.0,
-        along_ridges=float(((h + after) * (h * h + after * after)).mean() / 4),
-        pressure=pressure,
-        shear=shear,
-        couette=couette,
-        shear_couette=couette - shear * squared,
-    ).scaled(scale)

@@ -10,7 +10,7 @@ from contact.errors import InputError
 from rom.gap import Array
 from rom.homogenization.factors import FlowFactors
 from rom.homogenization.flow_factors import sampled
-from rom.homogenization.line import LineFactors, checked_profile, ridges_across
+from rom.homogenization.line import LineFactors, checked_profile
 
 MOST = 2**24
 
@@ -93,7 +93,7 @@ def _on_nodes(h: Array, rule: Rule, *, closed: bool) -> FlowFactors:
         squared = float(weights @ inverse**2)
         pressure = float(1 / (weights @ inverse**3))
         shear = squared * pressure
-    return ridges_across(
+    return _ridges_across(
         mean_gap=float(weights @ h),
         along_ridges=float(weights @ h**3),
         pressure=pressure,
@@ -122,11 +122,24 @@ def _by_differences(middle: Array, *, closed: bool) -> FlowFactors:
         pressure = float((cubed * (1 + along)).mean())
         shear = float((middle - cubed * sliding).mean())
         shear_couette = float((middle * sliding).mean())
-    return ridges_across(
+    return _ridges_across(
         mean_gap=float(middle.mean()),
         along_ridges=float(cubed.mean()),
         pressure=pressure,
         shear=shear,
         couette=couette,
         shear_couette=shear_couette,
+    )
+
+
+def _ridges_across(
+    *, mean_gap: float, along_ridges: float, pressure: float, shear: float, couette: float, shear_couette: float
+) -> FlowFactors:
+    return FlowFactors(
+        mean_gap=mean_gap,
+        pressure=np.diag([pressure, along_ridges]),
+        shear=np.array([shear, 0.0]),
+        couette=couette,
+        shear_couette=shear_couette,
+        sealed=(pressure == 0, False),
     )
