@@ -32,7 +32,7 @@ POWERS = tuple(range(10, 18))
 BESIDE = 4
 """Nodes fewer than a power of two, so that hardly any falls on a point of the profile."""
 
-RANGE = np.concatenate([np.linspace(0.02, 0.9, 45), 1 - np.geomspace(0.09, 1e-3, 25)])
+RANGE = np.sort(np.concatenate([np.linspace(0.02, 0.9, 45), 1 - np.geomspace(0.09, 1e-3, 25), ALPHAS]))
 SHUFFLES = tuple(range(301, 307))
 REFINED = 2**14
 WAYS = ("sums over the 512 heights", "lines between the 512 points", f"lines, refined to {REFINED} points first")
@@ -108,7 +108,7 @@ def make(name: str, seed: int) -> Array:
 
 def gap(heights: Array, alpha: float) -> Array:
     """Eq. C.12: H = 1 - α r/rmax; ``heights`` have a mean of 0."""
-    return 1 - alpha * heights / heights.max()
+    return np.asarray(1 - alpha * heights / heights.max())
 
 
 def both(factors: FlowFactors) -> tuple[float, float]:

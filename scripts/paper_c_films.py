@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.polynomial import Chebyshev
+from numpy.typing import ArrayLike
 
 from contact.surface import Array
 from rom.cavitation.discretise import Ends
@@ -37,7 +38,8 @@ CLEARANCES = np.geomspace(0.02e-6, 30e-6, 34)
 LOADS = (5e4, 1e5, 2e5, 5e5, 1e6, 2e6, 5e6, 1e7)
 """At which films are put in order, N/m; C.13 of the paper shows up to 10⁶."""
 
-DEGREE = 24
+DEGREE, LOW = 24, 8
+"""Of the polynomials: from near contact to thick films, and over the one micrometre of C.9."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,8 +60,8 @@ class Curve:
     load: Array
     rms: float
 
-    def at(self, loads: Sequence[float]) -> Array:
-        """min h0, m, at loads, N/m; NaN beyond the curve."""
+    def at(self, loads: ArrayLike) -> Array:
+        """The clearance, m, at loads, N/m; NaN beyond the curve."""
         rising = slice(None, None, -1)
         log_load, log_clearance = np.log(self.load[rising]), np.log(self.clearance[rising])
         return np.exp(np.interp(np.log(loads), log_load, log_clearance, left=np.nan, right=np.nan))
@@ -87,7 +89,7 @@ def solved(
     modulus: float = MODULUS,
 ) -> Film:
     """Eq. C.19 with p = pc at both ends, by the solver of films that may cavitate: here none does."""
-    law = ConstantBulkModulus(law="constant_bulk_modulus", bulk_modulus=f"{modulus!r} Pa")
+    law = ConstantBulkModulus.model_validate({"law": "constant_bulk_modulus", "bulk_modulus": f"{modulus!r} Pa"})
     shape = Shape(thickness=lambda x, y: thickness(x) + 0 * y, breaks=(0.0, SPAN), roughness=roughness)
     problem = Problem(shape=shape, ends=Ends(inlet=0.0), speed=SPEED, viscosity=VISCOSITY, compressibility=law)
     found = solve(problem, (cells, 1))
@@ -117,20 +119,24 @@ def over_gap(factors: Sequence[FlowFactors]) -> GapFactors:
     )
 
 
-def tabled(factors: FactorsOverGap, highest: float, clearances: tuple[float, float]) -> FactorsOverGap:
-    """Factors at ``DEGREE`` + 1 mean gaps, by a polynomial between: of their logarithms over that of ĥ - rmax.
+def tabled(
+    factors: FactorsOverGap, highest: float, clearances: tuple[float, float], degree: int = DEGREE
+) -> FactorsOverGap:
+    """Factors at ``degree`` + 1 mean gaps, by a polynomial between: of their logarithms over that of ĥ - rmax.
 
     ``clearances``: the least and the greatest ĥ - rmax, m.
     """
     low, high = np.log(clearances)
-    places = (low + high) / 2 - (high - low) / 2 * np.cos(np.pi * np.arange(DEGREE + 1) / DEGREE)
+    places = (low + high) / 2 - (high - low) / 2 * np.cos(np.pi * np.arange(degree + 1) / degree)
     nodes = highest + np.exp(places)
     at = factors(nodes)
 
     def fit(values: Array) -> Chebyshev:
-        return Chebyshev.fit(places, values, DEGREE, domain=[low, high])
+        return Chebyshev.fit(places, values, degree, domain=[low, high])
 
-    along, across, drag = (fit(np.log(values)) for values in (at.along / nodes**3, at.across / nodes**3, at.drag / nodes))
+    along, across, drag = (
+        fit(np.log(values)) for values in (at.along / nodes**3, at.across / nodes**3, at.drag / nodes)
+    )
     couette, part = fit(np.log(at.couette * nodes)), fit(at.shear_couette / at.couette)
 
     def between(mean_gap: Array) -> GapFactors:
@@ -160,7 +166,7 @@ def loads_by_nodes(heights: Array, nodes: Sequence[int], rule: Rule) -> Array:
     clearances = (5e-6 - top, 6e-6 - top)
     return np.array(
         [
-            solved(wedge(5e-6, DROP["C.9"]), tabled(by_rule(heights, count, rule), top, clearances)).load
+            solved(wedge(5e-6, DROP["C.9"]), tabled(by_rule(heights, count, rule), top, clearances, LOW)).load
             for count in nodes
         ]
     )
@@ -212,7 +218,9 @@ def random_profile(seed: int, *, points: int = 512, roll_off: int = 4) -> Array:
     """Heights of a self-affine profile (H = 0.8) with Ra = 0.1 to 1 µm, bent so that peaks or valleys prevail."""
     random = np.random.default_rng(seed)
     wave = np.arange(points // 2 + 1)
-    waves = np.maximum(wave / roll_off, 1.0) ** -1.3 * (random.normal(size=wave.size) + 1j * random.normal(size=wave.size))
+    waves = np.maximum(wave / roll_off, 1.0) ** -1.3 * (
+        random.normal(size=wave.size) + 1j * random.normal(size=wave.size)
+    )
     waves[0] = 0
     straight = np.fft.irfft(waves, points)
     bend = random.uniform(-0.5, 0.5)
