@@ -115,7 +115,7 @@ def ordered_by_roughness(paper: Paper) -> Claim:
         f"{SHOWN[1] / 1e6:g} MN/m the rougher has the thinner film by: {told}; in one pair the rougher has "
         f"{counter:.2g} times the Ra and the thicker film. Of {alike.clearance.shape[0]} profiles with the same Ra, "
         f"films at {SHOWN[1] / 1e6:g} MN/m differ by {1e6 * spread:.2g} µm, in the order of rmax in "
-        f"{100 * min(within):.1f} % of the pairs. At a load the mean film is fixed, but for second order in Rq over it, "
+        f"{100 * min(within):.1f} % of the pairs. At a load the mean film is fixed but for second order in Rq over it, "
         "and min h0 is that less rmax",
     )
 

@@ -11,7 +11,7 @@ from contact.synthetic.profile import ground_profile
 from contact.synthetic.rearrangement import rearranged
 from rom.homogenization.factors import FlowFactors
 from rom.homogenization.flow_factors import sampled
-from rom.homogenization.line import line_factors
+from rom.homogenization.line import line_factors, profile_over_gap
 from rom.homogenization.line_rules import Rule, line_factors_on
 from scripts.paper_c_films import Curve, Film, Ordering, films, load_curves, loads_by_nodes, peaks, random_ordering
 
@@ -118,7 +118,7 @@ def both(factors: FlowFactors) -> tuple[float, float]:
 
 
 def convergence(profiles: Sequence[Array], alpha: float, powers: Sequence[int]) -> Convergence:
-    """Every rule on 2^k nodes, and on ``BESIDE`` fewer."""
+    """Every rule on 2ᵏ nodes, and on ``BESIDE`` fewer."""
     gaps = [gap(heights, alpha) for heights in profiles]
     return Convergence(
         nodes=2.0 ** np.array(powers),
@@ -133,19 +133,17 @@ def convergence(profiles: Sequence[Array], alpha: float, powers: Sequence[int]) 
     )
 
 
-def over_alpha(heights: Array, take: Callable[[Array], FlowFactors]) -> Array:
-    """φx and φs over ``RANGE``, shape (α, 2)."""
-    return np.array([both(take(gap(heights, alpha))) for alpha in RANGE])
+def by_lines(heights: Array) -> Array:
+    """φx and φs over ``RANGE`` of straight lines, shape (α, 2)."""
+    mean_gap = heights.max() / RANGE
+    found = profile_over_gap(heights)(mean_gap)
+    return np.stack([found.along / mean_gap**3, found.drag / mean_gap], axis=1)
 
 
-def exactly(h: Array) -> FlowFactors:
-    """Of straight lines."""
-    return line_factors(h).factors
-
-
-def by_heights(h: Array) -> FlowFactors:
-    """Sums over the heights."""
-    return line_factors_on(h, h.size, rule=Rule.TRAPEZOID).factors
+def by_heights(heights: Array) -> Array:
+    """φx and φs over ``RANGE`` of sums over the heights, shape (α, 2)."""
+    found = [line_factors_on(gap(heights, alpha), heights.size, rule=Rule.TRAPEZOID) for alpha in RANGE]
+    return np.array([both(one.factors) for one in found])
 
 
 def shuffled(heights: Array, seeds: Sequence[int], refined: int) -> dict[str, Array]:
@@ -153,8 +151,8 @@ def shuffled(heights: Array, seeds: Sequence[int], refined: int) -> dict[str, Ar
     orders = [heights, *(rearranged(heights, seed=seed) for seed in seeds)]
     fine = sampled(heights[:, None], refined, 0)[:, 0]
     finer = [fine, *(rearranged(fine, seed=seed, folds=0) for seed in seeds)]
-    ways = zip(WAYS, (orders, orders, finer), (by_heights, exactly, exactly), strict=True)
-    return {way: np.array([over_alpha(r, take) for r in rows]) for way, rows, take in ways}
+    ways = zip(WAYS, (orders, orders, finer), (by_heights, by_lines, by_lines), strict=True)
+    return {way: np.array([take(r) for r in rows]) for way, rows, take in ways}
 
 
 def compute(
@@ -172,7 +170,7 @@ def compute(
         advance(part, f"integrating over profile {name}")
         for alpha in ALPHAS:
             study[name, alpha] = convergence(made, alpha, powers)
-        factors[name] = np.array([over_alpha(heights, exactly) for heights in made])
+        factors[name] = np.array([by_lines(heights) for heights in made])
         for way, values in shuffled(made[0], SHUFFLES, refined).items():
             orders[name, way] = values
     first = {name: made[0] for name, made in profiles.items()}

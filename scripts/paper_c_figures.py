@@ -23,7 +23,7 @@ FACTORS = ("φx", "φs")
 
 
 def _panels(rows: int, columns: int, height: float = 3.5, *, same: bool = False) -> tuple[Figure, list[Axes]]:
-    figure = Figure(figsize=(5 * columns, height * rows), layout="constrained")
+    figure = Figure(figsize=((5 if columns < 3 else 3.9) * columns, height * rows), layout="constrained")
     return figure, list(figure.subplots(rows, columns, squeeze=False, sharey="row" if same else False).ravel())
 
 
@@ -192,12 +192,13 @@ def c12(paper: Paper) -> Figure:
 def c13(paper: Paper) -> Figure:
     """Films min h0 and Λ over load, the film narrowing by 1 µm: on the paper's axes, and beyond them (right)."""
     figure, (left, middle, right) = _panels(1, 3, 3.9)
+    loads = np.geomspace(LOADS[0], 1e8, 200)
     for name, curves in paper.curves.items():
-        clearance, load = 1e6 * curves[0].clearance, curves[0].load / 1e5
-        left.plot(load, clearance, color=COLOURS[name], label=name, lw=1.6)
-        right.plot(load, clearance, color=COLOURS[name], lw=1.6)
+        clearance = curves[0].at(loads)
+        for axes in (left, right):
+            axes.plot(loads / 1e5, 1e6 * clearance, color=COLOURS[name], label=name, lw=1.6)
         if name != SMOOTH:
-            middle.plot(load, curves[0].clearance / curves[0].rms, color=COLOURS[name], lw=1.6)
+            middle.plot(loads / 1e5, clearance / curves[0].rms, color=COLOURS[name], lw=1.6)
     _range(left, (0, 10), (5, 25), "min h0, µm")
     _range(middle, (0, 10), (0, 130), "Λ")
     right.set_xscale("log")

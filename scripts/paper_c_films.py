@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.polynomial import Chebyshev
 from numpy.typing import ArrayLike
+from scipy.interpolate import PchipInterpolator
 
 from contact.surface import Array
 from rom.cavitation.discretise import Ends
@@ -62,9 +63,8 @@ class Curve:
 
     def at(self, loads: ArrayLike) -> Array:
         """The clearance, m, at loads, N/m; NaN beyond the curve."""
-        rising = slice(None, None, -1)
-        log_load, log_clearance = np.log(self.load[rising]), np.log(self.clearance[rising])
-        return np.exp(np.interp(np.log(loads), log_load, log_clearance, left=np.nan, right=np.nan))
+        through = PchipInterpolator(np.log(self.load[::-1]), np.log(self.clearance[::-1]), extrapolate=False)
+        return np.asarray(np.exp(through(np.log(loads))))
 
 
 @dataclass(frozen=True, kw_only=True)

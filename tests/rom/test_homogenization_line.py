@@ -11,7 +11,7 @@ from contact.synthetic.rearrangement import rearranged
 from rom.homogenization.cell import solve_cell
 from rom.homogenization.exact import sinusoid
 from rom.homogenization.flow_factors import flow_factors
-from rom.homogenization.line import line_factors
+from rom.homogenization.line import line_factors, profile_over_gap
 from rom.homogenization.line_rules import Rule, line_factors_on
 
 PARTS = ("pressure", "shear", "couette", "shear_couette")
@@ -183,6 +183,25 @@ def test_a_film_near_contact_closes_by_its_thinnest_line():
     for least in (1e-4, 1e-6):
         gap = least + 2 * np.abs(np.arange(64) - 32) / 64
         assert line_factors(gap).factors.pressure[0, 0] == pytest.approx(2 * least**2, rel=1e-3)
+
+
+def test_a_profile_over_its_mean_gap():
+    heights = np.random.default_rng(516).normal(size=40) + 7.0
+    highest = heights.max() - heights.mean()
+    mean_gap = highest * np.array([[1.02, 1.5], [4.0, 100.0]])
+    found = profile_over_gap(heights)(mean_gap)
+    for place in np.ndindex(2, 2):
+        one = line_factors(mean_gap[place] - heights + heights.mean()).factors
+        assert found.along[place] == pytest.approx(one.pressure[0, 0], rel=1e-9)
+        assert found.across[place] == pytest.approx(one.pressure[1, 1], rel=1e-12)
+        assert (found.drag[place], found.couette[place]) == pytest.approx((one.shear[0], one.couette), rel=1e-9)
+        assert found.shear_couette[place] == pytest.approx(one.shear_couette, rel=1e-6)
+    assert not found.cross.any()
+    assert not found.drag_across.any()
+    with pytest.raises(InputError, match="walls would touch"):
+        profile_over_gap(heights)(np.array([0.99 * highest]))
+    with pytest.raises(InputError, match="heights: got nan"):
+        profile_over_gap([0.0, math.nan])
 
 
 def test_few_points_have_no_bar():
