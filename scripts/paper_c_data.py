@@ -38,6 +38,10 @@ REFINED = 2**14
 WAYS = ("sums over the 512 heights", "lines between the 512 points", f"lines, refined to {REFINED} points first")
 
 
+PARTS = 7
+"""Of the work: four profiles, loads by nodes, films, random profiles."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Convergence:
     """φx and φs of profiles on N nodes: ``found`` by rule and number of nodes left out, shape (seeds, N, 2).
@@ -197,6 +201,3 @@ def compute(
         curves=curves,
         orderings=random_ordering(random),
     )
-
-
-PARTS = 7
