@@ -67,13 +67,16 @@ def flow_factors(
     Raises
     ------
     InputError
-        For a gap that is no array of at least 2 x 2 finite numbers, is below 0 anywhere or closed everywhere.
+        For a gap that is no array of at least 2 x 2 finite numbers, is below 0 anywhere or closed everywhere; for an
+        offset below 0.
     ConvergenceError
         If a cell problem does not meet the tolerance.
 
     Each grid begins from the correctors of the coarser one, which are nearer than those of a gap 10 % wider are. Second
     order in the spacing where the gap is smooth and open, near first order at the edges of contact.
     """
+    if not 0 <= offset < np.inf:
+        raise InputError(f"offset: got {offset!r} m; give 0 or more")
     h = checked_gap(gap, spacing) + offset
     cells: list[Cell] = []
     grids = coarser_grids(h, spacing)
