@@ -23,8 +23,8 @@ FIRST = 9
 MOST = 400
 """Points; no surface that is resolved takes more."""
 
-NEGLIGIBLE = 1e-4
-"""Of a smooth film's: by so much more a factor may always be off, for it lets next to nothing through."""
+NEGLIGIBLE, LITTLE = 1e-4, 1e-2
+"""Of a smooth film's: flow that pressure drives, and that sliding carries, below which errors are over this instead."""
 
 THICK = 16.0
 """Times the rms height: the first guess of where a film is so thick that roughness counts by its mean square alone."""
@@ -49,7 +49,7 @@ def tabulate(
     ----------
     heights : of one period, shape (nx, ny), m, upward, towards the flat wall.
     spacing : (dx, dy), m.
-    tolerance : of A over √(A_ii A_jj), of B over B₁, and without contact of d and e over d: what interpolation may add.
+    tolerance : of A over √(A_ii A_jj), of B over |B|, and without contact of d and e over d: what interpolation may add.
         In contact d has no limit to be near to: at an edge <1/h> grows with the logarithm of the nodes.
     known : points by separation that need not be solved again.
     keep : called with every new point.
@@ -127,6 +127,7 @@ def _beyond(table: FactorTable, point: Point) -> float:
     a = doubt.pressure / h**3
     unsure = np.array([a[0, 0], a[1, 1], a[0, 1], *(doubt.shear / h), 0, 0])
     rub = np.inf if point.contact > 0 else row[5]
-    size = np.array([row[0], row[1], np.sqrt(row[0] * row[1]), row[3], row[3], rub, rub]) + NEGLIGIBLE
+    carried = np.hypot(row[3], row[4]) + LITTLE
+    size = np.array([row[0], row[1], np.sqrt(row[0] * row[1]), carried, carried, rub, rub]) + NEGLIGIBLE
     off = np.abs(told_rows(table, np.array([h]))[0] - row)
     return float(np.max(np.where(off > unsure, off / size, 0.0)))
