@@ -22,8 +22,8 @@ class Averaged:
     drag : B₁ of the nodes, m.
     cross : A₁₂ of the cells between (i, j) and (i+1, j+1), m³; 0 behind the last node.
     drag_across : B₂ of the faces towards j+1, m.
-    rub, rub_empty : friction over ηu of the faces towards i+1, 1/m: d + 3e where they are full; d - e in a cavity, where
-        no pressure adds to it, exact for ridges along and across.
+    rub, rub_empty : friction over ηu of the faces towards i+1, 1/m: d + 3e where they are full, d - e in a cavity,
+        where no pressure adds to it (exact for ridges along and across).
     """
 
     drag: Array
