@@ -46,7 +46,7 @@ def resolving(scene: Bearing) -> int:
 
 
 def rough_resolutions(scene: Bearing) -> tuple[int, ...]:
-    """Cells from coarse to fine: those that resolve the waves and multiples of them, or as many as a smooth film has."""
+    """Cells from coarse to fine: those that resolve the waves and multiples of them, at least as a smooth film has."""
     smooth = WIDE if scene.wide else PLANE
     if scene.roughness is None:
         return smooth

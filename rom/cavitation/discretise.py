@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from math import sqrt
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contact.errors import InputError
 from rom.cavitation.averaged import Averaged, averaged
@@ -171,12 +172,20 @@ def network(
         storage=grid.areas * faces.thickness / step,
         stored=grid.areas * stored / step,
         periodic=(bool(grid.spacing_x[-1]), bool(grid.spacing_y[-1])),
-        oblique=_oblique(grid, faces, north, speed, viscosity, compressibility, supplied=supply is not None),
+        oblique=_oblique(grid, faces, north, fixed, speed, viscosity, compressibility, supplied=supply is not None),
     )
 
 
 def _oblique(
-    grid: Grid, faces: Faces, north: Array, speed: float, viscosity: float, compressibility: float, *, supplied: bool
+    grid: Grid,
+    faces: Faces,
+    north: Array,
+    fixed: NDArray[np.bool_],
+    speed: float,
+    viscosity: float,
+    compressibility: float,
+    *,
+    supplied: bool,
 ) -> Oblique | None:
     """What a slanting lay adds in the plane, if there is one; nothing drifts along a line that an inlet feeds."""
     rough = faces.averaged
@@ -192,5 +201,10 @@ def _oblique(
         upstream = np.maximum(0.5, 1 - north / (np.abs(drift) * compressibility))
     upstream[drift * compressibility == 0] = 0.5
     return Oblique(
-        cross=rough.cross / (12 * viscosity), drift=drift, upstream=upstream, periodic=bool(grid.spacing_x[-1])
+        cross=rough.cross / (12 * viscosity),
+        drift=drift,
+        upstream=upstream,
+        torn=rough.torn_across,
+        fixed=fixed,
+        periodic=bool(grid.spacing_x[-1]),
     )

@@ -73,7 +73,7 @@ class Network:
             excess, excess_slope, mobility, _ = laws
             balance, centre, _, _, south, north = parts
             flows = self.oblique.flows(mobility, pressure, fill, excess)
-            self.oblique.linearise(kind, flows, excess_slope, (balance, centre, south, north))
+            self.oblique.linearise(kind, fill, flows, excess_slope, (balance, centre, south, north))
         return largest
 
     def conductance(self, mobility: Array) -> tuple[Array, Array]:

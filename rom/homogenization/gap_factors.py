@@ -15,6 +15,7 @@ class GapFactors:
     along, across, cross : A₁₁, A₂₂ and A₁₂ = A₂₁, m³; 0 where no open path leads through.
     drag, drag_across : B₁ and B₂, m.
     couette, shear_couette : d and e, 1/m.
+    least : the least gap, m; 0 where the walls touch.
     """
 
     along: Array
@@ -24,6 +25,7 @@ class GapFactors:
     drag_across: Array
     couette: Array
     shear_couette: Array
+    least: Array
 
 
 class FactorsOverGap(Protocol):

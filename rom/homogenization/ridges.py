@@ -51,6 +51,7 @@ def sinusoidal_ridges(amplitude: float, direction: float) -> FactorsOverGap:
             drag_across=(carried - h) * along * across,
             couette=inverse,
             shear_couette=along**2 * (inverse - carried * square),
+            least=h - amplitude,
         )
 
     return factors

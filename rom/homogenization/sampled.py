@@ -16,10 +16,14 @@ NARROWEST, WIDEST = 0.5, 30.0
 
 @dataclass(frozen=True, kw_only=True)
 class SampledFactors:
-    """``values`` over ln(mean gap): A₁₁, A₂₂ and A₁₂ over ĥ³, B₁ and B₂ over ĥ, d ĥ, e ĥ; ``widest`` of the gaps."""
+    """``values`` over ln(mean gap): A₁₁, A₂₂ and A₁₂ over ĥ³, B₁ and B₂ over ĥ, d ĥ, e ĥ; ``widest`` of the gaps, m.
+
+    ``peak`` is the greatest height above the mean, m.
+    """
 
     values: PchipInterpolator
     widest: float
+    peak: float
     scale: float = 1.0
 
     def scaled(self, factor: float) -> "SampledFactors":
@@ -42,6 +46,7 @@ class SampledFactors:
             drag_across=drag_across * h,
             couette=couette / h,
             shear_couette=shear_couette / h,
+            least=np.maximum(h - self.peak * self.scale, 0.0),
         )
 
 
@@ -61,4 +66,5 @@ def sampled_factors(heights: Array, spacing: tuple[float, float], samples: int =
                 factors.shear_couette * h,
             ]
         )
-    return SampledFactors(values=PchipInterpolator(np.log(gaps), np.array(rows), axis=0), widest=gaps[-1])
+    values = PchipInterpolator(np.log(gaps), np.array(rows), axis=0)
+    return SampledFactors(values=values, widest=gaps[-1], peak=float(above.max()))

@@ -117,6 +117,7 @@ def constant(mean_gap):
         drag_across=FILM / 2 * one,
         couette=one / FILM,
         shear_couette=0 * one,
+        least=one * FILM / 4,
     )
 
 
