@@ -24,8 +24,8 @@ def bearing_quantities(scene: Bearing, found: Solution) -> dict[str, Quantity]:
     Pressures count from ambient. Per width of the bearing, along the sliding at the line of the greatest pressure:
     ``film_start`` and ``rupture`` are where the first film begins and the last one ends, x/L from the inlet; both are 1
     where there is none. Friction is that of the liquid, F = ∫(η ξ u/h + h/2 ∂p/∂x) dA, where the filled part ξ of a
-    cavity is in streamers from wall to wall; of averaged roughness F = ∫(η u (ξ (d - e) + 4 g e) + B·∇p/2) dA, with the
-    wetness g of its tips as :mod:`rom.cavitation.oblique` has it, 1 in a film.
+    cavity is in streamers from wall to wall; of averaged roughness F = ∫(ηu (g (d + 3e) + (ξ - g) B₁ <h⁻²>)
+    + B·∇p/2) dA with the wetness g of its tips as :mod:`rom.cavitation.oblique` has it, 1 in a film.
     """
     grid, pc = found.grid, scene.lubricant.cavitation_pressure
     pressure = found.state.pressure + pc
@@ -101,9 +101,8 @@ def friction(found: Solution) -> float:
 
 
 def _rub(rough: Averaged, fill: Array) -> Array:
-    """Friction over ηu of averaged roughness, 1/m: d + 3e in a film, ξ(d - e) where no tip is wet."""
-    wet = wetness(fill, rough.torn)
-    return np.asarray(fill * (rough.couette - rough.shear_couette) + 4 * wet * rough.shear_couette)
+    """Friction over ηu of averaged roughness, 1/m: d + 3e in a film, that of streamers where no tip is wet."""
+    return np.asarray(fill * rough.streaming + wetness(fill, rough.torn) * (rough.wet - rough.streaming))
 
 
 def _towards(grid: Grid) -> Array:

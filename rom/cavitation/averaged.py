@@ -22,7 +22,7 @@ class Averaged:
     drag : B₁ of the nodes, m.
     cross : A₁₂ of the cells between (i, j) and (i+1, j+1), m³; 0 behind the last node.
     drag_across : B₂ of the faces towards j+1, m.
-    couette, shear_couette : d and e of the faces towards i+1, 1/m.
+    wet, streaming : friction over ηu of the faces towards i+1, 1/m: d + 3e of a film, and, times ξ, that of streamers.
     torn : of the faces towards i+1, the filled part below which no film is left on the tips of the roughness: there the
         liquid goes as far as the least gap lets it, ξ B₁ = min h.
     torn_across : the same of the faces towards j+1.
@@ -31,8 +31,8 @@ class Averaged:
     drag: Array
     cross: Array
     drag_across: Array
-    couette: Array
-    shear_couette: Array
+    wet: Array
+    streaming: Array
     torn: Array
     torn_across: Array
 
@@ -59,8 +59,8 @@ def averaged(shape: Shape, roughness: FactorsOverGap, grid: Grid) -> Averaged:
         drag=np.mean([at(side, y).drag for side in sides], axis=0),
         cross=cross,
         drag_across=drag_across,
-        couette=ahead.couette,
-        shear_couette=ahead.shear_couette,
+        wet=ahead.couette + 3 * ahead.shear_couette,
+        streaming=ahead.streaming,
         torn=_torn(ahead),
         torn_across=torn_across,
     )

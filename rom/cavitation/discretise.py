@@ -123,6 +123,7 @@ def network(
     viscosity: float,
     compressibility: float,
     storage: tuple[float, Array] | None = None,
+    ruptures: bool = True,
 ) -> Network:
     """The network of a film.
 
@@ -132,6 +133,7 @@ def network(
     viscosity : at the pressure of cavitation, Pa s.
     compressibility : dθ/dp at the pressure of cavitation, 1/Pa.
     storage : of transient flow: the time step, s, and θh of the step before, m, shape (nx, ny).
+    ruptures : whether the film ruptures at the pressure of cavitation.
 
     Raises InputError for a film joined in y whose roughness is averaged.
     """
@@ -160,6 +162,13 @@ def network(
             supply[[0, -1]] = 0
     if supply is not None:
         north[0] = 0
+    lay = _oblique(grid, faces, north, fixed, speed, viscosity, compressibility, supplied=supply is not None)
+    spills = (False, False)
+    if lay is not None and ruptures and ends.sides is not None:
+        spills = (ends.sides[0] <= 0, ends.sides[1] <= 0)
+        within = slice(None) if grid.spacing_x[-1] else slice(1, -1)
+        for j, empties in zip((0, -1), spills, strict=True):
+            fixed[within, j] &= not empties
     step, stored = (np.inf, np.zeros((nx, ny))) if storage is None else storage
     return Network(
         couette=couette,
@@ -172,7 +181,8 @@ def network(
         storage=grid.areas * faces.thickness / step,
         stored=grid.areas * stored / step,
         periodic=(bool(grid.spacing_x[-1]), bool(grid.spacing_y[-1])),
-        oblique=_oblique(grid, faces, north, fixed, speed, viscosity, compressibility, supplied=supply is not None),
+        oblique=lay,
+        spills=spills,
     )
 
 

@@ -16,9 +16,9 @@ NARROWEST, WIDEST = 0.5, 30.0
 
 @dataclass(frozen=True, kw_only=True)
 class SampledFactors:
-    """``values`` over ln(mean gap): A₁₁, A₂₂ and A₁₂ over ĥ³, B₁ and B₂ over ĥ, d ĥ, e ĥ; ``widest`` of the gaps, m.
+    """``values`` over ln(mean gap): A₁₁, A₂₂ and A₁₂ over ĥ³, B₁ and B₂ over ĥ, d ĥ, e ĥ, B₁ <h⁻²> ĥ.
 
-    ``peak`` is the greatest height above the mean, m.
+    ``widest`` is the widest of the gaps, ``peak`` the greatest height above the mean, m.
     """
 
     values: PchipInterpolator
@@ -34,10 +34,10 @@ class SampledFactors:
         """Beyond the widest gap what roughness does falls with its square; below the narrowest it is as there."""
         h = np.asarray(mean_gap, dtype=float)
         inside = np.clip(h / self.scale, np.exp(self.values.x[0]), self.widest)
-        smooth = np.array([1.0, 1, 0, 1, 0, 1, 0])
+        smooth = np.array([1.0, 1, 0, 1, 0, 1, 0, 1])
         share = (inside * self.scale / np.maximum(h, inside * self.scale)) ** 2
         found = smooth + (self.values(np.log(inside)) - smooth) * share[..., None]
-        along, across, cross, drag, drag_across, couette, shear_couette = np.moveaxis(found, -1, 0)
+        along, across, cross, drag, drag_across, couette, shear_couette, streaming = np.moveaxis(found, -1, 0)
         return GapFactors(
             along=along * h**3,
             across=across * h**3,
@@ -46,6 +46,7 @@ class SampledFactors:
             drag_across=drag_across * h,
             couette=couette / h,
             shear_couette=shear_couette / h,
+            streaming=streaming / h,
             least=np.maximum(h - self.peak * self.scale, 0.0),
         )
 
@@ -55,7 +56,8 @@ def sampled_factors(heights: Array, spacing: tuple[float, float], samples: int =
     above = heights - heights.mean()
     gaps, rows = [], []
     for separation in float(above.max()) * np.geomspace(NARROWEST, WIDEST, samples):
-        factors = flow_factors(np.maximum(separation - above, 0.0), spacing).factors
+        gap = np.maximum(separation - above, 0.0)
+        factors = flow_factors(gap, spacing).factors
         a, b, h = factors.pressure, factors.shear, factors.mean_gap
         gaps.append(h)
         rows.append(
@@ -64,6 +66,7 @@ def sampled_factors(heights: Array, spacing: tuple[float, float], samples: int =
                 *(b / h),
                 factors.couette * h,
                 factors.shear_couette * h,
+                (factors.couette if (gap == 0).any() else b[0] * float((gap**-2).mean())) * h,
             ]
         )
     values = PchipInterpolator(np.log(gaps), np.array(rows), axis=0)
