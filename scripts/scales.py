@@ -21,6 +21,7 @@ from scripts.paper_a_claims import Claim
 from scripts.scales_data import (
     DRAWN,
     IN_PLANE,
+    NARROW_INLET,
     OF_SURFACE,
     PHASES,
     RATIOS,
@@ -34,8 +35,8 @@ from scripts.scales_data import (
     solve,
 )
 
-GOOD = 0.01
-"""What a claim of good correspondence is taken to promise: a hundredth."""
+GOOD, WAVES = 0.01, 0.02
+"""Errors that are good: of load and friction, and of pressure at its worst place, where it waves about the average."""
 
 SOURCES_RATIO = 2.0**-8
 
@@ -44,15 +45,15 @@ def judge(study: Study) -> Claim:
     """Claim 13, by the largest errors over all phases at the ratio that it names."""
     number = study.ratios.index(SOURCES_RATIO)
     pressure, load, friction = (study.worst(name)[number] for name in ("pressure", "load", "friction"))
-    good = [ratio for ratio, error in zip(study.ratios, study.worst("pressure"), strict=True) if error <= GOOD]
-    verdict = "true" if pressure <= GOOD else "partly" if load <= GOOD else "false"
+    good = [ratio for ratio, error in zip(study.ratios, study.worst("pressure"), strict=True) if error <= WAVES]
+    verdict = "false" if max(load, friction) > GOOD else "true" if pressure <= WAVES else "partly"
     return Claim(
         number=13,
         text="Homogenized pressure is good already at ε = 2⁻⁸ (0.4 mm of 0.1 m)",
         verdict=verdict,
         evidence=(
             f"at ε = 2⁻⁸, whatever the phase of the waves, pressure is within {100 * pressure:.2g} % of its maximum, "
-            f"load within {100 * load:.2g} %, friction within {100 * friction:.2g} %; pressure is within 1 % up to ε = "
+            f"load within {100 * load:.2g} %, friction within {100 * friction:.2g} %; pressure is within {100 * WAVES:.0f} % up to ε = "
             f"{max(good, default=0):.2g}, and the errors fall as ε^{study.rate('pressure'):.2f} (pressure) and "
             f"ε^{study.rate('load'):.2f} (load)"
         ),
@@ -61,7 +62,11 @@ def judge(study: Study) -> Claim:
 
 @in_one_line
 def command(
-    out: Annotated[Path, typer.Option(help="The page, its figures and the numbers go here.")], as_json: AsJson = False
+    out: Annotated[Path, typer.Option(help="The page, its figures and the numbers go here.")],
+    surfaces: Annotated[
+        Path | None, typer.Option(envvar="ROUGHFILM_SURFACES", help="The folder of measured surfaces, if there is one.")
+    ] = None,
+    as_json: AsJson = False,
 ) -> None:
     """Follow every wave and average them all, over the length of the waves, and write scales.html."""
     from scripts import scales_figures  # matplotlib is slow to import
@@ -73,12 +78,13 @@ def command(
         bar(1, "slanting ridges on a pad")
         slanting = pairs(pad, "ridges at 45° on a square pad", IN_PLANE, PHASES[::2])
         bar(2, "a measured surface")
-        cell = measured(Path(scratch))
+        cell = measured(surfaces, Path(scratch))
         studies = [across, slanting]
         if cell is not None:
             studies.append(
                 pairs(lambda ratio, phase: over(cell, ratio, phase), f"measured: {SURFACE}", OF_SURFACE, (0.0,))
             )
+        starved = pairs(lambda ratio, phase: slider(ratio, phase, "0 Pa"), "", (SOURCES_RATIO,), (NARROW_INLET,))
         bar(3, "figures")
         averaged = solve(slider(DRAWN[0], 0.0), "homogenized")
         drawn = {ratio: solve(slider(ratio, 0.0), "direct") for ratio in DRAWN}
@@ -91,13 +97,21 @@ def command(
         "rates": {
             s.title: {name: s.rate(name, min(4, len(s.ratios))) for name in ("load", "friction")} for s in studies
         },
+        "starved": asdict(starved.pairs[0]),
         "measured": cell is not None,
         "provenance": circumstances(),
     }
     with replacing(out / "scales.json") as file:
         file.write_text(json.dumps(told, indent=1) + "\n", encoding="utf-8")
     render(
-        "scales.html.j2", out / "scales.html", plots=plots, claim=claim, studies=studies, surface=SURFACE, measured=cell
+        "scales.html.j2",
+        out / "scales.html",
+        plots=plots,
+        claim=claim,
+        studies=studies,
+        starved=starved.pairs[0],
+        surface=SURFACE,
+        measured=cell,
     )
     if as_json:
         print_json({**told, "report": str(out / "scales.html")})

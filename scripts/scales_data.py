@@ -1,6 +1,5 @@
 """Rough films with every wave followed, beside the same with all of them averaged, over the length of the waves."""
 
-import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,12 +18,18 @@ from rom.scene import load_scene, read_scene, scene_entries
 from scripts.common import models
 
 SCENES = Path(__file__).parent / "scenes"
-MEASURED = Path(__file__).parent.parent.parent / "shared" / "surfaces"
-"""Instrument files that are not the project's own; ROUGHFILM_SURFACES may name another place."""
-
 SURFACE = "ground_striated.x3p"
 ROUGHNESS = 0.1
 """Rms height of the measured surface over the least film, to which its heights are scaled."""
+
+MODULUS = "1 GPa"
+"""The source prints 10⁹ GPa; with 1 GPa pressures are those of its figure, with 10 GPa a fifth higher."""
+
+NEVER = "-0.2 GPa"
+"""A pressure of cavitation that no film here comes to; a constant bulk modulus knows no zero of pressure."""
+
+NARROW_INLET = 270.0
+"""The phase that puts the narrowest place of a wave at the inlet, degrees."""
 
 RATIOS = tuple(2.0**-k for k in range(9))
 IN_PLANE = tuple(2.0**-k for k in range(1, 6))
@@ -94,11 +99,11 @@ def solve(scene: Any, name: str) -> Result:
     return rung.solve(scene, resolution=rung.resolutions_of(scene)[0] if coarse else None)
 
 
-def slider(ratio: float, phase: float) -> Any:
-    """The film of Fig. C.3."""
-    return load_scene(
-        SCENES / "rough_slider.toml", [f"roughness.wavelength={0.1 * ratio!r} m", f"roughness.phase={phase!r} deg"]
-    )
+def slider(ratio: float, phase: float, cavitation: str = NEVER) -> Any:
+    """The film of Fig. C.3; the source's bears any tension."""
+    waves = [f"roughness.wavelength={0.1 * ratio!r} m", f"roughness.phase={phase!r} deg"]
+    oil = [f"lubricant.compressibility.bulk_modulus={MODULUS}", f"lubricant.cavitation_pressure={cavitation}"]
+    return load_scene(SCENES / "rough_slider.toml", [*oil, *waves])
 
 
 def pad(ratio: float, phase: float) -> Any:
@@ -159,10 +164,10 @@ def line(found: Result) -> tuple[Array, Array]:
     return found.fields["x"].values[:, 0], found.fields["pressure"].values[:, 0]
 
 
-def measured(directory: Path, name: str = SURFACE, points: int = 64) -> Path | None:
-    """The measured surface as a periodic cell of so many points a side, in a file; None where it is absent."""
-    source = Path(os.environ.get("ROUGHFILM_SURFACES", MEASURED)) / name
-    if not source.is_file():
+def measured(surfaces: Path | None, directory: Path, name: str = SURFACE, points: int = 64) -> Path | None:
+    """A measured surface as a periodic cell of so many points a side, in a file; None where it is absent."""
+    source = surfaces and surfaces / name
+    if source is None or not source.is_file():
         return None
     recipe = Recipe(grid=Grid(points=(points, points)))
     cell = prepare(read_surface(source), recipe).surface
