@@ -8,6 +8,7 @@ from contact.units import Quantity
 from rom.bearing import Bearing
 from rom.bearing_geometry import Journal
 from rom.cavitation.balance import CAVITY, FILM
+from rom.cavitation.grid import Grid
 from rom.cavitation.solve import Solution
 from rom.gap import Array
 
@@ -21,7 +22,7 @@ def bearing_quantities(scene: Bearing, found: Solution) -> dict[str, Quantity]:
     Pressures count from ambient. Per width of the bearing, along the sliding at the line of the greatest pressure:
     ``film_start`` and ``rupture`` are where the first film begins and the last one ends, x/L from the inlet; both are 1
     where there is none. Friction is that of the liquid, F = ∫(η ξ u/h + h/2 ∂p/∂x) dA, where the filled part ξ of a
-    cavity is in streamers from wall to wall.
+    cavity is in streamers from wall to wall; of averaged roughness F = ∫(η ξ u (d + 3e) + B·∇p/2) dA.
     """
     grid, pc = found.grid, scene.lubricant.cavitation_pressure
     pressure = found.state.pressure + pc
@@ -69,7 +70,8 @@ def density_ratio(found: Solution) -> Array:
 
 def _carried(found: Solution) -> Array:
     """How full each node is by what flows out of it."""
-    thickness, mean = found.faces.thickness, found.faces.mean
+    mean, rough = found.faces.mean, found.faces.averaged
+    thickness = found.faces.thickness if rough is None else rough.drag
     return np.asarray(found.state.fill * np.where(mean > 0, mean, thickness) / thickness)
 
 
@@ -82,11 +84,22 @@ def friction(found: Solution) -> float:
     fill = found.state.fill
     if problem.ends.sides is not None:  # the line where the bath begins is no part of the film
         fill = np.pad(fill[:, 1:-1], ((0, 0), (1, 1)), mode="edge")
+    rough = found.faces.averaged
     with np.errstate(divide="ignore", invalid="ignore"):
-        shear = np.where(mean > 0, problem.viscosity * speed * fill / mean, 0.0)
+        rub = 1 / mean if rough is None else np.where(found.kind == CAVITY, rough.rub_empty, rough.rub)
+        shear = np.where(mean > 0, problem.viscosity * speed * fill * rub, 0.0)
     shear = shear * (1 / fluidity + np.roll(1 / fluidity, -1, axis=0)) / 2
     rise = np.roll(found.state.pressure, -1, axis=0) - found.state.pressure
-    return float((grid.share_y * (shear * stretch + mean / 2 * rise)).sum())
+    along = float((grid.share_y * (shear * stretch + mean / 2 * rise)).sum())
+    if rough is None or grid.shape[1] == 1:
+        return along
+    climb = found.state.pressure[:, 1:] - found.state.pressure[:, :-1]
+    return along + float((grid.share_x[:, None] * _towards(grid) * rough.drag_across[:, :-1] / 2 * climb).sum())
+
+
+def _towards(grid: Grid) -> Array:
+    """The radius at the faces towards j+1, shape (ny - 1,)."""
+    return (grid.radius[1:] + grid.radius[:-1]) / 2
 
 
 def flow_along(found: Solution) -> Array:
@@ -97,7 +110,15 @@ def flow_along(found: Solution) -> Array:
     ahead = np.roll(excess, -1, axis=0)
     drift = net.couette * (state.fill + net.upstream * excess + (1 - net.upstream) * ahead)
     rise = np.roll(state.pressure, -1, axis=0) - state.pressure
-    return np.asarray(drift - east * rise)
+    return np.asarray(drift - east * rise + (0.0 if net.oblique is None else _slanting(found)[0]))
+
+
+def _slanting(found: Solution) -> tuple[Array, Array]:
+    """What a slanting lay adds to the flows towards i + 1 and j + 1, m³/s."""
+    assert found.network.oblique is not None
+    state, problem = found.state, found.problem
+    excess, mobility = problem.compression(state.pressure)[0], problem.mobility(state.pressure)[0]
+    return found.network.oblique.flows(mobility, state.pressure, state.fill, excess)
 
 
 def inlet_flow(found: Solution) -> float:
@@ -117,6 +138,8 @@ def side_leakage(found: Solution) -> float:
     net, state = found.network, found.state
     north = net.conductance(found.problem.mobility(state.pressure)[0])[1]
     flow = -north[:, :-1] * np.diff(state.pressure, axis=1)
+    if net.oblique is not None:
+        flow = flow + _slanting(found)[1][:, :-1]
     if not net.periodic[0]:
         flow = flow[1:-1]
     return float((flow[:, -1] - flow[:, 0]).sum()) if not net.periodic[1] else 0.0

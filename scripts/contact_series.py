@@ -3,11 +3,8 @@
 import math
 import os
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
 from dataclasses import asdict
 from enum import StrEnum
-from glob import escape as escape_pattern
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -16,7 +13,6 @@ from rich.markup import escape
 from rich.table import Table
 
 from contact.errors import InputError
-from contact.files import locked, replacing
 from contact.mechanics.contact_store import UNITS, Inputs, Row
 from contact.mechanics.press import TOLERANCE, Press
 from contact.mechanics.solid import Solid, composite_modulus
@@ -27,6 +23,7 @@ from scripts.common import AsJson, in_one_line, messages, output, print_json, pr
 from scripts.contact_models import SOLVED, SOURCES, WITHOUT_HARDNESS, Model, chosen, estimator
 from scripts.contact_run import Series, Solver, estimated, solved
 from scripts.load_range import loads_of
+from scripts.output_file import alone, refuse_unwritable
 from scripts.rough_surface import Rough, read_rough, spacing_of
 from scripts.surface import refuse_same
 
@@ -89,8 +86,8 @@ def command(
     stiffness = composite_modulus(body, counter)
     periodic = boundary is Boundary.PERIODIC
     for path in filter(None, (out, report)):
-        _try(path)
-    with _alone(out), progress_bar(len(asked) + 1) as advance:
+        refuse_unwritable(path)
+    with alone(out, "series"), progress_bar(len(asked) + 1) as advance:
         advance(0, f"reading {surface.name}")
         otherwise = ", --boundary free takes it as it stands"
         rough = read_rough(surface, spacing_of(spacing), periodic=periodic, otherwise=otherwise)
@@ -175,29 +172,6 @@ def _refuse(rung: Model, boundary: Boundary, asked: tuple[float, ...], hardness:
         )
     if boundary is Boundary.FREE and (rung not in SOLVED or rung is Model.STANLEY_KATO):
         raise InputError(f"--boundary free: {rung} knows no edges; take --model elastic or elastic_plastic")
-
-
-class _OnlyTriedError(Exception):
-    """Leaves a file unwritten."""
-
-
-def _try(path: Path) -> None:
-    """InputError if a file cannot be written there; nothing is."""
-    with suppress(_OnlyTriedError), replacing(path):
-        raise _OnlyTriedError
-
-
-@contextmanager
-def _alone(out: Path | None) -> Iterator[None]:
-    """Hold the file against another series that goes into it, and remove what one that was killed was writing."""
-    if out is None:
-        yield
-        return
-    told = f"--out {out}: another series goes into it (process {{process}}); wait for it or choose another place"
-    with locked(out.with_name(f".{out.name}.lock"), told):
-        for left in out.parent.glob(f".{escape_pattern(out.stem)}-????????{escape_pattern(out.suffix)}"):
-            left.unlink(missing_ok=True)
-        yield
 
 
 def _spaced(loads: tuple[float, ...]) -> tuple[float, ...]:

@@ -1,4 +1,4 @@
-"""Heights whose mean distance, rms, skewness and kurtosis are all given."""
+"""Heights whose mean distance, rms, skewness and kurtosis are all given, and the highest where it is too."""
 
 from dataclasses import dataclass
 
@@ -12,7 +12,7 @@ from contact.surface import Array
 from contact.synthetic.checks import length, number_between, whole_between
 
 ORDER = 6
-"""Of the polynomial by which the distribution departs from the normal one: three conditions and room to be smooth."""
+"""Of the polynomial by which the distribution departs from the normal one: up to four conditions, and room."""
 
 FEWEST, MOST = 32, 1_000_000
 CLOSE = 1e-8
@@ -29,6 +29,7 @@ class FourMoments:
     rms : Rq, m.
     skewness : Rsk.
     kurtosis : Rku, 3 for normal heights.
+    peak : Rp, m, from the mean to the highest; where it is not given, what the others make of it.
 
     Raises
     ------
@@ -40,6 +41,7 @@ class FourMoments:
     rms: float
     skewness: float
     kurtosis: float
+    peak: float | None = None
 
     def __post_init__(self) -> None:
         length("heights.rms", self.rms)
@@ -47,6 +49,8 @@ class FourMoments:
         number_between("heights.skewness", self.skewness, -10, 10, "it must be -10 to 10")
         least = 1 + self.skewness**2
         number_between("heights.kurtosis", self.kurtosis, least, 200, f"it must be {least:.6g}, 1 + Rsk², to 200")
+        if self.peak is not None:
+            length("heights.peak", self.peak)
 
 
 def heights_with(moments: FourMoments, count: int) -> Array:
@@ -90,7 +94,8 @@ def heights_with(moments: FourMoments, count: int) -> Array:
     def missed(b: Array) -> Array:
         z = scaled(b)
         found = np.abs(z).mean() * moments.rms / moments.average - 1, np.mean(z**4) / moments.kurtosis - 1
-        return np.array([found[0], np.mean(z**3) - moments.skewness, found[1]])
+        highest = [] if moments.peak is None else [z[-1] * moments.rms / moments.peak - 1]
+        return np.array([found[0], np.mean(z**3) - moments.skewness, found[1], *highest])
 
     found = minimize(
         lambda b: float(weights @ b**2),
@@ -102,8 +107,9 @@ def heights_with(moments: FourMoments, count: int) -> Array:
     ).x
     heights = moments.rms * scaled(found)
     if not np.abs(missed(found)).max() < CLOSE or not (np.diff(heights) > 0).all():
+        highest = "" if moments.peak is None else f", Rp/Rq {moments.peak / moments.rms:.4g}"
         raise InputError(
             f"heights: got Ra/Rq {moments.average / moments.rms:.4g}, Rsk {moments.skewness:.4g}, Rku "
-            f"{moments.kurtosis:.4g}, which no smooth distribution was found for; normal heights have 0.798, 0, 3"
+            f"{moments.kurtosis:.4g}{highest}, which no smooth distribution was found for; normal ones have 0.798, 0, 3"
         )
     return heights

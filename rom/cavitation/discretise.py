@@ -5,8 +5,11 @@ from math import sqrt
 
 import numpy as np
 
+from contact.errors import InputError
+from rom.cavitation.averaged import Averaged, averaged
 from rom.cavitation.grid import Grid
 from rom.cavitation.network import Network
+from rom.cavitation.oblique import Oblique
 from rom.cavitation.shape import Shape
 from rom.gap import Array
 
@@ -42,13 +45,15 @@ class Faces:
     """The film between neighbouring nodes, shape (nx, ny): what does not change with speed, ends or pressure.
 
     ``thickness`` of the nodes, m; ``mean`` = <h⁻²>/<h⁻³> between (i, j) and (i+1, j), which drives as much flow through
-    the face as the film does; ``east`` and ``north``: <h⁻³>⁻¹, m³, towards i+1 and j+1.
+    the face as the film does; ``east`` and ``north``: <h⁻³>⁻¹, m³, towards i+1 and j+1. Where roughness is averaged,
+    1/A₁₁ and 1/A₂₂ stand for h⁻³, B₁/A₁₁ for h⁻², and ``averaged`` is what else there is of it.
     """
 
     thickness: Array
     mean: Array
     east: Array
     north: Array
+    averaged: Averaged | None = None
 
 
 def faces(shape: Shape, grid: Grid) -> Faces:
@@ -65,10 +70,9 @@ def faces(shape: Shape, grid: Grid) -> Faces:
     for strip in strips:
         squared, cubed = np.zeros((last, ny)), np.zeros((last, ny))
         for point in GAUSS:
-            inverse = 1 / shape.thickness(*np.broadcast_arrays(x + (0.5 + point) * dx, strip))
-            square = inverse * inverse
+            square, cube = _resistance(shape, *np.broadcast_arrays(x + (0.5 + point) * dx, strip))
             squared += square
-            cubed += square * inverse
+            cubed += cube
         mean[:last] += squared / cubed / len(strips)
         east[:last] += len(GAUSS) / cubed / len(strips)
     if ny > 1:
@@ -78,9 +82,27 @@ def faces(shape: Shape, grid: Grid) -> Faces:
             cubed = np.zeros((nx, last))
             for point in GAUSS:
                 place = np.broadcast_arrays(grid.x[:, None] + _towards(grid, part), y + (0.5 + point) * dy)
-                cubed += shape.thickness(*place) ** -3
+                cubed += _resistance_across(shape, *place)
             north[:, :last] += len(GAUSS) / cubed / len(BOTH_WAYS)
-    return Faces(thickness=thickness, mean=mean, east=east, north=north)
+    rough = None if shape.roughness is None else averaged(shape, shape.roughness, grid)
+    return Faces(thickness=thickness, mean=mean, east=east, north=north, averaged=rough)
+
+
+def _resistance(shape: Shape, x: Array, y: Array) -> tuple[Array, Array]:
+    """h⁻² and h⁻³ at places, or B₁/A₁₁ and 1/A₁₁."""
+    h = shape.thickness(x, y)
+    if shape.roughness is None:
+        inverse = 1 / h
+        square = inverse * inverse
+        return square, square * inverse
+    factors = shape.roughness(h)
+    return factors.drag / factors.along, 1 / factors.along
+
+
+def _resistance_across(shape: Shape, x: Array, y: Array) -> Array:
+    """h⁻³ at places, or 1/A₂₂."""
+    h = shape.thickness(x, y)
+    return np.asarray(h**-3 if shape.roughness is None else 1 / shape.roughness(h).across)
 
 
 def _towards(grid: Grid, part: float) -> Array:
@@ -109,6 +131,8 @@ def network(
     viscosity : at the pressure of cavitation, Pa s.
     compressibility : dθ/dp at the pressure of cavitation, 1/Pa.
     storage : of transient flow: the time step, s, and θh of the step before, m, shape (nx, ny).
+
+    Raises InputError for a film joined in y whose roughness is averaged.
     """
     nx, ny = grid.shape
     across = grid.share_y * grid.radius
@@ -147,4 +171,26 @@ def network(
         storage=grid.areas * faces.thickness / step,
         stored=grid.areas * stored / step,
         periodic=(bool(grid.spacing_x[-1]), bool(grid.spacing_y[-1])),
+        oblique=_oblique(grid, faces, north, speed, viscosity, compressibility, supplied=supply is not None),
+    )
+
+
+def _oblique(
+    grid: Grid, faces: Faces, north: Array, speed: float, viscosity: float, compressibility: float, *, supplied: bool
+) -> Oblique | None:
+    """What a slanting lay adds in the plane, if there is one; nothing drifts along a line that an inlet feeds."""
+    rough = faces.averaged
+    if rough is None or grid.shape[1] == 1 or not (rough.cross.any() or rough.drag_across.any()):
+        return None
+    if grid.spacing_y[-1]:
+        raise InputError("roughness: got a film joined across the sliding; averaged roughness needs one with two sides")
+    towards = (grid.radius + np.roll(grid.radius, -1)) / 2
+    drift = 0.5 * speed * grid.share_x[:, None] * towards * towards * rough.drag_across
+    if supplied:
+        drift[0] = 0
+    with np.errstate(divide="ignore", invalid="ignore"):
+        upstream = np.maximum(0.5, 1 - north / (np.abs(drift) * compressibility))
+    upstream[drift * compressibility == 0] = 0.5
+    return Oblique(
+        cross=rough.cross / (12 * viscosity), drift=drift, upstream=upstream, periodic=bool(grid.spacing_x[-1])
     )

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rom.cavitation.balance import conduct, linearise
+from rom.cavitation.oblique import Oblique
 from rom.gap import Array
 
 
@@ -23,7 +24,7 @@ class Network:
 
     in m³/s at the density of the cavitation pressure; towards (i, j+1) it is the second part alone. The liquid that
     fills a node comes from upstream, its compression from both sides: F is continuous where a film begins or ends, and
-    of second order inside it.
+    of second order inside it. A slanting lay adds what :class:`rom.cavitation.oblique.Oblique` says.
 
     Attributes
     ----------
@@ -34,6 +35,7 @@ class Network:
     fixed : where ``pressure``, Pa, is given.
     storage : volume over time step, m³/s; zero in steady flow. ``stored``: the same of the step before, times its θ.
     periodic : in i, in j.
+    oblique : what a slanting lay adds; None without one.
     """
 
     couette: Array
@@ -46,6 +48,7 @@ class Network:
     storage: Array
     stored: Array
     periodic: tuple[bool, bool] = (False, False)
+    oblique: Oblique | None = None
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -65,7 +68,13 @@ class Network:
         ``laws`` are ϑ, dθ/dp, φ and dφ/dp at the pressure. Returns the largest flow through a face, m³/s.
         """
         faces = (self.couette, self.upstream, self.east, self.north, self.storage, self.stored, self.supplied)
-        return float(linearise(*faces, *self.periodic, kind, pressure, fill, *laws, *parts))
+        largest = float(linearise(*faces, *self.periodic, kind, pressure, fill, *laws, *parts))
+        if self.oblique is not None:
+            excess, excess_slope, mobility, _ = laws
+            balance, centre, _, _, south, north = parts
+            flows = self.oblique.flows(mobility, pressure, fill, excess)
+            self.oblique.linearise(kind, flows, excess_slope, (balance, centre, south, north))
+        return largest
 
     def conductance(self, mobility: Array) -> tuple[Array, Array]:
         """K φ of the faces towards i+1 and j+1, m³/(Pa s), from θ η0/η at the nodes."""

@@ -7,6 +7,7 @@ With cavities (c) and film (f) apart, a step solves
 A_cc is bidiagonal along the flow, so a sweep applies its inverse; what is left, (A_ff − A_fc A_cc⁻¹ A_cf) δp, goes to
 BiCGSTAB. It is near a symmetric operator: the pressure flow inside the film, with p = 0 where the film ends, but
 no condition where it begins, as there a cavity brings what it brings whatever the pressure. Multigrid inverts it.
+What a slanting lay drives across is in the operator, but not in the one that multigrid inverts.
 """
 
 import numpy as np
@@ -32,21 +33,30 @@ def plane_step(network: Network, linear: Linear, accuracy: float) -> Array:
     parts = (linear.kind, linear.centre, linear.west, linear.east, linear.south, linear.north)
     source, nothing = -linear.balance, np.zeros(network.shape)
 
+    lay = network.oblique
+    ways = (network.periodic[0], lay is not None)
+
+    def driven(pressure: Array) -> Array:
+        if lay is None:
+            return nothing
+        return lay.image(linear.mobility, np.where(linear.kind == FILM, pressure, 0.0))
+
     def product(pressure: Array) -> Array:
-        carry(*parts, network.periodic[0], nothing, pressure)
+        slanting = driven(pressure)
+        carry(*parts, *ways, -slanting, pressure)
         image = np.empty(network.shape)
         film_image(*parts, pressure, image)
-        return image
+        return image if lay is None else np.where(linear.kind == FILM, image + slanting, 0.0)
 
     values, image = np.zeros(network.shape), np.zeros(network.shape)
-    carry(*parts, network.periodic[0], source, values)
+    carry(*parts, *ways, source, values)
     film_image(*parts, values, image)
     wanted = np.where(linear.kind == FILM, source - image, 0.0)
     inverse = Multigrid(*conductances(network, linear), periodic=network.periodic)
     tolerance = max(REDUCTION * float(np.sqrt(dot(wanted, wanted))), accuracy / 10)
     values = bicgstab(product, inverse.cycle, wanted, tolerance=tolerance, limit=LIMIT)
     values[linear.kind != FILM] = 0.0
-    carry(*parts, network.periodic[0], source, values)
+    carry(*parts, *ways, source - driven(values), values)
     return values
 
 
@@ -96,14 +106,18 @@ def couple(kind, east, north, periodic_x, periodic_y, centre, to_east, to_north)
 
 
 @compiled
-def carry(kind, centre, west, east, south, north, periodic_x, source, values):  # type: ignore[no-untyped-def]
-    """Set the filled parts that balance the cavities, given the pressures beside them."""
+def carry(kind, centre, west, east, south, north, periodic_x, drifts, source, values):  # type: ignore[no-untyped-def]
+    """Set the filled parts that balance the cavities, given the pressures beside them.
+
+    What ``drifts`` across, a row upwards and downwards again finds, as it goes from node to node without turning round.
+    """
     nx, ny = kind.shape
     for _ in range(2 if periodic_x else 1):
         for i in range(nx):
             before = i - 1 if i > 0 else nx - 1
             after = i + 1 if i + 1 < nx else 0
-            for j in range(ny):
+            for place in range(2 * ny if drifts else ny):
+                j = place if place < ny else 2 * ny - 1 - place
                 if kind[i, j] == CAVITY:
                     below = j - 1 if j > 0 else ny - 1
                     above = j + 1 if j + 1 < ny else 0

@@ -69,17 +69,20 @@ def relax(couette, upstream, east, north, storage, stored, supply, periodic_x, p
 
 
 def relaxed(network: Network, fluid: Fluid, state: State, sweeps: int) -> State:
-    """A state after some sweeps."""
+    """A state after some sweeps, through which what a slanting lay adds stays as it is."""
     pressure = np.where(network.fixed, network.pressure, state.pressure)
     fill = state.fill.copy()
     kind = np.where(network.fixed, np.int8(FIXED), np.where(fill < 1, np.int8(CAVITY), np.int8(FILM)))
     excess, slope = fluid.compression(pressure)
+    mobility, stored = fluid.mobility(pressure)[0], network.stored
+    if network.oblique is not None:
+        stored = stored - network.oblique.outflow(*network.oblique.flows(mobility, pressure, fill, excess))
     relax(
         network.couette,
         network.upstream,
-        *network.conductance(fluid.mobility(pressure)[0]),
+        *network.conductance(mobility),
         network.storage,
-        network.stored,
+        stored,
         network.supplied,
         *network.periodic,
         kind,

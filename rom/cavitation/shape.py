@@ -5,6 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from rom.gap import Array
+from rom.homogenization.gap_factors import FactorsOverGap
 
 Thickness = Callable[[Array, Array], Array]
 
@@ -22,6 +23,8 @@ class Shape:
     polar : x is an angle, rad, and y the radius, m.
     joined : whether the ends in x are the same place, and those in y.
     finest : the shortest feature of the wall along x and y, in their units; infinite where there is none.
+    roughness : of a film whose roughness is averaged, the flow factors where its mean gap is ``thickness``; x is the
+        sliding direction everywhere, so that where ``polar`` the lay turns with it. None of a film that is all told.
     """
 
     thickness: Thickness
@@ -31,6 +34,7 @@ class Shape:
     polar: bool = False
     joined: tuple[bool, bool] = (False, False)
     finest: tuple[float, float] = (math.inf, math.inf)
+    roughness: FactorsOverGap | None = None
 
     @property
     def length(self) -> float:

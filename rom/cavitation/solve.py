@@ -15,6 +15,7 @@ from rom.cavitation.newton import UnsettledError, settle
 from rom.cavitation.plane import plane_step
 from rom.cavitation.problem import Problem
 from rom.gap import Array
+from rom.homogenization.gap_factors import mirrored_factors
 
 COARSEST = 16
 """Cells along each side where it begins, from a film everywhere at the pressure of cavitation."""
@@ -194,5 +195,10 @@ def mirrored(problem: Problem) -> Problem:
     shape = problem.shape
     low, high = shape.breaks[0], shape.breaks[-1]
     breaks = tuple(low + high - place for place in reversed(shape.breaks))
-    turned = replace(shape, breaks=breaks, thickness=lambda x, y: shape.thickness(low + high - x, y))
+    turned = replace(
+        shape,
+        breaks=breaks,
+        thickness=lambda x, y: shape.thickness(low + high - x, y),
+        roughness=None if shape.roughness is None else mirrored_factors(shape.roughness),
+    )
     return replace(problem, shape=turned, speed=-problem.speed)

@@ -116,11 +116,11 @@ def _source(which: int, parts: Faces, aspect: float, start: Array | None) -> Sou
 def _factors(h: Array, parts: Faces, aspect: float, chi: Array, closed: tuple[bool, bool]) -> FlowFactors:
     """From the correctors; of A the flow that they drive along themselves, so that nothing cancels near sealing."""
     sums = _energies(parts.east, parts.north, parts.drag, aspect, chi) / h.size
-    open_to = 1.0 - np.array(closed)
+    open_to = ~np.array(closed)
     return FlowFactors(
         mean_gap=float(h.mean()),
-        pressure=np.array([[sums[0], sums[1]], [sums[1], sums[2]]]) * np.outer(open_to, open_to),
-        shear=sums[3:5] * open_to,
+        pressure=np.where(np.outer(open_to, open_to), [[sums[0], sums[1]], [sums[1], sums[2]]], 0.0),
+        shear=np.where(open_to, sums[3:5], 0.0),
         couette=parts.inverse,
         shear_couette=float(sums[5]) + parts.inside,
         sealed=closed,

@@ -71,6 +71,28 @@ def _conductance(first, second, straight):  # type: ignore[no-untyped-def]
     return 2 * one * two / (one + two)
 
 
+@inlined
+def _inside(first, second):  # type: ignore[no-untyped-def]
+    """<h⁻¹> − <h⁻²>²/<h⁻³> of a straight gap: ln(h₂/h₁)/(h₂ − h₁) − 2/(h₁ + h₂)."""
+    bend = (second - first) / (first + second)
+    if abs(bend) < ALIKE:
+        return 2 / (first + second) * bend * bend / 3
+    return log(second / first) / (second - first) - 2 / (first + second)
+
+
+@compiled
+def straight_inverse(gap):  # type: ignore[no-untyped-def]
+    """<h⁻¹> of straight lines from each node of h > 0, shape (nx, ny), to the next in x, periodic; 0 if closed."""
+    count, length = gap.shape
+    found = np.zeros((count, length))
+    for i in range(count):
+        own, after = gap[i], gap[i + 1 if i + 1 < count else 0]
+        for j in range(length):
+            if own[j] > 0 and after[j] > 0:
+                found[i, j] = 2 / (own[j] + after[j]) + _inside(own[j], after[j])
+    return found
+
+
 @compiled
 def _set_faces(gap, straight, east, north, drag):  # type: ignore[no-untyped-def]
     """Set the arrays of :class:`Faces`; its two sums."""
@@ -87,15 +109,9 @@ def _set_faces(gap, straight, east, north, drag):  # type: ignore[no-untyped-def
                 drag[i, j] = 0.0
                 continue
             if straight:
-                total, difference = h + ahead, ahead - h
-                square = 2 * h * ahead / total
-                bend = difference / total
-                if abs(bend) < ALIKE:
-                    inverse = 2 / total * (1 + bend * bend / 3)
-                    inside = 2 / total * bend * bend / 3
-                else:
-                    inverse = log(ahead / h) / difference
-                    inside = inverse - 2 / total
+                square = 2 * h * ahead / (h + ahead)
+                inside = _inside(h, ahead)
+                inverse = 2 / (h + ahead) + inside
             else:
                 one, two = 1 / h, 1 / ahead
                 squares = (one * one + two * two) / 2

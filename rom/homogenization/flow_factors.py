@@ -11,6 +11,8 @@ from rom.gap import Array
 from rom.homogenization.cell import Cell, solve_cell
 from rom.homogenization.conductance import FaceRule
 from rom.homogenization.factors import FlowFactors
+from rom.homogenization.grids import coarser_grids, refined
+from rom.homogenization.richardson import uncertainty_of
 from rom.homogenization.solvers import SOLVERS
 from rom.ladder import Progress, silent
 
@@ -19,12 +21,6 @@ LOOSEST, TIGHTEST = 1e-4, 1e-10
 
 SPARE = 100
 """The tolerance of a cell is so many times below what its grid is expected to be off by."""
-
-FEWEST = 8
-"""Nodes in a direction that is coarsened."""
-
-SAFETY = 1.5
-"""Of an error estimated from three grids: 95 of 100 gaps of all kinds are nearer."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,13 +67,16 @@ def flow_factors(
     Raises
     ------
     InputError
-        For a gap that is no array of at least 2 x 2 finite numbers, is below 0 anywhere or closed everywhere.
+        For a gap that is no array of at least 2 x 2 finite numbers, is below 0 anywhere or closed everywhere; for an
+        offset below 0.
     ConvergenceError
         If a cell problem does not meet the tolerance.
 
     Each grid begins from the correctors of the coarser one, which are nearer than those of a gap 10 % wider are. Second
     order in the spacing where the gap is smooth and open, near first order at the edges of contact.
     """
+    if not 0 <= offset < np.inf:
+        raise InputError(f"offset: got {offset!r} m; give 0 or more")
     h = checked_gap(gap, spacing) + offset
     cells: list[Cell] = []
     grids = coarser_grids(h, spacing)
@@ -128,44 +127,6 @@ def checked_gap(gap: ArrayLike, spacing: tuple[float, float]) -> Array:
     return h
 
 
-def coarser_grids(gap: Array, spacing: tuple[float, float]) -> list[tuple[Array, tuple[float, float]]]:
-    """The gap on up to three grids, the coarsest first, and their spacings; nodes of a finer one where they fit.
-
-    A grid whose nodes are all closed is left out.
-    """
-    grids = [(gap, spacing)]
-    while len(grids) < 3:
-        h, steps = grids[0]
-        counts = tuple(-(-n // 2) if n >= FEWEST else n for n in h.shape)
-        if counts == h.shape:
-            break
-        coarser = (steps[0] * h.shape[0] / counts[0], steps[1] * h.shape[1] / counts[1])
-        sampled = _sampled(_sampled(h, counts[0], 0), counts[1], 1)
-        if not sampled.any():
-            break
-        grids.insert(0, (sampled, coarser))
-    return grids
-
-
-def _sampled(gap: Array, count: int, axis: int) -> Array:
-    """The gap at ``count`` places evenly along an axis, straight between its nodes."""
-    own = gap.shape[axis]
-    if own % count == 0:
-        return np.take(gap, np.arange(0, own, own // count), axis=axis)
-    place = np.arange(count) * (own / count)
-    before = place.astype(np.int64)
-    part = np.expand_dims(place - before, 1 - axis)
-    after = np.take(gap, (before + 1) % own, axis=axis)
-    return np.asarray(np.take(gap, before, axis=axis) * (1 - part) + after * part)
-
-
-def refined(values: Array, shape: tuple[int, ...]) -> Array:
-    """Periodic values, shape (n, ...), between which lines are drawn, at (nx, ny) places."""
-    for axis in (0, 1):
-        values = np.array([_sampled(one, shape[axis], axis) for one in values])
-    return values
-
-
 def _sufficient(cells: list[Cell]) -> float:
     """A tolerance for the next finer grid: of its error, if the last two tell what that will be."""
     if len(cells) < 2:
@@ -178,34 +139,13 @@ def _sufficient(cells: list[Cell]) -> float:
 
 
 def _uncertainty(cells: list[Cell]) -> FlowFactors:
-    """Of the last of up to three grids each twice as fine, by Richardson's rule at the order seen, one to two.
-
-    What is left unsolved is added.
-    """
-    found = [cell.factors for cell in cells]
-    unsolved = cells[-1].unsolved
-
-    def off(values: list[Array]) -> Array:
-        if len(values) < 2:
-            return np.full_like(values[0], np.inf)
-        last = np.abs(values[-1] - values[-2])
-        if len(values) < 3:
-            return SAFETY * last
-        before = np.abs(values[-2] - values[-3])
-        with np.errstate(divide="ignore", invalid="ignore"):
-            ratio = np.clip(np.where(last > 0, before / last, 4.0), 2.0, 4.0)
-        return np.asarray(SAFETY * np.maximum(last, before / 4) / (ratio - 1))
-
-    def each(name: str) -> Array:
-        return off([np.asarray(getattr(factors, name), dtype=float) for factors in found])
-
-    gap = found[-1].mean_gap
+    """What the grids leave open, and what the solver does."""
+    doubt = uncertainty_of([cell.factors for cell in cells])
+    unsolved, gap = cells[-1].unsolved, cells[-1].factors.mean_gap
     mixed = np.sqrt(unsolved[:2])
     return replace(
-        found[-1],
-        mean_gap=0.0,
-        pressure=each("pressure") + gap**3 * np.outer(mixed, mixed),
-        shear=each("shear") + gap * mixed * np.sqrt(unsolved[2]),
-        couette=float(each("couette")),
-        shear_couette=float(each("shear_couette")) + unsolved[2] / gap,
+        doubt,
+        pressure=doubt.pressure + gap**3 * np.outer(mixed, mixed),
+        shear=doubt.shear + gap * mixed * np.sqrt(unsolved[2]),
+        shear_couette=doubt.shear_couette + float(unsolved[2]) / gap,
     )

@@ -3,7 +3,10 @@
 from dataclasses import dataclass, replace
 from typing import Protocol
 
+import numpy as np
+
 from rom.gap import Array
+from rom.homogenization.factors import FlowFactors
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,3 +47,17 @@ def mirrored_factors(factors: FactorsOverGap) -> FactorsOverGap:
         return replace(found, cross=-found.cross, drag_across=-found.drag_across)
 
     return mirrored
+
+
+def flow_factors_at(mean_gap: float, factors: FactorsOverGap) -> FlowFactors:
+    """The coefficients at one mean gap, m; a direction in which A is 0 is sealed."""
+    found = factors(np.array([mean_gap]))
+    along, across, cross = (float(values[0]) for values in (found.along, found.across, found.cross))
+    return FlowFactors(
+        mean_gap=mean_gap,
+        pressure=np.array([[along, cross], [cross, across]]),
+        shear=np.array([found.drag[0], found.drag_across[0]]),
+        couette=float(found.couette[0]),
+        shear_couette=float(found.shear_couette[0]),
+        sealed=(along == 0, across == 0),
+    )

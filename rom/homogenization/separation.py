@@ -65,7 +65,7 @@ class Separations:
         return float(z[below - 1] + (mean_gap - means[below - 1]) * z.size / below)
 
     def sealing(self) -> tuple[float, float]:
-        """The largest separation at which nothing gets through, in x and in y, m."""
+        """The largest of the heights z at which, as separation, nothing gets through: in x and in y, m."""
         z = np.unique(self._above)
         found = []
         for direction in (0, 1):

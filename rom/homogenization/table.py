@@ -11,7 +11,7 @@ from scipy.interpolate import PchipInterpolator
 from contact.errors import InputError
 from rom.gap import Array
 from rom.homogenization.factors import FlowFactors
-from rom.homogenization.gap_factors import GapFactors
+from rom.homogenization.gap_factors import FactorsOverGap, GapFactors
 
 SMOOTH = np.array([1.0, 1, 0, 1, 0, 1, 0])
 """What :func:`relative_row` tells of a smooth film."""
@@ -124,6 +124,14 @@ def relative_row(factors: FlowFactors) -> Array:
     own = factors.relative
     a = own.pressure
     return np.array([a[0, 0], a[1, 1], a[0, 1], *own.shear, own.couette, own.shear_couette])
+
+
+def told_rows(factors: FactorsOverGap, mean_gap: Array) -> Array:
+    """The same of what a table or a closed form tells at mean gaps, m, shape (n,): shape (n, 7)."""
+    told, h = factors(mean_gap), mean_gap
+    columns = (told.along, told.across, told.cross, told.drag, told.drag_across, told.couette, told.shear_couette)
+    powers = (3, 3, 3, 1, 1, -1, -1)
+    return np.stack([column / h**power for column, power in zip(columns, powers, strict=True)], axis=-1)
 
 
 def _cubed(row: Array) -> Array:

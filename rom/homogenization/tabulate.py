@@ -11,7 +11,7 @@ from rom.gap import Array
 from rom.homogenization.conductance import FaceRule
 from rom.homogenization.flow_factors import checked_gap, flow_factors
 from rom.homogenization.separation import Separations
-from rom.homogenization.table import FactorTable, Point, relative_row
+from rom.homogenization.table import FactorTable, Point, relative_row, told_rows
 from rom.ladder import Progress, silent
 
 TOLERANCE = 0.005
@@ -23,11 +23,11 @@ FIRST = 9
 MOST = 400
 """Points; no surface that is resolved takes more."""
 
-NEGLIGIBLE = 1e-4
-"""Of a smooth film's: by so much more a factor may always be off, for it lets next to nothing through."""
+NEGLIGIBLE, LITTLE = 1e-4, 1e-2
+"""Of a smooth film's: flow that pressure drives, and that sliding carries, below which errors are over this instead."""
 
-CUBES = 20.0
-"""Where this times (rms/ĥ)³ is the tolerance, the film is thick: roughness counts by its mean square alone."""
+THICK = 16.0
+"""Times the rms height: the first guess of where a film is so thick that roughness counts by its mean square alone."""
 
 
 def tabulate(
@@ -49,7 +49,7 @@ def tabulate(
     ----------
     heights : of one period, shape (nx, ny), m, upward, towards the flat wall.
     spacing : (dx, dy), m.
-    tolerance : of A over √(A_ii A_jj), of B over B₁, and without contact of d and e over d: what interpolation may add.
+    tolerance : of A over √(A_ii A_jj), of B over |B|, and without contact of d and e over d: what interpolation may add.
         In contact d has no limit to be near to: at an edge <1/h> grows with the logarithm of the nodes.
     known : points by separation that need not be solved again.
     keep : called with every new point.
@@ -92,8 +92,8 @@ def tabulate(
         return FactorTable(points=tuple(sorted(found.values(), key=lambda point: point.mean_gap)), peak=body.peak)
 
     low, high = sorted(body.sealing())
-    first, last = solve(low), body.rms * (CUBES / tolerance) ** (1 / 3)
-    last = max(last, 2 * body.at_mean_gap(first.mean_gap))
+    first = solve(low)
+    last = max(THICK * body.rms, 2 * first.mean_gap)
     if high > low:
         solve(high)
     for mean_gap in np.geomspace(first.mean_gap, last, FIRST)[1:]:
@@ -123,16 +123,11 @@ def tabulate(
 
 def _beyond(table: FactorTable, point: Point) -> float:
     """How far a table is from a point that it does not have, in the tolerance's measure; 0 within its uncertainty."""
-    own = point.factors
-    h = np.array([point.mean_gap])
-    told = table(h)
-    guess = np.array(
-        [told.along, told.across, told.cross, told.drag, told.drag_across, told.couette, told.shear_couette]
-    )[:, 0]
-    units = np.array([h[0] ** 3] * 3 + [h[0]] * 2 + [1 / h[0]] * 2)
-    row, doubt = relative_row(own), point.uncertainty
-    unsure = np.array([doubt.pressure[0, 0], doubt.pressure[1, 1], doubt.pressure[0, 1], *doubt.shear, 0, 0]) / units
+    h, row, doubt = point.mean_gap, relative_row(point.factors), point.uncertainty
+    a = doubt.pressure / h**3
+    unsure = np.array([a[0, 0], a[1, 1], a[0, 1], *(doubt.shear / h), 0, 0])
     rub = np.inf if point.contact > 0 else row[5]
-    size = np.array([row[0], row[1], np.sqrt(row[0] * row[1]), row[3], row[3], rub, rub]) + NEGLIGIBLE
-    off = np.abs(guess / units - row)
-    return float(np.max(np.where(off > np.nan_to_num(unsure, posinf=np.inf), off / size, 0.0)))
+    carried = np.hypot(row[3], row[4]) + LITTLE
+    size = np.array([row[0], row[1], np.sqrt(row[0] * row[1]), carried, carried, rub, rub]) + NEGLIGIBLE
+    off = np.abs(told_rows(table, np.array([h]))[0] - row)
+    return float(np.max(np.where(off > unsure, off / size, 0.0)))

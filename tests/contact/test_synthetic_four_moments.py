@@ -28,6 +28,15 @@ def test_moments_are_met_and_heights_grow(moments, count):
     assert (np.diff(heights) > 0).all()
 
 
+@pytest.mark.parametrize("peak", [1.9e-6, 2.2e-6, 2.7e-6])
+def test_the_highest_is_met_beside_the_moments(peak):
+    moments = FourMoments(average=0.93e-6, rms=1.2e-6, skewness=-0.99, kurtosis=4.3, peak=peak)
+    heights = heights_with(moments, 512)
+    assert heights[-1] - heights.mean() == pytest.approx(peak, rel=2e-8)
+    assert four(heights) == pytest.approx(asked(moments), rel=2e-8)
+    assert (np.diff(heights) > 0).all()
+
+
 def test_density_is_smooth():
     """Of 512 heights no step is more than a fifth longer or shorter than its neighbours, but the last few."""
     for moments in STEEL_PROFILES.values():
@@ -56,6 +65,7 @@ def test_upside_down_only_the_skewness_turns():
         ({"rms": 0.0}, "rms"),
         ({"kurtosis": 1.2, "skewness": 0.5}, "kurtosis"),
         ({"skewness": float("nan")}, "skewness"),
+        ({"peak": 0.0}, "peak"),
     ],
 )
 def test_moments_that_no_heights_have_are_refused(changes, words):

@@ -1,0 +1,46 @@
+"""The same gap on coarser grids, and values carried to a finer one."""
+
+import numpy as np
+
+from rom.gap import Array
+
+FEWEST = 8
+"""Nodes in a direction that is coarsened."""
+
+
+def coarser_grids(gap: Array, spacing: tuple[float, float]) -> list[tuple[Array, tuple[float, float]]]:
+    """The gap on up to three grids, the coarsest first, and their spacings; nodes of a finer one where they fit.
+
+    A grid whose nodes are all closed is left out.
+    """
+    grids = [(gap, spacing)]
+    while len(grids) < 3:
+        h, steps = grids[0]
+        counts = tuple(-(-n // 2) if n >= FEWEST else n for n in h.shape)
+        if counts == h.shape:
+            break
+        coarser = (steps[0] * h.shape[0] / counts[0], steps[1] * h.shape[1] / counts[1])
+        picked = sampled(sampled(h, counts[0], 0), counts[1], 1)
+        if not picked.any():
+            break
+        grids.insert(0, (picked, coarser))
+    return grids
+
+
+def sampled(gap: Array, count: int, axis: int) -> Array:
+    """The gap at ``count`` places evenly along an axis, straight between its nodes."""
+    own = gap.shape[axis]
+    if own % count == 0:
+        return np.take(gap, np.arange(0, own, own // count), axis=axis)
+    place = np.arange(count) * (own / count)
+    before = place.astype(np.int64)
+    part = np.expand_dims(place - before, 1 - axis)
+    after = np.take(gap, (before + 1) % own, axis=axis)
+    return np.asarray(np.take(gap, before, axis=axis) * (1 - part) + after * part)
+
+
+def refined(values: Array, shape: tuple[int, ...]) -> Array:
+    """Periodic values, shape (n, ...), between which lines are drawn, at (nx, ny) places."""
+    for axis in (0, 1):
+        values = np.array([sampled(one, shape[axis], axis) for one in values])
+    return values

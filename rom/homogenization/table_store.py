@@ -1,0 +1,129 @@
+"""Tables of flow factors in HDF5: every finished point at once, keyed by what they are computed from."""
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+from contact.errors import InputError
+from contact.guarded import marked, reading_guarded, write_guarded
+from contact.mechanics.contact_store import Inputs
+from rom.gap import Array
+from rom.homogenization.factors import FlowFactors
+from rom.homogenization.table import FactorTable, Point
+
+SCHEMA = 1
+MARK = b"roughfilm factors, HDF5 behind 512 bytes, sha256 "
+REMEDY = "remove it or choose another place"
+FACTORS = {"mean_gap": "m", "pressure": "m^3", "shear": "m", "couette": "1/m", "shear_couette": "1/m"}
+NUMBERS = {"separation": "m", "contact": "1", "iterations": "1", "residual": "1", "cpu_s": "s"}
+
+
+def save_table(path: Path, inputs: Inputs, table: FactorTable) -> None:
+    """Write a table whole: ``points/`` has a column for each number, narrowest gap first, ``uncertainty/`` of them.
+
+    Raises
+    ------
+    InputError
+        If ``path`` cannot be written.
+    """
+    points = table.points
+
+    def fill(file: h5py.File) -> None:
+        file.attrs["schema"] = SCHEMA
+        file.attrs["digest"] = inputs.digest
+        file.attrs["settings"] = json.dumps(inputs.settings, sort_keys=True, allow_nan=False)
+        file.attrs["peak"] = table.peak
+        file.attrs["interpolation_error"] = table.interpolation_error
+        for name, unit in NUMBERS.items():
+            _write(file, f"points/{name}", np.array([getattr(point, name) for point in points]), unit)
+        for group in ("factors", "uncertainty"):
+            for name, unit in FACTORS.items():
+                values = np.array([getattr(getattr(point, group), name) for point in points])
+                _write(file, f"{'points' if group == 'factors' else group}/{name}", values, unit)
+        _write(file, "points/sealed", np.array([point.factors.sealed for point in points]), "1")
+
+    write_guarded(path, MARK, fill)
+
+
+def load_table(path: Path) -> FactorTable:
+    """Read a table back; InputError if it was damaged or changed, is of another version, or no table."""
+    _refuse_others(path)
+    with reading_guarded(path, MARK, SCHEMA, REMEDY) as file:
+        return _table(file)
+
+
+def known_points(path: Path, inputs: Inputs) -> Mapping[float, Point]:
+    """The points by separation that a file holds for these inputs; none if there is no such file, or an empty one.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, was damaged or changed, or holds a table of other inputs or something else.
+    """
+    try:
+        if path.stat().st_size == 0:
+            return {}
+        _refuse_others(path)
+        with reading_guarded(path, MARK, SCHEMA, REMEDY) as file:
+            if file.attrs["digest"] != inputs.digest:
+                raise InputError(f"{path}: holds the factors of {_difference(file, inputs)}; {REMEDY}")
+            return {point.separation: point for point in _table(file).points}
+    except FileNotFoundError:
+        return {}
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read ({error.strerror or error}); choose another place") from error
+
+
+def _refuse_others(path: Path) -> None:
+    if not marked(path, MARK):
+        raise InputError(f"{path}: is no table of flow factors; {REMEDY}")
+
+
+def _difference(file: h5py.File, inputs: Inputs) -> str:
+    there = json.loads(file.attrs["settings"])
+    for name in sorted(there.keys() | inputs.settings.keys()):
+        mine, its = inputs.settings.get(name), there.get(name)
+        if mine != its:
+            return "another version of roughfilm" if name == "code" else f"another table, with {name} {its}, not {mine}"
+    return "another surface"
+
+
+def _write(file: h5py.File, name: str, values: Array, unit: str) -> None:
+    file.create_dataset(name, data=values).attrs["unit"] = unit
+
+
+def _table(file: h5py.File) -> FactorTable:
+    numbers = {name: file[f"points/{name}"][()] for name in NUMBERS}
+    sealed = file["points/sealed"][()]
+    own, doubt = ({name: file[f"{group}/{name}"][()] for name in FACTORS} for group in ("points", "uncertainty"))
+    points = [
+        Point(
+            separation=float(numbers["separation"][row]),
+            contact=float(numbers["contact"][row]),
+            factors=_factors(own, row, sealed[row]),
+            uncertainty=_factors(doubt, row, sealed[row]),
+            iterations=int(numbers["iterations"][row]),
+            residual=float(numbers["residual"][row]),
+            cpu_s=float(numbers["cpu_s"][row]),
+        )
+        for row in range(sealed.shape[0])
+    ]
+    return FactorTable(
+        points=points,
+        peak=float(file.attrs["peak"]),
+        interpolation_error=float(file.attrs["interpolation_error"]),
+    )
+
+
+def _factors(columns: Mapping[str, Array], row: int, sealed: Array) -> FlowFactors:
+    return FlowFactors(
+        mean_gap=float(columns["mean_gap"][row]),
+        pressure=columns["pressure"][row],
+        shear=columns["shear"][row],
+        couette=float(columns["couette"][row]),
+        shear_couette=float(columns["shear_couette"][row]),
+        sealed=(bool(sealed[0]), bool(sealed[1])),
+    )
