@@ -2,11 +2,11 @@
 
 from sksparse.cholmod import cholesky
 
-NAME, RULE, TOLERANCES = "scikit-sparse", "linear", (0.0,)
+NAME, TOLERANCES = "scikit-sparse", (0.0,)
 
 
 def solver(ordering):
-    def solve(case, _gap, _tolerance):
-        return cholesky(case.matrix, mode="auto", ordering_method=ordering).solve_A(case.sources[case.free])
+    def solve(case, _tolerance):
+        return cholesky(case.matrix, mode="auto", ordering_method=ordering).solve_A(case.sources)
 
     return solve

@@ -4,16 +4,16 @@ import numpy as np
 from pypardiso import PyPardisoSolver
 from scipy.sparse import triu
 
-NAME, RULE, TOLERANCES = "pypardiso", "linear", (0.0,)
+NAME, TOLERANCES = "pypardiso", (0.0,)
 
 
 def solver(_way):
-    def solve(case, _gap, _tolerance):
+    def solve(case, _tolerance):
         pardiso = PyPardisoSolver(mtype=2)
         upper = triu(case.matrix, format="csr")
         try:
             pardiso.factorize(upper)
-            return np.asarray(pardiso.solve(upper, np.asfortranarray(case.sources[case.free])))
+            return np.asarray(pardiso.solve(upper, np.asfortranarray(case.sources)))
         finally:
             pardiso.free_memory(everything=True)
 

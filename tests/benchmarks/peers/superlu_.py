@@ -2,13 +2,14 @@
 
 from scipy.sparse.linalg import splu
 
-NAME, RULE, TOLERANCES = "scipy", "linear", (0.0,)
+NAME, TOLERANCES = "scipy", (0.0,)
 
 
 def solver(ordering):
     symmetric = {"diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}
+    options = {} if ordering == "COLAMD" else symmetric
 
-    def solve(case, _gap, _tolerance):
-        return splu(case.matrix, permc_spec=ordering, **(symmetric if ordering != "COLAMD" else {})).solve(case.sources[case.free])
+    def solve(case, _tolerance):
+        return splu(case.matrix, permc_spec=ordering, **options).solve(case.sources)
 
     return solve
