@@ -175,7 +175,12 @@ def _told_one(rough: Rough, settings: dict[str, Any], found: Estimated, separati
         "separation": {"value": separation, "unit": "m"},
         "contact": {"value": found.contact, "unit": "1"},
     }
-    numerics = {"residual": found.residual, "iterations": found.iterations, "points": rough.heights.size}
+    numerics = {
+        "unsolved": found.unsolved,
+        "residual": found.residual,
+        "iterations": found.iterations,
+        "points": rough.heights.size,
+    }
     return {"quantities": quantities, **sealed, "numerics": numerics, **_provenance(rough, settings)}
 
 
@@ -198,6 +203,7 @@ def _told_all(rough: Rough, settings: dict[str, Any], table: FactorTable, known:
         "interpolation_error": {"value": table.interpolation_error, "unit": "1"},
     }
     numerics = {
+        "unsolved": max(point.unsolved for point in table.points),
         "residual": max(point.residual for point in table.points),
         "iterations": sum(point.iterations for point in table.points),
         "points": rough.heights.size,

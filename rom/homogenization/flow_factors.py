@@ -33,12 +33,15 @@ class Estimated:
     uncertainty : of each, in the same units; ``mean_gap`` has none, it is that of the nodes.
     correctors : as in :class:`rom.homogenization.cell.Cell`.
     contact : the part of the nodes where h = 0.
+    unsolved : the largest part of A₁₁, A₂₂ or e by which iterating on would change them.
+    residual : of χ, which may be far larger: where next to nothing flows χ counts as much as elsewhere.
     """
 
     factors: FlowFactors
     uncertainty: FlowFactors
     correctors: Array
     contact: float
+    unsolved: float
     iterations: int
     residual: float
 
@@ -99,6 +102,7 @@ def flow_factors(
         uncertainty=_uncertainty(cells),
         correctors=finest.correctors,
         contact=float((h == 0).mean()),
+        unsolved=_largest_part(finest),
         iterations=finest.iterations,
         residual=finest.residual,
     )
@@ -136,6 +140,12 @@ def _sufficient(cells: list[Cell]) -> float:
         change = np.abs(last - before) / last
     expected = float(np.min(change[last > 0], initial=np.inf)) / 4
     return min(max(expected / SPARE, TIGHTEST), LOOSEST)
+
+
+def _largest_part(cell: Cell) -> float:
+    own = cell.factors.relative
+    sizes = np.array([own.pressure[0, 0], own.pressure[1, 1], own.shear_couette])
+    return float(np.max(cell.unsolved[sizes > 0] / sizes[sizes > 0], initial=0.0))
 
 
 def _uncertainty(cells: list[Cell]) -> FlowFactors:

@@ -25,7 +25,7 @@ class Point:
     ----------
     separation : of the mean planes, m.
     contact : the part of the surface that is closed.
-    factors, uncertainty : as :class:`rom.homogenization.flow_factors.Estimated` has them.
+    factors, uncertainty, unsolved, iterations, residual : of :class:`rom.homogenization.flow_factors.Estimated`.
     cpu_s : what it cost, s.
     """
 
@@ -33,6 +33,7 @@ class Point:
     contact: float
     factors: FlowFactors
     uncertainty: FlowFactors
+    unsolved: float
     iterations: int
     residual: float
     cpu_s: float

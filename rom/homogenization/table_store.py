@@ -18,7 +18,7 @@ SCHEMA = 1
 MARK = b"roughfilm factors, HDF5 behind 512 bytes, sha256 "
 REMEDY = "remove it or choose another place"
 FACTORS = {"mean_gap": "m", "pressure": "m^3", "shear": "m", "couette": "1/m", "shear_couette": "1/m"}
-NUMBERS = {"separation": "m", "contact": "1", "iterations": "1", "residual": "1", "cpu_s": "s"}
+NUMBERS = {"separation": "m", "contact": "1", "unsolved": "1", "iterations": "1", "residual": "1", "cpu_s": "s"}
 
 
 def save_table(path: Path, inputs: Inputs, table: FactorTable) -> None:
@@ -105,6 +105,7 @@ def _table(file: h5py.File) -> FactorTable:
             contact=float(numbers["contact"][row]),
             factors=_factors(own, row, sealed[row]),
             uncertainty=_factors(doubt, row, sealed[row]),
+            unsolved=float(numbers["unsolved"][row]),
             iterations=int(numbers["iterations"][row]),
             residual=float(numbers["residual"][row]),
             cpu_s=float(numbers["cpu_s"][row]),

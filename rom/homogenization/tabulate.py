@@ -49,7 +49,7 @@ def tabulate(
     ----------
     heights : of one period, shape (nx, ny), m, upward, towards the flat wall.
     spacing : (dx, dy), m.
-    tolerance : of A over √(A_ii A_jj), of B over |B|, and without contact of d and e over d: what interpolation may add.
+    tolerance : what interpolation may add to A over √(A_ii A_jj), to B over |B|, and without contact to d and e over d.
         In contact d has no limit to be near to: at an edge <1/h> grows with the logarithm of the nodes.
     known : points by separation that need not be solved again.
     keep : called with every new point.
@@ -80,6 +80,7 @@ def tabulate(
                 contact=one.contact,
                 factors=one.factors,
                 uncertainty=one.uncertainty,
+                unsolved=one.unsolved,
                 iterations=one.iterations,
                 residual=one.residual,
                 cpu_s=time.process_time() - cpu,
