@@ -15,6 +15,7 @@ from rom.kind import Scene
 from rom.lubricants.compressibility import Incompressible
 from rom.lubricants.laws import Compressibility, Piezoviscosity
 from rom.lubricants.viscosity import LOG_VISCOSITY, ConstantViscosity, Roelands
+from rom.roughness import AnyRoughness, Sinusoid
 
 
 def _any(value: float) -> float:
@@ -89,6 +90,8 @@ class Boundary(Part):
 class Bearing(Scene):
     """Steady isothermal flow in a thin film that may rupture; pressures count from ambient.
 
+    Where the still wall is rough, ``film`` and all of the geometry are of the mean gap.
+
     ``fields`` of its results, of the shape of the grid: ``x``, ``y`` (m, or rad and m), ``film_thickness`` (m),
     ``pressure`` (Pa), ``density_ratio`` θ (1), which below 1 is the part of the gap that liquid fills.
     """
@@ -98,6 +101,7 @@ class Bearing(Scene):
     lubricant: Lubricant
     motion: Motion
     boundary: Boundary = Boundary()
+    roughness: AnyRoughness | None = None
 
     @field_validator("geometry", mode="before")
     @classmethod
@@ -135,6 +139,11 @@ class Bearing(Scene):
             raise ValueError(
                 f"lubricant.piezoviscosity: got roelands for {self.lubricant.viscosity!r} Pa s; by that law liquids of "
                 f"less than {least:.2g} Pa s grow thinner under pressure, take barus or constant"
+            )
+        if isinstance(self.roughness, Sinusoid) and self.roughness.amplitude >= self.geometry.film:
+            raise ValueError(
+                f"roughness.amplitude: got {self.roughness.amplitude!r} m; it must be below film, "
+                f"{self.geometry.film!r} m, or the walls would touch"
             )
         self.geometry.film_shape()
         return self
@@ -175,7 +184,7 @@ class Bearing(Scene):
         )
 
     def problem(self) -> Problem:
-        """The film to be solved."""
+        """The film to be solved, without roughness."""
         geometry, lubricant = self.geometry, self.lubricant
         radius = geometry.radius if isinstance(geometry, Sector) else 1.0
         return Problem(

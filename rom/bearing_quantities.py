@@ -7,8 +7,10 @@ import numpy as np
 from contact.units import Quantity
 from rom.bearing import Bearing
 from rom.bearing_geometry import Journal
+from rom.cavitation.averaged import Averaged
 from rom.cavitation.balance import CAVITY, FILM
 from rom.cavitation.grid import Grid
+from rom.cavitation.oblique import wetness
 from rom.cavitation.solve import Solution
 from rom.gap import Array
 
@@ -22,7 +24,8 @@ def bearing_quantities(scene: Bearing, found: Solution) -> dict[str, Quantity]:
     Pressures count from ambient. Per width of the bearing, along the sliding at the line of the greatest pressure:
     ``film_start`` and ``rupture`` are where the first film begins and the last one ends, x/L from the inlet; both are 1
     where there is none. Friction is that of the liquid, F = ∫(η ξ u/h + h/2 ∂p/∂x) dA, where the filled part ξ of a
-    cavity is in streamers from wall to wall; of averaged roughness F = ∫(η ξ u (d + 3e) + B·∇p/2) dA.
+    cavity is in streamers from wall to wall; of averaged roughness F = ∫(ηu (g (d + 3e) + (ξ - g) B₁ <h⁻²>)
+    + B·∇p/2) dA with the wetness g of its tips as :mod:`rom.cavitation.oblique` has it, 1 in a film.
     """
     grid, pc = found.grid, scene.lubricant.cavitation_pressure
     pressure = found.state.pressure + pc
@@ -86,8 +89,8 @@ def friction(found: Solution) -> float:
         fill = np.pad(fill[:, 1:-1], ((0, 0), (1, 1)), mode="edge")
     rough = found.faces.averaged
     with np.errstate(divide="ignore", invalid="ignore"):
-        rub = 1 / mean if rough is None else np.where(found.kind == CAVITY, rough.rub_empty, rough.rub)
-        shear = np.where(mean > 0, problem.viscosity * speed * fill * rub, 0.0)
+        rub = fill / mean if rough is None else _rub(rough, fill)
+        shear = np.where(mean > 0, problem.viscosity * speed * rub, 0.0)
     shear = shear * (1 / fluidity + np.roll(1 / fluidity, -1, axis=0)) / 2
     rise = np.roll(found.state.pressure, -1, axis=0) - found.state.pressure
     along = float((grid.share_y * (shear * stretch + mean / 2 * rise)).sum())
@@ -95,6 +98,11 @@ def friction(found: Solution) -> float:
         return along
     climb = found.state.pressure[:, 1:] - found.state.pressure[:, :-1]
     return along + float((grid.share_x[:, None] * _towards(grid) * rough.drag_across[:, :-1] / 2 * climb).sum())
+
+
+def _rub(rough: Averaged, fill: Array) -> Array:
+    """Friction over ηu of averaged roughness, 1/m: d + 3e in a film, that of streamers where no tip is wet."""
+    return np.asarray(fill * rough.streaming + wetness(fill, rough.torn) * (rough.wet - rough.streaming))
 
 
 def _towards(grid: Grid) -> Array:

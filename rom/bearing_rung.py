@@ -3,6 +3,7 @@
 import math
 import time
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import cache, partial
 
 import numpy as np
@@ -48,7 +49,8 @@ def solve(
     model: str,
     keeps: frozenset[Effect],
     sources: tuple[str, ...],
-    simplified: Callable[[Problem], Problem],
+    film: Callable[[Bearing], Problem],
+    resolutions: Callable[[Bearing], tuple[int, ...]],
     ruptures: bool,
     applies: Callable[[Bearing], Applicability],
     resolution: int | None = None,
@@ -73,9 +75,9 @@ def solve(
     fits = applies(scene)
     if not fits.applies:
         raise InputError(f"--model: got {model!r}; {fits.reason}")
-    problem = simplified(scene.problem())
+    problem = film(scene)
     wide = problem.shape.wide
-    cells = (WIDE if wide else PLANE)[-1] if resolution is None else resolution
+    cells = resolutions(scene)[-1] if resolution is None else resolution
     if not LEAST <= cells <= MOST[wide]:
         raise InputError(f"--resolution: got {cells}; {model} takes {LEAST} to {MOST[wide]} {RESOLUTION_MEANING}")
     load_loops(problem.shape.wide)
@@ -140,7 +142,8 @@ def uncertainties(scene: Bearing, found: Solution, quantities: Mapping[str, Quan
     """How far off each quantity may be, in its unit, from the two grids before; nothing without a coarser grid.
 
     SAFETY/3 times the larger of the last step and a quarter of the step before, as is right for second order; where a
-    film begins or ends at least a cell, and with what the residual may add up to along the film.
+    film begins or ends at least a cell, and with what the residual may add up to along the film; where roughness is
+    averaged, with the part by which its factors may be off.
     """
     before = found.coarser
     if before is None or before.grid.x.size > 0.75 * found.grid.x.size:
@@ -149,6 +152,8 @@ def uncertainties(scene: Bearing, found: Solution, quantities: Mapping[str, Quan
     one, two = bearing_quantities(scene, before), None
     if before.coarser is not None and before.coarser.grid.x.size <= 0.75 * before.grid.x.size:
         two = bearing_quantities(scene, before.coarser)
+    rough = scene.roughness if found.problem.shape.roughness is not None else None
+    doubt = 0.0 if rough is None else rough.doubt(scene.geometry.film)
     told = {}
     for name, quantity in quantities.items():
         if name in one:
@@ -156,7 +161,7 @@ def uncertainties(scene: Bearing, found: Solution, quantities: Mapping[str, Quan
             if two is not None and name in two:
                 step = max(step, abs(one[name].value - two[name].value) / 4)
             least = 1 / cells if name in PLACES else 0.0
-            told[name] = max(SAFETY * step / 3, least) + abs(quantity.value) * found.residual * cells
+            told[name] = max(SAFETY * step / 3, least) + abs(quantity.value) * (found.residual * cells + doubt)
     return told
 
 
@@ -200,14 +205,28 @@ def _fields(scene: Bearing, found: Solution) -> dict[str, Field]:
     return {name: Field(values=np.ascontiguousarray(field), unit=unit) for name, (field, unit) in values.items()}
 
 
-def cost(scene: Bearing, cells: int, *, wide: bool) -> float:
-    """Expected CPU seconds."""
-    return 4e-3 + 8e-7 * cells if wide or scene.wide else 1e-2 + 2e-6 * cells**2
+def cost(scene: Bearing, cells: int, *, wide: bool, in_plane: float) -> float:
+    """Expected CPU seconds; ``in_plane`` for each cell of a film with a width."""
+    return 4e-3 + 8e-7 * cells if wide or scene.wide else 1e-2 + in_plane * cells**2
 
 
-def as_it_is(problem: Problem) -> Problem:
-    """Nothing left out."""
-    return problem
+def roughness_left_out(scene: Bearing, *, told: Callable[[Bearing], Applicability]) -> Applicability:
+    """What a rung says of itself, and how rough the wall is that it takes for smooth."""
+    fits = told(scene)
+    if not fits.applies or scene.roughness is None:
+        return fits
+    part = scene.roughness.rms / scene.geometry.film
+    return replace(fits, reason=f"{fits.reason}; takes the wall for smooth: rms height over film = {part:.2g}")
+
+
+def smooth_resolutions(scene: Bearing) -> tuple[int, ...]:
+    """Cells from coarse to fine, for a wall without roughness."""
+    return WIDE if scene.wide else PLANE
+
+
+def line_resolutions(scene: Bearing) -> tuple[int, ...]:  # noqa: ARG001
+    """The same where one line is all that is solved."""
+    return WIDE
 
 
 def bearing_model(
@@ -217,11 +236,19 @@ def bearing_model(
     keeps: frozenset[Effect],
     applies: Callable[[Bearing], Applicability],
     sources: tuple[str, ...] = SOURCES,
-    simplified: Callable[[Problem], Problem] = as_it_is,
+    film: Callable[[Bearing], Problem] = Bearing.problem,
+    resolutions: Callable[[Bearing], tuple[int, ...]] = smooth_resolutions,
     ruptures: bool = True,
     wide: bool = False,
+    in_plane: float = 2e-6,
 ) -> Model:
-    """A rung of a bearing: ``simplified`` leaves physics out of its film; one that is ``wide`` solves a single line."""
+    """A rung of a bearing: ``film`` says what it takes a scene for; one that is ``wide`` solves a single line.
+
+    ``resolutions`` go from coarse to fine; the finest is the default. ``in_plane``: expected CPU seconds for each cell
+    of a film with a width.
+    """
+    if Effect.ROUGHNESS not in keeps:
+        applies = partial(roughness_left_out, told=applies)
     return Model(
         name=name,
         kind="bearing",
@@ -230,18 +257,19 @@ def bearing_model(
         sources=sources,
         resolution=None,
         resolutions=(),
-        own_resolutions=lambda scene: WIDE if wide or scene.wide else PLANE,
+        own_resolutions=resolutions,
         resolution_meaning=RESOLUTION_MEANING,
         residual_meaning=RESIDUAL_MEANING,
         order=2,
-        cost=partial(cost, wide=wide),
+        cost=partial(cost, wide=wide, in_plane=in_plane),
         applies=applies,
         solve=partial(
             solve,
             model=name,
             keeps=keeps,
             sources=sources,
-            simplified=simplified,
+            film=film,
+            resolutions=resolutions,
             ruptures=ruptures,
             applies=applies,
         ),

@@ -29,6 +29,10 @@ class Effect(StrEnum):
     """Films that rupture where pressure would fall below what the liquid bears, mass kept."""
     PRESSURE_DEPENDENCE = "pressure dependence"
     """Density and viscosity that grow with pressure."""
+    ROUGHNESS = "roughness"
+    """Averaged over its waves, as if these were infinitely short."""
+    FINITE_WAVES = "finite waves"
+    """Of roughness: each is there, as long as it is and where it is."""
 
 
 @dataclass(frozen=True, kw_only=True)

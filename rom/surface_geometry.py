@@ -101,12 +101,12 @@ class SurfaceGeometry(Part):
             told = "no such file" if isinstance(error, FileNotFoundError) else f"cannot be read ({error.strerror})"
             raise InputError(f"in {path}: {told}; name a file of heights") from None
         if ours and self.spacing is not None:
-            raise InputError(f"in {path}: it tells its spacing itself; leave out geometry.spacing")
+            raise InputError(f"in {path}: it tells its spacing itself; leave the key spacing out")
         if not ours and path.suffix.lower() not in PLAIN:
             told = "neither a surface of roughfilm nor NPY nor CSV; prepare it with: roughfilm surface"
             raise InputError(f"in {path}: it is {told}")
         if path.suffix.lower() == ".npy" and not ours and self.spacing is None:
-            raise InputError(f'in {path}: it tells no spacing of its points; add geometry.spacing = "1 um"')
+            raise InputError(f'in {path}: it tells no spacing of its points; add spacing = "1 um"')
         return _read(str(path), self.spacing, found.st_mtime_ns, found.st_size)
 
     def spectrum(self) -> WavePower | None:

@@ -66,7 +66,7 @@ def write_comparison(report: Report, path: Path) -> None:
         report=report,
         view=report.view,
         compared=report.kind.compared,
-        reduced=report.best != best(report.models).name,
+        reduced=report.best != best([model for model in report.models if model.applies(report.scene).applies]).name,
         best=report.results[report.best],
         entries=scene_entries(report.scene),
         cheapest={part: cheapest_within(report, part) for part in (0.01, 0.10)},

@@ -116,6 +116,7 @@ def over_gap(factors: Sequence[FlowFactors], mean_gap: Array, highest: float) ->
         drag_across=np.array([one.shear[1] for one in factors]),
         couette=np.array([one.couette for one in factors]),
         shear_couette=np.array([one.shear_couette for one in factors]),
+        streaming=np.array([one.couette - one.shear_couette for one in factors]),
         least=mean_gap - highest,
     )
 
@@ -151,6 +152,7 @@ def tabled(
             drag_across=0 * mean_gap,
             couette=inverse,
             shear_couette=part(place) * inverse,
+            streaming=(1 - part(place)) * inverse,
             least=mean_gap - highest,
         )
 

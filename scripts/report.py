@@ -79,9 +79,11 @@ def _kind(table: Mapping[str, Any]) -> str:
 
 
 def _reference(sweep: Sweep) -> str:
-    """The best rung of the sweep, at its finest and best scheme: the one named first in the study."""
+    """The best rung that solved any case, at its finest and best scheme: the one named first in the study."""
     ladder = of_kind(models(), sweep.kind)
-    top = best([model for model in ladder if any(name.split("-")[0] == model.name for name in sweep.found)])
+    solved = [name for name, values in sweep.found.items() if any(np.isfinite(v).any() for v in values.values())]
+    names = {name.split("-")[0] for name in solved or sweep.found}
+    top = best([model for model in ladder if model.name in names])
     named = [name for name in sweep.found if name.split("-")[0] == top.name]
     return next((name for scheme in top.schemes for name in named if scheme in name.split("-")), named[-1])
 

@@ -5,7 +5,7 @@ import numpy as np
 from contact.compiled import compiled, inlined
 
 FILM, CAVITY, FIXED, FLOODED = 0, 1, 2, 3
-"""What is unknown at a node: its pressure; its filled part; nothing; nothing, as the inlet brings more than enough."""
+"""What is unknown at a node: its pressure; its filled part; nothing; nothing, as more than enough is brought."""
 
 
 @inlined
@@ -129,8 +129,8 @@ def advance(kind, pressure, fill, change):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def settle_inlet(kind, balance):  # type: ignore[no-untyped-def]
-    """Flood the inlet nodes that are full, let those dry that would need more than is brought. Returns how many."""
+def settle_bank(kind, balance):  # type: ignore[no-untyped-def]
+    """Flood the nodes of a bank that are full, let those dry that would need more than is brought. Returns how many."""
     changed = 0
     for j in range(kind.size):
         if kind[j] == FILM:

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from math import sqrt
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contact.errors import InputError
 from rom.cavitation.averaged import Averaged, averaged
@@ -122,6 +123,7 @@ def network(
     viscosity: float,
     compressibility: float,
     storage: tuple[float, Array] | None = None,
+    ruptures: bool = True,
 ) -> Network:
     """The network of a film.
 
@@ -131,6 +133,7 @@ def network(
     viscosity : at the pressure of cavitation, Pa s.
     compressibility : dθ/dp at the pressure of cavitation, 1/Pa.
     storage : of transient flow: the time step, s, and θh of the step before, m, shape (nx, ny).
+    ruptures : whether the film ruptures at the pressure of cavitation.
 
     Raises InputError for a film joined in y whose roughness is averaged.
     """
@@ -159,6 +162,13 @@ def network(
             supply[[0, -1]] = 0
     if supply is not None:
         north[0] = 0
+    lay = _oblique(grid, faces, north, fixed, speed, viscosity, compressibility, supplied=supply is not None)
+    spills = (False, False)
+    if lay is not None and ruptures and ends.sides is not None:
+        spills = (ends.sides[0] <= 0, ends.sides[1] <= 0)
+        within = slice(None) if grid.spacing_x[-1] else slice(1, -1)
+        for j, empties in zip((0, -1), spills, strict=True):
+            fixed[within, j] &= not empties
     step, stored = (np.inf, np.zeros((nx, ny))) if storage is None else storage
     return Network(
         couette=couette,
@@ -171,12 +181,21 @@ def network(
         storage=grid.areas * faces.thickness / step,
         stored=grid.areas * stored / step,
         periodic=(bool(grid.spacing_x[-1]), bool(grid.spacing_y[-1])),
-        oblique=_oblique(grid, faces, north, speed, viscosity, compressibility, supplied=supply is not None),
+        oblique=lay,
+        spills=spills,
     )
 
 
 def _oblique(
-    grid: Grid, faces: Faces, north: Array, speed: float, viscosity: float, compressibility: float, *, supplied: bool
+    grid: Grid,
+    faces: Faces,
+    north: Array,
+    fixed: NDArray[np.bool_],
+    speed: float,
+    viscosity: float,
+    compressibility: float,
+    *,
+    supplied: bool,
 ) -> Oblique | None:
     """What a slanting lay adds in the plane, if there is one; nothing drifts along a line that an inlet feeds."""
     rough = faces.averaged
@@ -192,5 +211,10 @@ def _oblique(
         upstream = np.maximum(0.5, 1 - north / (np.abs(drift) * compressibility))
     upstream[drift * compressibility == 0] = 0.5
     return Oblique(
-        cross=rough.cross / (12 * viscosity), drift=drift, upstream=upstream, periodic=bool(grid.spacing_x[-1])
+        cross=rough.cross / (12 * viscosity),
+        drift=drift,
+        upstream=upstream,
+        torn=rough.torn_across,
+        fixed=fixed,
+        periodic=bool(grid.spacing_x[-1]),
     )

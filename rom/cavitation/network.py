@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,6 +10,8 @@ from numpy.typing import NDArray
 from rom.cavitation.balance import conduct, linearise
 from rom.cavitation.oblique import Oblique
 from rom.gap import Array
+
+Values = TypeVar("Values", bound=NDArray[Any])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,6 +39,8 @@ class Network:
     storage : volume over time step, m³/s; zero in steady flow. ``stored``: the same of the step before, times its θ.
     periodic : in i, in j.
     oblique : what a slanting lay adds; None without one.
+    spills : whether the sides j = 0 and j = -1 are at the pressure of cavitation and give away what they get beyond
+        what fills them, but get nothing themselves.
     """
 
     couette: Array
@@ -49,6 +54,7 @@ class Network:
     stored: Array
     periodic: tuple[bool, bool] = (False, False)
     oblique: Oblique | None = None
+    spills: tuple[bool, bool] = (False, False)
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -60,6 +66,18 @@ class Network:
         """``supply``, empty where there is none."""
         return np.zeros(0) if self.supply is None else self.supply
 
+    @property
+    def drifting(self) -> tuple[Array, Array]:
+        """``drift`` and ``torn`` of the slanting lay, empty where there is none."""
+        nothing = np.zeros((0, 0))
+        return (nothing, nothing) if self.oblique is None else (self.oblique.drift, self.oblique.torn)
+
+    def banks(self, values: Values) -> tuple[Values, ...]:
+        """Views of values at nodes that are flooded or partly full, never under pressure: inlet and spilling sides."""
+        views = [] if self.supply is None else [values[0]]
+        views += [values[:, j] for j, spills in zip((0, -1), self.spills, strict=True) if spills]
+        return tuple(views)
+
     def linearise(
         self, kind: NDArray[np.int8], pressure: Array, fill: Array, laws: Sequence[Array], parts: Sequence[Array]
     ) -> float:
@@ -70,10 +88,8 @@ class Network:
         faces = (self.couette, self.upstream, self.east, self.north, self.storage, self.stored, self.supplied)
         largest = float(linearise(*faces, *self.periodic, kind, pressure, fill, *laws, *parts))
         if self.oblique is not None:
-            excess, excess_slope, mobility, _ = laws
             balance, centre, _, _, south, north = parts
-            flows = self.oblique.flows(mobility, pressure, fill, excess)
-            self.oblique.linearise(kind, flows, excess_slope, (balance, centre, south, north))
+            self.oblique.linearise(kind, (pressure, fill), (laws[0], laws[1], laws[2]), (balance, centre, south, north))
         return largest
 
     def conductance(self, mobility: Array) -> tuple[Array, Array]:

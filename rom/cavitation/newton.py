@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact.errors import ConvergenceError, Outcome
-from rom.cavitation.balance import CAVITY, FILM, FIXED, FLOODED, advance, settle_inlet
+from rom.cavitation.balance import CAVITY, FILM, FIXED, FLOODED, advance, settle_bank
 from rom.cavitation.fluid import Fluid
 from rom.cavitation.network import Network, State
 from rom.cavitation.relaxation import relaxed
@@ -102,8 +102,8 @@ def newton(
     for iteration in range(limit + 1):
         mobility = fluid.mobility(pressure)
         largest = network.linearise(kind, pressure, fill, (*fluid.compression(pressure), *mobility), parts)
-        if network.supply is not None:
-            settle_inlet(kind[0], balance[0])
+        for bank, rest in zip(network.banks(kind), network.banks(balance), strict=True):
+            settle_bank(bank, rest)
         balance[kind >= FIXED] = 0
         residual = float(np.abs(balance).max()) / (largest or 1.0)
         if not np.isfinite(residual):
@@ -130,8 +130,8 @@ def newton(
 def _begun(network: Network, start: State) -> tuple[Array, Array, NDArray[np.int8]]:
     """Pressure, filled part and kind of every node, as ``start`` has them."""
     kind = np.where(start.fill < 1, np.int8(CAVITY), np.int8(FILM))
-    if network.supply is not None:
-        kind[0] = np.where(start.fill[0] < 1, CAVITY, FLOODED)
+    for bank, fill in zip(network.banks(kind), network.banks(start.fill), strict=True):
+        bank[:] = np.where(fill < 1, CAVITY, FLOODED)
     kind[network.fixed] = FIXED
     pressure = np.where(network.fixed, network.pressure, np.where(kind == FILM, start.pressure, 0.0))
     return pressure, np.where(kind == CAVITY, start.fill, 1.0), kind

@@ -63,13 +63,19 @@ def plane_step(network: Network, linear: Linear, accuracy: float) -> Array:
 def conductances(network: Network, linear: Linear) -> tuple[Array, Array, Array]:
     """The symmetric operator inside the film: centre, and couplings towards i+1 and j+1, shape (nx, ny)."""
     centre, east, north = (np.zeros(network.shape) for _ in range(3))
-    couple(linear.kind, *network.conductance(linear.mobility), *network.periodic, centre, east, north)
+    to_east, to_north = network.conductance(linear.mobility)
+    slopes = (linear.centre, linear.south, linear.north)
+    couple(linear.kind, to_east, to_north, *network.periodic, *slopes, centre, east, north)
     return centre, east, north
 
 
 @compiled
-def couple(kind, east, north, periodic_x, periodic_y, centre, to_east, to_north):  # type: ignore[no-untyped-def]
-    """Fill in what joins nodes of the film; nodes that are none stand alone."""
+def couple(kind, east, north, periodic_x, periodic_y, by_self, by_south, by_north, centre, to_east, to_north):  # type: ignore[no-untyped-def]  # fmt: skip
+    """Fill in what joins nodes of the film; nodes that are none stand alone.
+
+    ``by_self``, ``by_south`` and ``by_north`` are derivatives of the balances: of what a film lets into a cavity beside
+    it, that part is no loss which drifts back.
+    """
     nx, ny = kind.shape
     feeds = np.zeros(kind.shape, dtype=np.bool_)
     for _ in range(2 if periodic_x else 1):
@@ -94,9 +100,9 @@ def couple(kind, east, north, periodic_x, periodic_y, centre, to_east, to_north)
             g = north[i, j]
             here, there = kind[i, j] == FILM, kind[i, k] == FILM
             if here and not feeds[i, k]:
-                centre[i, j] += g
+                centre[i, j] += g * (1.0 + by_north[i, j] / by_self[i, k] if kind[i, k] == CAVITY else 1.0)
             if there and not feeds[i, j]:
-                centre[i, k] += g
+                centre[i, k] += g * (1.0 + by_south[i, k] / by_self[i, j] if kind[i, j] == CAVITY else 1.0)
             if here and there:
                 to_north[i, j] = g
     for i in range(nx):

@@ -2,14 +2,28 @@
 
 import numpy as np
 
-from contact.compiled import compiled
+from contact.compiled import compiled, inlined
 from rom.cavitation.balance import CAVITY, FILM, FIXED
 from rom.cavitation.fluid import Fluid
 from rom.cavitation.network import Network, State
+from rom.cavitation.oblique import wet
+
+
+@inlined
+def held(source, out, across, torn):  # type: ignore[no-untyped-def]
+    """The filled part that lets out as much as comes in: out ξ + across g(ξ) = source, halved down to."""
+    low, high = 0.0, 1.0
+    for _ in range(30):
+        middle = 0.5 * (low + high)
+        if out * middle + across * wet(middle, torn)[0] > source:
+            high = middle
+        else:
+            low = middle
+    return 0.5 * (low + high)
 
 
 @compiled
-def relax(couette, upstream, east, north, storage, stored, supply, periodic_x, periodic_y, kind, pressure, fill, excess, excess_slope, sweeps):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
+def relax(couette, upstream, east, north, storage, stored, supply, periodic_x, periodic_y, drift, torn, fixed, banks, kind, pressure, fill, excess, excess_slope, sweeps):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
     """Nonlinear Gauss–Seidel, along the flow, with ``east`` and ``north`` Kφ and ϑ linear in p. ``excess`` follows.
 
     Every node takes the pressure that balances it or, if that is negative, the filled part that does: p >= 0, ξ <= 1.
@@ -20,7 +34,8 @@ def relax(couette, upstream, east, north, storage, stored, supply, periodic_x, p
         for i in range(nx):
             before = i - 1 if i > 0 else (nx - 1 if periodic_x else -1)
             after = i + 1 if i + 1 < nx else (0 if periodic_x else -1)
-            for j in range(ny):
+            for place in range(2 * ny if drift.size else ny):
+                j = place if place < ny else 2 * ny - 1 - place
                 if kind[i, j] == FIXED:
                     continue
                 source = stored[i, j]
@@ -52,9 +67,21 @@ def relax(couette, upstream, east, north, storage, stored, supply, periodic_x, p
                     if k >= 0:
                         source += g * pressure[i, k]
                         drain += g
-                left = source - out
+                across = edge = 0.0
+                for side in range(2 if drift.size else 0):
+                    face = j - 1 + side
+                    if face < 0 or face >= ny - 1:
+                        continue
+                    k = face + 1 - side
+                    d = drift[i, face] if side == 0 else -drift[i, face]
+                    if d > 0.0 and not fixed[i, k]:
+                        source += d * wet(fill[i, k], torn[i, face])[0]
+                    else:
+                        across -= d
+                        edge = torn[i, face]
+                left = source - out - across
                 film = 0.0
-                if left > 0.0 and not (i == 0 and supply.size):
+                if left > 0.0 and not (banks[i, j]):
                     slope = weight * excess_slope[i, j]
                     film = (left - weight * excess[i, j] + slope * pressure[i, j]) / (drain + slope)
                 if film > 0.0:
@@ -65,18 +92,23 @@ def relax(couette, upstream, east, north, storage, stored, supply, periodic_x, p
                 else:
                     pressure[i, j] = excess[i, j] = 0.0
                     fill[i, j] = min(1.0, source / out) if out > 0.0 else 1.0
+                    if across != 0.0:
+                        fill[i, j] = held(source, out, across, edge)
                     kind[i, j] = CAVITY
 
 
 def relaxed(network: Network, fluid: Fluid, state: State, sweeps: int) -> State:
-    """A state after some sweeps, through which what a slanting lay adds stays as it is."""
+    """A state after some sweeps, through which what pressure drives across a slanting lay stays as it is."""
     pressure = np.where(network.fixed, network.pressure, state.pressure)
     fill = state.fill.copy()
     kind = np.where(network.fixed, np.int8(FIXED), np.where(fill < 1, np.int8(CAVITY), np.int8(FILM)))
     excess, slope = fluid.compression(pressure)
+    banks = np.zeros(network.shape, dtype=bool)
+    for bank in network.banks(banks):
+        bank[:] = True
     mobility, stored = fluid.mobility(pressure)[0], network.stored
     if network.oblique is not None:
-        stored = stored - network.oblique.outflow(*network.oblique.flows(mobility, pressure, fill, excess))
+        stored = stored - network.oblique.image(mobility, pressure)
     relax(
         network.couette,
         network.upstream,
@@ -85,6 +117,9 @@ def relaxed(network: Network, fluid: Fluid, state: State, sweeps: int) -> State:
         stored,
         network.supplied,
         *network.periodic,
+        *network.drifting,
+        network.fixed,
+        banks,
         kind,
         pressure,
         fill,

@@ -161,6 +161,7 @@ def on_grid(
         viscosity=problem.viscosity,
         compressibility=problem.initial_compressibility,
         storage=storage,
+        ruptures=ruptures,
     )
     state = start or State(pressure=np.zeros(net.shape), fill=np.ones(net.shape))
     step = line_step if problem.shape.wide else plane_step

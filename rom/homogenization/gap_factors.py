@@ -18,6 +18,8 @@ class GapFactors:
     along, across, cross : A₁₁, A₂₂ and A₁₂ = A₂₁, m³; 0 where no open path leads through.
     drag, drag_across : B₁ and B₂, m.
     couette, shear_couette : d and e, 1/m.
+    streaming : friction over ηuξ where liquid fills the part ξ of the gap and no pressure is: B₁ <h⁻²>, 1/m, where
+        streamers go straight on, thin where they are wide.
     least : the least gap, m; 0 where the walls touch.
     """
 
@@ -28,6 +30,7 @@ class GapFactors:
     drag_across: Array
     couette: Array
     shear_couette: Array
+    streaming: Array
     least: Array
 
 

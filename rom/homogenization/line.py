@@ -136,5 +136,6 @@ def _straight(gaps: Array) -> GapFactors:
         drag_across=nothing,
         couette=couette / scale,
         shear_couette=(couette - drag * squared) / scale,
+        streaming=drag * squared / scale,
         least=gaps.min(axis=0),
     )

@@ -8,6 +8,9 @@ from contact.errors import InputError
 from rom.gap import Array
 from rom.homogenization.gap_factors import FactorsOverGap, GapFactors
 
+LEVEL = 1e-12
+"""Ridges whose wave vector has a smaller part along the sliding lie along it: streamers do not cross them."""
+
 
 def sinusoidal_ridges(amplitude: float, direction: float) -> FactorsOverGap:
     """Factors of h = ĥ + a sin(k·x) over the mean gap ĥ, exact for any length of the waves.
@@ -43,14 +46,16 @@ def sinusoidal_ridges(amplitude: float, direction: float) -> FactorsOverGap:
         inverse, square = gap**-0.5 / h, gap**-1.5 / h**2
         resisting, leading = h**3 * gap**2.5 / (1 + r2 / 2), h**3 * (1 + 1.5 * r2)
         carried = h * gap / (1 + r2 / 2)
+        drag = carried * along**2 + h * across**2
         return GapFactors(
             along=resisting * along**2 + leading * across**2,
             across=resisting * across**2 + leading * along**2,
             cross=(resisting - leading) * along * across,
-            drag=carried * along**2 + h * across**2,
+            drag=drag,
             drag_across=(carried - h) * along * across,
             couette=inverse,
             shear_couette=along**2 * (inverse - carried * square),
+            streaming=inverse if abs(along) < LEVEL else drag * square,
             least=h - amplitude,
         )
 

@@ -65,11 +65,14 @@ class Separations:
         return float(z[below - 1] + (mean_gap - means[below - 1]) * z.size / below)
 
     def sealing(self) -> tuple[float, float]:
-        """The largest of the heights z at which, as separation, nothing gets through: in x and in y, m."""
+        """The largest of the heights z at which, as separation, nothing gets through: in x and in y, m.
+
+        The second lowest at least, as at the lowest nothing is open. (At it a valley along a whole side may be open.)
+        """
         z = np.unique(self._above)
         found = []
         for direction in (0, 1):
-            shut, open_at = 0, z.size - 1
+            shut, open_at = 1, z.size - 1
             if sealed(without_traces(self.gap(z[-1])))[direction]:
                 shut = open_at
             while open_at - shut > 1:

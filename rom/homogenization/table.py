@@ -49,8 +49,8 @@ class FactorTable:
     """Points in order of their mean gaps ĥ, with monotone cubic interpolation (Fritsch and Carlson) over ln ĥ.
 
     Interpolated are ∛A₁₁/ĥ, ∛A₂₂/ĥ, A₁₂/√(A₁₁A₂₂), B/ĥ, d ĥ and e ĥ, so that A stays positive semidefinite and has no
-    extremes but those of the points. Beyond the widest gap what roughness does falls with ĥ², as perturbation theory
-    has it.
+    extremes but those of the points. The friction of streamers is taken as d − e, exact for ridges along and across.
+    Beyond the widest gap what roughness does falls with ĥ², as perturbation theory has it.
 
     Attributes
     ----------
@@ -78,6 +78,17 @@ class FactorTable:
     def widest(self) -> float:
         """ĥ of the last point, m."""
         return self.scale * self.points[-1].mean_gap
+
+    @property
+    def doubt(self) -> float:
+        """The largest part of A₁₁, A₂₂ or B₁ by which one may be off: of the interpolation, and of any point's grid."""
+        worst = 0.0
+        for point in self.points:
+            a, b = point.factors.pressure, point.factors.shear
+            doubt = point.uncertainty
+            pairs = ((a[0, 0], doubt.pressure[0, 0]), (a[1, 1], doubt.pressure[1, 1]), (b[0], doubt.shear[0]))
+            worst = max(worst, *(float(unsure / abs(value)) for value, unsure in pairs if value != 0))
+        return self.interpolation_error + worst
 
     def __call__(self, mean_gap: Array, /) -> GapFactors:
         """The factors at mean gaps, m, of any shape.
@@ -107,6 +118,7 @@ class FactorTable:
             drag_across=drag_across * h,
             couette=couette / h,
             shear_couette=shear_couette / h,
+            streaming=(couette - shear_couette) / h,
             least=np.maximum(h - self.scale * self.peak, 0.0),
         )
 

@@ -35,6 +35,7 @@ def tabulate(
     spacing: tuple[float, float],
     *,
     tolerance: float = TOLERANCE,
+    narrowest: float | None = None,
     rule: FaceRule = FaceRule.LINEAR,
     known: Mapping[float, Point] | None = None,
     keep: Callable[[Point], object] = lambda _point: None,
@@ -51,6 +52,7 @@ def tabulate(
     spacing : (dx, dy), m.
     tolerance : what interpolation may add to A over √(A_ii A_jj), to B over |B|, and without contact to d and e over d.
         In contact d has no limit to be near to: at an edge <1/h> grows with the logarithm of the nodes.
+    narrowest : the mean gap of the first point, m; by default where nothing gets through in either direction.
     known : points by separation that need not be solved again.
     keep : called with every new point.
 
@@ -92,11 +94,11 @@ def tabulate(
     def made() -> FactorTable:
         return FactorTable(points=tuple(sorted(found.values(), key=lambda point: point.mean_gap)), peak=body.peak)
 
-    low, high = sorted(body.sealing())
+    low, *others = sorted(set(body.sealing())) if narrowest is None else [body.at_mean_gap(narrowest)]
     first = solve(low)
     last = max(THICK * body.rms, 2 * first.mean_gap)
-    if high > low:
-        solve(high)
+    for separation in others:
+        solve(separation)
     for mean_gap in np.geomspace(first.mean_gap, last, FIRST)[1:]:
         progress(len(found) / 40, f"{len(found)} separations")
         solve(body.at_mean_gap(float(mean_gap)))

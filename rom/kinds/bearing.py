@@ -14,6 +14,7 @@ from rom.bearing import Bearing
 from rom.bearing_geometry import SHAPES
 from rom.kind import Kind
 from rom.lubricants.laws import LAWS
+from rom.roughness import ROUGHNESSES
 from rom.sweeping import Columns, Powers, Sweeping
 
 NEVER_COMPRESSED = 1e-12
@@ -26,6 +27,7 @@ CHOSEN: Mapping[tuple[str, ...], Mapping[str, type[Part]]] = {
     ("geometry",): SHAPES,
     ("lubricant", "compressibility"): LAWS,
     ("lubricant", "piezoviscosity"): LAWS,
+    ("roughness",): ROUGHNESSES,
 }
 """Tables that say by one key what else is in them."""
 
@@ -36,7 +38,10 @@ def scale(values: Mapping[str, Any], quantity: str) -> Any:
 
 
 def columns(scene: Bearing) -> dict[str, Quantity | str]:
-    """The shape, how dense the inlet is, 6ηuL/h², how much that compresses, and width over length if there is one."""
+    """The shape, how dense the inlet is, 6ηuL/h², how much that compresses, width over length if there is one.
+
+    Of a rough wall also rms height over film, and the period over the length.
+    """
     theta = scene.boundary.inlet.theta
     numbers = {
         "inlet_theta": 1.0 if theta is None else theta,
@@ -44,6 +49,9 @@ def columns(scene: Bearing) -> dict[str, Quantity | str]:
     }
     if scene.geometry.width is not None:
         numbers["width_ratio"] = scene.geometry.width / scene.geometry.length
+    if scene.roughness is not None:
+        numbers["roughness_ratio"] = scene.roughness.rms / scene.geometry.film
+        numbers["roughness_period"] = scene.roughness.period / scene.geometry.length
     return {
         "shape": scene.geometry.shape,
         "pressure_unit": Quantity(value=scene.pressure_unit, unit="Pa"),
@@ -99,11 +107,14 @@ KIND = Kind(
     compared={"load_per_width": "load", "friction_per_width": "friction"},
     scale=scale,
     columns=columns,
-    files=frozenset({"table"}),
+    files=frozenset({"table", "surface"}),
+    lists=frozenset({("roughness", "spacing"), ("roughness", "surface", "size"), ("roughness", "surface", "points")}),
     told=told,
     replaces={
         "lubricant.compressibility.law": ("bulk_modulus", "c1", "c2", "table", "fit"),
         "lubricant.piezoviscosity.law": ("pressure_coefficient", "index"),
+        "roughness.kind": ("amplitude", "wavelength", "direction", "phase", "surface", "spacing", "scale", "stretch"),
+        "roughness.surface": ("digest", "spacing"),
         "boundary.inlet.theta": ("pressure",),
         "boundary.inlet.pressure": ("theta",),
     },

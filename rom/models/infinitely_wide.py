@@ -4,13 +4,14 @@ from dataclasses import replace
 
 from rom.bearing import Bearing
 from rom.bearing_geometry import Sector
-from rom.bearing_rung import bearing_model
+from rom.bearing_rung import bearing_model, line_resolutions
 from rom.cavitation.problem import Problem
 from rom.ladder import Applicability, Effect
 
 
-def one_line(problem: Problem) -> Problem:
+def one_line(scene: Bearing) -> Problem:
     """The film along its middle, infinitely wide."""
+    problem = scene.problem()
     return replace(problem, shape=replace(problem.shape, wide=True), ends=replace(problem.ends, sides=None))
 
 
@@ -33,6 +34,7 @@ MODEL = bearing_model(
     summary="one line of the film, with cavitation and any compressibility, without flow through the sides",
     keeps=frozenset({Effect.CAVITATION, Effect.PRESSURE_DEPENDENCE}),
     applies=applies,
-    simplified=one_line,
+    film=one_line,
+    resolutions=line_resolutions,
     wide=True,
 )

@@ -21,6 +21,6 @@ MODEL = bearing_model(
     keeps=frozenset({Effect.SIDE_FLOW}),
     sources=("10.1098/rstl.1886.0005",),
     applies=applies,
-    simplified=unchanging,
+    film=lambda scene: unchanging(scene.problem()),
     ruptures=False,
 )

@@ -7,7 +7,7 @@ from rom.ladder import Applicability, Effect
 
 def applies(scene: Bearing) -> Applicability:  # noqa: ARG001
     """Always."""
-    return Applicability(applies=True, reason="leaves out inertia, roughness, heat and deformation")
+    return Applicability(applies=True, reason="leaves out inertia, heat and deformation")
 
 
 MODEL = bearing_model(

@@ -24,5 +24,5 @@ MODEL = bearing_model(
     summary="Reynolds equation with mass-conserving cavitation, incompressible",
     keeps=frozenset({Effect.SIDE_FLOW, Effect.CAVITATION}),
     applies=applies,
-    simplified=unchanging,
+    film=lambda scene: unchanging(scene.problem()),
 )

@@ -18,6 +18,8 @@ STYLES = {
     "infinitely_wide": Style(colour="#5aae61", line=":", marker="^"),
     "reynolds_incompressible": Style(colour="#e08214", line="-.", marker="D"),
     "reynolds_cavitating": Style(colour="#2166ac", line="-", marker="o"),
+    "homogenized": Style(colour="#b2182b", line="-", marker="v"),
+    "direct": Style(colour="#252525", line="-", marker="P"),
 }
 
 MOST_POINTS = 400
@@ -37,7 +39,10 @@ def along(scene: Bearing, results: Mapping[str, Result]) -> str:
         )
         if number == 0:
             film.fill_between(x * factor, h * 1e6, color="#9ecae1", linewidth=0)
-        look = {"linestyle": style.line, "color": style.colour, "linewidth": 1.8}
+        if name == "direct":
+            film.plot(x * factor, h * 1e6, color=style.colour, linewidth=0.6)
+        thin = x.size > 2 * MOST_POINTS and name == "direct"
+        look = {"linestyle": style.line, "color": style.colour, "linewidth": 1.0 if thin else 1.8}
         pressure.plot(x * factor, p * 1e-6, label=name, **look)
         density.plot(x * factor, theta, **look)
     lowest = scene.lubricant.cavitation_pressure * 1e-6
