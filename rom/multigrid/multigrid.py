@@ -110,7 +110,7 @@ class Multigrid:
             border=np.zeros((total, length if ring else 0), kind),
         )
         self._source, self._values = np.zeros(full, kind), np.zeros(full, kind)
-        self._work = np.zeros((4, length), kind)
+        self._work = np.zeros(length, kind)
         self._matrix = self._set_up(matrix)
         self._direction, self._image, self._residual = (np.zeros((count, length)) for _ in range(3))
 
@@ -291,11 +291,11 @@ class Multigrid:
         seen, stack = np.zeros((count, length), dtype=bool), np.zeros(count * length, dtype=np.int64)
         pieces.set_leak(centre, east, north, leak, seen, stack)
         self._rows.leak[:count], self._rows.east[:count], self._rows.north[:count] = leak, east, north
-        kernels.set_up(self._counts, self._rows, self._work)
+        kernels.set_up(self._counts, self._rows, np.zeros((4, length)))
         return centre, east, north
 
     def _cycle(self) -> None:
-        kernels.cycle(self._counts, self._rows, self._across, self._source, self._values, self._work[0])
+        kernels.cycle(self._counts, self._rows, self._across, self._source, self._values, self._work)
 
     def _apply(self, p: Array) -> float:
         """Set the image to Ap; Σ p Ap."""

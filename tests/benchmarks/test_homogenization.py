@@ -1,0 +1,229 @@
+"""Our cell problems beside direct and iterative solvers on the very same arrays: agreement, times as ratios, as JSON.
+
+ROUGHFILM_CELL_PEERS names the environment of the peers, which ``peers/setup_homogenization`` makes; without it ours
+runs alone. What takes long is marked: ``-m "benchmark and not slow"`` leaves it out, ``-k`` chooses a case or a peer.
+
+All but reynoldsflow solve the network that our own faces make, and are given it: of ours everything from the gap on is
+timed, χ₃ and e as well. reynoldsflow makes its own of harmonic means and is compared with what that network's A is.
+Iterative peers are timed at the loosest of their tolerances whose A is as good as asked.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import time
+from functools import cache, partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from contact.files import replacing
+from contact.preparation.prepare import prepare
+from contact.preparation.recipe import read_recipe
+from contact.surface_files import read_surface
+from contact.synthetic.self_affine import self_affine
+from rom.homogenization.cell import solve_cell
+from rom.homogenization.conductance import FaceRule, faces
+from rom.homogenization.tabulate import tabulate
+from rom.provenance import circumstances
+
+ROOT = Path(__file__).parent.parent.parent
+PROGRAM = Path(__file__).parent / "peers" / "cells.py"
+RESULTS = ROOT / "runs" / "benchmarks" / "homogenization.json"
+
+SIDE, WAVES, CONTACT = 1e-3, 8, 0.2
+"""Of the surface: its period, m, how many of its longest waves that holds, and how much of it is cut off."""
+
+AGREED, KNOWN = 1e-6, 1e-11
+"""Of A: how near every solver has to be to the network's own, and to what that is solved."""
+
+EQUAL, SHORTEST = 1.5e-3, SIDE / 32
+"""The error of A of which times are compared, on a surface whose shortest wave is this on every grid, m."""
+
+GRIDS = tuple(range(256, 1537, 32))
+"""Nodes along a side, of which the fewest that are as good are timed."""
+
+CONSTANT = 1.1
+"""The most memory a node, over the least, from 512² to 4096²."""
+
+DEFAULT = "cell_:factors"
+OURS = (DEFAULT, "cell_:factors 1e-8", "cell_:cell")
+DIRECT = ("superlu_:MMD_AT_PLUS_A", "superlu_:COLAMD", "pardiso_:", "cholmod_:amd", "cholmod_:metis")
+ITERATIVE = ("pyamg_:ruge_stuben", "pyamg_:aggregation")
+BEST = "reynoldsflow_:petsc-cg.hypre"
+REYNOLDSFLOW = (
+    BEST,
+    *(f"reynoldsflow_:{way}" for way in ("petsc-cg.gamg", "cholesky", "pardiso", "scipy.amg-rs")),
+    "reynoldsflow_:scipy.amg-smooth_aggregation",
+)
+CASES = {
+    (512, 8): OURS,
+    (1024, 8): (*OURS, *DIRECT, *ITERATIVE, *REYNOLDSFLOW),
+    (1024, 2): (*OURS, *DIRECT, *ITERATIVE, *REYNOLDSFLOW),
+    (2048, 8): (*OURS, "cholmod_:amd", BEST),
+    (4096, 8): (DEFAULT,),
+}
+"""Nodes along a side and in the shortest wave, and who solves it."""
+
+PAIRS = [
+    pytest.param(*case, solver, id=f"{case[0]}-{case[1]}-{solver}", marks=[pytest.mark.slow] * (case[0] > 1024))
+    for case, solvers in CASES.items()
+    for solver in solvers
+]
+
+
+def gap(points, cut_off):
+    """Over its mean; the same surface on every grid, in contact where it is cut off."""
+    heights = self_affine(
+        size=(SIDE, SIDE),
+        points=(points, points),
+        seed=20071,
+        hurst=0.8,
+        roll_off=SIDE / WAVES,
+        cut_off=cut_off,
+        rms_height=1e-6,
+    ).heights
+    truncated = np.maximum(np.quantile(heights, 1 - CONTACT) - heights, 0)
+    return truncated / truncated.mean()
+
+
+def pressures(h, rule, tolerance=KNOWN):
+    """A₁₁ and A₂₂."""
+    return np.diag(solve_cell(h, (1.0, 1.0), rule=rule, tolerance=tolerance).factors.pressure)
+
+
+@pytest.fixture(scope="module")
+def solved(tmp_path_factory):
+    """What a solver made of a case, in a process of its own, once; what is known by then is written down."""
+    folder = tmp_path_factory.mktemp("cells")
+    rows = {}
+
+    @cache
+    def written(points, cut_off):
+        h, place = gap(points, cut_off), folder / f"{points}, {cut_off:.3g}"
+        place.mkdir()
+        made = {"gap": h, **{name: getattr(faces(h), name) for name in ("east", "north", "drag")}}
+        for name, values in made.items():
+            np.save(place / f"{name}.npy", values)
+        return place
+
+    @cache
+    def own(points, cut_off, rule):
+        return pressures(gap(points, cut_off), rule).tolist()
+
+    def solve(points, cut_off, solver, right=None, error=AGREED, repeats=3):
+        key = (points, cut_off, solver, error)
+        if key not in rows:
+            asked, result = folder / "asked.json", folder / "result.json"
+            rule = FaceRule.HARMONIC if solver.startswith("reynoldsflow") else FaceRule.LINEAR
+            right = own(points, cut_off, rule) if right is None else right
+            asked.write_text(json.dumps({"right": right, "error": error, "repeats": repeats}))
+            command = [python(solver), PROGRAM, solver, written(points, cut_off), asked, result]
+            subprocess.run(command, env=os.environ | one_thread(), check=True)
+            rows[key] = {"load_average": os.getloadavg()[0], **json.loads(result.read_text())}
+            note({"cases": [told(rows, *key) for key in rows]})
+        return rows[key]
+
+    return solve
+
+
+def told(rows, points, cut_off, solver, error):
+    """A row with what it is, and its time over ours."""
+    row, ours = rows[points, cut_off, solver, error], rows.get((points, cut_off, DEFAULT, error))
+    case = {"points": points, "points_per_wave": round(cut_off * points / SIDE), "contact": CONTACT, "solver": solver}
+    ratio = {"cpu_over_ours": row["cpu_s"] / ours["cpu_s"]} if ours and "failed" not in row else {}
+    used = {"bytes_per_node": (row["peak_bytes"] - row["bytes_before"]) / points**2} if "failed" not in row else {}
+    return {**case, "asked": error, **row, **ratio, **used}
+
+
+def note(entries):
+    """Write some entries of the results, and keep the others of this run."""
+    KEPT.update(entries)
+    with replacing(RESULTS) as scratch:
+        scratch.write_text(json.dumps({**circumstances(), **KEPT}, indent=1))
+
+
+KEPT = {}
+
+
+def python(solver):
+    """Of the project, or of the peers' environment."""
+    if solver in OURS:
+        return sys.executable
+    if "ROUGHFILM_CELL_PEERS" not in os.environ:
+        pytest.skip(
+            "the peers are not here: make them by tests/benchmarks/peers/setup_homogenization, "
+            "name them in ROUGHFILM_CELL_PEERS"
+        )
+    return Path(os.environ["ROUGHFILM_CELL_PEERS"]) / "bin" / "python"
+
+
+def one_thread():
+    """This very tree, and one thread for every library."""
+    names = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
+    return {"PYTHONPATH": str(ROOT)} | dict.fromkeys(names, "1")
+
+
+@pytest.mark.benchmark
+@pytest.mark.parametrize(("points", "shortest", "solver"), PAIRS)
+def test_a_solver_finds_the_same_factors_as_ours(solved, points, shortest, solver):
+    find = partial(solved, points, shortest * SIDE / points)
+    found, ours = find(solver), find(DEFAULT)
+    assert "failed" not in found
+    assert found["error"] <= AGREED
+    if "shear" in found:
+        np.testing.assert_allclose(found["shear"], ours["shear"], rtol=0, atol=AGREED)
+
+
+@pytest.mark.benchmark
+def test_at_an_equal_error_of_a_ours_needs_fewer_nodes(solved):
+    """Both rules tend to the same A, at second order; the truth is extrapolated from two grids by ours."""
+    at = {rule: [pressures(gap(n, SHORTEST), rule) for n in (1024, 2048)] for rule in FaceRule}
+    limits = {rule: fine + (fine - coarse) / 3 for rule, (coarse, fine) in at.items()}
+    truth = limits[FaceRule.LINEAR]
+    np.testing.assert_allclose(limits[FaceRule.HARMONIC], truth, rtol=EQUAL / 50)
+    fewest = {
+        rule: next(
+            n for n in GRIDS if np.max(np.abs(pressures(gap(n, SHORTEST), rule, EQUAL / 100) / truth - 1)) <= EQUAL
+        )
+        for rule in FaceRule
+    }
+    right = truth.tolist()
+    ours = solved(fewest[FaceRule.LINEAR], SHORTEST, DEFAULT, right, EQUAL)
+    found = {
+        name: solved(fewest[FaceRule.HARMONIC], SHORTEST, name, right, EQUAL)
+        for name in (BEST, "reynoldsflow_:cholesky")
+    }
+    least = min(row["cpu_s"] for row in found.values())
+    note({"equal_error": {"error": EQUAL, "points": fewest, "cpu_over_ours": least / ours["cpu_s"]}})
+    assert max(row["error"] for row in (ours, *found.values())) <= EQUAL
+    assert fewest[FaceRule.LINEAR] < fewest[FaceRule.HARMONIC]
+
+
+@pytest.mark.benchmark
+@pytest.mark.slow
+def test_memory_grows_as_the_nodes_do(solved):
+    rows = {n: solved(n, 8 * SIDE / n, DEFAULT) for n in (512, 1024, 2048, 4096)}
+    each = [(row["peak_bytes"] - row["bytes_before"]) / n**2 for n, row in rows.items()]
+    assert max(each) <= CONSTANT * min(each)
+
+
+@pytest.mark.benchmark
+@pytest.mark.parametrize("name", ["milled_NT1100.opd", "isotropic.al3d"])
+def test_a_table_of_a_measured_surface(measured_file, name):
+    recipe = read_recipe({"grid": {"points": [512, 512]}})
+    surface = prepare(read_surface(measured_file(name)), recipe).joined
+    tabulate(surface.heights[::16, ::16], tuple(16 * step for step in surface.spacing), tolerance=0.1)
+    started = time.process_time(), time.perf_counter()
+    table = tabulate(surface.heights, surface.spacing)
+    spent = time.process_time() - started[0], time.perf_counter() - started[1]
+    row = {
+        "points": len(table.points),
+        "interpolation_error": table.interpolation_error,
+        "cpu_s": spent[0],
+        "wall_s": spent[1],
+    }
+    note({f"table of {name}": row})
+    assert len(table.points) >= 20
