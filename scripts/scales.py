@@ -53,7 +53,8 @@ def judge(study: Study) -> Claim:
         verdict=verdict,
         evidence=(
             f"at ε = 2⁻⁸, whatever the phase of the waves, pressure is within {100 * pressure:.2g} % of its maximum, "
-            f"load within {100 * load:.2g} %, friction within {100 * friction:.2g} %; pressure is within {100 * WAVES:.0f} % up to ε = "
+            f"load within {100 * load:.2g} %, friction within {100 * friction:.2g} %; pressure is within "
+            f"{100 * WAVES:.0f} % up to ε = "
             f"{max(good, default=0):.2g}, and the errors fall as ε^{study.rate('pressure'):.2f} (pressure) and "
             f"ε^{study.rate('load'):.2f} (load)"
         ),
