@@ -193,8 +193,8 @@ class Multigrid:
     ) -> Solved:
         """Solve Ap = b as far as its energy G = 2b·p − p·Ap asks for, whose error is the square of that of p.
 
-        What an iteration gains of G is known, and what the last third of them gained tells what is left to gain. So does
-        what a correction that is constant along rows, or along columns, would gain: a preconditioner that misses the
+        What an iteration gains of G is known, and what the last third of them gained tells what is left to gain. So
+        does what a correction constant along rows, or along columns, would gain: a preconditioner that misses the
         coarsest of the solution gains little with every iteration.
 
         Parameters
