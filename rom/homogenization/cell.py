@@ -1,15 +1,16 @@
 """The cell problems of one periodic gap on its own grid."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from contact.compiled import compiled
 from contact.errors import ConvergenceError
 from rom.gap import Array
-from rom.homogenization.conductance import FaceRule, Faces, faces, without_traces
+from rom.homogenization.conductance import FaceRule, faces, without_traces
 from rom.homogenization.factors import FlowFactors
+from rom.homogenization.grids import refined
 from rom.homogenization.paths import sealed
 from rom.homogenization.solvers import SOLVERS, Matrix, Source
 
@@ -50,15 +51,15 @@ def solve_cell(
 ) -> Cell:
     """Solve ∇·(h³(e_i + ∇χ_i)) = 0 and ∇·(h e₁ − h³∇χ₃) = 0, all periodic, on the nodes of a gap.
 
-    A_ij = <h³(e_i + ∇χ_i)·(e_j + ∇χ_j)>, B_i = <h(δ_1i + ∂₁χ_i)>, d = <1/h>, e = <h ∂₁χ₃>. A and e are least and
-    greatest energies, and B has what the residuals do to χ₃ added: their errors are squares of those of χ.
+    A_ij = <h³(e_i + ∇χ_i)·(e_j + ∇χ_j)>, B_i = <h(δ_1i + ∂₁χ_i)>, d = <1/h>, e = <h ∂₁χ₃>. A is a least
+    energy, and B and e have what the residuals do to χ₃ added: their errors are squares of those of χ.
 
     Parameters
     ----------
     gap : h >= 0, shape (nx, ny), m; one period. Nodes where h = 0 are contact: nothing flows there.
     spacing : (dx, dy), m.
     tolerance : of what iterating on would change A₁₁ and A₂₂ by, over themselves; and e, over its part from χ₃.
-    start : correctors of a gap much alike, shape (3, nx, ny), in the units of :class:`Cell`.
+    start : correctors of a gap much alike, in the units of :class:`Cell`, shape (3, nx, ny) or those of a coarser grid.
     solvers : names in :data:`rom.homogenization.solvers.SOLVERS`, tried in this order.
 
     Raises
@@ -67,69 +68,105 @@ def solve_cell(
         If none of the solvers meets the tolerance.
     """
     scale, (dx, dy) = float(gap.mean()), spacing
-    h = without_traces(gap / scale)
-    parts = faces(h, rule)
-    aspect = dy / dx
-    east, north = parts.east * aspect, parts.north / aspect
-    matrix = Matrix(centre=east + np.roll(east, 1, axis=0) + north + np.roll(north, 1, axis=1), east=east, north=north)
-    matrix.centre[matrix.centre == 0] = 1.0
-    units = dx * np.array([1.0, 1.0, scale**-2])[:, None, None]
-    wanted = [(i, _source(i, parts, aspect, start if start is None else start[i] / units[i])) for i in range(3)]
-    closed = sealed(h)
-    wanted = [(i, source) for i, source in wanted if i == 2 or not closed[i]]
+    network = _network(without_traces(gap / scale), rule, dy / dx)
+    units = dx * np.array([1.0, 1.0, scale**-2])
+    wanted = [i for i in range(3) if i == 2 or not network.closed[i]]
+
+    def source(which: int) -> Source:
+        values, whole = network.source(which)
+        if start is None:
+            return Source(values=values, whole=whole, start=None)
+        begun = refined(start[which], gap.shape)
+        begun /= units[which]
+        return Source(values=values, whole=whole, start=begun)
+
     for name in solvers:
         try:
-            found = dict(zip(dict(wanted), SOLVERS[name](matrix, list(dict(wanted).values()), tolerance), strict=True))
+            found = dict(zip(wanted, SOLVERS[name](network.matrix, map(source, wanted), tolerance), strict=True))
             break
         except ConvergenceError:
             if name == solvers[-1]:
                 raise
-    chi = np.zeros((3, *h.shape))
+    chi = np.zeros((3, *gap.shape))
     for i, one in found.items():
         chi[i] = one.solution
-    factors = _factors(h, parts, aspect, chi, closed)
-    correction = [
-        float((chi[2] * (dict(wanted)[i].values - matrix.image(chi[i]))).mean()) / aspect if i in found else 0.0
-        for i in (0, 1)
-    ]
+    factors = network.factors(chi).scaled(scale)
+    chi *= units[:, None, None]
     return Cell(
-        factors=replace(factors, shear=factors.shear + correction).scaled(scale),
-        correctors=chi * units,
-        unsolved=np.array([found[i].left / (h.size * aspect) if i in found else 0.0 for i in range(3)]),
+        factors=factors,
+        correctors=chi,
+        unsolved=np.array([found[i].left / (gap.size * network.aspect) if i in found else 0.0 for i in range(3)]),
         solver=name,
         iterations=sum(one.iterations for one in found.values()),
         residual=max(one.residual for one in found.values()),
     )
 
 
-def _source(which: int, parts: Faces, aspect: float, start: Array | None) -> Source:
-    """Of χ₁, χ₂ or χ₃, lengths in spacings along x."""
-    if which == 0:
-        flux, along, whole = parts.east * aspect, 0, float(parts.east.sum()) * aspect
-    elif which == 1:
-        flux, along, whole = parts.north, 1, float(parts.north.sum()) * aspect
-    else:
-        flux, along, whole = -parts.drag * aspect, 0, None
-    return Source(values=flux - np.roll(flux, 1, axis=along), whole=whole, start=start)
+@dataclass(frozen=True, kw_only=True)
+class _Network:
+    """The faces of a gap of mean 1 as a linear system, lengths in spacings along x."""
+
+    matrix: Matrix
+    drag: Array
+    aspect: float
+    inverse: float
+    inside: float
+    closed: tuple[bool, bool]
+
+    def source(self, which: int) -> tuple[Array, float | None]:
+        """The right-hand side for χ₁, χ₂ or χ₃, and the energy from which what it gains is taken."""
+        if which == 0:
+            flux, along, whole = self.matrix.east, 0, float(self.matrix.east.sum())
+        elif which == 1:
+            flux, along, whole = self.matrix.north * self.aspect, 1, float(self.matrix.north.sum()) * self.aspect**2
+        else:
+            flux, along, whole = self.drag * -self.aspect, 0, None
+        return _less_before(flux, along), whole
+
+    def factors(self, chi: Array) -> FlowFactors:
+        """From the correctors; of A the flow that they drive along themselves, so that nothing cancels near sealing."""
+        sums = _energies(self.matrix.east, self.matrix.north, self.drag, self.aspect, chi) / chi[0].size
+        open_to = ~np.array(self.closed)
+        return FlowFactors(
+            mean_gap=1.0,
+            pressure=np.where(np.outer(open_to, open_to), [[sums[0], sums[1]], [sums[1], sums[2]]], 0.0),
+            shear=np.where(open_to, sums[3:5], 0.0),
+            couette=self.inverse,
+            shear_couette=float(sums[5]) + self.inside,
+            sealed=self.closed,
+        )
 
 
-def _factors(h: Array, parts: Faces, aspect: float, chi: Array, closed: tuple[bool, bool]) -> FlowFactors:
-    """From the correctors; of A the flow that they drive along themselves, so that nothing cancels near sealing."""
-    sums = _energies(parts.east, parts.north, parts.drag, aspect, chi) / h.size
-    open_to = ~np.array(closed)
-    return FlowFactors(
-        mean_gap=float(h.mean()),
-        pressure=np.where(np.outer(open_to, open_to), [[sums[0], sums[1]], [sums[1], sums[2]]], 0.0),
-        shear=np.where(open_to, sums[3:5], 0.0),
-        couette=parts.inverse,
-        shear_couette=float(sums[5]) + parts.inside,
-        sealed=closed,
+def _network(h: Array, rule: FaceRule, aspect: float) -> _Network:
+    parts = faces(h, rule)
+    east, north = parts.east * aspect, parts.north / aspect
+    centre = east + north
+    for coupling, all_of in ((east, centre), (north.T, centre.T)):
+        all_of[1:] += coupling[:-1]
+        all_of[0] += coupling[-1]
+    centre[centre == 0] = 1.0
+    return _Network(
+        matrix=Matrix(centre=centre, east=east, north=north),
+        drag=parts.drag,
+        aspect=aspect,
+        inverse=parts.inverse,
+        inside=parts.inside,
+        closed=sealed(h),
     )
+
+
+def _less_before(flux: Array, along: int) -> Array:
+    """What a flux over the faces behind the nodes takes from each of them."""
+    values = flux.copy()
+    own, all_of = (values, flux) if along == 0 else (values.T, flux.T)
+    own[1:] -= all_of[:-1]
+    own[0] -= all_of[-1]
+    return values
 
 
 @compiled
 def _energies(east, north, drag, aspect, chi):  # type: ignore[no-untyped-def]
-    """Sums over faces for A₁₁, A₁₂, A₂₂, B₁, B₂ and e; lengths in spacings along x."""
+    """Sums over faces for A₁₁, A₁₂, A₂₂, B₁, B₂ and e, the last three with χ₃ times what is left of the equations."""
     _, count, length = chi.shape
     sums = np.zeros(6)
     for i in range(count):
@@ -139,22 +176,27 @@ def _energies(east, north, drag, aspect, chi):  # type: ignore[no-untyped-def]
         one_on, two_on, three_on = chi[0, after], chi[1, after], chi[2, after]
         first = mixed = second = along = aside = rub = 0.0
         for j in range(length):
-            x_one, x_two = one_on[j] - one[j] + 1.0, two_on[j] - two[j]
+            x_one, x_two, x_three = one_on[j] - one[j] + 1.0, two_on[j] - two[j], three_on[j] - three[j]
             first += k[j] * x_one * x_one
             mixed += k[j] * x_one * x_two
             second += k[j] * x_two * x_two
-            along += u[j] * x_one
-            aside += u[j] * x_two
-            rub += u[j] * (three_on[j] - three[j])
+            drive = u[j] - k[j] * x_three / aspect
+            along += drive * x_one
+            aside += drive * x_two
+            rub += (u[j] + drive) * x_three
         for j in range(length):
             on = j + 1 if j + 1 < length else 0
-            y_one, y_two = (one[on] - one[j]) / aspect, (two[on] - two[j]) / aspect + 1.0
+            y_one, y_two, y_three = one[on] - one[j], two[on] - two[j] + aspect, three[on] - three[j]
             first += m[j] * y_one * y_one
             mixed += m[j] * y_one * y_two
             second += m[j] * y_two * y_two
-        sums[0] += first
-        sums[1] += mixed
-        sums[2] += second
+            drive = m[j] * y_three / aspect
+            along -= drive * y_one
+            aside -= drive * y_two
+            rub -= drive * y_three
+        sums[0] += first / aspect
+        sums[1] += mixed / aspect
+        sums[2] += second / aspect
         sums[3] += along
         sums[4] += aside
         sums[5] += rub

@@ -11,7 +11,7 @@ from rom.gap import Array
 from rom.homogenization.cell import Cell, solve_cell
 from rom.homogenization.conductance import FaceRule
 from rom.homogenization.factors import FlowFactors
-from rom.homogenization.grids import coarser_grids, refined
+from rom.homogenization.grids import coarser_grids
 from rom.homogenization.richardson import uncertainty_of
 from rom.homogenization.solvers import SOLVERS
 from rom.ladder import Progress, silent
@@ -92,7 +92,7 @@ def flow_factors(
                 steps,
                 rule=rule,
                 tolerance=tolerance or _sufficient(cells),
-                start=refined(cells[-1].correctors, grid.shape) if cells else None,
+                start=cells[-1].correctors if cells else None,
                 solvers=solvers,
             )
         )

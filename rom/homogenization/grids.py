@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from contact.compiled import compiled
 from rom.gap import Array
 
 FEWEST = 8
@@ -40,7 +41,20 @@ def sampled(gap: Array, count: int, axis: int) -> Array:
 
 
 def refined(values: Array, shape: tuple[int, ...]) -> Array:
-    """Periodic values, shape (n, ...), between which lines are drawn, at (nx, ny) places."""
-    for axis in (0, 1):
-        values = np.array([sampled(one, shape[axis], axis) for one in values])
-    return values
+    """Periodic values on a grid, between which lines are drawn, at (nx, ny) places."""
+    out = np.empty(shape)
+    _draw(values, out)
+    return out
+
+
+@compiled
+def _draw(values, out):  # type: ignore[no-untyped-def]
+    (count, length), (rows, columns) = values.shape, out.shape
+    for i in range(rows):
+        before = i * count // rows
+        own, next_one, part = values[before], values[(before + 1) % count], i * count / rows - before
+        row = (1 - part) * own + part * next_one
+        for j in range(columns):
+            left = j * length // columns
+            share = j * length / columns - left
+            out[i, j] = (1 - share) * row[left] + share * row[left + 1 if left + 1 < length else 0]

@@ -1,6 +1,6 @@
 """The linear systems of a cell, solved: by multigrid, and by elimination where that fails."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
 
@@ -45,11 +45,13 @@ class Source:
     start: Array | None
 
 
-Solver = Callable[[Matrix, Sequence[Source], float], list[Solved]]
-"""solve(matrix, sources, tolerance) → solutions, each good to the tolerance of its energy; ConvergenceError if not."""
+Solver = Callable[[Matrix, Iterable[Source], float], list[Solved]]
+"""solve(matrix, sources, tolerance) → solutions, each good to the tolerance of its energy; ConvergenceError if not.
+
+Sources are taken one after the other, so that only one of them needs memory at a time."""
 
 
-def by_multigrid(matrix: Matrix, sources: Sequence[Source], tolerance: float, *, single: bool) -> list[Solved]:
+def by_multigrid(matrix: Matrix, sources: Iterable[Source], tolerance: float, *, single: bool) -> list[Solved]:
     """Conjugate gradients, preconditioned by multigrid in single or double precision."""
     multigrid = Multigrid(matrix.centre, matrix.east, matrix.north, periodic=ROUND, single=single)
     return [
@@ -57,7 +59,7 @@ def by_multigrid(matrix: Matrix, sources: Sequence[Source], tolerance: float, *,
     ]
 
 
-def by_elimination(matrix: Matrix, sources: Sequence[Source], _tolerance: float) -> list[Solved]:
+def by_elimination(matrix: Matrix, sources: Iterable[Source], _tolerance: float) -> list[Solved]:
     """Sparse elimination (SuperLU), each piece of the film held at a node; up to 1.1 million nodes."""
     count = matrix.centre.size
     if count > MOST_ELIMINATED:

@@ -55,6 +55,31 @@ def dot(first, second):  # type: ignore[no-untyped-def]
 
 
 @compiled
+def weighed(values, weights):  # type: ignore[no-untyped-def]
+    """Σ values²/weights, of arrays of shape (nx, ny)."""
+    total = 0.0
+    for row in range(values.shape[0]):
+        a, weight = values[row], weights[row]
+        for j in range(a.size):
+            total += a[j] * a[j] / weight[j]
+    return total
+
+
+@compiled
+def leave(b, image, residual, source):  # type: ignore[no-untyped-def]
+    """Set the residual r and the ``source`` to b − Ap, shape (nx, ny) each; Σr²."""
+    square = 0.0
+    for row in range(b.shape[0]):
+        want, have, r, s = b[row], image[row], residual[row], source[row]
+        for j in range(r.size):
+            left = want[j] - have[j]
+            r[j] = left
+            s[j] = left
+            square += left * left
+    return square
+
+
+@compiled
 def advance(length, direction, image, p, residual, source):  # type: ignore[no-untyped-def]
     """Go a ``length`` t in a direction d: p += t d, r −= t Ad, ``source`` = r; Σr². Shape (nx, ny) each."""
     square = 0.0
