@@ -193,7 +193,7 @@ class Multigrid:
     ) -> Solved:
         """Solve Ap = b as far as its energy G = 2b·p − p·Ap asks for, whose error is the square of that of p.
 
-        What an iteration gains of G is known, and what the last third of them gained tells what is left to gain. That is
+        What an iteration gains of G is known, and what the last third of them gained tells what is left to gain. It is
         at least Σ r²/(2 centre), r = b − Ap, and what a correction constant along rows or columns would gain: a
         preconditioner that rounding has spoilt gains little with every iteration.
 
