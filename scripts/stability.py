@@ -14,12 +14,13 @@ from rom.table import write_csv
 from scripts.common import AsJson, in_one_line, make_directory, messages, output, print_json, run_alone
 from scripts.pages import render
 from scripts.stability_cavitation import CAVITATION
+from scripts.stability_cell import CELL
 from scripts.stability_contact import CONTACT
 from scripts.stability_made import Family
 from scripts.stability_pocket import POCKET
 from scripts.workplace import alone
 
-FAMILIES: dict[str, Family] = {"pocket": POCKET, "contact": CONTACT, "cavitation": CAVITATION}
+FAMILIES: dict[str, Family] = {"pocket": POCKET, "contact": CONTACT, "cavitation": CAVITATION, "cell": CELL}
 
 
 @in_one_line
