@@ -284,24 +284,17 @@ def test_arrays_that_do_not_fit_are_refused(shapes):
 
 
 def test_a_preconditioner_that_gains_nothing_is_not_believed(monkeypatch):
-    """M + c vvᵀ with a large c is as good as blind but for v: conjugate gradients gain little, and are not done yet."""
-    conductance = np.exp(rough((24, 24), 31))
-    centre, east, north = film(conductance, BOTH)
+    """One that goes where chance has it gains next to nothing, as if there were nothing left to gain."""
+    centre, east, north = film(np.exp(rough((48, 48), 31)), BOTH)
     source = east - np.roll(east, 1, 0)
     whole_energy = float(east.sum())
-    known = Multigrid(centre, east, north, periodic=BOTH).minimise(source, whole_energy, tolerance=1e-12)
-    cycle, noise = Multigrid._cycle, np.random.default_rng(33).normal(size=(24, 24))
+    chance = np.random.default_rng(33)
 
-    def spoilt(self):
-        cycle(self)
+    def by_chance(self):
         given, values = self._finest
-        values += 1e12 * noise * (noise * given).sum()
+        noise = chance.normal(size=given.shape)
+        values[:] = noise * (noise * given).sum()
 
-    monkeypatch.setattr(Multigrid, "_cycle", spoilt)
-    blind = Multigrid(centre, east, north, periodic=BOTH)
-    try:
-        found = blind.minimise(source, whole_energy, tolerance=1e-4)
-    except ConvergenceError:
-        return
-    short = float((source * (known.solution - found.solution)).sum())
-    assert short <= 10 * found.left
+    monkeypatch.setattr(Multigrid, "_cycle", by_chance)
+    with pytest.raises(ConvergenceError, match="may change by"):
+        Multigrid(centre, east, north, periodic=BOTH).minimise(source, whole_energy, tolerance=1e-3)
