@@ -123,7 +123,7 @@ def _contacts(points: int) -> Iterator[Probe]:
 
 
 def _lays(points: int) -> Iterator[Probe]:
-    for lay in LAYS:
+    for lay in (one for one in LAYS if max(one, 1 / one) <= 0.45 * points):
         surface = gaussian(
             size=(SIDE, SIDE),
             points=(2 * points, 2 * points),

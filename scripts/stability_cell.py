@@ -37,7 +37,7 @@ TRACES = 1e-13
 
 
 MEANING: Mapping[State, str] = {
-    State.CONVERGED: f"A within {ALLOWED:g}, and {TRACES:g} of the largest h³; the default's within {PART:g} of its error bar",
+    State.CONVERGED: f"A within {ALLOWED:g}, and {TRACES:g} of the largest h³; or {PART:g} of the default's error bar",
     State.SLOW: f"the same, after more than {SLOW} iterations",
     **ALWAYS,
 }
@@ -79,11 +79,10 @@ def asked(probe: Probe, solver: str, tolerance: float = TOLERANCE) -> Answer:
     from rom.homogenization.cell import solve_cell  # numba is slow to import
     from rom.homogenization.flow_factors import flow_factors
 
-    traces = TRACES * float(np.max(probe.gap, initial=0.0) + probe.offset) ** 3
     if solver == DEFAULT:
         found = flow_factors(probe.gap, probe.spacing, offset=probe.offset)
         factors, iterations, told = found.factors, found.iterations, found.unsolved
-        bar = _over_diagonal(found.uncertainty.pressure, factors.pressure, traces)
+        bar = _over_diagonal(found.uncertainty.pressure, factors.pressure, 0.0)
     else:
         cell = solve_cell(np.add(probe.gap, probe.offset), probe.spacing, tolerance=tolerance, solvers=(solver,))
         factors, iterations, bar = cell.factors, cell.iterations, np.zeros((2, 2))
@@ -95,7 +94,7 @@ def asked(probe: Probe, solver: str, tolerance: float = TOLERANCE) -> Answer:
         told=told,
         bar=bar,
         iterations=iterations,
-        traces=traces,
+        traces=TRACES * float(np.max(probe.gap) + probe.offset) ** 3,
     )
 
 
@@ -103,7 +102,7 @@ def _over_diagonal(values: Array, pressure: Array, traces: float) -> Array:
     """Over √(A_ii A_jj), less what may be off besides; infinite where there is none."""
     size = np.sqrt(np.outer(np.diag(pressure), np.diag(pressure)))
     more = np.maximum(np.abs(values) - traces, 0.0)
-    return np.divide(more, size, out=np.where(more > 0, np.inf, 0.0), where=size > 0)
+    return np.divide(more, size, out=np.where(more == 0, 0.0, np.inf), where=size > 0)
 
 
 def truth_of(probe: Probe) -> tuple[Array, Array | None, str]:

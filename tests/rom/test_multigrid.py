@@ -281,3 +281,20 @@ def test_arrays_that_do_not_fit_are_refused(shapes):
     for ask in (multigrid.solve, multigrid.cycle):
         with pytest.raises(InputError, match=r"\(3, 4\)"):
             ask(np.ones((4, 3)))
+
+
+def test_a_preconditioner_that_gains_nothing_is_not_believed(monkeypatch):
+    """One that goes where chance has it gains next to nothing, as if there were nothing left to gain."""
+    centre, east, north = film(np.exp(rough((48, 48), 31)), BOTH)
+    source = east - np.roll(east, 1, 0)
+    whole_energy = float(east.sum())
+    chance = np.random.default_rng(33)
+
+    def by_chance(self):
+        given, values = self._finest
+        noise = chance.normal(size=given.shape)
+        values[:] = noise * (noise * given).sum()
+
+    monkeypatch.setattr(Multigrid, "_cycle", by_chance)
+    with pytest.raises(ConvergenceError, match="may change by"):
+        Multigrid(centre, east, north, periodic=BOTH).minimise(source, whole_energy, tolerance=1e-3)
