@@ -3,6 +3,9 @@
 import math
 from dataclasses import replace
 
+import numpy as np
+
+from contact.errors import InputError
 from rom.bearing import Bearing
 from rom.bearing_geometry import Sector
 from rom.bearing_rung import MOST, PLANE, RESOLVED, WIDE
@@ -20,8 +23,20 @@ ENOUGH = {True: 4_000_000, False: 512}
 def averaged_film(scene: Bearing) -> Problem:
     """The smooth film's mean gap, with the flow factors of the roughness."""
     assert scene.roughness is not None
-    problem = scene.problem()
-    return replace(problem, shape=replace(problem.shape, roughness=scene.roughness.factors(scene.geometry.film)))
+    problem, film = scene.problem(), scene.geometry.film
+    factors = scene.roughness.factors(film)
+    narrowest = factors(np.array([film]))
+    shut = [
+        way
+        for way, factor in (("along", narrowest.along), ("across", narrowest.across))
+        if factor[0] == 0 and not (way == "across" and scene.wide)
+    ]
+    if shut:
+        raise InputError(
+            f"scene.roughness: seals a film of {film:.3g} m, so that nothing flows {' or '.join(shut)} the sliding; "
+            "make the film thicker or the roughness lower"
+        )
+    return replace(problem, shape=replace(problem.shape, roughness=factors))
 
 
 def rough_film(scene: Bearing) -> Problem:

@@ -13,8 +13,9 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
-from contact.errors import InputError
+from contact.errors import ConvergenceError, InputError
 from contact.mechanics.contact_store import Inputs
+from contact.surface import LARGEST_LENGTH, LEAST_SPACING
 from contact.units import to_si
 from rom.homogenization.conductance import FaceRule
 from rom.homogenization.factors import FlowFactors
@@ -45,10 +46,15 @@ def command(
     spacing: Annotated[
         str | None, typer.Option(metavar="D", help="Between the points of an array of heights: 1um, or 1um,2um.")
     ] = None,
-    tolerance: Annotated[float, typer.Option(help="Of a table's interpolation, over the factors.")] = TOLERANCE,
+    tolerance: Annotated[
+        float | None, typer.Option(help=f"Of a table's interpolation between its points; {TOLERANCE:g} by default.")
+    ] = None,
     rule: Annotated[FaceRule, typer.Option(help="How the gap runs between two nodes.")] = FaceRule.LINEAR,
     offset: Annotated[
-        str | None, typer.Option(metavar="H", help="Added to the gap everywhere, e.g. 10nm; with --gap only.")
+        str | None,
+        typer.Option(
+            metavar="H", help="Added to the gap everywhere, e.g. 10nm; with --gap only, and told in the mean gap."
+        ),
     ] = None,
     out: Annotated[
         Path | None, typer.Option(help="Write the table here (HDF5); points that it holds are not solved again.")
@@ -59,11 +65,14 @@ def command(
     """Average a rough surface: what its film lets through, drags along and rubs over that of a smooth one."""
     refuse_same({"SURFACE": surface, "--out": out, "--report": report})
     started, cpu = time.perf_counter(), sum(os.times()[:4])
-    mean_gap, more = _length("--gap", gap), _length("--offset", offset) or 0.0
+    mean_gap, more = _length("--gap", gap), _length("--offset", offset, least=0.0) or 0.0
     if mean_gap is not None and out is not None:
         raise InputError("--out: holds a table; leave it or --gap out")
     if mean_gap is None and offset is not None:
         raise InputError("--offset: got one for a table, in which contact is closed; give --gap, or leave it out")
+    if mean_gap is not None and tolerance is not None:
+        raise InputError("--tolerance: is of a table; leave it or --gap out")
+    asked = TOLERANCE if tolerance is None else tolerance
     for path in filter(None, (out, report)):
         refuse_unwritable(path)
     with alone(out, "table"), progress_bar(1.0) as advance:
@@ -79,8 +88,8 @@ def command(
             told = _told_one(rough, settings, found, separation)
         else:
             inputs = Inputs(heights=rough.heights, spacing=rough.spacing, settings=settings)
-            table, known = _tabulated(surface, rough, inputs, tolerance, rule, out, advance)
-            told = _told_all(rough, settings | {"tolerance": tolerance}, table, known)
+            table, known = _tabulated(surface, rough, inputs, asked, rule, out, advance)
+            told = _told_all(rough, settings | {"tolerance": asked}, table, known)
         told["numerics"] |= {"cpu_s": sum(os.times()[:4]) - cpu, "wall_s": time.perf_counter() - started}
         if report is not None:
             from scripts.factors_page import write_page  # matplotlib is slow to import
@@ -93,15 +102,15 @@ def command(
     _tell(surface.name, told, [path for path in (out, report) if path is not None], as_json)
 
 
-def _length(option: str, text: str | None) -> float | None:
+def _length(option: str, text: str | None, least: float = LEAST_SPACING) -> float | None:
     if text is None:
         return None
     try:
         length = to_si(text.strip(), "m")
     except ValueError as error:
         raise InputError(f"{option} {text}: {error}") from None
-    if not 0 < length < np.inf:
-        raise InputError(f"{option} {text}: give a length above 0")
+    if not least <= length <= LARGEST_LENGTH:
+        raise InputError(f"{option} {text}: give a length above 0, of {LARGEST_LENGTH:g} m at most")
     return length
 
 
@@ -118,11 +127,11 @@ def _tabulated(
     known = {} if out is None else dict(known_points(out, inputs))
     found, kept = dict(known), time.monotonic()
 
-    def save(*, whole: FactorTable | None = None) -> None:
+    def save(error: float = np.nan) -> None:
         if out is not None and len(found) > 1:
             points = tuple(sorted(found.values(), key=lambda point: point.mean_gap))
             peak = Separations(heights=rough.heights).peak
-            save_table(out, inputs, whole or FactorTable(points=points, peak=peak))
+            save_table(out, inputs, FactorTable(points=points, peak=peak, interpolation_error=error))
 
     def keep(point: Point) -> None:
         nonlocal kept
@@ -137,12 +146,15 @@ def _tabulated(
         )
     except InputError as error:
         raise InputError(str(error).replace("heights:", f"{surface}:")) from None
+    except ConvergenceError:
+        save()
+        raise
     except (KeyboardInterrupt, SystemExit):
         save()
         end = "; the same command goes on" if out is not None else ", none kept without --out"
         messages.print(f"stopped: {len(found)} points{end}", soft_wrap=True)
         raise
-    save(whole=table)
+    save(table.interpolation_error)
     return table, sum(point.separation in known for point in table.points)
 
 
@@ -202,6 +214,13 @@ def _told_all(rough: Rough, settings: dict[str, Any], table: FactorTable, known:
         "widest": {"value": table.widest, "unit": "m"},
         "interpolation_error": {"value": table.interpolation_error, "unit": "1"},
     }
+    off, asked = table.interpolation_error, settings["tolerance"]
+    told = _provenance(rough, settings)
+    if off > asked:
+        few = (
+            f"the table is off by {off:.2g} between some points, more than {asked:g}: factors jump there, or 400 points"
+        )
+        told["provenance"]["warnings"].append(f"{few} are too few; look at the surface for spikes and plateaus")
     numerics = {
         "unsolved": max(point.unsolved for point in table.points),
         "residual": max(point.residual for point in table.points),
@@ -215,7 +234,7 @@ def _told_all(rough: Rough, settings: dict[str, Any], table: FactorTable, known:
         "units": {"mean_gap": "m", "separation": "m", "contact": "1", **dict.fromkeys(NAMES, "1")},
         "quantities": quantities,
         "numerics": numerics,
-        **_provenance(rough, settings),
+        **told,
     }
 
 
@@ -265,7 +284,9 @@ def _shown(entry: dict[str, float | None]) -> str:
     """A value to the digits that its uncertainty leaves."""
     value, doubt = entry["value"], entry["uncertainty"]
     assert value is not None
-    digits = 5 if not doubt else max(0, min(5, math.ceil(-math.log10(doubt))))
+    if doubt is None:
+        return f"{value:.3g} ± ?"
+    digits = max(0, min(5, math.ceil(-math.log10(doubt)))) if doubt else 5
     return f"{value:.{digits}f}"
 
 

@@ -66,4 +66,4 @@ def _row(point: Mapping[str, Any]) -> list[str]:
 
 def _cell(entry: Mapping[str, float | None]) -> str:
     value, doubt = entry["value"], entry["uncertainty"]
-    return f"{value:.4g}" + ("" if not doubt else f" ± {doubt:.1g}")
+    return f"{value:.4g}" + (" ± ?" if doubt is None else f" ± {doubt:.1g}" if doubt else "")

@@ -68,7 +68,7 @@ def solve_cell(
         If none of the solvers meets the tolerance.
     """
     scale, (dx, dy) = float(gap.mean()), spacing
-    network = _network(without_traces(gap / scale), rule, dy / dx)
+    network = _network(gap / scale, rule, dy / dx)
     units = dx * np.array([1.0, 1.0, scale**-2])
     wanted = [i for i in range(3) if i == 2 or not network.closed[i]]
 
@@ -112,6 +112,7 @@ class _Network:
     inverse: float
     inside: float
     closed: tuple[bool, bool]
+    sealed: tuple[bool, bool]
 
     def source(self, which: int) -> tuple[Array, float | None]:
         """The right-hand side for χ₁, χ₂ or χ₃, and the energy from which what it gains is taken."""
@@ -133,12 +134,13 @@ class _Network:
             shear=np.where(open_to, sums[3:5], 0.0),
             couette=self.inverse,
             shear_couette=float(sums[5]) + self.inside,
-            sealed=self.closed,
+            sealed=self.sealed,
         )
 
 
 def _network(h: Array, rule: FaceRule, aspect: float) -> _Network:
-    parts = faces(h, rule)
+    counted = without_traces(h)
+    parts = faces(counted, rule)
     east, north = parts.east * aspect, parts.north / aspect
     centre = east + north
     for coupling, all_of in ((east, centre), (north.T, centre.T)):
@@ -151,7 +153,8 @@ def _network(h: Array, rule: FaceRule, aspect: float) -> _Network:
         aspect=aspect,
         inverse=parts.inverse,
         inside=parts.inside,
-        closed=sealed(h),
+        closed=sealed(counted),
+        sealed=sealed(h),
     )
 
 

@@ -21,8 +21,8 @@ def sinusoid(amplitude: float, *, mean_gap: float = 1.0, direction: float = 0.0)
 
     Examples
     --------
-    >>> sinusoid(0.5).pressure.round(6).tolist()
-    [[0.433013, 0.0], [0.0, 1.375]]
+    >>> sinusoid(0.5).pressure.diagonal().round(6).tolist()
+    [0.433013, 1.375]
     """
     return flow_factors_at(mean_gap, sinusoidal_ridges(amplitude * mean_gap, direction))
 

@@ -21,7 +21,8 @@ class FlowFactors:
     shear : B, shape (2,), m.
     couette : d = <1/h> over the open gap, 1/m; finite as contact is left out.
     shear_couette : e, 1/m, of the pressure that sliding alone makes: <h ∂χ₃/∂x>.
-    sealed : whether no open path leads through in x, in y.
+    sealed : whether no open path leads through in x, in y. (A path so thin that its h³ is below 1e-14 of the largest
+        is open, but lets nothing through that counts.)
 
     Sources: Sahlin 2008, E.2.3 to E.2.5 (whose C, d and e have the factors 1/2 and 6η u left out in print).
     """

@@ -7,9 +7,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from contact.errors import InputError
+from contact.surface import LARGEST_LENGTH, LEAST_SPACING
 from rom.gap import Array
 from rom.homogenization.cell import Cell, solve_cell
-from rom.homogenization.conductance import FaceRule
+from rom.homogenization.conductance import CLOSED, FaceRule, without_traces
 from rom.homogenization.factors import FlowFactors
 from rom.homogenization.grids import coarser_grids
 from rom.homogenization.richardson import uncertainty_of
@@ -18,6 +19,9 @@ from rom.ladder import Progress, silent
 
 LOOSEST, TIGHTEST = 1e-4, 1e-10
 """Tolerances of a cell that are chosen from."""
+
+LONGEST = 1e4
+"""Of a pixel, over its width."""
 
 SPARE = 100
 """The tolerance of a cell is so many times below what its grid is expected to be off by."""
@@ -32,7 +36,7 @@ class Estimated:
     factors : on the gap's own nodes.
     uncertainty : of each, in the same units; ``mean_gap`` has none, it is that of the nodes.
     correctors : as in :class:`rom.homogenization.cell.Cell`.
-    contact : the part of the nodes where h = 0.
+    contact : the part of the nodes that are closed: where h = 0, or h³ below 1e-14 of the largest.
     unsolved : the largest part of A₁₁, A₂₂ or e by which iterating on would change them.
     residual : of χ, which may be far larger: where next to nothing flows χ counts as much as elsewhere.
     """
@@ -78,6 +82,8 @@ def flow_factors(
     Each grid begins from the correctors of the coarser one, which are nearer than those of a gap 10 % wider are. Second
     order in the spacing where the gap is smooth and open, near first order at the edges of contact.
     """
+    if tolerance is not None and not 0 < tolerance < 1:
+        raise InputError(f"tolerance: got {tolerance!r}; it must be above 0 and below 1")
     if not 0 <= offset < np.inf:
         raise InputError(f"offset: got {offset!r} m; give 0 or more")
     h = checked_gap(gap, spacing) + offset
@@ -91,7 +97,7 @@ def flow_factors(
                 grid,
                 steps,
                 rule=rule,
-                tolerance=tolerance or _sufficient(cells),
+                tolerance=_sufficient(cells) if tolerance is None else tolerance,
                 start=cells[-1].correctors if cells else None,
                 solvers=solvers,
             )
@@ -99,9 +105,9 @@ def flow_factors(
     finest = cells[-1]
     return Estimated(
         factors=finest.factors,
-        uncertainty=_uncertainty(cells),
+        uncertainty=_uncertainty(cells, h),
         correctors=finest.correctors,
-        contact=float((h == 0).mean()),
+        contact=float((without_traces(h) == 0).mean()),
         unsolved=_largest_part(finest),
         iterations=finest.iterations,
         residual=finest.residual,
@@ -110,6 +116,8 @@ def flow_factors(
 
 def checked_gap(gap: ArrayLike, spacing: tuple[float, float]) -> Array:
     """The gap as numbers; InputError as in :func:`flow_factors`."""
+    if isinstance(gap, np.ma.MaskedArray):
+        raise InputError("gap: is masked; fill what is masked first")
     h = np.asarray(gap)
     if h.ndim != 2 or min(h.shape, default=0) < 2:
         raise InputError(
@@ -126,8 +134,15 @@ def checked_gap(gap: ArrayLike, spacing: tuple[float, float]) -> Array:
         raise InputError(f"gap: got {h[i, j]:.6g} m at [{i}, {j}]; walls cannot overlap, set contact to 0")
     if not h.any():
         raise InputError("gap: is closed everywhere; there is no film, raise the separation")
-    if len(spacing) != 2 or not all(np.isfinite(step) and step > 0 for step in spacing):
+    if not LEAST_SPACING <= h.max() <= LARGEST_LENGTH:
+        raise InputError(
+            f"gap: got up to {h.max():.3g} m; give {LEAST_SPACING:g} to {LARGEST_LENGTH:g} m, look at the unit"
+        )
+    steps = np.asarray(spacing, dtype=object)
+    if steps.shape != (2,) or not all(np.isfinite(step) and step > 0 for step in spacing):
         raise InputError(f"spacing: got {spacing!r}; give two lengths above 0, in m")
+    if not 1 / LONGEST <= spacing[0] / spacing[1] <= LONGEST:
+        raise InputError(f"spacing: got {spacing!r} m; pixels may be up to {LONGEST:g} times as long as wide, resample")
     return h
 
 
@@ -148,14 +163,15 @@ def _largest_part(cell: Cell) -> float:
     return float(np.max(cell.unsolved[sizes > 0] / sizes[sizes > 0], initial=0.0))
 
 
-def _uncertainty(cells: list[Cell]) -> FlowFactors:
-    """What the grids leave open, and what the solver does."""
+def _uncertainty(cells: list[Cell], h: Array) -> FlowFactors:
+    """What the grids leave open, what the solver does, and what passes where the film is too thin to count."""
     doubt = uncertainty_of([cell.factors for cell in cells])
     unsolved, gap = cells[-1].unsolved, cells[-1].factors.mean_gap
     mixed = np.sqrt(unsolved[:2])
+    trace = CLOSED ** (1 / 3) * float(h.max()) if ((h > 0) & (without_traces(h) == 0)).any() else 0.0
     return replace(
         doubt,
-        pressure=doubt.pressure + gap**3 * np.outer(mixed, mixed),
-        shear=doubt.shear + gap * mixed * np.sqrt(unsolved[2]),
+        pressure=doubt.pressure + gap**3 * np.outer(mixed, mixed) + trace**3,
+        shear=doubt.shear + gap * mixed * np.sqrt(unsolved[2]) + trace,
         shear_couette=doubt.shear_couette + float(unsolved[2]) / gap,
     )

@@ -6,8 +6,8 @@ from functools import cached_property
 import numpy as np
 
 from contact.errors import InputError
+from contact.surface import LARGEST_LENGTH, LEAST_SPACING
 from rom.gap import Array
-from rom.homogenization.conductance import without_traces
 from rom.homogenization.paths import sealed
 
 
@@ -56,10 +56,10 @@ class Separations:
         Raises
         ------
         InputError
-            For a mean gap that is not above 0.
+            For a mean gap that is not between 1e-15 m and 1000 km.
         """
-        if not 0 < mean_gap < np.inf:
-            raise InputError(f"mean gap: got {mean_gap!r} m; give a length above 0")
+        if not LEAST_SPACING <= mean_gap <= LARGEST_LENGTH:
+            raise InputError(f"mean gap: got {mean_gap!r} m; give {LEAST_SPACING:g} to {LARGEST_LENGTH:g} m")
         z, means = self._sorted
         below = int(np.searchsorted(means, mean_gap, side="right"))
         return float(z[below - 1] + (mean_gap - means[below - 1]) * z.size / below)
@@ -73,11 +73,11 @@ class Separations:
         found = []
         for direction in (0, 1):
             shut, open_at = 1, z.size - 1
-            if sealed(without_traces(self.gap(z[-1])))[direction]:
+            if sealed(self.gap(z[-1]))[direction]:
                 shut = open_at
             while open_at - shut > 1:
                 middle = (shut + open_at) // 2
-                if sealed(without_traces(self.gap(z[middle])))[direction]:
+                if sealed(self.gap(z[middle]))[direction]:
                     shut = middle
                 else:
                     open_at = middle

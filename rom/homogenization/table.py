@@ -56,7 +56,8 @@ class FactorTable:
     ----------
     points : two or more.
     peak : the highest point of the roughness above its mean, m.
-    interpolation_error : the largest seen half-way between points, over the tolerance's measure.
+    interpolation_error : the largest seen half-way between points, in the measure of the tolerance of
+        :func:`rom.homogenization.tabulate.tabulate`: of A and B, and of d and e where nothing touches.
     scale : all lengths across the film are multiplied by it: the table of the surface with its heights multiplied.
     """
 
@@ -81,13 +82,13 @@ class FactorTable:
 
     @property
     def doubt(self) -> float:
-        """The largest part of A₁₁, A₂₂ or B₁ by which one may be off: of the interpolation, and of any point's grid."""
+        """By which part A₁₁, A₂₂ and B₁ may be off: what interpolation was seen to be, and the worst point's grid."""
         worst = 0.0
         for point in self.points:
             a, b = point.factors.pressure, point.factors.shear
             doubt = point.uncertainty
             pairs = ((a[0, 0], doubt.pressure[0, 0]), (a[1, 1], doubt.pressure[1, 1]), (b[0], doubt.shear[0]))
-            worst = max(worst, *(float(unsure / abs(value)) for value, unsure in pairs if value != 0))
+            worst = max([worst, *(float(unsure / abs(value)) for value, unsure in pairs if value != 0)])
         return self.interpolation_error + worst
 
     def __call__(self, mean_gap: Array, /) -> GapFactors:
@@ -129,7 +130,11 @@ class FactorTable:
     @cached_property
     def _between(self) -> PchipInterpolator:
         gaps = np.log([point.mean_gap for point in self.points])
-        return PchipInterpolator(gaps, np.array([_cubed(relative_row(point.factors)) for point in self.points]), axis=0)
+        rows = np.array([_cubed(relative_row(point.factors)) for point in self.points])
+        known = np.flatnonzero(np.isfinite(rows[:, 2]))
+        for row in np.flatnonzero(np.isnan(rows[:, 2])):
+            rows[row, 2] = rows[known[np.abs(known - row).argmin()], 2] if known.size else 0.0
+        return PchipInterpolator(gaps, rows, axis=0)
 
 
 def relative_row(factors: FlowFactors) -> Array:
@@ -148,9 +153,9 @@ def told_rows(factors: FactorsOverGap, mean_gap: Array) -> Array:
 
 
 def _cubed(row: Array) -> Array:
-    """The row with ∛A₁₁/ĥ, ∛A₂₂/ĥ and A₁₂/√(A₁₁A₂₂) in the place of A."""
+    """The row with ∛A₁₁/ĥ, ∛A₂₂/ĥ and A₁₂/√(A₁₁A₂₂) in the place of A; the last NaN where nothing tells it."""
     mean = np.sqrt(row[0] * row[1])
-    return np.array([np.cbrt(row[0]), np.cbrt(row[1]), row[2] / mean if mean > 0 else 0.0, *row[3:]])
+    return np.array([np.cbrt(row[0]), np.cbrt(row[1]), row[2] / mean if mean > 0 else np.nan, *row[3:]])
 
 
 def _uncubed(rows: Array) -> Array:

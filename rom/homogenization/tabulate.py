@@ -20,8 +20,8 @@ TOLERANCE = 0.005
 FIRST = 9
 """Points that are placed before any is judged."""
 
-MOST = 400
-"""Points; no surface that is resolved takes more."""
+MOST, NEAREST = 400, 1.001
+"""Points, and how far apart their mean gaps are; where factors jump, as over a plateau, more points help nothing."""
 
 NEGLIGIBLE, LITTLE = 1e-4, 1e-2
 """Of a smooth film's: flow that pressure drives, and that sliding carries, below which errors are over this instead."""
@@ -44,14 +44,16 @@ def tabulate(
     """Flow factors of an undeformed surface from where it seals to thick films.
 
     Half-way between two points the cell is solved; where it is further from the interpolation than the tolerance, and
-    than its own uncertainty, it is done again on both sides of it.
+    than its own uncertainty, it is done again on both sides of it, until 400 points or next to none between them: the
+    table's ``interpolation_error`` is then above the tolerance.
 
     Parameters
     ----------
     heights : of one period, shape (nx, ny), m, upward, towards the flat wall.
     spacing : (dx, dy), m.
-    tolerance : what interpolation may add to A over √(A_ii A_jj), to B over |B|, and without contact to d and e over d.
-        In contact d has no limit to be near to: at an edge <1/h> grows with the logarithm of the nodes.
+    tolerance : what interpolation may add to A over √(A_ii A_jj) (or 1e-4 ĥ³, if that is more), to B over |B| + 0.01 ĥ,
+        and without contact to d and e over d. In contact d has no limit to be near to: at an edge <1/h> grows with the
+        logarithm of the nodes.
     narrowest : the mean gap of the first point, m; by default where nothing gets through in either direction.
     known : points by separation that need not be solved again.
     keep : called with every new point.
@@ -105,21 +107,22 @@ def tabulate(
     while _beyond(table := made(), solve(body.at_mean_gap(2 * table.widest))) > tolerance:
         progress(len(found) / (len(found) + 20), f"{len(found)} separations")
     worst = 0.0
-    intervals = list(zip(table.points, table.points[1:], strict=False))
-    while intervals and len(found) < MOST:
+    intervals = [(one, two, 0.0) for one, two in zip(table.points, table.points[1:], strict=False)]
+    while intervals:
         table = made()
         refined = []
-        for one, two in intervals:
+        for one, two, before in intervals:
+            if two.mean_gap < NEAREST * one.mean_gap or len(found) >= MOST:
+                worst = max(worst, before)
+                continue
             progress(len(found) / (len(found) + len(intervals)), f"{len(found)} separations")
             middle = solve(body.at_mean_gap(float(np.sqrt(one.mean_gap * two.mean_gap))))
             off = _beyond(table, middle)
             if off > tolerance:
-                refined += [(one, middle), (middle, two)]
+                refined += [(one, middle, off), (middle, two, off)]
             else:
                 worst = max(worst, off)
         intervals = refined
-    if intervals:
-        worst = max(_beyond(table, two) for _, two in intervals)
     progress(1.0, f"{len(found)} separations")
     return replace(made(), interpolation_error=worst)
 

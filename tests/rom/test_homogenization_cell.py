@@ -96,7 +96,7 @@ def test_the_flux_adds_up_to_the_factors_and_nothing_is_lost():
     for direction in (0, 1):
         q = flux(gap, spacing, cell.correctors[direction], direction)
         assert np.allclose(q.mean(axis=(1, 2)), cell.factors.pressure[:, direction], rtol=1e-5)
-        assert not q[:, gap == 0].any() or np.abs(q[:, gap == 0]).max() == 0.0
+        assert not q[:, gap == 0].any()
         through = q[direction].sum(axis=1 - direction)
         assert np.ptp(through) < 1e-4 * through.mean()
 

@@ -48,7 +48,7 @@ def test_the_mean_gap_and_the_separation_belong_together():
     for mean_gap in (1e-9, 1e-7, 1e-6, 2.5e-6, 4e-5):
         assert body.gap(body.at_mean_gap(mean_gap)).mean() == pytest.approx(mean_gap, rel=1e-9)
     assert body.at_mean_gap(1e-4) == pytest.approx(1e-4, rel=1e-9)  # without contact they are one
-    with pytest.raises(InputError, match="above 0"):
+    with pytest.raises(InputError, match="give 1e-15"):
         body.at_mean_gap(0.0)
 
 
@@ -164,3 +164,83 @@ def test_files_of_others_and_damaged_ones_are_told(table, inputs, tmp_path):
     path.write_bytes(b"something else")
     with pytest.raises(InputError, match="is no table"):
         load_table(path)
+
+
+def made(kind):
+    place = np.arange(24) / 24
+    random = np.random.default_rng(31).normal(size=(24, 24))
+    return (
+        1e-6
+        * {
+            "plateau": np.minimum(random, 0),
+            "pit": -1.0 * (np.arange(576).reshape(24, 24) == 100),
+            "spike": 1.0 * (np.arange(576).reshape(24, 24) == 100),
+            "two levels": 1.0 * (random > 0),
+            "lines": np.tile(np.sin(2 * np.pi * place)[:, None], (1, 24)),
+            "crossed": np.add.outer(np.sin(2 * np.pi * place), np.sin(4 * np.pi * place)),
+            "one deep pit": random - 1e5 * (np.arange(576).reshape(24, 24) == 100),
+        }[kind]
+    )
+
+
+@pytest.mark.parametrize("kind", ["plateau", "pit", "spike", "two levels", "lines", "crossed", "one deep pit"])
+def test_awkward_surfaces_have_tables_that_say_how_far_off_they_are(kind):
+    heights = made(kind)
+    table = tabulate(heights, (1e-6, 1e-6), tolerance=0.02)
+    assert len(table.points) <= 401
+    assert np.isfinite(table.interpolation_error)
+    assert table.doubt >= table.interpolation_error
+    body = Separations(heights=heights)
+    gaps = np.exp(RANDOM.uniform(np.log(2 * table.narrowest), np.log(table.widest), 12))
+    for mean_gap in gaps:
+        one = flow_factors(body.gap(body.at_mean_gap(float(mean_gap))), (1e-6, 1e-6), tolerance=1e-9)
+        own, doubt = one.factors.relative, one.uncertainty
+        row = told_rows(table, np.array([mean_gap]))[0]
+        for index, value, unsure in (
+            (0, own.pressure[0, 0], doubt.pressure[0, 0]),
+            (1, own.pressure[1, 1], doubt.pressure[1, 1]),
+        ):
+            room = 3 * max(table.interpolation_error, 0.02) * (value + 1e-4) + unsure / mean_gap**3
+            assert abs(row[index] - value) <= room
+
+
+def test_slanting_grooves_leak_nothing_across_between_their_points():
+    place = 2 * np.pi * np.arange(32) / 32
+    table = tabulate(1e-6 * np.sin(np.add.outer(place, place)), (1e-6, 1e-6))
+    gaps = np.geomspace(table.narrowest, 1e-7, 60)[1:]
+    told = table(gaps)
+    across = (told.along + told.across + 2 * told.cross) / 2  # of grooves along (1, -1) what flows along (1, 1)
+    assert (np.abs(across) <= 0.01 * told.along).all()
+
+
+def test_a_film_that_is_too_thin_to_count_is_open_and_unsure():
+    gap = np.full((32, 32), 1e-8)
+    gap[8:16, 8:16] = 1e-3
+    found = flow_factors(gap, (1e-6, 1e-6))
+    assert found.factors.sealed == (False, False)
+    truth = (
+        flow_factors(1e5 * np.minimum(gap, 1e-6), (1e-6, 1e-6)).factors.pressure[0, 0] / 1e15
+    )  # a shallower pit: less
+    assert found.factors.pressure[0, 0] == 0
+    assert truth < 2e-24 < found.uncertainty.pressure[0, 0]
+
+
+@pytest.mark.parametrize(
+    ("gap", "options", "words"),
+    [
+        (np.full((8, 8), 1e150), {}, "look at the unit"),
+        (np.full((8, 8), 1e-120), {}, "look at the unit"),
+        (np.ones((8, 8)), {"tolerance": 0.0}, "tolerance"),
+        (np.ones((8, 8)), {"tolerance": np.nan}, "tolerance"),
+        (np.ma.masked_array(np.ones((8, 8)), mask=np.eye(8)), {}, "masked"),
+    ],
+)
+def test_numbers_that_make_no_sense_are_refused(gap, options, words):
+    with pytest.raises(InputError, match=words):
+        flow_factors(gap, (1.0, 1.0), **options)
+
+
+@pytest.mark.parametrize("spacing", [1.0, (1.0, 1e9), (1.0,)])
+def test_spacings_that_make_no_sense_are_refused(spacing):
+    with pytest.raises(InputError, match="spacing"):
+        flow_factors(np.ones((8, 8)), spacing)

@@ -103,6 +103,23 @@ def test_a_table_is_kept_and_gone_on_with(surface, tmp_path):
     assert "not solved again" in done.stderr
 
 
+def test_a_looser_table_keeps_what_a_finer_one_found(surface, tmp_path):
+    out = tmp_path / "F.h5"
+    fine = told(surface, "--out", out, "--tolerance", "0.002")["numerics"]["separations"]
+    loose = told(surface, "--out", out, "--tolerance", "0.05")["numerics"]
+    assert loose["separations"] == loose["separations_found"] < fine
+    assert len(load_table(out).points) == fine
+    assert told(surface, "--out", out, "--tolerance", "0.002")["numerics"]["separations_found"] == fine
+
+
+def test_a_table_that_interpolation_cannot_hold_is_warned_of(tmp_path):
+    random = np.random.default_rng(31)
+    np.save(tmp_path / "levels.npy", 1e-6 * (random.normal(size=(24, 24)) > 0))
+    found = told(tmp_path / "levels.npy", "--spacing", "1um", "--tolerance", "0.0001")
+    off = found["quantities"]["interpolation_error"]["value"]
+    assert off <= 0.0001 or any("spikes and plateaus" in words for words in found["provenance"]["warnings"])
+
+
 def test_the_page_of_one_gap(surface, tmp_path):
     page = tmp_path / "G.html"
     assert run(surface, "--gap", "0.5um", "--report", page).exit_code == 0
@@ -116,6 +133,8 @@ def test_the_page_of_one_gap(surface, tmp_path):
         (["SURFACE", "--gap", "1 s"], "--gap 1 s"),
         (["SURFACE", "--gap", "-1um"], "above 0"),
         (["SURFACE", "--gap", "0um"], "above 0"),
+        (["SURFACE", "--gap", "1e200m"], "at most"),
+        (["SURFACE", "--gap", "1um", "--tolerance", "0.1"], "--tolerance"),
         (["SURFACE", "--gap", "1um", "--out", "F.h5"], "leave it or --gap out"),
         (["SURFACE", "--offset", "10nm"], "give --gap"),
         (["SURFACE", "--tolerance", "0"], "--tolerance"),
