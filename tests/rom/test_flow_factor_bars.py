@@ -19,7 +19,7 @@ def rough(seed, hurst, shortest):
 
 
 def smooth(seed, anisotropy, angle):
-    lay = {"anisotropy": anisotropy, "lay_angle": angle, "correlation_length": 0.07 * SIDE}
+    lay = {"anisotropy": anisotropy, "lay_angle": angle, "correlation_length": 0.06 * SIDE}
     return lambda n: gaussian(**SIZE, points=(n, n), seed=seed, **lay).heights
 
 
