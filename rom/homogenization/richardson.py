@@ -9,13 +9,18 @@ from rom.gap import Array
 from rom.homogenization.factors import FlowFactors
 
 SAFETY = 1.5
-"""Of an error estimated from three grids: 95 of 100 gaps of all kinds are nearer."""
+"""Of an error estimated from three grids.
+
+On 360 random gaps (self-affine, with lays, sums of a few waves, plateaus; open to 40 % contact, shortest waves of 4
+nodes and up, 64² and 128²) 97 of 100 values of A₁₁, A₂₂ and B₁ were within; for 95 of them 1.25 would do.
+"""
 
 
 def uncertainty_of(found: Sequence[FlowFactors]) -> FlowFactors:
     """Of the last of up to three on grids each twice as fine, by Richardson's rule at the order seen, one to two.
 
-    Infinite where there is no coarser grid.
+    Infinite where there is no coarser grid. In contact d and e have no limit, as at an edge <1/h> grows with the
+    logarithm of the nodes: of these two the change from grid to grid is told, no more.
     """
 
     def off(values: list[Array]) -> Array:
