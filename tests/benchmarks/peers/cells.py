@@ -17,7 +17,9 @@ import numpy as np
 from scipy.sparse import csc_matrix
 from scipy.sparse.csgraph import connected_components
 
-SMALL = 64
+SMALL, LONG_S = 64, 5.0
+"""Nodes along a side of the first small problem; seconds after which nothing is repeated."""
+
 FACES = ("east", "north", "drag")
 
 
@@ -128,8 +130,10 @@ def main():
         if off(found, right) <= asked["error"]:
             break
     if "failed" not in found:
-        again = [attempt(solve, case, found["tolerance"]) for _ in range(asked["repeats"] - 1)]
-        found["cpu_s"] = min(run["cpu_s"] for run in [found, *again])
+        runs = [found]
+        while len(runs) < asked["repeats"] and sum(run["cpu_s"] for run in runs) < LONG_S:
+            runs.append(attempt(solve, case, found["tolerance"]))
+        found["cpu_s"] = min(run["cpu_s"] for run in runs)
         found["error"] = off(found, right)
     Path(result).write_text(json.dumps({"version": metadata.version(module.NAME), **found}))
 
