@@ -65,7 +65,7 @@ def speed_against_accuracy(
         axes.set_yscale("log")
         axes.set_xlabel("CPU time, s")
         axes.set_ylabel(f"error in {title} against the best rung, %")
-    panels[0].legend(fontsize=8)
+    panels[0].legend(fontsize=8, loc="upper right")
     return svg(figure)
 
 
