@@ -9,8 +9,9 @@ from pathlib import Path
 import numpy as np
 
 from contact.errors import ConvergenceError
+from contact.inputs import Inputs
 from contact.mechanics.contact import Contact
-from contact.mechanics.contact_store import Inputs, Row, add, finished, load_contact, row_of
+from contact.mechanics.contact_store import Row, add, finished, load_contact, row_of
 from contact.mechanics.estimate import Estimate
 from contact.surface import Array
 from scripts.common import messages

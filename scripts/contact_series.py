@@ -13,7 +13,8 @@ from rich.markup import escape
 from rich.table import Table
 
 from contact.errors import InputError
-from contact.mechanics.contact_store import UNITS, Inputs, Row
+from contact.inputs import Inputs
+from contact.mechanics.contact_store import UNITS, Row
 from contact.mechanics.press import TOLERANCE, Press
 from contact.mechanics.solid import Solid, composite_modulus
 from contact.mechanics.stanley_kato import stanley_kato

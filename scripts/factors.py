@@ -14,7 +14,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from contact.errors import ConvergenceError, InputError
-from contact.mechanics.contact_store import Inputs
+from contact.inputs import Inputs
 from contact.surface import LARGEST_LENGTH, LEAST_SPACING
 from contact.units import to_si
 from rom.homogenization.conductance import FaceRule

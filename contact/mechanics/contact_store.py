@@ -4,7 +4,6 @@ The HDF5 file stands behind a block of 512 bytes with the digest of all that fol
 added to a copy, which then takes the place of the file.
 """
 
-import hashlib
 import json
 import math
 import os
@@ -20,34 +19,13 @@ import numpy as np
 from contact.errors import InputError
 from contact.files import replacing
 from contact.guarded import BLOCK, block, digest_of, refuse_damaged
+from contact.inputs import Inputs
 from contact.mechanics.contact import Contact
 from contact.surface import Array
 
 SCHEMA = 1
 MARK = b"roughfilm contact, HDF5 behind 512 bytes, sha256 "
 REMEDY = "remove it or choose another place"
-
-
-@dataclass(frozen=True, kw_only=True)
-class Inputs:
-    """What a series is computed from.
-
-    Attributes
-    ----------
-    heights : of the undeformed surface z, shape (nx, ny), m.
-    spacing : (dx, dy), m.
-    settings : all else that the numbers depend on, as entries that JSON can hold.
-    """
-
-    heights: Array
-    spacing: tuple[float, float]
-    settings: Mapping[str, Any]
-
-    @property
-    def digest(self) -> str:
-        """Of all inputs: equal digests give equal contacts."""
-        told = json.dumps([self.heights.shape, self.spacing, self.settings], sort_keys=True, allow_nan=False)
-        return hashlib.sha256(told.encode() + np.ascontiguousarray(self.heights).tobytes()).hexdigest()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -154,7 +132,7 @@ def finished(path: Path, inputs: Inputs) -> dict[float, Row]:
             if file.attrs["schema"] != SCHEMA:
                 raise InputError(f"{path}: is of another version of roughfilm; {REMEDY}")
             if file.attrs["digest"] != inputs.digest:
-                raise InputError(f"{path}: holds another series, {_difference(file, inputs)}; {REMEDY}")
+                raise InputError(f"{path}: holds another series, {inputs.difference(file.attrs['settings'])}; {REMEDY}")
             columns = [file[f"series/{name}"][()] for name in NUMBERS]
             rows = [_row(dict(zip(NUMBERS, numbers, strict=True))) for numbers in zip(*columns, strict=True)]
             return {row.load: row for row in rows}
@@ -162,16 +140,6 @@ def finished(path: Path, inputs: Inputs) -> dict[float, Row]:
         return {}
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror or error}); choose another place") from error
-
-
-def _difference(file: h5py.File, inputs: Inputs) -> str:
-    """What a series in a file differs in, in words."""
-    there = json.loads(file.attrs["settings"])
-    for name in sorted(there.keys() | inputs.settings.keys()):
-        mine, its = inputs.settings.get(name), there.get(name)
-        if mine != its:
-            return "of another version of roughfilm" if name == "code" else f"with {name} {its}, not {mine}"
-    return "of another surface"
 
 
 def load_contact(path: Path, load: float) -> Contact:

@@ -9,7 +9,7 @@ import numpy as np
 
 from contact.errors import InputError
 from contact.guarded import marked, reading_guarded, write_guarded
-from contact.mechanics.contact_store import Inputs
+from contact.inputs import Inputs
 from rom.gap import Array
 from rom.homogenization.factors import FlowFactors
 from rom.homogenization.table import FactorTable, Point
@@ -69,7 +69,7 @@ def known_points(path: Path, inputs: Inputs) -> Mapping[float, Point]:
         _refuse_others(path)
         with reading_guarded(path, MARK, SCHEMA, REMEDY) as file:
             if file.attrs["digest"] != inputs.digest:
-                raise InputError(f"{path}: holds the factors of {_difference(file, inputs)}; {REMEDY}")
+                raise InputError(f"{path}: holds another table, {inputs.difference(file.attrs['settings'])}; {REMEDY}")
             return {point.separation: point for point in _table(file).points}
     except FileNotFoundError:
         return {}
@@ -80,15 +80,6 @@ def known_points(path: Path, inputs: Inputs) -> Mapping[float, Point]:
 def _refuse_others(path: Path) -> None:
     if not marked(path, MARK):
         raise InputError(f"{path}: is no table of flow factors; {REMEDY}")
-
-
-def _difference(file: h5py.File, inputs: Inputs) -> str:
-    there = json.loads(file.attrs["settings"])
-    for name in sorted(there.keys() | inputs.settings.keys()):
-        mine, its = inputs.settings.get(name), there.get(name)
-        if mine != its:
-            return "another version of roughfilm" if name == "code" else f"another table, with {name} {its}, not {mine}"
-    return "another surface"
 
 
 def _write(file: h5py.File, name: str, values: Array, unit: str) -> None:

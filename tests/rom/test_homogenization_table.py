@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from contact.errors import InputError
-from contact.mechanics.contact_store import Inputs
+from contact.inputs import Inputs
 from rom.homogenization.flow_factors import flow_factors
 from rom.homogenization.separation import Separations
 from rom.homogenization.table import told_rows

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from contact.errors import InputError
+from contact.inputs import Inputs
 from contact.mechanics import contact_store
-from contact.mechanics.contact_store import Inputs, add, finished, load_contact, row_of
+from contact.mechanics.contact_store import add, finished, load_contact, row_of
 from contact.mechanics.press import Press
 
 SETTINGS = {"hardness": 4e9, "model": "elastic_plastic"}
