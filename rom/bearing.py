@@ -8,13 +8,14 @@ from pydantic import BeforeValidator, Field, field_validator, model_validator
 from contact.entries import InUnit, Part, PositiveNumber
 from contact.errors import InputError
 from contact.units import with_unit
-from rom.bearing_geometry import SHAPES, AnyShape, Journal, Sector
+from rom.bearing_geometry import SHAPES, AnyShape, Journal
 from rom.cavitation.discretise import Ends
 from rom.cavitation.problem import Problem
 from rom.kind import Scene
 from rom.lubricants.compressibility import Incompressible
 from rom.lubricants.laws import Compressibility, Piezoviscosity
 from rom.lubricants.viscosity import LOG_VISCOSITY, ConstantViscosity, Roelands
+from rom.ring_geometry import Ring
 from rom.roughness import AnyRoughness, Sinusoid
 
 
@@ -130,7 +131,7 @@ class Bearing(Scene):
                 self.lubricant.compressibility.pressure_at(theta)
             except InputError as error:
                 raise ValueError(f"boundary.inlet.{error}") from None
-        if isinstance(self.geometry, Sector) and self.geometry.joined:
+        if isinstance(self.geometry, Ring) and self.geometry.endless:
             self._can_be_joined()
         if self.wide and self.boundary.sides != Sides():
             raise ValueError("boundary.sides: got pressures for an infinitely wide bearing; leave them or add a width")
@@ -186,7 +187,7 @@ class Bearing(Scene):
     def problem(self) -> Problem:
         """The film to be solved, without roughness."""
         geometry, lubricant = self.geometry, self.lubricant
-        radius = geometry.radius if isinstance(geometry, Sector) else 1.0
+        radius = geometry.radius if isinstance(geometry, Ring) else 1.0
         return Problem(
             shape=geometry.film_shape(),
             ends=self.ends,

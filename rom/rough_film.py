@@ -7,11 +7,11 @@ import numpy as np
 
 from contact.errors import InputError
 from rom.bearing import Bearing
-from rom.bearing_geometry import Sector
 from rom.bearing_rung import MOST, PLANE, RESOLVED, WIDE
 from rom.cavitation.problem import Problem
 from rom.cavitation.shape import Shape
 from rom.ladder import Applicability
+from rom.ring_geometry import Ring
 
 FINER = {True: (1, 2, 4, 8), False: (1, 2, 4)}
 """Times the cells that resolve the waves, of an infinitely wide film and of others."""
@@ -77,7 +77,7 @@ def averages(scene: Bearing) -> Applicability:
         return Applicability(applies=False, reason="there is no roughness to average: reynolds_cavitating is the same")
     ratio = roughness.period / scene.geometry.length
     told = f"takes {roughness.told} as infinitely short: period over length = {ratio:.2g}"
-    if isinstance(scene.geometry, Sector):
+    if isinstance(scene.geometry, Ring):
         told += "; the lay turns with the direction of sliding"
     return Applicability(applies=True, reason=told)
 
@@ -87,7 +87,7 @@ def follows(scene: Bearing) -> Applicability:
     roughness = scene.roughness
     if roughness is None:
         why = "there is no roughness to follow: reynolds_cavitating is the same"
-    elif isinstance(scene.geometry, Sector):
+    elif isinstance(scene.geometry, Ring):
         why = "a lay that turns with the direction of sliding has no waves that could be laid over a sector"
     elif scene.wide and not math.isinf(roughness.finest[1]):
         why = "the roughness varies across an infinitely wide film; give the bearing a width"

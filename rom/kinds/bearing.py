@@ -94,8 +94,10 @@ def told(error: ValidationError, _entries: Mapping[str, Any]) -> str:
 
     def unknown(location: Location) -> str:
         *path, key = location
-        within = path in [list(place) for place in CHOSEN]
-        return unknown_key(key, [*chosen.model_fields] if chosen and within else known_keys(Bearing, path))
+        inner = next((path[len(place) :] for place in CHOSEN if tuple(path[: len(place)]) == place), None)
+        return unknown_key(
+            key, known_keys(Bearing, path) if chosen is None or inner is None else known_keys(chosen, inner)
+        )
 
     return in_one_line(error, "scene", unknown, lambda path: _without_tags(path)[0])
 
@@ -107,7 +109,7 @@ KIND = Kind(
     compared={"load_per_width": "load", "friction_per_width": "friction"},
     scale=scale,
     columns=columns,
-    files=frozenset({"table", "surface"}),
+    files=frozenset({"table", "surface", "thickness"}),
     lists=frozenset({("roughness", "spacing"), ("roughness", "surface", "size"), ("roughness", "surface", "points")}),
     told=told,
     replaces={

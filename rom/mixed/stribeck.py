@@ -64,7 +64,7 @@ class StribeckPoint:
 class LiftOff:
     """Where the asperities just touch at the narrowest place: the film alone carries the load from this speed on.
 
-    ``speed`` is NaN where no speed up to 1000 times the largest asked for lifts the wall, and 0 where it floats at rest.
+    ``speed``, m/s, is NaN where none up to 1000 times the largest asked for lifts the wall, 0 where it floats at rest.
     """
 
     speed: float
