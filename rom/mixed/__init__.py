@@ -1,1 +1,1 @@
-"""Mixed lubrication: load shared by a film and by the asperities that reach through it."""
+"""Mixed lubrication: asperities and liquid carry one load between them."""
