@@ -8,6 +8,7 @@ from pydantic import BeforeValidator, Field, field_validator, model_validator
 from contact.entries import InUnit, Part, PositiveNumber
 from contact.errors import InputError
 from contact.units import with_unit
+from rom.asperity_contact import AsperityContact
 from rom.bearing_geometry import SHAPES, AnyShape, Journal
 from rom.cavitation.discretise import Ends
 from rom.cavitation.problem import Problem
@@ -91,7 +92,9 @@ class Boundary(Part):
 class Bearing(Scene):
     """Steady isothermal flow in a thin film that may rupture; pressures count from ambient.
 
-    Where the still wall is rough, ``film`` and all of the geometry are of the mean gap.
+    Where the still wall is rough, ``film`` and all of the geometry are of the mean gap; where ``asperities`` are told,
+    so that the walls may touch, of the separation α of the walls' mean planes as if they were rigid, which is the mean
+    gap until they touch.
 
     ``fields`` of its results, of the shape of the grid: ``x``, ``y`` (m, or rad and m), ``film_thickness`` (m),
     ``pressure`` (Pa), ``density_ratio`` θ (1), which below 1 is the part of the gap that liquid fills.
@@ -103,6 +106,7 @@ class Bearing(Scene):
     motion: Motion
     boundary: Boundary = Boundary()
     roughness: AnyRoughness | None = None
+    asperities: AsperityContact | None = None
 
     @field_validator("geometry", mode="before")
     @classmethod
@@ -141,6 +145,10 @@ class Bearing(Scene):
                 f"lubricant.piezoviscosity: got roelands for {self.lubricant.viscosity!r} Pa s; by that law liquids of "
                 f"less than {least:.2g} Pa s grow thinner under pressure, take barus or constant"
             )
+        if self.asperities is not None and self.roughness is None:
+            raise ValueError("asperities: got them for smooth walls; add a roughness, a surface or a table")
+        if isinstance(self.roughness, Sinusoid) and self.asperities is not None:
+            raise ValueError("asperities: got them with sinusoidal ridges; give a surface or a table as roughness")
         if isinstance(self.roughness, Sinusoid) and self.roughness.amplitude >= self.geometry.film:
             raise ValueError(
                 f"roughness.amplitude: got {self.roughness.amplitude!r} m; it must be below film, "

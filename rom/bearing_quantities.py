@@ -189,6 +189,13 @@ def _ends(found: Solution, row: int, last: int, x: Array) -> float:
     return float(min(max(x[last + 1] - back, x[last]), x[last + 2]))
 
 
+def carried(scene: Bearing, x: Array, force: Array) -> float:
+    """The load of forces at the nodes, N (N/m if wide): their sum, of a journal as vectors; ``x`` as in the scene."""
+    if isinstance(scene.geometry, Journal):
+        return journal_load(scene.geometry, x, force)[1]
+    return float(force.sum())
+
+
 def journal_load(geometry: Journal, x: Array, force: Array) -> tuple[float, float]:
     """The attitude angle, degrees, from the narrowest place against the load line, and the load; ``force`` by nodes."""
     angle = (x / geometry.radius)[:, None]

@@ -17,6 +17,9 @@ from rom.homogenization.table import FactorTable, Point
 TIP = 1.5
 """The power of the approach with which the load on a first touching tip grows: Hertz's."""
 
+SAFETY = 2.0
+"""Of what interpolation was seen to miss half-way between loads."""
+
 CLOSE = 1e-12
 """The part of it by which a separation may be below the least one, by rounding."""
 
@@ -94,14 +97,16 @@ class AsperityTable:
         return self._over_approach(separation, self._log_area, TIP - 0.5)
 
     def pressure_doubt(self, separation: Array) -> Array:
-        """By which part the contact pressure may be off: by the grid, and by interpolation; 0 where nothing touches."""
-        alpha = self._reached(separation)
-        g = self.touching - alpha
+        """By which part the contact pressure may be off, by grid and interpolation; 0 where nothing touches.
+
+        All of it below the lightest load.
+        """
+        g = self.touching - self._reached(separation)
         inside = np.clip(g, self._approaches[0], None)
-        slope = np.where(g < self._approaches[0], TIP, self._log_pressure.derivative()(np.log(inside))) / inside
-        doubts = [p.separation_uncertainty + p.separation_missed * self.factors.rms for p in self._pressed]
-        off = np.interp(inside, self._approaches, doubts)
-        return np.where(g > 0, slope * off, 0.0)
+        doubts = [p.separation_uncertainty + SAFETY * p.separation_missed * self.factors.rms for p in self._pressed]
+        slope = self._log_pressure.derivative()(np.log(inside)) / inside
+        doubt = slope * np.interp(inside, self._approaches, doubts)
+        return np.where(g > 0, np.where(g < self._approaches[0], np.maximum(doubt, 1.0), doubt), 0.0)
 
     def separation_at(self, pressure: float) -> float:
         """α, m, at which asperities carry a pressure, Pa.
@@ -119,9 +124,9 @@ class AsperityTable:
         lightest = self._pressed[0].load
         if pressure <= lightest:
             return float(self.touching - self._approaches[0] * (pressure / lightest) ** (1 / TIP))
-        logs = np.log(self._approaches)
-        wanted = math.log(pressure)
-        found: float = brentq(lambda log: float(self._log_pressure(log)) - wanted, logs[0], logs[-1], xtol=1e-14)
+        between, (low, *_, high) = self._log_pressure, np.log(self._approaches)
+        wanted = np.clip(math.log(pressure), between(low), between(high))
+        found: float = brentq(lambda log: float(between(log) - wanted), low, high, xtol=1e-14)
         return self.touching - math.exp(found)
 
     @cached_property

@@ -1,17 +1,55 @@
 """Stribeck curves: how friction, film and the asperities' share of a load change with speed."""
 
+import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from math import inf, nan
 
+import numpy as np
+from scipy.interpolate import BarycentricInterpolator
+from scipy.optimize import brentq
+
+from contact.errors import InputError
 from rom.bearing import Bearing
+from rom.bearing_rung import load_loops
+from rom.cavitation.network import State
 from rom.ladder import Progress, silent
 from rom.mixed.asperities import Asperities
+from rom.mixed.balance import STEEPNESS, Speed, balanced
+from rom.mixed.film import MixedFilm, MixedState
 
 RESOLUTION = 64
 """Cells along and across, by default."""
 
+COARSEST, FINEST = 16, 1024
+
 TOLERANCE = 1e-6
 """Of the load that film and asperities carry together, by default."""
+
+
+JUDGED = 5
+"""Speeds at which half as many cells say how far off a curve is."""
+
+EXTRAPOLATED, FARTHEST = 4, 1.5
+"""Points from which the next separation is guessed, and how far it is at most from the last one, as a factor."""
+
+LEAST_SPEED, FASTEST = 1e-6, 1000
+"""m/s, and times the largest speed: where lift-off is sought."""
+
+UNCERTAIN = (
+    "separation",
+    "least_gap",
+    "film_load",
+    "contact_load",
+    "contact_share",
+    "friction",
+    "friction_coefficient",
+    "pressure_max",
+    "contact_pressure_max",
+    "contact_area",
+    "cavitated_fraction",
+)
+"""Quantities of a point that depend on the grid and on the factors."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -113,4 +151,153 @@ def stribeck(
     ConvergenceError
         If a film does not come into balance.
     """
-    raise NotImplementedError
+    film = mixed_film(scene, asperities, resolution)
+    wanted = _checked(speeds, pressures)
+    done = {(point.pressure, point.speed): point for point in known}
+    coarse = MixedFilm(scene=film.scene, asperities=film.asperities, cells=resolution // 2)
+    judged = {wanted[place] for place in np.linspace(0, len(wanted) - 1, JUDGED).round().astype(int)}
+    states: dict[float, State] = {}
+    curves: dict[float, list[StribeckPoint]] = {pressure: [] for pressure in sorted(pressures)}
+    load_loops(scene.wide)
+    for number, speed in enumerate(wanted):
+        fine, rough = Speed(film=film, speed=speed), Speed(film=coarse, speed=speed)
+        for count, (pressure, points) in enumerate(curves.items()):
+            told = f"{speed:.4g} m/s, {pressure * 1e-6:.4g} MPa"
+            progress((number + count / len(curves)) / len(wanted), told)
+            point = done.get((pressure, speed))
+            if point is None:
+                cpu = time.process_time()
+                guess, start = _extrapolated(points, speed), states.get(pressure)
+                fine.steepness = rough.steepness = STEEPNESS if number == 0 else fine.steepness
+                found = balanced(fine, pressure, tolerance=tolerance, guess=guess, start=start)
+                states[pressure] = found.solution.state
+                point = stribeck_point(found, film, pressure)
+                if speed in judged:
+                    near = balanced(rough, pressure, tolerance=tolerance, guess=point.separation + film.dip)
+                    other = stribeck_point(near, coarse, pressure)
+                    point = replace(point, uncertainty=_apart(point, other, film.asperities.doubt))
+                point = replace(point, cpu_s=time.process_time() - cpu)
+                keep(point)
+            points.append(point)
+    found_curves = []
+    for pressure, points in curves.items():
+        progress(1.0, f"lift-off at {pressure * 1e-6:.4g} MPa")
+        around = _crossing(points, film.asperities.touching)
+        lifts, other_lifts = (lift_off_speed(one, pressure, around, tolerance=tolerance) for one in (film, coarse))
+        unsure = abs(lifts - other_lifts) + film.asperities.doubt * lifts
+        lift_off = LiftOff(speed=lifts, uncertainty=unsure)
+        found_curves.append(StribeckCurve(pressure=pressure, points=tuple(points), lift_off=lift_off))
+    return tuple(found_curves)
+
+
+def mixed_film(scene: Bearing, asperities: Asperities | None, resolution: int) -> MixedFilm:
+    """The film of a scene that tells what its asperities are.
+
+    Raises
+    ------
+    InputError
+        For a scene without asperities, or a resolution out of range.
+    """
+    if scene.asperities is None:
+        raise InputError("scene.asperities: is missing; say of what the walls are that touch")
+    if not COARSEST <= resolution <= FINEST:
+        raise InputError(f"--resolution: got {resolution}; it must be {COARSEST} to {FINEST} cells along a side")
+    if asperities is None:
+        raise InputError("asperities: are missing")
+    return MixedFilm(scene=scene, asperities=asperities, cells=resolution)
+
+
+def stribeck_point(found: MixedState, film: MixedFilm, pressure: float) -> StribeckPoint:
+    """What there is to tell of a mixed film under a load over the nominal area, Pa; without its cost."""
+    separation = found.scene.geometry.film - film.dip
+    load = pressure * film.area
+    lowest = found.scene.lubricant.cavitation_pressure
+    return StribeckPoint(
+        pressure=pressure,
+        speed=found.scene.motion.speed,
+        separation=separation,
+        least_gap=float(film.asperities.mean_gap(np.array([separation]))[0]),
+        load=found.load,
+        film_load=found.film_load,
+        contact_load=found.contact_load,
+        contact_share=found.contact_load / found.load,
+        friction=found.friction,
+        friction_coefficient=found.friction / found.load,
+        pressure_max=float(found.solution.state.pressure.max()) + lowest,
+        contact_pressure_max=found.contact.pressure_max,
+        contact_area=found.contact.area_fraction,
+        cavitated_fraction=found.cavitated_fraction,
+        balance=abs(found.load / load - 1),
+        residual=found.solution.residual,
+        cpu_s=0.0,
+    )
+
+
+def _checked(speeds: Sequence[float], pressures: Sequence[float]) -> list[float]:
+    """The speeds in order."""
+    for name, values, least in (("speeds", speeds, "0 or more"), ("loads", pressures, "above 0")):
+        wrong = [value for value in values if not (0 <= value < inf) or (value == 0 and name == "loads")]
+        if wrong or not values:
+            got = f"got {wrong[0]!r}" if wrong else "are missing"
+            raise InputError(f"{name}: {got}; give numbers that are {least}, and finite")
+        if len(set(values)) < len(values):
+            raise InputError(f"{name}: got the same one twice; give each once")
+    return sorted(speeds)
+
+
+def _extrapolated(points: Sequence[StribeckPoint], speed: float) -> float | None:
+    """The separation at the next speed, from the last points by logarithms."""
+    if not points:
+        return None
+    last = points[-1].separation
+    before = [point for point in points if point.speed > 0][-EXTRAPOLATED:]
+    if len(before) < 2:
+        return last
+    x, y = np.log([(point.speed, point.separation) for point in before]).T
+    told = float(np.exp(BarycentricInterpolator(x, y)(np.log(speed))))
+    return min(max(told, last / FARTHEST), last * FARTHEST)
+
+
+def _apart(point: StribeckPoint, other: StribeckPoint, doubt: float) -> dict[str, float]:
+    """How far off each quantity may be: what half the cells change it by, three times what is left at second order."""
+    return {
+        name: abs(getattr(point, name) - getattr(other, name)) + doubt * abs(getattr(point, name)) for name in UNCERTAIN
+    }
+
+
+def _crossing(points: Sequence[StribeckPoint], touching: float) -> float:
+    """A speed near that at which a curve's separation passes that of touching, m/s, above 0."""
+    lifted = [point.speed for point in points if point.separation >= touching and point.speed > 0]
+    return min(lifted) if lifted else max(max(point.speed for point in points), LEAST_SPEED)
+
+
+def lift_off_speed(film: MixedFilm, pressure: float, near: float, *, tolerance: float) -> float:
+    """The speed at which the film alone carries a pressure over the nominal area where the walls just touch, m/s.
+
+    Sought round ``near``; 0 if the wall floats at rest, NaN if no speed up to 1000 times ``near`` is enough.
+    """
+    separation = film.asperities.touching + film.dip
+    if separation >= film.widest:
+        return nan
+    state: State | None = None
+
+    def excess(speed: float) -> float:
+        nonlocal state
+        found = film.at(separation, speed, state)
+        state = found.solution.state
+        return found.load / (pressure * film.area) - 1
+
+    if excess(0.0) >= 0:
+        return 0.0
+    low, high = 0.0, near
+    while excess(high) < 0:
+        low, high = high, 2 * high
+        if high > FASTEST * near:
+            return nan
+    while low == 0.0 or high > 2 * low:
+        middle = high / 2
+        if excess(middle) < 0:
+            low = middle
+        else:
+            high = middle
+    return float(brentq(excess, low, high, xtol=tolerance * low, rtol=tolerance))

@@ -31,7 +31,7 @@ STEP, SHORT_STEP, LIGHT = 4.0, 1.5, 0.1
 MOST_OF_HARDNESS, MOST_AREA = 0.9, 0.9
 """Loads go no further by themselves."""
 
-FEWEST = 32
+FEWEST = 8
 """Nodes along a side of the coarser grid that says how far off separations are."""
 
 SAFETY = 1.5
