@@ -9,7 +9,6 @@ from contact.surface import Array, Surface
 from contact.synthetic.distribution import with_heights_of
 from contact.synthetic.four_moments import heights_within
 from contact.synthetic.gaussian import gaussian
-from contact.synthetic.milled import milled
 
 SIDE = 3e-3
 """m, of the period; the source's windows are about as large."""
@@ -39,8 +38,8 @@ MEANING = {
     "surface 3": "ground in one direction, marks along the sliding",
 }
 
-FEEDS, RADIUS = 12, 60e-3
-"""Marks along the period of surface 1, and the mill's radius, m."""
+FEEDS = 12
+"""Marks across the period of surface 1."""
 
 LAYS = (35.0, -65.0)
 """Of the two directions of surface 2, degrees from the sliding."""
@@ -88,10 +87,9 @@ def _lay(points: tuple[int, int], seed: int, degrees: float, across: float, anis
 
 
 def _milled(points: tuple[int, int], seeds: tuple[int, ...]) -> Surface:
-    """Scallops of one feed, each cut a little deeper or higher along its length."""
-    arcs = milled(size=(SIDE, SIDE), points=points, radius=RADIUS, feed=SIDE / FEEDS, depth=1e-6)
-    scallops = arcs.heights.T / arcs.heights.std()
-    return arcs.with_heights(1e-6 * (scallops + 0.7 * _lay(points, seeds[0], 0.0, 0.1e-3, 12.0)))
+    """Marks of one feed, each cut a little deeper or higher along its length."""
+    y = np.arange(points[1]) / points[1]
+    return _surface(np.sqrt(2) * np.cos(2 * np.pi * FEEDS * y) + _lay(points, seeds[0], 0.0, 0.15e-3, 8.0))
 
 
 def _crossed(points: tuple[int, int], seeds: tuple[int, ...]) -> Surface:

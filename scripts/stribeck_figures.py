@@ -52,7 +52,13 @@ def curves(found: Sequence[StribeckCurve], scale: Scale, touching: float) -> Fig
     friction, gap, share = figure.subplots(1, 3)
     panels: tuple[tuple[Axes, str, Callable[[StribeckPoint], float], str, float], ...] = (
         (friction, "friction_coefficient", lambda point: point.friction_coefficient, "coefficient of friction", 1),
-        (gap, "separation", lambda point: point.separation - touching, "least separation over the first touch, µm", 1e6),
+        (
+            gap,
+            "separation",
+            lambda point: point.separation - touching,
+            "least separation over the first touch, µm",
+            1e6,
+        ),
         (share, "contact_share", lambda point: point.contact_share, "load carried by asperities, %", 100),
     )
     for curve, colour in zip(found, _colours(len(found)), strict=True):
@@ -136,8 +142,14 @@ def films(drawn: Sequence[Drawn]) -> Figure:
             axes.set_aspect("equal")
             least = min(0.0, float(values.min()))
             image = axes.pcolormesh(
-                1e3 * one.x, 1e3 * one.y, values / 1e6, shading="gouraud", cmap=mpl.colormaps[colours],
-                vmin=least / 1e6, vmax=max(top, 1.0) / 1e6, rasterized=True,
+                1e3 * one.x,
+                1e3 * one.y,
+                values / 1e6,
+                shading="gouraud",
+                cmap=mpl.colormaps[colours],
+                vmin=least / 1e6,
+                vmax=max(top, 1.0) / 1e6,
+                rasterized=True,
             )
             axes.set_title(f"{one.title}: {what}", fontsize=10)
             axes.set_xlabel("mm")

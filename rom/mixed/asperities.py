@@ -27,9 +27,8 @@ class Asperities(Protocol):
         """Contact pressure there, Pa."""
         ...
 
-    @property
-    def doubt(self) -> float:
-        """The part by which the factors may be off."""
+    def doubt_above(self, separation: float) -> float:
+        """The part by which the factors may be off where no separation is below this, m."""
         ...
 
     def __call__(self, separation: Array, /) -> GapFactors:

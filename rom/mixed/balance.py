@@ -23,6 +23,9 @@ STEEPEST = 12.0
 EXTENSION = 4.0
 """Times the separation, where no film has yet been found that carries too little."""
 
+LEAST = 0.01
+"""Of the separation at which asperities touch: the least that is tried, as mean planes may lie beyond each other."""
+
 BISECTED = 8
 """Films after which the bracket is halved, if that should ever be needed."""
 
@@ -90,7 +93,8 @@ def balanced(
         If a film does not come into balance, or the load does not.
     """
     film, load = at.film, pressure * at.film.area
-    closest, widest = film.asperities.closest + film.dip, film.widest
+    closest = max(film.asperities.closest, LEAST * film.asperities.touching) + film.dip
+    widest = film.widest
     low, high = closest, widest
     carries, floats = False, False
     separation = min(max(film.asperities.touching + film.dip if guess is None else guess, low), high)

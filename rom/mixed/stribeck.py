@@ -175,7 +175,8 @@ def stribeck(
                 if speed in judged:
                     near = balanced(rough, pressure, tolerance=tolerance, guess=point.separation + film.dip)
                     other = stribeck_point(near, coarse, pressure)
-                    point = replace(point, uncertainty=_apart(point, other, film.asperities.doubt))
+                    doubt = film.asperities.doubt_above(point.separation)
+                    point = replace(point, uncertainty=_apart(point, other, doubt))
                 point = replace(point, cpu_s=time.process_time() - cpu)
                 keep(point)
             points.append(point)
@@ -184,7 +185,7 @@ def stribeck(
         progress(1.0, f"lift-off at {pressure * 1e-6:.4g} MPa")
         around = _crossing(points, film.asperities.touching)
         lifts, other_lifts = (lift_off_speed(one, pressure, around, tolerance=tolerance) for one in (film, coarse))
-        unsure = abs(lifts - other_lifts) + film.asperities.doubt * lifts
+        unsure = abs(lifts - other_lifts) + film.asperities.doubt_above(film.asperities.touching) * lifts
         lift_off = LiftOff(speed=lifts, uncertainty=unsure)
         found_curves.append(StribeckCurve(pressure=pressure, points=tuple(points), lift_off=lift_off))
     return tuple(found_curves)
