@@ -9,7 +9,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rom.gap import Array
-from rom.homogenization.table import told_rows
 from rom.mixed.asperities import Asperities
 from rom.mixed.stribeck import StribeckCurve, StribeckPoint
 
@@ -20,8 +19,8 @@ BETWEEN = 400
 THICKEST = 3.0
 """Times the separation at which they touch, the last that is drawn."""
 
-REPEATED = 3
-"""Cells of a ring that are drawn beside each other."""
+MOST_PRESSURE = 1e9
+"""Of contact, Pa, up to which it is drawn."""
 
 LEAST_PRESSURE = 1e3
 """Of contact, the lowest that is drawn, Pa."""
@@ -91,9 +90,9 @@ def asperity_table(asperities: Asperities) -> Figure:
     figure = Figure(figsize=(11.4, 3.9), layout="constrained")
     contact, pressed, sheared = figure.subplots(1, 3)
     touching = asperities.touching
-    lowest = max(asperities.closest, 1e-3 * touching)
+    lowest = asperities.separation_at(min(asperities.largest_pressure, MOST_PRESSURE))
     near = np.linspace(lowest, touching, BETWEEN)
-    alpha = np.geomspace(lowest, THICKEST * touching, BETWEEN)
+    alpha = np.linspace(lowest, THICKEST * touching, BETWEEN)
     told, areas = asperities.contact_pressure(near), asperities.area_fraction(near)
     shown = told >= LEAST_PRESSURE
     contact.plot(1e6 * near[shown], told[shown] / 1e6, color=COLOURS[0])
@@ -103,14 +102,12 @@ def asperity_table(asperities: Asperities) -> Figure:
     beside.plot(1e6 * near, 100 * areas, color=COLOURS[2])
     beside.set_ylabel("area in contact, %", color=COLOURS[2])
     beside.grid(visible=False)
-    rows = told_rows(_OverMeanGap(asperities, alpha), asperities.mean_gap(alpha))
-    for axes, drawn in (
-        (pressed, ((0, "A₁₁/ĥ³"), (1, "A₂₂/ĥ³"), (2, "A₁₂/ĥ³"))),
-        (sheared, ((3, "B₁/ĥ"), (4, "B₂/ĥ"))),
-    ):
-        for (index, label), colour in zip(drawn, COLOURS, strict=False):
-            axes.plot(1e6 * alpha, rows[:, index], color=colour, label=label)
-        axes.set_xscale("log")
+    found, mean = asperities(alpha), asperities.mean_gap(alpha)
+    pressure = {"A₁₁/ĥ³": found.along, "A₂₂/ĥ³": found.across, "A₁₂/ĥ³": found.cross}
+    drag = {"B₁/ĥ": found.drag, "B₂/ĥ": found.drag_across}
+    for axes, drawn, power in ((pressed, pressure, 3), (sheared, drag, 1)):
+        for (label, values), colour in zip(drawn.items(), COLOURS, strict=False):
+            axes.plot(1e6 * alpha, values / mean**power, color=colour, label=label)
         axes.legend(fontsize=8)
         axes.set_ylabel("over a smooth film")
         axes.axvline(1e6 * touching, color="black", linewidth=0.8, linestyle="--")
@@ -119,25 +116,21 @@ def asperity_table(asperities: Asperities) -> Figure:
     return figure
 
 
-class _OverMeanGap:
-    """The factors at separations that are known, as a function of their mean gaps."""
-
-    def __init__(self, asperities: Asperities, separation: Array) -> None:
-        self.found = asperities(separation)
-
-    def __call__(self, _mean_gap: Array, /) -> object:
-        return self.found
-
-
 def films(drawn: Sequence[Drawn]) -> Figure:
     """Film pressure and contact pressure over the bearing, a row for each speed."""
     figure = Figure(figsize=(11.4, 3.3 * len(drawn)), layout="constrained")
     panels = figure.subplots(len(drawn), 2, squeeze=False)
-    tops = [max(float(values.max()) for values in each) for each in zip(*((d.film, d.contact) for d in drawn))]
+    tops = [max(float(one.max()) for one in each) for each in ([d.film for d in drawn], [d.contact for d in drawn])]
     for row, one in zip(panels, drawn, strict=True):
         for axes, values, top, what, colours in zip(
             row, (one.film, one.contact), tops, ("film", "contact"), ("viridis", "magma"), strict=True
         ):
+            if one.x.shape[1] == 1:
+                axes.plot(1e3 * one.x, values / 1e6, color=COLOURS[0])
+                axes.set_title(f"{one.title}: {what}", fontsize=10)
+                axes.set_xlabel("along the sliding, mm")
+                axes.set_ylabel("pressure, MPa")
+                continue
             axes.grid(visible=False)
             axes.set_aspect("equal")
             least = min(0.0, float(values.min()))

@@ -41,7 +41,7 @@ def save_points(
 ) -> None:
     """Write points whole or not at all: ``points/`` has a column for each number, by load, then speed.
 
-    ``uncertainty/`` has a column for each number that was estimated, NaN where it was not; ``lift_off/`` one row a load.
+    ``uncertainty/`` has a column for each number that was estimated, NaN where it was not; ``lift_off/`` a row a load.
 
     Raises
     ------
