@@ -27,11 +27,6 @@ class Asperities(Protocol):
         """Contact pressure there, Pa."""
         ...
 
-    @property
-    def doubt(self) -> float:
-        """The part by which the factors may be off."""
-        ...
-
     def __call__(self, separation: Array, /) -> GapFactors:
         """The factors, each of the shape of ``separation``."""
         ...
@@ -46,6 +41,14 @@ class Asperities(Protocol):
 
     def area_fraction(self, separation: Array) -> Array:
         """The part of the surface that touches."""
+        ...
+
+    def doubt_above(self, separation: float) -> float:
+        """The part by which factors may be off where no separation is below this, m."""
+        ...
+
+    def pressure_doubt(self, separation: Array) -> Array:
+        """The part by which contact pressures may be off."""
         ...
 
     def separation_at(self, pressure: float) -> float:

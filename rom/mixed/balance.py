@@ -23,21 +23,34 @@ STEEPEST = 12.0
 EXTENSION = 4.0
 """Times the separation, where no film has yet been found that carries too little."""
 
-BISECTED = 8
-"""Films after which the bracket is halved, if that should ever be needed."""
+BISECTED, SECANTS, INSIDE = 8, 3, 1e-3
+"""After so many films the bracket is halved; after so many a guess keeps this part of the bracket from its ends."""
+
+
+NEAREST = 0.1
+"""Of the separation of touching: least distance from the origin from which a film's power is counted."""
 
 
 @dataclass(kw_only=True)
 class Speed:
     """What films of one bearing carry at one speed, as far as they have been solved.
 
-    ``loads`` by their separations; ``steepness`` of the load as it was last seen.
+    ``loads`` by their separations; ``steepness``, a power, of the load as it was last seen. Separations may be below 0
+    where tips are crushed, so that powers are those of ``distance``.
     """
 
     film: MixedFilm
     speed: float
     loads: dict[float, float] = field(default_factory=dict)
     steepness: float = STEEPNESS
+
+    def distance(self, separation: float) -> float:
+        """The logarithm of how far a separation is from one that is never reached; from 0 if none is below it."""
+        return log(separation - min(0.0, self.film.closest - NEAREST * self.film.touching))
+
+    def separation(self, distance: float) -> float:
+        """The inverse of ``distance``, m."""
+        return exp(distance) + min(0.0, self.film.closest - NEAREST * self.film.touching)
 
     def at(self, separation: float, start: State | None) -> MixedState:
         """Solve the film and remember its load."""
@@ -46,17 +59,16 @@ class Speed:
         return found
 
     def guess(self, near: float) -> Callable[[float], float]:
-        """What the film carries at other separations, as a power of them, from the two known ones nearest to one."""
-        known = sorted(self.loads, key=lambda separation: abs(log(separation / near)))[:2]
-        one, load = known[0], self.loads[known[0]]
+        """What the film carries at other distances, as a power, from the two known ones nearest to one."""
+        known = sorted((abs(self.distance(at) - near), self.distance(at), load) for at, load in self.loads.items())
+        _, one, load = known[0]
         if len(known) > 1:
-            other = self.loads[known[1]]
-            apart = log(known[1] / one)
+            _, two, other = known[1]
             if load > 0 and other > 0:
-                self.steepness = float(np.clip(-log(other / load) / apart, -STEEPEST, STEEPEST))
+                self.steepness = float(np.clip(-log(other / load) / (two - one), -STEEPEST, STEEPEST))
             else:
-                return lambda separation: load + (other - load) * log(separation / one) / apart
-        return lambda separation: load * (separation / one) ** -self.steepness
+                return lambda place: load + (other - load) * (place - one) / (two - one)
+        return lambda place: load * exp(-self.steepness * (place - one))
 
 
 def balanced(
@@ -90,10 +102,9 @@ def balanced(
         If a film does not come into balance, or the load does not.
     """
     film, load = at.film, pressure * at.film.area
-    closest, widest = film.asperities.closest + film.dip, film.widest
-    low, high = closest, widest
+    low, high = film.closest, film.widest
     carries, floats = False, False
-    separation = min(max(film.asperities.touching + film.dip if guess is None else guess, low), high)
+    separation = min(max(film.touching if guess is None else guess, low), high)
     for count in range(FILMS):
         found = at.at(separation, start)
         start = found.solution.state
@@ -102,11 +113,11 @@ def balanced(
             return found
         if miss > 0:
             low, carries = separation, True
-            if separation >= widest * (1 - 1e-12):
+            if separation >= film.widest * (1 - 1e-12):
                 raise _floats(at, pressure, found.load)
         else:
             high, floats = separation, True
-            if separation <= closest * (1 + 1e-12):
+            if separation <= film.closest:
                 raise _too_much(at, pressure, found.load)
         separation = _next(at, load, low, high, separation, bracketed=(carries, floats), count=count)
     raise ConvergenceError(
@@ -120,23 +131,26 @@ def _next(
     at: Speed, load: float, low: float, high: float, last: float, *, bracketed: tuple[bool, bool], count: int
 ) -> float:
     """Where the guessed film and the asperities carry the load, within the bracket."""
-    film = at.guess(last)
+    here, below, above = (at.distance(place) for place in (last, low, high))
+    film = at.guess(here)
 
     def miss(place: float) -> float:
-        return film(exp(place)) + at.film.contact_load(exp(place)) - load
+        separation = min(max(at.separation(place), low), high)
+        return film(place) + at.film.contact_load(separation) - load
 
-    below, above = log(low), log(high)
     if all(bracketed) and count % BISECTED == BISECTED - 1:
-        return exp((below + above) / 2)
+        return at.separation((below + above) / 2)
     if not bracketed[1]:
-        above = min(above, log(EXTENSION * last))
+        above = min(above, here + log(EXTENSION))
     if miss(above) >= 0:
-        return exp(above if not bracketed[1] else (log(last) + above) / 2)
+        return at.separation((here + above) / 2) if bracketed[1] else min(at.separation(above), high)
     if miss(below) <= 0:
-        return exp(below if not bracketed[0] else (log(last) + below) / 2)
+        return at.separation((here + below) / 2) if bracketed[0] else low
     found = float(brentq(miss, below, above, xtol=1e-14, rtol=1e-14))
-    slack = 1e-3 * (above - below)
-    return exp(min(max(found, below + slack), above - slack)) if all(bracketed) and count > 3 else exp(found)
+    if all(bracketed) and count > SECANTS:
+        slack = INSIDE * (above - below)
+        found = min(max(found, below + slack), above - slack)
+    return min(max(at.separation(found), low), high)
 
 
 def _too_much(at: Speed, pressure: float, most: float) -> InputError:

@@ -68,6 +68,12 @@ class MixedFilm:
         """The nodes, the same at all separations."""
         return grid(self.scene.geometry.film_shape(), (self.cells, self.cells))
 
+    @property
+    def boundary_friction(self) -> float:
+        """Friction over load where asperities touch."""
+        assert self.scene.asperities is not None
+        return self.scene.asperities.friction
+
     @cached_property
     def area(self) -> float:
         """Nominal area, m²: that of the film, but of a journal diameter times width; m if infinitely wide."""
@@ -82,6 +88,16 @@ class MixedFilm:
         geometry = self.scene.geometry
         thickness = geometry.film_shape().thickness(*np.meshgrid(self.grid.x, self.grid.y, indexing="ij"))
         return max(0.0, geometry.film - float(thickness.min()))
+
+    @cached_property
+    def closest(self) -> float:
+        """The least film at which the asperities are known everywhere, m; below 0 where tips are crushed."""
+        return self.asperities.closest + self.dip
+
+    @cached_property
+    def touching(self) -> float:
+        """The film at which the walls begin to touch, m."""
+        return self.asperities.touching + self.dip
 
     @property
     def widest(self) -> float:

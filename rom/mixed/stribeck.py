@@ -3,11 +3,10 @@
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from math import inf, nan
+from math import exp, inf
 
 import numpy as np
 from scipy.interpolate import BarycentricInterpolator
-from scipy.optimize import brentq
 
 from contact.errors import InputError
 from rom.bearing import Bearing
@@ -17,6 +16,8 @@ from rom.ladder import Progress, silent
 from rom.mixed.asperities import Asperities
 from rom.mixed.balance import STEEPNESS, Speed, balanced
 from rom.mixed.film import MixedFilm, MixedState
+from rom.mixed.lift_off import lift_off_speed
+from rom.mixed.wall import asperities_of
 
 RESOLUTION = 64
 """Cells along and across, by default."""
@@ -30,11 +31,14 @@ TOLERANCE = 1e-6
 JUDGED = 5
 """Speeds at which half as many cells say how far off a curve is."""
 
-EXTRAPOLATED, FARTHEST = 4, 1.5
-"""Points from which the next separation is guessed, and how far it is at most from the last one, as a factor."""
+EXTRAPOLATED, FARTHEST = 4, 0.4
+"""Points from which the next separation is guessed, and how far its logarithm is at most from that of the last."""
 
-LEAST_SPEED, FASTEST = 1e-6, 1000
-"""m/s, and times the largest speed: where lift-off is sought."""
+LEAST_SPEED = 1e-6
+"""m/s, from which lift-off is sought where all speeds are 0."""
+
+STEP = 1e-3
+"""Of the separation of touching: over which the asperities' slope is taken."""
 
 UNCERTAIN = (
     "separation",
@@ -167,7 +171,7 @@ def stribeck(
             point = done.get((pressure, speed))
             if point is None:
                 cpu = time.process_time()
-                guess, start = _extrapolated(points, speed), states.get(pressure)
+                guess, start = _extrapolated(points, fine), states.get(pressure)
                 fine.steepness = rough.steepness = STEEPNESS if number == 0 else fine.steepness
                 found = balanced(fine, pressure, tolerance=tolerance, guess=guess, start=start)
                 states[pressure] = found.solution.state
@@ -175,7 +179,7 @@ def stribeck(
                 if speed in judged:
                     near = balanced(rough, pressure, tolerance=tolerance, guess=point.separation + film.dip)
                     other = stribeck_point(near, coarse, pressure)
-                    point = replace(point, uncertainty=_apart(point, other, film.asperities.doubt))
+                    point = replace(point, uncertainty=uncertainties(point, other, fine))
                 point = replace(point, cpu_s=time.process_time() - cpu)
                 keep(point)
             points.append(point)
@@ -184,7 +188,7 @@ def stribeck(
         progress(1.0, f"lift-off at {pressure * 1e-6:.4g} MPa")
         around = _crossing(points, film.asperities.touching)
         lifts, other_lifts = (lift_off_speed(one, pressure, around, tolerance=tolerance) for one in (film, coarse))
-        unsure = abs(lifts - other_lifts) + film.asperities.doubt * lifts
+        unsure = abs(lifts - other_lifts) + film.asperities.doubt_above(film.asperities.touching) * lifts
         lift_off = LiftOff(speed=lifts, uncertainty=unsure)
         found_curves.append(StribeckCurve(pressure=pressure, points=tuple(points), lift_off=lift_off))
     return tuple(found_curves)
@@ -202,9 +206,8 @@ def mixed_film(scene: Bearing, asperities: Asperities | None, resolution: int) -
         raise InputError("scene.asperities: is missing; say of what the walls are that touch")
     if not COARSEST <= resolution <= FINEST:
         raise InputError(f"--resolution: got {resolution}; it must be {COARSEST} to {FINEST} cells along a side")
-    if asperities is None:
-        raise InputError("asperities: are missing")
-    return MixedFilm(scene=scene, asperities=asperities, cells=resolution)
+    wall = asperities_of(scene) if asperities is None else asperities
+    return MixedFilm(scene=scene, asperities=wall, cells=resolution)
 
 
 def stribeck_point(found: MixedState, film: MixedFilm, pressure: float) -> StribeckPoint:
@@ -245,59 +248,57 @@ def _checked(speeds: Sequence[float], pressures: Sequence[float]) -> list[float]
     return sorted(speeds)
 
 
-def _extrapolated(points: Sequence[StribeckPoint], speed: float) -> float | None:
-    """The separation at the next speed, from the last points by logarithms."""
+def _extrapolated(points: Sequence[StribeckPoint], at: Speed) -> float | None:
+    """The film at the next speed, m, from the last points by logarithms."""
     if not points:
         return None
-    last = points[-1].separation
+    dip = at.film.dip
+    last = at.distance(points[-1].separation + dip)
     before = [point for point in points if point.speed > 0][-EXTRAPOLATED:]
     if len(before) < 2:
-        return last
-    x, y = np.log([(point.speed, point.separation) for point in before]).T
-    told = float(np.exp(BarycentricInterpolator(x, y)(np.log(speed))))
-    return min(max(told, last / FARTHEST), last * FARTHEST)
+        return points[-1].separation + dip
+    speeds = np.log([point.speed for point in before])
+    told = float(BarycentricInterpolator(speeds, [at.distance(p.separation + dip) for p in before])(np.log(at.speed)))
+    return at.separation(min(max(told, last - FARTHEST), last + FARTHEST))
 
 
-def _apart(point: StribeckPoint, other: StribeckPoint, doubt: float) -> dict[str, float]:
-    """How far off each quantity may be: what half the cells change it by, three times what is left at second order."""
-    return {
-        name: abs(getattr(point, name) - getattr(other, name)) + doubt * abs(getattr(point, name)) for name in UNCERTAIN
+def uncertainties(point: StribeckPoint, other: StribeckPoint, at: Speed) -> dict[str, float]:
+    """How far off each quantity may be: what half the cells change it by, and by what factors and pressures are off.
+
+    At second order what half the cells change is three times what is left. A film that carries δF less, and asperities
+    that carry δC less than they should, are nearer by δα = -(δF + δC)/(F' + C') under the same load, and share it as
+    they do there.
+    """
+    asperities, here = at.film.asperities, np.array([point.separation])
+    film, contact = point.film_load, point.contact_load
+    unsure = asperities.doubt_above(point.separation)
+    unsure_film, unsure_contact = unsure * abs(film), float(asperities.pressure_doubt(here)[0]) * abs(contact)
+    place, step = point.separation + at.film.dip, STEP * at.film.touching
+    shift = exp(at.distance(place))
+    film_slope = at.steepness * abs(film) / shift
+    contact_slope = (at.film.contact_load(max(place - step, at.film.closest)) - at.film.contact_load(place)) / step
+    slope = film_slope + contact_slope
+    closer = (unsure_film + unsure_contact) / slope if slope > 0 else 0.0
+    shared = (unsure_film * contact_slope + unsure_contact * film_slope) / slope if slope > 0 else 0.0
+    boundary = at.film.boundary_friction
+    rubbed = boundary * shared + (unsure + closer / shift) * abs(point.friction - boundary * contact)
+    relative = shared / contact if contact > 0 else 0.0
+    more = {
+        "separation": closer,
+        "least_gap": closer,
+        "film_load": shared,
+        "contact_load": shared,
+        "contact_share": shared / point.load,
+        "friction": rubbed,
+        "friction_coefficient": rubbed / point.load,
+        "pressure_max": abs(point.pressure_max * shared / film) if film else 0.0,
+        "contact_pressure_max": point.contact_pressure_max * relative,
+        "contact_area": point.contact_area * relative,
     }
+    return {name: abs(getattr(point, name) - getattr(other, name)) + more.get(name, 0.0) for name in UNCERTAIN}
 
 
 def _crossing(points: Sequence[StribeckPoint], touching: float) -> float:
     """A speed near that at which a curve's separation passes that of touching, m/s, above 0."""
     lifted = [point.speed for point in points if point.separation >= touching and point.speed > 0]
     return min(lifted) if lifted else max(max(point.speed for point in points), LEAST_SPEED)
-
-
-def lift_off_speed(film: MixedFilm, pressure: float, near: float, *, tolerance: float) -> float:
-    """The speed at which the film alone carries a pressure over the nominal area where the walls just touch, m/s.
-
-    Sought round ``near``; 0 if the wall floats at rest, NaN if no speed up to 1000 times ``near`` is enough.
-    """
-    separation = film.asperities.touching + film.dip
-    if separation >= film.widest:
-        return nan
-    state: State | None = None
-
-    def excess(speed: float) -> float:
-        nonlocal state
-        found = film.at(separation, speed, state)
-        state = found.solution.state
-        return found.load / (pressure * film.area) - 1
-
-    if excess(0.0) >= 0:
-        return 0.0
-    low, high = 0.0, near
-    while excess(high) < 0:
-        low, high = high, 2 * high
-        if high > FASTEST * near:
-            return nan
-    while low == 0.0 or high > 2 * low:
-        middle = high / 2
-        if excess(middle) < 0:
-            low = middle
-        else:
-            high = middle
-    return float(brentq(excess, low, high, xtol=tolerance * low, rtol=tolerance))
