@@ -17,7 +17,7 @@ from contact.errors import InputError
 from contact.inputs import Inputs
 from contact.mechanics.contact_store import is_series, load_contact, load_series
 from contact.mechanics.press import Press
-from contact.surface import LARGEST_LENGTH, LEAST_SPACING, Array
+from contact.surface import LARGEST_LENGTH, LEAST_SPACING, Array, Surface
 from contact.units import to_si
 from rom.homogenization.conductance import FaceRule
 from rom.homogenization.factors import FlowFactors
@@ -31,7 +31,7 @@ from rom.provenance import circumstances, code
 from scripts.common import AsJson, in_one_line, messages, output, print_json, progress_bar, run_alone
 from scripts.kept_points import Work, kept_table
 from scripts.output_file import alone, refuse_unwritable
-from scripts.rough_surface import Rough, read_rough, spacing_of
+from scripts.rough_surface import Rough, joint_warnings, read_rough, spacing_of
 from scripts.surface import refuse_same
 
 SOURCES = ("10.1016/j.triboint.2007.02.021", "10.1016/j.triboint.2006.02.069", "Sahlin 2008, Papers C and E")
@@ -183,7 +183,9 @@ def _shown_gap(table: FactorTable, rough: Rough, settings: Mapping[str, Any]) ->
 def _rough(path: Path, pressed: Inputs) -> Rough:
     """The undeformed surface of a file of contacts."""
     source = {"file": path.name, "settings": dict(pressed.settings)}
-    return Rough(heights=pressed.heights, spacing=pressed.spacing, source=source, warnings=())
+    surface = Surface(heights=pressed.heights, spacing=pressed.spacing)
+    warnings = joint_warnings(path, surface, measured=False)
+    return Rough(heights=pressed.heights, spacing=pressed.spacing, source=source, warnings=warnings)
 
 
 def _read_series(path: Path) -> tuple[Inputs, tuple[float, ...]]:
@@ -313,13 +315,15 @@ def _flat(quantities: dict[str, Any]) -> dict[str, Any]:
 
 def _table_of(name: str, points: list[dict[str, Any]]) -> Table:
     """Points as people read them, over a smooth film of the same mean gap."""
-    table = Table("ĥ, µm", "contact, %", *SHOWN, "sealed", title=escape(name))
+    pressed = any(point.get("load") for point in points)
+    table = Table(*(["load, MPa"] if pressed else []), "ĥ, µm", "contact, %", *SHOWN, "sealed", title=escape(name))
     for column in table.columns:
         column.justify = "right"
     for point in points:
         shut = " ".join(axis for axis in "xy" if point[f"sealed_{axis}"])
         cells = [_shown(point[each]) for each in SHOWN]
-        table.add_row(f"{1e6 * point['mean_gap']:.4g}", f"{100 * point['contact']:.3g}", *cells, shut)
+        load = [f"{point['load'] / 1e6:.4g}"] if pressed else []
+        table.add_row(*load, f"{1e6 * point['mean_gap']:.4g}", f"{100 * point['contact']:.3g}", *cells, shut)
     return table
 
 
