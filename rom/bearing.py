@@ -17,7 +17,7 @@ from rom.lubricants.compressibility import Incompressible
 from rom.lubricants.laws import Compressibility, Piezoviscosity
 from rom.lubricants.viscosity import LOG_VISCOSITY, ConstantViscosity, Roelands
 from rom.ring_geometry import Ring
-from rom.roughness import AnyRoughness, Sinusoid
+from rom.roughness import AnyRoughness, RoughSurface, Sinusoid, StoredTable
 
 
 def _any(value: float) -> float:
@@ -145,10 +145,8 @@ class Bearing(Scene):
                 f"lubricant.piezoviscosity: got roelands for {self.lubricant.viscosity!r} Pa s; by that law liquids of "
                 f"less than {least:.2g} Pa s grow thinner under pressure, take barus or constant"
             )
-        if self.asperities is not None and self.roughness is None:
-            raise ValueError("asperities: got them for smooth walls; add a roughness, a surface or a table")
-        if isinstance(self.roughness, Sinusoid) and self.asperities is not None:
-            raise ValueError("asperities: got them with sinusoidal ridges; give a surface or a table as roughness")
+        if self.asperities is not None:
+            self._can_touch(self.asperities)
         if isinstance(self.roughness, Sinusoid) and self.roughness.amplitude >= self.geometry.film:
             raise ValueError(
                 f"roughness.amplitude: got {self.roughness.amplitude!r} m; it must be below film, "
@@ -156,6 +154,15 @@ class Bearing(Scene):
             )
         self.geometry.film_shape()
         return self
+
+    def _can_touch(self, asperities: AsperityContact) -> None:
+        if not isinstance(self.roughness, RoughSurface | StoredTable):
+            got = "smooth walls" if self.roughness is None else "sinusoidal ridges"
+            raise ValueError(f"asperities: got them for {got}; give a surface or a table as roughness")
+        if isinstance(self.roughness, RoughSurface) and asperities.solid is None:
+            raise ValueError("asperities.solid: is missing; say of what the rough wall is")
+        if isinstance(self.roughness, StoredTable) and asperities.solid is not None:
+            raise ValueError("asperities.solid: got one, but the table was made for its own; leave it out")
 
     def _can_be_joined(self) -> None:
         boundary, lowest = self.boundary, self.lubricant.cavitation_pressure

@@ -1,5 +1,6 @@
 """Bearings: load and friction of a film that may rupture."""
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -51,7 +52,8 @@ def columns(scene: Bearing) -> dict[str, Quantity | str]:
         numbers["width_ratio"] = scene.geometry.width / scene.geometry.length
     if scene.roughness is not None:
         numbers["roughness_ratio"] = scene.roughness.rms / scene.geometry.film
-        numbers["roughness_period"] = scene.roughness.period / scene.geometry.length
+        if math.isfinite(scene.roughness.period):
+            numbers["roughness_period"] = scene.roughness.period / scene.geometry.length
     return {
         "shape": scene.geometry.shape,
         "pressure_unit": Quantity(value=scene.pressure_unit, unit="Pa"),
@@ -115,8 +117,20 @@ KIND = Kind(
     replaces={
         "lubricant.compressibility.law": ("bulk_modulus", "c1", "c2", "table", "fit"),
         "lubricant.piezoviscosity.law": ("pressure_coefficient", "index"),
-        "roughness.kind": ("amplitude", "wavelength", "direction", "phase", "surface", "spacing", "scale", "stretch"),
+        "roughness.kind": (
+            "amplitude",
+            "wavelength",
+            "direction",
+            "phase",
+            "surface",
+            "spacing",
+            "scale",
+            "stretch",
+            "table",
+        ),
         "roughness.surface": ("digest", "spacing"),
+        "roughness.table": ("digest",),
+        "geometry.thickness": ("digest",),
         "boundary.inlet.theta": ("pressure",),
         "boundary.inlet.pressure": ("theta",),
     },

@@ -37,6 +37,6 @@ def equilibrium(
     if not 0 < pressure < float("inf"):
         raise InputError(f"load: got {pressure!r} Pa; it must be above 0 and finite")
     cpu = time.process_time()
-    film = mixed_film(scene, asperities, resolution)
+    film = mixed_film(scene, asperities, resolution, tolerance)
     found = balanced(Speed(film=film, speed=scene.motion.speed), pressure, tolerance=tolerance)
     return replace(stribeck_point(found, film, pressure), cpu_s=time.process_time() - cpu)

@@ -12,7 +12,7 @@ from rom.cavitation.balance import CAVITY
 from rom.cavitation.grid import Grid, grid
 from rom.cavitation.network import State
 from rom.cavitation.problem import Problem
-from rom.cavitation.solve import Solution, solve
+from rom.cavitation.solve import TOLERANCE, Solution, solve
 from rom.gap import Array
 from rom.homogenization.gap_factors import GapFactors
 from rom.mixed.asperities import Asperities
@@ -20,6 +20,9 @@ from rom.mixed.touching import Touching, touching
 
 SEEPING = 1e-6
 """Of a smooth film's flow factors, at the least: it keeps the pressure of sealed places defined, by hardly a drop."""
+
+SPARE, LEAST_RESIDUAL = 0.1, 1e-12
+"""Of the load's accuracy, what residuals may take; and the residual of a film, at the least."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,16 +60,26 @@ class MixedState:
 
 @dataclass(frozen=True, kw_only=True)
 class MixedFilm:
-    """A bearing with asperities on a grid of ``cells`` along and across; its own film and speed do not count."""
+    """A bearing with asperities on a grid of ``cells`` along and across; its own film and speed do not count.
+
+    ``accuracy`` is that of the load, relative; the film's own residual adds up over the cells and is kept below it.
+    """
 
     scene: Bearing
     asperities: Asperities
     cells: int
+    accuracy: float = 1e-6
 
     @cached_property
     def grid(self) -> Grid:
         """The nodes, the same at all separations."""
         return grid(self.scene.geometry.film_shape(), (self.cells, self.cells))
+
+    @property
+    def boundary_friction(self) -> float:
+        """Friction over load where asperities touch."""
+        assert self.scene.asperities is not None
+        return self.scene.asperities.friction
 
     @cached_property
     def area(self) -> float:
@@ -83,6 +96,21 @@ class MixedFilm:
         thickness = geometry.film_shape().thickness(*np.meshgrid(self.grid.x, self.grid.y, indexing="ij"))
         return max(0.0, geometry.film - float(thickness.min()))
 
+    @cached_property
+    def closest(self) -> float:
+        """The least film at which the asperities are known everywhere, m; below 0 where tips are crushed."""
+        return self.asperities.closest + self.dip
+
+    @cached_property
+    def touching(self) -> float:
+        """The film at which the walls begin to touch, m."""
+        return self.asperities.touching + self.dip
+
+    @property
+    def _residual(self) -> float:
+        """That the film may have."""
+        return min(max(SPARE * self.accuracy / self.cells, LEAST_RESIDUAL), TOLERANCE)
+
     @property
     def widest(self) -> float:
         """The thickest film that the geometry allows, m."""
@@ -97,7 +125,8 @@ class MixedFilm:
     def at(self, film: float, speed: float, start: State | None = None) -> MixedState:
         """Solve the film of a least thickness, m, at a speed, m/s, from the state of another if there is one."""
         scene = self.scene_at(film, speed)
-        found = solve(mixed_problem(scene, self.asperities), (self.cells, self.cells), start=start)
+        problem, cells = mixed_problem(scene, self.asperities), (self.cells, self.cells)
+        found = solve(problem, cells, start=start, tolerance=self._residual)
         contact = touching(found.problem.shape, found.grid, self.asperities)
         return mixed_state(scene, found, contact)
 

@@ -24,6 +24,8 @@ RESOLUTION = 64
 
 COARSEST, FINEST = 16, 1024
 
+FINEST_BALANCE, COARSEST_BALANCE = 1e-10, 1e-2
+
 TOLERANCE = 1e-6
 """Of the load that film and asperities carry together, by default."""
 
@@ -155,10 +157,10 @@ def stribeck(
     ConvergenceError
         If a film does not come into balance.
     """
-    film = mixed_film(scene, asperities, resolution)
+    film = mixed_film(scene, asperities, resolution, tolerance)
     wanted = _checked(speeds, pressures)
     done = {(point.pressure, point.speed): point for point in known}
-    coarse = MixedFilm(scene=film.scene, asperities=film.asperities, cells=resolution // 2)
+    coarse = replace(film, cells=resolution // 2)
     judged = {wanted[place] for place in np.linspace(0, len(wanted) - 1, JUDGED).round().astype(int)}
     states: dict[float, State] = {}
     curves: dict[float, list[StribeckPoint]] = {pressure: [] for pressure in sorted(pressures)}
@@ -194,20 +196,24 @@ def stribeck(
     return tuple(found_curves)
 
 
-def mixed_film(scene: Bearing, asperities: Asperities | None, resolution: int) -> MixedFilm:
+def mixed_film(scene: Bearing, asperities: Asperities | None, resolution: int, tolerance: float) -> MixedFilm:
     """The film of a scene that tells what its asperities are.
 
     Raises
     ------
     InputError
-        For a scene without asperities, or a resolution out of range.
+        For a scene without asperities, or a resolution or tolerance out of range.
     """
     if scene.asperities is None:
         raise InputError("scene.asperities: is missing; say of what the walls are that touch")
     if not COARSEST <= resolution <= FINEST:
         raise InputError(f"--resolution: got {resolution}; it must be {COARSEST} to {FINEST} cells along a side")
+    if not FINEST_BALANCE <= tolerance < COARSEST_BALANCE:
+        raise InputError(
+            f"--tolerance: got {tolerance!r}; it must be {FINEST_BALANCE:g} to {COARSEST_BALANCE:g} of the load"
+        )
     wall = asperities_of(scene) if asperities is None else asperities
-    return MixedFilm(scene=scene, asperities=wall, cells=resolution)
+    return MixedFilm(scene=scene, asperities=wall, cells=resolution, accuracy=tolerance)
 
 
 def stribeck_point(found: MixedState, film: MixedFilm, pressure: float) -> StribeckPoint:
