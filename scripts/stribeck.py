@@ -79,7 +79,7 @@ def command(
     if not isinstance(read, Bearing) or read.asperities is None:
         raise InputError(
             f"{scene}: asperities: are missing; add [roughness] with a surface, and [asperities] with the solids "
-            "(scripts/scenes/washer.toml)"
+            "(scripts/scenes/rough_washer.toml)"
         )
     radius = turning_radius(read)
     asked = loads_of(loads)

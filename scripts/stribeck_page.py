@@ -22,7 +22,7 @@ from scripts.stribeck_figures import Drawn, Scale
 MIXED = 0.3
 """The first film drawn is the one whose asperities carry nearest to this part of the load."""
 
-ROWS = 12
+ROWS = 9
 """Points of a curve in the table of numbers, about."""
 
 
@@ -104,7 +104,7 @@ def _lift(curve: StribeckCurve, unit: str, factor: float) -> str:
 def _row(point: StribeckPoint, factor: float) -> list[str]:
     def cell(name: str, scale: float = 1.0) -> str:
         value, doubt = getattr(point, name), point.uncertainty.get(name)
-        return f"{scale * value:.4g}" + (f" ± {scale * doubt:.1g}" if doubt else "")
+        return f"{scale * value:.3g}" + (f" ± {scale * doubt:.1g}" if doubt else "")
 
     return [
         f"{point.pressure / 1e6:.4g}",
@@ -115,6 +115,5 @@ def _row(point: StribeckPoint, factor: float) -> list[str]:
         cell("contact_share", 100),
         cell("pressure_max", 1e-6),
         cell("contact_pressure_max", 1e-6),
-        cell("contact_area", 100),
         cell("cavitated_fraction", 100),
     ]

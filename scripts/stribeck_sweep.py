@@ -77,21 +77,15 @@ def wall_of(scene: Bearing, largest: float, table: Path | None, out: Path, progr
                 f"{surface.name} is not periodic (mismatch {mismatch:.2g}): its edges meet in steps, which throttle "
                 "the flow; prepare it by roughfilm surface"
             )
-    if table is None and surface is None:
-        asperities = asperities_of(scene, progress)
-        _refuse_too_much(scene, asperities, largest, cells)
-        known = len(asperities.factors.points)
-        source = {"table": scene_entries(scene)["roughness"]}
-        return Wall(asperities=asperities, told=tuple(told), points=known, found=known, source=source)
-    given = None if table is None else AsperityTable(factors=_given(table, surface))
-    if given is not None and _carried(scene, given, cells) >= largest:
-        known = len(given.factors.points)
-        source = {"table": _digest(given)}
-        return Wall(asperities=given, told=tuple(told), points=known, found=known, source=source)
-    if surface is None:
-        assert given is not None
+    if table is not None:
+        given: AsperityTable | None = AsperityTable(factors=_given(table, surface))
+    else:
+        given = None if surface is not None else asperities_of(scene, progress)
+    if given is not None and (surface is None or _carried(scene, given, cells) >= largest):
         _refuse_too_much(scene, given, largest, cells)
-    assert isinstance(surface, RoughSurface)
+        known = len(given.factors.points)
+        return Wall(asperities=given, told=tuple(told), points=known, found=known, source={"table": _digest(given)})
+    assert surface is not None
     made, found, source = _tabulated(scene, surface, given, largest, out, progress, cells)
     if given is not None:
         told.append(
@@ -126,24 +120,22 @@ def _tabulated(
     inputs = Inputs(heights=heights, spacing=spacing, settings=settings)
     before = () if given is None else tuple(given.factors.points)
 
+    def at_least(reach: float, known: Sequence[Point], keep: Callable[[Point], None]) -> AsperityTable:
+        return tabulate_pressed(
+            heights, spacing, stiffness, hardness=bound, reach=reach, known=known, keep=keep, progress=progress
+        )
+
     def work(known: Sequence[Point], keep: Callable[[Point], None]) -> FactorTable:
-        points, reach = [*before, *known], 0.0
+        made = at_least(0.0, [*before, *known], keep)
         for _ in range(TURNS):
-            made = tabulate_pressed(
-                heights,
-                spacing,
-                stiffness,
-                hardness=bound,
-                reach=reach,
-                known=points,
-                keep=keep,
-                progress=progress,
-            )
             carried = _carried(scene, made, cells)
-            if carried >= largest or reach >= bound:
+            if carried >= largest:
                 break
-            points = list(made.factors.points)
             reach = min(SPARE * made.largest_pressure * largest / carried, bound)
+            try:
+                made = at_least(reach, made.factors.points, keep)
+            except InputError:  # so much closes the gap everywhere
+                break
         _refuse_too_much(scene, made, largest, cells)
         return made.factors
 
