@@ -14,7 +14,7 @@ from contact.surface import Array, Surface
 from rom.ladder import Availability
 from scripts.rendering import draw_module_apart
 
-WINDOW = (1500, 520)
+WINDOW = (1500, 500)
 """Pixels."""
 
 RELIEF = 0.16
@@ -74,7 +74,8 @@ def draw(file: Path, picture: Path) -> None:
     for number, (gap, title) in enumerate(zip(gaps, titles, strict=True)):
         plotter.subplot(0, number)
         plotter.background_color = "white"  # type: ignore[assignment]
-        grid = pyvista.StructuredGrid(*np.meshgrid(x, y, indexing="ij"), -gap * stretch)
+        across, up = np.meshgrid(x, y, indexing="ij")
+        grid = pyvista.StructuredGrid(across, up, -gap * stretch)
         grid["gap, µm"] = np.where(gap > 0, 1e6 * gap, -1.0).ravel(order="F")
         plotter.add_mesh(
             grid,
@@ -84,12 +85,22 @@ def draw(file: Path, picture: Path) -> None:
             below_color=TOUCHING,
             smooth_shading=False,
             show_scalar_bar=number == len(gaps) - 1,
-            scalar_bar_args={"n_labels": 4, "color": "#222222", "below_label": "", "label_font_size": 18},
+            scalar_bar_args={
+                "n_labels": 4,
+                "color": "#222222",
+                "below_label": "",
+                "label_font_size": 18,
+                "position_x": 0.3,
+                "position_y": 0.03,
+                "width": 0.65,
+                "height": 0.1,
+                "fmt": "%.1f",
+            },
         )
         touched = float((gap == 0).mean())
         plotter.add_text(f"{title}, {100 * touched:.2g} % touches", font_size=11, color="#222222")
         plotter.view_vector((-0.75, -1.0, 0.9), viewup=(0, 0, 1))  # type: ignore[arg-type]
-        plotter.camera.zoom(1.35)  # type: ignore[no-untyped-call]
+        plotter.camera.zoom(1.15)  # type: ignore[no-untyped-call]
     with replacing(picture) as scratch:
         plotter.screenshot(str(scratch))
 

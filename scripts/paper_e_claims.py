@@ -100,9 +100,9 @@ def methods_agree(washers: Mapping[str, Washer]) -> Claim:
         evidence=f"lift-off speeds by Patir and Cheng over the homogenized ones, at "
         f"{', '.join(f'{load / 1e6:g}' for load in LOADS)} MPa: straight lays within {_share(straight)}; marks that "
         f"cross obliquely, one cut deeper, {' / '.join(_signed(part) for part in crossed)} (± {_share(unsure)} by "
-        f"grids and tables), films up to {_share(washers[CROSSED].apart())} off{told}. It is A₁₂ and B₂ that the method has "
-        "not: such a lay pumps sideways. Marks that cross symmetrically about the sliding have neither, and agree "
-        "(scripts.lay)",
+        f"grids and tables), films up to {_share(washers[CROSSED].apart())} off{told}. It is A₁₂ and B₂ that the "
+        "method has not: such a lay pumps sideways. Marks that cross symmetrically about the sliding have neither, "
+        "and agree (scripts.lay)",
     )
 
 
@@ -139,8 +139,8 @@ def lift_off(paper: Paper) -> Claim:
         + f" ({len(SEEDS)} samples), surface 1 {_signed(float(first.mean()))}, {helps} (± {_share(bar)}): what they "
         "hold back across they let through along the sliding. What counts is an oblique lay: at "
         f"{one} ridges that lead outwards with the sliding wall (+45°) part at {outwards.mean(axis=0)[1]:.3g} rpm, "
-        f"inwards (−45°) at {inwards.mean(axis=0)[1]:.3g}, along the sliding at {along.mean(axis=0)[1]:.3g}. So the late "
-        "lift-off of marks that cross comes of what they pump sideways, and not of leakage that ridges would hold back",
+        f"inwards (−45°) at {inwards.mean(axis=0)[1]:.3g}, along the sliding at {along.mean(axis=0)[1]:.3g}. So the "
+        "late lift-off of marks that cross comes of what they pump sideways, not of leakage that is not held back",
     )
 
 
