@@ -131,11 +131,9 @@ def test_a_table_that_does_not_reach_is_extended_and_that_is_told(swept, tmp_pat
     scene = scene_of_tests()
     np.save(surface, scene.roughness.scaled_heights())
     spacing = scene.roughness.scaled_spacing()[0]
-    pressed = CliRunner().invoke(
-        app,
-        ["contact", str(surface), "--spacing", f"{spacing} m", "--modulus", "210GPa", "--poisson", "0.3"]
-        + ["--hardness", "5GPa", "--loads", "0.2MPa,0.5MPa", "--out", str(series)],
-    )
+    steel = ("--modulus", "210GPa", "--poisson", "0.3", "--hardness", "5GPa", "--spacing", f"{spacing} m")
+    asked = ("contact", str(surface), *steel, "--loads", "0.2MPa,0.5MPa", "--out", str(series))
+    pressed = CliRunner().invoke(app, asked)
     assert pressed.exit_code == 0, pressed.stderr
     assert load_contact(series, 0.5e6).load == 0.5e6
     short = tmp_path / "T.h5"
