@@ -24,6 +24,7 @@ class Drive(Part):
 class Seal(RoughContact):
     """A seal whose liquid does not move the solids: its pressure is far below that of the contact.
 
+    All models give ``gap_edges``, m, (n+1,), and ``gap_share``, (n,): how much of the nominal area has gaps in a bin.
     Models that resolve the surface give the fields ``gap``, m, and ``flow``, the size of the flow per width, m²/s, both
     of shape (nx, ny).
     """

@@ -8,6 +8,7 @@ from typing import cast
 import numpy as np
 
 from contact.mechanics.contact import Contact
+from contact.surface import Array
 from contact.units import Quantity
 from rom.contact_rung import Answer, Task, contact_model, one
 from rom.ladder import Applicability, Effect, Model
@@ -19,6 +20,9 @@ from rom.seal import Seal
 RESIDUAL_MEANING = (
     "part of the leakage by which iterating on would change it, or by how much contact breaks its conditions"
 )
+
+BINS, FARTHEST = 80, 8.0
+"""Of gaps, up to so many rms heights."""
 
 Flow = Callable[[Contact, int], Passage]
 """flow(contact, axis): what a contact lets through."""
@@ -42,6 +46,7 @@ def leak(task: Task, *, flow: Flow) -> Answer:
             scene, passage.permeability, passage.sealed, found.area_fraction, found.mean_gap, task.heights.std()
         ),
         fields={
+            **gap_shares(float(task.heights.std()), found.gap),
             "gap": Field(values=found.gap, unit="m"),
             "flow": Field(values=size * per_permeability, unit="m^2/s"),
         },
@@ -55,6 +60,18 @@ def leak(task: Task, *, flow: Flow) -> Answer:
         if math.isfinite(passage.uncertainty)
         else {},
     )
+
+
+def gap_shares(rms: float, gaps: Array, shares: Array | None = None) -> dict[str, Field]:
+    """How much of the nominal area has a gap in which of the bins that all rungs share, contact left out.
+
+    ``rms`` is that of the heights, m; ``shares`` are the parts of the area of each gap, equal ones if not given.
+    """
+    edges = np.linspace(0.0, FARTHEST * (rms or 1e-9), BINS + 1)
+    weights = np.full(gaps.shape, 1 / gaps.size) if shares is None else shares
+    some = gaps > 0
+    share, _ = np.histogram(gaps[some], edges, weights=weights[some])
+    return {"gap_edges": Field(values=edges, unit="m"), "gap_share": Field(values=share.astype(float), unit="1")}
 
 
 def leakage_of(scene: Seal, permeability: float) -> float:

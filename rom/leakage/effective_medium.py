@@ -38,6 +38,7 @@ class EffectiveMedium:
     area_fraction : real area of contact over the nominal one.
     sealed : whether that area is ``THRESHOLD`` or more.
     gaps, shares : (n,), m and parts of the nominal area: how wide the gap is where; the rest is contact.
+    residual : of the medium's equation at the permeability, over the parts of it that are above 0.
     """
 
     permeability: float
@@ -46,6 +47,7 @@ class EffectiveMedium:
     sealed: bool
     gaps: Array
     shares: Array
+    residual: float
 
 
 def effective_medium(spectrum: WavePower, *, composite_modulus: float, load: float) -> EffectiveMedium:
@@ -102,7 +104,7 @@ def effective_medium(spectrum: WavePower, *, composite_modulus: float, load: flo
     gaps = np.abs(middle[:, None] + rms[:, None] * nodes).ravel()
     shares = (parted[some, None] * (weights / weights.sum())).ravel()
     contact = float(areas[-1])
-    permeability = _medium(gaps, shares, contact)
+    permeability, residual = _medium(gaps, shares, contact)
     return EffectiveMedium(
         permeability=permeability,
         mean_gap=float(means[0]),
@@ -110,6 +112,7 @@ def effective_medium(spectrum: WavePower, *, composite_modulus: float, load: flo
         sealed=permeability == 0.0,
         gaps=gaps,
         shares=shares,
+        residual=residual,
     )
 
 
@@ -126,10 +129,10 @@ def _binned(spectrum: WavePower) -> WavePower:
     return WavePower(wave_numbers=np.sqrt(square[some] / total[some]), power=total[some], line=spectrum.line)
 
 
-def _medium(gaps: Array, shares: Array, contact: float) -> float:
-    """K of Bruggeman's medium."""
+def _medium(gaps: Array, shares: Array, contact: float) -> tuple[float, float]:
+    """K of the medium, and the residual of its equation."""
     if contact >= THRESHOLD or not gaps.size:
-        return 0.0
+        return 0.0, 0.0
     conductance = gaps**3
     largest = float(conductance.max())
 
@@ -139,5 +142,6 @@ def _medium(gaps: Array, shares: Array, contact: float) -> float:
 
     lowest = -200.0
     if excess(lowest) <= 0:
-        return 0.0
-    return largest * math.exp(float(brentq(excess, lowest, 0.0, xtol=1e-12)))
+        return 0.0, 0.0
+    found = float(brentq(excess, lowest, 0.0, xtol=1e-12))
+    return largest * math.exp(found), abs(excess(found)) / float(shares.sum())

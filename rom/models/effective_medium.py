@@ -7,11 +7,9 @@ from contact.mechanics.moments import wave_power
 from rom.contact_rung import Answer, Task, contact_model
 from rom.ladder import Applicability, Effect
 from rom.seal import Seal
-from rom.seal_rung import quantities
+from rom.seal_rung import gap_shares, quantities
 
-RESIDUAL_MEANING = (
-    "mismatch between the mean of the gaps and their mean by the elastic energy, relative; nothing is iterated"
-)
+RESIDUAL_MEANING = "of the equation of the effective medium, over its positive terms"
 
 FLAT = "got a flat surface, which has no spectrum; it is sealed, take direct_leakage"
 
@@ -29,8 +27,8 @@ def work(task: Task) -> Answer:
     told = quantities(scene, found.permeability, found.sealed, found.area_fraction, found.mean_gap, task.heights.std())
     return Answer(
         quantities=told,
-        fields={},
-        residual=abs(float((found.gaps * found.shares).sum()) / found.mean_gap - 1),
+        fields=gap_shares(float(task.heights.std()), found.gaps, found.shares),
+        residual=found.residual,
         iterations=1,
         warnings=() if scene.solid.hardness is None else ("takes the solid as elastic",),
     )
@@ -64,6 +62,6 @@ MODEL = contact_model(
     applies=applies,
     work=work,
     prepare=prepare,
-    default_tolerance=1.0 / 2,
+    default_tolerance=1e-9,
     cost=lambda heights: 6e-3 + 3e-7 * heights,
 )

@@ -69,6 +69,24 @@ def maps(scene: Seal, results: Mapping[str, Result]) -> str:
     return svg(figure)
 
 
+def gaps(results: Mapping[str, Result]) -> str:
+    """How much of the area has which gap, by every model."""
+    figure = Figure(figsize=(10, 3.4), layout="constrained")
+    axes = figure.add_subplot()
+    for name, result in results.items():
+        style = STYLES.get(name, Style())
+        edges, share = (result.fields[field].values for field in ("gap_edges", "gap_share"))
+        density = share / np.diff(edges * 1e6)
+        axes.stairs(
+            density, edges * 1e6, baseline=None, color=style.colour, linestyle=style.line, linewidth=1.8, label=name
+        )
+    axes.set_xlabel("gap, µm")
+    axes.set_ylabel("part of the nominal area, 1/µm")
+    axes.set_ylim(bottom=0)
+    axes.legend(fontsize=8, loc="upper right")
+    return svg(figure)
+
+
 def _thinned(values: np.ndarray) -> np.ndarray:
     step = max(1, -(-max(values.shape) // MOST_PIXELS))
     return values[::step, ::step]
@@ -76,7 +94,8 @@ def _thinned(values: np.ndarray) -> np.ndarray:
 
 def plots(scene: Seal, results: Mapping[str, Result]) -> dict[str, str]:
     """The figures of a comparison; maps only where a model resolves the surface."""
-    return {"maps": maps(scene, results)} if any("flow" in result.fields for result in results.values()) else {}
+    resolved = any("flow" in result.fields for result in results.values())
+    return {"gaps": gaps(results), **({"maps": maps(scene, results)} if resolved else {})}
 
 
 VIEW = View(
