@@ -72,7 +72,12 @@ def areas(rows: Sequence[Row], found: Mapping[str, Threshold]) -> str:
 
 
 def leakages(scene: Seal, rows: Sequence[Row], found: Mapping[str, Threshold], estimated: Mapping[float, float]) -> str:
-    """Leakage against load, directly and averaged, in both directions; ``estimated`` is K, m³, by load."""
+    """Leakage against load, directly and averaged, in both directions; ``estimated`` is K, m³, by load.
+
+    Empty if nothing leaks at any load.
+    """
+    if _lowest(rows) == 0:
+        return ""
     figure, axes = _small()
     lowest = max(_lowest(rows), DEEPEST * max(row.direct_x + row.direct_y for row in rows))
     for name in SOUGHT:
@@ -101,8 +106,7 @@ def leakages(scene: Seal, rows: Sequence[Row], found: Mapping[str, Threshold], e
         )
     axes.set_xscale("log")
     axes.set_yscale("log")
-    if lowest > 0:
-        axes.set_ylim(bottom=0.5 * PER_HOUR * leakage_of(scene, lowest))
+    axes.set_ylim(bottom=0.5 * PER_HOUR * leakage_of(scene, lowest))
     axes.set_xlabel("load, MPa (dotted: sealed beyond)")
     axes.set_ylabel("leakage, kg/h for each metre")
     axes.legend(fontsize=8, loc="lower left")

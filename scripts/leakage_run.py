@@ -155,7 +155,8 @@ def solved(body: Ready, loads: tuple[float, ...], threads: int, advance: Advance
     def collect(most: int) -> None:
         while len(pending) > most:
             for future in wait(pending, return_when=FIRST_COMPLETED).done:
-                rows[pending.pop(future)] = future.result()
+                rows[pending[future]] = future.result()
+                del pending[future]
                 advance(sum(load in rows for load in loads) / len(loads), f"{len(rows)} loads")
                 save(KEPT_EVERY_S)
 
@@ -178,8 +179,13 @@ def solved(body: Ready, loads: tuple[float, ...], threads: int, advance: Advance
         messages.print(f"stopped: {done} of {len(loads)} loads; the same command goes on", soft_wrap=True)
         raise
     finally:
+        rows |= {load: future.result() for future, load in pending.items() if _succeeded(future)}
         save(0.0)
     return {load: rows[load] for load in loads}, found
+
+
+def _succeeded(future: Future[Row]) -> bool:
+    return future.done() and not future.cancelled() and future.exception() is None
 
 
 @contextmanager
