@@ -82,7 +82,11 @@ def command(
         raise InputError(f"--threads: got {threads} threads; it must be 1 to {MOST_THREADS}")
     make_directory(out)
     refuse_unwritable(out / "report.html")
-    with alone(out / "leakage.h5", "series"), progress_bar(1.0) as advance:
+    with (
+        alone(out / "leakage.h5", "series"),
+        alone(out / "contacts.h5", "series of contacts"),
+        progress_bar(1.0) as advance,
+    ):
         advance(0.0, "reading the surface")
         body = _ready(read, out)
         found = sealing(body, lambda done, words: advance(0.2 * done, words))
