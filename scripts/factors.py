@@ -3,7 +3,7 @@
 import math
 import os
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
@@ -13,34 +13,42 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
-from contact.errors import ConvergenceError, InputError
+from contact.errors import InputError
 from contact.inputs import Inputs
-from contact.surface import LARGEST_LENGTH, LEAST_SPACING
+from contact.mechanics.contact_store import is_series, load_contact, load_series
+from contact.mechanics.press import Press
+from contact.surface import LARGEST_LENGTH, LEAST_SPACING, Array, Surface
 from contact.units import to_si
 from rom.homogenization.conductance import FaceRule
 from rom.homogenization.factors import FlowFactors
 from rom.homogenization.flow_factors import Estimated, flow_factors
 from rom.homogenization.separation import Separations
 from rom.homogenization.table import FactorTable, Point
-from rom.homogenization.table_store import known_points, save_table
 from rom.homogenization.tabulate import TOLERANCE, tabulate
+from rom.ladder import Progress
+from rom.mixed.tabulate import gap_of, tabulate_pressed
 from rom.provenance import circumstances, code
 from scripts.common import AsJson, in_one_line, messages, output, print_json, progress_bar, run_alone
+from scripts.kept_points import Work, kept_table
 from scripts.output_file import alone, refuse_unwritable
-from scripts.rough_surface import Rough, read_rough, spacing_of
+from scripts.rough_surface import Rough, joint_warnings, read_rough, spacing_of
 from scripts.surface import refuse_same
 
 SOURCES = ("10.1016/j.triboint.2007.02.021", "10.1016/j.triboint.2006.02.069", "Sahlin 2008, Papers C and E")
 SHOWN = ("A11", "A12", "A22", "B1", "B2")
+SHOWN_CONTACT = 0.2
+"""The flow is drawn at the point of a table whose contact is nearest to this."""
+
 NAMES = ("A11", "A12", "A21", "A22", "B1", "B2", "d", "e")
-KEPT_EVERY_S = 2.0
-"""Between two writings of a table that grows."""
 
 
 @in_one_line
 def command(
     surface: Annotated[
-        Path, typer.Argument(metavar="SURFACE", help="A surface (HDF5, TOML, an instrument's file) or heights (NPY).")
+        Path,
+        typer.Argument(
+            metavar="SURFACE", help="A surface (HDF5, TOML, an instrument's file), heights (NPY), or contacts."
+        ),
     ],
     gap: Annotated[str | None, typer.Option(metavar="H", help="One mean gap, e.g. 3um; else all, as a table.")] = None,
     spacing: Annotated[
@@ -62,7 +70,10 @@ def command(
     report: Annotated[Path | None, typer.Option(help="Write a page with its pictures here (HTML).")] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Average a rough surface: what its film lets through, drags along and rubs over that of a smooth one."""
+    """Average a rough surface: what its film lets through, drags along and rubs over that of a smooth one.
+
+    A file of contacts (roughfilm contact ... --out) makes one table from thick films to crushed asperities.
+    """
     refuse_same({"SURFACE": surface, "--out": out, "--report": report})
     started, cpu = time.perf_counter(), sum(os.times()[:4])
     mean_gap, more = _length("--gap", gap), _length("--offset", offset, least=0.0) or 0.0
@@ -77,28 +88,37 @@ def command(
         refuse_unwritable(path)
     with alone(out, "table"), progress_bar(1.0) as advance:
         advance(0, f"reading {surface.name}")
-        rough = read_rough(surface, spacing_of(spacing), periodic=True)
+        series = _read_series(surface) if surface.is_file() and is_series(surface) else None
+        if series is not None and mean_gap is not None:
+            raise InputError(f"--gap: {surface} holds contacts, which make a table; leave --gap out")
+        rough = _rough(surface, series[0]) if series else read_rough(surface, spacing_of(spacing), periodic=True)
         if min(rough.heights.shape) < 2:
             raise InputError(f"{surface}: is a profile; rom.homogenization.line has its flow factors in closed form")
         settings = {"rule": rule.value, "offset": more, "mean_gap": mean_gap, "code": code()}
         if mean_gap is not None:
             body = Separations(heights=rough.heights)
             separation = body.at_mean_gap(mean_gap)
-            found = flow_factors(body.gap(separation), rough.spacing, rule=rule, offset=more, progress=advance)
+            gap_there, table = body.gap(separation), None
+            found = flow_factors(gap_there, rough.spacing, rule=rule, offset=more, progress=advance)
             told = _told_one(rough, settings, found, separation)
         else:
+            if series is None:
+                work = _of_surface(surface, rough, asked, rule, advance)
+            else:
+                settings |= {name: series[0].settings[name] for name in ("composite_modulus", "hardness")}
+                work = _of_contacts(surface, *series, asked, rule, advance)
             inputs = Inputs(heights=rough.heights, spacing=rough.spacing, settings=settings)
-            table, known = _tabulated(surface, rough, inputs, asked, rule, out, advance)
+            table, known = kept_table(out, inputs, work)
             told = _told_all(rough, settings | {"tolerance": asked}, table, known)
         told["numerics"] |= {"cpu_s": sum(os.times()[:4]) - cpu, "wall_s": time.perf_counter() - started}
         if report is not None:
             from scripts.factors_page import write_page  # matplotlib is slow to import
 
             advance(1.0, "drawing the page")
-            if mean_gap is None:
-                write_page(surface.name, told, rough, report, rule, table=table)
-            else:
-                write_page(surface.name, told, rough, report, rule, found=found, separation=separation + more)
+            if table is not None:
+                gap_there = _shown_gap(table, rough, settings)
+                found = flow_factors(gap_there, rough.spacing, rule=rule)
+            write_page(surface.name, told, rough, report, gap_there, found, table)
     _tell(surface.name, told, [path for path in (out, report) if path is not None], as_json)
 
 
@@ -114,48 +134,70 @@ def _length(option: str, text: str | None, least: float = LEAST_SPACING) -> floa
     return length
 
 
-def _tabulated(
-    surface: Path,
-    rough: Rough,
-    inputs: Inputs,
-    tolerance: float,
-    rule: FaceRule,
-    out: Path | None,
-    advance: Callable[[float, str], None],
-) -> tuple[FactorTable, int]:
-    """The table, and how many of its points were in the file; what was finished is kept in it whenever this ends."""
-    known = {} if out is None else dict(known_points(out, inputs))
-    found, kept = dict(known), time.monotonic()
+def _of_surface(surface: Path, rough: Rough, tolerance: float, rule: FaceRule, advance: Progress) -> Work:
+    """How the table of an undeformed surface is made."""
 
-    def save(error: float = np.nan) -> None:
-        if out is not None and len(found) > 1:
-            points = tuple(sorted(found.values(), key=lambda point: point.mean_gap))
-            peak = Separations(heights=rough.heights).peak
-            save_table(out, inputs, FactorTable(points=points, peak=peak, interpolation_error=error))
+    def work(known: Sequence[Point], keep: Callable[[Point], None]) -> FactorTable:
+        try:
+            return tabulate(
+                rough.heights, rough.spacing, tolerance=tolerance, rule=rule, known=known, keep=keep, progress=advance
+            )
+        except InputError as error:
+            raise InputError(str(error).replace("heights:", f"{surface}:")) from None
 
-    def keep(point: Point) -> None:
-        nonlocal kept
-        found[point.separation] = point
-        if time.monotonic() - kept > KEPT_EVERY_S:
-            save()
-            kept = time.monotonic()
+    return work
 
-    try:
-        table = tabulate(
-            rough.heights, rough.spacing, tolerance=tolerance, rule=rule, known=known, keep=keep, progress=advance
-        )
-    except InputError as error:
-        raise InputError(str(error).replace("heights:", f"{surface}:")) from None
-    except ConvergenceError:
-        save()
-        raise
-    except (KeyboardInterrupt, SystemExit):
-        save()
-        end = "; the same command goes on" if out is not None else ", none kept without --out"
-        messages.print(f"stopped: {len(found)} points{end}", soft_wrap=True)
-        raise
-    save(table.interpolation_error)
-    return table, sum(point.separation in known for point in table.points)
+
+def _of_contacts(
+    series: Path, pressed: Inputs, loads: Sequence[float], tolerance: float, rule: FaceRule, advance: Progress
+) -> Work:
+    """How the table of a surface under a series of loads is made, from the contacts in a file."""
+
+    def work(known: Sequence[Point], keep: Callable[[Point], None]) -> FactorTable:
+        return tabulate_pressed(
+            pressed.heights,
+            pressed.spacing,
+            pressed.settings["composite_modulus"],
+            hardness=pressed.settings["hardness"] or math.inf,
+            loads=loads,
+            tolerance=tolerance,
+            rule=rule,
+            known=known,
+            keep=keep,
+            stored=lambda load: load_contact(series, load) if load in loads else None,
+            progress=advance,
+        ).factors
+
+    return work
+
+
+def _shown_gap(table: FactorTable, rough: Rough, settings: Mapping[str, Any]) -> Array:
+    """The gap, m, at the point of a table whose flow is drawn."""
+    shown = min(table.points, key=lambda point: (any(point.factors.sealed), abs(point.contact - SHOWN_CONTACT)))
+    if shown.load == 0:
+        return Separations(heights=rough.heights).gap(shown.separation)
+    hardness = settings["hardness"] or math.inf
+    return gap_of(shown, Press(rough.heights, rough.spacing, settings["composite_modulus"], hardness=hardness))
+
+
+def _rough(path: Path, pressed: Inputs) -> Rough:
+    """The undeformed surface of a file of contacts."""
+    source = {"file": path.name, "settings": dict(pressed.settings)}
+    surface = Surface(heights=pressed.heights, spacing=pressed.spacing)
+    warnings = joint_warnings(path, surface, measured=False)
+    return Rough(heights=pressed.heights, spacing=pressed.spacing, source=source, warnings=warnings)
+
+
+def _read_series(path: Path) -> tuple[Inputs, tuple[float, ...]]:
+    """A file of contacts; InputError where it cannot make a table."""
+    pressed, loads = load_series(path)
+    if len(loads) < 2:
+        model = pressed.settings["model"]
+        told = f"holds contacts with their gaps at {len(loads)} loads, by the model {model}"
+        raise InputError(f"{path}: {told}; make one of two or more: roughfilm contact S.h5 --loads ... --out C.h5")
+    if pressed.settings["boundary"] != "periodic":
+        raise InputError(f"{path}: is of a surface that stands alone; a film that repeats needs --boundary periodic")
+    return pressed, loads
 
 
 def numbers(factors: FlowFactors) -> dict[str, float]:
@@ -203,6 +245,9 @@ def _told_all(rough: Rough, settings: dict[str, Any], table: FactorTable, known:
             "mean_gap": point.mean_gap,
             "separation": point.separation,
             "contact": point.contact,
+            "load": point.load,
+            "area_fraction": point.area_fraction,
+            "plastic_fraction": point.plastic_fraction,
             "sealed_x": point.factors.sealed[0],
             "sealed_y": point.factors.sealed[1],
             **relative(point.factors, point.uncertainty),
@@ -231,7 +276,7 @@ def _told_all(rough: Rough, settings: dict[str, Any], table: FactorTable, known:
     }
     return {
         "points": points,
-        "units": {"mean_gap": "m", "separation": "m", "contact": "1", **dict.fromkeys(NAMES, "1")},
+        "units": {"mean_gap": "m", "separation": "m", "contact": "1", "load": "Pa", **dict.fromkeys(NAMES, "1")},
         "quantities": quantities,
         "numerics": numerics,
         **told,
@@ -270,13 +315,15 @@ def _flat(quantities: dict[str, Any]) -> dict[str, Any]:
 
 def _table_of(name: str, points: list[dict[str, Any]]) -> Table:
     """Points as people read them, over a smooth film of the same mean gap."""
-    table = Table("ĥ, µm", "contact, %", *SHOWN, "sealed", title=escape(name))
+    pressed = any(point.get("load") for point in points)
+    table = Table(*(["load, MPa"] if pressed else []), "ĥ, µm", "contact, %", *SHOWN, "sealed", title=escape(name))
     for column in table.columns:
         column.justify = "right"
     for point in points:
         shut = " ".join(axis for axis in "xy" if point[f"sealed_{axis}"])
         cells = [_shown(point[each]) for each in SHOWN]
-        table.add_row(f"{1e6 * point['mean_gap']:.4g}", f"{100 * point['contact']:.3g}", *cells, shut)
+        load = [f"{point['load'] / 1e6:.4g}"] if pressed else []
+        table.add_row(*load, f"{1e6 * point['mean_gap']:.4g}", f"{100 * point['contact']:.3g}", *cells, shut)
     return table
 
 

@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from rom.gap import Array
 from rom.homogenization.flux import flux
 from rom.homogenization.table import FactorTable, relative_row, told_rows
+from rom.mixed.asperity_table import AsperityTable
 from scripts.figures import svg
 
 COLOURS = ("#2166ac", "#b2182b", "#e08214")
@@ -48,6 +49,29 @@ def curves(table: FactorTable) -> str:
         axes.set_xlabel("mean gap ĥ, µm")
         axes.set_ylabel("over a smooth film")
         axes.legend()
+    return svg(figure)
+
+
+def pressures(table: AsperityTable) -> str:
+    """What asperities carry over the separation, with the points and what is unsure; the mean gap and the area."""
+    figure = Figure(figsize=(11.4, 3.6), layout="constrained")
+    pressed = [point for point in table.factors.points if point.load]
+    alpha = np.linspace(table.closest, table.touching, BETWEEN + 1)[:-1]
+    places = np.array([point.separation for point in pressed])
+    drawn = (
+        ("contact pressure, MPa", 1e-6 * table.contact_pressure(alpha), [1e-6 * point.load for point in pressed]),
+        ("real area of contact, %", 100 * table.area_fraction(alpha), [100 * point.area_fraction for point in pressed]),
+        ("mean gap ĥ, µm", 1e6 * table.mean_gap(alpha), [1e6 * point.mean_gap for point in pressed]),
+    )
+    for axes, (label, line, points), colour in zip(figure.subplots(1, 3), drawn, COLOURS, strict=True):
+        axes.plot(1e6 * alpha, line, color=colour, linewidth=1.2)
+        doubts = [1e6 * min(point.separation_uncertainty, table.touching) for point in pressed]
+        axes.errorbar(1e6 * places, points, xerr=doubts, color=colour, fmt="o", markersize=3, elinewidth=0.8)
+        axes.axvline(1e6 * table.touching, color="0.6", linewidth=0.8, linestyle="--")
+        axes.set_xlabel("separation of the mean planes α, µm")
+        axes.set_ylabel(label)
+        if "µm" not in label:
+            axes.set_yscale("log")
     return svg(figure)
 
 

@@ -86,7 +86,7 @@ def read_rough(file: Path, spacing: tuple[float, float] | None, *, periodic: boo
         heights=surface.heights,
         spacing=surface.spacing,
         source=surface.source,
-        warnings=_warnings(file, surface, otherwise, measured=not whole and suffix != ".npy") if periodic else (),
+        warnings=joint_warnings(file, surface, otherwise, measured=not whole and suffix != ".npy") if periodic else (),
     )
 
 
@@ -120,11 +120,12 @@ def _rough(file: Path, heights: Array, spacing: tuple[float, float], periodic: b
         heights=heights,
         spacing=spacing,
         source={"file": file.name, "sha256": hashlib.sha256(file.read_bytes()).hexdigest(), "format": "npy"},
-        warnings=_warnings(file, surface, otherwise, measured=False) if periodic else (),
+        warnings=joint_warnings(file, surface, otherwise, measured=False) if periodic else (),
     )
 
 
-def _warnings(file: Path, surface: Surface, otherwise: str, *, measured: bool) -> tuple[str, ...]:
+def joint_warnings(file: Path, surface: Surface, otherwise: str = "", *, measured: bool) -> tuple[str, ...]:
+    """What must be known of a surface that will be repeated and is not periodic by itself."""
     if surface.periodic:
         return ()
     mismatch = periodicity_mismatch(surface)

@@ -18,7 +18,7 @@ import numpy as np
 
 from contact.errors import InputError
 from contact.files import replacing
-from contact.guarded import BLOCK, block, digest_of, refuse_damaged
+from contact.guarded import BLOCK, block, digest_of, marked, reading_guarded, refuse_damaged
 from contact.inputs import Inputs
 from contact.mechanics.contact import Contact
 from contact.surface import Array
@@ -140,6 +140,32 @@ def finished(path: Path, inputs: Inputs) -> dict[float, Row]:
         return {}
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror or error}); choose another place") from error
+
+
+def is_series(path: Path) -> bool:
+    """Whether a file holds a series of contacts, whatever its name."""
+    return marked(path, MARK)
+
+
+def load_series(path: Path) -> tuple[Inputs, tuple[float, ...]]:
+    """What the contacts in a file are of, and the loads at which it holds fields, rising, Pa.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, was damaged or changed, or holds something else.
+    """
+    if not is_series(path):
+        raise InputError(f"{path}: is no series of contacts; {REMEDY}")
+    with reading_guarded(path, MARK, SCHEMA, REMEDY) as file:
+        dx_dy = file.attrs["spacing"]
+        inputs = Inputs(
+            heights=file["heights"][()],
+            spacing=(float(dx_dy[0]), float(dx_dy[1])),
+            settings=json.loads(file.attrs["settings"]),
+        )
+        loads = sorted(float(name) for name, group in file["loads"].items() if "pressure" in group)
+    return inputs, tuple(loads)
 
 
 def load_contact(path: Path, load: float) -> Contact:

@@ -23,10 +23,16 @@ class Point:
 
     Attributes
     ----------
-    separation : of the mean planes, m.
+    separation : of the mean planes of the undeformed walls, m: how the rigid bodies lie.
     contact : the part of the surface that is closed.
     factors, uncertainty, unsolved, iterations, residual : of :class:`rom.homogenization.flow_factors.Estimated`.
     cpu_s : what it cost, s.
+    load : what presses the walls together, Pa over the nominal area; 0 of walls that nothing deforms.
+    area_fraction, plastic_fraction : of a pressed surface, as :class:`contact.mechanics.contact.Contact` has them.
+    separation_uncertainty : by how much the grid may have the separation at the load off, m.
+    missed, separation_missed : what interpolation was off by here, or next to here, before the point was there: of the
+        factors, in the measure of the tolerance of :func:`rom.homogenization.tabulate.tabulate`, and of the separation
+        at the load, over the rms height.
     """
 
     separation: float
@@ -37,6 +43,12 @@ class Point:
     iterations: int
     residual: float
     cpu_s: float
+    load: float = 0.0
+    area_fraction: float = 0.0
+    plastic_fraction: float = 0.0
+    separation_uncertainty: float = 0.0
+    missed: float = 0.0
+    separation_missed: float = 0.0
 
     @property
     def mean_gap(self) -> float:
@@ -56,14 +68,13 @@ class FactorTable:
     ----------
     points : two or more.
     peak : the highest point of the roughness above its mean, m.
-    interpolation_error : the largest seen half-way between points, in the measure of the tolerance of
-        :func:`rom.homogenization.tabulate.tabulate`: of A and B, and of d and e where nothing touches.
+    rms : of its heights, m.
     scale : all lengths across the film are multiplied by it: the table of the surface with its heights multiplied.
     """
 
     points: Sequence[Point]
     peak: float
-    interpolation_error: float = np.nan
+    rms: float
     scale: float = 1.0
 
     def scaled(self, factor: float) -> Self:
@@ -81,15 +92,26 @@ class FactorTable:
         return self.scale * self.points[-1].mean_gap
 
     @property
+    def interpolation_error(self) -> float:
+        """The largest seen half-way between points: of A and B, and of d and e where nothing touches."""
+        return max(point.missed for point in self.points)
+
+    @property
     def doubt(self) -> float:
         """By which part A₁₁, A₂₂ and B₁ may be off: what interpolation was seen to be, and the worst point's grid."""
-        worst = 0.0
-        for point in self.points:
+        return self.doubt_above(0.0)
+
+    def doubt_above(self, mean_gap: float) -> float:
+        """The same where no mean gap is below this, m."""
+        above = [point for point in self.points if self.scale * point.mean_gap >= mean_gap]
+        below = self.points[: len(self.points) - len(above)][-1:]
+        worst, near = 0.0, (*below, *above)
+        for point in near:
             a, b = point.factors.pressure, point.factors.shear
             doubt = point.uncertainty
             pairs = ((a[0, 0], doubt.pressure[0, 0]), (a[1, 1], doubt.pressure[1, 1]), (b[0], doubt.shear[0]))
             worst = max([worst, *(float(unsure / abs(value)) for value, unsure in pairs if value != 0)])
-        return self.interpolation_error + worst
+        return max(point.missed for point in near) + worst
 
     def __call__(self, mean_gap: Array, /) -> GapFactors:
         """The factors at mean gaps, m, of any shape.

@@ -1,7 +1,7 @@
 """Tables of flow factors in HDF5: every finished point at once, keyed by what they are computed from."""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import h5py
@@ -14,11 +14,24 @@ from rom.gap import Array
 from rom.homogenization.factors import FlowFactors
 from rom.homogenization.table import FactorTable, Point
 
-SCHEMA = 1
+SCHEMA = 2
 MARK = b"roughfilm factors, HDF5 behind 512 bytes, sha256 "
 REMEDY = "remove it or choose another place"
 FACTORS = {"mean_gap": "m", "pressure": "m^3", "shear": "m", "couette": "1/m", "shear_couette": "1/m"}
-NUMBERS = {"separation": "m", "contact": "1", "unsolved": "1", "iterations": "1", "residual": "1", "cpu_s": "s"}
+NUMBERS = {
+    "separation": "m",
+    "contact": "1",
+    "unsolved": "1",
+    "iterations": "1",
+    "residual": "1",
+    "cpu_s": "s",
+    "load": "Pa",
+    "area_fraction": "1",
+    "plastic_fraction": "1",
+    "separation_uncertainty": "m",
+    "missed": "1",
+    "separation_missed": "1",
+}
 
 
 def save_table(path: Path, inputs: Inputs, table: FactorTable) -> None:
@@ -36,7 +49,7 @@ def save_table(path: Path, inputs: Inputs, table: FactorTable) -> None:
         file.attrs["digest"] = inputs.digest
         file.attrs["settings"] = json.dumps(inputs.settings, sort_keys=True, allow_nan=False)
         file.attrs["peak"] = table.peak
-        file.attrs["interpolation_error"] = table.interpolation_error
+        file.attrs["rms"] = table.rms
         for name, unit in NUMBERS.items():
             _write(file, f"points/{name}", np.array([getattr(point, name) for point in points]), unit)
         for group in ("factors", "uncertainty"):
@@ -55,8 +68,8 @@ def load_table(path: Path) -> FactorTable:
         return _table(file)
 
 
-def known_points(path: Path, inputs: Inputs) -> Mapping[float, Point]:
-    """The points by separation that a file holds for these inputs; none if there is no such file, or an empty one.
+def known_points(path: Path, inputs: Inputs) -> Sequence[Point]:
+    """The points that a file holds for these inputs; none if there is no such file, or an empty one.
 
     Raises
     ------
@@ -65,14 +78,14 @@ def known_points(path: Path, inputs: Inputs) -> Mapping[float, Point]:
     """
     try:
         if path.stat().st_size == 0:
-            return {}
+            return ()
         _refuse_others(path)
         with reading_guarded(path, MARK, SCHEMA, REMEDY) as file:
             if file.attrs["digest"] != inputs.digest:
                 raise InputError(f"{path}: holds another table, {inputs.difference(file.attrs['settings'])}; {REMEDY}")
-            return {point.separation: point for point in _table(file).points}
+            return _table(file).points
     except FileNotFoundError:
-        return {}
+        return ()
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror or error}); choose another place") from error
 
@@ -92,22 +105,14 @@ def _table(file: h5py.File) -> FactorTable:
     own, doubt = ({name: file[f"{group}/{name}"][()] for name in FACTORS} for group in ("points", "uncertainty"))
     points = [
         Point(
-            separation=float(numbers["separation"][row]),
-            contact=float(numbers["contact"][row]),
             factors=_factors(own, row, sealed[row]),
             uncertainty=_factors(doubt, row, sealed[row]),
-            unsolved=float(numbers["unsolved"][row]),
             iterations=int(numbers["iterations"][row]),
-            residual=float(numbers["residual"][row]),
-            cpu_s=float(numbers["cpu_s"][row]),
+            **{name: float(numbers[name][row]) for name in NUMBERS if name != "iterations"},
         )
         for row in range(sealed.shape[0])
     ]
-    return FactorTable(
-        points=points,
-        peak=float(file.attrs["peak"]),
-        interpolation_error=float(file.attrs["interpolation_error"]),
-    )
+    return FactorTable(points=points, peak=float(file.attrs["peak"]), rms=float(file.attrs["rms"]))
 
 
 def _factors(columns: Mapping[str, Array], row: int, sealed: Array) -> FlowFactors:

@@ -1,13 +1,13 @@
 """Placing the points of a table of flow factors: where interpolation between those before is not good enough."""
 
 import time
-from collections.abc import Callable, Mapping
-from dataclasses import replace
+from collections.abc import Callable, Iterable
 
 import numpy as np
 
 from contact.errors import InputError
 from rom.gap import Array
+from rom.homogenization.bisection import bisected
 from rom.homogenization.conductance import FaceRule
 from rom.homogenization.flow_factors import checked_gap, flow_factors
 from rom.homogenization.separation import Separations
@@ -20,8 +20,8 @@ TOLERANCE = 0.005
 FIRST = 9
 """Points that are placed before any is judged."""
 
-MOST, NEAREST = 400, 1.001
-"""Points, and how far apart their mean gaps are; where factors jump, as over a plateau, more points help nothing."""
+NEAREST = 1.001
+"""How far apart the mean gaps of two points are at least."""
 
 NEGLIGIBLE, LITTLE = 1e-4, 1e-2
 """Of a smooth film's: flow that pressure drives, and that sliding carries, below which errors are over this instead."""
@@ -37,7 +37,7 @@ def tabulate(
     tolerance: float = TOLERANCE,
     narrowest: float | None = None,
     rule: FaceRule = FaceRule.LINEAR,
-    known: Mapping[float, Point] | None = None,
+    known: Iterable[Point] = (),
     keep: Callable[[Point], object] = lambda _point: None,
     progress: Progress = silent,
 ) -> FactorTable:
@@ -55,7 +55,7 @@ def tabulate(
         and without contact to d and e over d. In contact d has no limit to be near to: at an edge <1/h> grows with the
         logarithm of the nodes.
     narrowest : the mean gap of the first point, m; by default where nothing gets through in either direction.
-    known : points by separation that need not be solved again.
+    known : points that need not be solved again.
     keep : called with every new point.
 
     Raises
@@ -71,30 +71,24 @@ def tabulate(
     checked_gap(body.heights - np.min(body.heights) + 1.0, spacing)
     if body.rms == 0:
         raise InputError("heights: are all the same; a smooth wall needs no flow factors")
+    before = {point.separation: point for point in known if point.load == 0}
     found: dict[float, Point] = {}
 
     def solve(separation: float) -> Point:
-        point = (known or {}).get(separation)
+        point = before.get(separation)
         if point is None:
-            cpu = time.process_time()
-            gap = body.gap(separation)
-            one = flow_factors(gap, spacing, rule=rule)
-            point = Point(
-                separation=separation,
-                contact=one.contact,
-                factors=one.factors,
-                uncertainty=one.uncertainty,
-                unsolved=one.unsolved,
-                iterations=one.iterations,
-                residual=one.residual,
-                cpu_s=time.process_time() - cpu,
-            )
+            point = point_of(body.gap(separation), spacing, separation, rule=rule)
             keep(point)
         found[separation] = point
         return point
 
-    def made() -> FactorTable:
-        return FactorTable(points=tuple(sorted(found.values(), key=lambda point: point.mean_gap)), peak=body.peak)
+    def made(points: Iterable[Point]) -> FactorTable:
+        return FactorTable(points=tuple(sorted(points, key=lambda point: point.mean_gap)), peak=body.peak, rms=body.rms)
+
+    def half_way(one: Point, two: Point) -> Point | None:
+        if two.mean_gap < NEAREST * one.mean_gap:
+            return None
+        return solve(body.at_mean_gap(float(np.sqrt(one.mean_gap * two.mean_gap))))
 
     low, *others = sorted(set(body.sealing())) if narrowest is None else [body.at_mean_gap(narrowest)]
     first = solve(low)
@@ -102,32 +96,39 @@ def tabulate(
     for separation in others:
         solve(separation)
     for mean_gap in np.geomspace(first.mean_gap, last, FIRST)[1:]:
-        progress(len(found) / 40, f"{len(found)} separations")
+        progress(len(found) / 40, f"{len(found)} points")
         solve(body.at_mean_gap(float(mean_gap)))
-    while _beyond(table := made(), solve(body.at_mean_gap(2 * table.widest))) > tolerance:
-        progress(len(found) / (len(found) + 20), f"{len(found)} separations")
-    worst = 0.0
-    intervals = [(one, two, 0.0) for one, two in zip(table.points, table.points[1:], strict=False)]
-    while intervals:
-        table = made()
-        refined = []
-        for one, two, before in intervals:
-            if two.mean_gap < NEAREST * one.mean_gap or len(found) >= MOST:
-                worst = max(worst, before)
-                continue
-            progress(len(found) / (len(found) + len(intervals)), f"{len(found)} separations")
-            middle = solve(body.at_mean_gap(float(np.sqrt(one.mean_gap * two.mean_gap))))
-            off = _beyond(table, middle)
-            if off > tolerance:
-                refined += [(one, middle, off), (middle, two, off)]
-            else:
-                worst = max(worst, off)
-        intervals = refined
-    progress(1.0, f"{len(found)} separations")
-    return replace(made(), interpolation_error=worst)
+    while beyond(table := made(found.values()), solve(body.at_mean_gap(2 * table.widest))) > tolerance:
+        progress(len(found) / (len(found) + 20), f"{len(found)} points")
+    points = bisected(
+        made(found.values()).points,
+        half_way=half_way,
+        made=made,
+        off=lambda table, point: (beyond(table, point), 0.0),
+        tolerance=tolerance,
+        progress=progress,
+    )
+    progress(1.0, f"{len(points)} points")
+    return made(points)
 
 
-def _beyond(table: FactorTable, point: Point) -> float:
+def point_of(gap: Array, spacing: tuple[float, float], separation: float, *, rule: FaceRule) -> Point:
+    """The flow factors of a gap, m, shape (nx, ny), as a point of a table."""
+    cpu = time.process_time()
+    one = flow_factors(gap, spacing, rule=rule)
+    return Point(
+        separation=separation,
+        contact=one.contact,
+        factors=one.factors,
+        uncertainty=one.uncertainty,
+        unsolved=one.unsolved,
+        iterations=one.iterations,
+        residual=one.residual,
+        cpu_s=time.process_time() - cpu,
+    )
+
+
+def beyond(table: FactorTable, point: Point) -> float:
     """How far a table is from a point that it does not have, in the tolerance's measure; 0 within its uncertainty."""
     h, row, doubt = point.mean_gap, relative_row(point.factors), point.uncertainty
     a = doubt.pressure / h**3

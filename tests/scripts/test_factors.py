@@ -11,7 +11,9 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+from contact.mechanics.contact_store import load_contact
 from rom.homogenization.table_store import load_table
+from rom.mixed.asperity_table import AsperityTable
 from scripts.cli import app
 
 SURFACE = """
@@ -118,6 +120,44 @@ def test_a_table_that_interpolation_cannot_hold_is_warned_of(tmp_path):
     found = told(tmp_path / "levels.npy", "--spacing", "1um", "--tolerance", "0.0001")
     off = found["quantities"]["interpolation_error"]["value"]
     assert off <= 0.0001 or any("spikes and plateaus" in words for words in found["provenance"]["warnings"])
+
+
+def pressed(surface, tmp_path, *more):
+    steel = ["--modulus", "200GPa", "--poisson", "0.3", "--loads", "20MPa,200MPa,1GPa", "--out", tmp_path / "C.h5"]
+    done = CliRunner().invoke(app, ["contact", *map(str, [surface, *steel, *more])], catch_exceptions=False)
+    assert done.exit_code == 0, done.stderr
+    return tmp_path / "C.h5"
+
+
+def test_contacts_make_one_table_from_thick_films_to_the_greatest_load(surface, tmp_path):
+    series, out, page = pressed(surface, tmp_path), tmp_path / "T.h5", tmp_path / "T.html"
+    first = told(series, "--out", out, "--tolerance", "0.05", "--report", page)
+    loads = {point["load"] for point in first["points"]}
+    assert {0.0, 2e7, 2e8, 1e9} <= loads
+    table = AsperityTable(factors=load_table(out))
+    assert table.largest_pressure == 1e9
+    contact = load_contact(series, 2e8)
+    alpha = contact.heights.max() - contact.heights.mean() - contact.approach
+    assert table.contact_pressure(np.array([alpha])) == pytest.approx(2e8, rel=1e-9)
+    assert "What asperities carry" in page.read_text()
+    again = told(series, "--out", out, "--tolerance", "0.05")["numerics"]
+    assert again["separations_found"] == again["separations"] == len(table.factors.points)
+    assert "MPa" in run(series, "--out", out, "--tolerance", "0.05").stdout
+
+
+def test_contacts_that_make_no_table_are_refused_in_one_line(surface, tmp_path):
+    series = pressed(surface, tmp_path)
+    assert "leave --gap out" in run(series, "--gap", "1um").stderr
+    series.unlink()
+    assert "at 0 loads, by the model persson" in run(pressed(surface, tmp_path, "--model", "persson")).stderr
+    series.unlink()
+    assert "--boundary periodic" in run(pressed(surface, tmp_path, "--boundary", "free")).stderr
+    data = bytearray(series.read_bytes())
+    data[len(data) // 2] ^= 1
+    series.write_bytes(data)
+    done = run(series)
+    assert done.exit_code == 2
+    assert "was damaged" in done.stderr
 
 
 def test_the_page_of_one_gap(surface, tmp_path):

@@ -1,0 +1,64 @@
+"""Placing the points of a table: half-way between two, wherever interpolation is not good enough there."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from itertools import pairwise
+from typing import TypeVar
+
+from rom.homogenization.table import Point
+from rom.ladder import Progress
+
+Table = TypeVar("Table")
+
+MOST = 400
+"""Points; where factors jump, as over a plateau, more help nothing."""
+
+
+def bisected(
+    points: Sequence[Point],
+    *,
+    half_way: Callable[[Point, Point], Point | None],
+    made: Callable[[Sequence[Point]], Table],
+    off: Callable[[Table, Point], tuple[float, float]],
+    tolerance: float,
+    progress: Progress,
+) -> list[Point]:
+    """All points, each with the errors that were last seen beside it: ``missed`` and ``separation_missed``.
+
+    Parameters
+    ----------
+    points : in order.
+    half_way : the point half-way between two; None where they are next to each other.
+    made : the table of some points.
+    off : by how much a table that does not have a point misses it, in factors and in the separation, in one measure.
+    tolerance : where one of them exceeds it, both sides of the point are tried.
+    """
+    found = list(points)
+    missed = {point.mean_gap: (0.0, 0.0) for point in points}
+    intervals = [(one, two, (0.0, 0.0)) for one, two in pairwise(points)]
+    while intervals:
+        table = made(found)
+        wider = []
+        for done, (one, two, before) in enumerate(intervals):
+            progress(len(found) / (len(found) + len(intervals) - done), f"{len(found)} points")
+            middle = half_way(one, two) if len(found) < MOST else None
+            if middle is None:
+                for end in (one, two):
+                    missed[end.mean_gap] = _larger(missed[end.mean_gap], before)
+                continue
+            found.append(middle)
+            error = off(table, middle)
+            if max(error) > tolerance:
+                wider += [(one, middle, error), (middle, two, error)]
+                error = (0.0, 0.0)
+            missed[middle.mean_gap] = error
+        intervals = wider
+    return [
+        replace(point, missed=factors, separation_missed=separation)
+        for point in found
+        for factors, separation in [missed[point.mean_gap]]
+    ]
+
+
+def _larger(one: tuple[float, float], other: tuple[float, float]) -> tuple[float, float]:
+    return max(one[0], other[0]), max(one[1], other[1])

@@ -1,0 +1,1 @@
+"""Mixed lubrication: asperities and liquid carry one load between them."""
