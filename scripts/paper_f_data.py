@@ -3,7 +3,6 @@
 import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
-from functools import cached_property
 from pathlib import Path
 from typing import Any, Self
 
@@ -18,7 +17,8 @@ from contact.mechanics.solid import Solid, composite_modulus
 from contact.peaks import lowest_valleys
 from rom.gap import Array
 from rom.homogenization.flow_factors import flow_factors
-from rom.homogenization.paths import sealed
+from rom.homogenization.paths import sealed, sealed_between_ends
+from rom.leakage.direct import direct_leakage
 from rom.provenance import code
 from scripts.paper_f_surfaces import Made, Numbers, numbers_of
 
@@ -40,6 +40,9 @@ OFFSET = 1e-8
 FIRST, FARTHER = 0.3, 1.5
 """Of E* g': the first load that is tried for sealing; the factor to the next."""
 
+LEAST = 1e-4
+"""Of the first load: what is sealed there counts as sealed at once, as by a level ridge."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Pressed:
@@ -53,11 +56,13 @@ class Pressed:
     mean_gap : m.
     valley : Svm of the surface under load, m.
     flow : A₁₁ and A₂₂ of the cell, m³: HNS; ``doubt`` is how far off they may be.
-    offset : the same with 10 nm let through everywhere; nan where the solver gave up.
-    threshold : the least load that leaves no path, Pa, in x and in y.
-    sealed_area, sealed_pixels : area there.
-    sealed_offset : what the gap lets through with the 10 nm there, in that direction, m³.
-    spots : contact there, shape (2, nx, ny).
+    direct : K between two reservoirs one period apart, in x and in y, m³: DNS.
+    offset : as ``flow``, with 10 nm let through everywhere; nan where the solver gave up.
+    threshold : the least load that leaves no path from end to end, Pa, in x and in y; sides are joined.
+    round_threshold : the least load that leaves none round the cell, as ``flow`` has it; never above the other.
+    sealed_area, sealed_pixels, round_area : area there.
+    sealed_offset : as ``offset`` at ``threshold``, in its direction, m³.
+    spots : contact at ``threshold``, shape (2, nx, ny).
     """
 
     family: str
@@ -71,10 +76,13 @@ class Pressed:
     valley: Array
     flow: Array
     doubt: Array
+    direct: Array
     offset: Array
     threshold: Array
+    round_threshold: Array
     sealed_area: Array
     sealed_pixels: Array
+    round_area: Array
     sealed_offset: Array
     spots: Array
 
@@ -93,10 +101,16 @@ class Pressed:
             valley=self.valley * factor,
             flow=self.flow * factor**3,
             doubt=self.doubt * factor**3,
+            direct=self.direct * factor**3,
             offset=np.full_like(self.offset, np.nan),
             threshold=self.threshold * factor,
+            round_threshold=self.round_threshold * factor,
             sealed_offset=np.full_like(self.sealed_offset, np.nan),
         )
+
+
+WAYS = ("x", "y", "round x", "round y")
+"""Ways through: from end to end, the sides joined, as the source has it; and round the periodic cell, as the cell does."""
 
 
 class Series:
@@ -105,7 +119,7 @@ class Series:
     def __init__(self, heights: Array, spacing: tuple[float, float]) -> None:
         self._press = Press(heights, spacing, MODULUS)
         self._known: dict[float, Contact] = {}
-        self._open: dict[float, tuple[bool, bool]] = {}
+        self._shut: dict[float, tuple[bool, ...]] = {}
 
     def at(self, load: float) -> Contact:
         """The contact under a load, Pa."""
@@ -115,58 +129,41 @@ class Series:
             self._known[load] = self._press.at(load, tolerance=TOLERANCE, start=start)
         return self._known[load]
 
-    def is_sealed(self, load: float, direction: int) -> bool:
-        """Whether no path leads through in x (0) or y (1)."""
-        if load not in self._open:
-            self._open[load] = sealed(self.at(load).gap)
-        return self._open[load][direction]
+    def is_sealed(self, load: float, way: str) -> bool:
+        """Whether no path leads through in one of ``WAYS``."""
+        if load not in self._shut:
+            gap = self.at(load).gap
+            ends = (sealed_between_ends(gap, joined=True), sealed_between_ends(gap.T, joined=True))
+            self._shut[load] = ends + sealed(gap)
+        return self._shut[load][WAYS.index(way)]
 
-    def threshold(self, first: float, direction: int) -> float:
-        """The least load that seals, Pa, to ``NEAR``: area grows with load, node by node, so that it can be halved."""
-        high = first
-        while not self.is_sealed(high, direction):
+    def threshold(self, first: float, way: str) -> float:
+        """The least load that seals, Pa, to ``NEAR``: contact grows with load, node by node, so that it can be halved."""
+        high = min((load for load in self._shut if self.is_sealed(load, way)), default=first)
+        while not self.is_sealed(high, way):
             high *= FARTHER
-        for load in sorted(self._open):
-            if self.is_sealed(load, direction):
-                high = min(high, load)
-        low = max((load for load in self._open if load < high), default=high / FARTHER)
-        while self.is_sealed(low, direction):
+        low = max((load for load in self._shut if not self.is_sealed(load, way)), default=high / FARTHER)
+        while self.is_sealed(low, way):
             low, high = low / FARTHER, low
+            if high < LEAST * first:
+                return high
         while high > low * (1 + NEAR):
             middle = float(np.sqrt(low * high))
-            low, high = (low, middle) if self.is_sealed(middle, direction) else (middle, high)
+            low, high = (low, middle) if self.is_sealed(middle, way) else (middle, high)
         return high
 
 
-@dataclass(frozen=True, kw_only=True)
-class Threshold:
-    """Where a surface is sealed, in x and in y: loads, Pa, and the contacts there."""
-
-    loads: tuple[float, float]
-    contacts: tuple[Contact, Contact]
-
-    @cached_property
-    def area(self) -> Array:
-        return np.array([one.area_fraction for one in self.contacts])
-
-    @cached_property
-    def pixels(self) -> Array:
-        return np.array([one.area_fraction_pixel for one in self.contacts])
-
-
-def threshold_of(series: Series, slope: float) -> Threshold:
-    """The thresholds of both directions of a surface of the rms slope given."""
-    first = FIRST * MODULUS * slope
-    loads = (series.threshold(first, 0), series.threshold(first, 1))
-    return Threshold(loads=loads, contacts=(series.at(loads[0]), series.at(loads[1])))
+def thresholds_of(series: Series, slope: float) -> list[Contact]:
+    """The contacts at the least loads that seal, by ``WAYS``, of a surface of the rms slope given."""
+    return [series.at(series.threshold(FIRST * MODULUS * slope, way)) for way in WAYS]
 
 
 def press(made: Made, parts: Sequence[float] = PARTS) -> Pressed:
     """Thresholds, and at each part of the greater one area, gap and leakage."""
     surface, numbers = made.surface, numbers_of(made.surface)
     series = Series(surface.heights, surface.spacing)
-    found = threshold_of(series, numbers.slope)
-    loads = [part * max(found.loads) for part in parts]
+    *ends, first_round, second_round = thresholds_of(series, numbers.slope)
+    loads = [part * max(one.load for one in ends) for part in parts]
     contacts = [series.at(load) for load in loads]
     flows = [flow_factors(one.gap, surface.spacing) for one in contacts]
 
@@ -185,12 +182,15 @@ def press(made: Made, parts: Sequence[float] = PARTS) -> Pressed:
         valley=np.array([valley(one) for one in contacts]),
         flow=np.array([np.diag(one.factors.pressure) for one in flows]),
         doubt=np.array([np.diag(one.uncertainty.pressure) for one in flows]),
+        direct=np.array([direct_leakage(one.gap, surface.spacing).permeability for one in contacts]),
         offset=np.array([_with_offset(one) for one in contacts]),
-        threshold=np.array(found.loads),
-        sealed_area=found.area,
-        sealed_pixels=found.pixels,
-        sealed_offset=np.array([_with_offset(one)[i] for i, one in enumerate(found.contacts)]),
-        spots=np.array([one.in_contact for one in found.contacts]),
+        threshold=np.array([one.load for one in ends]),
+        round_threshold=np.array([first_round.load, second_round.load]),
+        sealed_area=np.array([one.area_fraction for one in ends]),
+        sealed_pixels=np.array([one.area_fraction_pixel for one in ends]),
+        round_area=np.array([first_round.area_fraction, second_round.area_fraction]),
+        sealed_offset=np.array([_with_offset(one)[i] for i, one in enumerate(ends)]),
+        spots=np.array([one.in_contact for one in ends]),
     )
 
 
