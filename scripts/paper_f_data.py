@@ -1,5 +1,6 @@
 """Every surface of Paper F pressed until it is sealed: thresholds, area, leakage; each kept in a file of its own."""
 
+import hashlib
 import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
@@ -8,7 +9,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from contact.errors import ConvergenceError
+from contact.errors import ConvergenceError, InputError
 from contact.files import replacing
 from contact.inputs import Inputs
 from contact.mechanics.contact import Contact
@@ -17,8 +18,8 @@ from contact.mechanics.solid import Solid, composite_modulus
 from contact.peaks import lowest_valleys
 from rom.gap import Array
 from rom.homogenization.flow_factors import flow_factors
-from rom.homogenization.paths import sealed, sealed_between_ends
 from rom.leakage.direct import direct_leakage
+from rom.leakage.percolation import thresholds
 from rom.provenance import code
 from scripts.paper_f_surfaces import Made, Numbers, numbers_of
 
@@ -37,11 +38,12 @@ TOLERANCE = 1e-6
 OFFSET = 1e-8
 """m; the source lets this much through where it is closed."""
 
-FIRST, FARTHER = 0.3, 1.5
-"""Of E* g': the first load that is tried for sealing; the factor to the next."""
+FIRST, MOST = 0.3, 10.0
+"""Of E* g′: the first load that is tried for sealing, and the last."""
 
-LEAST = 1e-4
-"""Of the first load: what is sealed there counts as sealed at once, as by a level ridge."""
+
+OWN = hashlib.sha256(Path(__file__).read_bytes()).hexdigest()[:16]
+"""Of this file: what is kept was found by the same code."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,10 +90,11 @@ class Pressed:
 
     @property
     def name(self) -> str:
+        """Family and seed."""
         return f"{self.family} {self.seed}"
 
     def scaled(self, factor: float) -> Self:
-        """The surface ``factor`` times as high, by linear elasticity; the offset is not one of its heights, and lost."""
+        """The surface ``factor`` times as high, by linear elasticity; the offset does not scale, and is lost."""
         heights = {name: value * factor for name, value in self.numbers.heights.items()}
         return replace(
             self,
@@ -109,19 +112,14 @@ class Pressed:
         )
 
 
-WAYS = ("x", "y", "round x", "round y")
-"""Ways through: from end to end, the sides joined, as the source has it; and round the periodic cell, as the cell does."""
-
-
 class Series:
-    """A surface under many loads, each begun from the nearest one known."""
+    """A surface under many loads, each found once and begun from the nearest one known."""
 
     def __init__(self, heights: Array, spacing: tuple[float, float]) -> None:
         self._press = Press(heights, spacing, MODULUS)
         self._known: dict[float, Contact] = {}
-        self._shut: dict[float, tuple[bool, ...]] = {}
 
-    def at(self, load: float) -> Contact:
+    def at(self, load: float, _start: Contact | None = None) -> Contact:
         """The contact under a load, Pa."""
         if load not in self._known:
             nearest = min(self._known, key=lambda one: abs(np.log(one / load)), default=None)
@@ -129,40 +127,24 @@ class Series:
             self._known[load] = self._press.at(load, tolerance=TOLERANCE, start=start)
         return self._known[load]
 
-    def is_sealed(self, load: float, way: str) -> bool:
-        """Whether no path leads through in one of ``WAYS``."""
-        if load not in self._shut:
-            gap = self.at(load).gap
-            ends = (sealed_between_ends(gap, joined=True), sealed_between_ends(gap.T, joined=True))
-            self._shut[load] = ends + sealed(gap)
-        return self._shut[load][WAYS.index(way)]
 
-    def threshold(self, first: float, way: str) -> float:
-        """The least load that seals, Pa, to ``NEAR``: contact grows with load, node by node, so that it can be halved."""
-        high = min((load for load in self._shut if self.is_sealed(load, way)), default=first)
-        while not self.is_sealed(high, way):
-            high *= FARTHER
-        low = max((load for load in self._shut if not self.is_sealed(load, way)), default=high / FARTHER)
-        while self.is_sealed(low, way):
-            low, high = low / FARTHER, low
-            if high < LEAST * first:
-                return high
-        while high > low * (1 + NEAR):
-            middle = float(np.sqrt(low * high))
-            low, high = (low, middle) if self.is_sealed(middle, way) else (middle, high)
-        return high
+def sealed_contacts(series: Series, slope: float) -> list[Contact]:
+    """Contacts at the least loads that seal a surface of a rms slope: between ends in x and y, and round the cell.
 
-
-def thresholds_of(series: Series, slope: float) -> list[Contact]:
-    """The contacts at the least loads that seal, by ``WAYS``, of a surface of the rms slope given."""
-    return [series.at(series.threshold(FIRST * MODULUS * slope, way)) for way in WAYS]
+    Raises InputError where a path stays open up to ``MOST``.
+    """
+    loads = (FIRST * MODULUS * slope, MOST * MODULUS * slope)
+    found = [one.sealed for one in thresholds(series.at, *loads, precision=NEAR)]
+    if None in found:
+        raise InputError(f"surface: stays open up to {loads[1]:.3g} Pa; press one whose valleys do not lead through")
+    return [series.at(one.load) for one in found if one is not None]
 
 
 def press(made: Made, parts: Sequence[float] = PARTS) -> Pressed:
     """Thresholds, and at each part of the greater one area, gap and leakage."""
     surface, numbers = made.surface, numbers_of(made.surface)
     series = Series(surface.heights, surface.spacing)
-    *ends, first_round, second_round = thresholds_of(series, numbers.slope)
+    *ends, first_round, second_round = sealed_contacts(series, numbers.slope)
     loads = [part * max(one.load for one in ends) for part in parts]
     contacts = [series.at(load) for load in loads]
     flows = [flow_factors(one.gap, surface.spacing) for one in contacts]
@@ -212,7 +194,14 @@ def press_all(
     for one in surfaces:
         advance(one.name)
         surface = one.surface
-        settings = {"modulus": MODULUS, "parts": list(parts), "near": NEAR, "offset": OFFSET, "code": code()}
+        settings = {
+            "own": OWN,
+            "modulus": MODULUS,
+            "parts": list(parts),
+            "near": NEAR,
+            "offset": OFFSET,
+            "code": code(),
+        }
         inputs = Inputs(heights=surface.heights, spacing=surface.spacing, settings=settings)
         path = None if folder is None else folder / f"{one.name.replace(' ', '_')}.json"
         known = None if path is None else read(path, inputs.digest)

@@ -1,9 +1,10 @@
-"""What a load that seals and a leakage are proportional to: constants of laws, with intervals, and how far surfaces scatter."""
+"""What sealing loads and leakages are proportional to: constants with intervals, and how far surfaces scatter."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rom.gap import Array
 from scripts.paper_f_data import MODULUS, Pressed
@@ -20,7 +21,11 @@ CONFIDENCE = (2.5, 97.5)
 SHARES = (0.003, 0.03, 0.3)
 """Of the median load that seals, at which leakages of surfaces are compared."""
 
+LIGHT = 0.1
+"""Of the load that seals: below it a load counts as light."""
+
 Sample = Sequence[Pressed]
+Places = NDArray[np.int64]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,7 +86,7 @@ def sealing_law(sample: Sample, name: str) -> SealingLaw:
     )
 
 
-def bootstrapped(sample: Sample, statistic: Callable[[Array], Array]) -> list[Constant]:
+def bootstrapped(sample: Sample, statistic: Callable[[Places], Array]) -> list[Constant]:
     """Numbers that are told from the surfaces whose places are given, each with its intervals."""
     families = [np.array(rows) for rows in _families(sample)]
     draw = np.random.default_rng(90731)
@@ -91,11 +96,15 @@ def bootstrapped(sample: Sample, statistic: Callable[[Array], Array]) -> list[Co
     for _ in range(TIMES):
         drawn = draw.integers(len(families), size=len(families))
         twice.append(statistic(np.concatenate([draw.choice(families[one], families[one].size) for one in drawn])))
+    low, high = np.percentile(once, CONFIDENCE, axis=0)
+    lower, higher = np.percentile(twice, CONFIDENCE, axis=0)
     return [
-        Constant(value=float(value), by_surface=(float(a), float(b)), by_family=(float(c), float(d)))
-        for value, (a, b), (c, d) in zip(
-            statistic(everyone), np.percentile(once, CONFIDENCE, axis=0).T, np.percentile(twice, CONFIDENCE, axis=0).T
+        Constant(
+            value=float(value),
+            by_surface=(float(low[k]), float(high[k])),
+            by_family=(float(lower[k]), float(higher[k])),
         )
+        for k, value in enumerate(statistic(everyone))
     ]
 
 
@@ -126,7 +135,7 @@ def skewed_law(sample: Sample) -> SkewedLaw:
     """Least squares of ln W."""
     logs, skewness = np.log(ratios(sample, SLOPE)).mean(axis=1), np.array([one.numbers.skewness for one in sample])
 
-    def line(drawn: Array) -> Array:
+    def line(drawn: Places) -> Array:
         s, c = np.polyfit(skewness[drawn], logs[drawn], 1) if np.ptp(skewness[drawn]) > 0 else (0.0, logs[drawn].mean())
         return np.array([np.exp(c), s])
 
@@ -158,7 +167,9 @@ class Collapse:
 
 def collapse(sample: Sample, height: str, load: str) -> Collapse:
     """Of direct solutions, ``height`` and ``load`` being names of scales; "" leaves them as they are."""
-    middle = float(np.median(ratios(sample, load))) if load else float(np.median([o.threshold for o in sample])) / MODULUS
+    middle = (
+        float(np.median(ratios(sample, load))) if load else float(np.median([o.threshold for o in sample])) / MODULUS
+    )
     apart, shut = [], []
     for share in SHARES:
         logs = np.array([leakage_at(one, share * middle, height, load) for one in sample])
@@ -204,7 +215,7 @@ def leakage_law(sample: Sample, height: str, load: str) -> LeakageLaw:
     points = [_points(one, height, load) for one in sample]
     sums = np.array([[x.size, x.sum(), y.sum(), (x * x).sum(), (x * y).sum()] for x, y in points])
 
-    def line(drawn: Array) -> Array:
+    def line(drawn: Places) -> Array:
         n, x, y, xx, xy = sums[drawn].sum(axis=0)
         falling = (x * y - n * xy) / (n * xx - x * x)
         return np.array([(y + falling * x) / n, falling])
@@ -231,7 +242,7 @@ def _points(one: Pressed, height: str, load: str) -> Array:
 
 
 def misfit(told: Array, found: Array) -> tuple[float, float]:
-    """rms of log10(found/told) where told is above 0, and the part where it is not."""
+    """The rms of log10(found/told) where told is above 0, and the part where it is not."""
     known = told > 0
     logs = np.log10(found[known] / told[known])
     return float(np.sqrt(np.mean(logs**2))) if known.any() else float("nan"), float(1 - known.mean())
@@ -251,7 +262,8 @@ class Reading:
 
     Attributes
     ----------
-    valley, leakage : rms of log10 of Svm_d, and of K over the cube of what is read (F.18).
+    valley, leakage : rms of log10 of Svm under load, and of K, over what is read and its cube (F.18).
+    light : that of K up to a tenth of the load that seals.
     missed : part of the open gaps where it says that there is no valley left.
     scales : whether it is the same for a surface twice as high under twice the load, as elasticity has it.
     """
@@ -259,6 +271,7 @@ class Reading:
     formula: str
     valley: float
     leakage: float
+    light: float
     missed: float
     scales: bool
 
@@ -274,14 +287,17 @@ def _read(formula: str, law: Callable[[Array, Array], Array], sample: Sample) ->
         told = law(one.loads / MODULUS, np.full(one.loads.shape, one.numbers.heights["Svm"]))
         for i in (0, 1):
             is_open = one.direct[:, i] > 0
-            rows.append(np.stack([told, one.valley, one.direct[:, i]])[:, is_open])
-    told, valley, flow = np.concatenate(rows, axis=1)
+            part = one.loads / one.threshold[i]
+            rows.append(np.stack([told, one.valley, one.direct[:, i], part])[:, is_open])
+    told, valley, flow, part = np.concatenate(rows, axis=1)
     twice = law(np.array([0.02]), np.array([2e-6])) / law(np.array([0.01]), np.array([1e-6]))
-    leaks, missed = misfit(np.sign(told) * np.abs(told) ** 3, flow)
+    cube = np.sign(told) * np.abs(told) ** 3
+    leaks, missed = misfit(cube, flow)
     return Reading(
         formula=formula,
         valley=misfit(told, valley)[0],
         leakage=leaks,
+        light=misfit(cube[part < LIGHT], flow[part < LIGHT])[0],
         missed=missed,
         scales=bool(abs(twice[0] - 2) < 1e-9),
     )

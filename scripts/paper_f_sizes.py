@@ -12,7 +12,7 @@ from contact.synthetic.distribution import rms_slope
 from contact.synthetic.gaussian import gaussian
 from rom.gap import Array
 from rom.provenance import code
-from scripts.paper_f_data import MODULUS, NEAR, Series, thresholds_of
+from scripts.paper_f_data import MODULUS, NEAR, Series, sealed_contacts
 from scripts.paper_f_surfaces import SIDE
 
 CORRELATION = 4e-6
@@ -27,12 +27,12 @@ COUNTS: Mapping[int, int] = {64: 32, 128: 24, 256: 12, 512: 6}
 
 @dataclass(frozen=True, kw_only=True)
 class Sizes:
-    """At the thresholds of surfaces, by correlation lengths a side: shape (surfaces, 4), columns as ``WAYS``.
+    """At the thresholds of surfaces, by correlation lengths a side: shape (surfaces, 4), ends in x, y, cell in x, y.
 
     Attributes
     ----------
     area : real over nominal.
-    load : W/(E* g').
+    load : W/(E* g′).
     """
 
     area: Mapping[float, Array]
@@ -77,6 +77,6 @@ def _one(nodes: int, seed: int) -> tuple[Array, Array]:
         amplitudes="random",
     )
     slope = rms_slope(surface)
-    found = thresholds_of(Series(surface.heights, surface.spacing), slope)
+    found = sealed_contacts(Series(surface.heights, surface.spacing), slope)
     areas, loads = np.transpose([(one.area_fraction, one.load) for one in found])
     return areas, loads / (MODULUS * slope)

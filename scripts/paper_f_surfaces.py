@@ -1,4 +1,4 @@
-"""Families of made surfaces that stand for the ten unpublished elastomer surfaces of Paper F, and their eight numbers."""
+"""Families of made surfaces that stand for the ten unpublished ones of Paper F, and their eight heights."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -51,6 +51,7 @@ class Made:
 
     @property
     def name(self) -> str:
+        """Family and seed."""
         return f"{self.family} {self.seed}"
 
 
@@ -111,8 +112,8 @@ FAMILIES: Mapping[str, Family] = {
     "H 0.5, 21 µm": partial(_fractal, hurst=0.5, roll_off=SIDE / 2),
     "H 0.3, 42 µm": partial(_fractal, hurst=0.3, roll_off=SIDE),
 }
-"""Random ones by Sal, 4 to 8 µm across the lay; self-affine ones by their Hurst exponent and roll-off. Sq/g' is then about
-what the source's loads at the threshold tell of its surfaces, 1.4 to 2.9 µm (W/(E* g') being 0.28)."""
+"""Random ones of 4 to 8 µm Sal across the lay; self-affine ones by Hurst exponent and roll-off. Sq/g′ is then about
+what the source's loads at the threshold tell of its surfaces, 1.4 to 2.9 µm (W/(E* g′) being 0.28)."""
 
 
 def scaled(surface: Surface, average: float) -> Surface:
@@ -147,9 +148,7 @@ def measured_surfaces(folder: Path | None, points: int = POINTS) -> list[Made]:
         if file.is_file():
             one = prepare(read_surface(file), recipe).surface
             part = SIDE / max(one.size)
-            shrunk = Surface(
-                heights=one.heights, spacing=(one.spacing[0] * part, one.spacing[1] * part), periodic=True
-            )
+            shrunk = Surface(heights=one.heights, spacing=(one.spacing[0] * part, one.spacing[1] * part), periodic=True)
             made.append(Made(family=file.stem, seed=number, surface=scaled(shrunk, MEASURED_AVERAGE)))
     return made
 
@@ -160,9 +159,9 @@ class Numbers:
 
     Attributes
     ----------
-    heights : by the names of ``HEIGHTS``, m. A peak of Spm is a node that none within Sal in x and in y exceeds, so that
-        the five are different bumps (`contact.peaks`); the source does not say how it picks them.
-    slope : g', rms slope.
+    heights : by the names of ``HEIGHTS``, m. A peak of Spm is a node that none within Sal in x and in y exceeds, so
+        that the five are different bumps (`contact.peaks`); the source does not say how it picks them.
+    slope : g′, rms slope.
     decay : Sal, m.
     aspect : Str.
     skewness : Ssk.
