@@ -254,7 +254,7 @@ def offset_is_harmless(sample: Sequence[Pressed]) -> Claim:
         verdict="true" if max(map(abs, medians)) < FEW else "partly" if abs(medians[0]) < 2 * FEW else "false",
         evidence="times the leakage with closed contact, medians of surfaces rougher and smoother than Sa "
         f"{1e6 * middle:.2g} µm, by the load over the one that seals: {'; '.join(told)}. At the threshold the 10 nm "
-        f"alone leak like a slit of {1e9 * float(np.nanmin(slit)):.2g} to {1e9 * float(np.nanmax(slit)):.2g} nm; taking "
+        f"alone leak like a slit of {1e9 * np.nanmin(slit):.2g} to {1e9 * np.nanmax(slit):.2g} nm; taking "
         "that off is right at one load only, and the fall towards the threshold, over decades, becomes a gentle one",
     )
 
