@@ -4,7 +4,21 @@ import sys
 
 import typer
 
-from scripts import batch, compare, contact_series, doctor, factors, generate, models, report, solve, stability, surface
+from scripts import (
+    batch,
+    compare,
+    contact_series,
+    doctor,
+    factors,
+    generate,
+    leakage,
+    models,
+    report,
+    solve,
+    stability,
+    stribeck,
+    surface,
+)
 from scripts.common import launch
 
 app = typer.Typer(
@@ -13,7 +27,20 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
-for module in (models, solve, compare, batch, report, stability, generate, surface, factors, doctor):
+for module in (
+    models,
+    solve,
+    compare,
+    batch,
+    report,
+    stability,
+    generate,
+    surface,
+    factors,
+    stribeck,
+    leakage,
+    doctor,
+):
     app.command(module.__name__.rpartition(".")[2])(module.command)
 app.command("contact")(contact_series.command)
 

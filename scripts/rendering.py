@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 from rom.ladder import Availability
@@ -21,6 +22,11 @@ print(pyvista.vtk_version_info)
 def draw_apart(result: Path, picture: Path) -> Availability:
     """Draw the flow of a stored result into a PNG; says why where it fails."""
     return _apart("-m", "scripts.streamlines", str(result), str(picture))
+
+
+def draw_contacts_apart(contacts: Path, loads: Sequence[float], picture: Path) -> Availability:
+    """Draw a surface under some of the loads of a stored series into a PNG; says why where it fails."""
+    return _apart("-m", "scripts.contact_view", str(contacts), str(picture), *map(repr, loads))
 
 
 def probe() -> Availability:

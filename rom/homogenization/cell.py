@@ -6,13 +6,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from contact.compiled import compiled
-from contact.errors import ConvergenceError
 from rom.gap import Array
 from rom.homogenization.conductance import FaceRule, faces, without_traces
 from rom.homogenization.factors import FlowFactors
 from rom.homogenization.grids import refined
 from rom.homogenization.paths import sealed
-from rom.homogenization.solvers import SOLVERS, Matrix, Source
+from rom.homogenization.solvers import SOLVERS, Matrix, Solver, Source, first_to_converge
+from rom.multigrid.multigrid import Solved
 
 TOLERANCE = 1e-8
 """Of A; far below what any grid is good for."""
@@ -80,13 +80,10 @@ def solve_cell(
         begun /= units[which]
         return Source(values=values, whole=whole, start=begun)
 
-    for name in solvers:
-        try:
-            found = dict(zip(wanted, SOLVERS[name](network.matrix, map(source, wanted), tolerance), strict=True))
-            break
-        except ConvergenceError:
-            if name == solvers[-1]:
-                raise
+    def attempt(solve: Solver) -> dict[int, Solved]:
+        return dict(zip(wanted, solve(network.matrix, map(source, wanted), tolerance), strict=True))
+
+    found, name = first_to_converge(solvers, attempt)
     chi = np.zeros((3, *gap.shape))
     for i, one in found.items():
         chi[i] = one.solution

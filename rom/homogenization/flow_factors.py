@@ -13,18 +13,12 @@ from rom.homogenization.cell import Cell, solve_cell
 from rom.homogenization.conductance import CLOSED, FaceRule, without_traces
 from rom.homogenization.factors import FlowFactors
 from rom.homogenization.grids import coarser_grids
-from rom.homogenization.richardson import uncertainty_of
+from rom.homogenization.richardson import sufficient, uncertainty_of
 from rom.homogenization.solvers import SOLVERS
 from rom.ladder import Progress, silent
 
-LOOSEST, TIGHTEST = 1e-4, 1e-10
-"""Tolerances of a cell that are chosen from."""
-
 LONGEST = 1e4
 """Of a pixel, over its width."""
-
-SPARE = 100
-"""The tolerance of a cell is so many times below what its grid is expected to be off by."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,12 +86,13 @@ def flow_factors(
     work = [float(grid.size) for grid, _ in grids]
     for number, (grid, steps) in enumerate(grids):
         progress(sum(work[:number]) / sum(work), f"{grid.shape[0]} × {grid.shape[1]} nodes")
+        flows = [np.diag(cell.factors.pressure) for cell in cells]
         cells.append(
             solve_cell(
                 grid,
                 steps,
                 rule=rule,
-                tolerance=_sufficient(cells) if tolerance is None else tolerance,
+                tolerance=sufficient(flows) if tolerance is None else tolerance,
                 start=cells[-1].correctors if cells else None,
                 solvers=solvers,
             )
@@ -144,17 +139,6 @@ def checked_gap(gap: ArrayLike, spacing: tuple[float, float]) -> Array:
     if not 1 / LONGEST <= spacing[0] / spacing[1] <= LONGEST:
         raise InputError(f"spacing: got {spacing!r} m; pixels may be up to {LONGEST:g} times as long as wide, resample")
     return h
-
-
-def _sufficient(cells: list[Cell]) -> float:
-    """A tolerance for the next finer grid: of its error, if the last two tell what that will be."""
-    if len(cells) < 2:
-        return LOOSEST
-    before, last = (np.diag(cell.factors.pressure) for cell in cells[-2:])
-    with np.errstate(divide="ignore", invalid="ignore"):
-        change = np.abs(last - before) / last
-    expected = float(np.min(change[last > 0], initial=np.inf)) / 4
-    return min(max(expected / SPARE, TIGHTEST), LOOSEST)
 
 
 def _largest_part(cell: Cell) -> float:

@@ -3,7 +3,7 @@
 import numpy as np
 from scipy import ndimage
 from scipy.sparse import coo_array
-from scipy.sparse.csgraph import breadth_first_order
+from scipy.sparse.csgraph import breadth_first_order, connected_components
 
 from rom.gap import Array
 
@@ -22,6 +22,23 @@ def sealed(gap: Array) -> tuple[bool, bool]:
     rounds = joints[joints[:, 0] == joints[:, 1], 2:]
     rounds = np.concatenate([rounds, _closing(joints[joints[:, 0] != joints[:, 1]], count + 1)])
     return not rounds[:, 0].any(), not rounds[:, 1].any()
+
+
+def sealed_between_ends(gap: Array, *, joined: bool) -> bool:
+    """Whether no open path leads from line 0 of a gap, shape (nx, ny), to its copy one period on, inside the box.
+
+    A path that leaves through a side comes in at the other if the sides are ``joined``; if not, the box has the first
+    column's copy as its last, and none leaves it. (Between ends a path need not come out where it went in, so that a
+    gap may be open here and sealed on and on; one whose paths lead round the cell is open here too.)
+    """
+    wide = np.pad(gap, ((0, 1), (0, 1)), mode="wrap") > 0
+    labels, count = ndimage.label(wide, structure=FOUR)
+    if joined:
+        first, last = labels[:, 0], labels[:, -1]
+        links = coo_array((np.ones(first.size), (first, last)), shape=(count + 1, count + 1))
+        labels = connected_components(links, directed=False)[1][labels]
+    first, last = labels[0][wide[0]], labels[-1][wide[-1]]
+    return not np.intersect1d(first, last).size
 
 
 def _joints(before: Array, after: Array, step: tuple[int, int]) -> Array:

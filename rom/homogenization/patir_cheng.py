@@ -5,14 +5,14 @@ from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy import ndimage
 
 from rom.gap import Array
+from rom.homogenization.box import Box, Flow
 from rom.homogenization.cell import TOLERANCE
 from rom.homogenization.conductance import FaceRule, faces, without_traces
 from rom.homogenization.flow_factors import checked_gap
-from rom.homogenization.paths import FOUR
-from rom.multigrid.multigrid import Multigrid
+from rom.homogenization.paths import sealed_between_ends
+from rom.multigrid.multigrid import Multigrid, Solved
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -90,50 +90,30 @@ def patir_cheng(
     h = without_traces(checked / scale)
     parts = faces(h, rule)
     dx, dy = spacing
-    first = _box(parts.east, parts.north, dy / dx, tolerance)
-    second = _box(parts.north.T, parts.east.T, dx / dy, tolerance)
-    closed = (_sealed(h), _sealed(h.T))
+    along, first = _solved(parts.east, parts.north, dy / dx, tolerance)
+    across, second = _solved(parts.north.T, parts.east.T, dx / dy, tolerance)
+    flows = np.array([along.through * dx / dy / h.shape[1], across.through * dy / dx / h.shape[0]])
+    closed = tuple(sealed_between_ends(gap, joined=False) for gap in (h, h.T))
     drag = _lengthened(parts.drag)
     made = PatirCheng(
         mean_gap=1.0,
-        pressure=np.array([0.0 if shut else box.flow for box, shut in zip((first, second), closed, strict=True)]),
-        shear=0.0 if closed[0] else float((drag * first.gradient).sum() / h.size),
-        sealed=closed,
+        pressure=np.where(closed, 0.0, flows),
+        shear=0.0 if closed[0] else float((drag * along.gradient).sum() / h.size),
+        sealed=(closed[0], closed[1]),
         iterations=first.iterations + second.iterations,
         residual=max(first.residual, second.residual),
     )
     return made.scaled(scale)
 
 
-@dataclass(frozen=True, kw_only=True)
-class _Box:
-    """The mean flow of a box at a mean gradient of 1, and the gradient along it on its faces, shape (nx, ny + 1)."""
-
-    flow: float
-    gradient: Array
-    iterations: int
-    residual: float
-
-
-def _box(along: Array, across: Array, aspect: float, tolerance: float) -> _Box:
-    """Flow in the first direction, in units of the spacing; ``aspect`` is dy/dx."""
-    east = _lengthened(along) * aspect
+def _solved(along: Array, across: Array, aspect: float, tolerance: float) -> tuple[Flow, Solved]:
+    """Flow in the first direction, in units of the spacing along it; ``aspect`` is dy/dx."""
     north = np.zeros((along.shape[0], along.shape[1] + 1))
     north[:, :-1] = across / aspect
-    centre = east[:-1] + east[1:] + north[1:]
-    centre[:, 1:] += north[1:, :-1]
-    matrix = Multigrid(np.where(centre > 0, centre, 1.0), east[1:], north[1:])
-    found = matrix.solve(np.diff(east, axis=0), tolerance=tolerance)
-    pressure = np.pad(found.solution, ((1, 1), (0, 0)))
-    gradient = 1 + np.diff(pressure, axis=0)
-    crossing = np.diff(pressure[:-1], axis=1)
-    energy = (east * gradient**2).sum() + (north[:, :-1] * crossing**2).sum()
-    return _Box(
-        flow=float(energy / aspect / along.size),
-        gradient=gradient,
-        iterations=found.iterations,
-        residual=found.residual,
-    )
+    box = Box(east=_lengthened(along) * aspect, north=north, joined=False)
+    matrix = box.matrix()
+    found = Multigrid(matrix.centre, matrix.east, matrix.north).solve(box.source(), tolerance=tolerance)
+    return box.flow(found.solution), found
 
 
 def _lengthened(part: Array) -> Array:
@@ -141,10 +121,3 @@ def _lengthened(part: Array) -> Array:
     longer = np.concatenate([part, part[:, :1]], axis=1)
     longer[:, [0, -1]] /= 2
     return longer
-
-
-def _sealed(gap: Array) -> bool:
-    """Whether no open path leads from the first line to its copy one period on, inside the box."""
-    labels, _ = ndimage.label(np.pad(gap, ((0, 1), (0, 1)), mode="wrap") > 0, structure=FOUR)
-    both = np.intersect1d(labels[0], labels[-1])
-    return not (both > 0).any()

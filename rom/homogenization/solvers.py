@@ -1,8 +1,9 @@
 """The linear systems of a cell, solved: by multigrid, and by elimination where that fails."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
+from typing import TypeVar
 
 import numpy as np
 from scipy.sparse import csc_array
@@ -13,6 +14,7 @@ from contact.errors import ConvergenceError, Outcome
 from rom.gap import Array
 from rom.multigrid.gradients import apply
 from rom.multigrid.multigrid import Multigrid, Solved
+from rom.multigrid.pieces import ROUNDING
 
 MOST_ELIMINATED = 1_100_000
 """Nodes; factors of larger matrices take more than 3 GB."""
@@ -20,20 +22,19 @@ MOST_ELIMINATED = 1_100_000
 BALANCED = 1e-6
 """Of a right-hand side: an elimination that leaves a larger residual has failed."""
 
-ROUND = (True, True)
-
 
 @dataclass(frozen=True, kw_only=True)
 class Matrix:
-    """K of ∇·(h³∇χ) on a periodic grid, as :class:`rom.multigrid.multigrid.Multigrid` takes it, shape (nx, ny) each."""
+    """K of ∇·(h³∇χ) on a grid, as :class:`rom.multigrid.multigrid.Multigrid` takes it, shape (nx, ny) each."""
 
     centre: Array
     east: Array
     north: Array
+    periodic: tuple[bool, bool] = (True, True)
 
     def image(self, chi: Array) -> Array:
         """Kχ, shape (nx, ny)."""
-        return np.asarray(apply(self.centre, self.east, self.north, chi, ROUND))
+        return np.asarray(apply(self.centre, self.east, self.north, chi, self.periodic))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,6 +46,8 @@ class Source:
     start: Array | None
 
 
+Found = TypeVar("Found")
+
 Solver = Callable[[Matrix, Iterable[Source], float], list[Solved]]
 """solve(matrix, sources, tolerance) → solutions, each good to the tolerance of its energy; ConvergenceError if not.
 
@@ -53,14 +56,14 @@ Sources are taken one after the other, so that only one of them needs memory at 
 
 def by_multigrid(matrix: Matrix, sources: Iterable[Source], tolerance: float, *, single: bool) -> list[Solved]:
     """Conjugate gradients, preconditioned by multigrid in single or double precision."""
-    multigrid = Multigrid(matrix.centre, matrix.east, matrix.north, periodic=ROUND, single=single)
+    multigrid = Multigrid(matrix.centre, matrix.east, matrix.north, periodic=matrix.periodic, single=single)
     return [
         multigrid.minimise(source.values, source.whole, tolerance=tolerance, start=source.start) for source in sources
     ]
 
 
 def by_elimination(matrix: Matrix, sources: Iterable[Source], _tolerance: float) -> list[Solved]:
-    """Sparse elimination (SuperLU), each piece of the film held at a node, refined once; up to 1.1 million nodes."""
+    """Sparse elimination (SuperLU), refined once, up to 1.1 million nodes; pieces without reservoir held at a node."""
     count = matrix.centre.size
     if count > MOST_ELIMINATED:
         raise ConvergenceError(
@@ -71,15 +74,20 @@ def by_elimination(matrix: Matrix, sources: Iterable[Source], _tolerance: float)
     nodes = np.arange(count).reshape(matrix.centre.shape)
     first = np.concatenate([nodes.ravel()] * 2)
     second = np.concatenate([np.roll(nodes, -1, axis=0).ravel(), np.roll(nodes, -1, axis=1).ravel()])
+    inside = np.ones((2, *nodes.shape), dtype=bool)
+    inside[0, -1], inside[1, :, -1] = matrix.periodic
     couplings = np.concatenate([matrix.east.ravel(), matrix.north.ravel()])
-    linked = couplings > 0
+    linked = (couplings > 0) & inside.ravel()
     first, second, couplings = first[linked], second[linked], couplings[linked]
     links = csc_array((couplings, (first, second)), shape=(count, count))
     links = links + links.T
     diagonal = links.sum(axis=1)
-    _, piece = connected_components(links, directed=False)
-    held = np.unique(piece, return_index=True)[1]
-    diagonal[held] += np.where(diagonal[held] > 0, diagonal[held], 1.0)
+    leak = matrix.centre.ravel() - diagonal
+    leak[leak <= ROUNDING * diagonal] = 0.0
+    pieces, piece = connected_components(links, directed=False)
+    held = np.unique(piece, return_index=True)[1][np.bincount(piece, leak, pieces) == 0]
+    diagonal += leak
+    diagonal[held] *= 2
     whole = csc_array((diagonal, (np.arange(count),) * 2), shape=(count, count)) - links
     factors = splu(whole.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
     solved = []
@@ -107,3 +115,14 @@ SOLVERS: dict[str, Solver] = {
     "elimination": by_elimination,
 }
 """In the order in which they are tried."""
+
+
+def first_to_converge(names: Sequence[str], attempt: Callable[[Solver], Found]) -> tuple[Found, str]:
+    """What an attempt finds by the first of the solvers that does not raise a ConvergenceError, and which one it is."""
+    *others, last = names
+    for name in others:
+        try:
+            return attempt(SOLVERS[name]), name
+        except ConvergenceError:
+            continue
+    return attempt(SOLVERS[last]), last
