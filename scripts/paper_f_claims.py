@@ -195,7 +195,8 @@ def valleys_rule_leakage(study: Study) -> Claim:
         f"{', '.join(f'{share:g}' for share in SHARES)} of the load that seals: {spread}; best {' and '.join(best)} at "
         "the lighter loads. It cannot be otherwise: at the first touch the mean gap is Sp, so that Q̃ → φ (Sp/Svm)³. "
         f"F.18 read as K = (1.1 Svm^⅓ − 0.023 (W/E*)^⅓)⁹: fitted a = {_constant(law.a, 3)}, b = "
-        f"{_constant(law.b, 3)} m^⅓; the source's constants {'lie' if all(holds) else 'do not both lie'} within those over families, "
+        f"{_constant(law.b, 3)} m^⅓; the source's constants {'lie' if all(holds) else 'do not both lie'} within those "
+        "over families, "
         f"with K off by a factor of {10**reading.light:.2g} (rms) below a tenth of the load that seals and "
         f"{10**reading.leakage:.2g} over all{others}. b, as k, holds a wavelength. K = Sp³ ({better.a.value:.3g} − "
         f"{better.b.value:.3g} (W/(E* {SLOPE}))^⅓)⁹ has R² {better.explained:.2f} instead of {law.explained:.2f}",
