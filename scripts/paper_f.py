@@ -6,6 +6,7 @@ was finished is not done again. Source: F. Sahlin, Luleå 2008, Paper F.
 """
 
 import json
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from pathlib import Path
@@ -119,7 +120,7 @@ def numbers(study: Study, claims: Sequence[Claim]) -> dict[str, Any]:
     families: dict[str, list[Pressed]] = {}
     for one in study.sample:
         families.setdefault(one.family, []).append(one)
-    return {
+    told: dict[str, Any] = {
         "claims": [asdict(claim) for claim in claims],
         "modulus": MODULUS,
         "surfaces": [_told(one) for one in study.sample],
@@ -133,6 +134,16 @@ def numbers(study: Study, claims: Sequence[Claim]) -> dict[str, Any]:
         "laws": {name: _laws(laws) for name, laws in study.laws.items()},
         "provenance": circumstances(),
     }
+    return {name: _plain(value) for name, value in told.items()}
+
+
+def _plain(value: Any) -> Any:
+    """Null for what is no number."""
+    if isinstance(value, dict):
+        return {name: _plain(one) for name, one in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(one) for one in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def _told(one: Pressed) -> dict[str, Any]:

@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.ticker import LogLocator, NullFormatter
 from scipy.special import erf
 
 from rom.gap import Array
@@ -51,9 +52,11 @@ def _panels(rows: int, columns: int, height: float) -> tuple[Figure, list[Axes]]
 
 
 def area(study: Study) -> Figure:
-    """Real area of contact until both directions are sealed. Left, as the source has it (dashed: its 33 and 55 %): the
-    threshold of flow along x (full) and along y (white). Right: the same over the load that the rms slope gives, where
-    surfaces fall together. Grey: measured surfaces. Dotted: Persson's erf(√2 W/(E* g′)), 0.7 to 0.9 of what is found."""
+    """Real area of contact until both directions are sealed (dots: along x full, along y white; dashed: 33 and 55 %).
+
+    Left as the source has it; right over E* times the rms slope, where surfaces fall together. Grey: measured ones.
+    Dotted: Persson's erf(√2 W/(E* g′)).
+    """
     figure, (left, right) = _panels(1, 2, 4.6)
     colours = _colours(study)
     for one in (*study.sample, *study.measured):
@@ -78,7 +81,7 @@ def area(study: Study) -> Figure:
 
 
 def spots(study: Study) -> Figure:
-    """Contact (dark) when the last path from end to end closes: along x, left to right (left of each pair), and along y."""
+    """Contact (dark) when the last path from end to end closes: along x (left of each pair) and along y."""
     firsts = list({one.family: one for one in reversed(study.sample)}.values())[::-1]
     figure = Figure(figsize=(10.5, 2.05 * int(np.ceil(len(firsts) / 3))), layout="constrained")
     panels = figure.subplots(int(np.ceil(len(firsts) / 3)), 6, squeeze=False).ravel()
@@ -95,8 +98,10 @@ def spots(study: Study) -> Figure:
 
 
 def heights(study: Study) -> Figure:
-    """Load at the threshold over the eight heights, both directions. Lines: geometric mean of the ratio; red: F.14. The
-    number is the standard deviation of the ratio, as a factor."""
+    """Load at the threshold over the eight heights, both directions; lines: geometric mean of the ratio; red: F.14.
+
+    The spread is the standard deviation of the ratio, as a factor.
+    """
     figure, panels = _panels(2, 4, 2.9)
     for axes, name in zip(panels, HEIGHTS, strict=True):
         _thresholds(axes, study, name, 1e6)
@@ -118,6 +123,9 @@ def _thresholds(axes: Axes, study: Study, name: str, unit: float) -> None:
         axes.plot([x, x], one.threshold / 1e6, ".", color=colours[one.family], ms=5, alpha=0.8)
     axes.set_xscale("log")
     axes.set_yscale("log")
+    axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axes.xaxis.set_major_formatter("{x:g}")
+    axes.xaxis.set_minor_formatter(NullFormatter())
     ends = np.array(axes.get_xlim())
     axes.plot(ends, law.constant.value * MODULUS * ends / unit / 1e6, color=FOUND, lw=1)
     axes.set_xlim(*ends)
@@ -125,8 +133,11 @@ def _thresholds(axes: Axes, study: Study, name: str, unit: float) -> None:
 
 
 def pure(study: Study) -> Figure:
-    """Left: what k of F.14 hides: it falls as the length Sq/g′ of a surface grows (red: the source's). Middle: load over
-    the rms slope, a pure number; line: geometric mean. Right: that number over the skewness, with the fitted law."""
+    """What k of F.14 hides (left): it falls as the length Sq/g′ of a surface grows; red: the source's.
+
+    Middle: load over the rms slope, whose ratio is a pure number; line: geometric mean. Right: that number over the
+    skewness, with the fitted law.
+    """
     figure, (left, middle, right) = _panels(1, 3, 3.7)
     colours, laws = _colours(study), study.laws["all"]
     for one in study.sample:
@@ -153,7 +164,10 @@ def pure(study: Study) -> Figure:
 
 
 def leakage(study: Study) -> Figure:
-    """Leakage along x, a surface of each family: HNS (lines) and DNS (circles), 1 MPa over 1 mm, 10³ kg/m³, 1 mPa s."""
+    """Leakage along x, a surface of each family: HNS (lines) and DNS (circles), 1 MPa over 1 mm, 10³ kg/m³, 1 mPa s.
+
+    Right: DNS over HNS of all surfaces and directions; line: median, dashed: nine in ten below.
+    """
     figure, (left, right) = _panels(1, 2, 4.4)
     colours = _colours(study)
     firsts = {one.family: one for one in reversed(study.sample)}
@@ -175,7 +189,7 @@ def leakage(study: Study) -> Figure:
     right.set_xscale("log")
     right.set_ylim(0.9, 100)
     right.set_xlabel("load over the one that seals the cell")
-    right.set_ylabel("DNS/HNS (lines: median, nine in ten below)")
+    right.set_ylabel("DNS/HNS")
     _legend(figure, study)
     return figure
 
@@ -216,8 +230,10 @@ def same_heights(study: Study) -> Figure:
 
 
 def dimensionless(study: Study) -> Figure:
-    """Leakage (DNS) over that of a smooth gap as high as Svm (left) and as Svm under load (right), both directions, loads
-    for surfaces of Svm = 1 µm. Under load Svm hardly changes, and does not follow the leakage."""
+    """Leakage (DNS) over that of a smooth gap as high as Svm (left) and as Svm under load (right), both directions.
+
+    Loads for surfaces of Svm = 1 µm. Under load Svm hardly changes, and does not follow the leakage.
+    """
     figure, panels = _panels(1, 2, 4.2)
     colours = _colours(study)
     for one in study.sample:
@@ -239,8 +255,11 @@ def dimensionless(study: Study) -> Figure:
 
 
 def laws(study: Study) -> Figure:
-    """F.18 as a straight line: K = s³ (a − b (W/(E* r))^⅓)⁹. Left: s = r = Svm, as the source has it (red: its constants).
-    Right: s = Sp, the height of the gap at the first touch, with loads over the rms slope. Both directions, DNS."""
+    """F.18 as a straight line, K = s³ (a − b (W/(E* r))^⅓)⁹, K = 12ηQL/Δp by DNS, both directions.
+
+    Left: s = r = Svm, as the source has it (red: its constants). Right: s = Sp, the mean gap at the first touch, with
+    loads over the rms slope.
+    """
     figure, panels = _panels(1, 2, 4.2)
     fitted = study.laws["all"].leakage
     for axes, pair in zip(panels, (("Svm", "Svm"), ("Sp", SLOPE)), strict=True):
@@ -271,8 +290,10 @@ def _line(axes: Axes, study: Study, law: LeakageLaw) -> None:
 
 
 def size(study: Study) -> Figure:
-    """One kind of random surface, larger and larger: real area, and load over E* g′, when the last path from end to end
-    closes, each surface and direction a dot; bars: mean and standard deviation. Dashed: 33 and 55 %."""
+    """One kind of random surface, larger and larger: area, and load over E* g′, when the last path closes.
+
+    A dot for each surface and direction; bars: mean and standard deviation. Dashed: 33 and 55 %.
+    """
     figure, panels = _panels(1, 2, 3.6)
     draw = np.random.default_rng(11)
     rows: Sequence[tuple[Mapping[float, Array], float, str]] = (
@@ -294,9 +315,10 @@ def size(study: Study) -> Figure:
 
 
 def offset(study: Study) -> Figure:
-    """Leakage of the cell with 10 nm let through everywhere, over that with closed contact: as it is (left), and after what
-    is left at the threshold is subtracted (right). Dark: smooth surfaces, light: rough ones. Lines: median, nine in ten
-    below."""
+    """Leakage of the cell with 10 nm let through everywhere, over that with closed contact.
+
+    Left as it is, right after what is left at the threshold is subtracted. Lines: median, and nine in ten below.
+    """
     figure, panels = _panels(1, 2, 3.9)
     found = subtracted(study.sample)
     for axes, values, name in zip(panels, (found.added, found.error), ("as it is", "after subtraction"), strict=True):
@@ -304,13 +326,13 @@ def offset(study: Study) -> Figure:
             found.part, 1 + values, c=1e6 * found.average, s=4, cmap="viridis", norm="log", rasterized=True
         )
         _bands(axes, found.part, 1 + values, FOUND)
-        axes.set_xscale("log")
         axes.set_yscale("log")
         axes.set_ylim(0.5, 1e4)
         axes.set_title(name, fontsize=9)
         axes.set_xlabel("load over the one that seals the cell")
     panels[0].set_ylabel("leakage over that with closed contact")
-    figure.colorbar(drawn, ax=panels, label="Sa, µm", ticks=[0.06, 0.12, 0.24, 0.48], format="%g")
+    bar = figure.colorbar(drawn, ax=panels, label="Sa, µm", ticks=[0.06, 0.12, 0.24, 0.48], format="%g")
+    bar.ax.yaxis.set_minor_formatter(NullFormatter())
     return figure
 
 

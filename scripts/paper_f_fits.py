@@ -174,7 +174,7 @@ def collapse(sample: Sample, height: str, load: str) -> Collapse:
     for share in SHARES:
         logs = np.array([leakage_at(one, share * middle, height, load) for one in sample])
         shut.append(float(np.isnan(logs).mean()))
-        apart.append(float(np.nanstd(logs)))
+        apart.append(float(np.std(logs[~np.isnan(logs)])) if not np.isnan(logs).all() else float("nan"))
     return Collapse(scale=(height, load), apart=tuple(apart), sealed=tuple(shut))
 
 

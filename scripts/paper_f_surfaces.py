@@ -138,13 +138,13 @@ def made_surfaces(
     ]
 
 
-def measured_surfaces(folder: Path | None, points: int = POINTS) -> list[Made]:
+def measured_surfaces(folder: Path | None, points: int = POINTS, names: Sequence[str] = MEASURED) -> list[Made]:
     """The measured ones that are in a folder, prepared, their longer side shrunk to ``SIDE`` and Sa scaled."""
     if folder is None:
         return []
     recipe = read_recipe({"grid": {"points": [points, points]}})
     made = []
-    for number, file in enumerate(folder / name for name in MEASURED):
+    for number, file in enumerate(folder / name for name in names):
         if file.is_file():
             one = prepare(read_surface(file), recipe).surface
             part = SIDE / max(one.size)
