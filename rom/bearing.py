@@ -8,14 +8,16 @@ from pydantic import BeforeValidator, Field, field_validator, model_validator
 from contact.entries import InUnit, Part, PositiveNumber
 from contact.errors import InputError
 from contact.units import with_unit
-from rom.bearing_geometry import SHAPES, AnyShape, Journal, Sector
+from rom.asperity_contact import AsperityContact
+from rom.bearing_geometry import SHAPES, AnyShape, Journal
 from rom.cavitation.discretise import Ends
 from rom.cavitation.problem import Problem
 from rom.kind import Scene
 from rom.lubricants.compressibility import Incompressible
 from rom.lubricants.laws import Compressibility, Piezoviscosity
 from rom.lubricants.viscosity import LOG_VISCOSITY, ConstantViscosity, Roelands
-from rom.roughness import AnyRoughness, Sinusoid
+from rom.ring_geometry import Ring
+from rom.roughness import AnyRoughness, RoughSurface, Sinusoid, StoredTable
 
 
 def _any(value: float) -> float:
@@ -90,7 +92,9 @@ class Boundary(Part):
 class Bearing(Scene):
     """Steady isothermal flow in a thin film that may rupture; pressures count from ambient.
 
-    Where the still wall is rough, ``film`` and all of the geometry are of the mean gap.
+    Where the still wall is rough, ``film`` and all of the geometry are of the mean gap; where ``asperities`` are told,
+    so that the walls may touch, of the separation α of the walls' mean planes as if they were rigid, which is the mean
+    gap until they touch.
 
     ``fields`` of its results, of the shape of the grid: ``x``, ``y`` (m, or rad and m), ``film_thickness`` (m),
     ``pressure`` (Pa), ``density_ratio`` θ (1), which below 1 is the part of the gap that liquid fills.
@@ -102,6 +106,7 @@ class Bearing(Scene):
     motion: Motion
     boundary: Boundary = Boundary()
     roughness: AnyRoughness | None = None
+    asperities: AsperityContact | None = None
 
     @field_validator("geometry", mode="before")
     @classmethod
@@ -130,7 +135,7 @@ class Bearing(Scene):
                 self.lubricant.compressibility.pressure_at(theta)
             except InputError as error:
                 raise ValueError(f"boundary.inlet.{error}") from None
-        if isinstance(self.geometry, Sector) and self.geometry.joined:
+        if isinstance(self.geometry, Ring) and self.geometry.endless:
             self._can_be_joined()
         if self.wide and self.boundary.sides != Sides():
             raise ValueError("boundary.sides: got pressures for an infinitely wide bearing; leave them or add a width")
@@ -140,6 +145,8 @@ class Bearing(Scene):
                 f"lubricant.piezoviscosity: got roelands for {self.lubricant.viscosity!r} Pa s; by that law liquids of "
                 f"less than {least:.2g} Pa s grow thinner under pressure, take barus or constant"
             )
+        if self.asperities is not None:
+            self._can_touch(self.asperities)
         if isinstance(self.roughness, Sinusoid) and self.roughness.amplitude >= self.geometry.film:
             raise ValueError(
                 f"roughness.amplitude: got {self.roughness.amplitude!r} m; it must be below film, "
@@ -147,6 +154,15 @@ class Bearing(Scene):
             )
         self.geometry.film_shape()
         return self
+
+    def _can_touch(self, asperities: AsperityContact) -> None:
+        if not isinstance(self.roughness, RoughSurface | StoredTable):
+            got = "smooth walls" if self.roughness is None else "sinusoidal ridges"
+            raise ValueError(f"asperities: got them for {got}; give a surface or a table as roughness")
+        if isinstance(self.roughness, RoughSurface) and asperities.solid is None:
+            raise ValueError("asperities.solid: is missing; say of what the rough wall is")
+        if isinstance(self.roughness, StoredTable) and asperities.solid is not None:
+            raise ValueError("asperities.solid: got one, but the table was made for its own; leave it out")
 
     def _can_be_joined(self) -> None:
         boundary, lowest = self.boundary, self.lubricant.cavitation_pressure
@@ -186,7 +202,7 @@ class Bearing(Scene):
     def problem(self) -> Problem:
         """The film to be solved, without roughness."""
         geometry, lubricant = self.geometry, self.lubricant
-        radius = geometry.radius if isinstance(geometry, Sector) else 1.0
+        radius = geometry.radius if isinstance(geometry, Ring) else 1.0
         return Problem(
             shape=geometry.film_shape(),
             ends=self.ends,

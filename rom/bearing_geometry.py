@@ -6,12 +6,13 @@ from typing import Annotated, Literal, Self
 import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 
-from contact.entries import InUnit, Length, Part, plain_number
+from contact.entries import Length, Part, plain_number
 from rom.cavitation.shape import Shape
 from rom.gap import Array
+from rom.given_geometry import Given
+from rom.pad_geometry import Pad
+from rom.ring_geometry import Sector, Washer
 from rom.texture import Texture, pocketed
-
-Angle = Annotated[float, InUnit("rad")]
 
 
 def _below_one(value: object) -> float:
@@ -23,55 +24,6 @@ def _below_one(value: object) -> float:
 
 Ratio = Annotated[float, BeforeValidator(_below_one)]
 Count = Annotated[int, Field(strict=True, ge=1, le=10_000)]
-
-
-class Pad(Part):
-    """A film over a rectangle: ``length`` along the sliding, ``width`` across, infinitely wide without it; m.
-
-    ``film`` is the least film thickness without texture.
-    """
-
-    length: Length
-    width: Length | None = None
-    film: Length
-    texture: Texture | None = None
-
-    def breaks(self) -> tuple[float, ...]:
-        """Where h or its slope jumps, m."""
-        return 0.0, self.length
-
-    @property
-    def finest(self) -> float:
-        """The shortest feature along the sliding, m."""
-        return math.inf
-
-    def untextured(self, x: Array) -> Array:
-        """h(x), m."""
-        raise NotImplementedError
-
-    def film_shape(self) -> Shape:
-        """The film."""
-        across = (0.0, self.length if self.width is None else self.width)
-        smooth = Shape(
-            thickness=lambda x, y: self.untextured(x) + 0 * y,
-            breaks=self.breaks(),
-            across=across,
-            wide=self.width is None,
-            finest=(self.finest, math.inf),
-        )
-        return smooth if self.texture is None else pocketed(smooth, self.texture)
-
-    @model_validator(mode="after")
-    def _thin(self) -> Self:
-        if self.film > self.length:
-            raise ValueError(f"film: got {self.film!r} m, thicker than the bearing is long; look at the units")
-        if self.width is not None and self.width < self.film:
-            raise ValueError(f"width: got {self.width!r} m, less than the film is thick; look at the units")
-        for name in ("rise", "amplitude"):
-            height = getattr(self, name, 0.0)
-            if height > self.length:
-                raise ValueError(f"{name}: got {height!r} m, higher than the bearing is long; look at the units")
-        return self
 
 
 class Parallel(Pad):
@@ -216,6 +168,10 @@ class Journal(Part):
         """Once round, m."""
         return 2 * math.pi * self.radius
 
+    def at_film(self, film: float) -> Self:
+        """The same shaft, moved to another least film thickness, which is at most the clearance."""
+        return self.model_copy(update={"eccentricity": 1 - film / self.clearance})
+
     @model_validator(mode="after")
     def _thin(self) -> Self:
         if self.clearance > 0.1 * self.radius:
@@ -233,65 +189,9 @@ class Journal(Part):
         return smooth if self.texture is None else pocketed(smooth, self.texture)
 
 
-class Sector(Part):
-    """One pad of a thrust bearing: over ``angle``, the film falls evenly by ``rise`` over the first ``taper`` of it.
-
-    Behind the taper the land is parallel. ``joined`` pads follow one another without a groove between them.
-    """
-
-    shape: Literal["sector"]
-    inner_radius: Length
-    outer_radius: Length
-    angle: Angle
-    film: Length
-    rise: Length
-    taper: Annotated[float, BeforeValidator(plain_number), Field(gt=0, le=1)] = 1.0
-    joined: Annotated[bool, Field(strict=True)] = False
-
-    @model_validator(mode="after")
-    def _can_be(self) -> Self:
-        if self.outer_radius <= self.inner_radius:
-            raise ValueError(f"outer_radius: got {self.outer_radius!r} m; it must be above inner_radius")
-        if self.angle > 2 * math.pi * (1 + 1e-12):
-            raise ValueError(f"angle: got {self.angle!r} rad; it must be at most a full turn")
-        if max(self.film, self.rise) > self.outer_radius:
-            raise ValueError(f"film: got {self.film!r} m, thicker than the bearing is wide; look at the units")
-        return self
-
-    @property
-    def radius(self) -> float:
-        """The mean one, where the sliding speed is given, m."""
-        return (self.inner_radius + self.outer_radius) / 2
-
-    @property
-    def width(self) -> float:
-        """From the inner to the outer radius, m."""
-        return self.outer_radius - self.inner_radius
-
-    @property
-    def length(self) -> float:
-        """Along the mean radius, m."""
-        return self.angle * self.radius
-
-    def film_shape(self) -> Shape:
-        """The film, over (angle, radius)."""
-        end = self.taper * self.angle
-
-        def thickness(x: Array, y: Array) -> Array:
-            within = np.mod(x, self.angle) if self.joined else x
-            return np.asarray(self.film + self.rise * np.clip(1 - within / end, 0, None) + 0 * y)
-
-        return Shape(
-            thickness=thickness,
-            breaks=tuple(sorted({0.0, end, self.angle})),
-            across=(self.inner_radius, self.outer_radius),
-            wide=False,
-            polar=True,
-            joined=(self.joined, False),
-        )
-
-
-AnyShape = Parallel | Linear | Step | Parabolic | SinusoidalInlet | SquaredCosineInlet | Journal | Sector
+AnyShape = (
+    Parallel | Linear | Step | Parabolic | SinusoidalInlet | SquaredCosineInlet | Given | Journal | Sector | Washer
+)
 SHAPES: dict[str, type[Part]] = {
     "parallel": Parallel,
     "linear": Linear,
@@ -299,6 +199,8 @@ SHAPES: dict[str, type[Part]] = {
     "parabolic": Parabolic,
     "sinusoidal_inlet": SinusoidalInlet,
     "squared_cosine_inlet": SquaredCosineInlet,
+    "given": Given,
     "journal": Journal,
     "sector": Sector,
+    "washer": Washer,
 }

@@ -18,7 +18,7 @@ LEAST_LOAD = 1e-6
 """Of the greatest pressure over the whole film; by less, friction is not divided."""
 
 
-def bearing_quantities(scene: Bearing, found: Solution) -> dict[str, Quantity]:
+def bearing_quantities(scene: Bearing, found: Solution, pressed: Array | None = None) -> dict[str, Quantity]:
     """Load, friction on the sliding wall, greatest pressure, flows, and where the film is.
 
     Pressures count from ambient. Per width of the bearing, along the sliding at the line of the greatest pressure:
@@ -26,12 +26,16 @@ def bearing_quantities(scene: Bearing, found: Solution) -> dict[str, Quantity]:
     where there is none. Friction is that of the liquid, F = ∫(η ξ u/h + h/2 ∂p/∂x) dA, where the filled part ξ of a
     cavity is in streamers from wall to wall; of averaged roughness F = ∫(ηu (g (d + 3e) + (ξ - g) B₁ <h⁻²>)
     + B·∇p/2) dA with the wetness g of its tips as :mod:`rom.cavitation.oblique` has it, 1 in a film.
+
+    Where walls touch, ``pressed`` is what that adds to the force on each node, N, and friction has its boundary part.
     """
     grid, pc = found.grid, scene.lubricant.cavitation_pressure
     pressure = found.state.pressure + pc
     width = 1.0 if found.problem.shape.wide else scene.geometry.width or 1.0
-    load = float((grid.areas * pressure).sum())
-    rub = friction(found)
+    force = grid.areas * pressure if pressed is None else grid.areas * pressure + pressed
+    load, rub = float(force.sum()), friction(found)
+    if pressed is not None and scene.asperities is not None:
+        rub += scene.asperities.friction * float(pressed.sum())
     row = int(np.argmax(np.where(found.kind == FILM, found.state.pressure, -1.0).max(axis=0)))
     start, end = film_ends(found, row)
     values: dict[str, tuple[float, str]] = {
@@ -48,7 +52,7 @@ def bearing_quantities(scene: Bearing, found: Solution) -> dict[str, Quantity]:
         "theta_min": (float(density_ratio(found).min()), "1"),
     }
     if isinstance(scene.geometry, Journal):
-        angle, load = journal_load(scene.geometry, grid.x if not found.turned else -grid.x, grid.areas * pressure)
+        angle, load = journal_load(scene.geometry, grid.x if not found.turned else -grid.x, force)
         values["load_per_width"] = (load / width, "N/m")
         values["attitude_angle"] = (angle, "deg")
         if load > 0:
@@ -60,7 +64,7 @@ def bearing_quantities(scene: Bearing, found: Solution) -> dict[str, Quantity]:
         values["load"] = (load, "N")
         values["friction"] = (rub, "N")
         values["side_leakage"] = (side_leakage(found), "m^3/s")
-    if load > LEAST_LOAD * float(grid.areas.sum()) * float(pressure.max()):
+    if load > LEAST_LOAD * float(grid.areas.sum()) * float(np.abs(force / grid.areas).max()):
         values["friction_coefficient"] = (rub / load, "1")
     return {name: Quantity(value=value, unit=unit) for name, (value, unit) in values.items()}
 
@@ -187,6 +191,13 @@ def _ends(found: Solution, row: int, last: int, x: Array) -> float:
         return float(x[last + 1])
     back = (1 - theta[last + 1]) / steepness * (x[last + 2] - x[last + 1])
     return float(min(max(x[last + 1] - back, x[last]), x[last + 2]))
+
+
+def carried(scene: Bearing, x: Array, force: Array) -> float:
+    """The load of forces at the nodes, N (N/m if wide): their sum, of a journal as vectors; ``x`` as in the scene."""
+    if isinstance(scene.geometry, Journal):
+        return journal_load(scene.geometry, x, force)[1]
+    return float(force.sum())
 
 
 def journal_load(geometry: Journal, x: Array, force: Array) -> tuple[float, float]:

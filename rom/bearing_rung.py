@@ -3,7 +3,7 @@
 import math
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cache, partial
 
 import numpy as np
@@ -18,6 +18,7 @@ from rom.cavitation.problem import Problem
 from rom.cavitation.shape import Shape
 from rom.cavitation.solve import TOLERANCE, Solution
 from rom.cavitation.solve import solve as balance
+from rom.gap import Array
 from rom.ladder import Applicability, Effect, Model, Progress, chosen_scheme, chosen_tolerance, one_process, silent
 from rom.provenance import provenance
 from rom.result import Field, Numerics, Result
@@ -43,6 +44,31 @@ SAFETY = 3.0
 SOURCES = ("10.1115/1.3251669", "10.1016/j.triboint.2007.02.021")
 
 
+Values = dict[str, tuple[Array, str]]
+"""Fields over the grid, shape (nx, ny), with their units."""
+
+
+def _film_alone(scene: Bearing, _found: Solution, quantities: Mapping[str, Quantity]) -> dict[str, float]:
+    doubt = 0.0 if scene.roughness is None else scene.roughness.doubt(scene.geometry.film)
+    return {name: abs(quantity.value) * doubt for name, quantity in quantities.items()}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reading:
+    """What is read off a film in balance.
+
+    Attributes
+    ----------
+    quantities : quantities(scene, solution).
+    doubt : doubt(scene, solution, quantities): by how much each may be off as factors are, in its unit.
+    fields : fields(scene, solution), beside those that every film has.
+    """
+
+    quantities: Callable[[Bearing, Solution], dict[str, Quantity]] = bearing_quantities
+    doubt: Callable[[Bearing, Solution, Mapping[str, Quantity]], Mapping[str, float]] = _film_alone
+    fields: Callable[[Bearing, Solution], Values] = lambda _scene, _found: {}
+
+
 def solve(
     scene: Bearing,
     *,
@@ -53,6 +79,7 @@ def solve(
     resolutions: Callable[[Bearing], tuple[int, ...]],
     ruptures: bool,
     applies: Callable[[Bearing], Applicability],
+    reading: Reading,
     resolution: int | None = None,
     tolerance: float | None = None,
     scheme: str | None = None,
@@ -83,15 +110,15 @@ def solve(
     load_loops(problem.shape.wide)
     wall, cpu = time.perf_counter(), time.process_time()
     found = balance(problem, (cells, cells), tolerance=tolerance, ruptures=ruptures, progress=progress)
-    quantities = bearing_quantities(scene, found)
+    quantities = reading.quantities(scene, found)
     warnings = [*unresolved(found), *beyond(found), *odd(scene, found)]
-    uncertainty = uncertainties(scene, found, quantities)
+    uncertainty = uncertainties(scene, found, quantities, reading)
     if not uncertainty:
         warnings.append("there is no coarser grid to compare with; how far off this is cannot be said")
     return Result(
         model=model,
         quantities=quantities,
-        fields=_fields(scene, found),
+        fields=_fields(scene, found, reading.fields(scene, found)),
         numerics=Numerics(
             residual=found.residual,
             iterations=sum(level.iterations for level in found.levels),
@@ -138,22 +165,23 @@ def beyond(found: Solution) -> list[str]:
     ]
 
 
-def uncertainties(scene: Bearing, found: Solution, quantities: Mapping[str, Quantity]) -> dict[str, float]:
+def uncertainties(
+    scene: Bearing, found: Solution, quantities: Mapping[str, Quantity], reading: Reading
+) -> dict[str, float]:
     """How far off each quantity may be, in its unit, from the two grids before; nothing without a coarser grid.
 
     SAFETY/3 times the larger of the last step and a quarter of the step before, as is right for second order; where a
     film begins or ends at least a cell, and with what the residual may add up to along the film; where roughness is
-    averaged, with the part by which its factors may be off.
+    averaged, with what its factors may be off.
     """
     before = found.coarser
     if before is None or before.grid.x.size > 0.75 * found.grid.x.size:
         return {}
     cells = found.grid.x.size
-    one, two = bearing_quantities(scene, before), None
+    one, two = reading.quantities(scene, before), None
     if before.coarser is not None and before.coarser.grid.x.size <= 0.75 * before.grid.x.size:
-        two = bearing_quantities(scene, before.coarser)
-    rough = scene.roughness if found.problem.shape.roughness is not None else None
-    doubt = 0.0 if rough is None else rough.doubt(scene.geometry.film)
+        two = reading.quantities(scene, before.coarser)
+    doubt = {} if found.problem.shape.roughness is None else reading.doubt(scene, found, quantities)
     told = {}
     for name, quantity in quantities.items():
         if name in one:
@@ -161,7 +189,8 @@ def uncertainties(scene: Bearing, found: Solution, quantities: Mapping[str, Quan
             if two is not None and name in two:
                 step = max(step, abs(one[name].value - two[name].value) / 4)
             least = 1 / cells if name in PLACES else 0.0
-            told[name] = max(SAFETY * step / 3, least) + abs(quantity.value) * (found.residual * cells + doubt)
+            told[name] = max(SAFETY * step / 3, least) + abs(quantity.value) * found.residual * cells
+            told[name] += doubt.get(name, 0.0)
     return told
 
 
@@ -187,16 +216,17 @@ def load_loops(wide: bool) -> None:
     balance(Problem(shape=shape, ends=ends, speed=1.0, viscosity=1.0), (WARM_UP, WARM_UP))
 
 
-def _fields(scene: Bearing, found: Solution) -> dict[str, Field]:
+def _fields(scene: Bearing, found: Solution, more: Values) -> dict[str, Field]:
     """Over the grid, shape (nx, ny); x as the scene counts it, whichever way the wall slides."""
     shape = found.problem.shape
     places = np.meshgrid(found.grid.x, found.grid.y, indexing="ij")
-    values = {
+    values: Values = {
         "x": (places[0], "rad" if shape.polar else "m"),
         "y": (places[1], "m"),
         "film_thickness": (found.faces.thickness, "m"),
         "pressure": (found.state.pressure + scene.lubricant.cavitation_pressure, "Pa"),
         "density_ratio": (density_ratio(found), "1"),
+        **more,
     }
     if found.turned:
         x, unit = values["x"]
@@ -239,13 +269,14 @@ def bearing_model(
     film: Callable[[Bearing], Problem] = Bearing.problem,
     resolutions: Callable[[Bearing], tuple[int, ...]] = smooth_resolutions,
     ruptures: bool = True,
+    reading: Reading = Reading(),
     wide: bool = False,
     in_plane: float = 2e-6,
 ) -> Model:
     """A rung of a bearing: ``film`` says what it takes a scene for; one that is ``wide`` solves a single line.
 
     ``resolutions`` go from coarse to fine; the finest is the default. ``in_plane``: expected CPU seconds for each cell
-    of a film with a width.
+    of a film with a width. ``reading``: what is read off the film.
     """
     if Effect.ROUGHNESS not in keeps:
         applies = partial(roughness_left_out, told=applies)
@@ -272,5 +303,6 @@ def bearing_model(
             resolutions=resolutions,
             ruptures=ruptures,
             applies=applies,
+            reading=reading,
         ),
     )

@@ -1,48 +1,21 @@
 """A rough surface pressed on a flat one: what scenes of dry contacts and of seals share."""
 
-import math
-from typing import Annotated, Self
+from typing import Self
 
-from pydantic import AfterValidator, BeforeValidator, model_validator
+from pydantic import model_validator
 
-from contact.entries import InUnit, Part, plain_number
-from contact.mechanics import solid
+from contact.entries import Part
 from contact.mechanics.moments import WavePower
 from contact.surface import Surface
 from rom.kind import Scene
+from rom.solids import Counter, Pressure, RoughBody, composite_modulus, hardness
 from rom.surface_geometry import SurfaceGeometry
-
-Pressure = Annotated[float, InUnit("Pa")]
 
 COARSEST = 8
 """Points along the longer side, at least."""
 
 COARSER = (8, 4, 2, 1)
 """For charts, the surface's own points are divided by these."""
-
-
-def _ratio(value: float) -> float:
-    if not 0 <= value <= 0.5:
-        raise ValueError(f"got {value!r}; it must be 0 to 0.5")
-    return value
-
-
-class Counter(Part):
-    """An elastic body: Young's modulus, Pa, and Poisson's ratio."""
-
-    modulus: Pressure
-    poisson: Annotated[float, BeforeValidator(plain_number), AfterValidator(_ratio)]
-
-    @property
-    def solid(self) -> solid.Solid:
-        """What it is to contact mechanics."""
-        return solid.Solid(modulus=self.modulus, poisson=self.poisson)
-
-
-class RoughBody(Counter):
-    """The rough body: elastic, and plastic where pressure reaches its hardness, Pa; elastic alone if it has none."""
-
-    hardness: Pressure | None = None
 
 
 class Load(Part):
@@ -71,12 +44,12 @@ class RoughContact(Scene):
     @property
     def hardness(self) -> float:
         """H, Pa; infinite for an elastic solid."""
-        return math.inf if self.solid.hardness is None else self.solid.hardness
+        return hardness(self.solid)
 
     @property
     def composite_modulus(self) -> float:
         """E*, Pa."""
-        return solid.composite_modulus(self.solid.solid, None if self.counter is None else self.counter.solid)
+        return composite_modulus(self.solid, self.counter)
 
     def surface(self) -> Surface:
         """The rough surface."""

@@ -7,11 +7,12 @@ import numpy as np
 
 from contact.errors import InputError
 from rom.bearing import Bearing
-from rom.bearing_geometry import Sector
 from rom.bearing_rung import MOST, PLANE, RESOLVED, WIDE
 from rom.cavitation.problem import Problem
 from rom.cavitation.shape import Shape
 from rom.ladder import Applicability
+from rom.ring_geometry import Ring
+from rom.roughness import StoredTable
 
 FINER = {True: (1, 2, 4, 8), False: (1, 2, 4)}
 """Times the cells that resolve the waves, of an infinitely wide film and of others."""
@@ -41,8 +42,9 @@ def averaged_film(scene: Bearing) -> Problem:
 
 def rough_film(scene: Bearing) -> Problem:
     """The film with every wave of the roughness."""
-    assert scene.roughness is not None
     problem, roughness = scene.problem(), scene.roughness
+    assert roughness is not None
+    assert not isinstance(roughness, StoredTable)
     smooth: Shape = problem.shape
     finest = tuple(min(one, other) for one, other in zip(smooth.finest, roughness.finest, strict=True))
     shape = replace(
@@ -63,7 +65,7 @@ def resolving(scene: Bearing) -> int:
 def rough_resolutions(scene: Bearing) -> tuple[int, ...]:
     """Cells from coarse to fine: those that resolve the waves and multiples of them, at least as a smooth film has."""
     smooth = WIDE if scene.wide else PLANE
-    if scene.roughness is None:
+    if scene.roughness is None or isinstance(scene.roughness, StoredTable):
         return smooth
     least = max(resolving(scene), smooth[-1] // FINER[scene.wide][-1])
     asked = [least * times for times in FINER[scene.wide] if times <= 2 or least * times <= ENOUGH[scene.wide]]
@@ -75,11 +77,19 @@ def averages(scene: Bearing) -> Applicability:
     roughness = scene.roughness
     if roughness is None:
         return Applicability(applies=False, reason="there is no roughness to average: reynolds_cavitating is the same")
-    ratio = roughness.period / scene.geometry.length
-    told = f"takes {roughness.told} as infinitely short: period over length = {ratio:.2g}"
-    if isinstance(scene.geometry, Sector):
+    told = f"takes {roughness.told} as infinitely short"
+    if math.isfinite(roughness.period):
+        told += f": period over length = {roughness.period / scene.geometry.length:.2g}"
+    if isinstance(scene.geometry, Ring):
         told += "; the lay turns with the direction of sliding"
     return Applicability(applies=True, reason=told)
+
+
+def averages_film(scene: Bearing) -> Applicability:
+    """The same, without contact."""
+    fits = averages(scene)
+    told = "" if scene.asperities is None else "; leaves out what asperities carry where walls touch"
+    return replace(fits, reason=fits.reason + told)
 
 
 def follows(scene: Bearing) -> Applicability:
@@ -87,7 +97,9 @@ def follows(scene: Bearing) -> Applicability:
     roughness = scene.roughness
     if roughness is None:
         why = "there is no roughness to follow: reynolds_cavitating is the same"
-    elif isinstance(scene.geometry, Sector):
+    elif isinstance(roughness, StoredTable):
+        why = "a table of flow factors has no waves that could be followed; give the surface itself"
+    elif isinstance(scene.geometry, Ring):
         why = "a lay that turns with the direction of sliding has no waves that could be laid over a sector"
     elif scene.wide and not math.isinf(roughness.finest[1]):
         why = "the roughness varies across an infinitely wide film; give the bearing a width"

@@ -1,18 +1,22 @@
 """Roughness of a bearing's shaped wall, as a scene file writes it: sinusoidal ridges, or a surface that repeats."""
 
+import hashlib
 import math
 from functools import lru_cache
-from typing import Annotated, Literal
+from pathlib import Path
+from typing import Annotated, Literal, Self
 
 import numpy as np
-from pydantic import Field
+from pydantic import Field, model_validator
 from scipy.ndimage import map_coordinates
 
 from contact.entries import InUnit, Length, Part, PositiveNumber
+from contact.errors import InputError
 from rom.gap import Array
 from rom.homogenization.gap_factors import FactorsOverGap
 from rom.homogenization.ridges import sinusoidal_ridges
 from rom.homogenization.table import FactorTable
+from rom.homogenization.table_store import load_table
 from rom.homogenization.tabulate import tabulate
 from rom.surface_geometry import SurfaceGeometry
 
@@ -107,7 +111,7 @@ class RoughSurface(SurfaceGeometry):
     @property
     def finest(self) -> tuple[float, float]:
         """The shortest wave along x and y that counts, m; infinite where nothing varies."""
-        heights, (dx, dy) = self._heights(), self.read().spacing
+        heights, (dx, dy) = self.scaled_heights(), self.read().spacing
         along, across = (
             SHORTEST * step * self.stretch if np.ptp(heights, axis=axis).any() else math.inf
             for axis, step in enumerate((dx, dy))
@@ -123,12 +127,12 @@ class RoughSurface(SurfaceGeometry):
     @property
     def peak(self) -> float:
         """The greatest height above the mean, m."""
-        return float(self._heights().max())
+        return float(self.scaled_heights().max())
 
     @property
     def rms(self) -> float:
         """Of the heights, m."""
-        return float(self._heights().std())
+        return float(self.scaled_heights().std())
 
     @property
     def told(self) -> str:
@@ -137,7 +141,7 @@ class RoughSurface(SurfaceGeometry):
 
     def added(self, x: Array, y: Array) -> Array:
         """What the film is thicker by, m."""
-        heights, spacing = self._heights(), self.read().spacing
+        heights, spacing = self.scaled_heights(), self.read().spacing
         if not np.ptp(heights, axis=1).any():
             places = np.mod(x / (spacing[0] * self.stretch), len(heights))
             profile = np.append(heights[:, 0], heights[0, 0])
@@ -158,9 +162,15 @@ class RoughSurface(SurfaceGeometry):
         """The largest part by which the factors may be off."""
         return self.factors(narrowest).doubt
 
-    def _heights(self) -> Array:
+    def scaled_heights(self) -> Array:
+        """Above their mean, m, shape (nx, ny)."""
         heights = self.read().heights
         return np.asarray((heights - heights.mean()) * self.scale)
+
+    def scaled_spacing(self) -> tuple[float, float]:
+        """(dx, dy), m."""
+        dx, dy = self.read().spacing
+        return dx * self.stretch, dy * self.stretch
 
 
 @lru_cache(maxsize=4)
@@ -169,5 +179,79 @@ def _factors(surface: str, narrowest: float) -> FactorTable:
     return tabulate(read.heights, read.spacing, tolerance=TOLERANCE, narrowest=BELOW * narrowest)
 
 
-AnyRoughness = Annotated[Sinusoid | RoughSurface, Field(discriminator="kind")]
-ROUGHNESSES: dict[str, type[Part]] = {"sinusoid": Sinusoid, "surface": RoughSurface}
+class StoredTable(Part):
+    """Flow factors over the mean gap from a file of ``roughfilm factors``, with the asperities' pressures or without.
+
+    x of the surface lies along that of the bearing. How long its waves are the file does not say. ``digest`` is that of
+    the file: a scene that was written back is not read over another table.
+    """
+
+    kind: Literal["table"]
+    table: Annotated[str, Field(min_length=1)]
+    digest: str | None = None
+
+    @model_validator(mode="after")
+    def _is_there(self) -> Self:
+        path = Path(self.table).expanduser()
+        try:
+            found = hashlib.sha256(path.read_bytes()).hexdigest()[:32]
+            self.read()
+        except OSError as error:
+            told = "no such file" if isinstance(error, FileNotFoundError) else f"cannot be read ({error.strerror})"
+            raise ValueError(f"table: in {path}: {told}; name a table of flow factors") from None
+        except InputError as error:
+            raise ValueError(f"table: in {error}") from None
+        if self.digest not in (None, found):
+            raise ValueError(
+                f"digest: got {self.digest!r:.40}, but {self.table} holds another table by now, {found!r}; leave the "
+                "digest out to take it"
+            )
+        return self.model_copy(update={"digest": found})
+
+    def read(self) -> FactorTable:
+        """The table; InputError if it cannot be read."""
+        path = Path(self.table).expanduser()
+        state = path.stat()
+        return _stored(str(path), state.st_mtime_ns, state.st_size)
+
+    @property
+    def finest(self) -> tuple[float, float]:
+        """Not known."""
+        return math.nan, math.nan
+
+    @property
+    def period(self) -> float:
+        """Not known."""
+        return math.nan
+
+    @property
+    def peak(self) -> float:
+        """The greatest height above the mean, m."""
+        return self.read().peak
+
+    @property
+    def rms(self) -> float:
+        """Of the heights, m."""
+        return self.read().rms
+
+    @property
+    def told(self) -> str:
+        """What people call it."""
+        return f"the roughness of {Path(self.table).name}"
+
+    def factors(self, _narrowest: float) -> FactorTable:
+        """Averaged, for mean gaps that the table reaches."""
+        return self.read()
+
+    def doubt(self, narrowest: float) -> float:
+        """The largest part by which the factors may be off from the narrowest mean gap on, m."""
+        return self.read().doubt_above(narrowest)
+
+
+@lru_cache(maxsize=4)
+def _stored(path: str, _modified: int, _size: int) -> FactorTable:
+    return load_table(Path(path))
+
+
+AnyRoughness = Annotated[Sinusoid | RoughSurface | StoredTable, Field(discriminator="kind")]
+ROUGHNESSES: dict[str, type[Part]] = {"sinusoid": Sinusoid, "surface": RoughSurface, "table": StoredTable}

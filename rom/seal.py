@@ -3,7 +3,8 @@
 from typing import Annotated, Literal
 
 from contact.entries import InUnit, Length, Part
-from rom.rough_contact import Pressure, RoughContact
+from rom.rough_contact import RoughContact
+from rom.solids import Pressure
 
 
 class Liquid(Part):

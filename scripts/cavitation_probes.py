@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from rom.bearing_geometry import Journal, Parabolic, Parallel, Sector, Step
+from rom.bearing_geometry import Journal, Parabolic, Parallel, Step
 from rom.cavitation.discretise import Ends
 from rom.cavitation.network import State
 from rom.cavitation.shape import Shape
@@ -15,6 +15,7 @@ from rom.film_closed_forms import barus_pressure, linear_slider, rayleigh_step
 from rom.gap import Array
 from rom.lubricants.compressibility import DowsonHigginson
 from rom.lubricants.viscosity import Barus, Roelands
+from rom.ring_geometry import Sector
 from rom.texture import Texture, pocketed
 from scripts.cavitation_scenes import (
     BALANCED,

@@ -1,23 +1,16 @@
-"""Loads as people write them: "1MPa..1GPa:25", "1MPa, 10MPa", "50MPa"."""
+"""Loads and speeds as people write them: "1MPa..1GPa:25", "1MPa, 10MPa", "0, 30rpm, 2m/s"."""
 
 import re
-from collections.abc import Sequence
-
-import numpy as np
 
 from contact.errors import InputError
 from contact.units import to_si
-
-MOST = 1000
-"""Loads of one series."""
+from scripts.ranges import numbers_of
 
 LEAST, GREATEST = 1e-30, 1e30
 """Pa."""
 
-_UNIT = re.compile(r"^\s*[-+.\d]*([eE][-+]?\d+)?\s*")
-"""What stands before a unit."""
-
-EXAMPLE = "write for example 1MPa..1GPa:25 or 1MPa,10MPa"
+FASTEST = 1e5
+"""m/s."""
 
 
 def loads_of(text: str) -> tuple[float, ...]:
@@ -41,35 +34,56 @@ def loads_of(text: str) -> tuple[float, ...]:
     >>> loads_of("2MPa, 500kPa")
     (500000.0, 2000000.0)
     """
-    if ".." not in text:
-        return tuple(sorted(set(_pressures(text, text.split(",")))))
-    ends, _, count = text.rpartition(":")
-    if not (re.fullmatch(r"\s*[0-9]{1,6}\s*", count) and 2 <= int(count) <= MOST):
-        raise InputError(f"--loads {text:.60}: a range ends with how many loads, 2 to {MOST}; {EXAMPLE}")
-    first, last = _pressures(text, ends.split("..", 1))
-    if not first < last:
-        raise InputError(f"--loads {text}: the first of a range must be below the last; {EXAMPLE}")
-    inner = np.geomspace(first, last, int(count))[1:-1]
-    loads = dict.fromkeys((first, *(float(load) for load in inner), last))
-    if len(loads) < int(count):
-        raise InputError(f"--loads {text}: its ends are too close for {int(count)} different loads; {EXAMPLE}")
-    return tuple(loads)
+    return numbers_of(text, _pressure, option="--loads", what="load", example="1MPa..1GPa:25 or 1MPa,10MPa")
 
 
-def _pressures(text: str, parts: Sequence[str]) -> list[float]:
-    unit = _UNIT.sub("", parts[-1])
-    pressures = []
-    for part in parts:
-        if not part.strip():
-            raise InputError(f"--loads {text}: a load is missing; {EXAMPLE}")
-        told = part if _UNIT.sub("", part) else f"{part.strip()} {unit}"
+def _pressure(text: str) -> float:
+    pressure = to_si(text, "Pa")
+    if not pressure > 0:
+        raise InputError(f"got {text}; a load must be above 0")
+    if not LEAST <= pressure <= GREATEST:
+        raise InputError(f"got {text}; look at the unit")
+    return pressure
+
+
+def speeds_of(text: str, radius: float | None) -> tuple[float, ...]:
+    """The speeds of A..B:N, of a list, or of a single one, rising; evenly spaced if a range begins at 0.
+
+    Parameters
+    ----------
+    text : in units of speed, or of turns ("rpm") where something turns.
+    radius : at which the speed counts of what turns, m; None if nothing does.
+
+    Returns
+    -------
+    m/s, each 0 or more and once.
+
+    Raises
+    ------
+    InputError
+        If the text says anything else.
+
+    Examples
+    --------
+    >>> speeds_of("0..1m/s:3", None)
+    (0.0, 0.5, 1.0)
+    """
+
+    def speed(text: str) -> float:
+        if re.fullmatch(r"\s*0+(\.0*)?\s*", text):
+            return 0.0
         try:
-            pressure = to_si(told.strip(), "Pa")
-        except ValueError as error:
-            raise InputError(f"--loads {text}: {error}") from None
-        if not pressure > 0:
-            raise InputError(f"--loads {text}: got {part.strip()}; a load must be above 0")
-        if not LEAST <= pressure <= GREATEST:
-            raise InputError(f"--loads {text}: got {part.strip()}; look at the unit")
-        pressures.append(pressure)
-    return pressures
+            found = to_si(text, "m/s")
+        except ValueError:
+            try:
+                turns = to_si(text, "rad/s")
+            except ValueError:
+                raise InputError(f"got {text!r}; write a speed, for example '1 m/s' or '30 rpm'") from None
+            if radius is None:
+                raise InputError(f"got {text!r}, but nothing turns here; write a speed, for example '1 m/s'") from None
+            found = turns * radius
+        if not 0 <= found <= FASTEST:
+            raise InputError(f"got {text}; a speed must be 0 or more, and {FASTEST:g} m/s at most")
+        return found
+
+    return numbers_of(text, speed, option="--speeds", what="speed", example="1rpm..600rpm:60 or 0,30rpm")

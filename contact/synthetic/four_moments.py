@@ -1,5 +1,6 @@
-"""Heights whose mean distance, rms, skewness and kurtosis are all given, and the highest where it is too."""
+"""Heights whose mean distance, rms, skewness and kurtosis, or highest and lowest, are all given."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -80,6 +81,66 @@ def heights_with(moments: FourMoments, count: int) -> Array:
     >>> round(1e6 * float(np.abs(z).mean()), 6), round(1e6 * float(z.std()), 6), bool((np.diff(z) > 0).all())
     (0.93, 1.2, True)
     """
+
+    def missed(z: Array) -> Array:
+        found = np.abs(z).mean() * moments.rms / moments.average - 1, np.mean(z**4) / moments.kurtosis - 1
+        highest = [] if moments.peak is None else [z[-1] * moments.rms / moments.peak - 1]
+        return np.array([found[0], np.mean(z**3) - moments.skewness, found[1], *highest])
+
+    z, off = smoothest(count, missed)
+    if not off < CLOSE:
+        highest = "" if moments.peak is None else f", Rp/Rq {moments.peak / moments.rms:.4g}"
+        raise InputError(
+            f"heights: got Ra/Rq {moments.average / moments.rms:.4g}, Rsk {moments.skewness:.4g}, Rku "
+            f"{moments.kurtosis:.4g}{highest}, which no smooth distribution was found for; normal ones have 0.798, 0, 3"
+        )
+    return np.asarray(moments.rms * z)
+
+
+def heights_within(*, average: float, rms: float, peak: float, valley: float, count: int) -> Array:
+    """Growing heights with a mean of 0 that have Sa, Sq, Sp and Sv, as smoothly spread as these allow.
+
+    Parameters
+    ----------
+    average, rms : Sa and Sq, m.
+    peak, valley : Sp and Sv, from the mean to the highest and to the lowest, m, both above 0.
+    count : n, 32 to 1 000 000.
+
+    Returns
+    -------
+    Shape (n,), m, as :func:`heights_with` makes them; all four are met to 1e-8.
+
+    Raises
+    ------
+    InputError
+        If no such heights are found: Sa > Sq, or a height between two levels that are too near.
+    """
+    length("heights.rms", rms)
+    number_between("heights.average", average, 1e-15, rms, "it must be above 0 m and at most the rms")
+    length("heights.peak", peak)
+    length("heights.valley", valley)
+
+    def missed(z: Array) -> Array:
+        return np.array([np.abs(z).mean() * rms / average, z[-1] * rms / peak, -z[0] * rms / valley]) - 1
+
+    z, off = smoothest(count, missed)
+    if not off < CLOSE:
+        raise InputError(
+            f"heights: got Sa/Sq {average / rms:.4g}, Sp/Sq {peak / rms:.4g}, Sv/Sq {valley / rms:.4g}, which no "
+            f"smooth distribution of {count} heights was found for; those of {count} normal ones are 0.798 and both "
+            f"{ndtri(1 - 0.5 / count):.3g}"
+        )
+    return np.asarray(rms * z)
+
+
+def smoothest(count: int, missed: Callable[[Array], Array]) -> tuple[Array, float]:
+    """Growing heights of mean 0 and rms 1 that are nearest to normal ones, and by how much they miss what is asked.
+
+    Parameters
+    ----------
+    count : n, 32 to 1 000 000.
+    missed : of heights, shape (n,): by how much they miss each condition; infinite where they do not grow.
+    """
     whole_between("heights.count", count, FEWEST, MOST)
     x = ndtri((np.arange(count) + 0.5) / count)
     departures = chebyshev.chebvander((x[1:] + x[:-1]) / (2 * x[-1]), ORDER)[:, 1:]
@@ -91,25 +152,13 @@ def heights_with(moments: FourMoments, count: int) -> Array:
         z -= z.mean()
         return np.asarray(z / z.std())
 
-    def missed(b: Array) -> Array:
-        z = scaled(b)
-        found = np.abs(z).mean() * moments.rms / moments.average - 1, np.mean(z**4) / moments.kurtosis - 1
-        highest = [] if moments.peak is None else [z[-1] * moments.rms / moments.peak - 1]
-        return np.array([found[0], np.mean(z**3) - moments.skewness, found[1], *highest])
-
     found = minimize(
         lambda b: float(weights @ b**2),
         np.zeros(ORDER),
         jac=lambda b: 2 * weights * b,
-        constraints={"type": "eq", "fun": missed},
+        constraints={"type": "eq", "fun": lambda b: missed(scaled(b))},
         method="SLSQP",
         options={"maxiter": 500, "ftol": 1e-12},
     ).x
-    heights = moments.rms * scaled(found)
-    if not np.abs(missed(found)).max() < CLOSE or not (np.diff(heights) > 0).all():
-        highest = "" if moments.peak is None else f", Rp/Rq {moments.peak / moments.rms:.4g}"
-        raise InputError(
-            f"heights: got Ra/Rq {moments.average / moments.rms:.4g}, Rsk {moments.skewness:.4g}, Rku "
-            f"{moments.kurtosis:.4g}{highest}, which no smooth distribution was found for; normal ones have 0.798, 0, 3"
-        )
-    return heights
+    z = scaled(found)
+    return z, float(np.abs(missed(z)).max()) if (np.diff(z) > 0).all() else np.inf

@@ -20,6 +20,10 @@ ROUNDS, MORE = 5, 4
 """Where a round fails, so many times as many sweeps of relaxation go before the next one, of twice as many steps."""
 
 
+ROUNDING = 8 * float(np.finfo(float).eps)
+"""Of what pressure drives out of a node: nodes are not known to balance better."""
+
+
 @dataclass(frozen=True)
 class Linear:
     """A step of Newton's method: derivatives of every node's balance by its own unknown and those of its neighbours."""
@@ -36,7 +40,10 @@ class Linear:
 
 @dataclass(frozen=True, kw_only=True)
 class Settled:
-    """A state that balances: ``residual`` is the largest net flow into a node over the largest through a face."""
+    """A state that balances: ``residual`` is the largest net flow into a node over the largest through a face.
+
+    It is above the tolerance where pressures have no digits left to balance better, as at rest over deep pockets.
+    """
 
     state: State
     kind: NDArray[np.int8]
@@ -108,7 +115,7 @@ def newton(
         residual = float(np.abs(balance).max()) / (largest or 1.0)
         if not np.isfinite(residual):
             break
-        if residual <= tolerance:
+        if residual <= tolerance or _rounded(balance, parts[1] * pressure, tolerance * largest):
             state = State(pressure=pressure, fill=fill)
             return Settled(state=state, kind=kind, residual=residual, iterations=iteration)
         change = step(network, Linear(kind, mobility[0], *parts), tolerance * largest)
@@ -125,6 +132,11 @@ def newton(
     )
     outcome = Outcome.UNFINISHED if finite else Outcome.DIVERGED
     raise ConvergenceError(f"cavitation: {told}", outcome=outcome, iterations=iteration)
+
+
+def _rounded(balance: Array, driven: Array, least: float) -> bool:
+    """Whether every node balances as well as the digits of its pressure let it, or to ``least``."""
+    return not (np.abs(balance) > np.maximum(least, ROUNDING * np.abs(driven))).any()
 
 
 def _begun(network: Network, start: State) -> tuple[Array, Array, NDArray[np.int8]]:

@@ -1,5 +1,6 @@
 """Bearings: load and friction of a film that may rupture."""
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -51,7 +52,8 @@ def columns(scene: Bearing) -> dict[str, Quantity | str]:
         numbers["width_ratio"] = scene.geometry.width / scene.geometry.length
     if scene.roughness is not None:
         numbers["roughness_ratio"] = scene.roughness.rms / scene.geometry.film
-        numbers["roughness_period"] = scene.roughness.period / scene.geometry.length
+        if math.isfinite(scene.roughness.period):
+            numbers["roughness_period"] = scene.roughness.period / scene.geometry.length
     return {
         "shape": scene.geometry.shape,
         "pressure_unit": Quantity(value=scene.pressure_unit, unit="Pa"),
@@ -94,8 +96,10 @@ def told(error: ValidationError, _entries: Mapping[str, Any]) -> str:
 
     def unknown(location: Location) -> str:
         *path, key = location
-        within = path in [list(place) for place in CHOSEN]
-        return unknown_key(key, [*chosen.model_fields] if chosen and within else known_keys(Bearing, path))
+        inner = next((path[len(place) :] for place in CHOSEN if tuple(path[: len(place)]) == place), None)
+        return unknown_key(
+            key, known_keys(Bearing, path) if chosen is None or inner is None else known_keys(chosen, inner)
+        )
 
     return in_one_line(error, "scene", unknown, lambda path: _without_tags(path)[0])
 
@@ -107,14 +111,26 @@ KIND = Kind(
     compared={"load_per_width": "load", "friction_per_width": "friction"},
     scale=scale,
     columns=columns,
-    files=frozenset({"table", "surface"}),
+    files=frozenset({"table", "surface", "thickness"}),
     lists=frozenset({("roughness", "spacing"), ("roughness", "surface", "size"), ("roughness", "surface", "points")}),
     told=told,
     replaces={
         "lubricant.compressibility.law": ("bulk_modulus", "c1", "c2", "table", "fit"),
         "lubricant.piezoviscosity.law": ("pressure_coefficient", "index"),
-        "roughness.kind": ("amplitude", "wavelength", "direction", "phase", "surface", "spacing", "scale", "stretch"),
+        "roughness.kind": (
+            "amplitude",
+            "wavelength",
+            "direction",
+            "phase",
+            "surface",
+            "spacing",
+            "scale",
+            "stretch",
+            "table",
+        ),
         "roughness.surface": ("digest", "spacing"),
+        "roughness.table": ("digest",),
+        "geometry.thickness": ("digest",),
         "boundary.inlet.theta": ("pressure",),
         "boundary.inlet.pressure": ("theta",),
     },

@@ -2,14 +2,14 @@
 
 from rom.bearing_rung import SOURCES, bearing_model
 from rom.ladder import Effect
-from rom.rough_film import averaged_film, averages
+from rom.rough_film import averaged_film, averages_film
 
 MODEL = bearing_model(
     name="homogenized",
     summary="homogenized Reynolds equation with mass-conserving cavitation: roughness by its flow factors",
     keeps=frozenset({Effect.SIDE_FLOW, Effect.CAVITATION, Effect.PRESSURE_DEPENDENCE, Effect.ROUGHNESS}),
     sources=(*SOURCES, "10.1016/j.jmaa.2005.09.036"),
-    applies=averages,
+    applies=averages_film,
     film=averaged_film,
     in_plane=4e-6,
 )

@@ -3,10 +3,10 @@
 from dataclasses import replace
 
 from rom.bearing import Bearing
-from rom.bearing_geometry import Sector
 from rom.bearing_rung import bearing_model, line_resolutions
 from rom.cavitation.problem import Problem
 from rom.ladder import Applicability, Effect
+from rom.ring_geometry import Ring
 
 
 def one_line(scene: Bearing) -> Problem:
@@ -20,7 +20,7 @@ def applies(scene: Bearing) -> Applicability:
     width = scene.geometry.width
     if width is None:
         return Applicability(applies=False, reason="the bearing is infinitely wide: reynolds_cavitating solves a line")
-    if isinstance(scene.geometry, Sector) and scene.geometry.joined:
+    if isinstance(scene.geometry, Ring) and scene.geometry.endless:
         return Applicability(applies=False, reason="joined pads are fed through their sides, which one line has not")
     texture = getattr(scene.geometry, "texture", None)
     if texture is not None and texture.width is not None:

@@ -20,6 +20,7 @@ STYLES = {
     "reynolds_cavitating": Style(colour="#2166ac", line="-", marker="o"),
     "homogenized": Style(colour="#b2182b", line="-", marker="v"),
     "direct": Style(colour="#252525", line="-", marker="P"),
+    "mixed": Style(colour="#762a83", line="-", marker="X"),
 }
 
 MOST_POINTS = 400

@@ -5,7 +5,7 @@ import pytest
 from scipy import stats
 
 from contact.errors import InputError
-from contact.synthetic.four_moments import FourMoments, heights_with
+from contact.synthetic.four_moments import FourMoments, heights_with, heights_within
 from contact.synthetic.profile import STEEL_PROFILES
 
 
@@ -83,3 +83,31 @@ def test_moments_that_do_not_go_together_are_refused(average, kurtosis):
 def test_too_few_or_too_many_are_refused(count):
     with pytest.raises(InputError, match="count"):
         heights_with(STEEL_PROFILES["B"], count)
+
+
+def test_heights_lie_between_the_highest_and_the_lowest_that_are_asked():
+    z = heights_within(average=2.0e-6, rms=2.5e-6, peak=9.0e-6, valley=4.5e-6, count=4096)
+    found = (np.abs(z).mean(), z.std(), z[-1], -z[0], z.mean() + 1)
+    np.testing.assert_allclose(found, (2.0e-6, 2.5e-6, 9.0e-6, 4.5e-6, 1), rtol=1e-7)
+    assert (np.diff(z) > 0).all()
+
+
+def test_normal_heights_come_back_from_their_own_four_numbers():
+    normal = stats.norm.ppf((np.arange(500) + 0.5) / 500)
+    z = heights_within(
+        average=np.abs(normal).mean(), rms=normal.std(), peak=normal[-1], valley=-normal[0], count=normal.size
+    )
+    np.testing.assert_allclose(z, normal, atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("numbers", "place"),
+    [
+        ({"average": 3e-6}, "heights.average"),
+        ({"valley": -1e-6}, "heights.valley"),
+        ({"peak": 1e-7}, "Sp/Sq 0.04"),
+    ],
+)
+def test_heights_that_cannot_be_are_refused(numbers, place):
+    with pytest.raises(InputError, match=place):
+        heights_within(**{"average": 2e-6, "rms": 2.5e-6, "peak": 9e-6, "valley": 4.5e-6, "count": 256} | numbers)

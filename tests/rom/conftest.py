@@ -1,11 +1,19 @@
-"""A dry contact that the tests of its scene and of its rungs share."""
+"""A dry contact, and a bearing whose asperities are known in closed form, that tests of scenes and rungs share."""
 
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 
+from contact.inputs import Inputs
+from rom.bearing import Bearing
 from rom.dry_contact import DryContact
+from rom.homogenization.factors import FlowFactors
+from rom.homogenization.table import FactorTable, Point
+from rom.homogenization.table_store import save_table
+from rom.mixed.asperity_table import AsperityTable
 from rom.scene import read_scene
 
 ROUGH = {
@@ -49,3 +57,69 @@ def make_contact():
         return scene
 
     return make
+
+
+@pytest.fixture
+def tips(tmp_path):
+    """Scenes of tips that do nothing to a film, p_c = P0 (1 - α/T)^1.5, which a table interpolates exactly."""
+    touching, stiffness, closest, friction = 2e-6, 50e6, 0.2e-6, 0.1
+
+    def pressure(separation: object) -> np.ndarray:
+        return stiffness * np.clip(1 - np.asarray(separation) / touching, 0, None) ** 1.5
+
+    def point(h: float, **factors: Any) -> Point:
+        load = float(pressure(h))
+        smooth = {"pressure": h**3 * np.eye(2), "shear": np.array([h, 0.0]), "couette": 1 / h, "shear_couette": 0.0}
+        exact = FlowFactors(mean_gap=0.0, pressure=np.zeros((2, 2)), shear=np.zeros(2), couette=0.0, shear_couette=0.0)
+        return Point(
+            separation=h,
+            contact=load / 1e9,
+            factors=FlowFactors(mean_gap=h, **(smooth | factors)),
+            uncertainty=exact,
+            unsolved=0.0,
+            iterations=1,
+            residual=0.0,
+            cpu_s=0.0,
+            load=load,
+            area_fraction=load / 1e9,
+        )
+
+    def table(**last: Any) -> AsperityTable:
+        """``last`` are factors of the closest point."""
+        pressed = [point(touching - g) for g in np.geomspace(touching - closest, 0.01 * touching, 7)[1:]]
+        points = (point(closest, **last), *pressed, *(point(h) for h in (touching, 4e-6, 50e-6)))
+        return AsperityTable(factors=FactorTable(points=points, peak=touching, rms=1e-6))
+
+    def scene(geometry: dict[str, Any], *, path: Path = tmp_path / "table.h5", **more: Any) -> Bearing:
+        if not path.exists():
+            stored(path)
+        found = read_scene(
+            {
+                "name": "mixed",
+                "kind": "bearing",
+                "geometry": geometry,
+                "lubricant": {"viscosity": "0.1 Pa*s"},
+                "motion": {"speed": "0.1 m/s"},
+                "roughness": {"kind": "table", "table": str(path)},
+                "asperities": {"friction": friction},
+                **more,
+            }
+        )
+        assert isinstance(found, Bearing)
+        return found
+
+    def stored(path: Path, **last: Any) -> Path:
+        inputs = Inputs(heights=np.eye(2), spacing=(1e-6, 1e-6), settings={"code": "closed form"})
+        save_table(path, inputs, table(**last).factors)
+        return path
+
+    return SimpleNamespace(
+        touching=touching,
+        stiffness=stiffness,
+        closest=closest,
+        friction=friction,
+        pressure=pressure,
+        table=table,
+        stored=stored,
+        scene=scene,
+    )

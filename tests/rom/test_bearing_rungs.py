@@ -38,6 +38,7 @@ def test_the_lattice():
         "reynolds_cavitating",
         "homogenized",
         "direct",
+        "mixed",
     ]
     steps = {(a.name, b.name): effect for a in MODELS for b, effect in one_effect_away(a, MODELS)}
     assert steps == {
@@ -47,17 +48,19 @@ def test_the_lattice():
         ("reynolds_cavitating", "homogenized"): Effect.ROUGHNESS,
         ("homogenized", "direct"): Effect.FINITE_WAVES,
     }
-    assert best(MODELS).name == "direct"
+    assert best(MODELS).name == "mixed"
 
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.name)
-def test_contract(model):
+def test_contract(model, tips):
     scene = load_scene(SCENES / "journal.toml", ROUGH if Effect.ROUGHNESS in model.keeps else [])
+    if Effect.DEFORMATION in model.keeps:
+        scene = tips.scene(scene_entries(scene)["geometry"] | {"eccentricity": 0.95})
     seen = []
     result = model.solve(scene, resolution=32, progress=lambda done, words: seen.append((done, words)))
     assert result.model == model.name
     assert set(kinds()["bearing"].compared) <= set(result.quantities)
-    assert {"x", "y", "film_thickness", "pressure", "density_ratio"} == set(result.fields)
+    assert {"x", "y", "film_thickness", "pressure", "density_ratio"} <= set(result.fields)
     assert len({field.values.shape for field in result.fields.values()}) == 1
     assert result.numerics.residual <= 1e-9
     assert result.provenance["keeps"] == sorted(model.keeps)

@@ -97,7 +97,7 @@ def test_compare_on_a_line(tmp_path):
         ("reynolds", "reynolds_incompressible", "cavitation"),
         ("reynolds_incompressible", "reynolds_cavitating", "pressure dependence"),
     }
-    assert set(told["absent"]) == {"infinitely_wide", "homogenized", "direct"}
+    assert set(told["absent"]) == {"infinitely_wide", "homogenized", "direct", "mixed"}
     page = page_of(tmp_path / "study" / "report.html")
     assert page.outside == []
     assert page.tags.count("svg") == 3
@@ -115,7 +115,7 @@ def test_compare_in_the_plane(tmp_path):
     result = run("compare", SCENES / "journal.toml", "--out", tmp_path / "study", "--json")
     assert result.exit_code == 0, result.stderr
     told = json.loads(result.stdout)
-    assert set(told["absent"]) == {"homogenized", "direct"}
+    assert set(told["absent"]) == {"homogenized", "direct", "mixed"}
     assert {d["effect"] for d in told["differences"] if d["effect"]} == {
         "cavitation",
         "pressure dependence",

@@ -9,10 +9,11 @@ import pytest
 from typer.testing import CliRunner
 
 from contact.errors import ConvergenceError, InputError, Outcome
-from rom.bearing_geometry import Parabolic, Sector
+from rom.bearing_geometry import Parabolic
 from rom.cavitation.discretise import Ends
 from rom.cavitation.problem import Problem
 from rom.cavitation.solve import solve
+from rom.ring_geometry import Sector
 from scripts import stability_cavitation
 from scripts.cavitation_check import broken_balance
 from scripts.cavitation_probes import PLANE, probes

@@ -1,0 +1,178 @@
+"""A film and the asperities that reach through it, at any separation of the walls and any speed."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from rom.bearing import Bearing
+from rom.bearing_geometry import Journal
+from rom.bearing_quantities import carried, friction
+from rom.cavitation.balance import CAVITY
+from rom.cavitation.grid import Grid, grid
+from rom.cavitation.network import State
+from rom.cavitation.problem import Problem
+from rom.cavitation.solve import TOLERANCE, Solution, solve
+from rom.gap import Array
+from rom.homogenization.gap_factors import GapFactors
+from rom.mixed.asperities import Asperities
+from rom.mixed.touching import Touching, touching
+
+SEEPING = 1e-6
+"""Of a smooth film's flow factors, at the least: it keeps the pressure of sealed places defined, by hardly a drop."""
+
+SPARE, LEAST_RESIDUAL = 0.1, 1e-12
+"""Of the load's accuracy, what residuals may take; and the residual of a film, at the least."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class MixedState:
+    """A mixed film in balance; ``load`` and ``contact_load`` in N, N/m if infinitely wide, of a journal as vectors.
+
+    Attributes
+    ----------
+    scene : at this separation and speed.
+    solution : the film.
+    contact : the asperities.
+    load : of film and asperities together.
+    contact_load : of the asperities alone.
+    friction : boundary friction, and that of the film, N.
+    """
+
+    scene: Bearing
+    solution: Solution
+    contact: Touching
+    load: float
+    contact_load: float
+    friction: float
+
+    @property
+    def film_load(self) -> float:
+        """What the film adds to the load of the asperities, N."""
+        return self.load - self.contact_load
+
+    @property
+    def cavitated_fraction(self) -> float:
+        """The part of the film that is torn."""
+        areas = self.solution.grid.areas
+        return float(areas[self.solution.kind == CAVITY].sum() / areas.sum())
+
+
+@dataclass(frozen=True, kw_only=True)
+class MixedFilm:
+    """A bearing with asperities on a grid of ``cells`` along and across; its own film and speed do not count.
+
+    ``accuracy`` is that of the load, relative; the film's own residual adds up over the cells and is kept below it.
+    """
+
+    scene: Bearing
+    asperities: Asperities
+    cells: int
+    accuracy: float = 1e-6
+
+    @cached_property
+    def grid(self) -> Grid:
+        """The nodes, the same at all separations."""
+        return grid(self.scene.geometry.film_shape(), (self.cells, self.cells))
+
+    @property
+    def boundary_friction(self) -> float:
+        """Friction over load where asperities touch."""
+        assert self.scene.asperities is not None
+        return self.scene.asperities.friction
+
+    @cached_property
+    def area(self) -> float:
+        """Nominal area, m²: that of the film, but of a journal diameter times width; m if infinitely wide."""
+        geometry = self.scene.geometry
+        if isinstance(geometry, Journal):
+            return 2 * geometry.radius * (geometry.width or 1.0)
+        return float(self.grid.areas.sum())
+
+    @cached_property
+    def dip(self) -> float:
+        """How much nearer than ``film`` the walls come at the narrowest place, m; 0 unless waves reach below it."""
+        geometry = self.scene.geometry
+        thickness = geometry.film_shape().thickness(*np.meshgrid(self.grid.x, self.grid.y, indexing="ij"))
+        return max(0.0, geometry.film - float(thickness.min()))
+
+    @cached_property
+    def closest(self) -> float:
+        """The least film at which the asperities are known everywhere, m; below 0 where tips are crushed."""
+        return self.asperities.closest + self.dip
+
+    @cached_property
+    def touching(self) -> float:
+        """The film at which the walls begin to touch, m."""
+        return self.asperities.touching + self.dip
+
+    @property
+    def _residual(self) -> float:
+        """That the film may have."""
+        return min(max(SPARE * self.accuracy / self.cells, LEAST_RESIDUAL), TOLERANCE)
+
+    @property
+    def widest(self) -> float:
+        """The thickest film that the geometry allows, m."""
+        geometry = self.scene.geometry
+        return geometry.clearance if isinstance(geometry, Journal) else geometry.length
+
+    def scene_at(self, film: float, speed: float) -> Bearing:
+        """The scene with another least film, m, and speed, m/s."""
+        motion = self.scene.motion.model_copy(update={"speed": speed})
+        return self.scene.model_copy(update={"geometry": self.scene.geometry.at_film(film), "motion": motion})
+
+    def at(self, film: float, speed: float, start: State | None = None) -> MixedState:
+        """Solve the film of a least thickness, m, at a speed, m/s, from the state of another if there is one."""
+        scene = self.scene_at(film, speed)
+        problem, cells = mixed_problem(scene, self.asperities), (self.cells, self.cells)
+        found = solve(problem, cells, start=start, tolerance=self._residual)
+        contact = touching(found.problem.shape, found.grid, self.asperities)
+        return mixed_state(scene, found, contact)
+
+    def contact_load(self, film: float) -> float:
+        """What the asperities alone carry at a least film, N."""
+        scene = self.scene_at(film, 0.0)
+        force = touching(scene.geometry.film_shape(), self.grid, self.asperities).force
+        return carried(scene, self.grid.x, force)
+
+
+def mixed_problem(scene: Bearing, asperities: Asperities) -> Problem:
+    """The film of a scene, averaged over its asperities."""
+    problem = scene.problem()
+    return replace(problem, shape=replace(problem.shape, roughness=Seeping(asperities)))
+
+
+def mixed_state(scene: Bearing, found: Solution, contact: Touching) -> MixedState:
+    """Loads and friction of a film and its asperities."""
+    assert scene.asperities is not None
+    x = -found.grid.x if found.turned else found.grid.x
+    film = found.grid.areas * (found.state.pressure + scene.lubricant.cavitation_pressure)
+    return MixedState(
+        scene=scene,
+        solution=found,
+        contact=contact,
+        load=carried(scene, x, film + contact.force),
+        contact_load=carried(scene, x, contact.force),
+        friction=friction(found) + scene.asperities.friction * float(contact.force.sum()),
+    )
+
+
+@dataclass(frozen=True)
+class Seeping:
+    """Flow factors that let at least ``SEEPING`` of a smooth film through, so that no place is cut off."""
+
+    asperities: Asperities
+
+    def __call__(self, separation: Array, /) -> GapFactors:
+        """The factors, each of the shape of ``separation``."""
+        found, h = self.asperities(separation), self.asperities.mean_gap(separation)
+        least = SEEPING * h**3
+        sealed = (found.along < least) | (found.across < least)
+        return replace(
+            found,
+            along=np.maximum(found.along, least),
+            across=np.maximum(found.across, least),
+            cross=np.where(sealed, 0.0, found.cross),
+            drag=np.maximum(found.drag, SEEPING * h),
+        )

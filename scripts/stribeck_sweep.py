@@ -1,0 +1,245 @@
+"""A sweep of speeds and loads whose table and points stay in a directory: what was finished is found again."""
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from contact.errors import ConvergenceError, InputError
+from contact.inputs import Inputs
+from contact.periodicity import THRESHOLD, periodicity_mismatch
+from rom.bearing import Bearing
+from rom.homogenization.conductance import FaceRule
+from rom.homogenization.table import FactorTable, Point
+from rom.homogenization.table_store import load_table
+from rom.ladder import Progress
+from rom.mixed.asperity_table import AsperityTable
+from rom.mixed.film import MixedFilm
+from rom.mixed.stribeck import StribeckCurve, StribeckPoint, stribeck
+from rom.mixed.tabulate import tabulate_pressed
+from rom.mixed.wall import asperities_of
+from rom.provenance import code
+from rom.roughness import RoughSurface
+from rom.scene import scene_entries
+from rom.solids import composite_modulus, hardness
+from scripts.common import messages
+from scripts.kept_points import EVERY_S, kept_table
+from scripts.stribeck_store import known_points, save_points
+
+SAME = 1e-9
+"""How near the highest point and the rms height of a table have to be to those of the scene's surface."""
+
+SPARE, TURNS = 1.3, 12
+"""By how much more than is needed a table is extended, and how often at most."""
+
+UNCOUNTED = ("name", "motion.speed", "geometry.film", "geometry.eccentricity")
+"""Entries of a scene that curves do not depend on: loads and speeds take their place."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Wall:
+    """What the asperities of a scene do, and how that is known.
+
+    Attributes
+    ----------
+    asperities : over the separation.
+    told : sentences: how far a table was extended, a surface that is not periodic.
+    points, found : of the table, and how many of them were there already.
+    source : what the table was computed from, as entries that JSON can hold.
+    """
+
+    asperities: AsperityTable
+    told: tuple[str, ...]
+    points: int
+    found: int
+    source: Mapping[str, Any]
+
+
+def wall_of(scene: Bearing, largest: float, table: Path | None, out: Path, progress: Progress, cells: int) -> Wall:
+    """The asperities' table: the one given, or that of the scene's surface, which is kept in ``out``.
+
+    A table that does not reach the largest load, Pa over the nominal area, is extended, if the scene tells the surface.
+
+    Raises
+    ------
+    InputError
+        If the table is of another surface or cannot be extended; if no table of the surface carries the load.
+    """
+    surface = scene.roughness if isinstance(scene.roughness, RoughSurface) else None
+    told: list[str] = []
+    if surface is not None and not surface.read().periodic:
+        mismatch = periodicity_mismatch(surface.read())
+        if mismatch > THRESHOLD:
+            told.append(
+                f"{surface.name} is not periodic (mismatch {mismatch:.2g}): its edges meet in steps, which throttle "
+                "the flow; prepare it by roughfilm surface"
+            )
+    if table is not None:
+        given: AsperityTable | None = AsperityTable(factors=_given(table, surface))
+    else:
+        given = None if surface is not None else asperities_of(scene, progress)
+    if given is not None and (surface is None or _carried(scene, given, cells) >= largest):
+        _refuse_too_much(scene, given, largest, cells)
+        known = len(given.factors.points)
+        return Wall(asperities=given, told=tuple(told), points=known, found=known, source={"table": _digest(given)})
+    assert surface is not None
+    made, found, source = _tabulated(scene, surface, given, largest, out, progress, cells)
+    if given is not None:
+        told.append(
+            f"{table} reaches {given.largest_pressure / 1e6:.4g} MPa of contact, too little for "
+            f"{largest / 1e6:.4g} MPa over the nominal area: extended to {made.largest_pressure / 1e6:.4g} MPa"
+        )
+    return Wall(asperities=made, told=tuple(told), points=len(made.factors.points), found=found, source=source)
+
+
+def _tabulated(
+    scene: Bearing,
+    surface: RoughSurface,
+    given: AsperityTable | None,
+    largest: float,
+    out: Path,
+    progress: Progress,
+    cells: int,
+) -> tuple[AsperityTable, int, Mapping[str, Any]]:
+    assert scene.asperities is not None
+    assert scene.asperities.solid is not None
+    body, counter = scene.asperities.solid, scene.asperities.counter
+    stiffness, bound = composite_modulus(body, counter), hardness(body)
+    settings = {
+        "rule": FaceRule.LINEAR.value,
+        "offset": 0.0,
+        "mean_gap": None,
+        "composite_modulus": stiffness,
+        "hardness": bound if np.isfinite(bound) else None,
+        "code": code(),
+    }
+    heights, spacing = surface.scaled_heights(), surface.scaled_spacing()
+    inputs = Inputs(heights=heights, spacing=spacing, settings=settings)
+    before = () if given is None else tuple(given.factors.points)
+
+    def at_least(reach: float, known: Sequence[Point], keep: Callable[[Point], None]) -> AsperityTable:
+        return tabulate_pressed(
+            heights, spacing, stiffness, hardness=bound, reach=reach, known=known, keep=keep, progress=progress
+        )
+
+    def work(known: Sequence[Point], keep: Callable[[Point], None]) -> FactorTable:
+        made = at_least(0.0, [*before, *known], keep)
+        for _ in range(TURNS):
+            carried = _carried(scene, made, cells)
+            if carried >= largest:
+                break
+            reach = min(SPARE * made.largest_pressure * largest / carried, bound)
+            try:
+                made = at_least(reach, made.factors.points, keep)
+            except InputError:  # so much closes the gap everywhere
+                break
+        _refuse_too_much(scene, made, largest, cells)
+        return made.factors
+
+    found, count = kept_table(out, inputs, work)
+    return AsperityTable(factors=found), count, {"table": inputs.digest}
+
+
+def _given(path: Path, surface: RoughSurface | None) -> FactorTable:
+    """A stored table; InputError if it is not of the scene's surface."""
+    table = load_table(path)
+    if surface is None:
+        return table
+    for name, mine in (("highest point", surface.peak), ("rms height", surface.rms)):
+        its = table.peak if name == "highest point" else table.rms
+        if abs(its - mine) > SAME * mine:
+            raise InputError(
+                f"--table {path}: is of another surface, with a {name} of {its:.6g} m, where that of the scene has "
+                f"{mine:.6g} m; leave --table out, or take another scene"
+            )
+    return table
+
+
+def _carried(scene: Bearing, asperities: AsperityTable, cells: int) -> float:
+    """What the asperities alone carry where the walls are closest, Pa over the nominal area."""
+    film = MixedFilm(scene=scene, asperities=asperities, cells=cells)
+    return film.contact_load(film.closest) / film.area
+
+
+def _refuse_too_much(scene: Bearing, asperities: AsperityTable, largest: float, cells: int) -> None:
+    carried = _carried(scene, asperities, cells)
+    if carried < largest:
+        raise InputError(
+            f"--loads: got {largest / 1e6:.6g} MPa over the nominal area; at rest the surface carries at most "
+            f"{carried / 1e6:.6g} MPa, where its table ends; lower the load"
+        )
+
+
+def _digest(asperities: AsperityTable) -> str:
+    rows = np.array([(one.load, one.separation, one.mean_gap) for one in asperities.factors.points])
+    return Inputs(heights=rows, spacing=(1.0, 1.0), settings={}).digest
+
+
+def swept(
+    scene: Bearing,
+    speeds: Sequence[float],
+    loads: Sequence[float],
+    wall: Wall,
+    out: Path,
+    resolution: int,
+    progress: Progress,
+) -> tuple[tuple[StribeckCurve, ...], int]:
+    """The curves, and how many of their points were in the file; what was finished is kept whenever this ends.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read or written, was damaged, or holds other curves; if a load cannot be carried.
+    ConvergenceError
+        If a film does not come into balance.
+    """
+    settings = {**_flat(scene_entries(scene)), **wall.source, "resolution": resolution, "code": code()}
+    for name in UNCOUNTED:
+        settings.pop(name, None)
+    inputs = Inputs(heights=np.zeros((0, 0)), spacing=(1.0, 1.0), settings=settings)
+    known = known_points(out, inputs)
+    found = {(point.pressure, point.speed): point for point in known}
+    kept = time.monotonic()
+
+    def keep(point: StribeckPoint) -> None:
+        nonlocal kept
+        found[point.pressure, point.speed] = point
+        if time.monotonic() - kept > EVERY_S:
+            save_points(out, inputs, tuple(found.values()))
+            kept = time.monotonic()
+
+    try:
+        curves = stribeck(
+            scene,
+            speeds,
+            loads,
+            asperities=wall.asperities,
+            resolution=resolution,
+            known=known,
+            keep=keep,
+            progress=progress,
+        )
+    except ConvergenceError:
+        save_points(out, inputs, tuple(found.values()))
+        raise
+    except (KeyboardInterrupt, SystemExit):
+        save_points(out, inputs, tuple(found.values()))
+        messages.print(f"stopped: {len(found)} points; the same command goes on", soft_wrap=True)
+        raise
+    save_points(out, inputs, tuple(found.values()), curves)
+    asked = {(point.pressure, point.speed) for curve in curves for point in curve.points}
+    return curves, len(asked & {(point.pressure, point.speed) for point in known})
+
+
+def _flat(entries: Mapping[str, Any], before: str = "") -> dict[str, Any]:
+    """Entries of nested tables by their dotted keys."""
+    flat: dict[str, Any] = {}
+    for name, entry in entries.items():
+        if isinstance(entry, dict):
+            flat |= _flat(entry, f"{before}{name}.")
+        else:
+            flat[f"{before}{name}"] = entry
+    return flat
