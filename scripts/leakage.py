@@ -178,15 +178,8 @@ def _warnings(scene: Seal, body: Ready, rows: dict[float, Row], found: dict[str,
             told.append(f"{WORDS[name]}: stays open up to {body.most / 1e6:.4g} MPa, {limit}")
         elif threshold.open is None and np.ptp(body.surface.heights) > 0:
             told.append(f"{WORDS[name]}: is sealed under any load")
-    surface = body.surface
     if not scene.geometry.described:
-        mismatch = periodicity_mismatch(surface)
-        if mismatch > THRESHOLD:
-            told.append(
-                f"the surface meets itself badly at its joints (mismatch {mismatch:.2g}); {_at_joints(body, rows)}"
-            )
-        elif not surface.periodic:
-            told.append("the surface does not say that it repeats itself; it is taken as one period")
+        told += _of_joints(body, rows)
     lifted = sum(row.load < scene.flow.pressure_drop for row in rows.values())
     if lifted:
         told.append(
@@ -196,22 +189,29 @@ def _warnings(scene: Seal, body: Ready, rows: dict[float, Row], found: dict[str,
     return told
 
 
-def _at_joints(body: Ready, rows: dict[float, Row]) -> str:
-    """What the joints do where a direction is first seen sealed."""
+def _of_joints(body: Ready, rows: dict[float, Row]) -> list[str]:
+    """What the joints of a surface do that does not repeat itself by its making."""
     from contact.mechanics.contact_store import load_contact
     from rom.leakage.joint import joint_seals
 
-    first = {
-        axis: next((load for load, row in rows.items() if getattr(row, f"direct_{axis}_sealed")), None) for axis in "xy"
-    }
-    by_joint = [
-        axis
-        for number, (axis, load) in enumerate(first.items())
-        if load is not None and joint_seals(load_contact(body.contacts, load).gap)[number]
-    ]
-    if by_joint:
-        return f"it is these that seal it first in {' and '.join(by_joint)}: prepare it better, or take a wider blend"
-    return "they may throttle it: prepare it better"
+    mismatch, where = periodicity_mismatch(body.surface), []
+    for number, axis in enumerate("xy"):
+        shut = next((load for load, row in rows.items() if getattr(row, f"direct_{axis}_sealed")), None)
+        if shut is not None and joint_seals(load_contact(body.contacts, shut).gap)[number]:
+            where.append(axis)
+    sealing_first = f"it is these that seal it first in {' and '.join(where)}" if where else ""
+    if mismatch > THRESHOLD:
+        done = sealing_first or "they may throttle it"
+        return [f"the surface meets itself badly at its joints (mismatch {mismatch:.2g}); {done}: prepare it better"]
+    told = (
+        [] if body.surface.periodic else ["the surface does not say that it repeats itself; it is taken as one period"]
+    )
+    if where:
+        told.append(
+            f"the surface fits at its joints (mismatch {mismatch:.2g}), but {sealing_first}: "
+            "that threshold may be one of the preparation, compare another window"
+        )
+    return told
 
 
 def _tell(

@@ -170,9 +170,13 @@ def paths(contacts: Sequence[Contact], axis: int) -> str:
             i, j = narrow.node if axis == 0 else narrow.node[::-1]
             place = i * contact.spacing[0] * 1e6, j * contact.spacing[1] * 1e6
             axes.plot(*place, "o", markersize=13, markerfacecolor="none", color="#00e5a0", markeredgewidth=2)
-            title += f", narrowest {narrow.gap * 1e9:.3g} nm"
+            title += f", narrowest {_length(narrow.gap)}"
         axes.set_title(title, fontsize=9)
     return svg(figure)
+
+
+def _length(gap: float) -> str:
+    return f"{gap * 1e6:.3g} µm" if gap >= 1e-7 else f"{gap * 1e9:.3g} nm"
 
 
 def _pools(axes: Axes, contact: Contact, axis: int) -> None:

@@ -55,6 +55,7 @@ def write_page(
         cards=[(axis, found[f"direct_{axis}"]) for axis in "xy"],
         first=ordered[0],
         first_leak=leaks(scene, ordered[0], SOUGHT[scene.axis]),
+        periods=scene.flow.length / body.surface.size[scene.axis],
         ratio=_ratio(ordered, scene.flow.direction),
         areas=leakage_figures.areas(ordered, found),
         leakages=leakage_figures.leakages(scene, ordered, found, estimated),

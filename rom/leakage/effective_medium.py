@@ -20,8 +20,8 @@ BINS = 400
 NODES = 24
 """Of Gauss's and Hermite's rule, for the gaps that appear at a scale."""
 
-THRESHOLD = 0.42
-"""Contact area at which the medium seals: what contacts of self-affine surfaces were seen to do (Dapp et al.)."""
+THRESHOLD = 0.415
+"""Contact area at which the medium seals, as large elastic contacts of self-affine surfaces do (Wang and Müser)."""
 
 OTHERS = THRESHOLD / (1 - THRESHOLD)
 """Weight of what surrounds a piece; 1 in Bruggeman's medium of two dimensions, which seals at half of contact."""
@@ -57,7 +57,7 @@ def effective_medium(spectrum: WavePower, *, composite_modulus: float, load: flo
     what parts between two scales is open by u₁ = (ū A − ū'A')/(A − A') on average, where ū is the mean gap of the waves
     that are still shorter under the load P/A, and by ± their rms height about it. The permeability is that of a medium
     of which each piece is surrounded by itself, Σ a (u³ − K)/(u³ + w K) = 0 over all pieces a, those in contact
-    included; with w = A_c/(1 − A_c) it seals at the contact area A_c = 0.42.
+    included; with w = A_c/(1 − A_c) it seals at the contact area A_c = 0.415.
 
     Parameters
     ----------
@@ -68,14 +68,15 @@ def effective_medium(spectrum: WavePower, *, composite_modulus: float, load: flo
     Notes
     -----
     Knows neither lay nor size. Beside the cells of three self-affine surfaces (256 x 256 points, Hurst 0.8, four waves
-    of the roll-off on a side) it is 1.1 to 2.3 times as large up to half of the load at which they seal; closer to it
-    it errs by orders of magnitude, as each surface seals at an area of its own. For low roughness without contact
-    it is not exact to second order, as it would be with w = 1. Persson's contact is 0.7 to 0.85 of the true area.
+    of the roll-off on a side) it is 1.1 to 2.3 times as large up to a third of the load at which they seal, 0.9 to 5
+    times at half of it, and off by orders of magnitude near it, as each surface seals at an area of its own. For low
+    roughness without contact it is not exact to second order, as it would be with w = 1. Persson's contact is 0.7 to
+    0.85 of the true area.
 
     Source: Lorenz and Persson, Eur. Phys. J. E 31 (2010) 159, doi:10.1140/epje/i2010-10558-6; Dapp, Lücke, Persson
-    and Müser, Phys. Rev. Lett. 108 (2012) 244301, doi:10.1103/PhysRevLett.108.244301; Almqvist, Campana,
-    Prodanov and Persson, J. Mech. Phys. Solids 59 (2011) 2355, doi:10.1016/j.jmps.2011.08.004; Bruggeman, Ann. Phys.
-    416 (1935) 636, doi:10.1002/andp.19354160705.
+    and Müser, Phys. Rev. Lett. 108 (2012) 244301, doi:10.1103/PhysRevLett.108.244301; Wang and Müser, Tribol. Lett. 69
+    (2021) 1, doi:10.1007/s11249-020-01378-7; Almqvist, Campana, Prodanov and Persson, J. Mech. Phys. Solids 59 (2011)
+    2355, doi:10.1016/j.jmps.2011.08.004; Bruggeman, Ann. Phys. 416 (1935) 636, doi:10.1002/andp.19354160705.
     """
     waves = _binned(spectrum)
     q, power = waves.wave_numbers, waves.power

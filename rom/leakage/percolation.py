@@ -18,7 +18,7 @@ STEP = 1.4
 PRECISION = 0.01
 """Of a threshold's load: the two ends of its bracket are that close."""
 
-FEWEST_LOADS = 1e-9
+LIGHTEST = 1e-9
 """Of the first load: a gap that is sealed there still is sealed at every load."""
 
 Look = Callable[[Array], tuple[bool, ...]]
@@ -122,7 +122,7 @@ def thresholds(
     while not all(see(load)) and load < most:
         load = min(load * STEP, most)
     load, factor = begin, STEP
-    while any(see(load)) and load > FEWEST_LOADS * begin:
+    while any(see(load)) and load > LIGHTEST * begin:
         load, factor = load / factor, min(factor**1.5, 1e3)
 
     def bracket(which: int) -> Threshold:

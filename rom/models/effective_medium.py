@@ -45,8 +45,8 @@ def applies(scene: Seal) -> Applicability:
         return Applicability(applies=False, reason=FLAT)
     reason = (
         "keeps elastic contact of all scales on average over all isotropic Gaussian surfaces of this spectrum; leaves "
-        "out plasticity, lay, and that a surface seals at an area of its own: within a factor of two or three up to "
-        "half of the load that seals, off by orders of magnitude beyond"
+        "out plasticity, lay, and that a surface seals at an area of its own: within a factor of two or three up to a "
+        "third of the load that seals, off by orders of magnitude near it"
     )
     return Applicability(applies=True, reason=reason)
 
@@ -57,7 +57,12 @@ MODEL = contact_model(
     summary="leakage from the spectrum: gaps by Persson's theory, put together as an effective medium",
     keeps=frozenset({Effect.DEFORMATION, Effect.ROUGHNESS}),
     complete=False,
-    sources=("10.1140/epje/i2010-10558-6", "10.1103/PhysRevLett.108.244301", "10.1016/j.jmps.2011.08.004"),
+    sources=(
+        "10.1140/epje/i2010-10558-6",
+        "10.1103/PhysRevLett.108.244301",
+        "10.1007/s11249-020-01378-7",
+        "10.1016/j.jmps.2011.08.004",
+    ),
     residual_meaning=RESIDUAL_MEANING,
     applies=applies,
     work=work,
