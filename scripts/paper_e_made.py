@@ -47,6 +47,9 @@ LAYS = (35.0, -65.0)
 LIFT = 0.5
 """By how many rms heights the second cut of surface 2 lies higher."""
 
+RIDGES = 0.06e-3, 20.0
+"""Of surface 3: the correlation length across them, m, and that along over it."""
+
 SEEDS = {"surface 1": (501,), "surface 2": (502, 503), "surface 3": (504,)}
 
 
@@ -55,8 +58,16 @@ def made(name: str, points: int = POINTS, seed: int = 0) -> Surface:
 
     Its heights have Sa, Sq, Sp and Sv of Table E.2 to 1e-8; the texture is ours: what the source says of it in words.
     """
+    return _with_heights(_RAW[name]((points, points), tuple(each + seed for each in SEEDS[name])), name)
+
+
+def oblique(points: int = POINTS, seed: int = 0, degrees: float = 45.0) -> Surface:
+    """Surface 3 ground under an angle to the sliding: its heights, and ridges of its length and width."""
+    return _with_heights(_surface(_lay((points, points), SEEDS["surface 3"][0] + seed, degrees, *RIDGES)), "surface 3")
+
+
+def _with_heights(raw: Surface, name: str) -> Surface:
     row = TABLE[name]
-    raw = _RAW[name]((points, points), tuple(each + seed for each in SEEDS[name]))
     raw = raw.with_heights(raw.heights * (row.rms / raw.heights.std()))
     heights = heights_within(average=row.average, rms=row.rms, peak=row.peak, valley=row.valley, count=raw.heights.size)
     return with_heights_of(raw, lambda _probability: heights, iterations=0)
@@ -99,7 +110,7 @@ def _crossed(points: tuple[int, int], seeds: tuple[int, ...]) -> Surface:
 
 
 def _ground(points: tuple[int, int], seeds: tuple[int, ...]) -> Surface:
-    return _surface(_lay(points, seeds[0], 0.0, 0.06e-3, 20.0))
+    return _surface(_lay(points, seeds[0], 0.0, *RIDGES))
 
 
 def _surface(shape: Array) -> Surface:
