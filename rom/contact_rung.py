@@ -3,17 +3,18 @@
 import math
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
+from typing import Any
 
 from contact.errors import InputError
 from contact.surface import Array
 from contact.units import Quantity
-from rom.dry_contact import COARSEST, DryContact
 from rom.ladder import Applicability, Effect, Model, Progress, chosen_scheme, chosen_tolerance, one_process, silent
 from rom.provenance import provenance
 from rom.restriction import restricted
 from rom.result import Field, Numerics, Result
+from rom.rough_contact import COARSEST, RoughContact
 from rom.surface_geometry import digest_of
 
 RESOLUTION_MEANING = "points along the longer side; on a coarser grid, the surface less the waves it cannot hold"
@@ -23,7 +24,7 @@ RESOLUTION_MEANING = "points along the longer side; on a coarser grid, the surfa
 class Task:
     """A scene on a grid: heights, shape (nx, ny), m, spacing, m, and the complementarity that is asked for."""
 
-    scene: DryContact
+    scene: RoughContact
     heights: Array
     spacing: tuple[float, float]
     tolerance: float
@@ -31,13 +32,17 @@ class Task:
 
 @dataclass(frozen=True, kw_only=True)
 class Answer:
-    """What a rung found: quantities and fields, residual, iterations, and what must be known of it."""
+    """What a rung found: quantities and fields, residual, iterations, and what must be known of it.
+
+    ``uncertainty`` is of quantities, in their units.
+    """
 
     quantities: Mapping[str, Quantity]
     fields: Mapping[str, Field]
     residual: float
     iterations: int
     warnings: tuple[str, ...] = ()
+    uncertainty: Mapping[str, float] = field(default_factory=dict)
 
 
 Work = Callable[[Task], Answer]
@@ -53,7 +58,7 @@ def one(value: float) -> Quantity:
 
 
 def solve(
-    scene: DryContact,
+    scene: RoughContact,
     *,
     model: str,
     keeps: frozenset[Effect],
@@ -116,6 +121,7 @@ def solve(
             keeps=tuple(keeps),
             sources=sources,
             warnings=warnings,
+            **({"uncertainty": dict(answer.uncertainty)} if answer.uncertainty else {}),
             heights={"digest": digest_of(surface), "points": list(surface.shape), "used": [nx, ny]},
         ),
     )
@@ -123,30 +129,31 @@ def solve(
 
 def contact_model(
     *,
+    kind: str = "dry_contact",
     name: str,
     summary: str,
     keeps: frozenset[Effect],
     complete: bool,
     sources: tuple[str, ...],
     residual_meaning: str,
-    applies: Callable[[DryContact], Applicability],
+    applies: Callable[[Any], Applicability],
     work: Work,
     prepare: Callable[[Task], None] = nothing,
     default_tolerance: float,
     cost: Callable[[int], float],
 ) -> Model:
-    """A rung of a dry contact; ``cost`` gives CPU seconds for a number of heights.
+    """A rung of a rough contact, wet or dry; ``cost`` gives CPU seconds for a number of heights.
 
     ``prepare`` does before the clock starts what is done once on a machine.
     """
 
-    def scene_cost(scene: DryContact, resolution: int) -> float:
+    def scene_cost(scene: RoughContact, resolution: int) -> float:
         nx, ny = scene.surface().shape
         return cost(math.ceil(resolution**2 * min(nx, ny) / max(nx, ny)))
 
     return Model(
         name=name,
-        kind="dry_contact",
+        kind=kind,
         summary=summary,
         keeps=keeps,
         complete=complete,

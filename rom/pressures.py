@@ -5,7 +5,7 @@ import numpy as np
 from contact.mechanics.contact import Contact
 from contact.mechanics.estimate import Estimate
 from contact.surface import Array
-from rom.dry_contact import DryContact
+from rom.rough_contact import RoughContact
 
 BINS = 40
 NODES = 8
@@ -18,7 +18,7 @@ FARTHEST = 8.0
 """E* g' beyond the mean pressure, where hardly any estimate has pressures left."""
 
 
-def bin_edges(scene: DryContact) -> Array:
+def bin_edges(scene: RoughContact) -> Array:
     """From 0 to the mean pressure and twice E* g' beyond, Pa; as many bins again below a hardness that lies within."""
     top = scene.load.pressure + 2 * scene.pressure_unit
     if scene.hardness < top:
@@ -44,7 +44,7 @@ def density_of_estimate(estimate: Estimate, edges: Array) -> Array:
     return np.asarray(density(middle[:, None] + half[:, None] * nodes) @ weights / 2)
 
 
-def load_mismatch(scene: DryContact, estimate: Estimate) -> float:
+def load_mismatch(scene: RoughContact, estimate: Estimate) -> float:
     """By how much the load of an estimate's pressures, ∫ p f(p) dp + H A_p/A0, is off, relative to the load."""
     bounded = estimate.plastic_fraction > 0
     carried = scene.hardness * estimate.plastic_fraction if bounded else 0.0

@@ -85,6 +85,11 @@ class SurfaceGeometry(Part):
         return "" if isinstance(self.surface, str) else str(self.surface["kind"])
 
     @property
+    def described(self) -> bool:
+        """Whether it is made from a description, and so repeats itself without a joint."""
+        return bool(self._kind)
+
+    @property
     def name(self) -> str:
         """What people call the surface: the file's name, or the kind of a described one."""
         return Path(self.surface).name if isinstance(self.surface, str) else self._kind

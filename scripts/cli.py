@@ -11,6 +11,7 @@ from scripts import (
     doctor,
     factors,
     generate,
+    leakage,
     models,
     report,
     solve,
@@ -26,7 +27,20 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
-for module in (models, solve, compare, batch, report, stability, generate, surface, factors, stribeck, doctor):
+for module in (
+    models,
+    solve,
+    compare,
+    batch,
+    report,
+    stability,
+    generate,
+    surface,
+    factors,
+    stribeck,
+    leakage,
+    doctor,
+):
     app.command(module.__name__.rpartition(".")[2])(module.command)
 app.command("contact")(contact_series.command)
 

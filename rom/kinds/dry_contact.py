@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from contact.units import Quantity
 from rom.dry_contact import DryContact
 from rom.kind import Kind
+from rom.rough_contact import RoughContact
 from rom.sweeping import Columns, Powers, Sweeping
 
 LEAST_GAP = 1e-3
@@ -26,7 +27,7 @@ def scale(values: Mapping[str, Any], quantity: str) -> Any:
     return np.maximum(size, LEAST_GAP * values["rms_height"]) if quantity == "mean_gap" else size
 
 
-def columns(scene: DryContact) -> dict[str, Quantity | str]:
+def columns(scene: RoughContact) -> dict[str, Quantity | str]:
     """The surface's name, P/(E* g'), H/(E* g') where there is a hardness, and Nayak's α where the surface is rough."""
     spectrum = scene.spectrum()
     numbers = {"pressure_ratio": scene.load.pressure / scene.pressure_unit}

@@ -15,67 +15,13 @@ from rom.homogenization.grids import coarser_grids, refined
 from rom.homogenization.paths import sealed_between_ends
 from rom.homogenization.richardson import off, sufficient
 from rom.homogenization.solvers import SOLVERS, Solver, Source, first_to_converge
+from rom.leakage.passage import Leakage, Passage, shut
 from rom.multigrid.multigrid import Solved
 
 
-@dataclass(frozen=True, kw_only=True)
-class DirectFlow:
-    """Through a gap in one direction.
-
-    Attributes
-    ----------
-    permeability : K = 12η Q L/Δp, m³, of the flow Q per width at a pressure drop Δp over the length L: h³ of a smooth
-        gap; exactly 0 where it is sealed. It stands beside A₁₁ or A₂₂ of the cell, and is never below it.
-    uncertainty : m³, of its grid and its solver.
-    sealed : whether no open path leads from end to end, in a gap whose sides are joined.
-    corrector : ψ, m, shape (nx, ny), of all periods: pressure is linear but for it, p = Δp (1 − (x + ψ)/L). 0 at x = 0,
-        and if sealed. :func:`rom.homogenization.flux.flux` takes it.
-    unsolved : the part of K by which iterating on would change it.
-    iterations : of conjugate gradients on the finest grid.
-    residual : recomputed, over the right-hand side; it may be far larger where next to nothing flows.
-    """
-
-    permeability: float
-    uncertainty: float
-    sealed: bool
-    corrector: Array
-    unsolved: float
-    iterations: int
-    residual: float
-
-
-@dataclass(frozen=True, kw_only=True)
-class DirectLeakage:
-    """Through a gap in x, and in y.
-
-    Attributes
-    ----------
-    permeability, uncertainty : shape (2,), m³.
-    sealed : in x, in y.
-    """
-
-    along: DirectFlow
-    across: DirectFlow
-
-    @property
-    def permeability(self) -> Array:
-        """Shape (2,), m³."""
-        return np.array([self.along.permeability, self.across.permeability])
-
-    @property
-    def uncertainty(self) -> Array:
-        """Shape (2,), m³."""
-        return np.array([self.along.uncertainty, self.across.uncertainty])
-
-    @property
-    def sealed(self) -> tuple[bool, bool]:
-        """In x, in y."""
-        return self.along.sealed, self.across.sealed
-
-
-def direct_leakage(gap: ArrayLike, spacing: tuple[float, float], *, periods: int = 1) -> DirectLeakage:
+def direct_leakage(gap: ArrayLike, spacing: tuple[float, float], *, periods: int = 1) -> Leakage:
     """Both directions, as :func:`direct_flow` takes one."""
-    return DirectLeakage(
+    return Leakage(
         along=direct_flow(gap, spacing, 0, periods=periods), across=direct_flow(gap, spacing, 1, periods=periods)
     )
 
@@ -89,7 +35,7 @@ def direct_flow(
     rule: FaceRule = FaceRule.LINEAR,
     tolerance: float | None = None,
     solvers: Sequence[str] = tuple(SOLVERS),
-) -> DirectFlow:
+) -> Passage:
     """Solve ∇·(h³∇p) = 0 with p given at the two ends of a gap and periodic across, and take the flow.
 
     The ends go through the nodes at x = 0 and their copies ``periods`` periods on. The flow is an energy: its error is
@@ -98,7 +44,7 @@ def direct_flow(
 
     Parameters
     ----------
-    gap : h >= 0, m, shape (nx, ny); one period. Nodes where h = 0 are contact, whose faces are closed.
+    gap : h >= 0, m, shape (nx, ny); one period. Nodes where h = 0 are contact, whose faces are closed; all may be.
     spacing : (dx, dy), m; pixels need not be square.
     direction : 0 for flow in x, 1 in y.
     periods : in the direction of the flow, one after the other.
@@ -122,6 +68,8 @@ def direct_flow(
         raise InputError(f"tolerance: got {tolerance!r}; it must be above 0 and below 1")
     if not (isinstance(periods, int) and periods >= 1):
         raise InputError(f"periods: got {periods!r}; give 1 or more")
+    if np.ndim(gap) == 2 and np.size(gap) and not np.any(gap):
+        return shut(np.tile(gap, (periods, 1) if direction == 0 else (1, periods)).shape)
     h = checked_gap(gap, spacing)
     if direction == 1:
         h, spacing = np.ascontiguousarray(h.T), (spacing[1], spacing[0])
@@ -132,14 +80,14 @@ def direct_flow(
         limit = sufficient(flows) if tolerance is None else tolerance
         found.append(_solve(np.tile(grid, (periods, 1)), dy / dx, rule, limit, solvers, found[-1] if found else None))
     finest = found[-1]
-    shut = sealed_between_ends(np.tile(h, (periods, 1)), joined=True)
+    closed = sealed_between_ends(np.tile(h, (periods, 1)), joined=True)
     trace = CLOSED ** (1 / 3) * float(h.max()) if ((h > 0) & (without_traces(h) == 0)).any() else 0.0
     doubt = float(off([np.array(one.permeability) for one in found])) + finest.left
     corrector = finest.corrector * spacing[0]
-    return DirectFlow(
+    return Passage(
         permeability=finest.permeability * scale**3,
-        uncertainty=0.0 if shut else doubt * scale**3 + trace**3,
-        sealed=shut,
+        uncertainty=0.0 if closed else doubt * scale**3 + trace**3,
+        sealed=closed,
         corrector=np.ascontiguousarray(corrector.T) if direction == 1 else corrector,
         unsolved=finest.left / finest.permeability if finest.permeability > 0 else 0.0,
         iterations=finest.iterations,

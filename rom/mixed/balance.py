@@ -3,13 +3,14 @@
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import exp, log
+from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 from scipy.optimize import brentq
 
 from contact.errors import ConvergenceError, InputError, Outcome
 from rom.cavitation.network import State
-from rom.mixed.film import MixedFilm, MixedState
+from rom.cavitation.solve import Solution
 
 FILMS = 60
 """Solved for one load, at most; three or four are usual."""
@@ -17,8 +18,8 @@ FILMS = 60
 STEEPNESS = 1.5
 """Of a film's load, as a power of the separation, before two films have told it."""
 
-STEEPEST = 12.0
-"""Of the same; between two films."""
+STEEPEST, LARGEST = 1e3, 600.0
+"""Of the same, between two films; and of exponents."""
 
 EXTENSION = 4.0
 """Times the separation, where no film has yet been found that carries too little."""
@@ -31,15 +32,64 @@ NEAREST = 0.1
 """Of the separation of touching: least distance from the origin from which a film's power is counted."""
 
 
+class Carrying(Protocol):
+    """A film in balance."""
+
+    @property
+    def load(self) -> float:
+        """All that it carries, N."""
+        ...
+
+    @property
+    def solution(self) -> Solution:
+        """The film, whose state others may begin from."""
+        ...
+
+
+Found = TypeVar("Found", bound=Carrying, covariant=True)
+
+
+class Walls(Protocol[Found]):
+    """A bearing at any separation and speed, as :class:`rom.mixed.film.MixedFilm` is one."""
+
+    @property
+    def area(self) -> float:
+        """Nominal, m²."""
+        ...
+
+    @property
+    def closest(self) -> float:
+        """The least separation that can be asked for, m."""
+        ...
+
+    @property
+    def touching(self) -> float:
+        """The separation from which a search begins, m."""
+        ...
+
+    @property
+    def widest(self) -> float:
+        """The largest separation, m."""
+        ...
+
+    def at(self, separation: float, speed: float, start: State | None, /) -> Found:
+        """The film in balance, from the state of another if there is one."""
+        ...
+
+    def contact_load(self, separation: float, /) -> float:
+        """The part of the load that is known without a film, N."""
+        ...
+
+
 @dataclass(kw_only=True)
-class Speed:
+class Speed(Generic[Found]):
     """What films of one bearing carry at one speed, as far as they have been solved.
 
-    ``loads`` by their separations; ``steepness``, a power, of the load as it was last seen. Separations may be below 0
-    where tips are crushed, so that powers are those of ``distance``.
+    ``loads`` by their separations, beside what is known without a film; ``steepness``, a power, of them as it was last
+    seen. Separations may be below 0 where tips are crushed or bodies bent, so that powers are those of ``distance``.
     """
 
-    film: MixedFilm
+    film: Walls[Found]
     speed: float
     loads: dict[float, float] = field(default_factory=dict)
     steepness: float = STEEPNESS
@@ -52,10 +102,10 @@ class Speed:
         """The inverse of ``distance``, m."""
         return exp(distance) + min(0.0, self.film.closest - NEAREST * self.film.touching)
 
-    def at(self, separation: float, start: State | None) -> MixedState:
+    def at(self, separation: float, start: State | None) -> Found:
         """Solve the film and remember its load."""
         found = self.film.at(separation, self.speed, start)
-        self.loads[separation] = found.film_load
+        self.loads[separation] = found.load - self.film.contact_load(separation)
         return found
 
     def guess(self, near: float) -> Callable[[float], float]:
@@ -68,17 +118,17 @@ class Speed:
                 self.steepness = float(np.clip(-log(other / load) / (two - one), -STEEPEST, STEEPEST))
             else:
                 return lambda place: load + (other - load) * (place - one) / (two - one)
-        return lambda place: load * exp(-self.steepness * (place - one))
+        return lambda place: load * exp(min(-self.steepness * (place - one), LARGEST))
 
 
 def balanced(
-    at: Speed,
+    at: Speed[Found],
     pressure: float,
     *,
     tolerance: float,
     guess: float | None = None,
     start: State | None = None,
-) -> MixedState:
+) -> Found:
     """The film whose load and that of its asperities are together a pressure over the nominal area.
 
     The total falls as the walls part. The asperities' part is known at once for any separation, so that only that of
@@ -128,7 +178,7 @@ def balanced(
 
 
 def _next(
-    at: Speed, load: float, low: float, high: float, last: float, *, bracketed: tuple[bool, bool], count: int
+    at: Speed[Found], load: float, low: float, high: float, last: float, *, bracketed: tuple[bool, bool], count: int
 ) -> float:
     """Where the guessed film and the asperities carry the load, within the bracket."""
     here, below, above = (at.distance(place) for place in (last, low, high))
@@ -153,15 +203,15 @@ def _next(
     return min(max(at.separation(found), low), high)
 
 
-def _too_much(at: Speed, pressure: float, most: float) -> InputError:
+def _too_much(at: Speed[Found], pressure: float, most: float) -> InputError:
     return InputError(
         f"load: got {pressure:.6g} Pa over the nominal area; at {at.speed:.4g} m/s film and asperities carry at most "
         f"{most / at.film.area:.6g} Pa where they are known, down to a separation of "
-        f"{at.film.asperities.closest:.4g} m; lower the load, or make a table that reaches further"
+        f"{at.film.closest:.4g} m; lower the load, or make a table that reaches further"
     )
 
 
-def _floats(at: Speed, pressure: float, load: float) -> InputError:
+def _floats(at: Speed[Found], pressure: float, load: float) -> InputError:
     return InputError(
         f"load: got {pressure:.6g} Pa over the nominal area; at {at.speed:.4g} m/s the film carries "
         f"{load / at.film.area:.6g} Pa however far apart the walls are; raise the load or lower the ends' pressures"

@@ -16,7 +16,7 @@ from rom.cavitation.solve import TOLERANCE, Solution, solve
 from rom.gap import Array
 from rom.homogenization.gap_factors import GapFactors
 from rom.mixed.asperities import Asperities
-from rom.mixed.touching import Touching, touching
+from rom.mixed.touching import Touching, quarters, touching
 
 SEEPING = 1e-6
 """Of a smooth film's flow factors, at the least: it keeps the pressure of sealed places defined, by hardly a drop."""
@@ -107,7 +107,7 @@ class MixedFilm:
         return self.asperities.touching + self.dip
 
     @property
-    def _residual(self) -> float:
+    def residual(self) -> float:
         """That the film may have."""
         return min(max(SPARE * self.accuracy / self.cells, LEAST_RESIDUAL), TOLERANCE)
 
@@ -126,13 +126,30 @@ class MixedFilm:
         """Solve the film of a least thickness, m, at a speed, m/s, from the state of another if there is one."""
         scene = self.scene_at(film, speed)
         problem, cells = mixed_problem(scene, self.asperities), (self.cells, self.cells)
-        found = solve(problem, cells, start=start, tolerance=self._residual)
+        found = solve(problem, cells, start=start, tolerance=self.residual)
         contact = touching(found.problem.shape, found.grid, self.asperities)
         return mixed_state(scene, found, contact)
+
+    @cached_property
+    def _floor(self) -> tuple[Array, Array]:
+        """How far above the film each height of a wall that shifts as a whole lies, m, and its area; no higher than
+        can touch.
+        """
+        geometry = self.scene.geometry
+        parts = list(quarters(geometry.film_shape(), self.grid))
+        above = np.concatenate([separation.ravel() for separation, _ in parts]) - geometry.film
+        areas = np.concatenate([area.ravel() for _, area in parts])
+        low = above < self.asperities.touching - self.asperities.closest
+        heights, which = np.unique(np.maximum(above[low], -self.dip), return_inverse=True)
+        merged: Array = np.bincount(which, weights=areas[low], minlength=heights.size).astype(np.float64)
+        return heights, merged
 
     def contact_load(self, film: float) -> float:
         """What the asperities alone carry at a least film, N."""
         scene = self.scene_at(film, 0.0)
+        if not isinstance(scene.geometry, Journal):
+            above, areas = self._floor
+            return float((areas * self.asperities.contact_pressure(film + above)).sum())
         force = touching(scene.geometry.film_shape(), self.grid, self.asperities).force
         return carried(scene, self.grid.x, force)
 

@@ -173,7 +173,7 @@ def stribeck(
             point = done.get((pressure, speed))
             if point is None:
                 cpu = time.process_time()
-                guess, start = _extrapolated(points, fine), states.get(pressure)
+                guess, start = _extrapolated(points, film, fine), states.get(pressure)
                 fine.steepness = rough.steepness = STEEPNESS if number == 0 else fine.steepness
                 found = balanced(fine, pressure, tolerance=tolerance, guess=guess, start=start)
                 states[pressure] = found.solution.state
@@ -181,7 +181,7 @@ def stribeck(
                 if speed in judged:
                     near = balanced(rough, pressure, tolerance=tolerance, guess=point.separation + film.dip)
                     other = stribeck_point(near, coarse, pressure)
-                    point = replace(point, uncertainty=uncertainties(point, other, fine))
+                    point = replace(point, uncertainty=uncertainties(point, other, film, fine))
                 point = replace(point, cpu_s=time.process_time() - cpu)
                 keep(point)
             points.append(point)
@@ -254,11 +254,11 @@ def _checked(speeds: Sequence[float], pressures: Sequence[float]) -> list[float]
     return sorted(speeds)
 
 
-def _extrapolated(points: Sequence[StribeckPoint], at: Speed) -> float | None:
+def _extrapolated(points: Sequence[StribeckPoint], walls: MixedFilm, at: Speed[MixedState]) -> float | None:
     """The film at the next speed, m, from the last points by logarithms."""
     if not points:
         return None
-    dip = at.film.dip
+    dip = walls.dip
     last = at.distance(points[-1].separation + dip)
     before = [point for point in points if point.speed > 0][-EXTRAPOLATED:]
     if len(before) < 2:
@@ -268,25 +268,27 @@ def _extrapolated(points: Sequence[StribeckPoint], at: Speed) -> float | None:
     return at.separation(min(max(told, last - FARTHEST), last + FARTHEST))
 
 
-def uncertainties(point: StribeckPoint, other: StribeckPoint, at: Speed) -> dict[str, float]:
+def uncertainties(
+    point: StribeckPoint, other: StribeckPoint, walls: MixedFilm, at: Speed[MixedState]
+) -> dict[str, float]:
     """How far off each quantity may be: what half the cells change it by, and by what factors and pressures are off.
 
     At second order what half the cells change is three times what is left. A film that carries δF less, and asperities
     that carry δC less than they should, are nearer by δα = -(δF + δC)/(F' + C') under the same load, and share it as
     they do there.
     """
-    asperities, here = at.film.asperities, np.array([point.separation])
+    asperities, here = walls.asperities, np.array([point.separation])
     film, contact = point.film_load, point.contact_load
     unsure = asperities.doubt_above(point.separation)
     unsure_film, unsure_contact = unsure * abs(film), float(asperities.pressure_doubt(here)[0]) * abs(contact)
-    place, step = point.separation + at.film.dip, STEP * at.film.touching
+    place, step = point.separation + walls.dip, STEP * walls.touching
     shift = exp(at.distance(place))
     film_slope = at.steepness * abs(film) / shift
-    contact_slope = (at.film.contact_load(max(place - step, at.film.closest)) - at.film.contact_load(place)) / step
+    contact_slope = (walls.contact_load(max(place - step, walls.closest)) - walls.contact_load(place)) / step
     slope = film_slope + contact_slope
     closer = (unsure_film + unsure_contact) / slope if slope > 0 else 0.0
     shared = (unsure_film * contact_slope + unsure_contact * film_slope) / slope if slope > 0 else 0.0
-    boundary = at.film.boundary_friction
+    boundary = walls.boundary_friction
     rubbed = boundary * shared + (unsure + closer / shift) * abs(point.friction - boundary * contact)
     relative = shared / contact if contact > 0 else 0.0
     more = {

@@ -38,17 +38,22 @@ def touching(shape: Shape, grid: Grid, asperities: Asperities) -> Touching:
         Where walls are closer than the asperities are known for.
     """
     force, most, area = np.zeros(grid.shape), 0.0, 0.0
+    for separation, quarter in quarters(shape, grid):
+        near = separation < asperities.touching
+        if near.any():
+            pressure = asperities.contact_pressure(separation[near])
+            force[near] += quarter[near] * pressure
+            most = max(most, float(pressure.max()))
+            area += float((quarter[near] * asperities.area_fraction(separation[near])).sum())
+    return Touching(force=force, pressure_max=most, area_fraction=area / float(grid.areas.sum()))
+
+
+def quarters(shape: Shape, grid: Grid) -> Iterator[tuple[Array, Array]]:
+    """The separation in the middle of each quarter of the control volumes, m, and its area; halves of a wide film."""
     for x, share_x in _halves(grid.x, grid.spacing_x):
         for y, share_y in [(grid.y, grid.share_y)] if shape.wide else _halves(grid.y, grid.spacing_y):
-            separation = shape.thickness(*np.broadcast_arrays(x[:, None], y))
-            near = separation < asperities.touching
-            if near.any():
-                quarter = np.broadcast_to(share_x[:, None] * share_y * (y if shape.polar else 1.0), grid.shape)[near]
-                pressure = asperities.contact_pressure(separation[near])
-                force[near] += quarter * pressure
-                most = max(most, float(pressure.max()))
-                area += float((quarter * asperities.area_fraction(separation[near])).sum())
-    return Touching(force=force, pressure_max=most, area_fraction=area / float(grid.areas.sum()))
+            area = share_x[:, None] * share_y * (y if shape.polar else 1.0)
+            yield shape.thickness(*np.broadcast_arrays(x[:, None], y)), np.broadcast_to(area, grid.shape)
 
 
 def _halves(places: Array, spacing: Array) -> Iterator[tuple[Array, Array]]:

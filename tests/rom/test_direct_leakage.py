@@ -11,6 +11,7 @@ from rom.homogenization.flow_factors import flow_factors
 from rom.homogenization.paths import sealed, sealed_between_ends
 from rom.homogenization.solvers import SOLVERS
 from rom.leakage.direct import direct_flow, direct_leakage
+from rom.leakage.homogenized import homogenized_leakage
 
 
 def waves(nx, ny, seed):
@@ -179,9 +180,17 @@ def test_what_does_not_meet_itself_is_open_between_ends_and_sealed_on_and_on():
     assert direct_flow(gap, (1.0, 1.0), 0, periods=2).permeability == 0
 
 
+@pytest.mark.parametrize("leakage", [direct_leakage, homogenized_leakage])
+def test_full_contact_is_sealed(leakage):
+    found = leakage(np.zeros((4, 6)), (1.0, 1.0))
+    assert found.sealed == (True, True)
+    assert found.permeability.tolist() == found.uncertainty.tolist() == [0.0, 0.0]
+    assert found.along.corrector.shape == (4, 6)
+
+
 def test_what_is_no_gap_is_refused():
-    with pytest.raises(InputError, match="closed everywhere"):
-        direct_leakage(np.zeros((4, 4)), (1.0, 1.0))
+    with pytest.raises(InputError, match="walls cannot overlap"):
+        direct_leakage(np.full((4, 4), -1.0), (1.0, 1.0))
     with pytest.raises(InputError, match="periods: got 0"):
         direct_flow(np.ones((4, 4)), (1.0, 1.0), 0, periods=0)
     with pytest.raises(InputError, match="tolerance: got 2"):

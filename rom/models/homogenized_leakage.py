@@ -1,0 +1,24 @@
+"""Leakage by flow factors: through roughness that goes on and on."""
+
+from contact.mechanics.contact import Contact
+from rom.ladder import Effect
+from rom.leakage.passage import Passage
+from rom.seal_rung import seal_model
+
+
+def flow(found: Contact, axis: int) -> Passage:
+    """From the cell."""
+    from rom.leakage.homogenized import homogenized_leakage  # numba is slow to import
+
+    leakage = homogenized_leakage(found.gap, found.spacing)
+    return (leakage.along, leakage.across)[axis]
+
+
+MODEL = seal_model(
+    name="homogenized_leakage",
+    summary="the surface pressed, and the flow through its gap averaged as if its period were infinitely short",
+    keeps=frozenset({Effect.DEFORMATION, Effect.PLASTICITY, Effect.ROUGHNESS}),
+    sources=("10.1016/S0043-1648(99)00113-1", "10.1016/j.triboint.2006.02.069"),
+    words="averages over infinitely many periods: what does not come out where it went in is sealed",
+    flow=flow,
+)
