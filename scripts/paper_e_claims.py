@@ -66,7 +66,7 @@ def direct_is_homogenized(windows: Sequence[Leak], rows: Sequence[tuple[int, flo
         verdict="true" if within > 0.95 else "partly" if within > 0.3 else "false",
         evidence="between two reservoirs one window lets more through than the same on and on, always, as flow comes "
         f"in where it would have no way on: at {LOAD / 1e6:g} MPa more by (median and range) {shown}; {_share(within)} "
-        f"of all within {_share(FEW_PER_CENT)}. The worst falls with the windows in a row, and not with their size alone: "
+        f"of all within {_share(FEW_PER_CENT)}. The worst falls with the windows in a row, not with their size alone: "
         f"{longer} over {', '.join(str(count) for count, _ in rows)} of them. Under load few channels stay and one "
         "window says less: window a "
         + ", ".join(f"{_share(hard[0, axis])} along {AXES[axis]}" for axis in (0, 1))
