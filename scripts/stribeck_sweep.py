@@ -1,5 +1,6 @@
 """A sweep of speeds and loads whose table and points stay in a directory: what was finished is found again."""
 
+import math
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -14,7 +15,7 @@ from contact.periodicity import THRESHOLD, periodicity_mismatch
 from rom.bearing import Bearing
 from rom.homogenization.conductance import FaceRule
 from rom.homogenization.table import FactorTable, Point
-from rom.homogenization.table_store import load_table
+from rom.homogenization.table_store import load_table_and_source
 from rom.ladder import Progress
 from rom.mixed.asperity_table import AsperityTable
 from rom.mixed.film import MixedFilm
@@ -30,7 +31,7 @@ from scripts.kept_points import EVERY_S, kept_table
 from scripts.stribeck_store import known_points, save_points
 
 SAME = 1e-9
-"""How near the highest point and the rms height of a table have to be to those of the scene's surface."""
+"""How near what is told of a table's surface and solids has to be to those of the scene, as a part of it."""
 
 SPARE, TURNS = 1.3, 12
 """By how much more than is needed a table is extended, and how often at most."""
@@ -66,7 +67,8 @@ def wall_of(scene: Bearing, largest: float, table: Path | None, out: Path, progr
     Raises
     ------
     InputError
-        If the table is of another surface or cannot be extended; if no table of the surface carries the load.
+        If the table is of another surface or of other solids, or cannot be extended; if no table of the surface
+        carries the load.
     """
     surface = scene.roughness if isinstance(scene.roughness, RoughSurface) else None
     told: list[str] = []
@@ -78,7 +80,7 @@ def wall_of(scene: Bearing, largest: float, table: Path | None, out: Path, progr
                 "the flow; prepare it by roughfilm surface"
             )
     if table is not None:
-        given: AsperityTable | None = AsperityTable(factors=_given(table, surface))
+        given: AsperityTable | None = AsperityTable(factors=_given(table, surface, scene))
     else:
         given = None if surface is not None else asperities_of(scene, progress)
     if given is not None and (surface is None or _carried(scene, given, cells) >= largest):
@@ -104,10 +106,7 @@ def _tabulated(
     progress: Progress,
     cells: int,
 ) -> tuple[AsperityTable, int, Mapping[str, Any]]:
-    assert scene.asperities is not None
-    assert scene.asperities.solid is not None
-    body, counter = scene.asperities.solid, scene.asperities.counter
-    stiffness, bound = composite_modulus(body, counter), hardness(body)
+    stiffness, bound = _solids(scene)
     settings = {
         "rule": FaceRule.LINEAR.value,
         "offset": 0.0,
@@ -143,17 +142,34 @@ def _tabulated(
     return AsperityTable(factors=found), count, {"table": inputs.digest}
 
 
-def _given(path: Path, surface: RoughSurface | None) -> FactorTable:
-    """A stored table; InputError if it is not of the scene's surface."""
-    table = load_table(path)
+def _solids(scene: Bearing) -> tuple[float, float]:
+    """E* and H, Pa, of a scene that tells its surface; H is infinite where nothing yields."""
+    assert scene.asperities is not None
+    assert scene.asperities.solid is not None
+    return composite_modulus(scene.asperities.solid, scene.asperities.counter), hardness(scene.asperities.solid)
+
+
+def _given(path: Path, surface: RoughSurface | None, scene: Bearing) -> FactorTable:
+    """A stored table; InputError if it is not of the scene's surface and solids."""
+    table, source = load_table_and_source(path)
     if surface is None:
         return table
-    for name, mine in (("highest point", surface.peak), ("rms height", surface.rms)):
-        its = table.peak if name == "highest point" else table.rms
-        if abs(its - mine) > SAME * mine:
+    (dx, dy), (stiffness, bound) = surface.scaled_spacing(), _solids(scene)
+    its = source.settings
+    told = (
+        ("a highest point", table.peak, surface.peak, "m"),
+        ("an rms height", table.rms, surface.rms, "m"),
+        ("a spacing along x", source.spacing[0], dx, "m"),
+        ("a spacing along y", source.spacing[1], dy, "m"),
+        ("a composite modulus", its.get("composite_modulus") or math.inf, stiffness, "Pa"),
+        ("a hardness", its.get("hardness") or math.inf, bound, "Pa"),
+    )
+    for name, there, here, unit in told:
+        if not math.isclose(there, here, rel_tol=SAME):
+            what = "surface" if unit == "m" else "pair of solids"
             raise InputError(
-                f"--table {path}: is of another surface, with a {name} of {its:.6g} m, where that of the scene has "
-                f"{mine:.6g} m; leave --table out, or take another scene"
+                f"--table {path}: is of another {what}, with {name} of {there:.6g} {unit}, where the scene has "
+                f"{here:.6g} {unit}; leave --table out, or take another scene"
             )
     return table
 

@@ -2,7 +2,9 @@
 
 import json
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import h5py
 import numpy as np
@@ -14,7 +16,7 @@ from rom.gap import Array
 from rom.homogenization.factors import FlowFactors
 from rom.homogenization.table import FactorTable, Point
 
-SCHEMA = 2
+SCHEMA = 3
 MARK = b"roughfilm factors, HDF5 behind 512 bytes, sha256 "
 REMEDY = "remove it or choose another place"
 FACTORS = {"mean_gap": "m", "pressure": "m^3", "shear": "m", "couette": "1/m", "shear_couette": "1/m"}
@@ -48,6 +50,7 @@ def save_table(path: Path, inputs: Inputs, table: FactorTable) -> None:
         file.attrs["schema"] = SCHEMA
         file.attrs["digest"] = inputs.digest
         file.attrs["settings"] = json.dumps(inputs.settings, sort_keys=True, allow_nan=False)
+        file.attrs["spacing"] = inputs.spacing
         file.attrs["peak"] = table.peak
         file.attrs["rms"] = table.rms
         for name, unit in NUMBERS.items():
@@ -61,11 +64,34 @@ def save_table(path: Path, inputs: Inputs, table: FactorTable) -> None:
     write_guarded(path, MARK, fill)
 
 
+@dataclass(frozen=True, kw_only=True)
+class Source:
+    """What a table was computed from, but for its heights: ``spacing`` (dx, dy), m, and the settings of its inputs."""
+
+    spacing: tuple[float, float]
+    settings: Mapping[str, Any]
+
+
 def load_table(path: Path) -> FactorTable:
-    """Read a table back; InputError if it was damaged or changed, is of another version, or no table."""
-    _refuse_others(path)
-    with reading_guarded(path, MARK, SCHEMA, REMEDY) as file:
-        return _table(file)
+    """Read a table back.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, was damaged or changed, is of another version, or no table.
+    """
+    return load_table_and_source(path)[0]
+
+
+def load_table_and_source(path: Path) -> tuple[FactorTable, Source]:
+    """Read a table back, and what it was computed from; InputError as :func:`load_table` raises it."""
+    try:
+        _refuse_others(path)
+        with reading_guarded(path, MARK, SCHEMA, REMEDY) as file:
+            dx, dy = map(float, file.attrs["spacing"])
+            return _table(file), Source(spacing=(dx, dy), settings=json.loads(file.attrs["settings"]))
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read ({error.strerror or error}); name a table of flow factors") from error
 
 
 def known_points(path: Path, inputs: Inputs) -> Sequence[Point]:

@@ -165,6 +165,9 @@ def test_files_of_others_and_damaged_ones_are_told(table, inputs, tmp_path):
     path.write_bytes(b"something else")
     with pytest.raises(InputError, match="is no table"):
         load_table(path)
+    for missing in (tmp_path / "none.h5", tmp_path):
+        with pytest.raises(InputError, match="cannot be read"):
+            load_table(missing)
 
 
 def made(kind):
