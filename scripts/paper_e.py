@@ -16,20 +16,23 @@ import typer
 from rich.markup import escape
 
 from contact.files import replacing
+from contact.mechanics.contact import Contact
+from contact.mechanics.press import Press
+from contact.mechanics.solid import composite_modulus
 from contact.surface_files import read_surface
 from rom.provenance import circumstances, code
 from scripts import paper_e_data, paper_e_windows
 from scripts.common import AsJson, in_one_line, make_directory, output, print_json, progress_bar, run_alone
-from scripts.contact_picture import contact_picture
-from scripts.pages import embedded, render, write_figures
+from scripts.contact_view import view_of, view_picture
+from scripts.pages import render, write_figures
 from scripts.paper_a_claims import Claim
 from scripts.paper_e_claims import Paper, judge, told_speed, worst_cell
 from scripts.paper_e_data import LOADS, SCALED, Washer
 from scripts.paper_e_made import POINTS, made
 from scripts.paper_e_windows import LOAD, MILLED, Leak, sensitivity
 
-PRESSED = (2e6, 50e6, 500e6)
-"""Loads at which the contact is pictured, Pa."""
+PRESSED, PICTURED = (2e6, 50e6, 500e6), 128
+"""Loads at which the contact is pictured, Pa, and its points along a side."""
 
 
 @in_one_line
@@ -52,8 +55,6 @@ def command(
     told = numbers(paper, claims)
     with replacing(out / "paper_e.json") as scratch:
         scratch.write_text(json.dumps(told, indent=1, allow_nan=False) + "\n", encoding="utf-8")
-    picture = out / "contact.png"
-    drawn = contact_picture(made("surface 3", 128), paper_e_windows.STEEL, PRESSED, picture)
     render(
         "paper_e.html.j2",
         out / "paper_e.html",
@@ -66,7 +67,7 @@ def command(
         milled=MILLED,
         load=LOAD,
         studies=studies(paper.windows) if paper.windows else [],
-        contact=embedded(picture) if drawn.available else None,
+        contact=view_picture([view_of(contact) for contact in pressed()])[0],
     )
     if as_json:
         print_json({**told, "report": str(out / "paper_e.html")})
@@ -140,6 +141,14 @@ def _leak(entries: Mapping[str, Any]) -> Leak:
         for name in (field.name for field in fields(Leak))
     }
     return Leak(**made)
+
+
+def pressed() -> list[Contact]:
+    """The ground surface at the loads that are pictured."""
+    surface = made("surface 3", PICTURED)
+    steel = paper_e_windows.STEEL
+    press = Press(surface.heights, surface.spacing, composite_modulus(steel), hardness=steel.hardness)
+    return [press.at(load) for load in PRESSED]
 
 
 def studies(windows: Sequence[Leak]) -> list[tuple[str, str]]:
