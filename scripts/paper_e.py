@@ -26,10 +26,11 @@ from scripts.common import AsJson, in_one_line, make_directory, output, print_js
 from scripts.contact_view import view_of, view_picture
 from scripts.pages import render, write_figures
 from scripts.paper_a_claims import Claim
-from scripts.paper_e_claims import Paper, judge, told_speed, worst_cell
+from scripts.paper_e_claims import Paper, judge, worst_cell
 from scripts.paper_e_data import LOADS, SCALED, Washer
 from scripts.paper_e_made import POINTS, made
 from scripts.paper_e_windows import LOAD, MILLED, Leak, sensitivity
+from scripts.stribeck import told_speed
 
 PRESSED, PICTURED = (2e6, 50e6, 500e6), 128
 """Loads at which the contact is pictured, Pa, and its points along a side."""

@@ -9,6 +9,7 @@ from rom.gap import Array
 from scripts.paper_a_claims import Claim
 from scripts.paper_e_data import LOADS, SEEDS, Washer
 from scripts.paper_e_windows import LOAD, PARTS, Leak
+from scripts.stribeck import told_speed
 
 FEW_PER_CENT = 0.05
 """Within which two leakages count as equal."""
@@ -154,11 +155,6 @@ def lift_off(paper: Paper) -> Claim:
 
 def _speeds(lift: Array) -> str:
     return " / ".join(told_speed(*row) for row in lift)
-
-
-def told_speed(speed: float, unsure: float) -> str:
-    """With its error bar, whose first digit counts."""
-    return f"{speed:.3g} ± {unsure:.1g}" if unsure < 9.5 else f"{speed:.0f} ± {unsure:.0f}"
 
 
 def _share(part: float) -> str:

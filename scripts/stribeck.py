@@ -182,15 +182,14 @@ def _say(
         print_json({**told, "report": str(out / "report.html")})
     else:
         scale = scale_of(scene)
-        table = Table("load, MPa", f"lift-off, {scale[0]}", "±", "least μ", f"at, {scale[0]}", "μ at the slowest")
+        table = Table("load, MPa", f"lift-off, {scale[0]}", "least μ", f"at, {scale[0]}", "μ at the slowest")
         for column in table.columns:
             column.justify = "right"
         for curve in curves:
             least = min(curve.points, key=lambda point: point.friction_coefficient)
             table.add_row(
                 f"{curve.pressure / 1e6:.4g}",
-                f"{scale[1] * curve.lift_off.speed:.4g}",
-                f"{scale[1] * curve.lift_off.uncertainty:.1g}",
+                told_speed(scale[1] * curve.lift_off.speed, scale[1] * curve.lift_off.uncertainty),
                 f"{least.friction_coefficient:.4f}",
                 f"{scale[1] * least.speed:.4g}",
                 f"{curve.points[0].friction_coefficient:.4f}",
@@ -201,6 +200,11 @@ def _say(
         messages.print(f"found: {known} of {told['numerics']['points']} points, not solved again", soft_wrap=True)
     for warning in told["provenance"]["warnings"]:
         messages.print(f"[yellow]warning:[/] {escape(warning)}", soft_wrap=True)
+
+
+def told_speed(speed: float, unsure: float) -> str:
+    """With its error bar, whose first digit counts."""
+    return f"{speed:.3g} ± {unsure:.1g}" if unsure < 9.5 else f"{speed:.0f} ± {unsure:.0f}"
 
 
 def scale_of(scene: Bearing) -> tuple[str, float]:

@@ -16,7 +16,7 @@ from rom.ring_geometry import Ring
 from scripts import stribeck_figures
 from scripts.figures import svg
 from scripts.pages import render
-from scripts.stribeck import scale_of
+from scripts.stribeck import scale_of, told_speed
 from scripts.stribeck_figures import Drawn, Scale
 
 MIXED = 0.3
@@ -98,7 +98,7 @@ def _lift(curve: StribeckCurve, unit: str, factor: float) -> str:
     lift = curve.lift_off
     if math.isnan(lift.speed):
         return "no speed was found"
-    return f"{factor * lift.speed:.3g} ± {factor * lift.uncertainty:.1g} {unit}"
+    return f"{told_speed(factor * lift.speed, factor * lift.uncertainty)} {unit}"
 
 
 def _row(point: StribeckPoint, factor: float) -> list[str]:
