@@ -32,8 +32,9 @@ from scripts.common import (
     progress_bar,
     run_alone,
 )
+from scripts.error_bars import with_error
 from scripts.load_range import loads_of, speeds_of
-from scripts.output_file import alone
+from scripts.output_file import alone, refuse_unwritable
 from scripts.stribeck_store import NUMBERS, UNITS, write_csv
 from scripts.stribeck_sweep import Wall, swept, wall_of
 
@@ -87,6 +88,7 @@ def command(
     if not COARSEST <= resolution <= FINEST:
         raise InputError(f"--resolution: got {resolution}; it must be {COARSEST} to {FINEST} cells along a side")
     make_directory(out)
+    refuse_unwritable(out / "report.html")
     with alone(out / f"{CURVES}.h5", "sweep"), progress_bar(1.0) as advance:
         wall = wall_of(read, asked[-1], table, out / TABLE, _part(advance, 0.0, 0.5), resolution)
         curves, known = swept(read, over, asked, wall, out / f"{CURVES}.h5", resolution, _part(advance, 0.5, 0.95))
@@ -182,15 +184,14 @@ def _say(
         print_json({**told, "report": str(out / "report.html")})
     else:
         scale = scale_of(scene)
-        table = Table("load, MPa", f"lift-off, {scale[0]}", "±", "least μ", f"at, {scale[0]}", "μ at the slowest")
+        table = Table("load, MPa", f"lift-off, {scale[0]}", "least μ", f"at, {scale[0]}", "μ at the slowest")
         for column in table.columns:
             column.justify = "right"
         for curve in curves:
             least = min(curve.points, key=lambda point: point.friction_coefficient)
             table.add_row(
                 f"{curve.pressure / 1e6:.4g}",
-                f"{scale[1] * curve.lift_off.speed:.4g}",
-                f"{scale[1] * curve.lift_off.uncertainty:.1g}",
+                lift_off(curve, scale[1]),
                 f"{least.friction_coefficient:.4f}",
                 f"{scale[1] * least.speed:.4g}",
                 f"{curve.points[0].friction_coefficient:.4f}",
@@ -201,6 +202,12 @@ def _say(
         messages.print(f"found: {known} of {told['numerics']['points']} points, not solved again", soft_wrap=True)
     for warning in told["provenance"]["warnings"]:
         messages.print(f"[yellow]warning:[/] {escape(warning)}", soft_wrap=True)
+
+
+def lift_off(curve: StribeckCurve, factor: float, unit: str = "") -> str:
+    """The speed from which on the film carries all, times a factor, with its error and perhaps a unit."""
+    speed, unsure = factor * curve.lift_off.speed, factor * curve.lift_off.uncertainty
+    return "none found" if math.isnan(speed) else f"{with_error(speed, unsure)} {unit}".strip()
 
 
 def scale_of(scene: Bearing) -> tuple[str, float]:
