@@ -1,5 +1,6 @@
 """The page of flow factors."""
 
+import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -9,6 +10,7 @@ from rom.homogenization.flow_factors import Estimated
 from rom.homogenization.table import FactorTable
 from rom.mixed.asperity_table import AsperityTable
 from scripts import factors_figures
+from scripts.error_bars import with_error
 from scripts.pages import render
 from scripts.rough_surface import Rough
 
@@ -58,4 +60,5 @@ def _row(point: Mapping[str, Any], *, pressed: bool) -> list[str]:
 
 def _cell(entry: Mapping[str, float | None]) -> str:
     value, doubt = entry["value"], entry["uncertainty"]
-    return f"{value:.4g}" + (" ± ?" if doubt is None else f" ± {doubt:.1g}" if doubt else "")
+    assert value is not None
+    return with_error(value, math.inf if doubt is None else doubt)

@@ -24,13 +24,13 @@ from rom.provenance import circumstances, code
 from scripts import paper_e_data, paper_e_windows
 from scripts.common import AsJson, in_one_line, make_directory, output, print_json, progress_bar, run_alone
 from scripts.contact_view import view_of, view_picture
+from scripts.error_bars import with_error
 from scripts.pages import render, write_figures
 from scripts.paper_a_claims import Claim
 from scripts.paper_e_claims import Paper, judge, worst_cell
 from scripts.paper_e_data import LOADS, SCALED, Washer
 from scripts.paper_e_made import POINTS, made
 from scripts.paper_e_windows import LOAD, MILLED, Leak, sensitivity
-from scripts.stribeck import told_speed
 
 PRESSED, PICTURED = (2e6, 50e6, 500e6), 128
 """Loads at which the contact is pictured, Pa, and its points along a side."""
@@ -192,7 +192,7 @@ def _row(name: str, one: Washer) -> dict[str, Any]:
     from scripts.paper_e_figures import point_at
 
     pairs = zip(one.lift(), one.lift(boxed=True), strict=True)
-    lifts = [tuple(told_speed(*one) for one in pair) for pair in pairs]
+    lifts = [tuple(with_error(*one) for one in pair) for pair in pairs]
     return {"name": name, "lifts": lifts, "share": point_at(one, 1, paper_e_data.SHOWN[0]).contact_share}
 
 

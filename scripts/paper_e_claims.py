@@ -6,10 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from rom.gap import Array
+from scripts.error_bars import with_error
 from scripts.paper_a_claims import Claim
 from scripts.paper_e_data import LOADS, SEEDS, Washer
 from scripts.paper_e_windows import LOAD, PARTS, Leak
-from scripts.stribeck import told_speed
 
 FEW_PER_CENT = 0.05
 """Within which two leakages count as equal."""
@@ -154,7 +154,7 @@ def lift_off(paper: Paper) -> Claim:
 
 
 def _speeds(lift: Array) -> str:
-    return " / ".join(told_speed(*row) for row in lift)
+    return " / ".join(with_error(*row) for row in lift)
 
 
 def _share(part: float) -> str:

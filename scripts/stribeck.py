@@ -32,8 +32,9 @@ from scripts.common import (
     progress_bar,
     run_alone,
 )
+from scripts.error_bars import with_error
 from scripts.load_range import loads_of, speeds_of
-from scripts.output_file import alone
+from scripts.output_file import alone, refuse_unwritable
 from scripts.stribeck_store import NUMBERS, UNITS, write_csv
 from scripts.stribeck_sweep import Wall, swept, wall_of
 
@@ -87,6 +88,7 @@ def command(
     if not COARSEST <= resolution <= FINEST:
         raise InputError(f"--resolution: got {resolution}; it must be {COARSEST} to {FINEST} cells along a side")
     make_directory(out)
+    refuse_unwritable(out / "report.html")
     with alone(out / f"{CURVES}.h5", "sweep"), progress_bar(1.0) as advance:
         wall = wall_of(read, asked[-1], table, out / TABLE, _part(advance, 0.0, 0.5), resolution)
         curves, known = swept(read, over, asked, wall, out / f"{CURVES}.h5", resolution, _part(advance, 0.5, 0.95))
@@ -189,7 +191,7 @@ def _say(
             least = min(curve.points, key=lambda point: point.friction_coefficient)
             table.add_row(
                 f"{curve.pressure / 1e6:.4g}",
-                told_speed(scale[1] * curve.lift_off.speed, scale[1] * curve.lift_off.uncertainty),
+                lift_off(curve, scale[1]),
                 f"{least.friction_coefficient:.4f}",
                 f"{scale[1] * least.speed:.4g}",
                 f"{curve.points[0].friction_coefficient:.4f}",
@@ -202,9 +204,10 @@ def _say(
         messages.print(f"[yellow]warning:[/] {escape(warning)}", soft_wrap=True)
 
 
-def told_speed(speed: float, unsure: float) -> str:
-    """With its error bar, whose first digit counts."""
-    return f"{speed:.3g} ± {unsure:.1g}" if unsure < 9.5 else f"{speed:.0f} ± {unsure:.0f}"
+def lift_off(curve: StribeckCurve, factor: float, unit: str = "") -> str:
+    """The speed from which on the film carries all, times a factor, with its error and perhaps a unit."""
+    speed, unsure = factor * curve.lift_off.speed, factor * curve.lift_off.uncertainty
+    return "none found" if math.isnan(speed) else f"{with_error(speed, unsure)} {unit}".strip()
 
 
 def scale_of(scene: Bearing) -> tuple[str, float]:

@@ -22,6 +22,9 @@ THICKEST = 3.0
 MOST_PRESSURE = 1e9
 """Of contact, Pa, up to which it is drawn."""
 
+DECADES = 30.0
+"""From this ratio of the greatest speed to the least on, speeds are drawn by their logarithms."""
+
 LEAST_PRESSURE = 1e3
 """Of contact, the lowest that is drawn, Pa."""
 
@@ -75,6 +78,10 @@ def curves(found: Sequence[StribeckCurve], scale: Scale, touching: float) -> Fig
             lift = curve.lift_off.speed * scale.factor
             if np.isfinite(lift) and lift <= speeds.max():
                 axes.axvline(lift, color=colour, linewidth=0.8, linestyle=":")
+    asked = [point.speed for curve in found for point in curve.points]
+    if min(asked) > 0 and max(asked) > DECADES * min(asked):
+        for axes in (friction, gap, share):
+            axes.set_xscale("log")
     friction.set_yscale("log")
     friction.legend(fontsize=8, title="load", loc="upper right")
     gap.axhline(0, color="black", linewidth=0.8, linestyle="--")

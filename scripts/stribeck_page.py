@@ -1,6 +1,5 @@
 """The page of Stribeck curves."""
 
-import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -14,9 +13,10 @@ from rom.mixed.film import MixedFilm
 from rom.mixed.stribeck import StribeckCurve, StribeckPoint
 from rom.ring_geometry import Ring
 from scripts import stribeck_figures
+from scripts.error_bars import with_error
 from scripts.figures import svg
 from scripts.pages import render
-from scripts.stribeck import scale_of, told_speed
+from scripts.stribeck import lift_off, scale_of
 from scripts.stribeck_figures import Drawn, Scale
 
 MIXED = 0.3
@@ -48,7 +48,7 @@ def write_page(
         factor=factor,
         friction=scene.asperities.friction if scene.asperities is not None else 0.0,
         pressures=[curve.pressure for curve in curves],
-        lifts=[(curve, _lift(curve, unit, factor)) for curve in curves],
+        lifts=[(curve, lift_off(curve, factor, unit)) for curve in curves],
         shown=f"{middle.pressure / 1e6:.4g} MPa",
         rows=[_row(point, factor) for curve in curves for point in _few(curve.points)],
         curves=svg(stribeck_figures.curves(curves, Scale(unit=unit, factor=factor), asperities.touching)),
@@ -94,17 +94,9 @@ def _few(points: Sequence[StribeckPoint]) -> list[StribeckPoint]:
     return [points[place] for place in places]
 
 
-def _lift(curve: StribeckCurve, unit: str, factor: float) -> str:
-    lift = curve.lift_off
-    if math.isnan(lift.speed):
-        return "no speed was found"
-    return f"{told_speed(factor * lift.speed, factor * lift.uncertainty)} {unit}"
-
-
 def _row(point: StribeckPoint, factor: float) -> list[str]:
     def cell(name: str, scale: float = 1.0) -> str:
-        value, doubt = getattr(point, name), point.uncertainty.get(name)
-        return f"{scale * value:.3g}" + (f" ± {scale * doubt:.1g}" if doubt else "")
+        return with_error(scale * getattr(point, name), scale * point.uncertainty.get(name, 0.0))
 
     return [
         f"{point.pressure / 1e6:.4g}",

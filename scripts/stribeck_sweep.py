@@ -37,6 +37,9 @@ SAME = 1e-9
 SPARE, TURNS = 1.3, 12
 """By how much more than is needed a table is extended, and how often at most."""
 
+NEAR = 1.02
+"""How near, as a factor, a table reaches to a load that closes the gap everywhere."""
+
 UNCOUNTED = ("name", "motion.speed", "geometry.film", "geometry.eccentricity")
 """Entries of a scene that curves do not depend on: loads and speeds take their place."""
 
@@ -134,16 +137,16 @@ def _tabulated(
         )
 
     def work(known: Sequence[Point], keep: Callable[[Point], None]) -> FactorTable:
-        made = at_least(0.0, [*before, *known], keep)
+        made, most = at_least(0.0, [*before, *known], keep), bound
         for _ in range(TURNS):
             carried = _carried(scene, made, cells)
-            if carried >= largest:
+            if carried >= largest or most < NEAR * made.largest_pressure:
                 break
-            reach = min(SPARE * made.largest_pressure * largest / carried, bound)
+            reach = min(SPARE * made.largest_pressure * largest / carried, most)
             try:
                 made = at_least(reach, made.factors.points, keep)
             except InputError:  # so much closes the gap everywhere
-                break
+                most = math.sqrt(made.largest_pressure * reach)
         _refuse_too_much(scene, made, largest, cells)
         return made.factors
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import brentq
-from scipy.special import erf
+from scipy.special import erf, ndtri
 
 from contact.mechanics.moments import WavePower
 from contact.mechanics.persson import elastic_mean_gap
@@ -18,7 +18,10 @@ BINS = 400
 """Of waves that are taken together."""
 
 NODES = 24
-"""Of Gauss's and Hermite's rule, for the gaps that appear at a scale."""
+"""Of Gauss's and Hermite's rule, for what the gaps that appear at a scale let through."""
+
+PIECES = 1000
+"""Equal ones, into which the gaps that appear at a scale are parted where they are told: nodes would be spikes."""
 
 THRESHOLD = 0.415
 """Contact area at which the medium seals, as large elastic contacts of self-affine surfaces do (Wang and Müser)."""
@@ -101,11 +104,15 @@ def effective_medium(spectrum: WavePower, *, composite_modulus: float, load: flo
     middle = np.maximum(volume[some] / parted[some], 0.0)
     remaining = power.sum() - np.concatenate([[0.0], np.cumsum(power)])[(cuts[1:] + cuts[:-1]) // 2]
     rms = np.sqrt(np.maximum(remaining[some], 0.0))
-    nodes, weights = np.polynomial.hermite_e.hermegauss(NODES)
-    gaps = np.abs(middle[:, None] + rms[:, None] * nodes).ravel()
-    shares = (parted[some, None] * (weights / weights.sum())).ravel()
     contact = float(areas[-1])
-    permeability, residual = _medium(gaps, shares, contact)
+
+    def apart(steps: Array, weights: Array) -> tuple[Array, Array]:
+        """Gaps at so many rms heights from their mean, and the parts of the area that they have by the weights."""
+        gaps = np.abs(middle[:, None] + rms[:, None] * steps)
+        return gaps.ravel(), (parted[some, None] * (weights / weights.sum())).ravel()
+
+    permeability, residual = _medium(*apart(*np.polynomial.hermite_e.hermegauss(NODES)), contact)
+    gaps, shares = apart(ndtri((np.arange(PIECES) + 0.5) / PIECES), np.ones(PIECES))
     return EffectiveMedium(
         permeability=permeability,
         mean_gap=float(means[0]),

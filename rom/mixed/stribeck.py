@@ -36,8 +36,8 @@ JUDGED = 5
 EXTRAPOLATED, FARTHEST = 4, 0.4
 """Points from which the next separation is guessed, and how far its logarithm is at most from that of the last."""
 
-LEAST_SPEED = 1e-6
-"""m/s, from which lift-off is sought where all speeds are 0."""
+POOR = 100.0
+"""Times the speed by which 6ηuL/α² is the load: where walls of little shape lift off, if no speed asked for is near."""
 
 STEP = 1e-3
 """Of the separation of touching: over which the asperities' slope is taken."""
@@ -108,7 +108,8 @@ class StribeckPoint:
 class LiftOff:
     """Where the asperities just touch at the narrowest place: the film alone carries the load from this speed on.
 
-    ``speed``, m/s, is NaN where none up to 1000 times the largest asked for lifts the wall, 0 where it floats at rest.
+    ``speed``, m/s, is NaN where none up to 1000 times the largest asked for lifts the wall (or, where all are low, up
+    to 10⁵ times that by which 6ηuL/α² is the load), 0 where it floats at rest.
     """
 
     speed: float
@@ -188,7 +189,7 @@ def stribeck(
     found_curves = []
     for pressure, points in curves.items():
         progress(1.0, f"lift-off at {pressure * 1e-6:.4g} MPa")
-        around = _crossing(points, film.asperities.touching)
+        around = _crossing(points, film)
         lifts, other_lifts = (lift_off_speed(one, pressure, around, tolerance=tolerance) for one in (film, coarse))
         unsure = abs(lifts - other_lifts) + film.asperities.doubt_above(film.asperities.touching) * lifts
         lift_off = LiftOff(speed=lifts, uncertainty=unsure)
@@ -306,7 +307,12 @@ def uncertainties(
     return {name: abs(getattr(point, name) - getattr(other, name)) + more.get(name, 0.0) for name in UNCERTAIN}
 
 
-def _crossing(points: Sequence[StribeckPoint], touching: float) -> float:
-    """A speed near that at which a curve's separation passes that of touching, m/s, above 0."""
-    lifted = [point.speed for point in points if point.separation >= touching and point.speed > 0]
-    return min(lifted) if lifted else max(max(point.speed for point in points), LEAST_SPEED)
+def _crossing(points: Sequence[StribeckPoint], film: MixedFilm) -> float:
+    """A speed near that at which a curve's separation passes that of touching, m/s, above 0.
+
+    If none of those asked for lifts the wall, the largest of them, but at least ``POOR`` p α²/(6ηL).
+    """
+    thick = film.asperities.touching
+    lifted = [point.speed for point in points if point.separation >= thick and point.speed > 0]
+    least = POOR * points[0].pressure * thick**2 / (6 * film.scene.lubricant.viscosity * film.scene.geometry.length)
+    return min(lifted) if lifted else max(*(point.speed for point in points), least)

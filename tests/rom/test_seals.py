@@ -5,6 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from scipy.special import ndtr
 
 import rom.models
 from contact.errors import InputError
@@ -190,6 +191,13 @@ def test_the_gaps_of_the_medium_and_its_contact_fill_the_area(spectrum):
         assert found.shares.sum() + found.area_fraction == pytest.approx(1.0, abs=1e-9)
         mean = (found.gaps * found.shares).sum()
         assert found.mean_gap * (1 - 1e-9) <= mean <= found.mean_gap + math.sqrt(2 / math.pi) * 1e-7
+
+
+def test_the_gaps_of_a_medium_hardly_pressed_are_gaussian_as_its_heights_are(spectrum):
+    found = effective_medium(spectrum, composite_modulus=1.3e7, load=100.0)
+    order = np.argsort(found.gaps)
+    below, gaps = np.cumsum(found.shares[order]), found.gaps[order]
+    assert np.abs(below - ndtr((gaps - found.mean_gap) / 1e-7)).max() < 0.02
 
 
 def test_the_medium_leaks_less_the_harder_it_is_pressed_and_seals_at_its_threshold(spectrum):

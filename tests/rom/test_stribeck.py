@@ -199,6 +199,13 @@ def test_finished_points_are_not_solved_again(swept):
     assert sum(point.cpu_s == -1.0 for curve in again for point in curve.points) == 7
 
 
+@pytest.mark.parametrize("speeds", [[0.0], [1e-7], [50.0]])
+def test_lift_off_is_found_from_whatever_speeds_are_asked_for(tips, speeds):
+    curve = stribeck(tips.scene(LINEAR), speeds, [2e6], resolution=64)[0]
+    slider = linear_slider(film=tips.touching, rise=1.5e-6, length=20e-3, speed=1.0, viscosity=0.1)
+    assert curve.lift_off.speed == pytest.approx(2e6 * 20e-3 / slider.load, rel=0.01)
+
+
 def test_error_bars_hold_what_finer_grids_change(tips):
     """On a wedge with a closed form."""
     speeds, pressure = [0.3, 1.0], 2e6
