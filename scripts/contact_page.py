@@ -5,9 +5,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from scripts import contact_figures
 from scripts.contact_run import Series
 from scripts.contact_series import digits
+from scripts.contact_view import view_picture
 from scripts.pages import render
 
 MODELS = {
@@ -19,6 +22,9 @@ MODELS = {
     "solved at every point.",
     "stanley_kato": "The same contact by the older algorithm of constant steps, for comparison.",
 }
+
+PICTURED = 4
+"""Loads, at most, whose contacts are drawn in space."""
 
 COLUMNS = (
     ("load", "MPa", "load", 1e-6),
@@ -40,6 +46,9 @@ def write_page(name: str, told: Mapping[str, Any], series: Series, path: Path) -
     hardness = settings["hardness"] or math.inf
     shown = [column for column in COLUMNS if any(getattr(row, column[2]) is not None for row in series.rows)]
     line = last is not None and 1 in last.heights.shape
+    count = 0 if line else min(PICTURED, len(series.views))
+    views = [series.views[round(place)] for place in np.linspace(0, len(series.views) - 1, count)]
+    picture, missing = view_picture(views) if views else (None, "")
     render(
         "contact.html.j2",
         path,
@@ -57,6 +66,8 @@ def write_page(name: str, told: Mapping[str, Any], series: Series, path: Path) -
         areas=contact_figures.areas(series.rows),
         gaps=contact_figures.mean_gaps(series.rows),
         maps=None if last is None or line else contact_figures.maps(last),
+        picture=picture,
+        missing=missing,
         pressures=contact_figures.pressures(series.spreads, hardness),
         section=None if last is None else contact_figures.section(last),
         provenance=told["provenance"],

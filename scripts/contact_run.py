@@ -15,6 +15,7 @@ from contact.mechanics.contact_store import Row, add, finished, load_contact, ro
 from contact.mechanics.estimate import Estimate
 from contact.surface import Array
 from scripts.common import messages
+from scripts.contact_view import View, view_of
 
 FEWEST_POINTS, MOST_BINS = 25, 60
 """Of a histogram of pressures."""
@@ -45,6 +46,7 @@ class Series:
     found: int
     spreads: tuple[Spread, ...]
     last: Contact | None
+    views: tuple[View, ...] = ()
     untrusted: tuple[float, ...] = ()
 
 
@@ -74,6 +76,7 @@ def solved(
     stored = {} if out is None else finished(out, inputs)
     rows: list[Row] = []
     spreads: list[Spread] = []
+    views: list[View] = []
     before: Contact | None = None
     found = sum(load in stored for load in loads)
     try:
@@ -94,11 +97,12 @@ def solved(
             rows.append(row)
             if load in shown and before is not None:
                 spreads += _spread(before)
+                views.append(view_of(before))
     except (KeyboardInterrupt, SystemExit):
         kept = "; the same command goes on" if out is not None else ", none kept without --out"
         messages.print(f"stopped: {len(rows)} of {len(loads)} loads{kept}", soft_wrap=True)
         raise
-    return Series(rows=tuple(rows), found=found, spreads=tuple(spreads), last=before)
+    return Series(rows=tuple(rows), found=found, spreads=tuple(spreads), last=before, views=tuple(views))
 
 
 def _at(at: Solver, load: float, start: Contact | None) -> Contact:

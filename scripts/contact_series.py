@@ -27,11 +27,11 @@ from scripts.load_range import loads_of
 from scripts.output_file import alone, refuse_unwritable
 from scripts.rough_surface import Rough, read_rough, spacing_of
 from scripts.surface import refuse_same
+from scripts.threads import chosen_threads
 
 SHOWN = 5
 """Loads whose pressures are drawn."""
 
-MOST_THREADS = 256
 
 LEAST_TOLERANCE = 1e-13
 
@@ -80,8 +80,7 @@ def command(
     rung = chosen(model, body.hardness)
     bound = math.inf if rung in WITHOUT_HARDNESS else body.hardness
     _refuse(rung, boundary, asked, bound)
-    if not 1 <= threads <= MOST_THREADS:
-        raise InputError(f"--threads: got {threads} threads; it must be 1 to {MOST_THREADS}")
+    chosen_threads(threads)
     if not LEAST_TOLERANCE <= tolerance < 1:
         raise InputError(f"--tolerance: got a tolerance of {tolerance:g}; it must be {LEAST_TOLERANCE:g} to 1")
     stiffness = composite_modulus(body, counter)

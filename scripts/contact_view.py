@@ -1,14 +1,19 @@
-"""A surface in space under a few loads, by pyvista: python -m scripts.contact_view C.h5 PICTURE.png LOAD ..."""
+"""A surface in space under a few loads, by pyvista: python -m scripts.contact_view VIEWS.npz PICTURE.png."""
 
 import sys
+import tempfile
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from contact.files import replacing
 from contact.mechanics.contact import Contact
-from contact.mechanics.contact_store import load_contact
+from contact.surface import Array
+from rom.ladder import Availability
+from scripts.pages import embedded
+from scripts.rendering import draw_module_apart
 
 MOST_POINTS = 256
 """Along a side; finer surfaces are drawn by every second, third ... point."""
@@ -22,12 +27,68 @@ RELIEF = 0.2
 CONTACT = "#d7301f"
 
 
-def draw(contacts: Sequence[Contact], picture: Path) -> None:
-    """Draw one PNG: the surface under each load, seen from the counter body; colour is the gap, contact is red."""
+@dataclass(frozen=True, kw_only=True)
+class View:
+    """What is drawn of a contact.
+
+    Attributes
+    ----------
+    gap : shape (nx, ny), m.
+    spacing : (dx, dy) of these points, m.
+    relief : from the lowest to the highest point of the undeformed surface, m.
+    title : over it.
+    """
+
+    gap: Array
+    spacing: tuple[float, float]
+    relief: float
+    title: str
+
+
+def view_of(contact: Contact) -> View:
+    """A contact with no more points than are drawn."""
+    step = max(1, -(-max(contact.gap.shape) // MOST_POINTS))
+    dx, dy = contact.spacing
+    return View(
+        gap=contact.gap[::step, ::step].copy(),
+        spacing=(step * dx, step * dy),
+        relief=float(np.ptp(contact.heights)) or 1.0,
+        title=f"{contact.load / 1e6:.4g} MPa, {100 * contact.area_fraction:.3g} % contact",
+    )
+
+
+def draw_views_apart(views: Sequence[View], picture: Path) -> Availability:
+    """Draw one PNG, in a process of its own; says why where it fails."""
+    first = views[0]
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "views.npz"
+        np.savez(
+            file,
+            gaps=np.array([view.gap for view in views]),
+            titles=np.array([view.title for view in views]),
+            spacing=np.array(first.spacing),
+            relief=first.relief,
+        )
+        return draw_module_apart("scripts.contact_view", file, picture)
+
+
+def view_picture(views: Sequence[View]) -> tuple[str | None, str]:
+    """The picture as the text of an image's address, or why there is none."""
+    with tempfile.TemporaryDirectory() as scratch:
+        path = Path(scratch) / "contacts.png"
+        drawn = draw_views_apart(views, path)
+        return (embedded(path), "") if drawn.available else (None, drawn.detail)
+
+
+def draw(file: Path, picture: Path) -> None:
+    """The surface under each load, seen from the counter body; colour is the gap, contact is red."""
     import pyvista
 
-    columns = min(2, len(contacts))
-    lines = -(-len(contacts) // columns)
+    with np.load(file) as held:
+        gaps, titles = held["gaps"], [str(title) for title in held["titles"]]
+        (dx, dy), relief = held["spacing"], float(held["relief"])
+    columns = len(gaps) if len(gaps) <= 3 else 2
+    lines = -(-len(gaps) // columns)
     plotter = pyvista.Plotter(
         off_screen=True,
         shape=(lines, columns),
@@ -35,18 +96,15 @@ def draw(contacts: Sequence[Contact], picture: Path) -> None:
         window_size=[PANEL[0] * columns, PANEL[1] * lines],
     )
     plotter.background_color = "white"  # type: ignore[assignment]
-    first = contacts[0]
-    nx, ny = first.heights.shape
-    length, width = nx * first.spacing[0], ny * first.spacing[1]
-    stretch = RELIEF * max(length, width) / (float(np.ptp(first.heights)) or 1.0)
-    top = max(float(np.percentile(contact.gap, 99.5)) for contact in contacts) * 1e6 or 1.0
-    step = max(1, -(-max(nx, ny) // MOST_POINTS))
-    for number, contact in enumerate(contacts):
+    nx, ny = gaps.shape[1:]
+    length, width = nx * dx, ny * dy
+    away = max(length, width)
+    stretch = RELIEF * away / relief
+    top = max(float(np.percentile(gap, 99.5)) for gap in gaps) * 1e6 or 1.0
+    x, y = np.meshgrid(np.arange(nx) * dx, np.arange(ny) * dy, indexing="ij")
+    for number, (gap, title) in enumerate(zip(gaps, titles, strict=True)):
         plotter.subplot(number // columns, number % columns)
-        x, y = (np.arange(n)[::step] * d for n, d in zip((nx, ny), first.spacing, strict=True))
-        gap = contact.gap[::step, ::step]
-        height = -gap * stretch
-        grid = pyvista.StructuredGrid(*(axis[..., None] for axis in (*np.meshgrid(x, y, indexing="ij"), height)))
+        grid = pyvista.StructuredGrid(*(axis[..., None] for axis in (x, y, -gap * stretch)))
         grid.point_data["gap, µm"] = np.where(gap > 0, gap * 1e6, -1.0).ravel(order="F")
         plotter.add_mesh(
             grid,
@@ -70,14 +128,8 @@ def draw(contacts: Sequence[Contact], picture: Path) -> None:
                 "height": 0.06,
             },
         )
-        plotter.add_text(
-            f"{contact.load / 1e6:.4g} MPa, {100 * contact.area_fraction:.1f} % contact",
-            position=(20, PANEL[1] - 44),
-            font_size=12,
-            color="#222222",
-        )
-        middle = (length / 2, width / 2, -RELIEF / 2 * max(length, width))
-        away = max(length, width)
+        plotter.add_text(title, position=(20, PANEL[1] - 44), font_size=12, color="#222222")
+        middle = (length / 2, width / 2, -RELIEF / 2 * away)
         plotter.camera_position = [
             (middle[0] - 0.75 * away, middle[1] - 1.15 * away, middle[2] + 1.15 * away),
             (middle[0], middle[1], middle[2] - 0.1 * away),
@@ -89,4 +141,4 @@ def draw(contacts: Sequence[Contact], picture: Path) -> None:
 
 
 if __name__ == "__main__":
-    draw([load_contact(Path(sys.argv[1]), float(load)) for load in sys.argv[3:]], Path(sys.argv[2]))
+    draw(Path(sys.argv[1]), Path(sys.argv[2]))

@@ -33,6 +33,7 @@ from scripts.kept_points import Work, kept_table
 from scripts.output_file import alone, refuse_unwritable
 from scripts.rough_surface import Rough, joint_warnings, read_rough, spacing_of
 from scripts.surface import refuse_same
+from scripts.threads import Threads, chosen_threads
 
 SOURCES = ("10.1016/j.triboint.2007.02.021", "10.1016/j.triboint.2006.02.069", "Sahlin 2008, Papers C and E")
 SHOWN = ("A11", "A12", "A22", "B1", "B2")
@@ -68,6 +69,7 @@ def command(
         Path | None, typer.Option(help="Write the table here (HDF5); points that it holds are not solved again.")
     ] = None,
     report: Annotated[Path | None, typer.Option(help="Write a page with its pictures here (HTML).")] = None,
+    threads: Threads = None,
     as_json: AsJson = False,
 ) -> None:
     """Average a rough surface: what its film lets through, drags along and rubs over that of a smooth one.
@@ -83,7 +85,7 @@ def command(
         raise InputError("--offset: got one for a table, in which contact is closed; give --gap, or leave it out")
     if mean_gap is not None and tolerance is not None:
         raise InputError("--tolerance: is of a table; leave it or --gap out")
-    asked = TOLERANCE if tolerance is None else tolerance
+    asked, sharing = TOLERANCE if tolerance is None else tolerance, chosen_threads(threads)
     for path in filter(None, (out, report)):
         refuse_unwritable(path)
     with alone(out, "table"), progress_bar(1.0) as advance:
@@ -103,10 +105,10 @@ def command(
             told = _told_one(rough, settings, found, separation)
         else:
             if series is None:
-                work = _of_surface(surface, rough, asked, rule, advance)
+                work = _of_surface(surface, rough, asked, rule, sharing, advance)
             else:
                 settings |= {name: series[0].settings[name] for name in ("composite_modulus", "hardness")}
-                work = _of_contacts(surface, *series, asked, rule, advance)
+                work = _of_contacts(surface, *series, asked, rule, sharing, advance)
             inputs = Inputs(heights=rough.heights, spacing=rough.spacing, settings=settings)
             table, known = kept_table(out, inputs, work)
             told = _told_all(rough, settings | {"tolerance": asked}, table, known)
@@ -134,13 +136,20 @@ def _length(option: str, text: str | None, least: float = LEAST_SPACING) -> floa
     return length
 
 
-def _of_surface(surface: Path, rough: Rough, tolerance: float, rule: FaceRule, advance: Progress) -> Work:
+def _of_surface(surface: Path, rough: Rough, tolerance: float, rule: FaceRule, threads: int, advance: Progress) -> Work:
     """How the table of an undeformed surface is made."""
 
     def work(known: Sequence[Point], keep: Callable[[Point], None]) -> FactorTable:
         try:
             return tabulate(
-                rough.heights, rough.spacing, tolerance=tolerance, rule=rule, known=known, keep=keep, progress=advance
+                rough.heights,
+                rough.spacing,
+                tolerance=tolerance,
+                rule=rule,
+                known=known,
+                keep=keep,
+                threads=threads,
+                progress=advance,
             )
         except InputError as error:
             raise InputError(str(error).replace("heights:", f"{surface}:")) from None
@@ -149,7 +158,13 @@ def _of_surface(surface: Path, rough: Rough, tolerance: float, rule: FaceRule, a
 
 
 def _of_contacts(
-    series: Path, pressed: Inputs, loads: Sequence[float], tolerance: float, rule: FaceRule, advance: Progress
+    series: Path,
+    pressed: Inputs,
+    loads: Sequence[float],
+    tolerance: float,
+    rule: FaceRule,
+    threads: int,
+    advance: Progress,
 ) -> Work:
     """How the table of a surface under a series of loads is made, from the contacts in a file."""
 
@@ -165,6 +180,7 @@ def _of_contacts(
             known=known,
             keep=keep,
             stored=lambda load: load_contact(series, load) if load in loads else None,
+            threads=threads,
             progress=advance,
         ).factors
 

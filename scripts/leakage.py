@@ -39,9 +39,9 @@ from scripts.contact_series import digits
 from scripts.leakage_run import Ready, chosen_loads, ready, sealing, solved
 from scripts.load_range import loads_of
 from scripts.output_file import alone, refuse_unwritable
+from scripts.threads import Threads, chosen_threads
 
 SOURCES = ("Sahlin 2008, Paper F", "10.1016/S0043-1648(99)00113-1", "10.1016/j.triboint.2006.02.069")
-MOST_THREADS = 256
 WORDS = {
     "direct_x": "between ends, x",
     "direct_y": "between ends, y",
@@ -63,7 +63,7 @@ def command(
         ),
     ] = None,
     set_: Overrides = None,
-    threads: Annotated[int | None, typer.Option(help="Gaps whose flow is solved at once.")] = None,
+    threads: Threads = None,
     as_json: AsJson = False,
 ) -> None:
     """Press a seal from the first touch until it is sealed: contact, gap, and leakage both directly and averaged."""
@@ -77,9 +77,7 @@ def command(
             f"--loads: up to {asked[-1] / 1e6:.10g} MPa, above the hardness of {read.hardness / 1e6:.10g} MPa, which "
             "is all that the whole area can bear; lower them"
         )
-    threads = min(2, os.cpu_count() or 1) if threads is None else threads
-    if not 1 <= threads <= MOST_THREADS:
-        raise InputError(f"--threads: got {threads} threads; it must be 1 to {MOST_THREADS}")
+    sharing = chosen_threads(threads)
     make_directory(out)
     refuse_unwritable(out / "report.html")
     with (
@@ -91,7 +89,7 @@ def command(
         body = _ready(read, out)
         found = sealing(body, lambda done, words: advance(0.2 * done, words))
         series = chosen_loads(body, found) if asked is None else asked
-        rows, known = solved(body, series, threads, lambda done, words: advance(0.2 + 0.7 * done, words))
+        rows, known = solved(body, series, sharing, lambda done, words: advance(0.2 + 0.7 * done, words))
         told = _told(read, body, rows, found, known)
         _write_tables(read, rows, out)
         advance(0.95, "drawing the page")

@@ -1,6 +1,5 @@
 """The page of a series of leakage."""
 
-import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -16,10 +15,10 @@ from rom.leakage.series import SOUGHT, Row
 from rom.seal import Seal
 from scripts import leakage_figures
 from scripts.contact_series import digits
+from scripts.contact_view import view_of, view_picture
 from scripts.leakage import WORDS, in_words, leaks
 from scripts.leakage_run import Ready
-from scripts.pages import embedded, render
-from scripts.rendering import draw_contacts_apart
+from scripts.pages import render
 
 
 def write_page(
@@ -44,7 +43,7 @@ def write_page(
     )
     shown = _shown(ordered, scene.axis)
     contacts = [load_contact(body.contacts, load) for load in shown]
-    picture, why = _picture(body.contacts, shown)
+    picture, why = view_picture([view_of(contact) for contact in contacts])
     render(
         "leakage.html.j2",
         directory / "report.html",
@@ -110,11 +109,3 @@ def _bar(row: Row, name: str) -> str:
     """An error bar, as a part of the value."""
     value, doubt = getattr(row, name), getattr(row, f"{name}_uncertainty")
     return "–" if value == 0 else f"{100 * doubt / value:.2g} %"
-
-
-def _picture(contacts: Path, loads: Sequence[float]) -> tuple[str | None, str]:
-    """The contacts in space as the text of an image's address, or why there is none."""
-    with tempfile.TemporaryDirectory() as scratch:
-        path = Path(scratch) / "contacts.png"
-        drawn = draw_contacts_apart(contacts, loads, path)
-        return (embedded(path), "") if drawn.available else (None, drawn.detail)

@@ -2,9 +2,8 @@
 
 import math
 import time
-from collections.abc import Callable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
-from contextlib import contextmanager
+from collections.abc import Callable
+from concurrent.futures import FIRST_COMPLETED, Future, wait
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -20,6 +19,7 @@ from contact.mechanics.moments import wave_power
 from contact.mechanics.press import Press
 from contact.peaks import lowest_valleys
 from contact.surface import Surface
+from contact.workers import workers
 from rom.leakage.direct import direct_leakage
 from rom.leakage.homogenized import homogenized_leakage
 from rom.leakage.percolation import Threshold, thresholds
@@ -161,7 +161,7 @@ def solved(body: Ready, loads: tuple[float, ...], threads: int, advance: Advance
                 save(KEPT_EVERY_S)
 
     try:
-        with _pool(threads) as pool:
+        with workers(threads) as pool:
             before: Contact | None = None
             flow = _flow_of(body)
             for load in (one for one in loads if one not in rows):
@@ -186,16 +186,6 @@ def solved(body: Ready, loads: tuple[float, ...], threads: int, advance: Advance
 
 def _succeeded(future: Future[Row]) -> bool:
     return future.done() and not future.cancelled() and future.exception() is None
-
-
-@contextmanager
-def _pool(threads: int) -> Iterator[ThreadPoolExecutor]:
-    """Threads that end without beginning what still waits when something goes wrong."""
-    pool = ThreadPoolExecutor(threads)
-    try:
-        yield pool
-    finally:
-        pool.shutdown(cancel_futures=True)
 
 
 def _flow_of(body: Ready) -> Callable[[Contact], Row]:

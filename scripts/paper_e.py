@@ -16,19 +16,24 @@ import typer
 from rich.markup import escape
 
 from contact.files import replacing
+from contact.mechanics.contact import Contact
+from contact.mechanics.press import Press
+from contact.mechanics.solid import composite_modulus
+from contact.surface_files import read_surface
 from rom.provenance import circumstances, code
 from scripts import paper_e_data, paper_e_windows
 from scripts.common import AsJson, in_one_line, make_directory, output, print_json, progress_bar, run_alone
-from scripts.contact_picture import contact_picture
-from scripts.pages import embedded, render, write_figures
+from scripts.contact_view import view_of, view_picture
+from scripts.error_bars import with_error
+from scripts.pages import render, write_figures
 from scripts.paper_a_claims import Claim
-from scripts.paper_e_claims import Paper, judge
+from scripts.paper_e_claims import Paper, judge, worst_cell
 from scripts.paper_e_data import LOADS, SCALED, Washer
 from scripts.paper_e_made import POINTS, made
 from scripts.paper_e_windows import LOAD, MILLED, Leak, sensitivity
 
-PRESSED = (2e6, 50e6, 500e6)
-"""Loads at which the contact is pictured, Pa."""
+PRESSED, PICTURED = (2e6, 50e6, 500e6), 128
+"""Loads at which the contact is pictured, Pa, and its points along a side."""
 
 
 @in_one_line
@@ -51,8 +56,6 @@ def command(
     told = numbers(paper, claims)
     with replacing(out / "paper_e.json") as scratch:
         scratch.write_text(json.dumps(told, indent=1, allow_nan=False) + "\n", encoding="utf-8")
-    picture = out / "contact.png"
-    drawn = contact_picture(made("surface 3", 128), paper_e_windows.STEEL, PRESSED, picture)
     render(
         "paper_e.html.j2",
         out / "paper_e.html",
@@ -65,7 +68,7 @@ def command(
         milled=MILLED,
         load=LOAD,
         studies=studies(paper.windows) if paper.windows else [],
-        contact=embedded(picture) if drawn.available else None,
+        contact=view_picture([view_of(contact) for contact in pressed()])[0],
     )
     if as_json:
         print_json({**told, "report": str(out / "paper_e.html")})
@@ -107,12 +110,14 @@ def compute(
                 body, out / "lays" / name, boxed=False, speeds=paper_e_data.FEW, cells=cells, advance=advance
             )
             done += 1
-        windows = _kept(out / "windows.json", surfaces, advance) if leaky and surfaces is not None else ()
-    return Paper(windows=windows, washers=washers, lays=lays)
+        windows, rows = _kept(out / "windows.json", surfaces, advance) if leaky and surfaces is not None else ((), ())
+    return Paper(windows=windows, rows=rows, washers=washers, lays=lays)
 
 
-def _kept(path: Path, folder: Path, advance: Callable[[str], None]) -> tuple[Leak, ...]:
-    """The windows' leaks from a file, if it holds those of this code and this surface."""
+def _kept(
+    path: Path, folder: Path, advance: Callable[[str], None]
+) -> tuple[tuple[Leak, ...], tuple[tuple[int, float], ...]]:
+    """The windows' leaks, and those in a row, from a file, if it holds those of this code and this surface."""
     asked = {
         "code": code(),
         "surface": hashlib.sha256((folder / MILLED).read_bytes()).hexdigest(),
@@ -121,11 +126,14 @@ def _kept(path: Path, folder: Path, advance: Callable[[str], None]) -> tuple[Lea
     if path.is_file():
         held = json.loads(path.read_text(encoding="utf-8"))
         if held.get("asked") == asked:
-            return tuple(_leak(entries) for entries in held["leaks"])
+            return tuple(_leak(entries) for entries in held["leaks"]), tuple(map(tuple, held["rows"]))
     found = paper_e_windows.study(folder, advance=advance)
+    advance("windows in a row")
+    rows = paper_e_windows.in_a_row(read_surface(folder / MILLED), *worst_cell(found))
+    told = {"asked": asked, "leaks": [asdict(one) for one in found], "rows": rows}
     with replacing(path) as scratch:
-        scratch.write_text(json.dumps({"asked": asked, "leaks": [asdict(one) for one in found]}), encoding="utf-8")
-    return found
+        scratch.write_text(json.dumps(told), encoding="utf-8")
+    return found, rows
 
 
 def _leak(entries: Mapping[str, Any]) -> Leak:
@@ -134,6 +142,14 @@ def _leak(entries: Mapping[str, Any]) -> Leak:
         for name in (field.name for field in fields(Leak))
     }
     return Leak(**made)
+
+
+def pressed() -> list[Contact]:
+    """The ground surface at the loads that are pictured."""
+    surface = made("surface 3", PICTURED)
+    steel = paper_e_windows.STEEL
+    press = Press(surface.heights, surface.spacing, composite_modulus(steel), hardness=steel.hardness)
+    return [press.at(load) for load in PRESSED]
 
 
 def studies(windows: Sequence[Leak]) -> list[tuple[str, str]]:
@@ -176,7 +192,7 @@ def _row(name: str, one: Washer) -> dict[str, Any]:
     from scripts.paper_e_figures import point_at
 
     pairs = zip(one.lift(), one.lift(boxed=True), strict=True)
-    lifts = [tuple(f"{speed:.3g} ± {unsure:.1g}" for speed, unsure in pair) for pair in pairs]
+    lifts = [tuple(with_error(*one) for one in pair) for pair in pairs]
     return {"name": name, "lifts": lifts, "share": point_at(one, 1, paper_e_data.SHOWN[0]).contact_share}
 
 
@@ -203,6 +219,7 @@ def numbers(paper: Paper, claims: Sequence[Claim]) -> dict[str, Any]:
         },
         "lays": {name: lifts(one) for name, one in paper.lays.items()},
         "windows": [asdict(one) for one in paper.windows],
+        "windows_in_a_row": [{"windows": count, "direct_over_homogenized": part + 1} for count, part in paper.rows],
         "provenance": circumstances(),
     }
 

@@ -18,6 +18,9 @@ COLOURS = ("#2166ac", "#b2182b", "#1a7f37", "#b07d2b", "#6a51a3")
 LINES = (":", "-", "--")
 WINDOWS = dict(zip(PARTS, COLOURS, strict=False))
 COUNTED = ("surface 1", "surface 2", "surface 3")
+ROUND = (10, 20, 50, 100, 200, 500)
+"""Turns a minute that are written at an axis."""
+
 LAYS = {"along": COLOURS[0], "across": COLOURS[2], "+45°": COLOURS[1], "-45°": COLOURS[3]}
 
 
@@ -43,7 +46,7 @@ def leakages(windows: Sequence[Leak]) -> Figure:
             loads.plot(pressed, [1e6 * row.volume(1) for row in here], color=colour, linewidth=whole, label=label)
     places.set_xticks(range(len(PARTS)), list(PARTS))
     places.set_xlabel(f"window, at {LOAD / 1e6:g} MPa")
-    places.legend(fontsize=8, title="full: HNS, empty: DNS")
+    places.legend(fontsize=8, title="full: HNS, empty: DNS", title_fontsize=8, loc="lower left")
     for window in ("a", "b"):
         rows = [one for one in windows if one.window == window and one.load in PRESSED[:3]]
         start = rows[0].start
@@ -60,7 +63,8 @@ def leakages(windows: Sequence[Leak]) -> Figure:
     grids.set_xscale("log", base=2)
     grids.set_xticks([0.5, 1, 2], ["half", "as prepared", "double"])
     grids.set_xlabel("nodes along a side, along y")
-    grids.legend(fontsize=8)
+    grids.set_ylim(bottom=0)
+    grids.legend(fontsize=8, loc="lower right")
     loads.set_xscale("log")
     loads.set_yscale("log")
     loads.set_xlabel("load, MPa, along y")
@@ -177,7 +181,11 @@ def lays(paper: Paper) -> Figure:
         axes.set_ylabel("lift-off, rpm")
         axes.set_xscale("log")
         axes.set_yscale("log")
-        axes.legend(fontsize=8, title="ridges against the sliding")
+        axes.set_xticks(loads, [f"{load:g}" for load in loads])
+        axes.minorticks_off()
+        axes.set_yticks(ROUND, [f"{speed:g}" for speed in ROUND])
+        axes.set_ylim(7, 500)
+        axes.legend(fontsize=8, title="ridges against the sliding", title_fontsize=8, loc="lower right")
     return figure
 
 

@@ -15,7 +15,7 @@ from contact.preparation.recipe import read_recipe
 from contact.surface import Surface
 from contact.surface_files import read_surface
 from rom.homogenization.flow_factors import flow_factors
-from rom.leakage.direct import direct_leakage
+from rom.leakage.direct import direct_flow, direct_leakage
 
 MILLED = "milled_NT1100.opd"
 STEEL = Solid(modulus=210e9, poisson=0.3, hardness=5e9)
@@ -37,6 +37,9 @@ PARTS = {"a": 1.0, "b": 2 / 3, "c": 0.45}
 PLACES = {"a": 1, "b": 2, "c": 3}
 """Windows along each side."""
 
+PERIODS = (1, 2, 4, 8, 16)
+"""One after the other, of the cell whose ends count most."""
+
 TOLERANCE = 1e-6
 
 
@@ -47,7 +50,7 @@ class Leak:
     Attributes
     ----------
     window : a, b or c; resolution : 0.5, 1 or 2 of the nodes the preparation takes.
-    start : of the window, over the sides of the measurement; nan where the best fitting one was looked for.
+    start : of the window, over the sides of the measurement.
     mismatch : periodicity mismatch before and after the edges were joined.
     homogenized, uncertainty : A₁₁ and A₂₂, m³.
     direct, direct_uncertainty : the same of one cell between two reservoirs, solved directly, m³.
@@ -83,7 +86,7 @@ def study(
     coarser: int = 1,
     advance: Callable[[str], None] = lambda _words: None,
 ) -> tuple[Leak, ...]:
-    """All windows at the usual resolution; the windows at the best place at half of it and at double.
+    """All windows at the usual resolution; windows a and b in the middle at half of it and at double.
 
     ``coarser`` divides the nodes along each side.
     """
@@ -165,6 +168,22 @@ def recipe(
         "grid": {"points": [max(16, round(count * resolution) // coarser) for count in whole]},
         "smoothing": 5 if resolution > 1 else 3,
     }
+
+
+def in_a_row(measured: Surface, cell: Leak, direction: int, *, coarser: int = 2) -> tuple[tuple[int, float], ...]:
+    """Of one cell, by which part more passes directly than on and on, over how many periods one after the other.
+
+    ``coarser`` divides the nodes along each side.
+    """
+    prepared = prepare(measured, read_recipe(recipe(measured, cell.window, cell.start, cell.resolution, coarser)))
+    surface = prepared.surface
+    press = Press(surface.heights, surface.spacing, composite_modulus(STEEL), hardness=STEEL.hardness)
+    gap = press.at(cell.load, tolerance=TOLERANCE).gap
+    endless = flow_factors(gap, surface.spacing).factors.pressure[direction, direction]
+    return tuple(
+        (count, direct_flow(gap, surface.spacing, direction, periods=count).permeability / endless - 1)
+        for count in PERIODS
+    )
 
 
 def sensitivity(found: Sequence[Leak], direction: int) -> float:

@@ -2,7 +2,6 @@
 
 import subprocess
 import sys
-from collections.abc import Sequence
 from pathlib import Path
 
 from rom.ladder import Availability
@@ -27,11 +26,6 @@ def draw_apart(result: Path, picture: Path) -> Availability:
 def draw_module_apart(module: str, file: Path, picture: Path) -> Availability:
     """Run a module that draws what a file holds into a PNG; says why where it fails."""
     return _apart("-m", module, str(file), str(picture))
-
-
-def draw_contacts_apart(contacts: Path, loads: Sequence[float], picture: Path) -> Availability:
-    """Draw a surface under some of the loads of a stored series into a PNG; says why where it fails."""
-    return _apart("-m", "scripts.contact_view", str(contacts), str(picture), *map(repr, loads))
 
 
 def probe() -> Availability:

@@ -29,6 +29,7 @@ from rom.solids import composite_modulus, hardness
 from scripts.common import messages
 from scripts.kept_points import EVERY_S, kept_table
 from scripts.stribeck_store import known_points, save_points
+from scripts.threads import chosen_threads
 
 SAME = 1e-9
 """How near what is told of a table's surface and solids has to be to those of the scene, as a part of it."""
@@ -124,7 +125,15 @@ def _tabulated(
 
     def at_least(reach: float, known: Sequence[Point], keep: Callable[[Point], None]) -> AsperityTable:
         return tabulate_pressed(
-            heights, spacing, stiffness, hardness=bound, reach=reach, known=known, keep=keep, progress=progress
+            heights,
+            spacing,
+            stiffness,
+            hardness=bound,
+            reach=reach,
+            known=known,
+            keep=keep,
+            threads=chosen_threads(None),
+            progress=progress,
         )
 
     def work(known: Sequence[Point], keep: Callable[[Point], None]) -> FactorTable:

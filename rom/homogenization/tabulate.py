@@ -2,10 +2,12 @@
 
 import time
 from collections.abc import Callable, Iterable
+from threading import Lock
 
 import numpy as np
 
 from contact.errors import InputError
+from contact.workers import workers
 from rom.gap import Array
 from rom.homogenization.bisection import bisected
 from rom.homogenization.conductance import FaceRule
@@ -39,6 +41,7 @@ def tabulate(
     rule: FaceRule = FaceRule.LINEAR,
     known: Iterable[Point] = (),
     keep: Callable[[Point], object] = lambda _point: None,
+    threads: int = 1,
     progress: Progress = silent,
 ) -> FactorTable:
     """Flow factors of an undeformed surface from where it seals to thick films.
@@ -56,7 +59,8 @@ def tabulate(
         logarithm of the nodes.
     narrowest : the mean gap of the first point, m; by default where nothing gets through in either direction.
     known : points that need not be solved again.
-    keep : called with every new point.
+    keep : called with every new point, one at a time.
+    threads : in which cells are solved at once.
 
     Raises
     ------
@@ -73,12 +77,14 @@ def tabulate(
         raise InputError("heights: are all the same; a smooth wall needs no flow factors")
     before = {point.separation: point for point in known if point.load == 0}
     found: dict[float, Point] = {}
+    keeping = Lock()
 
     def solve(separation: float) -> Point:
         point = before.get(separation)
         if point is None:
             point = point_of(body.gap(separation), spacing, separation, rule=rule)
-            keep(point)
+            with keeping:
+                keep(point)
         found[separation] = point
         return point
 
@@ -93,11 +99,10 @@ def tabulate(
     low, *others = sorted(set(body.sealing())) if narrowest is None else [body.at_mean_gap(narrowest)]
     first = solve(low)
     last = max(THICK * body.rms, 2 * first.mean_gap)
-    for separation in others:
-        solve(separation)
-    for mean_gap in np.geomspace(first.mean_gap, last, FIRST)[1:]:
-        progress(len(found) / 40, f"{len(found)} points")
-        solve(body.at_mean_gap(float(mean_gap)))
+    wanted = [*others, *map(body.at_mean_gap, np.geomspace(first.mean_gap, last, FIRST).tolist()[1:])]
+    with workers(threads) as pool:
+        for _ in pool.map(solve, wanted):
+            progress(len(found) / 40, f"{len(found)} points")
     while beyond(table := made(found.values()), solve(body.at_mean_gap(2 * table.widest))) > tolerance:
         progress(len(found) / (len(found) + 20), f"{len(found)} points")
     points = bisected(
@@ -106,6 +111,7 @@ def tabulate(
         made=made,
         off=lambda table, point: (beyond(table, point), 0.0),
         tolerance=tolerance,
+        threads=threads,
         progress=progress,
     )
     progress(1.0, f"{len(points)} points")
@@ -114,7 +120,7 @@ def tabulate(
 
 def point_of(gap: Array, spacing: tuple[float, float], separation: float, *, rule: FaceRule) -> Point:
     """The flow factors of a gap, m, shape (nx, ny), as a point of a table."""
-    cpu = time.process_time()
+    cpu = time.thread_time()
     one = flow_factors(gap, spacing, rule=rule)
     return Point(
         separation=separation,
@@ -124,7 +130,7 @@ def point_of(gap: Array, spacing: tuple[float, float], separation: float, *, rul
         unsolved=one.unsolved,
         iterations=one.iterations,
         residual=one.residual,
-        cpu_s=time.process_time() - cpu,
+        cpu_s=time.thread_time() - cpu,
     )
 
 

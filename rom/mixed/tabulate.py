@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from threading import Lock
 
 import numpy as np
 
@@ -10,6 +11,7 @@ from contact.errors import InputError
 from contact.mechanics.contact import Contact
 from contact.mechanics.moments import wave_power
 from contact.mechanics.press import Press
+from contact.workers import workers
 from rom.gap import Array
 from rom.homogenization.bisection import bisected
 from rom.homogenization.conductance import FaceRule
@@ -67,12 +69,13 @@ def tabulate_pressed(
     composite_modulus : E*, Pa.
     hardness : H, Pa.
     loads : two or more, Pa, that the table has at least; by default from about one pixel in contact to where both
-        directions are sealed, 0.9 H, or 97 % contact.
+        directions are sealed, 0.9 H, or 90 % contact.
     reach : a load that it reaches in any case, Pa.
     tolerance : as :func:`rom.homogenization.tabulate.tabulate` takes it, and of the separation over the rms height.
     known : points that need not be solved again.
     keep : called with every new point.
     stored : gives the contact at a load where there is one already.
+    threads : in which cells are solved at once; the table does not depend on it.
 
     Raises
     ------
@@ -90,33 +93,32 @@ def tabulate_pressed(
         rule=rule,
         known=known,
         keep=keep,
+        threads=threads,
         progress=lambda part, words: progress(0.4 * part, words),
     )
-    press = Press(body.heights, spacing, composite_modulus, hardness=hardness, threads=threads)
-    coarser = _coarser(press, threads)
+    press = Press(body.heights, spacing, composite_modulus, hardness=hardness)
+    coarser = _coarser(press)
     before = {point.load: point for point in known if point.load > 0}
-    last: Contact | None = None
+    pressing, keeping = Lock(), Lock()
 
     def solve(load: float) -> Point | None:
-        nonlocal last
         if load in before:
             return before[load]
-        contact = stored(load)
-        if contact is None:
-            near = last if last is not None and last.load < load < 2 * STEP * last.load else None
-            contact = press.at(load, tolerance=COMPLEMENTARITY, start=near)
+        with pressing:
+            contact = stored(load) or press.at(load, tolerance=COMPLEMENTARITY)
+            alpha = body.peak - contact.approach
+            doubt = _doubt(body, coarser, load, alpha)
         if not contact.gap.any():
             return None
-        last = contact
-        alpha = body.peak - contact.approach
         point = replace(
             point_of(contact.gap, spacing, alpha, rule=rule),
             load=load,
             area_fraction=contact.area_fraction,
             plastic_fraction=contact.plastic_fraction,
-            separation_uncertainty=_doubt(body, coarser, load, alpha),
+            separation_uncertainty=doubt,
         )
-        keep(point)
+        with keeping:
+            keep(point)
         return point
 
     def half_way(one: Point, two: Point) -> Point | None:
@@ -135,8 +137,8 @@ def tabulate_pressed(
     def told(part: float, words: str) -> None:
         progress(0.4 + 0.6 * part, words)
 
-    points = _series(solve, press, loads, reach, told)
-    found = bisected(points, half_way=half_way, made=made, off=off, tolerance=tolerance, progress=told)
+    points = _series(solve, press, loads, reach, threads, told)
+    found = bisected(points, half_way=half_way, made=made, off=off, tolerance=tolerance, threads=threads, progress=told)
     progress(1.0, f"{len(found) + len(open_table.points)} points")
     return made(found)
 
@@ -153,6 +155,7 @@ def _series(
     press: Press,
     loads: Sequence[float] | None,
     reach: float,
+    threads: int,
     progress: Progress,
 ) -> list[Point]:
     """The points at the loads that are given, or up to where little is left open."""
@@ -170,18 +173,20 @@ def _series(
             "all that the whole area can bear; lower them"
         )
     points: list[Point] = []
-    while asked:
-        load = asked.pop(0)
-        progress(0.5 * len(points) / (len(points) + len(asked) + 1), f"{load / 1e6:.4g} MPa")
-        point = solve(load)
-        if point is None:
-            if loads is not None or load <= reach:
-                raise InputError(f"loads: {load:.6g} Pa closes the gap everywhere, so that there is no film; lower it")
-            break
-        points.append(point)
-        if not asked and (load < reach or (loads is None and _leaves_open(point, most))):
-            following = load * (STEP if point.contact < LIGHT else SHORT_STEP)
-            asked = [min(following, max(most, reach)) if loads is None else min(following, reach)]
+    with workers(threads) as pool:
+        while asked:
+            for load, point in zip(asked, pool.map(solve, asked), strict=True):
+                progress(0.5 * len(points) / (len(points) + len(asked)), f"{load / 1e6:.4g} MPa")
+                if point is None and (loads is not None or load <= reach):
+                    told = f"loads: {load:.6g} Pa closes the gap everywhere, so that there is no film"
+                    raise InputError(f"{told}; lower it")
+                if point is None:
+                    return points
+                points.append(point)
+            last, asked = points[-1], []
+            if last.load < reach or (loads is None and _leaves_open(last, most)):
+                following = last.load * (STEP if last.contact < LIGHT else SHORT_STEP)
+                asked = [min(following, max(most, reach)) if loads is None else min(following, reach)]
     return points
 
 
@@ -198,10 +203,8 @@ def _doubt(body: Separations, coarser: Press | None, load: float, separation: fl
     return SAFETY * abs(peak - found.approach - separation)
 
 
-def _coarser(press: Press, threads: int) -> Press | None:
+def _coarser(press: Press) -> Press | None:
     if min(press.heights.shape) < 2 * FEWEST or any(count % 2 for count in press.heights.shape):
         return None
     dx, dy = press.spacing
-    return Press(
-        press.heights[::2, ::2], (2 * dx, 2 * dy), press.composite_modulus, hardness=press.hardness, threads=threads
-    )
+    return Press(press.heights[::2, ::2], (2 * dx, 2 * dy), press.composite_modulus, hardness=press.hardness)

@@ -160,6 +160,13 @@ def test_a_table_is_extended_and_nothing_known_is_solved_again(elastic):
     assert all(1e9 < point.load <= 2e9 for point in solved)
 
 
+def test_two_threads_make_the_same_table(elastic):
+    both = tabulate_pressed(HEIGHTS, SPACING, MODULUS, loads=[1e7, 1e8, 1e9], tolerance=0.05, threads=2)
+    alpha = np.linspace(elastic.closest, 3 * elastic.touching, 50)
+    assert np.array_equal(both.contact_pressure(alpha), elastic.contact_pressure(alpha))
+    assert np.array_equal(both(alpha).across, elastic(alpha).across)
+
+
 def test_a_file_gives_it_back(elastic, tmp_path):
     inputs = Inputs(heights=HEIGHTS, spacing=SPACING, settings={"rule": "linear"})
     save_table(tmp_path / "T.h5", inputs, elastic.factors)

@@ -18,14 +18,23 @@ from contact.files import locked
 from contact.mechanics.press import Press
 from contact.surface import Surface
 from contact.surface_store import save_surface
+from rom.ladder import Availability
 from scripts.cli import app
 from scripts.load_range import loads_of
+from scripts.rendering import probe
 from scripts.rough_surface import spacing_of
 
+ABSENT = Availability(available=False, detail="left out in a test")
 STEEL = ("--modulus", "210GPa", "--poisson", "0.3")
 PLASTIC = (*STEEL, "--hardness", "4GPa")
 NUMBERS = {"load", "area_fraction", "area_fraction_pixel", "plastic_fraction", "mean_gap", "approach"}
 NUMBERS |= {"complementarity", "iterations", "pressure_max", "cpu_s"}
+
+
+@pytest.fixture(autouse=True)
+def _without_pictures(monkeypatch):
+    """VTK takes most of the time; one test looks at its picture."""
+    monkeypatch.setattr("scripts.contact_view.draw_views_apart", lambda *_: ABSENT)
 
 
 def run(*arguments):
@@ -242,6 +251,13 @@ def test_people_get_a_table_and_a_page(rough, tmp_path):
     for title in ("Area", "Mean gap", "Pressure and gap at 4 GPa", "Section at 4 GPa", "Pressures", "Numbers"):
         assert f"<h2>{title}</h2>" in page
     assert not re.search(r'(src|href)="http', page)
+
+
+def test_the_surface_is_pictured_under_its_loads(rough, monkeypatch, tmp_path):
+    monkeypatch.undo()
+    page = tmp_path / "page.html"
+    assert run(rough, *STEEL, "--loads", "100MPa,4GPa", "--report", page).exit_code == 0
+    assert ("data:image/png" in page.read_text()) == probe().available
 
 
 def test_the_page_of_a_line_has_a_profile_and_no_map(wave, tmp_path):

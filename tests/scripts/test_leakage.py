@@ -15,6 +15,7 @@ from rom.table import read_table
 from scripts import leakage_run
 from scripts.cli import app
 
+ABSENT = Availability(available=False, detail="left out in a test")
 SURFACE = """
 kind = "self_affine"
 size = ["40 um", "40 um"]
@@ -73,8 +74,7 @@ def _without_pages(monkeypatch):
 @pytest.fixture(scope="module")
 def told(place):
     with pytest.MonkeyPatch.context() as patch:
-        absent = Availability(available=False, detail="left out in a test")
-        patch.setattr("scripts.leakage_page.draw_contacts_apart", lambda *_: absent)
+        patch.setattr("scripts.contact_view.draw_views_apart", lambda *_: ABSENT)
         return asked("leakage", place / "seal.toml", "--out", place / "out")
 
 
@@ -199,9 +199,8 @@ def test_scenes_of_other_kinds_are_refused(place):
 
 
 def test_a_flat_surface_is_sealed_under_the_loads_that_are_asked(place, monkeypatch):
-    absent = Availability(available=False, detail="left out in a test")
     monkeypatch.undo()
-    monkeypatch.setattr("scripts.leakage_page.draw_contacts_apart", lambda *_: absent)
+    monkeypatch.setattr("scripts.contact_view.draw_views_apart", lambda *_: ABSENT)
     np.save(place / "flat.npy", np.zeros((16, 16)))
     flat = ["--set", f"geometry.surface={place / 'flat.npy'}", "--set", "geometry.spacing=1 um"]
     refused = run("leakage", place / "seal.toml", "--out", place / "flat", *flat)
