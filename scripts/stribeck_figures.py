@@ -148,7 +148,7 @@ def films(drawn: Sequence[Drawn]) -> Figure:
                 shading="gouraud",
                 cmap=mpl.colormaps[colours],
                 vmin=least / 1e6,
-                vmax=max(top, 1.0) / 1e6,
+                vmax=top / 1e6 if top > least else 1.0,
                 rasterized=True,
             )
             axes.set_title(f"{one.title}: {what}", fontsize=10)
