@@ -113,6 +113,16 @@ class FactorTable:
             worst = max([worst, *(float(unsure / abs(value)) for value, unsure in pairs if value != 0)])
         return max(point.missed for point in near) + worst
 
+    def friction_doubt(self, mean_gap: float) -> float:
+        """By which part d + 3e may be off at a mean gap, m, as the grid has it; 1 at most."""
+        doubts = [
+            (point.uncertainty.couette + 3 * point.uncertainty.shear_couette)
+            / (point.factors.couette + 3 * point.factors.shear_couette)
+            for point in self.points
+        ]
+        gaps = [self.scale * point.mean_gap for point in self.points]
+        return float(np.interp(mean_gap, gaps, np.minimum(doubts, 1.0)))
+
     def __call__(self, mean_gap: Array, /) -> GapFactors:
         """The factors at mean gaps, m, of any shape.
 

@@ -40,7 +40,8 @@ class EffectiveMedium:
     mean_gap : m.
     area_fraction : real area of contact over the nominal one.
     sealed : whether that area is ``THRESHOLD`` or more.
-    gaps, shares : (n,), m and parts of the nominal area: how wide the gap is where; the rest is contact.
+    gaps, shares : (n,), m and parts of the nominal area: how wide the gap is where; the rest is contact. Gaps that the
+        theory spreads to below 0 are folded up, so that together they hold more than ``mean_gap``, by a tenth or so.
     residual : of the medium's equation at the permeability, over the parts of it that are above 0.
     """
 

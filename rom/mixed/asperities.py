@@ -47,6 +47,10 @@ class Asperities(Protocol):
         """The part by which factors may be off where no separation is below this, m."""
         ...
 
+    def friction_doubt(self, separation: float) -> float:
+        """The part by which the film's friction factor d + 3e may be off at a separation, m."""
+        ...
+
     def pressure_doubt(self, separation: Array) -> Array:
         """The part by which contact pressures may be off."""
         ...

@@ -78,6 +78,10 @@ class AsperityTable:
         """The same where no separation is below this, m."""
         return self.factors.doubt_above(float(self.mean_gap(np.array(separation))))
 
+    def friction_doubt(self, separation: float) -> float:
+        """By which part the film's friction factor d + 3e may be off: in contact the grid's nodes have a say in it."""
+        return self.factors.friction_doubt(float(self.mean_gap(np.array(separation))))
+
     def __call__(self, separation: Array, /) -> GapFactors:
         """The factors at separations, m, of any shape; InputError below the closest."""
         return self.factors(self.mean_gap(separation))

@@ -59,7 +59,8 @@ def mixed_doubt(scene: Bearing, found: Solution, quantities: Mapping[str, Quanti
     of_both = of_film * film_load / load + pressed
     boundary = scene.asperities.friction * contact_load
     rubbed = quantities["friction_per_width"].value
-    of_friction = (of_film * abs(rubbed - boundary) + of_contact * boundary) / (abs(rubbed) or 1.0)
+    of_rub = of_film + asperities.friction_doubt(narrowest)
+    of_friction = (of_rub * abs(rubbed - boundary) + of_contact * boundary) / (abs(rubbed) or 1.0)
     parts = {
         **dict.fromkeys(("load", "load_per_width", "contact_share", "attitude_angle", "sommerfeld_number"), of_both),
         **dict.fromkeys(("friction", "friction_per_width"), of_friction),

@@ -171,19 +171,20 @@ def stribeck(
         for count, (pressure, points) in enumerate(curves.items()):
             told = f"{speed:.4g} m/s, {pressure * 1e-6:.4g} MPa"
             progress((number + count / len(curves)) / len(wanted), told)
-            point = done.get((pressure, speed))
+            before = point = done.get((pressure, speed))
+            cpu = time.process_time()
             if point is None:
-                cpu = time.process_time()
                 guess, start = _extrapolated(points, film, fine), states.get(pressure)
                 fine.steepness = rough.steepness = STEEPNESS if number == 0 else fine.steepness
                 found = balanced(fine, pressure, tolerance=tolerance, guess=guess, start=start)
                 states[pressure] = found.solution.state
                 point = stribeck_point(found, film, pressure)
-                if speed in judged:
-                    near = balanced(rough, pressure, tolerance=tolerance, guess=point.separation + film.dip)
-                    other = stribeck_point(near, coarse, pressure)
-                    point = replace(point, uncertainty=uncertainties(point, other, film, fine))
-                point = replace(point, cpu_s=time.process_time() - cpu)
+            if speed in judged and not point.uncertainty:
+                near = balanced(rough, pressure, tolerance=tolerance, guess=point.separation + film.dip)
+                other = stribeck_point(near, coarse, pressure)
+                point = replace(point, uncertainty=uncertainties(point, other, film, fine))
+            if point is not before:
+                point = replace(point, cpu_s=point.cpu_s + time.process_time() - cpu)
                 keep(point)
             points.append(point)
     found_curves = []
@@ -290,7 +291,8 @@ def uncertainties(
     closer = (unsure_film + unsure_contact) / slope if slope > 0 else 0.0
     shared = (unsure_film * contact_slope + unsure_contact * film_slope) / slope if slope > 0 else 0.0
     boundary = walls.boundary_friction
-    rubbed = boundary * shared + (unsure + closer / shift) * abs(point.friction - boundary * contact)
+    viscous = abs(point.friction - boundary * contact)
+    rubbed = boundary * shared + (unsure + asperities.friction_doubt(point.separation) + closer / shift) * viscous
     relative = shared / contact if contact > 0 else 0.0
     more = {
         "separation": closer,

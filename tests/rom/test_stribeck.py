@@ -11,6 +11,7 @@ import rom.models
 from contact.errors import InputError
 from rom.film_closed_forms import linear_slider
 from rom.ladder import find, ladder, of_kind
+from rom.mixed.asperity_table import AsperityTable
 from rom.mixed.balance import Speed, balanced
 from rom.mixed.equilibrium import equilibrium
 from rom.mixed.film import MixedFilm
@@ -197,6 +198,36 @@ def test_finished_points_are_not_solved_again(swept):
         for point, old in zip(curve.points, before.points, strict=True):
             assert point.separation == pytest.approx(old.separation, rel=1e-5)
     assert sum(point.cpu_s == -1.0 for curve in again for point in curve.points) == 7
+
+
+def test_a_point_that_is_found_again_without_its_bars_is_given_them(swept):
+    scene, curves, _ = swept
+    old = curves[0].points[0]
+    bare, new = dataclasses.replace(old, uncertainty={}), []
+    again = stribeck(
+        scene, [old.speed], [old.pressure], resolution=32, tolerance=TOLERANCE, known=[bare], keep=new.append
+    )
+    found = again[0].points[0]
+    assert new == [found]
+    assert found.separation == old.separation
+    assert found.uncertainty["separation"] == pytest.approx(old.uncertainty["separation"], rel=1e-3)
+
+
+def test_the_bar_of_friction_holds_what_its_factors_leave_open(tips):
+    def bar(unsure):
+        table = tips.table()
+        points = [
+            dataclasses.replace(
+                point, uncertainty=dataclasses.replace(point.uncertainty, couette=unsure / point.mean_gap)
+            )
+            for point in table.factors.points
+        ]
+        open_table = AsperityTable(factors=dataclasses.replace(table.factors, points=points))
+        return stribeck(tips.scene(LINEAR), [0.2], [2e6], asperities=open_table, resolution=32)[0].points[0]
+
+    exact, unsure = bar(0.0), bar(0.2)
+    viscous = exact.friction - 0.1 * exact.contact_load
+    assert unsure.uncertainty["friction"] - exact.uncertainty["friction"] == pytest.approx(0.2 * viscous, rel=1e-6)
 
 
 @pytest.mark.parametrize("speeds", [[0.0], [1e-7], [50.0]])
