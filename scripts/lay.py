@@ -4,7 +4,6 @@ python -m scripts.lay --out OUT. Made surfaces, and measured ones with --surface
 Source: F. Sahlin, Luleå 2008, Paper E: Fig. E.22, E.4.1 and page 172.
 """
 
-import json
 import math
 from collections.abc import Callable
 from dataclasses import asdict
@@ -13,16 +12,14 @@ from typing import Annotated, Any
 
 import numpy as np
 import typer
-from rich.markup import escape
 
-from contact.files import replacing
 from rom.provenance import circumstances
 from scripts import lay_data, lay_joint, lay_measured, lay_offset
-from scripts.common import AsJson, in_one_line, make_directory, output, print_json, progress_bar, run_alone
+from scripts.claims import Claim, Surfaces, tell, write_numbers
+from scripts.common import AsJson, in_one_line, make_directory, progress_bar, run_alone
 from scripts.lay_claims import Lay, judge
 from scripts.lay_measured import OBLIQUE, SHOWN, prepared_surfaces
 from scripts.pages import render, write_figures
-from scripts.paper_a_claims import Claim
 
 DIRECTIONS = {(False, False): "", (True, False): "x", (False, True): "y", (True, True): "x, y"}
 """In words, by whether a gap is sealed along x and y."""
@@ -31,9 +28,7 @@ DIRECTIONS = {(False, False): "", (True, False): "x", (False, True): "y", (True,
 @in_one_line
 def command(
     out: Annotated[Path, typer.Option(help="The page, its figures and the numbers go here.")],
-    surfaces: Annotated[
-        Path | None, typer.Option(envvar="ROUGHFILM_SURFACES", help="The folder of measured surfaces, if there is one.")
-    ] = None,
+    surfaces: Surfaces = None,
     as_json: AsJson = False,
 ) -> None:
     """Turn grooves against the flow, cut them at joints, let contact through, and judge what the source says of it."""
@@ -46,8 +41,7 @@ def command(
     plots = {name: svg(draw(lay)) for name, draw in lay_figures.drawings(lay).items()}
     write_figures(plots, out)
     told = numbers(lay, claims)
-    with replacing(out / "lay.json") as scratch:
-        scratch.write_text(json.dumps(told, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    write_numbers(told, out / "lay.json")
     render(
         "lay.html.j2",
         out / "lay.html",
@@ -58,14 +52,7 @@ def command(
         directions=DIRECTIONS,
         offset=lay_offset.OFFSET,
     )
-    if as_json:
-        print_json({**told, "report": str(out / "lay.html")})
-        return
-    for claim in claims:
-        output.print(
-            f"{claim.number}. {claim.text}: [bold]{claim.verdict}[/]; {escape(claim.evidence)}", soft_wrap=True
-        )
-    output.print(f"page: {escape(str(out / 'lay.html'))}", soft_wrap=True)
+    tell(claims, told, out / "lay.html", as_json=as_json)
 
 
 def compute(surfaces: Path | None = None, *, points: int = lay_data.POINTS, coarser: int = 1) -> Lay:

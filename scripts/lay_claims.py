@@ -6,11 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import spearmanr
 
+from scripts.claims import Claim
 from scripts.lay_data import THICKNESSES, Compared, Turned, angle
 from scripts.lay_joint import Joint, Joints, lowest
 from scripts.lay_measured import OBLIQUE, Measured
 from scripts.lay_offset import MADE, OFFSET, Offset
-from scripts.paper_a_claims import Claim
 
 EQUAL, SAMPLED, FAILS = 0.02, 0.1, 0.2
 """Parts of A: what counts as equal, as the scatter of one finite box, and as failing."""

@@ -4,7 +4,6 @@ python -m scripts.paper_a DIR --out OUT, where DIR holds the finished study scri
 Source: Sahlin et al. 2005, doi:10.1115/1.1828067.
 """
 
-import json
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict
 from itertools import product
@@ -13,15 +12,14 @@ from typing import Annotated, Any
 
 import numpy as np
 import typer
-from rich.markup import escape
 
 from contact.errors import InputError
-from contact.files import replacing
 from rom.sweep import read_sweep, relative_error
 from rom.table import read_table
-from scripts.common import AsJson, in_one_line, make_directory, output, print_json, progress_bar, run_alone
+from scripts.claims import Claim, tell, write_numbers
+from scripts.common import AsJson, in_one_line, make_directory, progress_bar, run_alone
 from scripts.pages import embedded, render, write_figures
-from scripts.paper_a_claims import Claim, judge
+from scripts.paper_a_claims import judge
 from scripts.paper_a_data import DEPTHS, NUMBERS, SHAPES, WIDTHS, Paper, first_zero, still_wall_shear
 from scripts.rendering import draw_apart
 
@@ -58,17 +56,9 @@ def command(
         ],
         "upwind": upwind_effect(paper),
     }
-    with replacing(out / "paper_a.json") as scratch:
-        scratch.write_text(json.dumps(told, indent=1) + "\n", encoding="utf-8")
+    write_numbers(told, out / "paper_a.json")
     _write_page(plots, pictures, claims, told["upwind"], out / "paper_a.html")
-    if as_json:
-        print_json({**told, "report": str(out / "paper_a.html")})
-        return
-    for claim in claims:
-        output.print(
-            f"{claim.number}. {claim.text}: [bold]{claim.verdict}[/]; {escape(claim.evidence)}", soft_wrap=True
-        )
-    output.print(f"page: {escape(str(out / 'paper_a.html'))}", soft_wrap=True)
+    tell(claims, told, out / "paper_a.html", as_json=as_json)
 
 
 def read_paper(directory: Path) -> Paper:

@@ -1,26 +1,16 @@
 """What Paper A claims, judged by the sweep: each with a verdict and the numbers it rests on."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
 
+from scripts.claims import Claim
 from scripts.paper_a_data import DEPTHS, NUMBERS, SHAPES, WIDTHS, Paper, highest
 
 CYLINDRICAL, AHEAD, LEVEL, BEHIND = SHAPES.values()
 NEGLIGIBLE = 0.01
 DEPTH = np.array(DEPTHS)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Claim:
-    """One claim, whether it holds, and the evidence."""
-
-    number: int
-    text: str
-    verdict: str
-    evidence: str
 
 
 def judge(paper: Paper, onsets: dict[tuple[str, float, float], float]) -> list[Claim]:

@@ -4,18 +4,15 @@ python -m scripts.paper_b --out OUT. What the paper leaves open is chosen, and t
 Source: Sahlin, Almqvist, Larsson and Glavatskih, Tribol. Int. 40 (2007) 1294, doi:10.1016/j.triboint.2007.02.021.
 """
 
-import json
 from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from rich.markup import escape
 
-from contact.files import replacing
-from scripts.common import AsJson, in_one_line, make_directory, output, print_json, progress_bar, run_alone
+from scripts.claims import Claim, tell, write_numbers
+from scripts.common import AsJson, in_one_line, make_directory, progress_bar, run_alone
 from scripts.pages import render, write_figures
-from scripts.paper_a_claims import Claim
 from scripts.paper_b_claims import MAXIMA_APART, Row, judge, maxima, rows
 from scripts.paper_b_data import (
     CASES,
@@ -72,8 +69,7 @@ def command(
     plots = {name: svg(draw(paper)) for name, draw in drawings.items()}
     write_figures({name.replace(" ", "_"): text for name, text in plots.items()}, out)
     told = numbers(paper, claims, compared)
-    with replacing(out / "paper_b.json") as scratch:
-        scratch.write_text(json.dumps(told, indent=1) + "\n", encoding="utf-8")
+    write_numbers(told, out / "paper_b.json")
     render(
         "paper_b.html.j2",
         out / "paper_b.html",
@@ -90,14 +86,7 @@ def command(
         patterns=told["patterns"],
         open=OPEN,
     )
-    if as_json:
-        print_json({**told, "report": str(out / "paper_b.html")})
-        return
-    for claim in claims:
-        output.print(
-            f"{claim.number}. {claim.text}: [bold]{claim.verdict}[/]; {escape(claim.evidence)}", soft_wrap=True
-        )
-    output.print(f"page: {escape(str(out / 'paper_b.html'))}", soft_wrap=True)
+    tell(claims, told, out / "paper_b.html", as_json=as_json)
 
 
 def numbers(paper: Paper, claims: list[Claim], compared: list[Row]) -> dict[str, Any]:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from scripts.paper_a_claims import Claim
+from scripts.claims import Claim
 from scripts.paper_b_data import CONSTANT, DOUBLE, HALF, ORIGINAL, SOFT, Difference, Film, Paper
 
 

@@ -4,7 +4,6 @@ python -m scripts.paper_c --out OUT. The measured profiles of the paper are not 
 its Table C.2 stand for them. Source: Sahlin, Almqvist, Larsson and Glavatskih, Tribol. Int. 40 (2007) 1025.
 """
 
-import json
 from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any
@@ -12,13 +11,11 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 from numpy.typing import NDArray
-from rich.markup import escape
 
-from contact.files import replacing
 from contact.heights import height_statistics
-from scripts.common import AsJson, in_one_line, make_directory, output, print_json, progress_bar, run_alone
+from scripts.claims import Claim, tell, write_numbers
+from scripts.common import AsJson, in_one_line, make_directory, progress_bar, run_alone
 from scripts.pages import render, write_figures
-from scripts.paper_a_claims import Claim
 from scripts.paper_c_claims import apart, judge, order_holds_to
 from scripts.paper_c_data import ALPHAS, PARTS, RANGE, TABLE, WAYS, Paper, compute
 from scripts.paper_c_films import LOADS, MODULI
@@ -87,8 +84,7 @@ def command(
     plots = {name: svg(draw(paper)) for name, draw in drawings.items()}
     write_figures({name.replace(" ", "_"): text for name, text in plots.items()}, out)
     told = numbers(paper, claims)
-    with replacing(out / "paper_c.json") as scratch:
-        scratch.write_text(json.dumps(told, indent=1) + "\n", encoding="utf-8")
+    write_numbers(told, out / "paper_c.json")
     render(
         "paper_c.html.j2",
         out / "paper_c.html",
@@ -106,14 +102,7 @@ def command(
         best=told["a_flows_best"],
         open=OPEN,
     )
-    if as_json:
-        print_json({**told, "report": str(out / "paper_c.html")})
-        return
-    for claim in claims:
-        output.print(
-            f"{claim.number}. {claim.text}: [bold]{claim.verdict}[/]; {escape(claim.evidence)}", soft_wrap=True
-        )
-    output.print(f"page: {escape(str(out / 'paper_c.html'))}", soft_wrap=True)
+    tell(claims, told, out / "paper_c.html", as_json=as_json)
 
 
 def numbers(paper: Paper, claims: list[Claim]) -> dict[str, Any]:

@@ -6,7 +6,7 @@ import numpy as np
 
 from contact.surface import Array
 from rom.homogenization.line_rules import Rule
-from scripts.paper_a_claims import Claim
+from scripts.claims import Claim
 from scripts.paper_c_data import ALPHAS, BESIDE, POINTS, RANGE, TABLE, WAYS, Paper
 from scripts.paper_c_films import LOADS, MODULUS, SMOOTH, SPAN, Curve
 

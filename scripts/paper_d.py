@@ -4,21 +4,18 @@ python -m scripts.paper_d --out OUT. The measured profiles of the paper are not 
 its Table D.1 stand for them. Source: Almqvist, Sahlin, Larsson and Glavatskih, Tribol. Int. 40 (2007) 574.
 """
 
-import json
 from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from rich.markup import escape
 
-from contact.files import replacing
 from contact.heights import height_statistics
 from contact.mechanics.contact import Contact
 from contact.synthetic.profile import STEEL_PROFILES
-from scripts.common import AsJson, in_one_line, make_directory, output, print_json, progress_bar, run_alone
+from scripts.claims import Claim, tell, write_numbers
+from scripts.common import AsJson, in_one_line, make_directory, progress_bar, run_alone
 from scripts.pages import render, write_figures
-from scripts.paper_a_claims import Claim
 from scripts.paper_d_claims import judge
 from scripts.paper_d_data import MACHINING, SPECTRA, Paper, compute
 from scripts.paper_e_surface import Reloading, load_model, reload
@@ -43,8 +40,7 @@ def command(
     plots = {name: svg(figure) for name, figure in (figures | {"E.4": paper_d_figures.e4(model)}).items()}
     write_figures(plots, out)
     told = numbers(paper, claims, model, again)
-    with replacing(out / "paper_d.json") as scratch:
-        scratch.write_text(json.dumps(told, indent=1) + "\n", encoding="utf-8")
+    write_numbers(told, out / "paper_d.json")
     captions = {name: str(draw.__doc__) for name, draw in paper_d_figures.NUMBERED.items()}
     captions["E.4"] = str(paper_d_figures.e4.__doc__)
     render(
@@ -59,14 +55,7 @@ def command(
         seeds=len(next(iter(paper.profiles.values()))),
         model=list(zip(model, again, strict=True)),
     )
-    if as_json:
-        print_json({**told, "report": str(out / "paper_d.html")})
-        return
-    for claim in claims:
-        output.print(
-            f"{claim.number}. {claim.text}: [bold]{claim.verdict}[/]; {escape(claim.evidence)}", soft_wrap=True
-        )
-    output.print(f"page: {escape(str(out / 'paper_d.html'))}", soft_wrap=True)
+    tell(claims, told, out / "paper_d.html", as_json=as_json)
 
 
 def numbers(paper: Paper, claims: list[Claim], model: list[Contact], again: list[Reloading]) -> dict[str, Any]:

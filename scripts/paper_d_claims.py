@@ -4,7 +4,7 @@ import numpy as np
 
 from contact.surface import Array
 from contact.synthetic.profile import STEEL_PROFILES
-from scripts.paper_a_claims import Claim
+from scripts.claims import Claim
 from scripts.paper_d_data import LENGTH, SPECTRA, STEEL, Paper
 
 LEAST_NODES = 4

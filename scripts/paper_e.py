@@ -13,7 +13,6 @@ from typing import Annotated, Any
 
 import numpy as np
 import typer
-from rich.markup import escape
 
 from contact.files import replacing
 from contact.mechanics.contact import Contact
@@ -22,11 +21,11 @@ from contact.mechanics.solid import composite_modulus
 from contact.surface_files import read_surface
 from rom.provenance import circumstances, code
 from scripts import paper_e_data, paper_e_windows
-from scripts.common import AsJson, in_one_line, make_directory, output, print_json, progress_bar, run_alone
+from scripts.claims import Claim, Surfaces, tell, write_numbers
+from scripts.common import AsJson, in_one_line, make_directory, progress_bar, run_alone
 from scripts.contact_view import view_of, view_picture
 from scripts.error_bars import with_error
 from scripts.pages import render, write_figures
-from scripts.paper_a_claims import Claim
 from scripts.paper_e_claims import Paper, judge, worst_cell
 from scripts.paper_e_data import LOADS, SCALED, Washer
 from scripts.paper_e_made import POINTS, made
@@ -39,9 +38,7 @@ PRESSED, PICTURED = (2e6, 50e6, 500e6), 128
 @in_one_line
 def command(
     out: Annotated[Path, typer.Option(help="The page, its figures and the numbers go here; what is finished stays.")],
-    surfaces: Annotated[
-        Path | None, typer.Option(envvar="ROUGHFILM_SURFACES", help="The folder of measured surfaces, if there is one.")
-    ] = None,
+    surfaces: Surfaces = None,
     as_json: AsJson = False,
 ) -> None:
     """Sweep the washer of Paper E on five surfaces and four lays, vary what a leak hangs on, and judge the claims."""
@@ -54,8 +51,7 @@ def command(
     plots = {name: svg(figure) for name, figure in paper_e_figures.drawings(paper).items()}
     write_figures(plots, out)
     told = numbers(paper, claims)
-    with replacing(out / "paper_e.json") as scratch:
-        scratch.write_text(json.dumps(told, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    write_numbers(told, out / "paper_e.json")
     render(
         "paper_e.html.j2",
         out / "paper_e.html",
@@ -70,14 +66,7 @@ def command(
         studies=studies(paper.windows) if paper.windows else [],
         contact=view_picture([view_of(contact) for contact in pressed()])[0],
     )
-    if as_json:
-        print_json({**told, "report": str(out / "paper_e.html")})
-        return
-    for claim in claims:
-        output.print(
-            f"{claim.number}. {claim.text}: [bold]{claim.verdict}[/]; {escape(claim.evidence)}", soft_wrap=True
-        )
-    output.print(f"page: {escape(str(out / 'paper_e.html'))}", soft_wrap=True)
+    tell(claims, told, out / "paper_e.html", as_json=as_json)
 
 
 def compute(

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from rom.gap import Array
+from scripts.claims import Claim
 from scripts.error_bars import with_error
-from scripts.paper_a_claims import Claim
 from scripts.paper_e_data import LOADS, SEEDS, Washer
 from scripts.paper_e_windows import LOAD, PARTS, Leak
 

@@ -5,7 +5,6 @@ makers stand beside the made ones with --surfaces DIR (or ROUGHFILM_SURFACES). E
 was finished is not done again. Source: F. Sahlin, Luleå 2008, Paper F.
 """
 
-import json
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
@@ -14,14 +13,12 @@ from typing import Annotated, Any
 
 import numpy as np
 import typer
-from rich.markup import escape
 
-from contact.files import replacing
 from rom.provenance import circumstances
 from scripts import paper_f_sizes
-from scripts.common import AsJson, in_one_line, make_directory, output, print_json, progress_bar, run_alone
+from scripts.claims import Claim, Surfaces, tell, write_numbers
+from scripts.common import AsJson, in_one_line, make_directory, progress_bar, run_alone
 from scripts.pages import render, write_figures
-from scripts.paper_a_claims import Claim
 from scripts.paper_f_claims import judge
 from scripts.paper_f_data import MODULUS, PARTS, Pressed, press_all
 from scripts.paper_f_fits import SLOPE, ratios
@@ -32,9 +29,7 @@ from scripts.paper_f_surfaces import FAMILIES, HEIGHTS, POINTS, SEEDS, made_surf
 @in_one_line
 def command(
     out: Annotated[Path, typer.Option(help="The page, its figures, the numbers, and every finished surface go here.")],
-    surfaces: Annotated[
-        Path | None, typer.Option(envvar="ROUGHFILM_SURFACES", help="The folder of measured surfaces, if there is one.")
-    ] = None,
+    surfaces: Surfaces = None,
     as_json: AsJson = False,
 ) -> None:
     """Press families of surfaces until they are sealed, fit sealing load and leakage, and judge Paper F."""
@@ -47,8 +42,7 @@ def command(
     plots = {name: svg(draw(study)) for name, draw in paper_f_figures.NUMBERED.items()}
     write_figures({name.replace(" ", "_"): text for name, text in plots.items()}, out)
     told = numbers(study, claims)
-    with replacing(out / "paper_f.json") as scratch:
-        scratch.write_text(json.dumps(told, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    write_numbers(told, out / "paper_f.json")
     render(
         "paper_f.html.j2",
         out / "paper_f.html",
@@ -62,14 +56,7 @@ def command(
         measured=told["measured"],
         finer=told["finer"],
     )
-    if as_json:
-        print_json({**told, "report": str(out / "paper_f.html")})
-        return
-    for claim in claims:
-        output.print(
-            f"{claim.number}. {claim.text}: [bold]{claim.verdict}[/]; {escape(claim.evidence)}", soft_wrap=True
-        )
-    output.print(f"page: {escape(str(out / 'paper_f.html'))}", soft_wrap=True)
+    tell(claims, told, out / "paper_f.html", as_json=as_json)
 
 
 def compute(

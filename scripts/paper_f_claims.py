@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rom.gap import Array
-from scripts.paper_a_claims import Claim
+from scripts.claims import Claim
 from scripts.paper_f_data import MODULUS, Pressed
 from scripts.paper_f_fits import SHARES, SLOPE, Constant
 from scripts.paper_f_study import DIRECTED, Laws, Study

@@ -15,9 +15,9 @@ from rich.table import Table
 
 from contact.files import replacing
 from rom.provenance import circumstances
+from scripts.claims import Claim, Surfaces
 from scripts.common import AsJson, in_one_line, make_directory, output, print_json, progress_bar, run_alone
 from scripts.pages import render, write_figures
-from scripts.paper_a_claims import Claim
 from scripts.scales_data import (
     DRAWN,
     IN_PLANE,
@@ -64,9 +64,7 @@ def judge(study: Study) -> Claim:
 @in_one_line
 def command(
     out: Annotated[Path, typer.Option(help="The page, its figures and the numbers go here.")],
-    surfaces: Annotated[
-        Path | None, typer.Option(envvar="ROUGHFILM_SURFACES", help="The folder of measured surfaces, if there is one.")
-    ] = None,
+    surfaces: Surfaces = None,
     as_json: AsJson = False,
 ) -> None:
     """Follow every wave and average them all, over the length of the waves, and write scales.html."""
