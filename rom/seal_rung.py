@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from typing import cast
 
@@ -24,8 +25,8 @@ RESIDUAL_MEANING = (
 BINS, FARTHEST = 80, 8.0
 """Of gaps, up to so many rms heights."""
 
-Flow = Callable[[Contact, int], Passage]
-"""flow(contact, axis): what a contact lets through."""
+Flow = Callable[[Contact, Seal], Passage]
+"""flow(contact, scene): what a contact lets through along the scene's axis."""
 
 
 def leak(task: Task, *, flow: Flow) -> Answer:
@@ -37,7 +38,7 @@ def leak(task: Task, *, flow: Flow) -> Answer:
     found = Press(task.heights, task.spacing, scene.composite_modulus, hardness=scene.hardness).at(
         scene.load.pressure, tolerance=task.tolerance
     )
-    passage = flow(found, scene.axis)
+    passage = flow(found, scene)
     driven = flux(found.gap, found.spacing, passage.corrector, scene.axis) if not passage.sealed else None
     size = np.zeros(found.gap.shape) if driven is None else np.hypot(*driven)
     per_permeability = scene.flow.pressure_drop / (12 * scene.liquid.viscosity * scene.flow.length)
@@ -124,11 +125,26 @@ def applies(scene: Seal, *, keeps: str) -> Applicability:
     return Applicability(applies=True, reason=f"{keeps}; contact {told}; leaves out inertia{moved}")
 
 
+def once(_scene: Seal) -> int:
+    """One period."""
+    return 1
+
+
 def seal_model(
-    *, name: str, summary: str, keeps: frozenset[Effect], sources: tuple[str, ...], words: str, flow: Flow
+    *,
+    name: str,
+    summary: str,
+    keeps: frozenset[Effect],
+    sources: tuple[str, ...],
+    words: str,
+    flow: Flow,
+    repeats: Callable[[Seal], int] = once,
 ) -> Model:
-    """A rung that presses the surface and solves the flow; ``words`` say what of the flow it keeps."""
-    return contact_model(
+    """A rung that presses the surface and solves the flow through so many ``repeats`` of it.
+
+    ``words`` say what of the flow it keeps.
+    """
+    made = contact_model(
         kind="seal",
         name=name,
         summary=summary,
@@ -142,6 +158,7 @@ def seal_model(
         default_tolerance=TOLERANCE,
         cost=lambda heights: 1e-2 + 1.5e-6 * heights,
     )
+    return replace(made, cost=lambda scene, resolution: made.cost(scene, resolution) * repeats(scene))
 
 
 def prepare_flow(task: Task, *, flow: Flow) -> None:
@@ -150,4 +167,4 @@ def prepare_flow(task: Task, *, flow: Flow) -> None:
 
     prepare(task)
     x = np.cos(2 * np.pi * np.arange(16) / 16)
-    flow(Press(np.add.outer(x, x), (1.0, 1.0), 1.0).at(0.05), 0)
+    flow(Press(np.add.outer(x, x), (1.0, 1.0), 1.0).at(0.05), cast(Seal, task.scene))

@@ -3,15 +3,16 @@
 from contact.mechanics.contact import Contact
 from rom.ladder import Effect
 from rom.leakage.passage import Passage
+from rom.seal import Seal
 from rom.seal_rung import seal_model
 
 
-def flow(found: Contact, axis: int) -> Passage:
+def flow(found: Contact, scene: Seal) -> Passage:
     """From the cell."""
     from rom.leakage.homogenized import homogenized_leakage  # numba is slow to import
 
     leakage = homogenized_leakage(found.gap, found.spacing)
-    return (leakage.along, leakage.across)[axis]
+    return (leakage.along, leakage.across)[scene.axis]
 
 
 MODEL = seal_model(

@@ -107,6 +107,26 @@ def test_units_are_those_of_the_scene():
     assert told["smooth_leakage"] * told["dimensionless_leakage"] == pytest.approx(told["leakage_per_width"])
 
 
+def test_the_longer_a_seal_the_nearer_is_averaging():
+    """Its ends take the same off the resistance of any number of periods: (1 − A/K) n is what it is of one."""
+
+    def ends(count):
+        drive = seal().flow.model_copy(update={"length": count * 40e-6})
+        scene = seal().model_copy(update={"flow": drive})
+        direct, averaged = (values(name, scene)["permeability"] for name in ("direct_leakage", "homogenized_leakage"))
+        return count * (1 - averaged / direct)
+
+    one, two, ten = (ends(count) for count in (1, 2, 10))
+    assert one > 0.1
+    assert two == pytest.approx(one, rel=0.05)
+    assert ten == pytest.approx(one, rel=0.05)
+
+
+def test_the_cost_of_a_direct_solution_grows_with_the_length():
+    direct, averaged = (find(RUNGS, name) for name in ("direct_leakage", "homogenized_leakage"))
+    assert direct.cost(seal(), 64) == pytest.approx(25 * averaged.cost(seal(), 64))
+
+
 def test_directions_are_those_of_the_surface(tmp_path):
     ridges = 1e-7 * np.repeat(np.cos(2 * np.pi * np.arange(32) / 16)[:, None], 32, axis=1)
     path = tmp_path / "ridges.npy"
