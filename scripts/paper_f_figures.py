@@ -254,6 +254,30 @@ def dimensionless(study: Study) -> Figure:
     return figure
 
 
+def closed_form(study: Study) -> Figure:
+    """Leakage of a surface of each family by DNS, in x (circles) and y (crosses), and by F.18 as the source has it.
+
+    The closed form (lines) knows no direction, and no sealing but where its base is 0.
+    """
+    figure, (axes,) = _panels(1, 1, 4.4)
+    colours = _colours(study)
+    firsts = {one.family: one for one in reversed(study.sample)}
+    for family, one in firsts.items():
+        for axis, marker in enumerate("ox"):
+            leaks = one.direct[:, axis] > 0
+            shown = kilograms(one.direct[leaks, axis])
+            axes.plot(one.loads[leaks], shown, marker, color=colours[family], ms=4, mfc="none")
+        height = LEAKAGE[0] * np.cbrt(scale_of(one, "Svm")) - LEAKAGE[1] * np.cbrt(one.loads / MODULUS)
+        axes.plot(one.loads, kilograms(np.maximum(height, 0.0) ** 9), color=colours[family], lw=1)
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_ylim(LEAST, None)
+    axes.set_xlabel("load W, Pa")
+    axes.set_ylabel("leakage, kg/(h m)")
+    _legend(figure, study)
+    return figure
+
+
 def laws(study: Study) -> Figure:
     """F.18 as a straight line, K = s³ (a − b (W/(E* r))^⅓)⁹, K = 12ηQL/Δp by DNS, both directions.
 
@@ -344,7 +368,8 @@ NUMBERED: dict[str, Callable[[Study], Figure]] = {
     "F.9": leakage,
     "F.10": same_heights,
     "F.11": dimensionless,
-    "F.12": laws,
+    "F.12": closed_form,
+    "leakage law": laws,
     "size": size,
     "offset": offset,
 }

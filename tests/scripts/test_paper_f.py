@@ -222,7 +222,7 @@ def test_the_page(monkeypatch, tmp_path, small):
     monkeypatch.setattr(figures, "svg", lambda drawn: rendered(drawn) if len(drawn.axes) == 2 else "<svg></svg>")
     paper_f.command(tmp_path)
     page = (tmp_path / "paper_f.html").read_text(encoding="utf-8")
-    assert page.count("<svg") == 10
+    assert page.count("<svg") == 11
     assert not re.search(r"""(src|href)\s*=\s*["'](?!#|data:|https://doi)|<script|@import""", page)
     told = json.loads((tmp_path / "paper_f.json").read_text(encoding="utf-8"))
     assert [claim["number"] for claim in told["claims"]] == [16, 19, 23, 24, 25, 26]
