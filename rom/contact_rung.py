@@ -1,4 +1,4 @@
-"""What the rungs of a dry contact share: the grid they work on, their quantities, fields and bookkeeping."""
+"""What rungs share that work on the points of a rough surface: their grid, quantities, fields and bookkeeping."""
 
 import math
 import time
@@ -14,7 +14,7 @@ from rom.ladder import Applicability, Effect, Model, Progress, chosen_scheme, ch
 from rom.provenance import provenance
 from rom.restriction import restricted
 from rom.result import Field, Numerics, Result
-from rom.rough_contact import COARSEST, RoughContact
+from rom.rough_contact import COARSEST
 from rom.surface_geometry import digest_of
 
 RESOLUTION_MEANING = "points along the longer side; on a coarser grid, the surface less the waves it cannot hold"
@@ -22,9 +22,9 @@ RESOLUTION_MEANING = "points along the longer side; on a coarser grid, the surfa
 
 @dataclass(frozen=True, kw_only=True)
 class Task:
-    """A scene on a grid: heights, shape (nx, ny), m, spacing, m, and the complementarity that is asked for."""
+    """A scene with a rough surface, on a grid: heights, shape (nx, ny), m, spacing, m, and the residual asked for."""
 
-    scene: RoughContact
+    scene: Any
     heights: Array
     spacing: tuple[float, float]
     tolerance: float
@@ -58,7 +58,7 @@ def one(value: float) -> Quantity:
 
 
 def solve(
-    scene: RoughContact,
+    scene: Any,
     *,
     model: str,
     keeps: frozenset[Effect],
@@ -95,7 +95,7 @@ def solve(
     nx, ny = (max(2, round(points * resolution / own)) for points in surface.shape)
     heights, (length, width) = restricted(surface.heights, (nx, ny)), surface.size
     task = Task(scene=scene, heights=heights, spacing=(length / nx, width / ny), tolerance=tolerance)
-    scene.spectrum()  # is kept for all rungs, and is not the cost of one
+    _ = scene.rms_slope  # what it comes from is kept for all rungs, and is not the cost of one
     prepare(task)
     wall, cpu = time.perf_counter(), time.process_time()
     answer = work(task)
@@ -104,7 +104,7 @@ def solve(
         warnings.append("the surface does not say that it repeats itself; it is taken as one period")
     return Result(
         model=model,
-        quantities={**answer.quantities, "rms_height": Quantity(value=float(heights.std()), unit="m")},
+        quantities={"rms_height": Quantity(value=float(heights.std()), unit="m"), **answer.quantities},
         fields=answer.fields,
         numerics=Numerics(
             residual=answer.residual,
@@ -142,12 +142,12 @@ def contact_model(
     default_tolerance: float,
     cost: Callable[[int], float],
 ) -> Model:
-    """A rung of a rough contact, wet or dry; ``cost`` gives CPU seconds for a number of heights.
+    """A rung of a contact, dry or wet, or of a rough gap; ``cost`` gives CPU seconds for a number of heights.
 
     ``prepare`` does before the clock starts what is done once on a machine.
     """
 
-    def scene_cost(scene: RoughContact, resolution: int) -> float:
+    def scene_cost(scene: Any, resolution: int) -> float:
         nx, ny = scene.surface().shape
         return cost(math.ceil(resolution**2 * min(nx, ny) / max(nx, ny)))
 

@@ -23,8 +23,9 @@ Guess = Callable[[Task], Estimate]
 
 def estimate(task: Task, *, guess: Guess) -> Answer:
     """What an estimate says of a scene, as far as it goes."""
-    scene, found = task.scene, guess(task)
-    edges, mismatch = bin_edges(scene), load_mismatch(task.scene, found)
+    scene: DryContact = task.scene
+    found = guess(task)
+    edges, mismatch = bin_edges(scene), load_mismatch(scene, found)
     warnings = [] if found.trusted else [f"out of its range, {found.range_of_validity}"]
     if mismatch > task.tolerance:
         warnings.append(f"its pressures carry a load {mismatch:.1e} off")

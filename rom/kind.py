@@ -47,6 +47,7 @@ class Kind:
         quantity, numbers or arrays alike.
     columns : what a table of many cases tells of a scene, beside what varies: dimensionless numbers, texts.
     files : keys whose texts name files, which are sought beside the scene.
+    no_files : texts in their place that name none.
     replaces : keys that an override makes meaningless: it takes them away from the same table.
     lists : where lists stand that are one value; a study sweeps every other list, and lists of these.
     told : the first fault of a scene in one line, from pydantic's error and the entries; by default by the models.
@@ -60,6 +61,7 @@ class Kind:
     scale: Callable[[Mapping[str, Any], str], Any]
     columns: Callable[[Any], Mapping[str, Quantity | str]]
     files: frozenset[str] = frozenset()
+    no_files: frozenset[str] = frozenset()
     replaces: Mapping[str, Sequence[str]] = field(default_factory=dict)
     lists: frozenset[tuple[str | int, ...]] = frozenset()
     told: Callable[[ValidationError, Mapping[str, Any]], str] | None = None

@@ -41,7 +41,7 @@ def press(task: Task, *, plastic: bool) -> Answer:
     """The contact of a scene, its hardness left out if it is to stay elastic."""
     from contact.mechanics.press import Press
 
-    scene = task.scene
+    scene: DryContact = task.scene
     hardness = scene.hardness if plastic else math.inf
     found = Press(task.heights, task.spacing, scene.composite_modulus, hardness=hardness).at(
         scene.load.pressure, tolerance=task.tolerance

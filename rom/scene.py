@@ -29,7 +29,10 @@ def load_entries(path: Path) -> dict[str, Any]:
     """
     entries = read_toml(path, 'film = "30 um"')
     try:
-        _seek_files(entries, Path(path).parent, frozenset[str]().union(*(kind.files for kind in kinds().values())))
+        keys = frozenset[str]().union(*(kind.files for kind in kinds().values()))
+        kind = kind_named(entries)
+        kept = kind.no_files if kind else frozenset[str]()
+        _seek_files(entries, Path(path).parent, keys, kept)
     except RecursionError as error:
         raise InputError(f"{path}: its tables are nested too deeply; a scene has three levels") from error
     return entries
@@ -75,18 +78,20 @@ def scene_entries(scene: Scene) -> dict[str, Any]:
     return scene.model_dump(mode="json", exclude_none=True)
 
 
-def _seek_files(entry: Any, directory: Path, keys: frozenset[str]) -> None:
+def _seek_files(entry: Any, directory: Path, keys: frozenset[str], kept: frozenset[str]) -> None:
     """Put the directory before every name of a file that does not begin at a root or a home."""
 
     def sought(name: object) -> object:
-        return str(directory / name) if isinstance(name, str) and not name.startswith("~") else name
+        if not isinstance(name, str) or name in kept or name.startswith("~"):
+            return name
+        return str(directory / name)
 
     if isinstance(entry, dict):
         for key in keys & entry.keys():
             names = entry[key]
             entry[key] = [sought(name) for name in names] if isinstance(names, list) else sought(names)
         for inner in entry.values():
-            _seek_files(inner, directory, keys)
+            _seek_files(inner, directory, keys, kept)
     elif isinstance(entry, list):
         for inner in entry:
-            _seek_files(inner, directory, keys)
+            _seek_files(inner, directory, keys, kept)

@@ -4,7 +4,6 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from typing import cast
 
 import numpy as np
 
@@ -34,7 +33,7 @@ def leak(task: Task, *, flow: Flow) -> Answer:
     from contact.mechanics.press import Press  # numba is slow to import
     from rom.homogenization.flux import flux
 
-    scene = cast(Seal, task.scene)
+    scene: Seal = task.scene
     found = Press(task.heights, task.spacing, scene.composite_modulus, hardness=scene.hardness).at(
         scene.load.pressure, tolerance=task.tolerance
     )
@@ -167,4 +166,4 @@ def prepare_flow(task: Task, *, flow: Flow) -> None:
 
     prepare(task)
     x = np.cos(2 * np.pi * np.arange(16) / 16)
-    flow(Press(np.add.outer(x, x), (1.0, 1.0), 1.0).at(0.05), cast(Seal, task.scene))
+    flow(Press(np.add.outer(x, x), (1.0, 1.0), 1.0).at(0.05), task.scene)

@@ -1,6 +1,9 @@
 """Whether a gap lets anything through, and in which direction: open paths that lead round a periodic cell."""
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 from scipy import ndimage
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import breadth_first_order, connected_components
@@ -17,11 +20,21 @@ def sealed(gap: Array) -> tuple[bool, bool]:
     A path is open if it goes from node to node with h > 0, and leads through a direction if it comes back to where it
     began having gone round the cell that way. One that goes round both ways at once (an oblique groove) opens both.
     """
-    labels, count = ndimage.label(gap > 0, structure=FOUR)
-    joints = np.concatenate([_joints(labels[-1], labels[0], (1, 0)), _joints(labels[:, -1], labels[:, 0], (0, 1))])
-    rounds = joints[joints[:, 0] == joints[:, 1], 2:]
-    rounds = np.concatenate([rounds, _closing(joints[joints[:, 0] != joints[:, 1]], count + 1)])
+    _, _, rounds = _pieces(gap > 0)
     return not rounds[:, 0].any(), not rounds[:, 1].any()
+
+
+def leads_round(opened: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Which nodes of a periodic cell, shape (nx, ny), belong to a piece of open ones that leads round it, either way.
+
+    What flows in steadily can flow out of these alone.
+    """
+    labels, joints, rounds = _pieces(opened)
+    count = int(labels.max()) + 1
+    links = coo_array((np.ones(len(joints)), (joints[:, 0], joints[:, 1])), shape=(count, count))
+    whole = connected_components(links, directed=False)[1]
+    leading = whole[joints[rounds.any(axis=1), 0]]
+    return np.asarray(opened & np.isin(whole[labels], leading))
 
 
 def sealed_between_ends(gap: Array, *, joined: bool) -> bool:
@@ -39,6 +52,16 @@ def sealed_between_ends(gap: Array, *, joined: bool) -> bool:
         labels = connected_components(links, directed=False)[1][labels]
     first, last = labels[0][wide[0]], labels[-1][wide[-1]]
     return not np.intersect1d(first, last).size
+
+
+def _pieces(opened: NDArray[np.bool_]) -> tuple[NDArray[Any], Array, Array]:
+    """Pieces inside the box by their number, joints between them over its seams, and how often each leads round it."""
+    labels, count = ndimage.label(opened, structure=FOUR)
+    joints = np.concatenate([_joints(labels[-1], labels[0], (1, 0)), _joints(labels[:, -1], labels[:, 0], (0, 1))])
+    own = joints[:, 0] == joints[:, 1]
+    rounds = joints[:, 2:].copy()
+    rounds[~own] = _closing(joints[~own], count + 1)
+    return labels, joints, rounds
 
 
 def _joints(before: Array, after: Array, step: tuple[int, int]) -> Array:

@@ -3,13 +3,14 @@
 from contact.mechanics.estimate import Estimate
 from contact.mechanics.truncation import bearing_area
 from rom.contact_rung import Task
+from rom.dry_contact import DryContact
 from rom.estimated import estimated_model
 from rom.ladder import Effect
 
 
 def guess(task: Task) -> Estimate:
     """The bearing area of the heights at hand."""
-    scene = task.scene
+    scene: DryContact = task.scene
     return bearing_area(
         task.heights,
         load=scene.load.pressure,

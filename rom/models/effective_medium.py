@@ -1,7 +1,5 @@
 """Leakage by Persson's contact and an effective medium: the spectrum alone, in closed form but for a root."""
 
-from typing import cast
-
 from contact.errors import InputError
 from contact.mechanics.moments import wave_power
 from rom.contact_rung import Answer, Task, contact_model
@@ -18,7 +16,7 @@ def work(task: Task) -> Answer:
     """The estimate from the spectrum of the heights at hand; InputError for a flat surface."""
     from rom.leakage.effective_medium import effective_medium  # scipy is slow to import
 
-    scene = cast(Seal, task.scene)
+    scene: Seal = task.scene
     own = task.heights.shape == scene.surface().shape
     spectrum = scene.spectrum() if own else wave_power(task.heights, task.spacing)
     if spectrum is None:

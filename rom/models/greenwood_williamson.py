@@ -4,6 +4,7 @@ from contact.errors import InputError
 from contact.mechanics.estimate import Estimate
 from contact.mechanics.moments import wave_power
 from rom.contact_rung import Task
+from rom.dry_contact import DryContact
 from rom.estimated import estimated_model
 from rom.ladder import Effect
 
@@ -12,7 +13,7 @@ def guess(task: Task) -> Estimate:
     """The estimate from the spectral moments of the heights at hand; InputError for a flat surface."""
     from contact.mechanics.greenwood_williamson import greenwood_williamson  # scipy is slow to import
 
-    scene = task.scene
+    scene: DryContact = task.scene
     own = task.heights.shape == scene.surface().shape
     spectrum = scene.spectrum() if own else wave_power(task.heights, task.spacing)
     if spectrum is None:
