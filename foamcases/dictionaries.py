@@ -8,9 +8,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from foamlib import DimensionSet, FoamFile
 
 from foamcases.mesh import Patch
+
+Dictionary = tuple[str, Mapping[str, Any]]
+"""A file of OpenFOAM: its class and entries."""
 
 ITERATIONS = 5000
 
@@ -56,11 +60,18 @@ def write_dictionaries(directory: Path, *, viscosity: float, tolerance: float, s
     processes
         Into how many parts along the film a parallel run is to cut the mesh.
     """
-    for name, (kind, entries) in _dictionaries(viscosity, tolerance, scheme, processes).items():
+    write_files(directory, _dictionaries(viscosity, tolerance, scheme, processes))
+
+
+def write_files(directory: Path, files: Mapping[str, Dictionary]) -> None:
+    """Write dictionaries and fields, by their names below ``directory``."""
+    for name, (kind, entries) in files.items():
         path = directory / name
         path.parent.mkdir(parents=True, exist_ok=True)
         with FoamFile(path) as file:
-            file["FoamFile"] = {"version": 2.0, "format": "ascii", "class": kind, "object": path.name}
+            arrays = any(isinstance(value, np.ndarray) for value in entries.values())
+            form = "binary" if arrays else "ascii"
+            file["FoamFile"] = {"version": 2.0, "format": form, "class": kind, "object": path.name}
             for key, value in entries.items():
                 file[key] = value
 
@@ -69,7 +80,9 @@ def change_scheme(directory: Path, *, scheme: str, tolerance: float) -> None:
     """Let a case go on by another advection scheme, until another tolerance is met."""
     FoamFile(directory / "system" / "fvSchemes")["divSchemes", "div(phi,U)"] = ADVECTION[scheme]
     with FoamFile(directory / "system" / "fvSolution") as solution:
-        solution["SIMPLE", "residualControl"] = {"p": tolerance, "U": tolerance}
+        controlled = solution["SIMPLE", "residualControl"]
+        assert isinstance(controlled, FoamFile.SubDict)
+        solution["SIMPLE", "residualControl"] = dict.fromkeys([*controlled], tolerance)
 
 
 def strengthen(directory: Path) -> None:
@@ -79,69 +92,114 @@ def strengthen(directory: Path) -> None:
         solution["solvers", "U", "tolerance"] = ROUND_OFF
 
 
-def _dictionaries(
-    viscosity: float, tolerance: float, scheme: str, processes: int
-) -> dict[str, tuple[str, Mapping[str, Any]]]:
+def control(iterations: int) -> Dictionary:
+    """``system/controlDict`` of a run of simpleFoam that goes on from the latest fields and writes the last."""
+    return (
+        "dictionary",
+        {
+            "application": "simpleFoam",
+            "startFrom": "latestTime",
+            "startTime": 0,
+            "stopAt": "endTime",
+            "endTime": iterations,
+            "deltaT": 1,
+            "writeControl": "timeStep",
+            "writeInterval": iterations,
+            "writeFormat": "binary",
+            "timeFormat": "general",
+            "runTimeModifiable": False,
+        },
+    )
+
+
+def schemes(scheme: str) -> Dictionary:
+    """``system/fvSchemes`` with one of ``ADVECTION``; all else is central."""
     linear = ("Gauss", "linear")
+    return (
+        "dictionary",
+        {
+            "ddtSchemes": {"default": "steadyState"},
+            "gradSchemes": {"default": linear},
+            "divSchemes": {
+                "default": "none",
+                "div(phi,U)": ADVECTION[scheme],
+                "div((nuEff*dev2(T(grad(U)))))": linear,
+            },
+            "laplacianSchemes": {"default": (*linear, "corrected")},
+            "interpolationSchemes": {"default": "linear"},
+            "snGradSchemes": {"default": "corrected"},
+        },
+    )
+
+
+def solution(
+    *,
+    tolerance: float,
+    linear: float,
+    relaxation: float,
+    coarsest: int,
+    velocity_gain: float,
+    controlled: tuple[str, ...] = ("p", "U"),
+) -> Dictionary:
+    """``system/fvSolution`` for SIMPLEC.
+
+    Parameters
+    ----------
+    tolerance : the initial residuals at which the iteration stops.
+    linear : the residual at which a linear solver stops, in units of the tolerance.
+    relaxation : of velocity.
+    coarsest : cells of multigrid's coarsest level.
+    velocity_gain : by which the residual of velocity falls in an iteration.
+    controlled : the fields whose residuals are to meet the tolerance.
+    """
+    return (
+        "dictionary",
+        {
+            "solvers": {
+                "p": {
+                    "solver": "GAMG",
+                    "smoother": "DICGaussSeidel",
+                    "tolerance": tolerance * linear,
+                    "relTol": 0.1,
+                    "nCellsInCoarsestLevel": coarsest,
+                },
+                "U": {
+                    "solver": "PBiCGStab",
+                    "preconditioner": "DILU",
+                    "tolerance": tolerance * linear,
+                    "relTol": velocity_gain,
+                },
+            },
+            "SIMPLE": {
+                "consistent": True,
+                "nNonOrthogonalCorrectors": 0,
+                "pRefCell": 0,
+                "pRefValue": 0,
+                "residualControl": dict.fromkeys(controlled, tolerance),
+            },
+            "relaxationFactors": {"fields": {"p": 1.0}, "equations": {"U": relaxation}},
+        },
+    )
+
+
+def liquid(viscosity: float) -> dict[str, Dictionary]:
+    """The dictionaries in ``constant`` of a laminar flow of this kinematic viscosity."""
     return {
-        "system/controlDict": (
-            "dictionary",
-            {
-                "application": "simpleFoam",
-                "startFrom": "latestTime",
-                "startTime": 0,
-                "stopAt": "endTime",
-                "endTime": ITERATIONS,
-                "deltaT": 1,
-                "writeControl": "timeStep",
-                "writeInterval": ITERATIONS,
-                "writeFormat": "binary",
-                "timeFormat": "general",
-                "runTimeModifiable": False,
-            },
-        ),
-        "system/fvSchemes": (
-            "dictionary",
-            {
-                "ddtSchemes": {"default": "steadyState"},
-                "gradSchemes": {"default": linear},
-                "divSchemes": {
-                    "default": "none",
-                    "div(phi,U)": ADVECTION[scheme],
-                    "div((nuEff*dev2(T(grad(U)))))": linear,
-                },
-                "laplacianSchemes": {"default": (*linear, "corrected")},
-                "interpolationSchemes": {"default": "linear"},
-                "snGradSchemes": {"default": "corrected"},
-            },
-        ),
-        "system/fvSolution": (
-            "dictionary",
-            {
-                "solvers": {
-                    "p": {
-                        "solver": "GAMG",
-                        "smoother": "DICGaussSeidel",
-                        "tolerance": tolerance * LINEAR_TOLERANCE,
-                        "relTol": 0.1,
-                        "nCellsInCoarsestLevel": 20,
-                    },
-                    "U": {
-                        "solver": "PBiCGStab",
-                        "preconditioner": "DILU",
-                        "tolerance": tolerance * LINEAR_TOLERANCE,
-                        "relTol": 0.01,
-                    },
-                },
-                "SIMPLE": {
-                    "consistent": True,
-                    "nNonOrthogonalCorrectors": 0,
-                    "pRefCell": 0,
-                    "pRefValue": 0,
-                    "residualControl": {"p": tolerance, "U": tolerance},
-                },
-                "relaxationFactors": {"fields": {"p": 1.0}, "equations": {"U": VELOCITY_RELAXATION}},
-            },
+        "constant/transportProperties": ("dictionary", {"transportModel": "Newtonian", "nu": viscosity}),
+        "constant/turbulenceProperties": ("dictionary", {"simulationType": "laminar"}),
+    }
+
+
+def _dictionaries(viscosity: float, tolerance: float, scheme: str, processes: int) -> dict[str, Dictionary]:
+    return {
+        "system/controlDict": control(ITERATIONS),
+        "system/fvSchemes": schemes(scheme),
+        "system/fvSolution": solution(
+            tolerance=tolerance,
+            linear=LINEAR_TOLERANCE,
+            relaxation=VELOCITY_RELAXATION,
+            coarsest=20,
+            velocity_gain=0.01,
         ),
         "system/decomposeParDict": (
             "dictionary",
@@ -151,8 +209,7 @@ def _dictionaries(
                 "simpleCoeffs": {"n": [processes, 1, 1], "delta": 0.001},
             },
         ),
-        "constant/transportProperties": ("dictionary", {"transportModel": "Newtonian", "nu": viscosity}),
-        "constant/turbulenceProperties": ("dictionary", {"simulationType": "laminar"}),
+        **liquid(viscosity),
         "0/U": (
             "volVectorField",
             {

@@ -7,7 +7,7 @@ import numpy as np
 from foamlib import FoamCase, FoamFile
 
 from contact.errors import ConvergenceError
-from foamcases.case import read_card
+from foamcases.case import Card, read_card
 from rom.gap import Array
 
 
@@ -79,7 +79,7 @@ def read_channel(directory: Path) -> Channel:
     ConvergenceError
         If it holds no finished fields, or fields that are not finite.
     """
-    card = read_card(directory)
+    card = read_card(directory, Card)
     shape = (card.columns, card.layers)
     try:
         last = FoamCase(directory)[-1]

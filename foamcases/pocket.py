@@ -1,19 +1,16 @@
 """A pocket scene by OpenFOAM: write, run and read apart, and composed to a result."""
 
-import tempfile
-import time
 from collections.abc import Callable
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from contact.errors import UnavailableError
-from foamcases.case import RESOLUTION, read_card, write_case
+from foamcases.case import RESOLUTION, Card, read_card, write_case
 from foamcases.dictionaries import VELOCITY_RELAXATION
 from foamcases.fields import read_channel
 from foamcases.openfoam import availability
 from foamcases.run import Run, run_case
-from rom.ladder import Applicability, Effect, Model, Progress, Write, chosen_scheme, silent
+from foamcases.rung import solve
+from rom.ladder import Applicability, Effect, Model, chosen_scheme
 from rom.pocket import Pocket, pocket_quantities
 from rom.provenance import provenance
 from rom.result import Field, Numerics, Result
@@ -56,7 +53,7 @@ def write(
 
 def read(scene: Pocket, directory: Path, run: Run, *, model: str, keeps: frozenset[Effect]) -> Result:
     """The result of a case that was run; see :func:`foamcases.fields.read_channel` for the errors."""
-    card, channel = read_card(directory), read_channel(directory)
+    card, channel = read_card(directory, Card), read_channel(directory)
     film, pascal = scene.geometry.film, scene.pressure_unit
     lowest, highest = channel.pressure_range()
     return Result(
@@ -102,32 +99,6 @@ def read(scene: Pocket, directory: Path, run: Run, *, model: str, keeps: frozens
     )
 
 
-def solve(
-    scene: Pocket,
-    *,
-    model: str,
-    keeps: frozenset[Effect],
-    write: Write,
-    resolution: int | None = None,
-    tolerance: float | None = None,
-    scheme: str | None = None,
-    processes: int = 1,
-    progress: Progress = silent,
-) -> Result:
-    """Write, run and read in a directory that is removed afterwards; raises what the three raise."""
-    found = availability()
-    if not found.available:
-        raise UnavailableError(f"{model}: {found.detail}")
-    wall, cpu = time.perf_counter(), time.thread_time()
-    with tempfile.TemporaryDirectory(prefix="roughfilm-") as place:
-        directory = Path(place) / model
-        write(scene, directory, resolution=resolution, tolerance=tolerance, scheme=scheme, processes=processes)
-        run = run_case(directory, progress=progress)
-        spent = time.thread_time() - cpu
-        whole = replace(run, cpu_s=run.cpu_s + spent, wall_s=time.perf_counter() - wall)
-        return read(scene, directory, whole, model=model, keeps=keeps)
-
-
 def openfoam_model(
     *,
     name: str,
@@ -152,7 +123,7 @@ def openfoam_model(
         order=2,
         cost=cost,
         applies=applies,
-        solve=partial(solve, model=name, keeps=keeps, write=write_model),
+        solve=partial(solve, model=name, write=write_model, run=run_case, read=partial(read, model=name, keeps=keeps)),
         available=availability,
         write=write_model,
         schemes=schemes,

@@ -1,6 +1,7 @@
 """One program of OpenFOAM run to its end in a case: its log, its own CPU time, and nothing left running."""
 
 import os
+import re
 import signal
 import subprocess
 import threading
@@ -18,6 +19,8 @@ POLL_S = 0.02
 GRACE_S = 5.0
 """How long a program that was told to stop may take; mpirun ends its processes in that time."""
 LOG_TAIL = 12
+TRACE = re.compile(r"#\d+ ")
+"""A line of the trace that OpenFOAM prints of itself when a number is beyond bounds."""
 
 Watch = Callable[[], bool]
 """Called again and again while a program runs; True stops it."""
@@ -91,7 +94,7 @@ def failure(
     reason: str, log: str, *, outcome: Outcome = Outcome.FAILED, iterations: int | None = None
 ) -> ConvergenceError:
     """The error for a run of this outcome, with the last lines of its log."""
-    tail = [line for line in log.splitlines() if line.strip()][-LOG_TAIL:]
+    tail = [line for line in log.splitlines() if line.strip() and not TRACE.match(line)][-LOG_TAIL:]
     error = ConvergenceError(f"OpenFOAM: {reason}", outcome=outcome, iterations=iterations)
     if tail:
         error.add_note("\n".join(tail))

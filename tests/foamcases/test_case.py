@@ -8,7 +8,7 @@ import pytest
 from foamlib import FoamFile
 
 from contact.errors import InputError
-from foamcases.case import read_card, write_case
+from foamcases.case import Card, read_card, write_case
 from rom.scene import read_scene, scene_entries
 
 HOSTILE = [
@@ -46,7 +46,7 @@ def test_hostile_values_are_refused_before_a_case_is_made(make_scene, place, tex
 def test_the_case_says_what_it_is(make_scene, tmp_path):
     scene = make_scene(0.3, 0.25, 160)
     write_case(scene, tmp_path, reynolds_number=160.0, resolution=60, tolerance=1e-6, scheme="linear_upwind")
-    card = read_card(tmp_path)
+    card = read_card(tmp_path, Card)
     assert (card.reynolds_number, card.resolution, card.tolerance) == (160.0, 60, 1e-6)
     assert FoamFile(tmp_path / "constant" / "transportProperties")["nu"] == pytest.approx(1 / 160)
     assert FoamFile(tmp_path / "system" / "controlDict")["writeFormat"] == "binary"
@@ -81,4 +81,17 @@ def test_a_case_is_never_written_over_another(make_scene, tmp_path):
 
 def test_a_directory_without_a_card_is_refused(tmp_path):
     with pytest.raises(InputError, match=r"case\.json"):
-        read_card(tmp_path)
+        read_card(tmp_path, Card)
+
+
+def test_a_path_with_a_blank_is_refused_before_openfoam_stumbles_over_it(make_scene, tmp_path):
+    with pytest.raises(InputError, match="takes no blanks in a path"):
+        write_case(
+            make_scene(0.3, 0.25, 1),
+            tmp_path / "my case",
+            reynolds_number=1.0,
+            resolution=20,
+            tolerance=None,
+            scheme="linear_upwind",
+        )
+    assert not (tmp_path / "my case").exists()

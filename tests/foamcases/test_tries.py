@@ -8,7 +8,7 @@ from foamcases.case import write_case
 from foamcases.dictionaries import strengthen
 from foamcases.fields import read_channel
 from foamcases.models import navier_stokes, stokes
-from foamcases.residuals import PATIENCE, Residuals
+from foamcases.residuals import PATIENCE, Judged, Residuals
 from foamcases.run import run_case
 
 
@@ -29,7 +29,7 @@ def logged(values):
 def read(tmp_path):
     def residuals(values):
         (tmp_path / "log").write_text(logged(values))
-        found = Residuals(tmp_path / "log")
+        found = Residuals(tmp_path / "log", Judged())
         found.read()
         return found
 
@@ -38,11 +38,11 @@ def read(tmp_path):
 
 def test_a_log_that_grows_byte_by_byte_is_read_once(tmp_path):
     text = logged([(0.1, 0.3, 0.2), (0.01, 0.02, 0.03), (1e-3, 1e-3, 5e-4)])
-    found = Residuals(tmp_path / "log")
+    found = Residuals(tmp_path / "log", Judged())
     for end in range(0, len(text) + 1, 7):
         (tmp_path / "log").write_text(text[:end])
         found.read()
-    assert found.along == [0.1, 0.01, 1e-3]
+    assert found.main == [0.1, 0.01, 1e-3]
     assert found.greatest == [0.3, 0.03, 1e-3]
 
 

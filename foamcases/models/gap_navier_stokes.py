@@ -1,0 +1,21 @@
+"""The steady Navier-Stokes equations between rough walls in OpenFOAM: slope and inertia in full."""
+
+from foamcases.rough_gap import gap_flow_model
+from rom.ladder import Applicability, Effect
+from rom.rough_gap import RoughGap
+
+
+def applies(scene: RoughGap) -> Applicability:
+    """Always; says that the flow is taken as laminar and steady."""
+    return Applicability(
+        applies=True, reason=f"leaves nothing out of a steady laminar flow (Re = {scene.reynolds_number:.3g})"
+    )
+
+
+MODEL = gap_flow_model(
+    name="navier_stokes",
+    summary="adds slope and inertia in full: the best rung",
+    keeps=frozenset({Effect.ROUGHNESS, Effect.SLOPE, Effect.INERTIA}),
+    applies=applies,
+    schemes=("linear_upwind", "upwind"),
+)

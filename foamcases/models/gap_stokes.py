@@ -1,0 +1,23 @@
+"""The Stokes equations between rough walls in OpenFOAM: all of their shape, no inertia."""
+
+from foamcases.rough_gap import gap_flow_model
+from rom.ladder import Applicability, Effect
+from rom.rough_gap import RoughGap
+
+CREEPING = 1e-6
+"""The Reynolds number of the run: advection is then a millionth of viscous stress (there is no scheme "none")."""
+
+
+def applies(scene: RoughGap) -> Applicability:
+    """Always; says how much inertia it leaves out."""
+    measure = scene.reynolds_number * scene.rms_slope
+    return Applicability(applies=True, reason=f"leaves out inertia (Re g' = {measure:.3g})")
+
+
+MODEL = gap_flow_model(
+    name="stokes",
+    summary="adds slope: the whole gap resolved, inertia negligible",
+    keeps=frozenset({Effect.ROUGHNESS, Effect.SLOPE}),
+    applies=applies,
+    reynolds_number=CREEPING,
+)

@@ -1,0 +1,42 @@
+"""Flows between walls of any shape."""
+
+import json
+from types import SimpleNamespace
+
+import pytest
+
+from foamcases.case import CARD, read_card
+from foamcases.gap_case import GapCard, mesh_of, write_gap_case
+from foamcases.gap_fields import read_gap_flow
+from foamcases.gap_run import run_gap
+from foamcases.rough_gap import factors_of
+
+
+@pytest.fixture
+def flow_between(tmp_path):
+    """Write, run and read the gap between walls whose heights are in mean gaps; all drives, or one ``only``."""
+
+    def solve(walls, layers, *, only=None, reynolds_number=1e-6, scheme="", **options):
+        scene = SimpleNamespace(
+            walls=lambda _: walls,
+            mean_gap=1.0,
+            layers=layers,
+            nominal_flow=1.0,
+            pressure_gradient=12.0,
+            surface=lambda: SimpleNamespace(shape=walls.lower.shape),
+        )
+        case = tmp_path / f"case-{len([*tmp_path.iterdir()])}"
+        options = {"resolution": max(walls.lower.shape), "tolerance": None, **options}
+        write_gap_case(scene, case, reynolds_number=reynolds_number, scheme=scheme, **options)
+        if only is not None:
+            entries = json.loads((case / CARD).read_text())
+            entries["judged"] = {only: entries["judged"][only]}
+            (case / CARD).write_text(json.dumps(entries))
+        run = run_gap(case)
+        card = read_card(case, GapCard)
+        _, columns = mesh_of(scene, card.resolution)
+        flows = {name: read_gap_flow(case / name, card, columns) for name in card.judged}
+        found, pulled = factors_of(flows, slides=walls.slides)
+        return SimpleNamespace(found=found, pulled=pulled, flows=flows, run=run, columns=columns, case=case)
+
+    return solve
