@@ -9,6 +9,7 @@ from scripts import (
     compare,
     contact_series,
     doctor,
+    export,
     factors,
     generate,
     leakage,
@@ -39,6 +40,7 @@ for module in (
     factors,
     stribeck,
     leakage,
+    export,
     doctor,
 ):
     app.command(module.__name__.rpartition(".")[2])(module.command)

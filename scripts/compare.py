@@ -147,7 +147,7 @@ def _judge(
         uncertainty=floor,
         convergence=studies,
         plots=plots,
-        pictures=_pictures(results, out),
+        pictures=_pictures(results, view.drawing, out),
     )
     write_figures(plots, out)
     with replacing(out / "chart.json") as scratch:
@@ -185,10 +185,10 @@ def _raw(report: Report) -> dict[str, Any]:
     }
 
 
-def _pictures(results: Mapping[str, Result], out: Path) -> tuple[Picture, ...]:
+def _pictures(results: Mapping[str, Result], drawing: str, out: Path) -> tuple[Picture, ...]:
     def picture(name: str) -> Picture:
         path = out / f"flow-{name}.png"
-        drawn = draw_apart(out / RESULTS / f"{name}.h5", path)
+        drawn = draw_apart(drawing, out / RESULTS / f"{name}.h5", path)
         return Picture(model=name, path=path if drawn.available else None, reason=drawn.detail)
 
     resolved = [name for name, result in results.items() if "vertices" in result.fields]

@@ -13,7 +13,7 @@ from contact.mechanics.contact import Contact
 from contact.surface import Array
 from rom.ladder import Availability
 from scripts.pages import embedded
-from scripts.rendering import draw_module_apart
+from scripts.rendering import draw_apart
 
 MOST_POINTS = 256
 """Along a side; finer surfaces are drawn by every second, third ... point."""
@@ -69,7 +69,7 @@ def draw_views_apart(views: Sequence[View], picture: Path) -> Availability:
             spacing=np.array(first.spacing),
             relief=first.relief,
         )
-        return draw_module_apart("scripts.contact_view", file, picture)
+        return draw_apart("scripts.contact_view", file, picture)
 
 
 def view_picture(views: Sequence[View]) -> tuple[str | None, str]:

@@ -123,7 +123,9 @@ def _streamlines(
         name, place, (title, model, width, depth, number) = job
         rows = paper.rows(SHAPES["cylindrical"], width=width, depth=depth, number=number)
         path = out / f"{name}{'abcd'[place]}.png"
-        drawn = draw_apart(paper.path(rows, paper.best if model == "navier_stokes" else paper.stokes), path)
+        drawn = draw_apart(
+            "scripts.streamlines", paper.path(rows, paper.best if model == "navier_stokes" else paper.stokes), path
+        )
         if not drawn.available:
             return name, f"{title}: no picture: {drawn.detail}", ""
         return name, title, embedded(path)

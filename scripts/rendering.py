@@ -18,12 +18,7 @@ print(pyvista.vtk_version_info)
 """
 
 
-def draw_apart(result: Path, picture: Path) -> Availability:
-    """Draw the flow of a stored result into a PNG; says why where it fails."""
-    return draw_module_apart("scripts.streamlines", result, picture)
-
-
-def draw_module_apart(module: str, file: Path, picture: Path) -> Availability:
+def draw_apart(module: str, file: Path, picture: Path) -> Availability:
     """Run a module that draws what a file holds into a PNG; says why where it fails."""
     return _apart("-m", module, str(file), str(picture))
 

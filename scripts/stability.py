@@ -16,11 +16,18 @@ from scripts.pages import render
 from scripts.stability_cavitation import CAVITATION
 from scripts.stability_cell import CELL
 from scripts.stability_contact import CONTACT
+from scripts.stability_gap import GAP
 from scripts.stability_made import Family
 from scripts.stability_pocket import POCKET
 from scripts.workplace import alone
 
-FAMILIES: dict[str, Family] = {"pocket": POCKET, "contact": CONTACT, "cavitation": CAVITATION, "cell": CELL}
+FAMILIES: dict[str, Family] = {
+    "pocket": POCKET,
+    "contact": CONTACT,
+    "cavitation": CAVITATION,
+    "cell": CELL,
+    "rough_gap": GAP,
+}
 
 
 @in_one_line

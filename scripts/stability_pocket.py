@@ -7,22 +7,19 @@ from typing import Any
 
 from rich.table import Table
 
-from contact.errors import InputError
 from foamcases.residuals import PATIENCE
 from foamcases.tries import RECIPE
 from rom.ladder import of_kind
 from rom.pocket import Pocket
 from rom.provenance import code, commit, machine, versions
-from rom.result import Result
 from rom.scene import load_scene
 from rom.setting import Setting
 from rom.validity import TURBULENT
-from scripts.common import messages, models, progress_bar
-from scripts.executors import local
-from scripts.runs import Failure, Job, store, stored
+from scripts.common import models
+from scripts.runs import Job
 from scripts.stability_made import Made
 from scripts.stability_map import MEANING, Map, State, columns, in_words, spot_of
-from scripts.sweep import Solved, expected_cost, run
+from scripts.stability_runs import answers_to
 
 KIND = "pocket"
 RUNS = "runs"
@@ -79,26 +76,7 @@ def _maps(family: Family, settings: Sequence[Setting], place: Path, processes: i
         for setting in settings
         for at, scene in scenes.items()
     }
-    answers: dict[Path, Result | Failure] = {}
-    for job in jobs.values():
-        fits = job.setting.model.applies(job.scene)
-        refused = Failure(kind=InputError.__name__, message=fits.reason)
-        if found := stored(job, with_fields=False) if fits.applies else refused:
-            answers[job.path] = found
-    missing = [job for job in jobs.values() if job.path not in answers]
-    try:
-        if missing:
-            with progress_bar(sum(map(expected_cost, missing))) as advance, local(processes, scratch) as executor:
-                advance(0.0, f"starting {len(missing)} runs")
-                spent = 0.0
-                for job, answer in run(missing, executor):
-                    store(job, answer.file if isinstance(answer, Solved) else answer)
-                    answers[job.path] = answer.result if isinstance(answer, Solved) else answer
-                    spent += expected_cost(job)
-                    advance(spent, f"{len(answers)} of {len(jobs)} runs")
-    except (KeyboardInterrupt, SystemExit):
-        messages.print(f"stopped at {len(answers)} of {len(jobs)} runs; the same command goes on", soft_wrap=True)
-        raise
+    answers = answers_to(list(jobs.values()), processes, scratch)
     return [
         Map(
             setting=setting,

@@ -1,6 +1,6 @@
 """Questions put to one solver, each with what became of it: shared by the maps that gather them in tables."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any, TypeVar
@@ -36,7 +36,7 @@ class Spot:
     group: str
     row: str
     column: str
-    state: State
+    state: StrEnum
     iterations: int | None = None
     cpu_s: float = 0.0
     message: str = ""
@@ -44,13 +44,13 @@ class Spot:
     @property
     def entries(self) -> dict[str, Any]:
         """For JSON."""
-        return {name: value if not isinstance(value, State) else value.value for name, value in vars(self).items()}
+        return {name: value if not isinstance(value, StrEnum) else value.value for name, value in vars(self).items()}
 
 
 AnySpot = TypeVar("AnySpot", bound=Spot)
 
 
-def count(spots: Sequence[Spot], *states: State) -> int:
+def count(spots: Sequence[Spot], *states: StrEnum) -> int:
     """How many came to this."""
     return sum(spot.state in states for spot in spots)
 
@@ -67,12 +67,14 @@ def in_rows(spots: Sequence[AnySpot]) -> dict[str, dict[str, AnySpot]]:
     }
 
 
-def entries_of(family: str, resolution: int, spots: Sequence[Spot], told: Sequence[str]) -> dict[str, Any]:
-    """A map for JSON."""
+def entries_of(
+    family: str, resolution: int, spots: Sequence[Spot], told: Sequence[str], states: Iterable[StrEnum] = State
+) -> dict[str, Any]:
+    """A map for JSON, with the counts of these states."""
     return {
         "family": family,
         "resolution": resolution,
-        "counts": {state.value: count(spots, state) for state in State},
+        "counts": {state.value: count(spots, state) for state in states},
         "in_words": told,
         "runs": [spot.entries for spot in spots],
         "provenance": {"machine": machine(), "code": code(), "commit": commit(), "versions": versions()},
@@ -97,12 +99,12 @@ def columns_of(spots: Sequence[Spot], found: Sequence[str]) -> dict[str, Column]
     }
 
 
-def table_of(groups: Mapping[str, Sequence[Spot]]) -> Table:
-    """How many of each group came to what, for the terminal."""
-    states = [state for state in State if any(count(spots, state) for spots in groups.values())]
-    table = Table("group", *(state.value for state in states), "most iterations", "CPU s")
+def table_of(groups: Mapping[str, Sequence[Spot]], states: Iterable[StrEnum] = State) -> Table:
+    """How many of each group came to which of these states, for the terminal."""
+    met = [state for state in states if any(count(spots, state) for spots in groups.values())]
+    table = Table("group", *(state.value for state in met), "most iterations", "CPU s")
     for name, spots in groups.items():
         most = max((spot.iterations or 0 for spot in spots), default=0)
-        counts = (str(count(spots, state)) for state in states)
+        counts = (str(count(spots, state)) for state in met)
         table.add_row(name, *counts, str(most), f"{sum(spot.cpu_s for spot in spots):.3g}")
     return table

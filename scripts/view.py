@@ -35,6 +35,7 @@ class View:
     headings : the quantities in the table of the ladder, with their headings (HTML).
     plots : plots(scene, results): figures of its own, SVG by name.
     groups : groups(given): which cases of a sweep share a marker, masks by name.
+    drawing : the module that draws a result which resolves the film, in space; empty where there is none.
     maps : maps(sweep, setting, reference, quantity): errors over what was varied, SVG; None where there is no such map.
     errors : of what a sweep gives errors, in words.
     ordering : what the features of its sweeps are, in words.
@@ -47,6 +48,7 @@ class View:
     headings: Mapping[str, str]
     plots: Callable[[Any, Mapping[str, Result]], Mapping[str, str]]
     groups: Callable[[Columns], Mapping[str, NDArray[Any]]]
+    drawing: str = ""
     maps: Callable[[Sweep, str, str, str], str] | None = None
     errors: str = ""
     ordering: str = ""

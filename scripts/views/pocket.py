@@ -126,6 +126,7 @@ VIEW = View(
         "backflow": "reverse flow",
     },
     plots=lambda scene, results: {"pressure": pressure(scene, results)},
+    drawing="scripts.streamlines",
     groups=groups,
     maps=error_maps,
     errors="of the load, and of the friction on the sliding wall",

@@ -1,0 +1,346 @@
+"""Where the models of a rough gap converge, and how they fail elsewhere: judged by exact flow, or by finer meshes."""
+
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from contact.errors import InputError
+from rom.ladder import of_kind
+from rom.result import Result
+from scripts import stability_spots as spots_of
+from scripts.common import models
+from scripts.executors import local
+from scripts.figures import svg
+from scripts.gap_probes import CUT, CUTS, Probe, probes
+from scripts.gap_truths import JUDGED, Truth, agreeing, exact_stokes, exact_thin, extrapolated
+from scripts.runs import Failure, Job
+from scripts.stability_made import Made
+from scripts.stability_runs import answers_to
+from scripts.stability_spots import columns_of, count, entries_of, in_groups, in_rows, table_of
+from scripts.views.rough_gap import STYLES
+
+KIND = "rough_gap"
+FEWEST, MOST = 32, 64
+
+ALLOWED = 0.05
+"""A larger part of a coefficient than this is inaccurate."""
+
+LEAST = 1e-3
+"""Coefficients below this part of a smooth gap's are judged as if they were as large."""
+
+SLOW = {"homogenized": 100, "slope_corrected": 100, "stokes": 600, "navier_stokes": 600}
+"""More iterations than this, of all drives together, are slow."""
+
+ROUNDING = 1e-9
+
+
+class State(StrEnum):
+    """What became of a question."""
+
+    CONVERGED = "converged"
+    SLOW = "slow"
+    RESCUED = "rescued"
+    INACCURATE = "inaccurate"
+    UNJUDGED = "unjudged"
+    STALLED = "stalled"
+    UNSTEADY = "unsteady"
+    UNFINISHED = "unfinished"
+    DIVERGED = "diverged"
+    MESH = "no mesh"
+    REFUSED = "refused"
+    WRONG = "wrong"
+    FAILED = "failed"
+
+
+GOOD = (State.CONVERGED, State.SLOW, State.RESCUED)
+
+MEANING: Mapping[State, str] = {
+    State.CONVERGED: f"every coefficient ({', '.join(JUDGED)}) within {ALLOWED:.0%}, and within the error bar told",
+    State.SLOW: "the same, after many iterations (above 100 of thin films, above 600 of OpenFOAM's three drives)",
+    State.RESCUED: "the same, but OpenFOAM needed its second recipe",
+    State.INACCURATE: f"solved, but more than {ALLOWED:.0%} off: too coarse a mesh, or the model leaves out too much",
+    State.UNJUDGED: "solved, and nothing finer is there to judge it by",
+    State.STALLED: "the flow stands still, but pressure or cross flow miss the tolerance",
+    State.UNSTEADY: "the flow swings from iteration to iteration and gets no nearer to a steady one",
+    State.UNFINISHED: "was getting nearer when its iterations were used up",
+    State.DIVERGED: "the numbers grew beyond all bounds",
+    State.MESH: "OpenFOAM's mesh check finds faults, and nothing is solved",
+    State.REFUSED: "refused in one line",
+    State.WRONG: "outside of the error bar that the model tells",
+    State.FAILED: "anything else: a fault",
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Spot(spots_of.Spot):
+    """What became of one question; None where there is no number.
+
+    ``error`` is that of the coefficient that is off most, over itself, by ``judge``; ``imbalance`` that of momentum.
+    """
+
+    setting: str
+    error: float | None = None
+    worst: str = ""
+    judge: str = ""
+    imbalance: float | None = None
+    A11: float | None = None
+    A22: float | None = None
+    B1: float | None = None
+    friction: float | None = None
+
+
+def spot_of(probe: Probe, answer: Result | Failure, truth: Truth | None, thin: Truth | None = None) -> Spot:
+    """The judged answer to a probe.
+
+    The error is by ``truth``, Stokes flow or whatever is the best at hand. ``thin`` is thin-film theory: what the error
+    bars of ``homogenized`` are about, and of all flows that with the most flow and the least friction.
+    """
+    blank = Spot(
+        group=probe.group,
+        row=probe.row,
+        column=probe.column,
+        setting=probe.setting.name,
+        state=State.UNJUDGED,
+        message=_cells(probe),
+    )
+    if isinstance(answer, Failure):
+        return replace(
+            blank,
+            state=_state_of(answer),
+            iterations=answer.iterations,
+            cpu_s=answer.cpu_s or 0.0,
+            message=f"{answer.message} {blank.message}".strip(),
+        )
+    values = {name: answer.quantities[name].value for name in JUDGED if name in answer.quantities}
+    spot = replace(
+        blank,
+        A11=values.get("A11"),
+        A22=values.get("A22"),
+        B1=values.get("B1"),
+        friction=values.get("friction"),
+        iterations=answer.numerics.iterations,
+        cpu_s=answer.numerics.cpu_s,
+        imbalance=max(answer.provenance.get("imbalance", {}).values(), default=None),
+    )
+    if truth:
+        parts = {n: abs(values[n] - right) / max(abs(right), LEAST) for n, right in truth.values.items() if n in values}
+        worst = max(parts, key=lambda name: parts[name])
+        spot = replace(spot, error=parts[worst], worst=worst, judge=truth.source)
+    plain = probe.setting.model.name == "homogenized"
+    bars: Mapping[str, float] = answer.provenance.get("uncertainty", {})
+    if short := _short(values, bars, thin if plain else truth):
+        return replace(spot, state=State.WRONG, message=short)
+    if thin and not plain and (beyond := _beyond(values, bars, thin)):
+        return replace(spot, state=State.INACCURATE, message=f"{beyond} {spot.message}".strip())
+    if spot.error is None:
+        return spot
+    if spot.error > ALLOWED:
+        return replace(spot, state=State.INACCURATE)
+    if any(len(one) > 1 for one in answer.provenance.get("runs", {}).values()):
+        return replace(spot, state=State.RESCUED)
+    slow = (spot.iterations or 0) > SLOW[answer.model]
+    return replace(spot, state=State.SLOW if slow else State.CONVERGED)
+
+
+def _short(values: Mapping[str, float], bars: Mapping[str, float], right: Truth | None) -> str:
+    """Which error bars are too short, in words."""
+    if right is None:
+        return ""
+    errors = {name: abs(values[name] - right.values[name]) for name in right.values if name in bars and name in values}
+    short = [name for name, error in errors.items() if error > bars[name] + right.off[name] + ROUNDING]
+    return ", ".join(f"{name} off by {errors[name]:.2g}, its bar is {bars[name]:.2g}" for name in short)
+
+
+def _beyond(values: Mapping[str, float], bars: Mapping[str, float], thin: Truth) -> str:
+    """What is not possible: more flow, or less friction, than in thin films."""
+    for name, sign in (("A11", 1), ("A22", 1), ("friction", -1)):
+        if name not in values:
+            continue
+        slack = ALLOWED * max(thin.values[name], LEAST) + thin.off[name] + bars.get(name, 0.0)
+        if sign * (values[name] - thin.values[name]) > slack:
+            told = "more flow" if sign > 0 else "less friction"
+            return (
+                f"{told} than is possible: {name} is {values[name]:.3g}, thin-film theory has {thin.values[name]:.3g}"
+            )
+    return ""
+
+
+def _state_of(failure: Failure) -> State:
+    if failure.kind == InputError.__name__:
+        return State.REFUSED
+    if "mesh check" in failure.message:
+        return State.MESH
+    return State(failure.outcome or State.FAILED)
+
+
+def _cells(probe: Probe) -> str:
+    """How long the cells are, over how thick."""
+    if probe.wave is None or probe.setting.resolution is None or probe.scene.layers is None:
+        return ""
+    return f"(cells {probe.wave.wavelength / probe.setting.resolution * probe.scene.layers:.3g} times as long as thick)"
+
+
+Answered = tuple[Probe, Result | Failure]
+
+
+@dataclass(frozen=True, kw_only=True)
+class GapFamily:
+    """The probes of the models of a rough gap."""
+
+    resolution: int = FEWEST
+    resolution_meaning: str = "mesh columns of OpenFOAM's finest bumps, half as many as of its finest ridges"
+
+    def make(self, *, resolution: int, out: Path, processes: int, scratch: Path) -> Made:
+        """Solve what is not in ``out`` already, and judge all of it."""
+        if not FEWEST <= resolution <= MOST or resolution % 2:
+            raise InputError(f"--resolution: got {resolution}; it must be even, {FEWEST} to {MOST}")
+        ladder = of_kind(models(), KIND)
+        absent = {model.name: it.detail for model in ladder if not (it := model.available()).available}
+        asked = list(probes([model for model in ladder if model.name not in absent], resolution))
+        jobs = [_job(probe, out) for probe in asked]
+        answers = answers_to(list({job.path: job for job in jobs}.values()), processes, scratch)
+        found = [(probe, answers[job.path]) for probe, job in zip(asked, jobs, strict=True)]
+        with local(processes, scratch) as executor:
+            spots = judged(found, executor)
+        groups = in_groups(spots)
+        told = in_words(spots)
+        return Made(
+            entries=entries_of(KIND, resolution, spots, told, State),
+            columns=columns_of(spots, ("error", "imbalance", *JUDGED)),
+            table=table_of(by_axis(spots), State),
+            template="stability_gap.html.j2",
+            page={
+                "tables": {name: in_rows(own) for name, own in groups.items()},
+                "states": [(state, MEANING[state], count(spots, state)) for state in State],
+                "told": told,
+                "figure": against_cut(spots),
+                "absent": absent,
+            },
+            absent=absent,
+        )
+
+
+def _job(probe: Probe, out: Path) -> Job:
+    path = out / "runs" / probe.place / f"{probe.setting.name}.h5"
+    return Job(scene=probe.scene, setting=probe.setting, path=path)
+
+
+def judged(found: Sequence[Answered], executor: Executor) -> list[Spot]:
+    """Every answer, judged by thin-film theory or Stokes flow of its wave, by two meshes, or by the smallest cut."""
+    waves = list(dict.fromkeys(probe.wave for probe, _ in found if probe.wave))
+    thin = dict(zip(waves, executor.map(exact_thin, waves), strict=True))
+    stokes = dict(zip(waves, executor.map(exact_stokes, waves), strict=True))
+    meshes = _two_meshes(found)
+    spots = []
+    for probe, answer in found:
+        model = probe.setting.model.name
+        if probe.wave is None:
+            spots.append(spot_of(probe, answer, _at_least_cut(probe, found)))
+            continue
+        truth = stokes[probe.wave] if model != "navier_stokes" else None
+        if truth is None:
+            truth = meshes.get((probe.place, "navier_stokes" if model == "navier_stokes" else "stokes"))
+            truth = truth if probe.setting.resolution else agreeing(truth)
+        spots.append(spot_of(probe, answer, truth, thin[probe.wave]))
+    return spots
+
+
+def _two_meshes(found: Sequence[Answered]) -> dict[tuple[str, str], Truth]:
+    """By the scene and the model, where both meshes have an answer."""
+    runs: dict[tuple[str, str], dict[int, Result]] = {}
+    for probe, answer in found:
+        setting = probe.setting
+        if isinstance(answer, Result) and setting.resolution and setting.scheme != "upwind":
+            runs.setdefault((probe.place, setting.model.name), {})[setting.resolution] = answer
+    return {key: extrapolated(own[min(own)], own[max(own)]) for key, own in runs.items() if len(own) == 2}
+
+
+def _at_least_cut(probe: Probe, found: Sequence[Answered]) -> Truth | None:
+    """A of the same setting where the least is cut out: the error told is that of cutting out more.
+
+    Error bars of the model do not count here, as both answers are off alike.
+    """
+    last = f"{min(CUTS):g}"
+    least = next(
+        answer for other, answer in found if (other.group, other.row, other.column) == (probe.group, probe.row, last)
+    )
+    if isinstance(least, Failure):
+        return None
+    values = {name: least.quantities[name].value for name in ("A11", "A22")}
+    return Truth(values=values, off=dict.fromkeys(values, np.inf), source=f"its own answer at a smallest gap of {last}")
+
+
+def by_axis(spots: Sequence[Spot]) -> dict[str, list[Spot]]:
+    """By what is varied."""
+    axes = dict.fromkeys(spot.group.partition(":")[0] for spot in spots)
+    return {axis: [spot for spot in spots if spot.group.partition(":")[0] == axis] for axis in axes}
+
+
+def in_words(spots: Sequence[Spot]) -> list[str]:
+    """What a reader should know: of every setting in every group, where it is not good, and how."""
+    lines = []
+    for group, own in in_groups(spots).items():
+        for setting in dict.fromkeys(spot.setting for spot in own):
+            some = [spot for spot in own if spot.setting == setting]
+            good = [spot for spot in some if spot.state in GOOD]
+            told = [
+                f"{state} at {_places([spot for spot in some if spot.state is state])}"
+                for state in State
+                if state not in GOOD and count(some, state)
+            ]
+            title = group if setting in group else f"{group}: {setting}"
+            lines.append("; ".join([f"{title}: good at {len(good)} of {len(some)} places", *told]) + ".")
+    held = [spot for spot in spots if spot.imbalance is not None]
+    if held:
+        least = max(held, key=lambda spot: spot.imbalance or 0)
+        lines.append(
+            f"The walls hold the liquid within {least.imbalance:.1e} of the drag of a smooth gap in all of {len(held)} "
+            f"resolved answers; the worst is {least.group}: {least.row}, {least.column}."
+        )
+    return lines
+
+
+def _places(spots: Sequence[Spot]) -> str:
+    rows = {row: ", ".join(cells) for row, cells in in_rows(spots).items()}
+    return "; ".join(cells if row == spots[0].setting else f"{row} with {cells}" for row, cells in rows.items())
+
+
+def against_cut(spots: Sequence[Spot]) -> str:
+    """A and friction against the smallest gap, of every pressed wall by every setting, as SVG."""
+    groups = {name: own for name, own in in_groups(spots).items() if name.startswith(f"{CUT}:")}
+    figure = Figure(figsize=(10, 5.6), layout="constrained")
+    panels = figure.subplots(2, len(groups), sharex=True, squeeze=False)
+    for (name, own), column in zip(groups.items(), panels.T, strict=True):
+        finest = max(_columns(own), default=0)
+        for quantity, axes in zip(("A11", "friction"), column, strict=True):
+            for setting, cells in in_rows(own).items():
+                model, _, columns = setting.partition("-")
+                known = [(float(c), value) for c, s in cells.items() if (value := getattr(s, quantity)) is not None]
+                if known:
+                    axes.plot(
+                        *zip(*known, strict=True),
+                        STYLES[model].marker,
+                        color=STYLES[model].colour,
+                        linestyle="-" if columns in ("", str(finest)) else ":",
+                        label=f"{model}, {columns} columns" if columns else model,
+                    )
+            axes.set_xscale("log")
+            axes.set_ylim(0, 1.1 * axes.dataLim.ymax if axes.has_data() else 1)
+        column[0].set_title(name.removeprefix(f"{CUT}: "), fontsize=10)
+        column[1].set_xlabel("smallest open gap, over the mean gap")
+    panels[0, 0].set_ylabel("A11, over a smooth gap's")
+    panels[1, 0].set_ylabel("friction, over a smooth gap's")
+    panels[0, -1].legend(fontsize=8)
+    return svg(figure)
+
+
+def _columns(spots: Sequence[Spot]) -> set[int]:
+    return {int(columns) for spot in spots if (columns := spot.setting.partition("-")[2])}
+
+
+GAP = GapFamily()
