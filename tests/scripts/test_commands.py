@@ -139,7 +139,7 @@ def test_a_missing_tolerance_is_code_3(pocket_file):
 
 def without_openfoam(monkeypatch):
     absent = Availability(available=False, detail="no simpleFoam on the PATH; install it")
-    monkeypatch.setattr("foamcases.pocket.availability", lambda: absent)
+    monkeypatch.setattr("foamcases.rung.availability", lambda: absent)
     bare = tuple(
         model if model.write is None else type(model)(**{**vars(model), "available": lambda: absent})
         for model in solve.models()
