@@ -51,8 +51,16 @@ def load_scene(path: Path, overrides: Iterable[str] = ()) -> Scene:
     """
     entries = load_entries(path)
     kind = kind_named(entries)
+    replaces = kind.replaces if kind else {}
+    given: set[str] = set()
     for override in overrides:
-        set_entry(entries, override, "geometry.depth=22.5um", kind.replaces if kind else None)
+        set_entry(entries, override, "geometry.depth=22.5um", replaces)
+        key = override.partition("=")[0].strip()
+        table = key.rpartition(".")[0]
+        for other in replaces.get(key, ()):
+            if (taken := f"{table}.{other}") in given:
+                raise InputError(f"--set {override}: it takes the place of {taken}, which is set too; set one of them")
+        given.add(key)
     return read_scene(entries)
 
 

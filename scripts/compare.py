@@ -14,7 +14,7 @@ from rich.table import Table
 from contact.errors import ConvergenceError
 from contact.files import replacing
 from rom.comparison import effects, points, scale, to_best
-from rom.convergence import GRIDS, Convergence, convergence
+from rom.convergence import GRIDS, Convergence, Kind, convergence
 from rom.kind import Scene, kinds
 from rom.ladder import Model, best, of_kind
 from rom.result import Result
@@ -127,11 +127,12 @@ def _judge(
         for model in ladder
         if model.order and model.name in results and (study := convergence(model, runs))
     }
-    floor = {name: found.uncertainty / scale(results[top.name], name) for name, found in convergence(top, runs).items()}
+    extrapolated = any(found.kind is Kind.MONOTONE for study in studies.values() for found in study.values())
+    floor = _uncertainty(results[top.name], convergence(top, runs))
     plots = {
         **view.plots(scene, results),
         "chart": speed_against_accuracy(chart, floor, titles, view),
-        **({"convergence": grid_convergence(studies, titles, view)} if studies else {}),
+        **({"convergence": grid_convergence(studies, titles, view)} if extrapolated else {}),
     }
     report = Report(
         scene=scene,
@@ -153,6 +154,15 @@ def _judge(
     with replacing(out / "chart.json") as scratch:
         scratch.write_text(json.dumps(_raw(report), indent=1) + "\n", encoding="utf-8")
     return report
+
+
+def _uncertainty(result: Result, study: Mapping[str, Convergence]) -> dict[str, float]:
+    """Of each compared quantity, over its scale: by its grids, or told by the run itself where that is more.
+
+    Grids that a study refines in some directions only cannot tell of the others.
+    """
+    told = result.provenance.get("uncertainty", {})
+    return {name: max(found.uncertainty, told.get(name, 0.0)) / scale(result, name) for name, found in study.items()}
 
 
 def _entries(report: Report, out: Path) -> dict[str, Any]:

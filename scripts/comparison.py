@@ -70,6 +70,7 @@ def write_comparison(report: Report, path: Path) -> None:
         best=report.results[report.best],
         entries=scene_entries(report.scene),
         cheapest={part: cheapest_within(report, part) for part in (0.01, 0.10)},
+        known=max(report.uncertainty.values(), default=0.0),
         differences=_by_model(report.to_best),
         pictures=[(picture, "" if picture.path is None else embedded(picture.path)) for picture in report.pictures],
         sources=_sources(report),

@@ -41,6 +41,15 @@ def test_overrides_replace_what_they_make_meaningless(tmp_path):
     assert json.loads(done.stdout)["quantities"]["A11"]["value"] == pytest.approx(1.0)
 
 
+def test_overrides_that_take_each_others_place_are_refused():
+    done = run(
+        *("solve", SCENE, "--model", "homogenized"),
+        *("--set", "flow.pressure_gradient=1MPa/m", "--set", "flow.reynolds_number=3"),
+    )
+    assert done.exit_code == 2
+    assert "takes the place of flow.pressure_gradient" in " ".join(done.stderr.split())
+
+
 @pytest.mark.parametrize(
     ("override", "words"),
     [
