@@ -135,14 +135,15 @@ def _surfaces(study: Study, *, study_random: bool) -> str:
 
 
 def _inertia(study: Study) -> str:
-    if not study.inertia.onsets:
+    if not study.inertia.laws:
         return ""
-    one = study.inertia.onsets[0]
+    fitted = "; ".join(
+        f"over {one.group} c = {one.coefficient:.2g} and b = {one.saturation:.2g}, within a factor of {one.spread:.2g} "
+        f"(one standard deviation of {one.count} flows; {one.worst:.2g} at worst)"
+        for one in study.inertia.laws
+    )
     return (
-        f"What inertia holds back begins as {one.coefficient:.2g} ({one.measure})², within a factor of "
-        f"{one.spread:.2g} (one standard deviation over {one.count} flows, {one.measure} from {one.smallest:.2g} to "
-        f"{one.largest:.2g}; with a free power {one.power:.2f}): it is 1 % at {one.measure} = {one.reaches(0.01):.2g} "
-        f"and 5 % at about {one.reaches(0.05):.2g}.{_crossed(study)}"
+        f"Inertia holds back c (Re* g′)² / (1 + b Re* h̄/λ) of the flow, up to a tenth of it: {fitted}.{_crossed(study)}"
     )
 
 
@@ -216,12 +217,9 @@ def cards(study: Study) -> list[dict[str, str]]:
                 "words": "are the rms slopes at which it is within 1 % and 5 %",
             }
         )
-    if study.inertia.onsets:
-        one = study.inertia.onsets[0]
+    first = study.inertia.earliest(0.01)
+    if first:
         told.append(
-            {
-                "value": f"{one.measure} = {one.reaches(0.01):.2g}",
-                "words": "is where inertia holds 1 % of the flow back",
-            }
+            {"value": f"Re* g′ = {first:.2g}", "words": "is the least at which inertia holds 1 % of a flow back"}
         )
     return told

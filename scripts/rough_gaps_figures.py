@@ -15,7 +15,7 @@ from matplotlib.ticker import MaxNLocator
 
 from rom.gap import Array
 from scripts.rough_gaps_data import NAMES, Compared, best
-from scripts.rough_gaps_inertia import LEVELS, MEASURES
+from scripts.rough_gaps_inertia import LEVELS, RIDGES, Held
 from scripts.rough_gaps_map import RUNGS
 from scripts.rough_gaps_study import STEEP, Study
 from scripts.rough_gaps_waves import MARKED, Wave, bare_coefficient
@@ -200,37 +200,39 @@ def _row(axes: Axes, place: float, one: Compared, name: str) -> None:
 
 
 def inertia(study: Study) -> Figure:
-    """What inertia holds back, over Re and over what orders it best."""
-    figure = Figure(figsize=(11, 4.2), layout="constrained")
-    flows, onsets = study.inertia.flows, study.inertia.onsets
-    measures = ["Re", *([onsets[0].measure] if onsets else [])]
+    """What inertia holds back, over Re and over what the law of its group says."""
+    figure = Figure(figsize=(11, 4.8), layout="constrained")
+    flows, laws = study.inertia.flows, {law.group: law for law in study.inertia.laws}
+    measures: dict[str, Callable[[Held], float]] = {"Re": lambda one: one.reynolds_number}
+    if laws:
+        measures["by the law of its group, %"] = lambda one: (
+            100 * laws[one.group].lost(one) if one.group in laws else np.nan
+        )
     names = list(dict.fromkeys(one.name for one in flows))
-    for axes, measure in zip(figure.subplots(1, len(measures), sharey=True, squeeze=False)[0], measures, strict=True):
-        for colour, name in zip(COLOURS, names, strict=False):
+    colours = mpl.colormaps["turbo"](np.linspace(0.05, 0.95, len(names)))
+    panels = figure.subplots(1, len(measures), sharey=True, squeeze=False)[0]
+    for axes, (title, measure) in zip(panels, measures.items(), strict=True):
+        for colour, name in zip(colours, names, strict=True):
             own = [one for one in flows if one.name == name]
-            x = [MEASURES[measure](one) for one in own]
+            marker = "o-" if own[0].group == RIDGES else "s--"
             y, bars = (
                 [100 * part for part in parts] for parts in ([one.lost for one in own], [one.bar for one in own])
             )
             axes.errorbar(
-                x, y, bars, fmt="o-", color=colour, markersize=4, linewidth=1, capsize=2, elinewidth=0.8, label=name
-            )
+                [measure(one) for one in own], y, bars, fmt=marker, color=colour, markersize=4, linewidth=1, capsize=2,
+                elinewidth=0.8, label=name,
+            )  # fmt: skip
         for level in LEVELS:
             axes.axhline(100 * level, color="black", linewidth=0.6, linestyle=":")
         axes.set_xscale("log")
         axes.set_yscale("log")
         axes.set_ylim(1e-3, 100)
-        axes.set_xlabel(measure)
-    if onsets:
-        one = onsets[0]
-        law = np.geomspace(one.smallest / 3, one.reaches(0.1), 20)
-        figure.axes[-1].plot(law, 100 * one.coefficient * law**2, "--", color="black", linewidth=1.2)
-        label = f"{one.coefficient:.2g} ({one.measure})²"
-        figure.axes[-1].annotate(
-            label, (law[7], 100 * one.coefficient * law[7] ** 2), (14, -18), textcoords="offset points"
-        )
-    figure.axes[0].set_ylabel("held back by inertia, % of Stokes flow")
-    figure.axes[0].legend(fontsize=8)
+        axes.set_xlabel(title)
+    if laws:
+        panels[-1].plot((1e-3, 100), (1e-3, 100), color="black", linewidth=1)
+        panels[-1].set_xlim(1e-3, 100)
+    panels[0].set_ylabel("held back by inertia, % of Stokes flow")
+    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside right upper", fontsize=8)
     return figure
 
 

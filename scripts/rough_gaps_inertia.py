@@ -4,8 +4,10 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.optimize import least_squares
 
 from rom.convergence import converge
+from rom.gap import Array
 from rom.rough_gap import RoughGap
 from scripts.rough_gaps_data import ORDER
 from scripts.rough_gaps_runs import Answers, Asked
@@ -29,8 +31,10 @@ RANDOM: Random = {
 GRIDS, RANDOM_GRIDS = (48, 64), (32, 48, 64)
 """Columns of the waves and of random surfaces."""
 
-LARGEST = 0.012
-"""Part of the flow up to which what is held back counts as the beginning of its growth."""
+LARGEST, FEWEST = 0.1, 4
+"""Part of the flow up to which what is held back is fitted, and how many flows that takes."""
+
+RIDGES, SURFACES = "waves", "random surfaces"
 
 NOISE = 1e-4
 """Part of the flow that the solver's tolerance may hold back."""
@@ -54,6 +58,7 @@ class Held:
     """
 
     name: str
+    group: str
     slope: float
     roughness: float
     wavelength: float
@@ -64,49 +69,43 @@ class Held:
     meshes: tuple[float, ...]
 
 
-MEASURES: Mapping[str, Callable[[Held], float]] = {
-    "Re* g′": lambda one: one.flow_reynolds_number * one.slope,
-    "Re g′": lambda one: one.reynolds_number * one.slope,
-    "Re* h̄/λ": lambda one: one.flow_reynolds_number / one.wavelength,
-    "Re* Sq/h̄": lambda one: one.flow_reynolds_number * one.roughness,
-    "Re*": lambda one: one.flow_reynolds_number,
-    "Re": lambda one: one.reynolds_number,
-}
-"""What might order them. Re* (h̄/λ)(Sq/h̄) is Re* g′/(2π)."""
-
-
 @dataclass(frozen=True, kw_only=True)
-class Onset:
-    """The beginning of what inertia holds back, 1 - NS/Stokes = c X², fitted to all gaps.
+class Law:
+    """What inertia holds back, 1 - NS/Stokes = c (Re* g')² / (1 + b Re* h̄/λ), fitted to gaps of one group.
+
+    A square at first, as nothing odd in Re can be, then near linear in Re.
 
     Attributes
     ----------
-    measure : X.
-    coefficient : c, the geometric mean over the flows.
-    spread : the factor by which c scatters, one standard deviation of its logarithm.
-    power : of X, were it free.
-    count, smallest, largest : flows that were fitted, and the range of their X.
+    coefficient, saturation : c and b.
+    spread : the factor by which flows scatter about it, one standard deviation of its logarithm.
+    worst : that of the flow that is farthest from it.
+    count : flows that were fitted.
     """
 
-    measure: str
+    group: str
     coefficient: float
+    saturation: float
     spread: float
-    power: float
+    worst: float
     count: int
-    smallest: float
-    largest: float
 
-    def reaches(self, part: float) -> float:
-        """X at which so much is held back."""
-        return float(np.sqrt(part / self.coefficient))
+    def lost(self, one: Held) -> float:
+        """Part of the flow that is held back."""
+        square = (one.flow_reynolds_number * one.slope) ** 2
+        return self.coefficient * square / (1 + self.saturation * one.flow_reynolds_number / one.wavelength)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Inertia:
-    """All flows, and the measures from the best to the worst."""
+    """All flows, and the law of each group of gaps."""
 
     flows: tuple[Held, ...]
-    onsets: tuple[Onset, ...]
+    laws: tuple[Law, ...]
+
+    def earliest(self, part: float) -> float | None:
+        """The least Re* g' at which a gap loses so much; None where none does."""
+        return min((place for _, place in self.crossings(part).values()), default=None)
 
     def crossings(self, part: float) -> dict[str, tuple[float, float]]:
         """Re and Re* g′ at which so much is held back, by the name of the gap, between the flows; where that is."""
@@ -125,14 +124,18 @@ class Inertia:
 class _Flow:
     """A gap at one Reynolds number, and what to ask for it: Stokes and Navier–Stokes on each mesh."""
 
+    group: str
     name: str
     scene: RoughGap
     asked: tuple[tuple[Asked, Asked], ...]
 
 
-def _flow(name: str, make: Callable[[float], RoughGap], reynolds_number: float, grids: Sequence[int]) -> _Flow:
+def _flow(
+    group: str, name: str, make: Callable[[float], RoughGap], reynolds_number: float, grids: Sequence[int]
+) -> _Flow:
     scene, creeping = make(reynolds_number), make(CREEPING)
     return _Flow(
+        group=group,
         name=name,
         scene=scene,
         asked=tuple(
@@ -157,12 +160,12 @@ def _flows(shapes: Sequence[tuple[float, float]], reynolds: Sequence[float], ran
     """Of sinusoids, and of random surfaces."""
     return [
         *(
-            _flow(f"a = {shape[0]:g}, L = {shape[1]:g}", _over(shape), one, GRIDS)
+            _flow(RIDGES, f"a = {shape[0]:g}, L = {shape[1]:g}", _over(shape), one, GRIDS)
             for shape in shapes
             for one in reynolds
         ),
         *(
-            _flow(f"random, Sq = {shape[0]:g}, λ = {shape[1]:g}", _over_random(shape), one, RANDOM_GRIDS)
+            _flow(SURFACES, f"random, Sq = {shape[0]:g}, λ = {shape[1]:g}", _over_random(shape), one, RANDOM_GRIDS)
             for shape, own in random.items()
             for one in own
         ),
@@ -188,7 +191,8 @@ def inertia(
         for flow in _flows(shapes, reynolds, random)
         if all(one.key in answers for pair in flow.asked for one in pair)
     ]
-    return Inertia(flows=tuple(found), onsets=tuple(sorted(_fits(found), key=lambda one: one.spread)))
+    laws = (_fit(group, found) for group in (RIDGES, SURFACES))
+    return Inertia(flows=tuple(found), laws=tuple(law for law in laws if law))
 
 
 def _held(flow: _Flow, answers: Answers) -> Held:
@@ -198,6 +202,7 @@ def _held(flow: _Flow, answers: Answers) -> Held:
     found = converge(grids, lost, formal_order=ORDER, noise=NOISE)
     return Held(
         name=flow.name,
+        group=flow.group,
         slope=flow.scene.rms_slope,
         roughness=flow.scene.rms_height / flow.scene.mean_gap,
         wavelength=1 / flow.scene.gap_over_wavelength,
@@ -209,24 +214,23 @@ def _held(flow: _Flow, answers: Answers) -> Held:
     )
 
 
-def _fits(found: Sequence[Held]) -> list[Onset]:
-    begun = [one for one in found if 0 < one.lost < LARGEST and one.bar < KNOWN * one.lost]
-    if len(begun) < 3:
-        return []
-    lost = np.log([one.lost for one in begun])
-    fits = []
-    for name, measure in MEASURES.items():
-        x = np.log([measure(one) for one in begun])
-        logs = lost - 2 * x
-        fits.append(
-            Onset(
-                measure=name,
-                coefficient=float(np.exp(logs.mean())),
-                spread=float(np.exp(logs.std())),
-                power=float(np.polyfit(x, lost, 1)[0]),
-                count=len(begun),
-                smallest=float(np.exp(x.min())),
-                largest=float(np.exp(x.max())),
-            )
-        )
-    return fits
+def _fit(group: str, found: Sequence[Held]) -> Law | None:
+    own = [one for one in found if one.group == group and 0 < one.lost < LARGEST and one.bar < KNOWN * one.lost]
+    if len(own) < FEWEST:
+        return None
+    reynolds = np.array([one.flow_reynolds_number for one in own])
+    squares = np.log((reynolds * np.array([one.slope for one in own])) ** 2)
+    ratios, lost = reynolds / np.array([one.wavelength for one in own]), np.log([one.lost for one in own])
+
+    def missed(law: Array) -> Array:
+        return np.asarray(law[0] + squares - np.log1p(law[1] * ratios) - lost)
+
+    best = least_squares(missed, [-7.0, 0.1], bounds=([-np.inf, 0.0], np.inf), xtol=1e-12, ftol=1e-12)
+    return Law(
+        group=group,
+        coefficient=float(np.exp(best.x[0])),
+        saturation=float(best.x[1]),
+        spread=float(np.exp(best.fun.std())),
+        worst=float(np.exp(np.abs(best.fun).max())),
+        count=len(own),
+    )

@@ -105,8 +105,9 @@ def test_meshes_that_converge_are_extrapolated_over_reynolds_on_their_nodes(base
     assert resolved(scene, grids, {}) == {}
 
 
-def law(reynolds_number, slope, passed):
-    return 6e-4 * (reynolds_number * passed * slope) ** 2
+def law(scene, passed):
+    reynolds_number = scene.reynolds_number * passed
+    return 6e-4 * (reynolds_number * scene.rms_slope) ** 2 / (1 + 0.3 * reynolds_number * scene.gap_over_wavelength)
 
 
 def test_the_beginning_of_inertia_is_found_again(base):
@@ -114,18 +115,21 @@ def test_the_beginning_of_inertia_is_found_again(base):
     found = {}
     for one in rough_gaps_inertia.asked(shapes, reynolds, {}):
         passed = 1 - (one.scene.rms_height / one.scene.mean_gap) ** 2
-        lost = law(one.scene.reynolds_number, one.scene.rms_slope, passed)
+        lost = law(one.scene, passed)
         found[one.key] = told(base, passed * (1 - lost * (one.model == "navier_stokes")), A11=1.0)
     inertia = rough_gaps_inertia.inertia(found, shapes, reynolds, {})
-    best = inertia.onsets[0]
-    assert best.measure == "Re* g′"
-    assert best.coefficient == pytest.approx(6e-4, rel=1e-3)
-    assert best.power == pytest.approx(2, abs=1e-3)
-    assert best.reaches(0.01) == pytest.approx(np.sqrt(0.01 / 6e-4), rel=1e-3)
+    (found_law,) = inertia.laws
+    assert found_law.group == "waves"
+    assert found_law.coefficient == pytest.approx(6e-4, rel=1e-2)
+    assert found_law.saturation == pytest.approx(0.3, rel=2e-2)
+    assert found_law.worst == pytest.approx(1, abs=1e-2)
     crossings = inertia.crossings(0.01)
     assert "a = 0.1, L = 5" not in crossings
-    assert [x for _, x in crossings.values()] == pytest.approx([np.sqrt(0.01 / 6e-4)] * len(crossings), rel=1e-2)
     assert crossings
+    for name, (_, measure) in crossings.items():
+        own = next(one for one in inertia.flows if one.name == name)
+        there = 6e-4 * measure**2 / (1 + 0.3 * measure / own.slope / own.wavelength)
+        assert there == pytest.approx(0.01, rel=0.05)
 
 
 def test_reynolds_over_ridges_is_off_by_what_the_exact_flow_says():
@@ -159,7 +163,7 @@ def test_a_surface_is_good_from_the_thinnest_film_on_above_which_all_are():
 
 
 def study(reached):
-    nothing = rough_gaps_inertia.Inertia(flows=(), onsets=())
+    nothing = rough_gaps_inertia.Inertia(flows=(), laws=())
     return Study(
         waves=Waves(resolved=(), drawn=()), surfaces=(), inertia=nothing, reach=tuple(reached), map=(), runs=0,
         cpu_s=0.0, failed={},
