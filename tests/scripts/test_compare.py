@@ -11,6 +11,7 @@ import sys
 import time
 from dataclasses import replace
 from html.parser import HTMLParser
+from pathlib import Path
 
 import h5py
 import numpy as np
@@ -18,6 +19,7 @@ import pytest
 
 from contact.errors import ConvergenceError
 from contact.units import Quantity
+from rom.convergence import converge
 from rom.ladder import Availability, find, of_kind
 from rom.scene import load_scene
 from rom.setting import Setting
@@ -25,6 +27,8 @@ from rom.store import load
 from scripts import compare, rendering, runs
 from scripts.common import models
 from scripts.runs import Job
+
+GAP = Path(__file__).parent.parent.parent / "scripts" / "scenes" / "rough_gap.toml"
 
 
 class Page(HTMLParser):
@@ -186,7 +190,9 @@ def test_a_grid_that_fails_is_told_in_one_line_and_the_others_are_judged(pocket_
     (line,) = captured.err.splitlines()
     assert line == "grid left out: reynolds-8: sampled: did not converge; take another grid"
     assert "reynolds on grids 4, 16" in captured.out
-    assert "two grids, formal order assumed" in (tmp_path / "report.html").read_text()
+    page = (tmp_path / "report.html").read_text()
+    assert "two grids, formal order assumed" in page
+    assert "nothing to extrapolate" not in page
 
 
 def test_without_a_formal_order_there_is_no_grid_convergence(pocket_file, tmp_path, monkeypatch, capsys):
@@ -194,6 +200,15 @@ def test_without_a_formal_order_there_is_no_grid_convergence(pocket_file, tmp_pa
     monkeypatch.setattr(compare, "models", lambda: spectral)
     assert compared(capsys, pocket_file, tmp_path)["convergence"] == {}
     assert "Grid convergence" not in (tmp_path / "report.html").read_text()
+
+
+def test_a_result_that_tells_more_doubt_than_its_grids_is_believed():
+    scene = load_scene(GAP)
+    found = find(of_kind(models(), "rough_gap"), "slope_corrected").solve(scene)
+    value, bar = found.quantities["A11"].value, found.provenance["uncertainty"]["A11"]
+    for of_grids, expected in ((0.1 * bar, bar), (3 * bar, 3 * bar)):
+        study = {"A11": converge((16, 32), (value, value), formal_order=2, noise=of_grids)}
+        assert compare._uncertainty(found, study)["A11"] == pytest.approx(expected / value)
 
 
 def test_a_crash_while_drawing_is_an_answer():
