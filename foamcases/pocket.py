@@ -1,16 +1,13 @@
-"""A pocket scene by OpenFOAM: write, run and read apart, and composed to a result."""
+"""A pocket scene by OpenFOAM: what its cases cost, and their result."""
 
-from collections.abc import Callable
-from functools import partial
 from pathlib import Path
 
 from foamcases.case import RESOLUTION, Card, read_card, write_case
 from foamcases.dictionaries import VELOCITY_RELAXATION
 from foamcases.fields import read_channel
-from foamcases.openfoam import availability
 from foamcases.run import Run, run_case
-from foamcases.rung import solve
-from rom.ladder import Applicability, Effect, Model, chosen_scheme
+from foamcases.rung import Cases
+from rom.ladder import Effect
 from rom.pocket import Pocket, pocket_quantities
 from rom.provenance import provenance
 from rom.result import Field, Numerics, Result
@@ -18,37 +15,11 @@ from rom.validity import cautions
 
 SOURCES = ("10.1115/1.1828067", "10.1063/1.168744", "10.1080/01495728408961817")
 RESOLUTIONS = (30, 60, 120, 240)
-RESOLUTION_MEANING = "mesh columns along the film, with a fifth as many layers across"
-RESIDUAL_MEANING = "largest initial residual of velocity and pressure that a new process finds in the fields on disk"
 
 
 def cost(_scene: Pocket, resolution: int) -> float:
     """CPU seconds of one run, measured over 60 to 480 columns: start-up, then cells times iterations."""
     return float(0.3 + 2.4 * (resolution / 240) ** 2.4)
-
-
-def write(
-    scene: Pocket,
-    directory: Path,
-    *,
-    model: str,
-    schemes: tuple[str, ...],
-    reynolds_number: float | None,
-    resolution: int | None = None,
-    tolerance: float | None = None,
-    scheme: str | None = None,
-    processes: int = 1,
-) -> None:
-    """Write the case at the given Reynolds number (None: the scene's); errors as :func:`foamcases.case.write_case`."""
-    write_case(
-        scene,
-        directory,
-        reynolds_number=scene.reynolds_number if reynolds_number is None else reynolds_number,
-        resolution=resolution,
-        tolerance=tolerance,
-        scheme=chosen_scheme(model, schemes, scheme),
-        processes=processes,
-    )
 
 
 def read(scene: Pocket, directory: Path, run: Run, *, model: str, keeps: frozenset[Effect]) -> Result:
@@ -99,32 +70,16 @@ def read(scene: Pocket, directory: Path, run: Run, *, model: str, keeps: frozens
     )
 
 
-def openfoam_model(
-    *,
-    name: str,
-    summary: str,
-    keeps: frozenset[Effect],
-    applies: Callable[[Pocket], Applicability],
-    reynolds_number: float | None = None,
-    schemes: tuple[str, ...] = (),
-) -> Model:
-    """A rung that runs OpenFOAM at the given Reynolds number (None: the scene's)."""
-    write_model = partial(write, model=name, schemes=schemes, reynolds_number=reynolds_number)
-    return Model(
-        name=name,
-        kind="pocket",
-        summary=summary,
-        keeps=keeps,
-        sources=SOURCES,
-        resolution=RESOLUTION,
-        resolutions=RESOLUTIONS,
-        resolution_meaning=RESOLUTION_MEANING,
-        residual_meaning=RESIDUAL_MEANING,
-        order=2,
-        cost=cost,
-        applies=applies,
-        solve=partial(solve, model=name, write=write_model, run=run_case, read=partial(read, model=name, keeps=keeps)),
-        available=availability,
-        write=write_model,
-        schemes=schemes,
-    )
+CASES = Cases(
+    kind="pocket",
+    sources=SOURCES,
+    resolution=RESOLUTION,
+    resolutions=RESOLUTIONS,
+    resolution_meaning="mesh columns along the film, with a fifth as many layers across",
+    residual_meaning="largest initial residual of velocity and pressure that a new process finds in the fields on disk",
+    cost=cost,
+    write=write_case,
+    write_to_run=write_case,
+    run=run_case,
+    read=read,
+)

@@ -1,6 +1,5 @@
-"""A rough gap by OpenFOAM: write, run and read apart, and composed to a result."""
+"""A rough gap by OpenFOAM: what its cases cost, and their result."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -15,20 +14,17 @@ from foamcases.gap_case import GapCard, layers_of, mesh_of, write_gap_case
 from foamcases.gap_dictionaries import DRIVES, SLIDING_SPEED
 from foamcases.gap_fields import GapFlow, read_gap_flow
 from foamcases.gap_run import GapRun, run_gap
-from foamcases.openfoam import availability
-from foamcases.rung import solve
+from foamcases.rung import Cases
 from rom.gap_flow.factors import RoughGapFactors
 from rom.gap_quantities import coefficients, gap_quantities
 from rom.gap_validity import cautions
-from rom.ladder import Applicability, Effect, Model, chosen_scheme
+from rom.ladder import Effect
 from rom.provenance import provenance
 from rom.result import Field, Numerics, Result
 from rom.rough_gap import RoughGap
 
 SOURCES = ("10.1063/1.168744", "10.1080/01495728408961817")
 RESOLUTIONS = (16, 32, 64)
-RESOLUTION_MEANING = "mesh columns along the longer side, by default with a quarter as many layers across"
-RESIDUAL_MEANING = "largest part of a flow by which iterating on would change it, by what a new process does to it"
 
 UNBALANCED = 0.02
 """Of the drag of a smooth gap: what the walls do not hold of the drive more than that is told."""
@@ -55,32 +51,6 @@ def cost(scene: RoughGap, resolution: int) -> float:
     layers = layers_of(scene, resolution)
     cells = resolution**2 * min(nx, ny) / max(nx, ny) * layers
     return float(2 + 3 * 6e-6 * cells * layers)
-
-
-def write(
-    scene: RoughGap,
-    directory: Path,
-    *,
-    model: str,
-    schemes: tuple[str, ...],
-    reynolds_number: float | None,
-    resolution: int | None = None,
-    tolerance: float | None = None,
-    scheme: str | None = None,
-    processes: int = 1,
-    run: bool = False,
-) -> None:
-    """Write the cases at the given Reynolds number (None: the scene's); errors as :func:`write_gap_case`."""
-    write_gap_case(
-        scene,
-        directory,
-        reynolds_number=scene.reynolds_number if reynolds_number is None else reynolds_number,
-        resolution=resolution,
-        tolerance=tolerance,
-        scheme=chosen_scheme(model, schemes, scheme),
-        processes=processes,
-        run=run,
-    )
 
 
 def factors_of(flows: dict[str, GapFlow], *, slides: bool) -> tuple[RoughGapFactors, dict[str, float]]:
@@ -192,39 +162,17 @@ def read(scene: RoughGap, directory: Path, run: GapRun, *, model: str, keeps: fr
     )
 
 
-def gap_flow_model(
-    *,
-    name: str,
-    summary: str,
-    keeps: frozenset[Effect],
-    applies: Callable[[RoughGap], Applicability],
-    reynolds_number: float | None = None,
-    schemes: tuple[str, ...] = (),
-) -> Model:
-    """A rung that runs OpenFOAM at the given Reynolds number (None: the scene's)."""
-    write_model = partial(write, model=name, schemes=schemes, reynolds_number=reynolds_number)
-    return Model(
-        name=name,
-        kind="rough_gap",
-        summary=summary,
-        keeps=keeps,
-        sources=SOURCES,
-        resolution=None,
-        resolutions=(),
-        own_resolutions=resolutions,
-        resolution_meaning=RESOLUTION_MEANING,
-        residual_meaning=RESIDUAL_MEANING,
-        order=2,
-        cost=cost,
-        applies=applies,
-        solve=partial(
-            solve,
-            model=name,
-            write=partial(write_model, run=True),
-            run=run_gap,
-            read=partial(read, model=name, keeps=keeps),
-        ),
-        available=availability,
-        write=write_model,
-        schemes=schemes,
-    )
+CASES = Cases(
+    kind="rough_gap",
+    sources=SOURCES,
+    resolution=None,
+    resolutions=(),
+    own_resolutions=resolutions,
+    resolution_meaning="mesh columns along the longer side, by default with a quarter as many layers across",
+    residual_meaning="largest part of a flow by which iterating on would change it, by what a new process does to it",
+    cost=cost,
+    write=write_gap_case,
+    write_to_run=partial(write_gap_case, run=True),
+    run=run_gap,
+    read=read,
+)

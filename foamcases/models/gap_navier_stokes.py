@@ -1,6 +1,7 @@
 """The steady Navier-Stokes equations between rough walls in OpenFOAM: slope and inertia in full."""
 
-from foamcases.rough_gap import gap_flow_model
+from foamcases.rough_gap import CASES
+from foamcases.rung import openfoam_model
 from rom.ladder import Applicability, Effect
 from rom.rough_gap import RoughGap
 
@@ -12,7 +13,8 @@ def applies(scene: RoughGap) -> Applicability:
     )
 
 
-MODEL = gap_flow_model(
+MODEL = openfoam_model(
+    CASES,
     name="navier_stokes",
     summary="adds slope and inertia in full: the best rung",
     keeps=frozenset({Effect.ROUGHNESS, Effect.SLOPE, Effect.INERTIA}),

@@ -1,11 +1,9 @@
 """The Stokes equations between rough walls in OpenFOAM: all of their shape, no inertia."""
 
-from foamcases.rough_gap import gap_flow_model
+from foamcases.rough_gap import CASES
+from foamcases.rung import CREEPING, openfoam_model
 from rom.ladder import Applicability, Effect
 from rom.rough_gap import RoughGap
-
-CREEPING = 1e-6
-"""The Reynolds number of the run: advection is then a millionth of viscous stress (there is no scheme "none")."""
 
 
 def applies(scene: RoughGap) -> Applicability:
@@ -14,7 +12,8 @@ def applies(scene: RoughGap) -> Applicability:
     return Applicability(applies=True, reason=f"leaves out inertia (Re g' = {measure:.3g})")
 
 
-MODEL = gap_flow_model(
+MODEL = openfoam_model(
+    CASES,
     name="stokes",
     summary="adds slope: the whole gap resolved, inertia negligible",
     keeps=frozenset({Effect.ROUGHNESS, Effect.SLOPE}),

@@ -1,6 +1,7 @@
 """The steady Navier-Stokes equations in OpenFOAM: slope and inertia in full."""
 
-from foamcases.pocket import openfoam_model
+from foamcases.pocket import CASES
+from foamcases.rung import openfoam_model
 from rom.ladder import Applicability, Effect
 from rom.pocket import Pocket
 
@@ -13,6 +14,7 @@ def applies(scene: Pocket) -> Applicability:
 
 
 MODEL = openfoam_model(
+    CASES,
     name="navier_stokes",
     summary="adds slope and inertia in full: the best rung",
     keeps=frozenset({Effect.SLOPE, Effect.INERTIA}),

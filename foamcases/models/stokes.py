@@ -1,11 +1,9 @@
 """The Stokes equations in OpenFOAM: all of the shape, no inertia."""
 
-from foamcases.pocket import openfoam_model
+from foamcases.pocket import CASES
+from foamcases.rung import CREEPING, openfoam_model
 from rom.ladder import Applicability, Effect
 from rom.pocket import Pocket
-
-CREEPING = 1e-6
-"""The Reynolds number of the run: advection is then a millionth of viscous stress (there is no scheme "none")."""
 
 
 def applies(scene: Pocket) -> Applicability:
@@ -14,6 +12,7 @@ def applies(scene: Pocket) -> Applicability:
 
 
 MODEL = openfoam_model(
+    CASES,
     name="stokes",
     summary="adds slope: the whole film resolved, inertia negligible",
     keeps=frozenset({Effect.SLOPE}),
