@@ -57,6 +57,12 @@ which a smooth gap carries on average; nu = 1 / Re. So
   U [m/s]     = U * {speed:.12g}
   x, y, z [m] = x, y, z * {length:.12g}
 "lower" is the wall at rest, "contact" the edges of what the walls' contact closes; all else repeats itself.
+
+The mean velocity of all cells is in postProcessing/flow/0/volFieldValue.dat of each case, by iteration. A flow has
+settled when it no longer changes; residuals need not fall with it, being of waves as short as the cells, and a case may
+well end after all of its iterations. Times the volume of the mesh over the area of its period that mean velocity is
+  along, across   (A11, A21) and (A12, A22) over h^3, times {excess:.12g} by the layers: divide by that
+  sliding         (B1, B2) over h
 """
 
 
@@ -195,6 +201,7 @@ def _filled(
         pressure=scene.pressure_gradient * scene.mean_gap / 12 * card.reynolds_number,
         speed=speed,
         length=scene.mean_gap,
+        excess=1 + 2 / card.layers**2,
     )
     allrun = SHELL + RUN.format(first=drives[0].name, drives=names, commands=commands(card.processes))
 

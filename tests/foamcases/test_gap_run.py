@@ -1,6 +1,7 @@
 """Cases of rough gaps: what may stand in them, what does not fit, how a flow is judged, and rungs that use them."""
 
 import re
+import subprocess
 from types import SimpleNamespace
 
 import numpy as np
@@ -151,6 +152,20 @@ def test_rungs_tell_the_quantities_and_fields_of_their_kind():
     assert result.numerics.residual < 3e-5
     assert max(result.provenance["imbalance"].values()) < 0.02
     assert gap_stokes.MODEL.resolution_of(scene) == 64
+
+
+@pytest.mark.openfoam
+def test_cases_run_by_hand_tell_the_flow_as_their_readme_says(tmp_path):
+    case, a = tmp_path / "case", 0.3
+    write_gap_case(read_scene(ENTRIES), case, **{**NUMBERS, "reynolds_number": 1e-6, "resolution": 32})
+    assert subprocess.run([case / "Allrun"], check=False, capture_output=True).returncode == 0
+    excess = float(re.search(r"times (\S+) by the layers", (case / "README").read_text())[1])
+    thin = (1 - a**2) ** 2.5 / (1 + a**2 / 2)
+    for drive, axis, exact in (("along", 0, 0.95383 * thin), ("across", 1, 0.94224 * (1 + 1.5 * a**2))):
+        told = (case / drive / "postProcessing" / "flow" / "0" / "volFieldValue.dat").read_text().splitlines()[-1]
+        velocity = float(told.split("(")[1].strip(")").split()[axis])
+        assert velocity / excess == pytest.approx(exact, rel=6e-3)
+        assert velocity != pytest.approx(exact, rel=6e-3)
 
 
 @pytest.mark.openfoam
