@@ -17,6 +17,7 @@ from rom.lubricants.compressibility import Incompressible
 from rom.lubricants.laws import Compressibility, Piezoviscosity
 from rom.lubricants.viscosity import LOG_VISCOSITY, ConstantViscosity, Roelands
 from rom.ring_geometry import Ring
+from rom.rough_contact import Load
 from rom.roughness import AnyRoughness, RoughSurface, Sinusoid, StoredTable
 
 
@@ -27,6 +28,7 @@ def _any(value: float) -> float:
 GaugePressure = Annotated[float, InUnit("Pa", _any)]
 Speed = Annotated[float, InUnit("m/s", _any)]
 Viscosity = Annotated[float, InUnit("Pa*s")]
+Density = Annotated[float, InUnit("kg/m^3")]
 
 
 def _law(entries: Any) -> Any:
@@ -37,10 +39,12 @@ def _law(entries: Any) -> Any:
 class Lubricant(Part):
     """Viscosity at the pressure of cavitation, Pa s, what pressure does to it and to density, and that pressure, Pa.
 
-    The pressure of cavitation counts from ambient.
+    The pressure of cavitation counts from ambient. No rung of a bearing keeps inertia; with a ``density``, kg/m³, the
+    Reynolds number is known, and what inertia would add can be estimated.
     """
 
     viscosity: Viscosity
+    density: Density | None = None
     cavitation_pressure: GaugePressure = 0.0
     compressibility: Annotated[Compressibility, Field(discriminator="law"), BeforeValidator(_law)] = Incompressible()
     piezoviscosity: Annotated[Piezoviscosity, Field(discriminator="law"), BeforeValidator(_law)] = ConstantViscosity()
@@ -94,7 +98,8 @@ class Bearing(Scene):
 
     Where the still wall is rough, ``film`` and all of the geometry are of the mean gap; where ``asperities`` are told,
     so that the walls may touch, of the separation α of the walls' mean planes as if they were rigid, which is the mean
-    gap until they touch.
+    gap until they touch. ``load`` says what the bearing is to carry, over the nominal area (of a journal diameter times
+    width); rungs take the film as it is given and say what it carries, :mod:`rom.composition` finds it under the load.
 
     ``fields`` of its results, of the shape of the grid: ``x``, ``y`` (m, or rad and m), ``film_thickness`` (m),
     ``pressure`` (Pa), ``density_ratio`` θ (1), which below 1 is the part of the gap that liquid fills.
@@ -107,6 +112,7 @@ class Bearing(Scene):
     boundary: Boundary = Boundary()
     roughness: AnyRoughness | None = None
     asperities: AsperityContact | None = None
+    load: Load | None = None
 
     @field_validator("geometry", mode="before")
     @classmethod

@@ -193,6 +193,13 @@ def _ends(found: Solution, row: int, last: int, x: Array) -> float:
     return float(min(max(x[last + 1] - back, x[last]), x[last + 2]))
 
 
+def nominal_area(scene: Bearing, grid: Grid) -> float:
+    """What loads are over, m² (m if infinitely wide): the area of the film, but of a journal diameter times width."""
+    if isinstance(scene.geometry, Journal):
+        return 2 * scene.geometry.radius * (1.0 if grid.shape[1] == 1 else scene.geometry.width or 1.0)
+    return float(grid.areas.sum())
+
+
 def carried(scene: Bearing, x: Array, force: Array) -> float:
     """The load of forces at the nodes, N (N/m if wide): their sum, of a journal as vectors; ``x`` as in the scene."""
     if isinstance(scene.geometry, Journal):

@@ -11,7 +11,7 @@ import numpy as np
 from contact.errors import InputError
 from contact.units import Quantity
 from rom.bearing import Bearing
-from rom.bearing_quantities import bearing_quantities, density_ratio
+from rom.bearing_quantities import bearing_quantities, density_ratio, nominal_area
 from rom.cavitation.balance import CAVITY, FILM
 from rom.cavitation.discretise import Ends
 from rom.cavitation.problem import Problem
@@ -37,6 +37,9 @@ PLACES = ("film_start", "rupture", "cavitated_fraction")
 
 RESOLVED = 8
 """Cells that a wave or a pocket needs for its load to be within a few per cent."""
+
+BALANCED = 0.01
+"""How near a given film's load is to that of the scene, as a part of it, not to be told."""
 
 SAFETY = 3.0
 """Of an error estimated from two grids: Roache 1994, doi:10.1115/1.2910291."""
@@ -111,7 +114,7 @@ def solve(
     wall, cpu = time.perf_counter(), time.process_time()
     found = balance(problem, (cells, cells), tolerance=tolerance, ruptures=ruptures, progress=progress)
     quantities = reading.quantities(scene, found)
-    warnings = [*unresolved(found), *beyond(found), *odd(scene, found)]
+    warnings = [*unresolved(found), *beyond(found), *odd(scene, found), *unbalanced(scene, found, quantities)]
     uncertainty = uncertainties(scene, found, quantities, reading)
     if not uncertainty:
         warnings.append("there is no coarser grid to compare with; how far off this is cannot be said")
@@ -206,6 +209,20 @@ def odd(scene: Bearing, found: Solution) -> list[str]:
         if jumps:
             told.append("pressure jumps at the corners: flows through the ends grow with the logarithm of the cells")
     return told
+
+
+def unbalanced(scene: Bearing, found: Solution, quantities: Mapping[str, Quantity]) -> list[str]:
+    """What must be known of a film that is given where the scene says a load."""
+    if scene.load is None:
+        return []
+    width = 1.0 if found.problem.shape.wide else scene.geometry.width or 1.0
+    carried = quantities["load_per_width"].value * width / nominal_area(scene, found.grid)
+    if abs(carried - scene.load.pressure) <= BALANCED * scene.load.pressure:
+        return []
+    return [
+        f"the film is taken as given: it carries {carried:.4g} Pa over the nominal area, and not the "
+        f"{scene.load.pressure:.4g} Pa of the scene; roughfilm effects finds the film under its load"
+    ]
 
 
 @cache

@@ -40,7 +40,7 @@ SPARE, TURNS = 1.3, 12
 NEAR = 1.02
 """How near, as a factor, a table reaches to a load that closes the gap everywhere."""
 
-UNCOUNTED = ("name", "motion.speed", "geometry.film", "geometry.eccentricity")
+UNCOUNTED = ("name", "motion.speed", "geometry.film", "geometry.eccentricity", "lubricant.density", "load.pressure")
 """Entries of a scene that curves do not depend on: loads and speeds take their place."""
 
 

@@ -1,6 +1,5 @@
 """Bearings: load and friction of a film that may rupture."""
 
-import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -13,6 +12,7 @@ from contact.toml import Location, in_one_line, known_keys, unknown_key
 from contact.units import Quantity
 from rom.bearing import Bearing
 from rom.bearing_geometry import SHAPES
+from rom.bearing_numbers import bearing_numbers
 from rom.kind import Kind
 from rom.lubricants.laws import LAWS
 from rom.roughness import ROUGHNESSES
@@ -20,6 +20,14 @@ from rom.sweeping import Columns, Powers, Sweeping
 
 NEVER_COMPRESSED = 1e-12
 """p dθ/dp that stands for an incompressible lubricant."""
+
+COLUMNS = {
+    "compression": "compression",
+    "width_ratio": "slenderness",
+    "roughness_ratio": "roughness_ratio",
+    "roughness_period": "roughness_period",
+}
+"""Columns of a table of many cases, and the numbers of the scene that stand in them."""
 
 SYMBOLS = {"compression": "ϑ", "starvation": "θ", "slenderness": "B/L"}
 
@@ -43,22 +51,17 @@ def columns(scene: Bearing) -> dict[str, Quantity | str]:
 
     Of a rough wall also rms height over film, and the period over the length.
     """
-    theta = scene.boundary.inlet.theta
-    numbers = {
-        "inlet_theta": 1.0 if theta is None else theta,
-        "compression": float(scene.problem().compression(np.array([scene.pressure_unit]))[0][0]),
-    }
-    if scene.geometry.width is not None:
-        numbers["width_ratio"] = scene.geometry.width / scene.geometry.length
-    if scene.roughness is not None:
-        numbers["roughness_ratio"] = scene.roughness.rms / scene.geometry.film
-        if math.isfinite(scene.roughness.period):
-            numbers["roughness_period"] = scene.roughness.period / scene.geometry.length
+    numbers = bearing_numbers(scene)
     return {
         "shape": scene.geometry.shape,
         "pressure_unit": Quantity(value=scene.pressure_unit, unit="Pa"),
-        **{name: Quantity(value=float(f"{number:.12g}"), unit="1") for name, number in numbers.items()},
+        "inlet_theta": _one(numbers.get("starvation", 1.0)),
+        **{name: _one(numbers[key]) for name, key in COLUMNS.items() if key in numbers},
     }
+
+
+def _one(number: float) -> Quantity:
+    return Quantity(value=float(f"{number:.12g}"), unit="1")
 
 
 def features(given: Columns) -> dict[str, NDArray[Any]]:

@@ -7,7 +7,7 @@ import numpy as np
 
 from rom.bearing import Bearing
 from rom.bearing_geometry import Journal
-from rom.bearing_quantities import carried, friction
+from rom.bearing_quantities import carried, friction, nominal_area
 from rom.cavitation.balance import CAVITY
 from rom.cavitation.grid import Grid, grid
 from rom.cavitation.network import State
@@ -83,11 +83,8 @@ class MixedFilm:
 
     @cached_property
     def area(self) -> float:
-        """Nominal area, m²: that of the film, but of a journal diameter times width; m if infinitely wide."""
-        geometry = self.scene.geometry
-        if isinstance(geometry, Journal):
-            return 2 * geometry.radius * (geometry.width or 1.0)
-        return float(self.grid.areas.sum())
+        """Nominal area, m²; m if infinitely wide."""
+        return nominal_area(self.scene, self.grid)
 
     @cached_property
     def dip(self) -> float:
