@@ -50,6 +50,8 @@ class Kind:
     no_files : texts in their place that name none.
     replaces : keys that an override makes meaningless: it takes them away from the same table.
     lists : where lists stand that are one value; a study sweeps every other list, and lists of these.
+    numbers : the dimensionless numbers that tell how far its rungs may be off; those without meaning are left out.
+    symbols : how people write them.
     told : the first fault of a scene in one line, from pydantic's error and the entries; by default by the models.
     sweeping : how a report over many cases judges them; None if there is none.
     """
@@ -60,6 +62,8 @@ class Kind:
     compared: Mapping[str, str]
     scale: Callable[[Mapping[str, Any], str], Any]
     columns: Callable[[Any], Mapping[str, Quantity | str]]
+    numbers: Callable[[Any], Mapping[str, float]]
+    symbols: Mapping[str, str]
     files: frozenset[str] = frozenset()
     no_files: frozenset[str] = frozenset()
     replaces: Mapping[str, Sequence[str]] = field(default_factory=dict)

@@ -107,6 +107,26 @@ def told(error: ValidationError, _entries: Mapping[str, Any]) -> str:
     return in_one_line(error, "scene", unknown, lambda path: _without_tags(path)[0])
 
 
+NUMBERS = {
+    "slenderness": "B/L",
+    "convergence": "rise/h",
+    "starvation": "θ",
+    "cavitation_number": "(p_amb - p_cav) h²/(6ηuL)",
+    "compression": "p/β",
+    "piezoviscous": "αp",
+    "roughness_ratio": "Sq/h",
+    "peak_ratio": "Sp/h",
+    "roughness_period": "period/L",
+    "finest": "shortest feature/L",
+    "texture_density": "texture density",
+    "pocket_depth_ratio": "d/h",
+    "pocket_length_ratio": "l/L",
+    "reynolds_number": "Re",
+    "reduced_reynolds_number": "Re·h/L",
+}
+"""How people write the numbers of a bearing, p being 6ηuL/h²."""
+
+
 KIND = Kind(
     name="bearing",
     scene=Bearing,
@@ -114,6 +134,8 @@ KIND = Kind(
     compared={"load_per_width": "load", "friction_per_width": "friction"},
     scale=scale,
     columns=columns,
+    numbers=bearing_numbers,
+    symbols=NUMBERS,
     files=frozenset({"table", "surface", "thickness"}),
     lists=frozenset({("roughness", "spacing"), ("roughness", "surface", "size"), ("roughness", "surface", "points")}),
     told=told,

@@ -62,6 +62,36 @@ def words(powers: Powers) -> str:
     return " · ".join(told)
 
 
+NUMBERS = {
+    "pressure": "P/(E* g')",
+    "hardness": "H/(E* g')",
+    "plasticity": "P/H",
+    "breadth": "α",
+    "pixels": "λ/Δx",
+}
+"""How people write the numbers of a contact."""
+
+
+def numbers(scene: RoughContact) -> dict[str, float]:
+    """λ = 2π Sq/g', Δx the spacing of the surface's points; P/H and H/(E* g') as if H were ten times E* g' without one.
+
+    A flat surface has none of them.
+    """
+    spectrum = scene.spectrum()
+    if spectrum is None:
+        return {}
+    surface, pressure = scene.surface(), scene.load.pressure / scene.pressure_unit
+    hardness = NEVER_PLASTIC if scene.solid.hardness is None else scene.solid.hardness / scene.pressure_unit
+    wavelength = 2 * np.pi * spectrum.moments.m0**0.5 / spectrum.moments.rms_slope
+    return {
+        "pressure": pressure,
+        "hardness": hardness,
+        "plasticity": pressure / hardness,
+        "breadth": spectrum.moments.nayak,
+        "pixels": wavelength * max(surface.shape) / max(surface.size),
+    }
+
+
 KIND = Kind(
     name="dry_contact",
     scene=DryContact,
@@ -69,6 +99,8 @@ KIND = Kind(
     compared={"area_fraction": "contact area", "mean_gap": "mean gap"},
     scale=scale,
     columns=columns,
+    numbers=numbers,
+    symbols=NUMBERS,
     files=frozenset({"surface"}),
     replaces={"geometry.surface": ("digest", "spacing")},
     lists=frozenset({("geometry", "spacing"), ("geometry", "surface", "size"), ("geometry", "surface", "points")}),

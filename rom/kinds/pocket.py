@@ -76,6 +76,34 @@ def worth(values: Columns) -> NDArray[np.bool_]:
     return np.asarray(np.abs(values["load_plus"]) > LOADED * greatest_pressure(values))
 
 
+NUMBERS = {
+    "reynolds_number": "Re",
+    "reduced_reynolds_number": "Re·h/w",
+    "film": "h/L",
+    "depth": "d/h",
+    "aspect": "2d/w",
+    "slope": "slope",
+    "asymmetry": "2|s|/w",
+}
+"""How people write the numbers: h the film, L its period, w, d and s a groove's width, depth and shift."""
+
+LEAST_ASYMMETRY = 1e-3
+"""Of a groove whose lowest point is in the middle."""
+
+
+def numbers(scene: Pocket) -> dict[str, float]:
+    """Of several grooves the deepest, narrowest and steepest count."""
+    return {
+        "reynolds_number": scene.reynolds_number,
+        "reduced_reynolds_number": scene.reduced_reynolds_number,
+        "film": scene.geometry.film / scene.geometry.length,
+        "depth": scene.depth,
+        "aspect": scene.aspect,
+        "slope": scene.slope,
+        "asymmetry": max(1 - scene.aspect / scene.slope, LEAST_ASYMMETRY),
+    }
+
+
 def _length(text: str) -> float:
     return float(text.partition(" ")[0])
 
@@ -115,6 +143,8 @@ KIND = Kind(
     compared={"load_plus": "load", "friction_plus": "friction"},
     scale=scale,
     columns=columns,
+    numbers=numbers,
+    symbols=NUMBERS,
     files=frozenset({"points"}),
     replaces={
         "motion.speed": ("reynolds_number",),

@@ -58,6 +58,39 @@ def words(powers: Powers) -> str:
     return " · ".join(told)
 
 
+NUMBERS = {
+    "slope": "g'",
+    "height": "Sq/h̄",
+    "shortness": "h̄/λ",
+    "reynolds_number": "Re",
+    "roughness_reynolds_number": "Re·g'",
+    "pixels": "λ/Δx",
+    "least_gap": "h_min/h̄",
+}
+"""How people write the numbers of a rough gap."""
+
+TOUCHING = 1e-3
+"""The least gap, over the mean one, of walls that touch."""
+
+
+def numbers(scene: RoughGap) -> dict[str, float]:
+    """λ = 2π Sq/g', Δx the longer spacing of the surface's points; flat walls have none of it."""
+    if not scene.rms_height > 0:
+        return {"reynolds_number": scene.reynolds_number}
+    surface = scene.surface()
+    walls = scene.walls(max(surface.shape))
+    wavelength = 2 * np.pi * scene.rms_height / scene.rms_slope
+    return {
+        "slope": scene.rms_slope,
+        "height": scene.rms_height / scene.mean_gap,
+        "shortness": scene.gap_over_wavelength,
+        "reynolds_number": scene.reynolds_number,
+        "roughness_reynolds_number": scene.reynolds_number * scene.rms_slope,
+        "pixels": wavelength * max(surface.shape) / max(surface.size),
+        "least_gap": max(float(walls.gap.min()) / scene.mean_gap, TOUCHING),
+    }
+
+
 KIND = Kind(
     name="rough_gap",
     scene=RoughGap,
@@ -65,6 +98,8 @@ KIND = Kind(
     compared={"A11": "flow along x", "A22": "flow along y"},
     scale=scale,
     columns=columns,
+    numbers=numbers,
+    symbols=NUMBERS,
     files=frozenset({"surface"}),
     no_files=frozenset({SINUSOID}),
     replaces={

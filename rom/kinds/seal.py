@@ -32,6 +32,12 @@ def worth(values: Columns) -> NDArray[np.bool_]:
     return np.asarray(values["leakage_per_width"] > LEAST_LEAKAGE * values["smooth_leakage"])
 
 
+def numbers(scene: Seal) -> dict[str, float]:
+    """Those of a dry contact, and the seal's length over the side of the surface along the flow."""
+    told = dry_contact.numbers(scene)
+    return {**told, "length": scene.flow.length / scene.surface().size[scene.axis]} if told else {}
+
+
 KIND = Kind(
     name="seal",
     scene=Seal,
@@ -39,6 +45,8 @@ KIND = Kind(
     compared={"leakage_per_width": "leakage", "area_fraction": "contact area"},
     scale=scale,
     columns=columns,
+    numbers=numbers,
+    symbols={**dry_contact.NUMBERS, "length": "length/side"},
     files=frozenset({"surface"}),
     replaces=dry_contact.KIND.replaces,
     lists=dry_contact.KIND.lists,

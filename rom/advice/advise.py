@@ -1,0 +1,220 @@
+"""The cheapest rung that is enough: judged by the numbers of a scene first, then by the rungs next to it."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+from contact.errors import InputError
+from rom.advice.estimates import Estimate, Question, a_posteriori, a_priori, affordable, percent
+from rom.advice.laws import Numbers, Table, table
+from rom.kind import Scene, kinds
+from rom.ladder import Model, Progress, silent
+from rom.result import Result
+
+HOPELESS = 5.0
+"""Times the tolerance: a rung that is farther off by the numbers of the scene is not run to be sure."""
+
+
+class Verdict(StrEnum):
+    """What became of a rung."""
+
+    CHOSEN = "chosen"
+    NOT_ENOUGH = "not enough"
+    DOES_NOT_APPLY = "does not apply"
+    NOT_HERE = "not on this machine"
+    DEARER = "dearer than the one chosen"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Considered:
+    """One rung at its resolution: expected CPU seconds, what was expected of it by either source, and the verdict."""
+
+    model: str
+    resolution: int | None
+    cpu_s: float
+    verdict: Verdict
+    reason: str
+    a_priori: Estimate | None = None
+    a_posteriori: Estimate | None = None
+
+    @property
+    def error(self) -> float | None:
+        """That is expected at most: by the rungs next to it if they were run, else by the numbers; None if unknown."""
+        estimate = self.a_posteriori or self.a_priori
+        return None if estimate is None else estimate.error
+
+
+@dataclass(frozen=True, kw_only=True)
+class Advice:
+    """What is enough for a scene, and why.
+
+    Attributes
+    ----------
+    quantity, within : what was asked, and how far off it may be, as a part of its size.
+    chosen : the cheapest rung that keeps it; None where none is known to.
+    nearest : of those that do not, the one that is expected to come nearest; None where nothing is known.
+    considered : every rung of the kind, cheapest first.
+    numbers : the dimensionless numbers of the scene.
+    result : of the chosen rung, if it was run to be sure.
+    spent_cpu_s : CPU seconds of all that was run.
+    """
+
+    quantity: str
+    within: float
+    chosen: Considered | None
+    nearest: Considered | None
+    considered: tuple[Considered, ...]
+    numbers: Numbers
+    result: Result | None
+    spent_cpu_s: float
+
+
+def wanted(scene: Scene, name: str | None) -> str:
+    """The compared quantity that people call so: by default the first of the kind.
+
+    Raises InputError for a name that the kind does not have.
+    """
+    compared = kinds()[scene.kind].compared
+    if name is None:
+        return next(iter(compared))
+    for quantity, title in compared.items():
+        if name in (quantity, title):
+            return quantity
+    told = ", ".join(repr(title) for title in compared.values())
+    raise InputError(f"--want: got {name!r}; of a {scene.kind} it must be one of {told}")
+
+
+def advise(
+    scene: Scene,
+    models: Sequence[Model],
+    *,
+    quantity: str,
+    within: float,
+    laws: Table | None = None,
+    run: Callable[[Model, int], Result] | None = None,
+    progress: Progress = silent,
+) -> Advice:
+    """The cheapest rung, at the coarsest resolution, whose quantity is within a tolerance of the best rung's.
+
+    Rungs are taken from the cheapest up. Two estimates are asked for: the numbers of the scene against laws that were
+    fitted to sweeps, and the difference to the next rung, if that is cheap. A rung that the numbers put beyond
+    ``HOPELESS`` tolerances is not run. Where the two disagree, one more rung up is run and decides, if it is cheap;
+    else the rung is passed over. Errors are of CERTAINTY 0.95.
+
+    Parameters
+    ----------
+    models : the rungs of the scene's kind.
+    quantity : one of those that the kind compares.
+    within : over the quantity's size, above 0 and below 1.
+    laws : those of the project by default.
+    run : run(model, resolution), by default the model's ``solve``; whoever keeps results may give theirs.
+
+    Raises
+    ------
+    InputError
+        For a tolerance out of range, or a scene to which no rung applies.
+    """
+    if not 0 < within < 1:
+        raise InputError(f"--within: got {within!r}; it must be above 0 and below 1, for example 5%")
+    kind = kinds()[scene.kind]
+    known: dict[tuple[str, int], Result] = {}
+
+    def solved(model: Model, resolution: int) -> Result:
+        key = (model.name, resolution)
+        if key not in known:
+            progress(0.0, f"running {model.name} on {resolution}")
+            known[key] = (
+                model.solve(scene, resolution=resolution, progress=progress) if run is None else run(model, resolution)
+            )
+        return known[key]
+
+    fits = {model.name: model.applies(scene) for model in models}
+    asked = Question(
+        scene=scene,
+        kind=kind,
+        models=[model for model in models if fits[model.name].applies],
+        quantity=quantity,
+        within=within,
+        table=laws or table(),
+        numbers=kind.numbers(scene),
+        run=solved,
+    )
+    if not asked.models:
+        raise InputError(f"scene: no rung applies: {'; '.join(fit.reason for fit in fits.values())}")
+    considered = [
+        Considered(model=name, resolution=None, cpu_s=0.0, verdict=Verdict.DOES_NOT_APPLY, reason=fit.reason)
+        for name, fit in fits.items()
+        if not fit.applies
+    ]
+    chosen: Considered | None = None
+    for model in sorted(asked.models, key=asked.cost):
+        one = _dearer(asked, model) if chosen else _considered(asked, model)
+        considered.append(one)
+        if one.verdict is Verdict.CHOSEN:
+            chosen = one
+    short = [one for one in considered if one.error is not None and one.verdict is Verdict.NOT_ENOUGH]
+    return Advice(
+        quantity=quantity,
+        within=within,
+        chosen=chosen,
+        nearest=None if chosen else min(short, key=lambda one: one.error or 0.0, default=None),
+        considered=tuple(considered),
+        numbers=asked.numbers,
+        result=known.get((chosen.model, chosen.resolution or 0)) if chosen else None,
+        spent_cpu_s=sum(result.numerics.cpu_s for result in known.values()),
+    )
+
+
+def _dearer(asked: Question, model: Model) -> Considered:
+    before, resolution = a_priori(asked, model), asked.resolution(model)
+    told = "" if before is None else f"expected within {percent(before.error)}, "
+    return Considered(
+        model=model.name,
+        resolution=resolution,
+        cpu_s=asked.cost(model),
+        verdict=Verdict.DEARER,
+        reason=f"{told}for {asked.cost(model):.2g} CPU s",
+        a_priori=before,
+    )
+
+
+def _considered(asked: Question, model: Model) -> Considered:
+    resolution = asked.resolution(model)
+    here, before = model.available(), a_priori(asked, model)
+
+    def judged(verdict: Verdict, reason: str, after: Estimate | None = None) -> Considered:
+        return Considered(
+            model=model.name,
+            resolution=resolution,
+            cpu_s=asked.cost(model),
+            verdict=verdict,
+            reason=reason,
+            a_priori=before,
+            a_posteriori=after,
+        )
+
+    if not here.available:
+        return judged(Verdict.NOT_HERE, here.detail)
+    if before is not None and before.sure and before.error > HOPELESS * asked.within:
+        return judged(Verdict.NOT_ENOUGH, _main(before))
+    checkable = model is not asked.best() or (before is None)
+    after = a_posteriori(asked, model) if checkable else None
+    if after is None:
+        if before is not None and before.sure and before.error <= asked.within:
+            return judged(Verdict.CHOSEN, _main(before))
+        why = "its error is not known here, and no cheap rung can tell" if before is None else _main(before)
+        return judged(Verdict.NOT_ENOUGH, why)
+    agree = before is None or not before.sure or (before.error <= asked.within) == (after.error <= asked.within)
+    if not agree:
+        chain = asked.chain(model)
+        if len(chain) > 2 and affordable(asked, chain[2], model):
+            decided = a_posteriori(asked, model, above=2)
+            after = after if decided is None else decided
+        elif after.error <= asked.within:
+            return judged(Verdict.NOT_ENOUGH, f"{_main(before)}; the two estimates disagree", after)
+    enough = after.sure and after.error <= asked.within
+    return judged(Verdict.CHOSEN if enough else Verdict.NOT_ENOUGH, after.reasons[0], after)
+
+
+def _main(estimate: Estimate | None) -> str:
+    return estimate.reasons[0] if estimate is not None and estimate.reasons else "keeps all that the ladder knows"

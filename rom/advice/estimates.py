@@ -1,0 +1,190 @@
+"""How far off a rung is expected to be: from the numbers of the scene alone, and from the rungs next to it."""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from contact.errors import ConvergenceError, InputError, UnavailableError
+from rom.advice.laws import Law, Numbers, Step, Table
+from rom.kind import Kind, Scene
+from rom.ladder import Model
+from rom.result import Result
+
+GRID_SHARE = 1 / 3
+"""Of the tolerance, what the resolution may use up."""
+
+CHEAP, NEXT = 0.01, 3.0
+"""A rung is run to check another if it costs less than this part of the best rung, or so many times the other."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Estimate:
+    """An error that is expected at most, over the size of the quantity, and why; ``sure`` where the sweeps reach."""
+
+    error: float
+    reasons: tuple[str, ...]
+    sure: bool = True
+
+
+@dataclass(frozen=True, kw_only=True)
+class Question:
+    """What is asked: a scene, the rungs of its kind that apply to it, the quantity and how far off it may be."""
+
+    scene: Scene
+    kind: Kind
+    models: Sequence[Model]
+    quantity: str
+    within: float
+    table: Table
+    numbers: Numbers
+    run: Callable[[Model, int], Result]
+
+    def step(self, model: Model) -> Step:
+        """That of a rung of the scene."""
+        return self.table.step(self.kind.name, model.name)
+
+    def next(self, model: Model) -> Model | None:
+        """The next rung up that applies; None at the top."""
+        found = {other.name: other for other in self.models}
+        return next((found[name] for name in self.step(model).towards if name in found), None)
+
+    def chain(self, model: Model) -> list[Model]:
+        """From a rung up to the top."""
+        chain = [model]
+        while (above := self.next(chain[-1])) is not None:
+            chain.append(above)
+        return chain
+
+    def best(self) -> Model:
+        """The top of the chains."""
+        return self.chain(max(self.models, key=lambda model: (len(model.keeps), model.complete)))[-1]
+
+    def grid(self, model: Model, resolution: int) -> float | None:
+        """What a resolution costs in accuracy, by the sweeps; None where they do not tell."""
+        law = self.step(model).grid.get(self.quantity)
+        return None if law is None else law.error({**self.numbers, "resolution": float(resolution)})
+
+    def resolution(self, model: Model) -> int:
+        """The coarsest that uses up no more than its share of the tolerance, or the finest; else the default."""
+        offered = model.resolutions_of(self.scene)
+        if self.step(model).grid.get(self.quantity) is None:
+            return model.resolution_of(self.scene)
+        fine = [one for one in offered if (self.grid(model, one) or 0.0) <= GRID_SHARE * self.within]
+        return min(fine, default=max(offered))
+
+    def cost(self, model: Model, resolution: int | None = None) -> float:
+        """Expected CPU seconds, by default at the chosen resolution."""
+        return model.cost(self.scene, self.resolution(model) if resolution is None else resolution)
+
+    def difference(self, one: Result, other: Result) -> float:
+        """Of the quantity, over the size that the second one gives."""
+        values = (one.quantities[self.quantity].value, other.quantities[self.quantity].value)
+        return abs(values[0] - values[1]) / self.kind.scale_of(other, self.quantity)
+
+    def told(self, result: Result) -> float | None:
+        """By how much a result may be off by its own word, over its size; None if it does not say."""
+        bar: Mapping[str, float] = result.provenance.get("uncertainty", {})
+        found = bar.get(self.quantity)
+        return None if found is None else found / self.kind.scale_of(result, self.quantity)
+
+
+def percent(part: float) -> str:
+    """A part as people read it."""
+    if not math.isfinite(part) or part > 3:
+        return "more than 300 %"
+    return f"{100 * part:.2g} %" if part < 0.1 else f"{100 * part:.0f} %"
+
+
+def a_priori(asked: Question, model: Model) -> Estimate | None:
+    """By the numbers of the scene: what a rung and those above it leave out, and what its resolution costs.
+
+    The parts are independent bounds and add up as squares. None where a step, or its grid, is not in the table.
+    """
+    parts, reasons, sure = [], [], True
+    for rung in asked.chain(model)[:-1]:
+        step = asked.step(rung)
+        law = step.left_out.get(asked.quantity)
+        if law is None or not law.powers.keys() <= asked.numbers.keys():
+            return None
+        error, beyond = law.error(asked.numbers), law.beyond(asked.numbers)
+        parts.append(error)
+        sure = sure and beyond is None
+        reasons.append((error, _told(asked, rung, step, error, beyond, law)))
+    resolution = asked.resolution(model)
+    grid = asked.grid(model, resolution)
+    if grid is not None:
+        parts.append(grid)
+        reasons.append((grid, f"{resolution} {model.resolution_meaning}: within {percent(grid)}"))
+    kept = [reason for _, reason in sorted(reasons, key=lambda told: -told[0])]
+    return Estimate(error=math.hypot(*parts), reasons=tuple(kept), sure=sure)
+
+
+def _told(asked: Question, rung: Model, step: Step, error: float, beyond: str | None, law: Law) -> str:
+    title = asked.kind.compared[asked.quantity]
+    number = f"{asked.kind.symbols[step.tells]} = {asked.numbers[step.tells]:.2g}: " if step.tells else ""
+    told = f"{number}{step.adds} changes the {title} by up to {percent(error)}; {rung.name} leaves it out"
+    if beyond is None:
+        return told
+    least, most = law.reach[beyond]
+    symbol, value = asked.kind.symbols[beyond], asked.numbers[beyond]
+    return f"{told} (and {symbol} = {value:.2g} lies beyond the {least:.2g} to {most:.2g} that were swept)"
+
+
+def a_posteriori(asked: Question, model: Model, above: int = 1) -> Estimate | None:
+    """By running a rung and one that is ``above`` it, or below it where that is too dear; None if neither can be run.
+
+    The difference to the rung above is the error but for what that leaves out itself. From a rung below, the size of
+    the last step tells by the sweeps how large the next would be. A rung at the top tells of its grid alone.
+    """
+    own = run(asked, model)
+    if own is None or asked.quantity not in own.quantities:
+        return None
+    chain = asked.chain(model)
+    grid = asked.told(own)
+    if len(chain) > above:
+        other = chain[above]
+        if affordable(asked, other, model):
+            return _from_above(asked, own, other)
+    elif above == 1 and grid is not None:
+        return Estimate(error=grid, reasons=(f"{model.name} says itself that it is within {percent(grid)}",))
+    return _from_below(asked, model, own) if above == 1 else None
+
+
+def affordable(asked: Question, other: Model, model: Model) -> bool:
+    """Whether a rung is here and cheap enough to check another."""
+    limit = max(CHEAP * asked.cost(asked.best()), NEXT * asked.cost(model))
+    return other.available().available and asked.cost(other) <= limit
+
+
+def run(asked: Question, model: Model) -> Result | None:
+    """The rung's answer; None where it has none."""
+    try:
+        return asked.run(model, asked.resolution(model))
+    except (InputError, ConvergenceError, UnavailableError):
+        return None
+
+
+def _from_above(asked: Question, own: Result, other: Model) -> Estimate | None:
+    found = run(asked, other)
+    if found is None or asked.quantity not in found.quantities:
+        return None
+    apart, left = asked.difference(own, found), a_priori(asked, other)
+    if left is None:
+        return None
+    told = f"{other.name} was run too and differs by {percent(apart)}"
+    more = f", being itself within {percent(left.error)}" if left.error > 0 else ""
+    return Estimate(error=apart + left.error, reasons=(told + more,), sure=left.sure)
+
+
+def _from_below(asked: Question, model: Model, own: Result) -> Estimate | None:
+    step = asked.step(model)
+    law = step.seen.get(asked.quantity)
+    below = next((other for other in asked.models if other.name == step.seen_from), None)
+    found = None if law is None or below is None else run(asked, below)
+    if law is None or below is None or found is None or asked.quantity not in found.quantities:
+        return None
+    apart = asked.difference(found, own)
+    numbers = {**asked.numbers, "correction": apart}
+    left, grid = law.error(numbers), asked.told(own) or asked.grid(model, asked.resolution(model)) or 0.0
+    told = f"{below.name} was run too and differs by {percent(apart)}, by which {model.name} is within {percent(left)}"
+    return Estimate(error=math.hypot(left, grid), reasons=(told,), sure=law.beyond(numbers) is None)
