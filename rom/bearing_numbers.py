@@ -22,7 +22,10 @@ def bearing_numbers(scene: Bearing) -> Mapping[str, float]:
     ``starvation`` : θ of the inlet, 1 where it is full; not of joined pads.
     ``cavitation_number`` : (p_ambient - p_cav)/(6ηuL/h²): tension that the liquid bears over the pressure that sliding
     makes; infinite at rest.
-    ``compression`` : θ - 1 at 6ηuL/h², p/β of a stiff liquid; ``piezoviscous`` : ln η/η0 there, αp by Barus' law.
+    ``divergence`` : the most by which the film grows thicker along the sliding, over h, texture and waves of the shape
+    counted: where there is none, nothing cavitates.
+    ``compression`` : θ - 1 at 6ηuL/h², p/β of a stiff liquid; ``piezoviscous`` : ln η/η0 there, αp by Barus' law;
+    ``pressure_dependence`` : both together.
     ``roughness_ratio`` : Sq/h; ``peak_ratio`` : Sp/h, above 1 where the walls touch; ``roughness_period`` : period over
     length, where it is known.
     ``texture_density`` : the part of the bearing that pockets cover; ``pocket_depth_ratio`` : depth over h;
@@ -32,7 +35,7 @@ def bearing_numbers(scene: Bearing) -> Mapping[str, float]:
     """
     geometry, lubricant, roughness = scene.geometry, scene.lubricant, scene.roughness
     film, length, speed = geometry.film, geometry.length, abs(scene.motion.speed)
-    numbers = {"convergence": _convergence(scene)}
+    numbers = {"convergence": _convergence(scene), "divergence": _divergence(scene)}
     finest = _finest(scene)
     if geometry.width is not None:
         numbers["slenderness"] = geometry.width / length
@@ -48,6 +51,7 @@ def bearing_numbers(scene: Bearing) -> Mapping[str, float]:
         numbers["compression"] = float(problem.compression(pressure)[0][0])
         thinner = float(problem.piezoviscosity.fluidity(pressure, lubricant.viscosity)[0][0])
     numbers["piezoviscous"] = 0.0 - math.log(thinner) if thinner > 0 else math.inf
+    numbers["pressure_dependence"] = numbers["compression"] + numbers["piezoviscous"]
     if roughness is not None:
         numbers |= {"roughness_ratio": roughness.rms / film, "peak_ratio": roughness.peak / film}
         if math.isfinite(roughness.period):
@@ -79,6 +83,14 @@ def _convergence(scene: Bearing) -> float:
     x, y = np.linspace(shape.breaks[0], shape.breaks[-1], PLACES), np.linspace(*shape.across, PLACES)
     thickness = shape.thickness(*np.broadcast_arrays(x[:, None], y[:1] if shape.wide else y))
     return float(thickness.max()) / scene.geometry.film - 1
+
+
+def _divergence(scene: Bearing) -> float:
+    shape = scene.geometry.film_shape()
+    x, y = np.linspace(shape.breaks[0], shape.breaks[-1], PLACES), np.linspace(*shape.across, PLACES)
+    thickness = np.asarray(shape.thickness(*np.broadcast_arrays(x[:, None], y[:1] if shape.wide else y)))
+    ahead = thickness if scene.motion.speed >= 0 else thickness[::-1]
+    return float((ahead - np.minimum.accumulate(ahead, axis=0)).max()) / scene.geometry.film
 
 
 def _texture(scene: Bearing) -> dict[str, float]:

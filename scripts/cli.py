@@ -5,6 +5,7 @@ import sys
 import typer
 
 from scripts import (
+    advise,
     batch,
     compare,
     contact_series,
@@ -30,6 +31,7 @@ app = typer.Typer(
 )
 for module in (
     models,
+    advise,
     solve,
     compare,
     batch,

@@ -1,5 +1,6 @@
 """roughfilm solve: one model on one scene."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -7,10 +8,13 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
+from contact.errors import ConvergenceError, InputError
+from rom.kind import kinds
 from rom.ladder import find, of_kind
 from rom.result import Result
 from rom.scene import load_scene
 from rom.store import as_entries, save
+from scripts.advise import Want, advice_for, entries_of, shortfall
 from scripts.common import (
     AsJson,
     Overrides,
@@ -20,6 +24,7 @@ from scripts.common import (
     Scheme,
     Tolerance,
     in_one_line,
+    messages,
     models,
     output,
     print_json,
@@ -31,7 +36,11 @@ from scripts.common import (
 @in_one_line
 def command(
     scene: ScenePath,
-    model: Annotated[str, typer.Option(help="A name from 'roughfilm models'.")],
+    model: Annotated[str | None, typer.Option(help="A name from 'roughfilm models'.")] = None,
+    within: Annotated[
+        str | None, typer.Option(help="Instead of a model: take the cheapest that is no farther off, for example 5%.")
+    ] = None,
+    want: Want = None,
     out: Annotated[Path | None, typer.Option(help="Write the result with its fields here (HDF5).")] = None,
     set_: Overrides = None,
     resolution: Resolution = None,
@@ -40,13 +49,31 @@ def command(
     processes: Processes = 1,
     as_json: AsJson = False,
 ) -> None:
-    """Solve a scene with one model."""
+    """Solve a scene with one model, or with the cheapest that is enough."""
     read = load_scene(scene, set_ or ())
-    rung = find(of_kind(models(), read.kind), model)
-    with progress_bar(1.0) as advance:
-        result = rung.solve(
-            read, resolution=resolution, tolerance=tolerance, scheme=scheme, processes=processes, progress=advance
-        )
+    ladder = of_kind(models(), read.kind)
+    result, advised = None, None
+    if within is not None:
+        own = {"model": model, "resolution": resolution, "tolerance": tolerance, "scheme": scheme}
+        if given := [name for name, value in own.items() if value is not None]:
+            raise InputError(f"--{given[0]}: --within chooses the model and how it is run; leave one of them out")
+        found = advice_for(read, want, within)
+        if found.chosen is None:
+            raise ConvergenceError(f"--within: {shortfall(found, kinds()[read.kind].compared[found.quantity])}")
+        model, resolution, result, advised = found.chosen.model, found.chosen.resolution, found.result, found
+        messages.print(f"{model} at resolution {resolution}: {found.chosen.reason}", soft_wrap=True, markup=False)
+    elif want is not None:
+        raise InputError("--want: says of which quantity --within speaks; give that too")
+    if model is None:
+        raise InputError("--model: is missing; name one from 'roughfilm models', or give --within 5%")
+    rung = find(ladder, model)
+    if result is None:
+        with progress_bar(1.0) as advance:
+            result = rung.solve(
+                read, resolution=resolution, tolerance=tolerance, scheme=scheme, processes=processes, progress=advance
+            )
+    if advised is not None:
+        result = replace(result, provenance={**result.provenance, "advice": entries_of(advised)})
     if out is not None:
         save(result, out)
     if as_json:

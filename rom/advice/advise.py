@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from math import inf
 
 from contact.errors import InputError
 from rom.advice.estimates import Estimate, Question, a_posteriori, a_priori, affordable, percent
@@ -98,7 +99,8 @@ def advise(
 
     Rungs are taken from the cheapest up. Two estimates are asked for: the numbers of the scene against laws that were
     fitted to sweeps, and the difference to the next rung, if that is cheap. A rung that the numbers put beyond
-    ``HOPELESS`` tolerances is not run. Where the two disagree, one more rung up is run and decides, if it is cheap;
+    ``HOPELESS`` tolerances is not run, nor one that is put beyond the tolerance if to be sure of it costs more than the
+    cheapest that is enough. Where the two disagree, one more rung up is run and decides, if it is cheap;
     else the rung is passed over. Errors are of CERTAINTY 0.95.
 
     Parameters
@@ -147,8 +149,9 @@ def advise(
         if not fit.applies
     ]
     chosen: Considered | None = None
-    for model in sorted(asked.models, key=asked.cost):
-        one = _dearer(asked, model) if chosen else _considered(asked, model)
+    secure = min((asked.cost(model) for model in asked.models if _keeps(a_priori(asked, model), within)), default=inf)
+    for model in sorted(asked.models, key=lambda model: (asked.cost(model), -len(model.keeps))):
+        one = _dearer(asked, model) if chosen else _considered(asked, model, secure)
         considered.append(one)
         if one.verdict is Verdict.CHOSEN:
             chosen = one
@@ -178,7 +181,12 @@ def _dearer(asked: Question, model: Model) -> Considered:
     )
 
 
-def _considered(asked: Question, model: Model) -> Considered:
+def _keeps(before: Estimate | None, within: float) -> bool:
+    return before is not None and before.sure and before.error <= within
+
+
+def _considered(asked: Question, model: Model, secure: float) -> Considered:
+    """Judge a rung; ``secure``, CPU seconds, is what the cheapest costs that is enough by its numbers."""
     resolution = asked.resolution(model)
     here, before = model.available(), a_priori(asked, model)
 
@@ -195,12 +203,15 @@ def _considered(asked: Question, model: Model) -> Considered:
 
     if not here.available:
         return judged(Verdict.NOT_HERE, here.detail)
-    if before is not None and before.sure and before.error > HOPELESS * asked.within:
+    above = asked.next(model)
+    trial = asked.cost(model) + (asked.cost(above) if above else 0.0)
+    doubtful = before is not None and before.sure and before.error > asked.within
+    if before is not None and doubtful and (before.error > HOPELESS * asked.within or trial > secure):
         return judged(Verdict.NOT_ENOUGH, _main(before))
     checkable = model is not asked.best() or (before is None)
     after = a_posteriori(asked, model) if checkable else None
     if after is None:
-        if before is not None and before.sure and before.error <= asked.within:
+        if _keeps(before, asked.within):
             return judged(Verdict.CHOSEN, _main(before))
         why = "its error is not known here, and no cheap rung can tell" if before is None else _main(before)
         return judged(Verdict.NOT_ENOUGH, why)

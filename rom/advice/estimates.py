@@ -17,6 +17,10 @@ CHEAP, NEXT = 0.01, 3.0
 """A rung is run to check another if it costs less than this part of the best rung, or so many times the other."""
 
 
+MOST = 3.0
+"""A larger error is told as more than this."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Estimate:
     """An error that is expected at most, over the size of the quantity, and why; ``sure`` where the sweeps reach."""
@@ -60,7 +64,12 @@ class Question:
         return self.chain(max(self.models, key=lambda model: (len(model.keeps), model.complete)))[-1]
 
     def grid(self, model: Model, resolution: int) -> float | None:
-        """What a resolution costs in accuracy, by the sweeps; None where they do not tell."""
+        """What a resolution costs in accuracy, by the sweeps; None where they do not tell.
+
+        Nothing where it is the surface's own, which loses no waves: rungs without an order are judged by that.
+        """
+        if model.order is None and resolution >= max(model.resolutions_of(self.scene)):
+            return 0.0
         law = self.step(model).grid.get(self.quantity)
         return None if law is None else law.error({**self.numbers, "resolution": float(resolution)})
 
@@ -90,8 +99,8 @@ class Question:
 
 def percent(part: float) -> str:
     """A part as people read it."""
-    if not math.isfinite(part) or part > 3:
-        return "more than 300 %"
+    if not part <= MOST:
+        return f"more than {100 * MOST:.0f} %"
     return f"{100 * part:.2g} %" if part < 0.1 else f"{100 * part:.0f} %"
 
 
@@ -112,9 +121,9 @@ def a_priori(asked: Question, model: Model) -> Estimate | None:
         reasons.append((error, _told(asked, rung, step, error, beyond, law)))
     resolution = asked.resolution(model)
     grid = asked.grid(model, resolution)
-    if grid is not None:
+    if grid:
         parts.append(grid)
-        reasons.append((grid, f"{resolution} {model.resolution_meaning}: within {percent(grid)}"))
+        reasons.append((grid, f"a resolution of {resolution} costs up to {percent(grid)}"))
     kept = [reason for _, reason in sorted(reasons, key=lambda told: -told[0])]
     return Estimate(error=math.hypot(*parts), reasons=tuple(kept), sure=sure)
 
@@ -122,7 +131,8 @@ def a_priori(asked: Question, model: Model) -> Estimate | None:
 def _told(asked: Question, rung: Model, step: Step, error: float, beyond: str | None, law: Law) -> str:
     title = asked.kind.compared[asked.quantity]
     number = f"{asked.kind.symbols[step.tells]} = {asked.numbers[step.tells]:.2g}: " if step.tells else ""
-    told = f"{number}{step.adds} changes the {title} by up to {percent(error)}; {rung.name} leaves it out"
+    size = percent(error) if error > MOST else f"up to {percent(error)}"
+    told = f"{number}{step.adds} may change the {title} by {size}; {rung.name} would miss it"
     if beyond is None:
         return told
     least, most = law.reach[beyond]

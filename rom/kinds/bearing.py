@@ -110,10 +110,12 @@ def told(error: ValidationError, _entries: Mapping[str, Any]) -> str:
 NUMBERS = {
     "slenderness": "B/L",
     "convergence": "rise/h",
+    "divergence": "widening/h",
     "starvation": "θ",
     "cavitation_number": "(p_amb - p_cav) h²/(6ηuL)",
     "compression": "p/β",
     "piezoviscous": "αp",
+    "pressure_dependence": "p/β + αp",
     "roughness_ratio": "Sq/h",
     "peak_ratio": "Sp/h",
     "roughness_period": "period/L",

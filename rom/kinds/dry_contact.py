@@ -67,13 +67,13 @@ NUMBERS = {
     "hardness": "H/(E* g')",
     "plasticity": "P/H",
     "breadth": "α",
-    "pixels": "λ/Δx",
+    "waves": "side/λ",
 }
 """How people write the numbers of a contact."""
 
 
 def numbers(scene: RoughContact) -> dict[str, float]:
-    """λ = 2π Sq/g', Δx the spacing of the surface's points; P/H and H/(E* g') as if H were ten times E* g' without one.
+    """λ = 2π Sq/g'; P/H and H/(E* g') as if H were ten times E* g' without one.
 
     A flat surface has none of them.
     """
@@ -88,7 +88,7 @@ def numbers(scene: RoughContact) -> dict[str, float]:
         "hardness": hardness,
         "plasticity": pressure / hardness,
         "breadth": spectrum.moments.nayak,
-        "pixels": wavelength * max(surface.shape) / max(surface.size),
+        "waves": max(surface.size) / wavelength,
     }
 
 

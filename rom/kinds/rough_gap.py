@@ -64,7 +64,7 @@ NUMBERS = {
     "shortness": "h̄/λ",
     "reynolds_number": "Re",
     "roughness_reynolds_number": "Re·g'",
-    "pixels": "λ/Δx",
+    "waves": "side/λ",
     "least_gap": "h_min/h̄",
 }
 """How people write the numbers of a rough gap."""
@@ -74,7 +74,7 @@ TOUCHING = 1e-3
 
 
 def numbers(scene: RoughGap) -> dict[str, float]:
-    """λ = 2π Sq/g', Δx the longer spacing of the surface's points; flat walls have none of it."""
+    """λ = 2π Sq/g'; flat walls have only Re."""
     if not scene.rms_height > 0:
         return {"reynolds_number": scene.reynolds_number}
     surface = scene.surface()
@@ -86,7 +86,7 @@ def numbers(scene: RoughGap) -> dict[str, float]:
         "shortness": scene.gap_over_wavelength,
         "reynolds_number": scene.reynolds_number,
         "roughness_reynolds_number": scene.reynolds_number * scene.rms_slope,
-        "pixels": wavelength * max(surface.shape) / max(surface.size),
+        "waves": max(surface.size) / wavelength,
         "least_gap": max(float(walls.gap.min()) / scene.mean_gap, TOUCHING),
     }
 

@@ -1,0 +1,317 @@
+"""Fit the laws of the advice to random scenes: python -m scripts.advice_fit --out OUT; writes rom/advice/laws.toml."""
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+import typer
+from rich.table import Table
+
+import rom.advice
+from contact.errors import InputError
+from contact.files import replacing
+from rom.advice.laws import CERTAINTY, Law, Numbers
+from rom.convergence import Kind as Way
+from rom.convergence import converge
+from rom.gap import Array
+from rom.kind import Kind, Scene, kinds
+from rom.ladder import Model, best, of_kind
+from scripts.advice_runs import PARTS, Drawn, Run, draw, read
+from scripts.advice_scenes import random_scene
+from scripts.advice_steps import PLANS, Plan
+from scripts.common import in_one_line, make_directory, models, output, run_alone
+from scripts.workplace import alone
+
+Rows = list[tuple[Numbers, float]]
+"""The numbers of scenes, each with an error."""
+
+Fitted = tuple[str, Plan, Mapping[str, Mapping[str, Law]]]
+"""A rung with its laws, by what they tell and by quantity."""
+
+LEAST = 1e-7
+"""Smaller differences are rounding."""
+
+ENOUGH = 12
+"""Scenes to which powers are fitted; to fewer, a bound alone."""
+
+STEP = 0.05
+"""Powers are multiples of it."""
+
+RIDGE = 0.02
+"""Times the scenes: keeps powers of numbers that vary together from growing against each other."""
+
+STEEPEST = 6.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Case:
+    """A random scene that was solved: its numbers, what every rung says, and the best answer by quantity."""
+
+    seed: int
+    scene: Scene
+    numbers: Numbers
+    runs: Mapping[tuple[str, int], Run]
+    best: str
+    truth: Mapping[str, float]
+    bar: Mapping[str, float]
+
+    def finest(self, model: str) -> Run | None:
+        """The rung's run at its finest resolution; None where it has none."""
+        own = [run for (name, _), run in self.runs.items() if name == model and not run.failure]
+        return max(own, key=lambda run: run.resolution, default=None)
+
+    def grids(self, model: str) -> list[Run]:
+        """Its runs from coarse to fine."""
+        own = [run for (name, _), run in self.runs.items() if name == model and not run.failure]
+        return sorted(own, key=lambda run: run.resolution)
+
+
+def truths(kind: Kind, rung: Model, runs: Sequence[Run]) -> tuple[dict[str, float], dict[str, float]]:
+    """Of every compared quantity the best rung's value, at vanishing cells where its grids tell, and its error bar."""
+    value, bar = {}, {}
+    for quantity in kind.compared:
+        known = [run for run in runs if quantity in run.values]
+        if not known:
+            continue
+        value[quantity], bar[quantity] = known[-1].values[quantity], known[-1].uncertainty.get(quantity, 0.0)
+        if rung.order and len(known) > 1 and rung.write:
+            found = converge(
+                [run.resolution for run in known],
+                [run.values[quantity] for run in known],
+                formal_order=rung.order,
+                noise=1e-12,
+            )
+            bar[quantity] = found.uncertainty
+            if found.kind in (Way.MONOTONE, Way.TWO_GRIDS):
+                value[quantity] = found.value
+    return value, bar
+
+
+def cases(kind: str, drawn: Sequence[Drawn]) -> list[Case]:
+    """The scenes whose best rung has an answer."""
+    found, ladder, told = [], of_kind(models(), kind), kinds()[kind]
+    for one in drawn:
+        scene = random_scene(kind, one.seed)
+        rung = best([model for model in ladder if model.applies(scene).applies])
+        runs = sorted(
+            (run for run in one.runs if run.model == rung.name and not run.failure), key=lambda r: r.resolution
+        )
+        if not runs:
+            continue
+        value, bar = truths(told, rung, runs)
+        found.append(
+            Case(
+                seed=one.seed,
+                scene=scene,
+                numbers=told.numbers(scene),
+                runs={(run.model, run.resolution): run for run in one.runs},
+                best=rung.name,
+                truth=value,
+                bar=bar,
+            )
+        )
+    return found
+
+
+def apart(kind: Kind, case: Case, one: Mapping[str, float], other: Mapping[str, float], quantity: str) -> float:
+    """The difference of two answers over the size of the best one."""
+    top = case.finest(case.best)
+    assert top is not None
+    return abs(one[quantity] - other[quantity]) / float(kind.scale({**top.values, **case.truth}, quantity))
+
+
+def worth(kind: Kind, case: Case) -> bool:
+    """Whether the best answer is large enough to divide by, as reports on many cases have it."""
+    top = case.finest(case.best)
+    if top is None or kind.sweeping is None:
+        return top is not None
+    try:
+        return bool(kind.sweeping.worth({name: np.array(value) for name, value in top.values.items()}))
+    except KeyError:
+        return True
+
+
+def fitted(rows: Rows, features: Sequence[str]) -> Law | None:
+    """The law of these errors; None where there are none.
+
+    Least squares of logarithms with a ridge, then the coefficient that bounds ``CERTAINTY`` of the errors.
+    """
+    if not rows:
+        return None
+    usable = [(n, e) for n, e in rows if all(n.get(f, 0) > 0 and math.isfinite(n[f]) for f in features) and e > LEAST]
+    reach = {name: (min(n[name] for n, _ in usable), max(n[name] for n, _ in usable)) for name in features if usable}
+    powers: dict[str, float] = {}
+    if len(usable) >= ENOUGH and features:
+        x = np.log([[numbers[name] for name in features] for numbers, _ in usable])
+        y = np.log([error for _, error in usable])
+        powers = _powers(x, y, features)
+    errors = np.array([error for _, error in (usable or rows)])
+    shapes = np.array([math.prod(n[name] ** p for name, p in powers.items()) for n, _ in (usable or rows)])
+    ratios = np.maximum(errors, LEAST) / shapes
+    bound, middle = float(np.quantile(ratios, CERTAINTY)), float(np.median(ratios))
+    return Law(
+        coefficient=float(f"{bound:.3g}"),
+        powers=powers,
+        reach={name: (float(f"{a:.3g}"), float(f"{b:.3g}")) for name, (a, b) in reach.items() if name in powers},
+        scenes=len(usable or rows),
+        spread=float(f"{bound / middle:.3g}"),
+    )
+
+
+def _powers(x: Array, y: Array, features: Sequence[str]) -> dict[str, float]:
+    centred, size = x - x.mean(axis=0), x.shape[0]
+    spread = centred.std(axis=0)
+    varied = spread > 1e-6
+    scaled = centred[:, varied] / spread[varied]
+    slopes = np.linalg.solve(scaled.T @ scaled + RIDGE * size * np.eye(scaled.shape[1]), scaled.T @ (y - y.mean()))
+    found = np.zeros(x.shape[1])
+    found[varied] = np.clip(slopes / spread[varied], -STEEPEST, STEEPEST)
+    rounded = np.round(found / STEP) * STEP
+    return {name: round(float(power), 2) for name, power in zip(features, rounded, strict=True) if power}
+
+
+def step_rows(kind: Kind, plan: Plan, model: str, found: Sequence[Case], quantity: str) -> Rows:
+    """The scenes' numbers, and how far a rung is from its next one, both at their finest; the best one extrapolated."""
+    rows: Rows = []
+    for case in found:
+        own = case.finest(model)
+        name = next((name for name in plan.towards if case.finest(name)), None)
+        above = case.finest(name) if name else None
+        if own is None or above is None or not worth(kind, case):
+            continue
+        values = {**above.values, **case.truth} if above.model == case.best else above.values
+        if quantity in own.values and quantity in values:
+            rows.append((case.numbers, apart(kind, case, own.values, values, quantity)))
+    return rows
+
+
+def grid_rows(kind: Kind, model: str, found: Sequence[Case], quantity: str) -> Rows:
+    """The scenes' numbers with the resolution, and how far each grid is from the finest, or from the extrapolated."""
+    rows: Rows = []
+    for case in found:
+        grids = [run for run in case.grids(model) if quantity in run.values]
+        if len(grids) < 2 or not worth(kind, case):
+            continue
+        top = {**grids[-1].values, **(case.truth if model == case.best else {})}
+        rows += [
+            ({**case.numbers, "resolution": float(run.resolution)}, apart(kind, case, run.values, top, quantity))
+            for run in (grids if model == case.best else grids[:-1])
+        ]
+    return rows
+
+
+def seen_rows(kind: Kind, plan: Plan, model: str, found: Sequence[Case], quantity: str) -> Rows:
+    """The scenes' numbers with the size of the step from the rung below, and the error that is left."""
+    rows: Rows = []
+    for (numbers, left), case in zip(
+        step_rows(kind, plan, model, found, quantity),
+        [c for c in found if step_rows(kind, plan, model, [c], quantity)],
+        strict=True,
+    ):
+        below, own = case.finest(plan.seen_from), case.finest(model)
+        if below is not None and own is not None:
+            correction = apart(kind, case, below.values, own.values, quantity)
+            rows.append(({**numbers, "correction": correction}, left))
+    return rows
+
+
+def fit(kind: Kind, found: Sequence[Case]) -> Iterator[Fitted]:
+    """Every rung of a kind with its laws by what they tell and quantity."""
+    for model, plan in PLANS[kind.name].items():
+        ways: dict[str, tuple[Callable[[str], Rows], Sequence[str]]] = {}
+        if plan.towards:
+            ways["left_out"] = partial(step_rows, kind, plan, model, found), plan.features
+        if plan.grid is not None:
+            ways["grid"] = partial(grid_rows, kind, model, found), ("resolution", *plan.grid)
+        if plan.seen_from:
+            ways["seen"] = partial(seen_rows, kind, plan, model, found), ("correction", *plan.seen)
+        laws = {
+            name: {q: law for q in kind.compared if (law := fitted(rows(q), features)) is not None}
+            for name, (rows, features) in ways.items()
+        }
+        yield model, plan, laws
+
+
+def written(found: Mapping[str, Sequence[Fitted]], origin: Mapping[str, Any]) -> str:
+    """The table as TOML."""
+    lines = [
+        "# Made by python -m scripts.advice_fit; errors that 95 of 100 random scenes did not exceed.",
+        "[provenance]",
+    ]
+    lines += [f"{key} = {_toml(value)}" for key, value in origin.items()]
+    for kind, rungs in found.items():
+        for model, plan, laws in rungs:
+            lines += ["", f"[{kind}.{model}]"]
+            told = {"towards": plan.towards, "adds": plan.adds, "tells": plan.tells, "seen_from": plan.seen_from}
+            lines += [f"{key} = {_toml(value)}" for key, value in told.items() if value]
+            for name, by_quantity in laws.items():
+                lines += [f"{name}.{quantity} = {_toml(vars(law))}" for quantity, law in by_quantity.items()]
+    return "\n".join(lines) + "\n"
+
+
+def _toml(value: Any) -> str:
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{key} = {_toml(entry)}" for key, entry in value.items()) + " }" if value else "{}"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(map(_toml, value)) + "]"
+    return f'"{value}"' if isinstance(value, str) else str(value)
+
+
+@in_one_line
+def command(
+    out: Annotated[Path, typer.Option(help="Runs go here and are used again.")],
+    jobs: Annotated[int, typer.Option(help="Processes.")] = 2,
+    table: Annotated[Path, typer.Option(help="Where the laws are written; by default the project's own.")] = Path(
+        rom.advice.__file__
+    ).parent
+    / "laws.toml",
+    again: Annotated[bool, typer.Option(help="Fit to the runs that are there, without solving any.")] = False,
+) -> None:
+    """Solve random scenes by every rung, fit laws, and write their table."""
+    make_directory(out)
+    if jobs < 1:
+        raise InputError(f"--jobs: got {jobs}; it must be 1 or more")
+    if not again:
+        with alone(out) as scratch:
+            for kind in PLANS:
+                draw("fit", kind, out, jobs, scratch)
+    found: dict[str, list[Fitted]] = {}
+    counts: dict[str, int] = {}
+    circumstances: Mapping[str, Any] = {}
+    for kind in PLANS:
+        drawn, circumstances = read("fit", kind, out)
+        solved = cases(kind, drawn)
+        found[kind], counts[kind] = list(fit(kinds()[kind], solved)), len(solved)
+    origin = {
+        "command": "python -m scripts.advice_fit --out OUT",
+        "certainty": CERTAINTY,
+        "scenes": counts,
+        "seeds": {kind: [seeds.start, seeds.stop - 1] for kind, seeds in PARTS["fit"].items()},
+        "commit": circumstances["commit"],
+        "code": circumstances["code"],
+        "processor": circumstances["machine"]["processor"],
+    }
+    with replacing(table) as scratch_file:
+        scratch_file.write_text(written(found, origin), encoding="utf-8")
+    for kind, rungs in found.items():
+        output.print(_told(kind, rungs))
+
+
+def _told(kind: str, rungs: Sequence[Fitted]) -> Table:
+    table = Table("rung", "law", "quantity", "bound", "scenes", "bound over middle", title=kind)
+    for model, _, laws in rungs:
+        for name, by_quantity in laws.items():
+            for quantity, law in by_quantity.items():
+                product = " · ".join(f"{name}^{power:g}" for name, power in law.powers.items())
+                table.add_row(
+                    model, name, quantity, f"{law.coefficient:g} {product}", str(law.scenes), f"{law.spread:g}"
+                )
+    return table
+
+
+if __name__ == "__main__":
+    run_alone(command)

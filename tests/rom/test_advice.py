@@ -1,0 +1,245 @@
+"""Which rung is enough: the laws, the two estimates, and what is decided where they disagree."""
+
+from dataclasses import replace
+
+import pytest
+
+import foamcases.models
+import rom.models
+from contact.errors import ConvergenceError, InputError
+from contact.units import Quantity
+from rom.advice.advise import Verdict, advise, wanted
+from rom.advice.laws import Law, Step, Table, read_table, table
+from rom.kind import kinds
+from rom.ladder import Applicability, Availability, Effect, Model, ladder, of_kind
+from rom.result import Numerics, Result
+
+ALL = ladder(rom.models, foamcases.models)
+
+
+def law(error, **powers):
+    return Law(coefficient=error, powers=powers)
+
+
+class Fakes:
+    """Three rungs of a pocket whose loads and errors are given; what was run is kept."""
+
+    LOADS = {"reynolds": 1.20, "film": 1.04, "navier_stokes": 1.00}  # noqa: RUF012
+    COSTS = {"reynolds": 1e-4, "film": 1e-2, "navier_stokes": 3.0}  # noqa: RUF012
+
+    def __init__(self, told, loads=None, costs=None, available=True):
+        self.loads, self.costs = {**self.LOADS, **(loads or {})}, {**self.COSTS, **(costs or {})}
+        self.ran = []
+        keeps = {"reynolds": set(), "film": {Effect.INERTIA}, "navier_stokes": {Effect.INERTIA, Effect.SLOPE}}
+        self.models = [self.model(name, frozenset(keeps[name]), available) for name in keeps]
+        towards = {"reynolds": ("film",), "film": ("navier_stokes",), "navier_stokes": ()}
+        steps = {
+            name: Step(
+                towards=towards[name],
+                adds="something",
+                left_out={"load_plus": law(told[name])} if told.get(name) is not None else {},
+            )
+            for name in keeps
+        }
+        self.table = Table(steps={"pocket": steps}, provenance={})
+
+    def model(self, name, keeps, available):
+        return Model(
+            name=name,
+            kind="pocket",
+            summary=name,
+            keeps=keeps,
+            sources=(),
+            resolution=8,
+            resolutions=(8,),
+            resolution_meaning="",
+            residual_meaning="",
+            order=None,
+            cost=lambda _scene, _resolution: self.costs[name],
+            applies=lambda _scene: Applicability(applies=True, reason=""),
+            solve=self.solve(name),
+            available=lambda: Availability(available=available or name != "navier_stokes", detail="install it"),
+        )
+
+    def solve(self, name):
+        def solved(scene, **_options):
+            self.ran.append(name)
+            if self.loads[name] is None:
+                raise ConvergenceError("no")
+            load = Quantity(value=self.loads[name], unit="1")
+            numerics = Numerics(
+                residual=0.0,
+                iterations=1,
+                cpu_s=self.costs[name],
+                wall_s=0.0,
+                degrees_of_freedom=1,
+                resolution=8,
+                tolerance=0.0,
+                scheme="",
+            )
+            quantities = {"load_plus": load, "pressure_max_plus": load, "pressure_min_plus": load}
+            return Result(
+                model=name,
+                quantities=quantities,
+                fields={},
+                numerics=numerics,
+                provenance={"scene": {"kind": scene.kind}},
+            )
+
+        return solved
+
+    def advise(self, scene, within):
+        return advise(scene, self.models, quantity="load_plus", within=within, laws=self.table)
+
+
+@pytest.fixture
+def scene(make_scene):
+    return make_scene(0.3, 0.25, 20)
+
+
+def test_a_law_is_a_product_of_powers_and_says_where_it_was_not_fitted():
+    found = Law(coefficient=0.5, powers={"a": 2.0, "b": -1.0}, reach={"a": (0.1, 1.0), "b": (1.0, 10.0)})
+    assert found.error({"a": 0.2, "b": 4.0}) == pytest.approx(0.5 * 0.04 / 4)
+    assert found.beyond({"a": 0.01, "b": 100.0}) is None, "where errors shrink it may be left"
+    assert found.beyond({"a": 2.0, "b": 4.0}) == "a"
+    assert found.beyond({"a": 0.5, "b": 0.1}) == "b"
+    assert found.error({"a": 1.0, "b": 0.0}) == float("inf")
+
+
+def test_both_estimates_agree_that_the_cheapest_will_do(scene):
+    fakes = Fakes({"reynolds": 0.02, "film": 0.01}, {"reynolds": 1.01, "film": 1.0})
+    found = fakes.advise(scene, 0.05)
+    assert (found.chosen.model, fakes.ran) == ("reynolds", ["reynolds", "film"])
+    assert found.chosen.a_priori.error == pytest.approx((0.02**2 + 0.01**2) ** 0.5)
+    assert found.chosen.a_posteriori.error == pytest.approx(0.01 + 0.01)
+    assert found.result.model == "reynolds"
+    assert found.spent_cpu_s == pytest.approx(1e-4 + 1e-2)
+
+
+def test_a_rung_that_is_hopeless_by_its_numbers_is_not_run(scene):
+    fakes = Fakes({"reynolds": 0.5, "film": 0.01})
+    found = fakes.advise(scene, 0.05)
+    assert found.chosen.model == "film"
+    assert "reynolds" not in fakes.ran
+    assert found.considered[0].verdict is Verdict.NOT_ENOUGH
+    assert "may change the load by up to 50 %; reynolds would miss it" in found.considered[0].reason
+
+
+def test_the_next_rung_contradicts_the_numbers_and_one_more_rung_decides(scene):
+    cheap = {"navier_stokes": 2e-4, "film": 1.5e-4}
+    wrong = Fakes({"reynolds": 0.01, "film": 0.01}, {"reynolds": 1.2, "film": 1.0, "navier_stokes": 1.0}, cheap)
+    found = wrong.advise(scene, 0.05)
+    assert found.chosen.model == "film", "the third rung says the same as the second: the first is 20 % off"
+    assert wrong.ran[:3] == ["reynolds", "film", "navier_stokes"]
+    odd = Fakes({"reynolds": 0.01, "film": 0.01}, {"reynolds": 1.0, "film": 1.2, "navier_stokes": 1.0}, cheap)
+    assert odd.advise(scene, 0.05).chosen.model == "reynolds", "the third rung says that the second is the odd one"
+
+
+def test_a_dear_best_rung_is_not_run_to_check_another(scene):
+    fakes = Fakes({"reynolds": 0.5, "film": 0.01})
+    found = fakes.advise(scene, 0.05)
+    assert (found.chosen.model, fakes.ran) == ("film", ["film"])
+    assert found.chosen.a_posteriori is None
+
+
+def test_beyond_the_tolerance_the_best_rung_is_left(scene):
+    fakes = Fakes({"reynolds": 0.5, "film": 0.2})
+    found = fakes.advise(scene, 0.01)
+    assert found.chosen.model == "navier_stokes"
+    assert found.result is None, "it is not run to advise it"
+    assert found.chosen.cpu_s == 3.0
+
+
+def test_it_says_when_no_rung_will_do_and_which_comes_nearest(scene):
+    fakes = Fakes({"reynolds": 0.5, "film": 0.2}, available=False)
+    found = fakes.advise(scene, 0.05)
+    assert found.chosen is None
+    assert found.nearest.model == "film"
+    assert found.considered[-1].verdict is Verdict.NOT_HERE
+
+
+def test_a_rung_without_a_law_is_not_trusted_unless_a_cheap_one_tells(scene):
+    unknown = Fakes({"reynolds": None, "film": 0.01}, {"reynolds": 1.01, "film": 1.0})
+    assert unknown.advise(scene, 0.05).chosen.model == "reynolds"
+    blind = Fakes({"reynolds": 0.5, "film": None})
+    assert blind.advise(scene, 0.05).chosen.model == "navier_stokes"
+
+
+def test_a_check_that_does_not_converge_decides_nothing(scene):
+    fakes = Fakes({"reynolds": 0.02, "film": 0.01}, {"reynolds": None})
+    found = fakes.advise(scene, 0.05)
+    assert found.chosen.model == "reynolds", "by its numbers, as nothing can be run beside it"
+    assert found.result is None
+
+
+def test_a_law_that_is_left_does_not_count_as_an_estimate(scene):
+    fakes = Fakes({"reynolds": 0.5, "film": None})
+    narrow = Law(coefficient=1e-9, powers={"reynolds_number": 1.0}, reach={"reynolds_number": (1e-3, 1e-2)})
+    steps = {**fakes.table.steps["pocket"]}
+    steps["film"] = replace(steps["film"], left_out={"load_plus": narrow})
+    fakes.table = Table(steps={"pocket": steps}, provenance={})
+    assert fakes.advise(scene, 0.05).chosen.model == "navier_stokes"
+
+
+@pytest.mark.parametrize("within", [0.0, 1.0, -0.1, float("nan")])
+def test_a_tolerance_out_of_range_is_refused(scene, within):
+    with pytest.raises(InputError, match="--within"):
+        Fakes({}).advise(scene, within)
+
+
+def test_a_quantity_is_known_by_its_name_and_its_title(scene):
+    assert wanted(scene, None) == wanted(scene, "load") == wanted(scene, "load_plus") == "load_plus"
+    assert wanted(scene, "friction") == "friction_plus"
+    with pytest.raises(InputError, match="'load', 'friction'"):
+        wanted(scene, "lift")
+
+
+def test_the_table_names_rungs_quantities_and_numbers_that_exist():
+    found = table()
+    assert found.provenance["certainty"] == 0.95
+    assert set(found.steps) <= set(kinds())
+    for name, rungs in found.steps.items():
+        kind, models = kinds()[name], {model.name for model in of_kind(ALL, name)}
+        for model, step in rungs.items():
+            assert {model, *step.towards} <= models
+            assert not step.tells or step.tells in kind.symbols
+            for laws in (step.left_out, step.grid, step.seen):
+                assert set(laws) <= set(kind.compared)
+                for one in laws.values():
+                    assert set(one.powers) <= {*kind.symbols, "resolution", "correction"}
+                    assert one.coefficient > 0
+
+
+def test_every_rung_has_a_way_to_the_best_one():
+    for name in kinds():
+        models = of_kind(ALL, name)
+        for model in models:
+            seen = [model.name]
+            while towards := table().step(name, seen[-1]).towards:
+                assert len(seen) <= len(models), "in a circle"
+                seen.append(towards[0])
+            assert not table().step(name, seen[-1]).left_out
+
+
+def test_a_table_is_read_from_its_text():
+    text = """
+    [provenance]
+    certainty = 0.95
+    [pocket.film]
+    towards = ["navier_stokes"]
+    adds = "slope"
+    tells = "slope"
+    left_out.load_plus = { coefficient = 0.1, powers = { slope = 1.5 }, reach = { slope = [0.1, 1.0] }, scenes = 20 }
+    """
+    step = read_table(text).step("pocket", "film")
+    assert step.left_out["load_plus"].error({"slope": 0.25}) == pytest.approx(0.1 * 0.125)
+    assert read_table(text).step("seal", "unknown") == Step()
+
+
+def test_steep_fast_grooves_need_more_than_shallow_slow_ones(make_scene):
+    models = of_kind(ALL, "pocket")
+    shallow = advise(make_scene(0.4, 0.25, 2), models, quantity="load_plus", within=0.1)
+    assert shallow.chosen.model in ("inertial_reynolds", "film", "film_slope")
+    assert {one.model: one for one in shallow.considered}["reynolds"].verdict is Verdict.NOT_ENOUGH
+    steep = advise(make_scene(0.15, 1.25, 160), models, quantity="load_plus", within=0.02)
+    assert steep.chosen is None or steep.chosen.cpu_s > shallow.chosen.cpu_s

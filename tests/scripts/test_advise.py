@@ -1,0 +1,87 @@
+"""roughfilm advise and solve --within: what they print, and what they refuse."""
+
+import json
+
+import pytest
+from typer.testing import CliRunner
+
+from rom.store import load
+from scripts.cli import app
+from scripts.common import BAD_INPUT, NOT_CONVERGED
+
+SCENES = "scripts/scenes"
+
+
+@pytest.fixture
+def run():
+    return lambda *arguments: CliRunner().invoke(app, [str(argument) for argument in arguments])
+
+
+@pytest.fixture
+def groove(pocket_file):
+    return [pocket_file, "--set", "motion.reynolds_number=5", "--set", "geometry.width=0.4mm"]
+
+
+def test_advice_as_json(run, groove):
+    found = run("advise", *groove, "--want", "load", "--within", "10%", "--json")
+    assert found.exit_code == 0
+    told = json.loads(found.stdout)
+    assert told["model"] in ("inertial_reynolds", "film", "film_slope")
+    assert 0 < told["expected_error"] <= 0.10
+    assert 0 < told["expected_cpu_s"] < 1
+    assert told["enough"]
+    assert any("Re·h/w = " in reason and "inertia may change the load" in reason for reason in told["reasons"])
+    chosen = next(one for one in told["considered"] if one["verdict"] == "chosen")
+    assert chosen["a_priori"]["error"] > 0
+    assert chosen["a_posteriori"]["reasons"], "the two sources are kept apart"
+    assert told["numbers"]["reynolds_number"] == 5
+
+
+def test_advice_for_people(run, groove):
+    found = run("advise", *groove, "--within", "10%")
+    assert found.exit_code == 0
+    assert "load within 10 % by" in found.stdout
+    assert "reynolds would miss it" in found.stdout.replace("\n", " ")
+    assert "h/L = 0.03" in found.stdout
+
+
+def test_solve_takes_what_is_advised_and_keeps_why(run, groove, tmp_path):
+    file = tmp_path / "result.h5"
+    advised = json.loads(run("advise", *groove, "--within", "10%", "--json").stdout)
+    found = run("solve", *groove, "--within", "10%", "--json", "--out", file)
+    assert found.exit_code == 0
+    told = json.loads(found.stdout)
+    assert told["model"] == advised["model"]
+    assert told["numerics"]["resolution"] == advised["resolution"]
+    assert load(file).provenance["advice"]["within"] == 0.1
+
+
+def test_it_says_when_none_will_do(run):
+    asked = [f"{SCENES}/parabolic_slider.toml", "--within", "1e-13"]
+    found = run("advise", *asked, "--json")
+    assert found.exit_code == NOT_CONVERGED
+    told = json.loads(found.stdout)
+    assert (told["enough"], told["model"]) == (False, None)
+    assert told["nearest"]
+    found = run("solve", *asked)
+    assert found.exit_code == NOT_CONVERGED
+    assert "no rung here is known to give the load within" in found.stderr.replace("\n", " ")
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (["--within", "much"], "--within: got 'much'"),
+        (["--within", "-5%"], "--within: got -0.05"),
+        (["--within", "5%", "--model", "film"], "--model: --within chooses"),
+        (["--within", "5%", "--resolution", "50"], "--resolution: --within chooses"),
+        (["--within", "5%", "--want", "lift"], "--want: got 'lift'"),
+        (["--want", "load", "--model", "film"], "--want: says of which quantity"),
+        ([], "--model: is missing"),
+    ],
+)
+def test_what_cannot_be_asked_is_refused(run, pocket_file, options, told):
+    found = run("solve", pocket_file, *options)
+    assert found.exit_code == BAD_INPUT
+    assert told in found.stderr.replace("\n", " ")
+    assert found.stderr.count("error:") == 1
