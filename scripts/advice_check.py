@@ -91,10 +91,10 @@ def as_result(case: Case, run: Run) -> Result:
     )
 
 
-def tried(case: Case, within: float) -> Trial:
-    """Ask for advice and judge it; rungs that the table has are looked up there, others are run."""
+def tried(case: Case, within: float, quantity: str) -> Trial:
+    """Ask for advice on a quantity and judge it; rungs that the table has are looked up there, others are run."""
     kind = kinds()[case.scene.kind]
-    ladder, quantity = of_kind(models(), kind.name), next(iter(kind.compared))
+    ladder = of_kind(models(), kind.name)
     solving = 0.0
 
     def run(model: Model, resolution: int) -> Result:
@@ -169,9 +169,10 @@ def score(trials: Sequence[Trial]) -> Score:
 
 
 def scores(trials: Sequence[Trial]) -> dict[str, dict[float, Score]]:
-    """By kind and tolerance; of all kinds together, and of those whose best rung is Navier–Stokes."""
+    """By kind and quantity, and tolerance; of all together, and of scenes whose best rung is Navier–Stokes."""
     groups: dict[str, Sequence[Trial]] = {
-        kind: [one for one in trials if one.kind == kind] for kind in dict.fromkeys(one.kind for one in trials)
+        f"{kind}, {kinds()[kind].compared[quantity]}": [o for o in trials if (o.kind, o.quantity) == (kind, quantity)]
+        for kind, quantity in dict.fromkeys((one.kind, one.quantity) for one in trials)
     }
     groups["all"] = trials
     groups["with Navier–Stokes"] = [one for one in trials if one.best == "navier_stokes"]
@@ -246,11 +247,12 @@ def command(
                 draw("check", kind, out, jobs, scratch)
     known = [case for kind in PARTS["check"] for case in cases(kind, read("check", kind, out)[0])]
     trials: list[Trial] = []
-    with progress_bar(len(known) * len(TOLERANCES)) as advance:
-        for case in known:
+    asked = [(case, quantity) for case in known for quantity in kinds()[case.scene.kind].compared]
+    with progress_bar(len(asked) * len(TOLERANCES)) as advance:
+        for case, quantity in asked:
             for within in TOLERANCES:
-                advance(len(trials), f"{case.scene.name}, within {within:.0%}")
-                trials.append(tried(case, within))
+                advance(len(trials), f"{case.scene.name}, {quantity} within {within:.0%}")
+                trials.append(tried(case, within, quantity))
     entries = entries_of(trials)
     with replacing(out / "advice.json") as file:
         file.write_text(json.dumps(entries, indent=1) + "\n", encoding="utf-8")
@@ -279,7 +281,7 @@ def command(
 
 def _miss(one: Trial) -> str:
     return (
-        f"{one.kind} {one.seed} at {one.within:.0%}: {one.model}, {one.resolution}: {100 * (one.error or 0):.2g} % off "
+        f"{one.kind} {one.seed}, {one.quantity} at {one.within:.0%}: {one.model}, {one.resolution}: {100 * (one.error or 0):.2g} % off "
         f"(expected {100 * (one.expected or 0):.2g} %; the best rung is known to {100 * one.bar:.2g} %): {one.reason}"
     )
 

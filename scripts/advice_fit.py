@@ -124,17 +124,6 @@ def apart(kind: Kind, case: Case, one: Mapping[str, float], other: Mapping[str, 
     return abs(one[quantity] - other[quantity]) / float(kind.scale({**top.values, **case.truth}, quantity))
 
 
-def worth(kind: Kind, case: Case) -> bool:
-    """Whether the best answer is large enough to divide by, as reports on many cases have it."""
-    top = case.finest(case.best)
-    if top is None or kind.sweeping is None:
-        return top is not None
-    try:
-        return bool(kind.sweeping.worth({name: np.array(value) for name, value in top.values.items()}))
-    except KeyError:
-        return True
-
-
 def fitted(rows: Rows, features: Sequence[str]) -> Law | None:
     """The law of these errors; None where there are none.
 
@@ -181,7 +170,7 @@ def step_rows(kind: Kind, plan: Plan, model: str, found: Sequence[Case], quantit
         own = case.finest(model)
         name = next((name for name in plan.towards if case.finest(name)), None)
         above = case.finest(name) if name else None
-        if own is None or above is None or not worth(kind, case):
+        if own is None or above is None:
             continue
         values = {**above.values, **case.truth} if above.model == case.best else above.values
         if quantity in own.values and quantity in values:
@@ -194,7 +183,7 @@ def grid_rows(kind: Kind, model: str, found: Sequence[Case], quantity: str) -> R
     rows: Rows = []
     for case in found:
         grids = [run for run in case.grids(model) if quantity in run.values]
-        if len(grids) < 2 or not worth(kind, case):
+        if len(grids) < 2:
             continue
         top = {**grids[-1].values, **(case.truth if model == case.best else {})}
         rows += [

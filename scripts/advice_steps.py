@@ -21,8 +21,8 @@ class Plan:
     seen: tuple[str, ...] = ()
 
 
-GROOVE = ("reynolds_number", "depth", "aspect", "slope")
-COLUMNS = ("reynolds_number", "film", "aspect", "slope")
+GROOVE = ("reynolds_number", "depth", "aspect", "slope", "loaded")
+COLUMNS = ("reynolds_number", "film", "aspect", "slope", "loaded")
 GAP = ("slope", "height", "shortness")
 PRESSED = ("pressure", "hardness", "breadth")
 WAVES = ("waves",)
@@ -33,7 +33,7 @@ PLANS: Mapping[str, Mapping[str, Plan]] = {
             towards=("inertial_reynolds",),
             adds="inertia",
             tells="reduced_reynolds_number",
-            features=("reynolds_number", "asymmetry"),
+            features=("reynolds_number", "loaded"),
         ),
         "inertial_reynolds": Plan(
             towards=("film",),
@@ -51,13 +51,13 @@ PLANS: Mapping[str, Mapping[str, Plan]] = {
             features=(*GROOVE, "asymmetry"),
             grid=COLUMNS,
             seen_from="film",
-            seen=("slope",),
+            seen=("slope", "loaded"),
         ),
         "stokes": Plan(
             towards=("navier_stokes",),
             adds="inertia",
             tells="reduced_reynolds_number",
-            features=("reynolds_number", "asymmetry"),
+            features=("reynolds_number", "loaded"),
             grid=COLUMNS,
         ),
         "navier_stokes": Plan(grid=COLUMNS),

@@ -14,7 +14,7 @@ GRID_SHARE = 1 / 3
 """Of the tolerance, what the resolution may use up."""
 
 CHEAP, NEXT = 0.01, 3.0
-"""A rung is run to check another if it costs less than this part of the best rung, or so many times the other."""
+"""A rung is run to check another if it costs less than this part of the best rung by default, or so many times it."""
 
 
 MOST = 3.0
@@ -162,7 +162,8 @@ def a_posteriori(asked: Question, model: Model, above: int = 1) -> Estimate | No
 
 def affordable(asked: Question, other: Model, model: Model) -> bool:
     """Whether a rung is here and cheap enough to check another."""
-    limit = max(CHEAP * asked.cost(asked.best()), NEXT * asked.cost(model))
+    best = asked.best()
+    limit = max(CHEAP * asked.cost(best, best.resolution_of(asked.scene)), NEXT * asked.cost(model))
     return other.available().available and asked.cost(other) <= limit
 
 

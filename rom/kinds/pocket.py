@@ -9,9 +9,11 @@ from pydantic import ValidationError
 
 from contact.toml import Location, in_one_line, known_keys, unknown_key
 from contact.units import Quantity
+from rom import quadrature
 from rom.error_law import words
 from rom.geometry import PROFILES, PocketGeometry
 from rom.kind import Kind
+from rom.ladder import Effect
 from rom.pocket import Pocket
 from rom.scene import scene_entries
 from rom.sweeping import Columns, Sweeping
@@ -84,6 +86,7 @@ NUMBERS = {
     "aspect": "2d/w",
     "slope": "slope",
     "asymmetry": "2|s|/w",
+    "loaded": "load/p_max",
 }
 """How people write the numbers: h the film, L its period, w, d and s a groove's width, depth and shift."""
 
@@ -92,7 +95,11 @@ LEAST_ASYMMETRY = 1e-3
 
 
 def numbers(scene: Pocket) -> dict[str, float]:
-    """Of several grooves the deepest, narrowest and steepest count."""
+    """Of several grooves the deepest, narrowest and steepest count.
+
+    Load over greatest pressure is told to first order in Re; where it is small, load is the difference of larger ones.
+    """
+    told = first_order(scene)
     return {
         "reynolds_number": scene.reynolds_number,
         "reduced_reynolds_number": scene.reduced_reynolds_number,
@@ -101,7 +108,14 @@ def numbers(scene: Pocket) -> dict[str, float]:
         "aspect": scene.aspect,
         "slope": scene.slope,
         "asymmetry": max(1 - scene.aspect / scene.slope, LEAST_ASYMMETRY),
+        "loaded": max(abs(told["load_plus"]) / greatest_pressure(told), LEAST_LOAD),
     }
+
+
+def first_order(scene: Pocket) -> dict[str, float]:
+    """What the Reynolds equation with first-order inertia says, in closed form."""
+    found = quadrature.solve(scene, model="inertial_reynolds", keeps=frozenset({Effect.INERTIA}), sources=())
+    return {name: quantity.value for name, quantity in found.quantities.items()}
 
 
 def _length(text: str) -> float:
