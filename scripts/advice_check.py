@@ -281,7 +281,8 @@ def command(
 
 def _miss(one: Trial) -> str:
     return (
-        f"{one.kind} {one.seed}, {one.quantity} at {one.within:.0%}: {one.model}, {one.resolution}: {100 * (one.error or 0):.2g} % off "
+        f"{one.kind} {one.seed}, {one.quantity} at {one.within:.0%}: {one.model}, {one.resolution}: "
+        f"{100 * (one.error or 0):.2g} % off "
         f"(expected {100 * (one.expected or 0):.2g} %; the best rung is known to {100 * one.bar:.2g} %): {one.reason}"
     )
 

@@ -33,7 +33,7 @@ PLANS: Mapping[str, Mapping[str, Plan]] = {
             towards=("inertial_reynolds",),
             adds="inertia",
             tells="reduced_reynolds_number",
-            features=("reynolds_number", "loaded"),
+            features=("reynolds_number", "asymmetry", "loaded"),
         ),
         "inertial_reynolds": Plan(
             towards=("film",),
@@ -57,7 +57,7 @@ PLANS: Mapping[str, Mapping[str, Plan]] = {
             towards=("navier_stokes",),
             adds="inertia",
             tells="reduced_reynolds_number",
-            features=("reynolds_number", "loaded"),
+            features=("reynolds_number", "asymmetry", "loaded"),
             grid=COLUMNS,
         ),
         "navier_stokes": Plan(grid=COLUMNS),

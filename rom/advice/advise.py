@@ -23,7 +23,7 @@ class Verdict(StrEnum):
     NOT_ENOUGH = "not enough"
     DOES_NOT_APPLY = "does not apply"
     NOT_HERE = "not on this machine"
-    DEARER = "dearer than the one chosen"
+    NOT_NEEDED = "not needed"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -151,7 +151,7 @@ def advise(
     chosen: Considered | None = None
     secure = min((asked.cost(model) for model in asked.models if _keeps(a_priori(asked, model), within)), default=inf)
     for model in sorted(asked.models, key=lambda model: (asked.cost(model), -len(model.keeps))):
-        one = _dearer(asked, model) if chosen else _considered(asked, model, secure)
+        one = _after(asked, model) if chosen else _considered(asked, model, secure)
         considered.append(one)
         if one.verdict is Verdict.CHOSEN:
             chosen = one
@@ -168,15 +168,17 @@ def advise(
     )
 
 
-def _dearer(asked: Question, model: Model) -> Considered:
-    before, resolution = a_priori(asked, model), asked.resolution(model)
+def _after(asked: Question, model: Model) -> Considered:
+    """A rung that costs no less than the one chosen: it is not run."""
+    before = a_priori(asked, model)
+    short = before is not None and before.error > asked.within
     told = "" if before is None else f"expected within {percent(before.error)}, "
     return Considered(
         model=model.name,
-        resolution=resolution,
+        resolution=asked.resolution(model),
         cpu_s=asked.cost(model),
-        verdict=Verdict.DEARER,
-        reason=f"{told}for {asked.cost(model):.2g} CPU s",
+        verdict=Verdict.NOT_ENOUGH if short else Verdict.NOT_NEEDED,
+        reason=_main(before) if short else f"{told}for {asked.cost(model):.2g} CPU s",
         a_priori=before,
     )
 

@@ -121,7 +121,9 @@ def a_priori(asked: Question, model: Model) -> Estimate | None:
         reasons.append((error, _told(asked, rung, step, error, beyond, law)))
     resolution = asked.resolution(model)
     grid = asked.grid(model, resolution)
-    if grid:
+    if grid is None:
+        return None
+    if grid > 0:
         parts.append(grid)
         reasons.append((grid, f"a resolution of {resolution} costs up to {percent(grid)}"))
     kept = [reason for _, reason in sorted(reasons, key=lambda told: -told[0])]

@@ -165,6 +165,15 @@ def test_a_rung_without_a_law_is_not_trusted_unless_a_cheap_one_tells(scene):
     assert blind.advise(scene, 0.05).chosen.model == "navier_stokes"
 
 
+def test_a_grid_of_which_nothing_is_known_is_not_trusted(scene):
+    fakes = Fakes({"reynolds": 0.5, "film": 0.5})
+    fakes.models = [replace(model, order=2) for model in fakes.models]
+    found = fakes.advise(scene, 0.05)
+    assert found.chosen is None
+    assert found.nearest is None
+    assert "not known here" in found.considered[-1].reason
+
+
 def test_a_check_that_does_not_converge_decides_nothing(scene):
     fakes = Fakes({"reynolds": 0.02, "film": 0.01}, {"reynolds": None})
     found = fakes.advise(scene, 0.05)
