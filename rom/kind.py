@@ -34,6 +34,18 @@ def plain_fault(error: ValidationError, _entries: Mapping[str, Any], *, scene: t
     return in_one_line(error, "scene", unknown)
 
 
+def nothing_omitted(_scene: Any, _quantity: str) -> None:
+    """For kinds whose best rung keeps all that is of interest."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Omission:
+    """What every rung of a kind leaves out: by which part of its size that changes a quantity, and why, in words."""
+
+    part: float
+    reason: str
+
+
 @dataclass(frozen=True, kw_only=True)
 class Kind:
     """One kind of scene; every file under ``rom/kinds/`` ends with ``KIND``.
@@ -52,6 +64,7 @@ class Kind:
     lists : where lists stand that are one value; a study sweeps every other list, and lists of these.
     numbers : the dimensionless numbers that tell how far its rungs may be off; those without meaning are left out.
     symbols : how people write them.
+    omitted : omitted(scene, quantity): what none of its rungs keeps, None where that is nothing or cannot be told.
     told : the first fault of a scene in one line, from pydantic's error and the entries; by default by the models.
     sweeping : how a report over many cases judges them; None if there is none.
     """
@@ -64,6 +77,7 @@ class Kind:
     columns: Callable[[Any], Mapping[str, Quantity | str]]
     numbers: Callable[[Any], Mapping[str, float]]
     symbols: Mapping[str, str]
+    omitted: Callable[[Any, str], Omission | None] = nothing_omitted
     files: frozenset[str] = frozenset()
     no_files: frozenset[str] = frozenset()
     replaces: Mapping[str, Sequence[str]] = field(default_factory=dict)

@@ -1,5 +1,6 @@
 """roughfilm advise: the cheapest rung that is enough for a scene, and why."""
 
+from dataclasses import asdict
 from typing import Annotated, Any
 
 import typer
@@ -88,6 +89,8 @@ def tell(scene: Scene, found: Advice) -> None:
     output.print(shown)
     for one in found.considered:
         output.print(f"[bold]{one.model}[/]: {one.verdict}: {escape(one.reason)}", soft_wrap=True)
+    if found.omitted is not None:
+        output.print(f"[bold]all of them[/]: {escape(found.omitted.reason)}", soft_wrap=True)
     numbers = ", ".join(
         f"{kind.symbols[name]} = {value:.3g}" for name, value in found.numbers.items() if name in kind.symbols
     )
@@ -98,6 +101,8 @@ def tell(scene: Scene, found: Advice) -> None:
 def shortfall(found: Advice, title: str) -> str:
     """That no rung is enough, and which comes nearest."""
     told = f"no rung here is known to give the {title} within {percent(found.within)}"
+    if found.omitted is not None and found.omitted.part > found.within:
+        return f"{told}: {found.omitted.reason}"
     if found.nearest is None or found.nearest.error is None:
         return told
     return f"{told}; {found.nearest.model} comes nearest, within {percent(found.nearest.error)}"
@@ -127,6 +132,7 @@ def entries_of(found: Advice) -> dict[str, Any]:
         "within": found.within,
         "nearest": found.nearest.model if found.nearest else None,
         "reasons": [f"{one.model}: {one.verdict}: {one.reason}" for one in found.considered],
+        "omitted": asdict(found.omitted) if found.omitted else None,
         "considered": [_entries(one) for one in found.considered],
         "numbers": {name: _finite(value) for name, value in found.numbers.items()},
         "spent_cpu_s": found.spent_cpu_s,

@@ -1,14 +1,14 @@
 """The cheapest rung that is enough: judged by the numbers of a scene first, then by the rungs next to it."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from math import inf
 
 from contact.errors import InputError
 from rom.advice.estimates import Estimate, Question, a_posteriori, a_priori, affordable, percent
 from rom.advice.laws import Numbers, Table, table
-from rom.kind import Scene, kinds
+from rom.kind import Omission, Scene, kinds
 from rom.ladder import Model, Progress, silent
 from rom.result import Result
 
@@ -58,6 +58,7 @@ class Advice:
     numbers : the dimensionless numbers of the scene.
     result : of the chosen rung, if it was run to be sure.
     spent_cpu_s : CPU seconds of all that was run.
+    omitted : what every rung of the kind leaves out; where that is too much, none is chosen.
     """
 
     quantity: str
@@ -68,6 +69,7 @@ class Advice:
     numbers: Numbers
     result: Result | None
     spent_cpu_s: float
+    omitted: Omission | None = None
 
 
 def wanted(scene: Scene, name: str | None) -> str:
@@ -101,7 +103,7 @@ def advise(
     fitted to sweeps, and the difference to the next rung, if that is cheap. A rung that the numbers put beyond
     ``HOPELESS`` tolerances is not run, nor one that is put beyond the tolerance if to be sure of it costs more than the
     cheapest that is enough. Where the two disagree, one more rung up is run and decides, if it is cheap;
-    else the rung is passed over. Errors are of CERTAINTY 0.95.
+    else the rung is passed over. What all of them leave out is judged apart. Errors are of CERTAINTY 0.95.
 
     Parameters
     ----------
@@ -155,6 +157,11 @@ def advise(
         considered.append(one)
         if one.verdict is Verdict.CHOSEN:
             chosen = one
+    omitted = kind.omitted(scene, quantity)
+    if chosen is not None and omitted is not None and omitted.part + (chosen.error or 0.0) > within:
+        told = replace(chosen, verdict=Verdict.NOT_ENOUGH, reason=omitted.reason)
+        considered = [told if one is chosen else one for one in considered]
+        chosen = None
     short = [one for one in considered if one.error is not None and one.verdict is Verdict.NOT_ENOUGH]
     return Advice(
         quantity=quantity,
@@ -165,6 +172,7 @@ def advise(
         numbers=asked.numbers,
         result=known.get((chosen.model, chosen.resolution or 0)) if chosen else None,
         spent_cpu_s=sum(result.numerics.cpu_s for result in known.values()),
+        omitted=omitted,
     )
 
 

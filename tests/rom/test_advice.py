@@ -10,7 +10,7 @@ from contact.errors import ConvergenceError, InputError
 from contact.units import Quantity
 from rom.advice.advise import Verdict, advise, wanted
 from rom.advice.laws import Law, Step, Table, read_table, table
-from rom.kind import kinds
+from rom.kind import Omission, kinds
 from rom.ladder import Applicability, Availability, Effect, Model, ladder, of_kind
 from rom.result import Numerics, Result
 
@@ -188,6 +188,17 @@ def test_a_law_that_is_left_does_not_count_as_an_estimate(scene):
     steps["film"] = replace(steps["film"], left_out={"load_plus": narrow})
     fakes.table = Table(steps={"pocket": steps}, provenance={})
     assert fakes.advise(scene, 0.05).chosen.model == "navier_stokes"
+
+
+def test_what_every_rung_leaves_out_counts_too(scene, monkeypatch):
+    told = Omission(part=0.03, reason="heat, which no rung keeps")
+    kind = replace(kinds()["pocket"], omitted=lambda _scene, _quantity: told)
+    monkeypatch.setattr("rom.advice.advise.kinds", lambda: {"pocket": kind})
+    fakes = Fakes({"reynolds": 0.01, "film": 0.0}, {"reynolds": 1.0, "film": 1.0})
+    assert fakes.advise(scene, 0.05).chosen.model == "reynolds"
+    found = fakes.advise(scene, 0.02)
+    assert (found.chosen, found.omitted) == (None, told)
+    assert found.considered[0].reason == "heat, which no rung keeps"
 
 
 @pytest.mark.parametrize("within", [0.0, 1.0, -0.1, float("nan")])
