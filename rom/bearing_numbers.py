@@ -17,8 +17,8 @@ def bearing_numbers(scene: Bearing) -> Mapping[str, float]:
     """The numbers that a scene has, by name, all of unit 1; h is the least film thickness without texture and waves.
 
     ``slenderness`` : width over length, of a bearing that has a width.
-    ``convergence`` : greatest film thickness over h less 1, texture left out; ``finest`` : the shortest feature along
-    the sliding over the length.
+    ``convergence`` : greatest film thickness over h less 1, texture left out, and ``thickness_ratio`` one more;
+    ``finest`` : the shortest feature along the sliding over the length, 1 where there is none.
     ``starvation`` : θ of the inlet, 1 where it is full; not of joined pads.
     ``cavitation_number`` : (p_ambient - p_cav)/(6ηuL/h²): tension that the liquid bears over the pressure that sliding
     makes; infinite at rest.
@@ -39,8 +39,8 @@ def bearing_numbers(scene: Bearing) -> Mapping[str, float]:
     finest = _finest(scene)
     if geometry.width is not None:
         numbers["slenderness"] = geometry.width / length
-    if math.isfinite(finest):
-        numbers["finest"] = finest / length
+    numbers["thickness_ratio"] = numbers["convergence"] + 1
+    numbers["finest"] = finest / length if math.isfinite(finest) else 1.0
     if not (isinstance(geometry, Ring) and geometry.endless):
         theta = scene.boundary.inlet.theta
         numbers["starvation"] = 1.0 if theta is None else theta

@@ -1,9 +1,8 @@
 """Fit the laws of the advice to random scenes: python -m scripts.advice_fit --out OUT; writes rom/advice/laws.toml."""
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -14,7 +13,7 @@ from rich.table import Table
 import rom.advice
 from contact.errors import InputError
 from contact.files import replacing
-from rom.advice.laws import CERTAINTY, Law, Numbers
+from rom.advice.laws import CERTAINTY, Grid, Law, Numbers, Step
 from rom.convergence import Kind as Way
 from rom.convergence import converge
 from rom.gap import Array
@@ -22,15 +21,12 @@ from rom.kind import Kind, Scene, kinds
 from rom.ladder import Model, best, of_kind
 from scripts.advice_runs import PARTS, Drawn, Run, draw, read
 from scripts.advice_scenes import random_scene
-from scripts.advice_steps import PLANS, Plan
+from scripts.advice_steps import GRIDS, GRIDS_APART, STEPS, Plan
 from scripts.common import in_one_line, make_directory, models, output, run_alone
 from scripts.workplace import alone
 
 Rows = list[tuple[Numbers, float]]
 """The numbers of scenes, each with an error."""
-
-Fitted = tuple[str, Plan, Mapping[str, Mapping[str, Law]]]
-"""A rung with its laws, by what they tell and by quantity."""
 
 LEAST = 1e-7
 """Smaller differences are rounding."""
@@ -163,18 +159,27 @@ def _powers(x: Array, y: Array, features: Sequence[str]) -> dict[str, float]:
     return {name: round(float(power), 2) for name, power in zip(features, rounded, strict=True) if power}
 
 
-def step_rows(kind: Kind, plan: Plan, model: str, found: Sequence[Case], quantity: str) -> Rows:
-    """The scenes' numbers, and how far a rung is from its next one, both at their finest; the best one extrapolated."""
-    rows: Rows = []
+def step_rows(kind: Kind, plan: Plan, found: Sequence[Case], quantity: str) -> list[tuple[Case, float]]:
+    """The scenes, and how far a rung is from its next one, both at their finest; the best one extrapolated."""
+    rows = []
     for case in found:
-        own = case.finest(model)
-        name = next((name for name in plan.towards if case.finest(name)), None)
-        above = case.finest(name) if name else None
+        own, above = case.finest(plan.model), case.finest(plan.towards)
         if own is None or above is None:
             continue
         values = {**above.values, **case.truth} if above.model == case.best else above.values
         if quantity in own.values and quantity in values:
-            rows.append((case.numbers, apart(kind, case, own.values, values, quantity)))
+            rows.append((case, apart(kind, case, own.values, values, quantity)))
+    return rows
+
+
+def seen_rows(kind: Kind, plan: Plan, found: Sequence[Case], quantity: str) -> Rows:
+    """The scenes' numbers with the size of the step from the rung below, and the error that is left."""
+    rows: Rows = []
+    for case, left in step_rows(kind, plan, found, quantity):
+        below, own = case.finest(plan.seen_from), case.finest(plan.model)
+        if below is not None and own is not None:
+            correction = apart(kind, case, below.values, own.values, quantity)
+            rows.append(({**case.numbers, "correction": correction}, left))
     return rows
 
 
@@ -193,52 +198,55 @@ def grid_rows(kind: Kind, model: str, found: Sequence[Case], quantity: str) -> R
     return rows
 
 
-def seen_rows(kind: Kind, plan: Plan, model: str, found: Sequence[Case], quantity: str) -> Rows:
-    """The scenes' numbers with the size of the step from the rung below, and the error that is left."""
-    rows: Rows = []
-    for (numbers, left), case in zip(
-        step_rows(kind, plan, model, found, quantity),
-        [c for c in found if step_rows(kind, plan, model, [c], quantity)],
-        strict=True,
-    ):
-        below, own = case.finest(plan.seen_from), case.finest(model)
-        if below is not None and own is not None:
-            correction = apart(kind, case, below.values, own.values, quantity)
-            rows.append(({**numbers, "correction": correction}, left))
-    return rows
-
-
-def fit(kind: Kind, found: Sequence[Case]) -> Iterator[Fitted]:
-    """Every rung of a kind with its laws by what they tell and quantity."""
-    for model, plan in PLANS[kind.name].items():
-        ways: dict[str, tuple[Callable[[str], Rows], Sequence[str]]] = {}
-        if plan.towards:
-            ways["left_out"] = partial(step_rows, kind, plan, model, found), plan.features
-        if plan.grid is not None:
-            ways["grid"] = partial(grid_rows, kind, model, found), ("resolution", *plan.grid)
+def fit_step(kind: Kind, plan: Plan, found: Sequence[Case]) -> Step:
+    """A step with its laws, by quantity."""
+    left_out: dict[str, Law] = {}
+    seen: dict[str, Law] = {}
+    for quantity in kind.compared:
+        rows = [(case.numbers, error) for case, error in step_rows(kind, plan, found, quantity)]
+        if (law := fitted(rows, plan.features)) is not None:
+            left_out[quantity] = law
         if plan.seen_from:
-            ways["seen"] = partial(seen_rows, kind, plan, model, found), ("correction", *plan.seen)
-        laws = {
-            name: {q: law for q in kind.compared if (law := fitted(rows(q), features)) is not None}
-            for name, (rows, features) in ways.items()
-        }
-        yield model, plan, laws
+            told = fitted(seen_rows(kind, plan, found, quantity), ("correction", *plan.seen))
+            seen |= {} if told is None else {quantity: told}
+    return Step(
+        kind=kind.name,
+        model=plan.model,
+        towards=plan.towards,
+        adds=plan.adds,
+        tells=plan.tells,
+        left_out=left_out,
+        seen_from=plan.seen_from,
+        seen=seen,
+    )
 
 
-def written(found: Mapping[str, Sequence[Fitted]], origin: Mapping[str, Any]) -> str:
+def fit_grid(kind: Kind, model: str, found: Sequence[Case]) -> Grid:
+    """What a rung's resolution is worth, by quantity."""
+    features = ("resolution", *GRIDS_APART.get((kind.name, model), GRIDS[kind.name]))
+    laws = {q: law for q in kind.compared if (law := fitted(grid_rows(kind, model, found, q), features)) is not None}
+    return Grid(kind=kind.name, model=model, laws=laws)
+
+
+def fit(kind: Kind, found: Sequence[Case]) -> tuple[list[Step], list[Grid]]:
+    """All steps of a kind, and the grids of its rungs."""
+    rungs = [model.name for model in of_kind(models(), kind.name)]
+    grids = [fit_grid(kind, model, found) for model in rungs]
+    return [fit_step(kind, plan, found) for plan in STEPS[kind.name]], [grid for grid in grids if grid.laws]
+
+
+def written(steps: Sequence[Step], grids: Sequence[Grid], origin: Mapping[str, Any]) -> str:
     """The table as TOML."""
-    lines = [
-        "# Made by python -m scripts.advice_fit; errors that 95 of 100 random scenes did not exceed.",
-        "[provenance]",
-    ]
-    lines += [f"{key} = {_toml(value)}" for key, value in origin.items()]
-    for kind, rungs in found.items():
-        for model, plan, laws in rungs:
-            lines += ["", f"[{kind}.{model}]"]
-            told = {"towards": plan.towards, "adds": plan.adds, "tells": plan.tells, "seen_from": plan.seen_from}
-            lines += [f"{key} = {_toml(value)}" for key, value in told.items() if value]
-            for name, by_quantity in laws.items():
-                lines += [f"{name}.{quantity} = {_toml(vars(law))}" for quantity, law in by_quantity.items()]
+    lines = ["# Made by python -m scripts.advice_fit: errors that 95 of 100 random scenes did not exceed"]
+    lines += ["[provenance]", *(f"{key} = {_toml(value)}" for key, value in origin.items())]
+    for name, entries in (("step", steps), ("grid", grids)):
+        for entry in entries:
+            lines += ["", f"[[{name}]]"]
+            for key, value in vars(entry).items():
+                if isinstance(value, Mapping):
+                    lines += [f"{key}.{quantity} = {_toml(vars(law))}" for quantity, law in value.items()]
+                elif value:
+                    lines.append(f"{key} = {_toml(value)}")
     return "\n".join(lines) + "\n"
 
 
@@ -266,40 +274,44 @@ def command(
         raise InputError(f"--jobs: got {jobs}; it must be 1 or more")
     if not again:
         with alone(out) as scratch:
-            for kind in PLANS:
+            for kind in STEPS:
                 draw("fit", kind, out, jobs, scratch)
-    found: dict[str, list[Fitted]] = {}
+    steps: list[Step] = []
+    grids: list[Grid] = []
     counts: dict[str, int] = {}
     circumstances: Mapping[str, Any] = {}
-    for kind in PLANS:
-        drawn, circumstances = read("fit", kind, out)
-        solved = cases(kind, drawn)
-        found[kind], counts[kind] = list(fit(kinds()[kind], solved)), len(solved)
+    for name in STEPS:
+        drawn, circumstances = read("fit", name, out)
+        solved = cases(name, drawn)
+        counts[name] = len(solved)
+        own_steps, own_grids = fit(kinds()[name], solved)
+        steps += own_steps
+        grids += own_grids
+        output.print(told(name, own_steps, own_grids))
     origin = {
         "command": "python -m scripts.advice_fit --out OUT",
         "certainty": CERTAINTY,
         "scenes": counts,
-        "seeds": {kind: [seeds.start, seeds.stop - 1] for kind, seeds in PARTS["fit"].items()},
+        "seeds": {name: [seeds.start, seeds.stop - 1] for name, seeds in PARTS["fit"].items()},
         "commit": circumstances["commit"],
         "code": circumstances["code"],
         "processor": circumstances["machine"]["processor"],
     }
     with replacing(table) as scratch_file:
-        scratch_file.write_text(written(found, origin), encoding="utf-8")
-    for kind, rungs in found.items():
-        output.print(_told(kind, rungs))
+        scratch_file.write_text(written(steps, grids, origin), encoding="utf-8")
 
 
-def _told(kind: str, rungs: Sequence[Fitted]) -> Table:
-    table = Table("rung", "law", "quantity", "bound", "scenes", "bound over middle", title=kind)
-    for model, _, laws in rungs:
-        for name, by_quantity in laws.items():
-            for quantity, law in by_quantity.items():
-                product = " · ".join(f"{name}^{power:g}" for name, power in law.powers.items())
-                table.add_row(
-                    model, name, quantity, f"{law.coefficient:g} {product}", str(law.scenes), f"{law.spread:g}"
-                )
-    return table
+def told(kind: str, steps: Sequence[Step], grids: Sequence[Grid]) -> Table:
+    """The laws of a kind, for people."""
+    shown = Table("rung", "law", "quantity", "bound", "scenes", "bound over middle", title=kind)
+    laws = [(step.model, f"to {step.towards}", step.left_out) for step in steps]
+    laws += [(step.model, f"seen from {step.seen_from}", step.seen) for step in steps if step.seen]
+    laws += [(grid.model, "grid", grid.laws) for grid in grids]
+    for model, name, by_quantity in laws:
+        for quantity, law in by_quantity.items():
+            product = " · ".join(f"{number}^{power:g}" for number, power in law.powers.items())
+            shown.add_row(model, name, quantity, f"{law.coefficient:g} {product}", str(law.scenes), f"{law.spread:g}")
+    return shown
 
 
 if __name__ == "__main__":

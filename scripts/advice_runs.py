@@ -21,14 +21,14 @@ from scripts.stability_runs import answers_to
 PARTS: Mapping[str, Mapping[str, range]] = {
     "fit": {
         "pocket": range(3000, 3080),
-        "rough_gap": range(3000, 3048),
+        "rough_gap": range(3000, 3036),
         "bearing": range(3000, 3120),
         "dry_contact": range(3000, 3070),
         "seal": range(3000, 3070),
     },
     "check": {
         "pocket": range(7000, 7070),
-        "rough_gap": range(7000, 7048),
+        "rough_gap": range(7000, 7040),
         "bearing": range(7000, 7080),
         "dry_contact": range(7000, 7050),
         "seal": range(7000, 7050),

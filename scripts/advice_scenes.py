@@ -13,6 +13,10 @@ from rom.scene import read_scene
 
 Entries = dict[str, Any]
 
+SHAPES = ("linear", "parabolic", "step", "journal", "squared_cosine_inlet", "sector", "washer")
+CHANCES = (0.2, 0.2, 0.15, 0.2, 0.1, 0.05, 0.1)
+"""Of bearings."""
+
 SIDE = 1e-3
 """Of surfaces that are pressed, m."""
 
@@ -90,20 +94,11 @@ def random_surface(rng: Generator, side: float, points: int, rms_height: float, 
 
 
 def bearing(rng: Generator) -> Entries:
-    """Pads and journals, wide and narrow, full and starved, smooth, ridged and rough, over oils of every law."""
+    """Pads, journals, sectors and washers; wide, narrow, starved, textured; smooth, ridged, rough; many oils."""
     film, side = between(rng, 3e-6, 50e-6), 20e-3
-    rise = film * between(rng, 0.2, 4.0)
-    shape = str(rng.choice(["linear", "parabolic", "step", "journal"]))
-    narrow = chance(rng, 0.6)
-    geometry: Entries = {"shape": shape, "length": length(side), "film": length(film), "rise": length(rise)}
-    if shape == "step":
-        geometry["step"] = length(side * rng.uniform(0.3, 0.8))
-    if shape == "journal":
-        radius, ratio = side / (2 * np.pi), rng.uniform(0.2, 0.85)
-        geometry = {"shape": shape, "radius": length(radius), "clearance": length(film / (1 - ratio))}
-        geometry["eccentricity"] = float(ratio)
-    if narrow:
-        geometry["width"] = length(side * between(rng, 0.3, 4.0))
+    geometry = shaped(rng, film, side)
+    narrow = "width" in geometry or "inner_radius" in geometry
+    turns = "inner_radius" in geometry
     lubricant: Entries = {"viscosity": with_unit(between(rng, 0.005, 0.2), "Pa*s")}
     lubricant["cavitation_pressure"] = with_unit(-between(rng, 1e3, 1e6), "Pa")
     if chance(rng, 0.6):
@@ -116,10 +111,10 @@ def bearing(rng: Generator) -> Entries:
         "lubricant": lubricant,
         "motion": {"speed": with_unit(between(rng, 0.1, 10), "m/s")},
     }
-    if chance(rng, 0.2):
+    if chance(rng, 0.2) and geometry["shape"] != "washer":
         entries["boundary"] = {"inlet": {"theta": float(rng.uniform(0.5, 1.0))}}
     kind = rng.choice(["smooth", "ridges", "asperities"], p=[0.35, 0.4, 0.25])
-    if kind == "ridges":
+    if kind == "ridges" and not turns:
         entries["roughness"] = {
             "kind": "sinusoid",
             "amplitude": length(film * between(rng, 0.02, 0.8)),
@@ -128,11 +123,64 @@ def bearing(rng: Generator) -> Entries:
         }
     if kind == "asperities":
         rms_height = film / between(rng, 1.2, 12)
-        surface = random_surface(rng, side / 50, 64, rms_height, 8)
+        surface = random_surface(rng, rms_height * between(rng, 100, 1000), 64, rms_height, 8)
         entries["roughness"] = {"kind": "surface", "surface": surface}
         solid = {"modulus": "210 GPa", "poisson": 0.3, "hardness": with_unit(between(rng, 1e9, 8e9), "Pa")}
         entries["asperities"] = {"friction": float(rng.uniform(0.05, 0.15)), "solid": solid}
     return entries
+
+
+def shaped(rng: Generator, film: float, side: float) -> Entries:
+    """The shape of a bearing, in three of ten with pockets or waves."""
+    rise = length(film * between(rng, 0.2, 4.0))
+    shape = str(rng.choice(SHAPES, p=CHANCES))
+    if shape in ("sector", "washer"):
+        inner = side * between(rng, 1.0, 4.0)
+        ring = {"inner_radius": length(inner), "outer_radius": length(inner + side * between(rng, 0.5, 1.5))}
+        if shape == "sector":
+            return {
+                "shape": shape,
+                "film": length(film),
+                "rise": rise,
+                "angle": f"{rng.uniform(15, 60):.4g} deg",
+                **ring,
+            }
+        pocket = {"depth": length(film * between(rng, 1.0, 30)), "share": float(rng.uniform(0.2, 0.7))}
+        pocket["extent"] = length(side * rng.uniform(0.2, 0.5))
+        return {"shape": shape, "film": length(film), "pockets": int(rng.integers(4, 20)), "pocket": pocket, **ring}
+    width = {"width": length(side * between(rng, 0.3, 4.0))} if chance(rng, 0.6) else {}
+    if shape == "journal":
+        ratio = float(rng.uniform(0.2, 0.85))
+        radius, clearance = length(side / (2 * np.pi)), length(film / (1 - ratio))
+        return {"shape": shape, "radius": radius, "clearance": clearance, "eccentricity": ratio, **width}
+    pad: Entries = {"shape": shape, "length": length(side), "film": length(film), **width}
+    if shape == "squared_cosine_inlet":
+        waves = {"amplitude": rise, "wavelength": length(side / int(rng.integers(2, 12)))}
+        return {**pad, **waves, "extent": length(side * rng.uniform(0.5, 1.0))}
+    pad["rise"] = rise
+    if shape == "step":
+        pad["step"] = length(side * rng.uniform(0.3, 0.8))
+    if chance(rng, 0.25):
+        pad["texture"] = textured(rng, film, side, pad)
+    return pad
+
+
+def textured(rng: Generator, film: float, side: float, pad: Entries) -> Entries:
+    """Pockets from side to side, or in rows."""
+    columns = int(rng.integers(1, 6))
+    pitch = side * rng.uniform(0.5, 1.0) / columns
+    pockets: Entries = {
+        "profile": str(rng.choice(["box", "cylindrical"])),
+        "length": length(pitch * rng.uniform(0.3, 0.9)),
+        "depth": length(film * between(rng, 0.2, 3.0)),
+        "pitch": length(pitch),
+        "columns": columns,
+    }
+    if "width" in pad and chance(rng, 0.5):
+        rows = int(rng.integers(1, 5))
+        across = float(pad["width"].split()[0]) / rows
+        pockets |= {"width": length(across * rng.uniform(0.3, 0.9)), "rows": rows, "pitch_across": length(across)}
+    return pockets
 
 
 def sloping_surface(rng: Generator, side: float, points: int, slope: float, finest: int) -> Entries:

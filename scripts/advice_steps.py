@@ -1,171 +1,184 @@
 """The steps between rungs whose laws are fitted: what each adds, and by which numbers of a scene it may be told."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True, kw_only=True)
 class Plan:
-    """One rung's step; names as in :class:`rom.advice.laws.Step`, and the features of each law.
+    """A step; names as in :class:`rom.advice.laws.Step`.
 
-    ``features`` order what the rung leaves out, ``grid`` the error of its resolution beside that itself, ``seen`` what
-    is left beside the size of the step before.
+    ``features`` order what the rung leaves out, ``seen`` what is left beside the size of the step before.
     """
 
-    towards: tuple[str, ...] = ()
-    adds: str = ""
-    tells: str = ""
-    features: tuple[str, ...] = ()
-    grid: tuple[str, ...] | None = None
+    model: str
+    towards: str
+    adds: str
+    tells: str
+    features: tuple[str, ...]
     seen_from: str = ""
     seen: tuple[str, ...] = ()
 
 
-GROOVE = ("reynolds_number", "depth", "aspect", "slope", "loaded")
-COLUMNS = ("reynolds_number", "film", "aspect", "slope", "loaded")
+GROOVE = ("reynolds_number", "depth", "aspect", "slope", "asymmetry", "loaded")
+INERTIAL = ("reynolds_number", "asymmetry", "loaded")
 GAP = ("slope", "height", "shortness")
 PRESSED = ("pressure", "hardness", "breadth")
-WAVES = ("waves",)
 
-PLANS: Mapping[str, Mapping[str, Plan]] = {
-    "pocket": {
-        "reynolds": Plan(
-            towards=("inertial_reynolds",),
+STEPS: Mapping[str, Sequence[Plan]] = {
+    "pocket": (
+        Plan(
+            model="reynolds",
+            towards="inertial_reynolds",
             adds="inertia",
             tells="reduced_reynolds_number",
-            features=("reynolds_number", "asymmetry", "loaded"),
+            features=INERTIAL,
         ),
-        "inertial_reynolds": Plan(
-            towards=("film",),
+        Plan(
+            model="inertial_reynolds",
+            towards="film",
             adds="inertia beyond first order",
             tells="reduced_reynolds_number",
-            features=(*GROOVE, "film", "asymmetry"),
+            features=(*GROOVE, "film"),
         ),
-        "film": Plan(
-            towards=("film_slope",), adds="slope", tells="slope", features=(*GROOVE, "asymmetry"), grid=COLUMNS
-        ),
-        "film_slope": Plan(
-            towards=("navier_stokes",),
+        Plan(model="film", towards="film_slope", adds="slope", tells="slope", features=GROOVE),
+        Plan(
+            model="film_slope",
+            towards="navier_stokes",
             adds="slope beyond second order",
             tells="slope",
-            features=(*GROOVE, "asymmetry"),
-            grid=COLUMNS,
+            features=GROOVE,
             seen_from="film",
             seen=("slope", "loaded"),
         ),
-        "stokes": Plan(
-            towards=("navier_stokes",),
+        Plan(
+            model="stokes",
+            towards="navier_stokes",
             adds="inertia",
             tells="reduced_reynolds_number",
-            features=("reynolds_number", "asymmetry", "loaded"),
-            grid=COLUMNS,
+            features=INERTIAL,
         ),
-        "navier_stokes": Plan(grid=COLUMNS),
-    },
-    "rough_gap": {
-        "smooth_gap": Plan(towards=("homogenized",), adds="roughness", tells="height", features=("height",)),
-        "homogenized": Plan(
-            towards=("slope_corrected",), adds="slope", tells="slope", features=GAP, grid=(*WAVES, "height")
-        ),
-        "slope_corrected": Plan(
-            towards=("stokes",),
+    ),
+    "rough_gap": (
+        Plan(model="smooth_gap", towards="homogenized", adds="roughness", tells="height", features=("height",)),
+        Plan(model="homogenized", towards="slope_corrected", adds="slope", tells="slope", features=GAP),
+        Plan(
+            model="slope_corrected",
+            towards="stokes",
             adds="slope beyond second order",
             tells="slope",
             features=GAP,
-            grid=(*WAVES, "height"),
             seen_from="homogenized",
             seen=("shortness",),
         ),
-        "stokes": Plan(
-            towards=("navier_stokes",),
+        Plan(
+            model="stokes",
+            towards="navier_stokes",
             adds="inertia",
             tells="roughness_reynolds_number",
             features=("reynolds_number", *GAP),
-            grid=(*WAVES, "height"),
         ),
-        "navier_stokes": Plan(grid=(*WAVES, "height")),
-    },
-    "bearing": {
-        "infinitely_wide": Plan(
-            towards=("reynolds_cavitating",),
+    ),
+    "bearing": (
+        Plan(
+            model="infinitely_wide",
+            towards="reynolds_cavitating",
             adds="flow through the sides",
             tells="slenderness",
-            features=("slenderness", "convergence"),
-            grid=("convergence",),
+            features=("slenderness", "thickness_ratio"),
         ),
-        "reynolds": Plan(
-            towards=("reynolds_incompressible",),
+        Plan(
+            model="reynolds",
+            towards="reynolds_incompressible",
             adds="cavitation",
             tells="cavitation_number",
             features=("cavitation_number", "divergence"),
-            grid=("convergence",),
         ),
-        "reynolds_incompressible": Plan(
-            towards=("reynolds_cavitating",),
+        Plan(
+            model="reynolds_incompressible",
+            towards="reynolds_cavitating",
             adds="what pressure does to the lubricant",
             tells="pressure_dependence",
-            features=("pressure_dependence", "convergence"),
-            grid=("convergence",),
+            features=("pressure_dependence", "thickness_ratio"),
         ),
-        "reynolds_cavitating": Plan(
-            towards=("homogenized",),
+        Plan(
+            model="reynolds_cavitating",
+            towards="homogenized",
             adds="roughness",
             tells="roughness_ratio",
             features=("roughness_ratio",),
-            grid=("convergence",),
         ),
-        "homogenized": Plan(
-            towards=("mixed", "direct"),
-            adds="asperities that touch, or the length of the waves,",
-            tells="roughness_ratio",
-            features=("roughness_ratio",),
-            grid=("convergence",),
+        Plan(
+            model="homogenized",
+            towards="mixed",
+            adds="contact of asperities",
+            tells="peak_ratio",
+            features=("roughness_ratio", "peak_ratio"),
         ),
-        "mixed": Plan(grid=("convergence",)),
-        "direct": Plan(grid=("roughness_period",)),
-    },
-    "dry_contact": {
-        "bearing_area": Plan(
-            towards=("elastic_plastic",), adds="elastic deformation", tells="hardness", features=PRESSED, grid=WAVES
+        Plan(
+            model="homogenized",
+            towards="direct",
+            adds="the length of the waves",
+            tells="roughness_period",
+            features=("roughness_period", "roughness_ratio"),
         ),
-        "greenwood_williamson": Plan(
-            towards=("elastic_plastic",),
+    ),
+    "dry_contact": (
+        Plan(
+            model="bearing_area",
+            towards="elastic_plastic",
+            adds="elastic deformation",
+            tells="hardness",
+            features=PRESSED,
+        ),
+        Plan(
+            model="greenwood_williamson",
+            towards="elastic_plastic",
             adds="what asperities do to each other",
             tells="pressure",
             features=PRESSED,
-            grid=WAVES,
         ),
-        "persson": Plan(
-            towards=("elastic_plastic",),
+        Plan(
+            model="persson",
+            towards="elastic_plastic",
             adds="the surface that an average hides",
             tells="pressure",
             features=PRESSED,
-            grid=WAVES,
         ),
-        "elastic": Plan(
-            towards=("elastic_plastic",),
+        Plan(
+            model="elastic",
+            towards="elastic_plastic",
             adds="yielding",
             tells="hardness",
             features=("pressure", "hardness"),
-            grid=WAVES,
         ),
-        "elastic_plastic": Plan(grid=WAVES),
-    },
-    "seal": {
-        "effective_medium": Plan(
-            towards=("homogenized_leakage",),
-            adds="the surface's own channels",
+    ),
+    "seal": (
+        Plan(
+            model="effective_medium",
+            towards="homogenized_leakage",
+            adds="the channels of this very surface",
             tells="pressure",
             features=("pressure", "hardness", "waves"),
-            grid=WAVES,
         ),
-        "homogenized_leakage": Plan(
-            towards=("direct_leakage",),
-            adds="the ends of the seal",
+        Plan(
+            model="homogenized_leakage",
+            towards="direct_leakage",
+            adds="what happens at the ends of the seal",
             tells="length",
             features=("length", "waves", "pressure"),
-            grid=WAVES,
         ),
-        "direct_leakage": Plan(grid=WAVES),
-    },
+    ),
 }
+
+GRIDS: Mapping[str, tuple[str, ...]] = {
+    "pocket": ("reynolds_number", "film", "aspect", "slope", "loaded"),
+    "rough_gap": ("waves", "height"),
+    "bearing": ("thickness_ratio", "finest"),
+    "dry_contact": ("waves",),
+    "seal": ("waves",),
+}
+"""What orders the error of a resolution, beside that itself: of every rung of a kind."""
+
+GRIDS_APART: Mapping[tuple[str, str], tuple[str, ...]] = {("bearing", "direct"): ("roughness_period",)}
+"""Of rungs whose grid has something else to follow."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from contact.errors import ConvergenceError, InputError, UnavailableError
 from rom.advice.laws import Law, Numbers, Step, Table
 from rom.kind import Kind, Scene
-from rom.ladder import Model
+from rom.ladder import Model, find
 from rom.result import Result
 
 GRID_SHARE = 1 / 3
@@ -43,14 +43,14 @@ class Question:
     numbers: Numbers
     run: Callable[[Model, int], Result]
 
-    def step(self, model: Model) -> Step:
-        """That of a rung of the scene."""
-        return self.table.step(self.kind.name, model.name)
+    def step(self, model: Model) -> Step | None:
+        """That of a rung, towards one that applies; None at the top."""
+        return self.table.step(self.kind.name, model.name, {other.name for other in self.models})
 
     def next(self, model: Model) -> Model | None:
-        """The next rung up that applies; None at the top."""
-        found = {other.name: other for other in self.models}
-        return next((found[name] for name in self.step(model).towards if name in found), None)
+        """The next rung up; None at the top."""
+        step = self.step(model)
+        return None if step is None else find(self.models, step.towards)
 
     def chain(self, model: Model) -> list[Model]:
         """From a rung up to the top."""
@@ -70,13 +70,13 @@ class Question:
         """
         if model.order is None and resolution >= max(model.resolutions_of(self.scene)):
             return 0.0
-        law = self.step(model).grid.get(self.quantity)
+        law = self.table.grid(self.kind.name, model.name, self.quantity)
         return None if law is None else law.error({**self.numbers, "resolution": float(resolution)})
 
     def resolution(self, model: Model) -> int:
         """The coarsest that uses up no more than its share of the tolerance, or the finest; else the default."""
         offered = model.resolutions_of(self.scene)
-        if self.step(model).grid.get(self.quantity) is None:
+        if self.table.grid(self.kind.name, model.name, self.quantity) is None:
             return model.resolution_of(self.scene)
         fine = [one for one in offered if (self.grid(model, one) or 0.0) <= GRID_SHARE * self.within]
         return min(fine, default=max(offered))
@@ -112,6 +112,7 @@ def a_priori(asked: Question, model: Model) -> Estimate | None:
     parts, reasons, sure = [], [], True
     for rung in asked.chain(model)[:-1]:
         step = asked.step(rung)
+        assert step is not None
         law = step.left_out.get(asked.quantity)
         if law is None or not law.powers.keys() <= asked.numbers.keys():
             return None
@@ -191,10 +192,12 @@ def _from_above(asked: Question, own: Result, other: Model) -> Estimate | None:
 
 def _from_below(asked: Question, model: Model, own: Result) -> Estimate | None:
     step = asked.step(model)
-    law = step.seen.get(asked.quantity)
-    below = next((other for other in asked.models if other.name == step.seen_from), None)
-    found = None if law is None or below is None else run(asked, below)
-    if law is None or below is None or found is None or asked.quantity not in found.quantities:
+    law = None if step is None else step.seen.get(asked.quantity)
+    if step is None or law is None:
+        return None
+    below = find(asked.models, step.seen_from)
+    found = run(asked, below)
+    if found is None or asked.quantity not in found.quantities:
         return None
     apart = asked.difference(found, own)
     numbers = {**asked.numbers, "correction": apart}

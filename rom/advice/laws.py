@@ -2,7 +2,7 @@
 
 import math
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from importlib.resources import files
@@ -59,66 +59,75 @@ FARTHER = 1.2
 
 @dataclass(frozen=True, kw_only=True)
 class Step:
-    """From a rung to the next cheap one that keeps more.
+    """From a rung to the next one that keeps more.
 
     Attributes
     ----------
-    towards : the rungs that are next, the first of them that applies to a scene.
-    adds : what they keep that this one leaves out, in words.
+    kind, model, towards : the kind of scene, the rung and the next one.
+    adds : what that keeps and this one leaves out, in words.
     tells : the number that an engineer would look at.
     left_out : by quantity, the difference to the next rung.
-    grid : by quantity, what the resolution is worth; a law of ``resolution`` too.
-    seen : by quantity, the error that is left where the step from the rung before, ``seen_from``, is ``correction``
-        large: for rungs whose next one is dear.
+    seen_from : the rung below, for rungs whose next one is dear.
+    seen : by quantity, the difference to the next rung where that to the rung below is ``correction`` large.
     """
 
-    towards: tuple[str, ...] = ()
-    adds: str = ""
-    tells: str = ""
-    left_out: Mapping[str, Law] = field(default_factory=dict)
-    grid: Mapping[str, Law] = field(default_factory=dict)
-    seen: Mapping[str, Law] = field(default_factory=dict)
+    kind: str
+    model: str
+    towards: str
+    adds: str
+    tells: str
+    left_out: Mapping[str, Law]
     seen_from: str = ""
+    seen: Mapping[str, Law] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Grid:
+    """What the ``resolution`` of a rung is worth, by quantity."""
+
+    kind: str
+    model: str
+    laws: Mapping[str, Law]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Table:
-    """The steps of every kind of scene, by rung, and where their laws come from."""
+    """The steps between rungs, the first of those from a rung whose next one applies being its own, and their grids."""
 
-    steps: Mapping[str, Mapping[str, Step]]
+    steps: Sequence[Step]
+    grids: Sequence[Grid]
     provenance: Mapping[str, Any]
 
-    def step(self, kind: str, model: str) -> Step:
-        """That of a rung; an empty one for a rung that the table does not know."""
-        return self.steps.get(kind, {}).get(model, Step())
+    def step(self, kind: str, model: str, applying: Container[str]) -> Step | None:
+        """That of a rung where these apply; None at the top, and for a rung that is not known."""
+        own = (step for step in self.steps if (step.kind, step.model) == (kind, model) and step.towards in applying)
+        return next(own, None)
+
+    def grid(self, kind: str, model: str, quantity: str) -> Law | None:
+        """What a rung's resolution is worth; None where it is not known."""
+        own = (grid.laws.get(quantity) for grid in self.grids if (grid.kind, grid.model) == (kind, model))
+        return next(own, None)
+
+
+def _law(entries: Mapping[str, Any]) -> Law:
+    return Law(**{**entries, "reach": {name: (least, most) for name, (least, most) in entries["reach"].items()}})
 
 
 def _laws(entries: Mapping[str, Any]) -> dict[str, Law]:
-    return {
-        quantity: Law(**{**law, "reach": {name: (least, most) for name, (least, most) in law["reach"].items()}})
-        for quantity, law in entries.items()
-    }
-
-
-def _step(entries: Mapping[str, Any]) -> Step:
-    laws = {name: _laws(entries.get(name, {})) for name in ("left_out", "grid", "seen")}
-    return Step(
-        towards=tuple(entries.get("towards", ())),
-        adds=entries.get("adds", ""),
-        tells=entries.get("tells", ""),
-        seen_from=entries.get("seen_from", ""),
-        left_out=laws["left_out"],
-        grid=laws["grid"],
-        seen=laws["seen"],
-    )
+    return {quantity: _law(law) for quantity, law in entries.items()}
 
 
 def read_table(text: str) -> Table:
     """A table from its text."""
     entries = tomllib.loads(text)
-    provenance = entries.pop("provenance")
-    steps = {kind: {model: _step(step) for model, step in rungs.items()} for kind, rungs in entries.items()}
-    return Table(steps=steps, provenance=provenance)
+    return Table(
+        steps=tuple(
+            Step(**{**step, "left_out": _laws(step.get("left_out", {})), "seen": _laws(step.get("seen", {}))})
+            for step in entries["step"]
+        ),
+        grids=tuple(Grid(**{**grid, "laws": _laws(grid["laws"])}) for grid in entries["grid"]),
+        provenance=entries["provenance"],
+    )
 
 
 @cache

@@ -110,6 +110,7 @@ def told(error: ValidationError, _entries: Mapping[str, Any]) -> str:
 NUMBERS = {
     "slenderness": "B/L",
     "convergence": "rise/h",
+    "thickness_ratio": "h_max/h",
     "divergence": "widening/h",
     "starvation": "θ",
     "cavitation_number": "(p_amb - p_cav) h²/(6ηuL)",

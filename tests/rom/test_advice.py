@@ -11,7 +11,7 @@ from contact.units import Quantity
 from rom.advice.advise import Verdict, advise, wanted
 from rom.advice.laws import Law, Step, Table, read_table, table
 from rom.kind import Omission, kinds
-from rom.ladder import Applicability, Availability, Effect, Model, ladder, of_kind
+from rom.ladder import Applicability, Availability, Effect, Model, best, ladder, of_kind
 from rom.result import Numerics, Result
 
 ALL = ladder(rom.models, foamcases.models)
@@ -32,16 +32,19 @@ class Fakes:
         self.ran = []
         keeps = {"reynolds": set(), "film": {Effect.INERTIA}, "navier_stokes": {Effect.INERTIA, Effect.SLOPE}}
         self.models = [self.model(name, frozenset(keeps[name]), available) for name in keeps]
-        towards = {"reynolds": ("film",), "film": ("navier_stokes",), "navier_stokes": ()}
-        steps = {
-            name: Step(
-                towards=towards[name],
+        towards = {"reynolds": "film", "film": "navier_stokes"}
+        steps = [
+            Step(
+                kind="pocket",
+                model=name,
+                towards=above,
                 adds="something",
+                tells="",
                 left_out={"load_plus": law(told[name])} if told.get(name) is not None else {},
             )
-            for name in keeps
-        }
-        self.table = Table(steps={"pocket": steps}, provenance={})
+            for name, above in towards.items()
+        ]
+        self.table = Table(steps=steps, grids=[], provenance={})
 
     def model(self, name, keeps, available):
         return Model(
@@ -184,9 +187,8 @@ def test_a_check_that_does_not_converge_decides_nothing(scene):
 def test_a_law_that_is_left_does_not_count_as_an_estimate(scene):
     fakes = Fakes({"reynolds": 0.5, "film": None})
     narrow = Law(coefficient=1e-9, powers={"reynolds_number": 1.0}, reach={"reynolds_number": (1e-3, 1e-2)})
-    steps = {**fakes.table.steps["pocket"]}
-    steps["film"] = replace(steps["film"], left_out={"load_plus": narrow})
-    fakes.table = Table(steps={"pocket": steps}, provenance={})
+    first, second = fakes.table.steps
+    fakes.table = replace(fakes.table, steps=[first, replace(second, left_out={"load_plus": narrow})])
     assert fakes.advise(scene, 0.05).chosen.model == "navier_stokes"
 
 
@@ -217,43 +219,52 @@ def test_a_quantity_is_known_by_its_name_and_its_title(scene):
 def test_the_table_names_rungs_quantities_and_numbers_that_exist():
     found = table()
     assert found.provenance["certainty"] == 0.95
-    assert set(found.steps) <= set(kinds())
-    for name, rungs in found.steps.items():
-        kind, models = kinds()[name], {model.name for model in of_kind(ALL, name)}
-        for model, step in rungs.items():
-            assert {model, *step.towards} <= models
-            assert not step.tells or step.tells in kind.symbols
-            for laws in (step.left_out, step.grid, step.seen):
-                assert set(laws) <= set(kind.compared)
-                for one in laws.values():
-                    assert set(one.powers) <= {*kind.symbols, "resolution", "correction"}
-                    assert one.coefficient > 0
+    for step in found.steps:
+        kind, models = kinds()[step.kind], {model.name for model in of_kind(ALL, step.kind)}
+        assert {step.model, step.towards, step.seen_from or step.model} <= models
+        assert step.tells in kind.symbols
+        assert set(step.left_out) == set(kind.compared)
+    for grid in found.grids:
+        assert grid.model in {model.name for model in of_kind(ALL, grid.kind)}
+    laws = [(one.kind, law) for one in found.steps for law in (*one.left_out.values(), *one.seen.values())]
+    laws += [(one.kind, law) for one in found.grids for law in one.laws.values()]
+    for kind, one in laws:
+        assert set(one.powers) <= {*kinds()[kind].symbols, "resolution", "correction"}
+        assert one.coefficient > 0
 
 
 def test_every_rung_has_a_way_to_the_best_one():
     for name in kinds():
         models = of_kind(ALL, name)
         for model in models:
-            seen = [model.name]
-            while towards := table().step(name, seen[-1]).towards:
-                assert len(seen) <= len(models), "in a circle"
-                seen.append(towards[0])
-            assert not table().step(name, seen[-1]).left_out
+            for applying in ([one.name for one in models], [one.name for one in models if one.name != "mixed"]):
+                seen = [model.name]
+                while step := table().step(name, seen[-1], applying):
+                    assert step.towards not in seen, "in a circle"
+                    seen.append(step.towards)
+                assert seen[-1] == best([one for one in models if one.name in applying or one is model]).name
 
 
 def test_a_table_is_read_from_its_text():
     text = """
-    [provenance]
-    certainty = 0.95
-    [pocket.film]
-    towards = ["navier_stokes"]
+    provenance = { certainty = 0.95 }
+    [[step]]
+    kind = "pocket"
+    model = "film"
+    towards = "navier_stokes"
     adds = "slope"
     tells = "slope"
-    left_out.load_plus = { coefficient = 0.1, powers = { slope = 1.5 }, reach = { slope = [0.1, 1.0] }, scenes = 20 }
+    left_out.load_plus = { coefficient = 0.1, powers = { slope = 1.5 }, reach = { slope = [0.1, 1.0] } }
+    [[grid]]
+    kind = "pocket"
+    model = "film"
+    laws.load_plus = { coefficient = 9.0, powers = { resolution = -2.0 }, reach = {} }
     """
-    step = read_table(text).step("pocket", "film")
-    assert step.left_out["load_plus"].error({"slope": 0.25}) == pytest.approx(0.1 * 0.125)
-    assert read_table(text).step("seal", "unknown") == Step()
+    found = read_table(text)
+    assert found.step("pocket", "film", ["navier_stokes"]).left_out["load_plus"].error({"slope": 0.25}) == 0.1 * 0.125
+    assert found.step("pocket", "film", ["film"]) is None
+    assert found.grid("pocket", "film", "load_plus").error({"resolution": 30.0}) == pytest.approx(0.01)
+    assert found.grid("pocket", "film", "friction_plus") is None
 
 
 def test_steep_fast_grooves_need_more_than_shallow_slow_ones(make_scene):
