@@ -1,0 +1,108 @@
+"""CPU time against error: a figure for a family, and one picture of them all."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from contact.files import replacing
+from rom.comparison import Point
+from scripts.charts_judged import Chart
+from scripts.figures import svg
+from scripts.view import Style
+
+LEAST = 1e-8
+"""The smallest error that is drawn, as a part."""
+
+PEERS = (
+    Style(colour="#d6604d", marker="*"),
+    Style(colour="#8c6bb1", marker="X"),
+    Style(colour="#1b7837", marker="P"),
+)
+"""How other people's solvers are drawn, in their order."""
+
+
+def chart_figure(chart: Chart) -> str:
+    """The figure of one family, with a legend beside it, as SVG text."""
+    figure = Figure(figsize=(10, 5), layout="constrained")
+    axes = figure.subplots()
+    _draw(axes, chart, size=7, numbers=True)
+    family = chart.family
+    axes.set_xlabel("CPU time, s")
+    axes.set_ylabel(f"error in {family.quantity}, %")
+    figure.legend(loc="outside right upper", fontsize=9, title=f"numbers: {_wrapped(family.resolution_meaning)}")
+    return svg(figure)
+
+
+def overview(charts: Sequence[Chart], path: Path) -> None:
+    """Small multiples of all families as a PNG file; InputError if it cannot be written."""
+    columns = min(len(charts), 3)
+    rows = -(-len(charts) // columns)
+    figure = Figure(figsize=(4.7 * columns, 3.9 * rows), layout="constrained")
+    panels = figure.subplots(rows, columns, squeeze=False).ravel()
+    for axes, chart in zip(panels, charts, strict=False):
+        _draw(axes, chart, size=5, numbers=False)
+        axes.set_title(f"{chart.family.name}: {chart.family.quantity}", fontsize=11)
+        axes.legend(fontsize=6.5, loc="best")
+        axes.tick_params(labelsize=8)
+    for axes in panels[len(charts) :]:
+        axes.set_axis_off()
+    figure.supxlabel("CPU time, s")
+    figure.supylabel("error, %")
+    with replacing(path) as scratch:
+        figure.savefig(scratch, format="png", dpi=130, metadata={"Software": None})
+
+
+def _draw(axes: Axes, chart: Chart, *, size: float, numbers: bool) -> None:
+    styles = _styles(chart)
+    for solver in chart.solvers:
+        own = [point for point in chart.points if point.model == solver]
+        style, peer = styles[solver], solver in chart.peers
+        times, errors = [point.cpu_s for point in own], [_drawn(chart, point) for point in own]
+        axes.plot(
+            times,
+            errors,
+            style.marker,
+            linestyle="--" if peer else "-",
+            linewidth=0.8,
+            color=style.colour,
+            markersize=size * (1.35 if peer else 1.0),
+            markerfacecolor="none" if peer else style.colour,
+            alpha=0.85,
+            label=f"{solver} (peer)" if peer else solver,
+        )
+        if numbers:
+            for point, time, error in zip(own, times, errors, strict=True):
+                axes.annotate(f"{point.resolution}", (time, error), (4, 4), textcoords="offset points", size=7)
+    axes.step(
+        [point.cpu_s for point in chart.front],
+        [100 * max(chart.counted(point), LEAST) for point in chart.front],
+        where="post",
+        color="black",
+        linewidth=1,
+        label="Pareto front",
+        zorder=0,
+    )
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    known = 100 * chart.truth.uncertainty
+    low, high = axes.get_ylim()
+    if known > low:
+        axes.axhspan(low, known, color="black", alpha=0.07, linewidth=0, label="below what is known of the truth")
+        axes.set_ylim(low, high)
+
+
+def _drawn(chart: Chart, point: Point) -> float:
+    return 100 * max(chart.error(point), LEAST)
+
+
+def _styles(chart: Chart) -> Mapping[str, Style]:
+    own = {name: chart.family.styles.get(name, Style()) for name in chart.solvers}
+    return own | dict(zip((peer.name for peer in chart.family.peers), PEERS, strict=False))
+
+
+def _wrapped(text: str, width: int = 30) -> str:
+    import textwrap
+
+    return "\n".join(textwrap.wrap(text, width))
