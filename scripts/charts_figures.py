@@ -1,5 +1,6 @@
 """CPU time against error: a figure for a family, and one picture of them all."""
 
+import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -11,6 +12,9 @@ from rom.comparison import Point
 from scripts.charts_judged import Chart
 from scripts.figures import svg
 from scripts.view import Style
+
+APART = 0.12
+"""Decades between two points whose resolutions are both written."""
 
 LEAST = 1e-8
 """The smallest error that is drawn, as a part."""
@@ -73,11 +77,10 @@ def _draw(axes: Axes, chart: Chart, *, size: float, numbers: bool) -> None:
             label=f"{solver} (peer)" if peer else solver,
         )
         if numbers:
-            for point, time, error in zip(own, times, errors, strict=True):
-                axes.annotate(f"{point.resolution}", (time, error), (4, 4), textcoords="offset points", size=7)
+            _number(axes, [(f"{p.resolution}", time, error) for p, time, error in zip(own, times, errors, strict=True)])
     axes.step(
         [point.cpu_s for point in chart.front],
-        [100 * max(chart.counted(point), LEAST) for point in chart.front],
+        [_drawn(chart, point) for point in chart.front],
         where="post",
         color="black",
         linewidth=1,
@@ -91,6 +94,16 @@ def _draw(axes: Axes, chart: Chart, *, size: float, numbers: bool) -> None:
     if known > low:
         axes.axhspan(low, known, color="black", alpha=0.07, linewidth=0, label="below what is known of the truth")
         axes.set_ylim(low, high)
+
+
+def _number(axes: Axes, points: Sequence[tuple[str, float, float]]) -> None:
+    """The resolutions beside the points of one solver, but for those that would lie on each other."""
+    last = (0.0, 0.0)
+    for text, time, error in points:
+        place = (math.log10(time), math.log10(error))
+        if math.dist(place, last) > APART:
+            axes.annotate(text, (time, error), (4, 4), textcoords="offset points", size=7)
+            last = place
 
 
 def _drawn(chart: Chart, point: Point) -> float:

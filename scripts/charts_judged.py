@@ -9,7 +9,7 @@ from rom.table import Column
 from scripts.charts_family import Family, Truth
 from scripts.charts_kept import TRUTH, Answers
 
-UNITS = {"cpu_s": "s", "error": "1", "truth_uncertainty": "1"}
+UNITS = {"cpu_s": "s", "error": "1", "error_that_counts": "1", "truth_uncertainty": "1"}
 """Of the columns of numbers whose unit is not told by another column."""
 
 WITHIN = (0.1, 0.01, 0.001)
@@ -20,14 +20,15 @@ WITHIN = (0.1, 0.01, 0.001)
 class Chart:
     """One family with all its points.
 
-    ``points`` are sorted by solver as asked, then by resolution; ``front`` holds those that nothing beats in both CPU
-    time and error, errors below what is known of the truth counting as that; ``cheapest`` is by tolerance, None where
-    nothing is good enough.
+    ``points`` are in the order in which they were asked for, ``counted`` are the same as :func:`counting` has them;
+    of these ``front`` holds those that nothing beats in both CPU time and error, and ``cheapest`` is by tolerance, None
+    where nothing is good enough.
     """
 
     family: Family
     answers: Answers
     points: tuple[Point, ...]
+    counted: tuple[Point, ...]
     front: tuple[Point, ...]
     cheapest: Mapping[float, Point | None]
     absent: Mapping[str, str]
@@ -51,10 +52,6 @@ class Chart:
         """Of a point, over the truth."""
         return point.error[self.family.quantity]
 
-    def counted(self, point: Point) -> float:
-        """An error, or what is known of the truth where that is more."""
-        return max(self.error(point), self.truth.uncertainty)
-
 
 def judged(family: Family, found: Answers, absent: Mapping[str, str]) -> Chart:
     """Errors of all points against the truth, and what follows from them."""
@@ -68,31 +65,34 @@ def judged(family: Family, found: Answers, absent: Mapping[str, str]) -> Chart:
         for ask in family.asks()
         if ask.name in found.points
     }
-    known = [
-        replace(point, error={family.quantity: max(point.error[family.quantity], found.truth.uncertainty)})
-        for point in points.values()
-    ]
+    counted = counting(tuple(points.values()), family.quantity, found.truth.uncertainty)
     return Chart(
         family=family,
         answers=found,
         points=tuple(points.values()),
-        front=tuple(points[point.model, point.resolution] for point in pareto_front(known, family.quantity)),
-        cheapest={part: cheapest_within(known, family.quantity, part) for part in WITHIN},
+        counted=counted,
+        front=pareto_front(counted, family.quantity),
+        cheapest={part: _cheapest(counted, family.quantity, part) for part in WITHIN},
         absent=absent,
     )
 
 
-def cheapest_within(points: Sequence[Point], quantity: str, part: float) -> Point | None:
-    """The cheapest point that errs by no more than a part of the truth, as does the next finer one of its solver.
+def counting(points: Sequence[Point], quantity: str, known: float) -> tuple[Point, ...]:
+    """The points with the errors that count: the larger of a grid's own and that of its solver's next finer one.
 
-    The second condition keeps a coarse grid from being named whose errors happen to cancel.
+    So a coarse grid whose errors happen to cancel wins nothing. Below what is ``known`` of the truth none is better.
     """
-    good = []
-    for solver in dict.fromkeys(point.model for point in points):
-        own = sorted((point for point in points if point.model == solver), key=lambda point: point.resolution)
-        for point, finer in zip(own, [*own[1:], own[-1]], strict=True):
-            if max(point.error[quantity], finer.error[quantity]) <= part:
-                good.append(point)
+    counted = []
+    for point in points:
+        finer = [other for other in points if other.model == point.model and other.resolution > point.resolution]
+        next_one = min(finer, key=lambda other: other.resolution, default=point)
+        error = max(point.error[quantity], next_one.error[quantity], known)
+        counted.append(replace(point, error={quantity: error}))
+    return tuple(counted)
+
+
+def _cheapest(counted: Sequence[Point], quantity: str, part: float) -> Point | None:
+    good = [point for point in counted if point.error[quantity] <= part]
     return min(good, key=lambda point: point.cpu_s, default=None)
 
 
@@ -119,11 +119,12 @@ def entries_of(chart: Chart) -> dict[str, Any]:
                 "cpu_s": point.cpu_s,
                 "value": found.points[_name(point)].value,
                 "error": chart.error(point),
+                "error_that_counts": chart.error(counted),
                 "on_front": (point.model, point.resolution) in front,
                 "told": dict(found.points[_name(point)].told),
                 "taken": found.taken[_name(point)],
             }
-            for point in chart.points
+            for point, counted in zip(chart.points, chart.counted, strict=True)
         ],
         "cheapest": [{"within": part, "point": named(point)} for part, point in chart.cheapest.items()],
         "peers": {peer.name: peer.settings for peer in family.peers},
@@ -141,7 +142,7 @@ def columns_of(charts: Sequence[Chart]) -> dict[str, Column]:
         shared = {"family": told["name"], "quantity": told["quantity"], "unit": told["unit"]}
         truth = {"truth": told["truth"]["value"], "truth_uncertainty": told["truth"]["uncertainty"]}
         for point in told["points"]:
-            own = {key: point[key] for key in ("solver", "resolution", "cpu_s", "value", "error")}
+            own = {key: point[key] for key in ("solver", "resolution", "cpu_s", "value", "error", "error_that_counts")}
             flags = {key: float(point[key]) for key in ("peer", "on_front")}
             rows.append({**shared, **own, **flags, **truth, **point["taken"]})
     return {name: Column(values=[row[name] for row in rows], unit=UNITS.get(name, "")) for name in rows[0]}

@@ -18,7 +18,7 @@ from scripts import charts, charts_kept, charts_peers
 from scripts.charts_cells import rough_gap, truth
 from scripts.charts_families import FAMILIES
 from scripts.charts_family import Ask, Family, Measured, Peer, Truth, extrapolated, fastest, of_scene
-from scripts.charts_judged import entries_of, judged
+from scripts.charts_judged import counting, entries_of, judged
 from scripts.charts_kept import answers
 from scripts.charts_openfoam import pocket_load
 from scripts.cli import app
@@ -78,11 +78,17 @@ def chart(tmp_path):
 
 def test_errors_are_over_the_truth_and_the_front_is_what_nothing_beats(chart):
     assert [chart.error(point) for point in chart.points] == pytest.approx([0.2, 0.2, 0.0005, 0.02, 0.004, 2e-6, 1e-6])
-    assert [(point.model, point.resolution) for point in chart.front] == [("plain", 4), ("fine", 4), ("fine", 32)]
+    assert [(point.model, point.resolution) for point in chart.front] == [
+        ("plain", 4),
+        ("fine", 4),
+        ("fine", 16),
+        ("fine", 32),
+    ]
 
 
-def test_below_what_is_known_of_the_truth_the_cheaper_one_is_as_good(chart):
-    assert chart.counted(chart.points[-1]) == chart.counted(chart.points[-2]) == 1e-5
+def test_what_counts_is_no_better_than_the_next_finer_grid_nor_than_the_truth(chart):
+    counted = counting(chart.points, "load", 1e-5)
+    assert [point.error["load"] for point in counted] == pytest.approx([0.2, 0.2, 0.02, 0.02, 0.004, 1e-5, 1e-5])
 
 
 def test_a_grid_whose_errors_cancel_is_not_named_the_cheapest(chart):
