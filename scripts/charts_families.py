@@ -200,8 +200,9 @@ def mixed_bearing(models: Sequence[Model]) -> Family:
         models,
         scene,
         name="mixed bearing",
-        work="Load per width of a parabolic pad, 20 mm × 20 mm, whose mean planes (rms height 0.5 µm) are 0.8 µm apart where "
-        "they are nearest; asperities carry a sixth of it. Tables of flow factors and of contact are made once, before the clock starts.",
+        work="Load per width of a parabolic pad, 20 mm × 20 mm, whose mean planes (rms height 0.5 µm) are 0.8 µm apart "
+        "where they are nearest; asperities carry a sixth of it. Tables of flow factors and of contact are made once, "
+        "before the clock starts.",
         quantity="load per width",
         unit="N/m",
         key="load_per_width",
@@ -234,8 +235,8 @@ def seal(models: Sequence[Model]) -> Family:
         models,
         scene(256),
         name="seal",
-        work="Leakage of water past an elastomer (rms height 0.125 µm) that 0.1 MPa press on steel, through 12 periods of "
-        "its surface.",
+        work="Leakage of water past an elastomer (rms height 0.125 µm) that 0.1 MPa press on steel, through 12 periods "
+        "of its surface.",
         quantity="leakage per width",
         unit="kg/(m*s)",
         key="leakage_per_width",

@@ -1,6 +1,7 @@
 """CPU time against error: a figure for a family, and one picture of them all."""
 
 import math
+import textwrap
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -15,6 +16,9 @@ from scripts.view import Style
 
 APART = 0.12
 """Decades between two points whose resolutions are both written."""
+
+PLACES = ((5, 4), (5, -10), (-14, 4), (-14, -10))
+"""Of these resolutions beside their points, for one solver after another, in points of print."""
 
 LEAST = 1e-8
 """The smallest error that is drawn, as a part."""
@@ -35,7 +39,8 @@ def chart_figure(chart: Chart) -> str:
     family = chart.family
     axes.set_xlabel("CPU time, s")
     axes.set_ylabel(f"error in {family.quantity}, %")
-    figure.legend(loc="outside right upper", fontsize=9, title=f"numbers: {_wrapped(family.resolution_meaning)}")
+    title = f"numbers: {family.resolution_meaning}"
+    figure.legend(loc="outside right upper", fontsize=9, title="\n".join(textwrap.wrap(title, 30)), alignment="left")
     return svg(figure)
 
 
@@ -48,7 +53,7 @@ def overview(charts: Sequence[Chart], path: Path) -> None:
     for axes, chart in zip(panels, charts, strict=False):
         _draw(axes, chart, size=5, numbers=False)
         axes.set_title(f"{chart.family.name}: {chart.family.quantity}", fontsize=11)
-        axes.legend(fontsize=6.5, loc="best")
+        axes.legend(fontsize=6.5, loc="best", frameon=True, framealpha=0.75, edgecolor="none")
         axes.tick_params(labelsize=8)
     for axes in panels[len(charts) :]:
         axes.set_axis_off()
@@ -60,7 +65,7 @@ def overview(charts: Sequence[Chart], path: Path) -> None:
 
 def _draw(axes: Axes, chart: Chart, *, size: float, numbers: bool) -> None:
     styles = _styles(chart)
-    for solver in chart.solvers:
+    for number, solver in enumerate(chart.solvers):
         own = [point for point in chart.points if point.model == solver]
         style, peer = styles[solver], solver in chart.peers
         times, errors = [point.cpu_s for point in own], [_drawn(chart, point) for point in own]
@@ -77,7 +82,8 @@ def _draw(axes: Axes, chart: Chart, *, size: float, numbers: bool) -> None:
             label=f"{solver} (peer)" if peer else solver,
         )
         if numbers:
-            _number(axes, [(f"{p.resolution}", time, error) for p, time, error in zip(own, times, errors, strict=True)])
+            texts = [f"{point.resolution}" for point in own]
+            _number(axes, list(zip(texts, times, errors, strict=True)), PLACES[number % len(PLACES)], style.colour)
     axes.step(
         [point.cpu_s for point in chart.front],
         [_drawn(chart, point) for point in chart.front],
@@ -96,13 +102,15 @@ def _draw(axes: Axes, chart: Chart, *, size: float, numbers: bool) -> None:
         axes.set_ylim(low, high)
 
 
-def _number(axes: Axes, points: Sequence[tuple[str, float, float]]) -> None:
+def _number(
+    axes: Axes, points: Sequence[tuple[str, float, float]], beside: tuple[int, int], colour: str | None
+) -> None:
     """The resolutions beside the points of one solver, but for those that would lie on each other."""
     last = (0.0, 0.0)
     for text, time, error in points:
         place = (math.log10(time), math.log10(error))
         if math.dist(place, last) > APART:
-            axes.annotate(text, (time, error), (4, 4), textcoords="offset points", size=7)
+            axes.annotate(text, (time, error), beside, textcoords="offset points", size=7, color=colour)
             last = place
 
 
@@ -113,9 +121,3 @@ def _drawn(chart: Chart, point: Point) -> float:
 def _styles(chart: Chart) -> Mapping[str, Style]:
     own = {name: chart.family.styles.get(name, Style()) for name in chart.solvers}
     return own | dict(zip((peer.name for peer in chart.family.peers), PEERS, strict=False))
-
-
-def _wrapped(text: str, width: int = 30) -> str:
-    import textwrap
-
-    return "\n".join(textwrap.wrap(text, width))

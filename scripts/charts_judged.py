@@ -12,6 +12,9 @@ from scripts.charts_kept import TRUTH, Answers
 UNITS = {"cpu_s": "s", "error": "1", "error_that_counts": "1", "truth_uncertainty": "1"}
 """Of the columns of numbers whose unit is not told by another column."""
 
+WORTH = 0.95
+"""A point on the front errs by no more than this part of what the cheaper one before it does."""
+
 WITHIN = (0.1, 0.01, 0.001)
 """Parts of the truth within which the cheapest point is named."""
 
@@ -71,7 +74,7 @@ def judged(family: Family, found: Answers, absent: Mapping[str, str]) -> Chart:
         answers=found,
         points=tuple(points.values()),
         counted=counted,
-        front=pareto_front(counted, family.quantity),
+        front=_worth_it(pareto_front(counted, family.quantity), family.quantity),
         cheapest={part: _cheapest(counted, family.quantity, part) for part in WITHIN},
         absent=absent,
     )
@@ -89,6 +92,15 @@ def counting(points: Sequence[Point], quantity: str, known: float) -> tuple[Poin
         error = max(point.error[quantity], next_one.error[quantity], known)
         counted.append(replace(point, error={quantity: error}))
     return tuple(counted)
+
+
+def _worth_it(front: Sequence[Point], quantity: str) -> tuple[Point, ...]:
+    """The front without points that err hardly less than the cheaper one before them."""
+    kept: list[Point] = []
+    for point in front:
+        if not kept or point.error[quantity] <= WORTH * kept[-1].error[quantity]:
+            kept.append(point)
+    return tuple(kept)
 
 
 def _cheapest(counted: Sequence[Point], quantity: str, part: float) -> Point | None:

@@ -66,7 +66,7 @@ class Solvers:
         return found
 
 
-KNOWN = (("plain", 4, 0.1, 0.2), ("plain", 8, 0.2, 0.2), ("fine", 4, 0.3, 0.0005), ("fine", 8, 1.0, 0.02))
+KNOWN = (("plain", 4, 0.1, 0.2), ("plain", 8, 0.2, 0.199), ("fine", 4, 0.3, 0.0005), ("fine", 8, 1.0, 0.02))
 FINER = (("fine", 16, 4.0, 0.004), ("fine", 32, 16.0, 2e-6), ("fine", 64, 64.0, 1e-6))
 
 
@@ -77,7 +77,9 @@ def chart(tmp_path):
 
 
 def test_errors_are_over_the_truth_and_the_front_is_what_nothing_beats(chart):
-    assert [chart.error(point) for point in chart.points] == pytest.approx([0.2, 0.2, 0.0005, 0.02, 0.004, 2e-6, 1e-6])
+    assert [chart.error(point) for point in chart.points] == pytest.approx(
+        [0.2, 0.199, 0.0005, 0.02, 0.004, 2e-6, 1e-6]
+    )
     assert [(point.model, point.resolution) for point in chart.front] == [
         ("plain", 4),
         ("fine", 4),
@@ -88,7 +90,7 @@ def test_errors_are_over_the_truth_and_the_front_is_what_nothing_beats(chart):
 
 def test_what_counts_is_no_better_than_the_next_finer_grid_nor_than_the_truth(chart):
     counted = counting(chart.points, "load", 1e-5)
-    assert [point.error["load"] for point in counted] == pytest.approx([0.2, 0.2, 0.02, 0.02, 0.004, 1e-5, 1e-5])
+    assert [point.error["load"] for point in counted] == pytest.approx([0.2, 0.199, 0.02, 0.02, 0.004, 1e-5, 1e-5])
 
 
 def test_a_grid_whose_errors_cancel_is_not_named_the_cheapest(chart):
