@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 from rom.convergence import converge
@@ -71,7 +72,7 @@ class Peer:
     def asks(self) -> list[Ask]:
         """Its points."""
         return [
-            Ask(solver=self.name, resolution=n, cost=cost, measure=lambda n=n: self.measure(n))  # type: ignore[misc]
+            Ask(solver=self.name, resolution=n, cost=cost, measure=partial(self.measure, n))
             for n, cost in self.costs.items()
         ]
 
@@ -188,10 +189,7 @@ def of_scene(
             continue
         outside = model.write is not None
         for resolution in model.resolutions_of(scene):
-
-            def measure(model: Model = model, resolution: int = resolution, compiles: bool = not outside) -> Measured:
-                return fastest(lambda: solved(model, scene, resolution, key), compiles=compiles)
-
+            measure = partial(fastest, partial(solved, model, scene, resolution, key), compiles=not outside)
             cost = model.cost(scene, resolution)
             runs = min(REPEATS, max(1 if outside else 2, ENOUGH_S / cost))
             asks.append(Ask(solver=model.name, resolution=resolution, cost=runs * cost, measure=measure))
