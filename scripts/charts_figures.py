@@ -48,17 +48,15 @@ def overview(charts: Sequence[Chart], path: Path) -> None:
     """Small multiples of all families as a PNG file; InputError if it cannot be written."""
     columns = min(len(charts), 3)
     rows = -(-len(charts) // columns)
-    figure = Figure(figsize=(4.7 * columns, 3.9 * rows), layout="constrained")
-    panels = figure.subplots(rows, columns, squeeze=False).ravel()
-    for axes, chart in zip(panels, charts, strict=False):
+    figure = Figure(figsize=(4.6 * columns, 4.4 * rows), layout="constrained")
+    for part, chart in zip(figure.subfigures(rows, columns, squeeze=False).ravel(), charts, strict=False):
+        axes = part.subplots()
         _draw(axes, chart, size=5, numbers=False)
-        axes.set_title(f"{chart.family.name}: {chart.family.quantity}", fontsize=11)
-        axes.legend(fontsize=6.5, loc="best", frameon=True, framealpha=0.75, edgecolor="none")
+        axes.set_title(chart.family.name, fontsize=12)
+        axes.set_xlabel("CPU time, s", fontsize=9)
+        axes.set_ylabel(f"error in {chart.family.quantity}, %", fontsize=9)
         axes.tick_params(labelsize=8)
-    for axes in panels[len(charts) :]:
-        axes.set_axis_off()
-    figure.supxlabel("CPU time, s")
-    figure.supylabel("error, %")
+        part.legend(loc="outside lower center", fontsize=7, ncols=3, columnspacing=1.0, handletextpad=0.4)
     with replacing(path) as scratch:
         figure.savefig(scratch, format="png", dpi=130, metadata={"Software": None})
 
@@ -98,7 +96,7 @@ def _draw(axes: Axes, chart: Chart, *, size: float, numbers: bool) -> None:
     known = 100 * chart.truth.uncertainty
     low, high = axes.get_ylim()
     if known > low:
-        axes.axhspan(low, known, color="black", alpha=0.07, linewidth=0, label="below what is known of the truth")
+        axes.axhspan(low, known, color="black", alpha=0.07, linewidth=0, label="uncertainty of the truth")
         axes.set_ylim(low, high)
 
 
