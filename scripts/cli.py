@@ -7,6 +7,7 @@ import typer
 from scripts import (
     advise,
     batch,
+    charts,
     compare,
     contact_series,
     doctor,
@@ -36,6 +37,7 @@ for module in (
     compare,
     batch,
     report,
+    charts,
     stability,
     generate,
     surface,

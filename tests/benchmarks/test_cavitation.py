@@ -1,8 +1,8 @@
 """Our film with cavitation beside GaPFlow on sliders of known load: the errors of both, and times as ratios, as JSON.
 
-ROUGHFILM_GAPFLOW names the environment of GaPFlow, which ``peers/setup_gapflow`` makes. The slider is the one of
-Vijayaraghavan and Keith (1989) in a liquid of constant bulk modulus, flooded at the cavitation pressure at both ends;
-the wedge is as long and as thin, and nowhere below that pressure. What is exact comes from neither of the two.
+ROUGHFILM_GAPFLOW names the environment of GaPFlow, which ``scripts/peers/setup_gapflow`` makes. The slider is that
+of Vijayaraghavan and Keith (1989) in a liquid of constant bulk modulus, flooded at the cavitation pressure at both
+ends; the wedge is as long and as thin, and nowhere below that pressure. What is exact comes from neither of the two.
 
 GaPFlow has N cells and misses the exact load by e. Of our grids the coarsest that misses it by no more than e, as does
 the next finer one, is timed; the ratio is of CPU times, set-up and imports aside, in one thread. GaPFlow marches in
@@ -34,9 +34,10 @@ from rom.cavitation.shape import Shape
 from rom.cavitation.solve import solve
 from rom.lubricants.compressibility import ConstantBulkModulus
 from rom.provenance import circumstances
+from scripts.charts_peers import PROGRAMS, one_thread
 
 ROOT = Path(__file__).parent.parent.parent
-PROGRAM = Path(__file__).parent / "peers" / "gapflow_.py"
+PROGRAM = PROGRAMS / "gapflow_.py"
 RESULTS = ROOT / "runs" / "benchmarks" / "cavitation.json"
 STEADY = 1e-4
 NODES = tuple(int(n) for n in np.unique(np.round(np.geomspace(5, 5121, 60))))
@@ -218,15 +219,8 @@ def write(rows):
 
 def python():
     if "ROUGHFILM_GAPFLOW" not in os.environ:
-        pytest.skip(
-            "GaPFlow is not here: make it by tests/benchmarks/peers/setup_gapflow, name it in ROUGHFILM_GAPFLOW"
-        )
+        pytest.skip("GaPFlow is not here: make it by scripts/peers/setup_gapflow, name it in ROUGHFILM_GAPFLOW")
     return Path(os.environ["ROUGHFILM_GAPFLOW"]) / "bin" / "python"
-
-
-def one_thread():
-    names = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
-    return dict.fromkeys(names, "1") | {"XLA_FLAGS": "--xla_cpu_multi_thread_eigen=false"}
 
 
 def as_good(case, error):

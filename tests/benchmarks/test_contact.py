@@ -1,7 +1,7 @@
 """Our contact solver beside its peers on the very same arrays: agreement, and times as ratios, as JSON.
 
-ROUGHFILM_PEERS names the environment of the peers, which ``peers/setup`` makes; without it ours runs alone. Minutes of
-a peer are marked: ``-m "benchmark and not slow"`` leaves them out, ``-k`` chooses a case or a peer.
+ROUGHFILM_PEERS names the environment of the peers, which ``scripts/peers/setup`` makes; without it ours runs alone.
+Minutes of a peer are marked: ``-m "benchmark and not slow"`` leaves them out, ``-k`` chooses a case or a peer.
 """
 
 import json
@@ -18,19 +18,13 @@ import pytest
 from contact.files import replacing
 from contact.synthetic.self_affine import self_affine
 from rom.provenance import circumstances
+from scripts.charts_peers import PROGRAMS, TOLERANCES, VIOLATION
 
 ROOT = Path(__file__).parent.parent.parent
-PROGRAM = Path(__file__).parent / "peers" / "run.py"
+PROGRAM = PROGRAMS / "run.py"
 RESULTS = ROOT / "runs" / "benchmarks" / "contact.json"
 SIDE = 1e-3
-VIOLATION, AREA, MEAN_GAP = 1e-8, 1e-5, 1e-6
-TOLERANCES = {
-    "roughfilm_": (1e-8,),
-    "aspher_": (1e-9, 3e-10, 1e-10, 3e-11, 1e-11, 1e-12),
-    "tamaas_": (1e-8, 3e-9, 1e-9, 1e-10, 1e-11, 1e-12),
-    "contact_mechanics_": (1e-8, 5e-9, 2e-9, 1e-9, 1e-10),
-}
-"""Each solver's own, the loosest first: the first that brings the violation down to VIOLATION is the one timed."""
+AREA, MEAN_GAP = 1e-5, 1e-6
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -130,7 +124,11 @@ def solved(tmp_path_factory):
         key = (case.name, solver)
         if key not in rows:
             problem, result = folder / "problem.json", folder / "result.json"
-            asked = {"tolerances": TOLERANCES[solver], "violation": VIOLATION, "spacing": [SIDE / case.points] * 2}
+            asked = {
+                "tolerances": TOLERANCES.get(solver, (VIOLATION,)),
+                "violation": VIOLATION,
+                "spacing": [SIDE / case.points] * 2,
+            }
             if solver in case.slow_peers:
                 asked["repeats"] = 1
             problem.write_text(json.dumps(asdict(case) | asked))
@@ -153,7 +151,7 @@ def python(solver):
     if solver == "roughfilm_":
         return sys.executable
     if "ROUGHFILM_PEERS" not in os.environ:
-        pytest.skip("the peers are not here: make them by tests/benchmarks/peers/setup, name them in ROUGHFILM_PEERS")
+        pytest.skip("the peers are not here: make them by scripts/peers/setup, name them in ROUGHFILM_PEERS")
     return Path(os.environ["ROUGHFILM_PEERS"]) / "bin" / "python"
 
 

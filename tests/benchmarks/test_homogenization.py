@@ -1,7 +1,8 @@
 """Our cell problems beside direct and iterative solvers on the very same arrays: agreement, times as ratios, as JSON.
 
-ROUGHFILM_CELL_PEERS names the environment of the peers, which ``peers/setup_homogenization`` makes; without it ours
-runs alone. What takes long is marked: ``-m "benchmark and not slow"`` leaves it out, ``-k`` chooses a case or a peer.
+ROUGHFILM_CELL_PEERS names the environment of the peers, which ``scripts/peers/setup_homogenization`` makes; without
+it ours runs alone. What takes long is marked: ``-m "benchmark and not slow"`` leaves it out, ``-k`` chooses a case or
+a peer.
 
 All but reynoldsflow solve the network that our own faces make, and are given it: of ours everything from the gap on is
 timed, χ₃ and e as well. reynoldsflow makes its own of harmonic means and is compared with what that network's A is.
@@ -28,9 +29,10 @@ from rom.homogenization.cell import solve_cell
 from rom.homogenization.conductance import FaceRule, faces
 from rom.homogenization.tabulate import tabulate
 from rom.provenance import circumstances
+from scripts.charts_peers import PROGRAMS, one_thread
 
 ROOT = Path(__file__).parent.parent.parent
-PROGRAM = Path(__file__).parent / "peers" / "cells.py"
+PROGRAM = PROGRAMS / "cells.py"
 RESULTS = ROOT / "runs" / "benchmarks" / "homogenization.json"
 
 SIDE, WAVES, CONTACT = 1e-3, 8, 0.2
@@ -121,7 +123,7 @@ def solved(tmp_path_factory):
             right = own(points, cut_off, rule) if right is None else right
             asked.write_text(json.dumps({"right": right, "error": error, "repeats": repeats}))
             command = [python(solver), PROGRAM, solver, written(points, cut_off), asked, result]
-            subprocess.run(command, env=os.environ | one_thread(), check=True)
+            subprocess.run(command, env=os.environ | {"PYTHONPATH": str(ROOT)} | one_thread(), check=True)
             rows[key] = {"load_average": os.getloadavg()[0], **json.loads(result.read_text())}
             note({"cases": [told(rows, *key) for key in rows]})
         return rows[key]
@@ -154,16 +156,9 @@ def python(solver):
         return sys.executable
     if "ROUGHFILM_CELL_PEERS" not in os.environ:
         pytest.skip(
-            "the peers are not here: make them by tests/benchmarks/peers/setup_homogenization, "
-            "name them in ROUGHFILM_CELL_PEERS"
+            "the peers are not here: make them by scripts/peers/setup_homogenization, name them in ROUGHFILM_CELL_PEERS"
         )
     return Path(os.environ["ROUGHFILM_CELL_PEERS"]) / "bin" / "python"
-
-
-def one_thread():
-    """This very tree, and one thread for every library."""
-    names = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
-    return {"PYTHONPATH": str(ROOT)} | dict.fromkeys(names, "1")
 
 
 @pytest.mark.benchmark
