@@ -168,7 +168,7 @@ def typed(*arguments, **options):
     "arguments",
     [
         ["solve"],
-        ["solve", "x.toml"],
+        ["compare", "x.toml"],
         ["solv"],
         ["solve", "x.toml", "--model", "reynolds", "--resolution", "a"],
         ["compare", "x.toml", "--out", "x", "--grids", "2"],
