@@ -6,7 +6,7 @@ from enum import StrEnum
 from math import inf
 
 from contact.errors import InputError
-from rom.advice.estimates import Estimate, Question, a_posteriori, a_priori, affordable, percent
+from rom.advice.estimates import Estimate, Question, a_posteriori, a_priori, affordable, by_its_own_word, percent
 from rom.advice.laws import Numbers, Table, table
 from rom.kind import Omission, Scene, kinds
 from rom.ladder import Model, Progress, silent
@@ -200,11 +200,13 @@ def _considered(asked: Question, model: Model, secure: float) -> Considered:
     resolution = asked.resolution(model)
     here, before = model.available(), a_priori(asked, model)
 
-    def judged(verdict: Verdict, reason: str, after: Estimate | None = None) -> Considered:
+    def judged(
+        verdict: Verdict, reason: str, after: Estimate | None = None, resolution: int = resolution
+    ) -> Considered:
         return Considered(
             model=model.name,
             resolution=resolution,
-            cpu_s=asked.cost(model),
+            cpu_s=asked.cost(model, resolution),
             verdict=verdict,
             reason=reason,
             a_priori=before,
@@ -218,8 +220,9 @@ def _considered(asked: Question, model: Model, secure: float) -> Considered:
     doubtful = before is not None and before.sure and before.error > asked.within
     if before is not None and doubtful and (before.error > HOPELESS * asked.within or trial > secure):
         return judged(Verdict.NOT_ENOUGH, _main(before))
-    checkable = model is not asked.best() or (before is None)
-    after = a_posteriori(asked, model) if checkable else None
+    if above is None:
+        return _top(asked, model, judged)
+    after = a_posteriori(asked, model)
     if after is None:
         if _keeps(before, asked.within):
             return judged(Verdict.CHOSEN, _main(before))
@@ -235,6 +238,23 @@ def _considered(asked: Question, model: Model, secure: float) -> Considered:
             return judged(Verdict.NOT_ENOUGH, f"{_main(before)}; the two estimates disagree", after)
     enough = after.sure and after.error <= asked.within
     return judged(Verdict.CHOSEN if enough else Verdict.NOT_ENOUGH, after.reasons[0], after)
+
+
+def _top(asked: Question, model: Model, judged: Callable[..., Considered]) -> Considered:
+    """Judge a rung at the top: by its grids, from the coarsest that its numbers allow on, each by its own word."""
+    before = a_priori(asked, model)
+    after = None
+    for resolution in (one for one in model.resolutions_of(asked.scene) if one >= asked.resolution(model)):
+        after = by_its_own_word(asked, model, resolution)
+        if after is None:
+            break
+        if after.error <= asked.within:
+            return judged(Verdict.CHOSEN, after.reasons[0], after, resolution)
+    if after is not None:
+        return judged(Verdict.NOT_ENOUGH, after.reasons[0], after, resolution)
+    if _keeps(before, asked.within):
+        return judged(Verdict.CHOSEN, _main(before))
+    return judged(Verdict.NOT_ENOUGH, "how far off its grid is is not known here" if before is None else _main(before))
 
 
 def _main(estimate: Estimate | None) -> str:

@@ -88,13 +88,18 @@ class Question:
     def difference(self, one: Result, other: Result) -> float:
         """Of the quantity, over the size that the second one gives."""
         values = (one.quantities[self.quantity].value, other.quantities[self.quantity].value)
-        return abs(values[0] - values[1]) / self.kind.scale_of(other, self.quantity)
+        return over(abs(values[0] - values[1]), self.kind.scale_of(other, self.quantity))
 
     def told(self, result: Result) -> float | None:
         """By how much a result may be off by its own word, over its size; None if it does not say."""
         bar: Mapping[str, float] = result.provenance.get("uncertainty", {})
         found = bar.get(self.quantity)
-        return None if found is None else found / self.kind.scale_of(result, self.quantity)
+        return None if found is None else over(found, self.kind.scale_of(result, self.quantity))
+
+
+def over(error: float, size: float) -> float:
+    """An error as a part of a size; infinite where there is an error and no size."""
+    return error / size if size > 0 else math.inf if error > 0 else 0.0
 
 
 def percent(part: float) -> str:
@@ -147,20 +152,24 @@ def a_posteriori(asked: Question, model: Model, above: int = 1) -> Estimate | No
     """By running a rung and one that is ``above`` it, or below it where that is too dear; None if neither can be run.
 
     The difference to the rung above is the error but for what that leaves out itself. From a rung below, the size of
-    the last step tells by the sweeps how large the next would be. A rung at the top tells of its grid alone.
+    the last step tells by the sweeps how large the next would be.
     """
     own = run(asked, model)
     if own is None or asked.quantity not in own.quantities:
         return None
     chain = asked.chain(model)
-    grid = asked.told(own)
-    if len(chain) > above:
-        other = chain[above]
-        if affordable(asked, other, model):
-            return _from_above(asked, own, other)
-    elif above == 1 and grid is not None:
-        return Estimate(error=grid, reasons=(f"{model.name} says itself that it is within {percent(grid)}",))
+    if len(chain) > above and affordable(asked, chain[above], model):
+        return _from_above(asked, own, chain[above])
     return _from_below(asked, model, own) if above == 1 else None
+
+
+def by_its_own_word(asked: Question, model: Model, resolution: int) -> Estimate | None:
+    """What a rung at the top says of its grid once it is run; None where that is dear, or it does not say."""
+    own = None if model.write else run(asked, model, resolution)
+    told = None if own is None or asked.quantity not in own.quantities else asked.told(own)
+    if told is None:
+        return None
+    return Estimate(error=told, reasons=(f"on {resolution} it says itself that it is within {percent(told)}",))
 
 
 def affordable(asked: Question, other: Model, model: Model) -> bool:
@@ -170,10 +179,10 @@ def affordable(asked: Question, other: Model, model: Model) -> bool:
     return other.available().available and asked.cost(other) <= limit
 
 
-def run(asked: Question, model: Model) -> Result | None:
-    """The rung's answer; None where it has none."""
+def run(asked: Question, model: Model, resolution: int | None = None) -> Result | None:
+    """The rung's answer, by default at the chosen resolution; None where it has none."""
     try:
-        return asked.run(model, asked.resolution(model))
+        return asked.run(model, asked.resolution(model) if resolution is None else resolution)
     except (InputError, ConvergenceError, UnavailableError):
         return None
 
