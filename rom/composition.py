@@ -148,7 +148,7 @@ EFFECTS: tuple[SceneEffect, ...] = (
         without=lambda one: replace(one, scene=one.scene.model_copy(update={"asperities": None})),
     ),
 )
-"""In the order in which they are switched on. Without roughness asperities touch all the same, but flow does not feel it;
+"""In the order in which they are switched on. Without roughness asperities touch all the same, but no flow feels them;
 without asperities the flow factors are those of the roughness undeformed, cut off where it would touch."""
 
 

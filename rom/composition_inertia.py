@@ -1,7 +1,7 @@
 """What inertia would add to a composed bearing: to first order over its whole film, and in one pocket by the ladder."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,7 +11,8 @@ from rom.bearing_inertia import Inertia, inertia
 from rom.bearing_numbers import bearing_numbers, without_texture
 from rom.bearing_rung import load_loops
 from rom.cavitation.solve import solve
-from rom.composition import Amount, Composition
+from rom.composition import Amount, Composed, Composition, added
+from rom.composition_load import under_load
 from rom.ladder import Effect, Model, find, of_kind
 from rom.ring_geometry import Ring
 from rom.scene import read_scene
@@ -140,3 +141,23 @@ def one_pocket(scene: Bearing, models: Sequence[Model]) -> PocketJudged | None:
     first = find(models, FIRST_ORDER).solve(pocket).quantities["load_per_area"].value
     ratio = chosen.solve(pocket).quantities["load_per_area"].value / first
     return PocketJudged(model=name, why=why, over_first_order=ratio, within=within)
+
+
+def under_its_load(
+    taken: Composition, whole: Composed, pressure: float, cells: int, models: Sequence[Model]
+) -> tuple[InertiaAdded, Amount]:
+    """What inertia adds at the film that carries a load, Pa over the nominal area, and how much thicker it makes it, m.
+
+    ``whole`` is the composition under that load; with inertia its film has so much less to carry.
+    """
+    scene = taken.scene
+    there = scene.model_copy(update={"geometry": scene.geometry.at_film(whole.values["film"])})
+    found = inertia_added(replace(taken, scene=there), cells, models)
+    load = found.amounts["load"]
+    part = load.value / whole.values["load_per_width" if scene.wide else "load"]
+    relieved = under_load(taken, pressure * (1 - part), cells)
+    thicker = added(relieved, whole, "film")
+    assert thicker is not None
+    relative = load.uncertainty / abs(load.value) if load.value else 0.0
+    unsure = abs(thicker.value) * relative + thicker.uncertainty
+    return found, Amount(value=thicker.value, uncertainty=unsure, unit="m")

@@ -10,6 +10,9 @@ from rom.composition_inertia import judged
 
 Numbers = Mapping[str, float]
 
+HEAVY, LONG = 0.3, 0.1
+"""Re·h/l from which inertia is not small; period over length from which averaging is off by more than some per cent."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Treatment:
@@ -42,8 +45,8 @@ def _sides(numbers: Numbers) -> str:
 
 def _texture(numbers: Numbers) -> str:
     covered = (
-        f"pockets over {numbers['texture_density']:.0%} of the area, {numbers['pocket_depth_ratio']:.2g} films deep, are "
-        "resolved as thin film"
+        f"pockets over {numbers['texture_density']:.0%} of the area, {numbers['pocket_depth_ratio']:.2g} films deep, "
+        "are resolved as thin film"
     )
     if "reduced_reynolds_number" not in numbers:
         return covered
@@ -86,13 +89,10 @@ def _asperities(numbers: Numbers) -> str:
 
 def _inertia(numbers: Numbers) -> str:
     return (
-        f"Re = {numbers['reynolds_number']:.2g}, Re·h/l = {numbers['reduced_reynolds_number']:.2g}: to first order over "
-        "the whole film, and in full in one pocket; not added to what the film carries"
+        f"Re = {numbers['reynolds_number']:.2g}, Re·h/l = {numbers['reduced_reynolds_number']:.2g}: to first order "
+        "over the whole film, and in full in one pocket; not added to what the film carries"
     )
 
-
-HEAVY, LONG = 0.3, 0.1
-"""Re·h/l from which inertia is not small; period over length from which averaging is off by more than a few per cent."""
 
 TOLD: Mapping[str, tuple[str, Callable[[Numbers], str]]] = {
     "side flow": ("reynolds", _sides),
