@@ -1,5 +1,6 @@
 """A composition under a load: the film at which what counts of a bearing carries it."""
 
+import math
 import time
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -29,6 +30,10 @@ APART = 1.001
 
 TOLERANCE, RESIDUAL = 1e-7, 1e-11
 """Of the load, and of a film."""
+
+LOADS = ("load", "load_per_width")
+SHARES = {"friction_coefficient": "friction_per_width", "contact_share": "contact_load_per_width"}
+"""What a load fixes, and what is a part of it."""
 
 STEP = 1e-3
 """Of the film, over which is seen what changes with it."""
@@ -162,18 +167,25 @@ def under_load(taken: Composition, pressure: float, cells: int, progress: Progre
 
 
 def _doubt(here: Carrying, thicker: Carrying) -> dict[str, float]:
-    """By how much values may be off under a load, as what is averaged is off: at this film, and by the film itself."""
+    """By how much values may be off under a load, as what is averaged is off.
+
+    What makes the walls carry more in one film lets them part until the load is the same again: a value is off by what
+    it is off in that film, taken with its sign, and by what it changes with the film.
+    """
     if here.solution.problem.shape.roughness is None:
         return {}
     scene, values, others = here.taken.scene, here.values, thicker.values
     quantities = here.taken.reading.quantities(scene, here.solution)
     own = here.taken.reading.doubt(scene, here.solution, quantities)
-    slope = abs(others["load_per_width"] - values["load_per_width"]) / (STEP * values["film"])
+    step = STEP * values["film"]
+    slope = (values["load_per_width"] - others["load_per_width"]) / step
     moved = own["load_per_width"] / slope if slope > 0 else float("inf")
-    fixed = ("load", "load_per_width")
     doubts = {
-        name: own[name] + abs(others[name] - values[name]) / (STEP * values["film"]) * moved
+        name: abs(math.copysign(own[name], values[name]) + (others[name] - values[name]) / step * moved)
         for name in own
-        if name in others and name not in fixed
+        if name in others and name not in LOADS
     }
+    for ratio, name in SHARES.items():
+        if ratio in values and name in doubts:
+            doubts[ratio] = doubts[name] / values["load_per_width"]
     return doubts | {"film": moved}

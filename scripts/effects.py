@@ -40,6 +40,7 @@ from scripts.common import (
 )
 from scripts.error_bars import with_error
 from scripts.output_file import refuse_unwritable
+from scripts.pages import percent
 
 CELLS = {True: 1024, False: 128}
 """Along the sliding, and as many across; by default, of infinitely wide bearings and of others."""
@@ -256,7 +257,7 @@ def sentences(study_told: Study, name: str, inertia: Amount | None) -> list[str]
 
 
 def _adds(one: Amount, how: Shown, full: float) -> str:
-    part = f" ({100 * one.value / abs(full):+.2g} %)".replace("-", "−") if full else ""
+    part = f" ({percent(one.value / abs(full))})".replace("-", "−") if full else ""
     return f"{cell(one, how, sign=True)} {how.unit}{part}"
 
 

@@ -10,7 +10,7 @@ from rom.composition import Amount
 from rom.composition_study import Study
 from scripts import effects_figures
 from scripts.effects import AT_FILM, SHOWN, UNDER_LOAD, Shown, Told, cell, left_out, sentences, shown
-from scripts.pages import render, write_figures
+from scripts.pages import percent, render, write_figures
 
 MORE = ("friction_coefficient", "contact_share"), ("friction", "contact_share", "pressure_max")
 """Columns of the page's tables beside those that are drawn: at a film, and under a load."""
@@ -75,7 +75,7 @@ def write_page(told: Told, entries: Mapping[str, Any], out: Path) -> None:
 
 def _share(added: Amount, found: Study) -> str:
     name = next(iter(shown(found, ("load",))))
-    part = f"{100 * added.value / found.full[name].value:+.2g} %".replace("-", "−")
+    part = percent(added.value / found.full[name].value).replace("-", "−")
     return f"{cell(added, SHOWN[name], sign=True)} {SHOWN[name].unit} ({part} of the load)"
 
 
