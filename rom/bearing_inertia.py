@@ -62,9 +62,9 @@ def inertia(scene: Bearing, found: Solution) -> Inertia:
     h, problem, grid = found.faces.thickness, found.problem, found.grid
     viscosity = problem.viscosity / problem.piezoviscosity.fluidity(found.state.pressure, problem.viscosity)[0]
     speed = problem.speed
-    along, across = (_slope(found.state.pressure, axis, places) for axis, places in ((0, grid.x), (1, grid.y)))
-    a, b = (-(h**2) * slope / (12 * viscosity) for slope in (along, across))
-
+    mobility = problem.mobility(found.state.pressure)[0]
+    east, north = found.network.conductance(mobility)
+    a, b = _excess(found, east, north)
     through_x = h * (speed**2 / 20 + speed * a / 5 + 9 * a**2 / 35)
     through_xy = h * b * (speed / 10 + 9 * a / 35)
     through_y = 9 * h * b**2 / 35
@@ -74,8 +74,6 @@ def inertia(scene: Bearing, found: Solution) -> Inertia:
     mean = _means(through_xy, 0)
     x_force = np.diff(through_x, axis=0) / dx + _slope(mean, 1, grid.y) + rise * _means(speed / 60 + a / 70, 0)
     drive = -density * _means(h**2 / (2 * viscosity), 0) * x_force * grid.share_y * _both(wet, 0)
-    mobility = problem.mobility(found.state.pressure)[0]
-    east, north = found.network.conductance(mobility)
     drive_y = np.zeros((h.shape[0], h.shape[1] - 1))
     if h.shape[1] > 1:
         climb = speed * _slope(h, 0, grid.x)
@@ -97,6 +95,18 @@ def inertia(scene: Bearing, found: Solution) -> Inertia:
         friction=float((felt * dx * grid.share_y).sum()),
         inlet_flow=float(flow[0].sum()),
     )
+
+
+def _excess(found: Solution, east: Array, north: Array) -> tuple[Array, Array]:
+    """a and b at the nodes, m/s: flow over thickness as the faces beside them let it through, less that of shear."""
+    grid, h, pressure = found.grid, found.faces.thickness, found.state.pressure
+    along = (found.network.couette[:-1] - east[:-1] * np.diff(pressure, axis=0)) / grid.share_y
+    a = np.vstack([along[:1], _means(along, 0), along[-1:]]) / h - found.problem.speed / 2
+    if h.shape[1] == 1:
+        return a, np.zeros_like(a)
+    across = -north[:, :-1] * np.diff(pressure, axis=1) / grid.share_x[:, None]
+    ends = [0 * across[:, :1]] * 2 if found.problem.ends.sides is None else [across[:, :1], across[:, -1:]]
+    return a, np.hstack([ends[0], _means(across, 1), ends[1]]) / h
 
 
 def _balanced(free: NDArray[np.bool_], east: Array, north: Array, drive_x: Array, drive_y: Array) -> Array:
