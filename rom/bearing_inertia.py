@@ -98,7 +98,7 @@ def inertia(scene: Bearing, found: Solution) -> Inertia:
 
 
 def _excess(found: Solution, east: Array, north: Array) -> tuple[Array, Array]:
-    """a and b at the nodes, m/s: flow over thickness as the faces beside them let it through, less that of shear."""
+    """The a and b of the nodes, m/s: flow over thickness, as the faces beside them let through, less that of shear."""
     grid, h, pressure = found.grid, found.faces.thickness, found.state.pressure
     along = (found.network.couette[:-1] - east[:-1] * np.diff(pressure, axis=0)) / grid.share_y
     a = np.vstack([along[:1], _means(along, 0), along[-1:]]) / h - found.problem.speed / 2

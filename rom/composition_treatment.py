@@ -59,14 +59,14 @@ def _texture(numbers: Numbers) -> str:
 def _cavitation(numbers: Numbers) -> str:
     number = numbers["cavitation_number"]
     return f"mass is kept where the film tears, since (p_ambient − p_c)/(6ηuL/h²) = {number:.2g}" + (
-        ": little of what sliding pulls" if number < 1 else ": it hardly ever tears"
+        ": it bears little of what sliding pulls" if number < 1 else ": it hardly ever tears"
     )
 
 
 def _pressure(numbers: Numbers) -> str:
     return (
-        f"density and viscosity follow pressure: at 6ηuL/h² θ − 1 = {numbers['compression']:.2g} and "
-        f"ln η/η₀ = {numbers['piezoviscous']:.2g}, at a fiftieth of it, as pads have, that part of them"
+        "density and viscosity follow pressure: at 6ηuL/h², of which a pad carries some hundredths, "
+        f"θ − 1 = {numbers['compression']:.2g} and ln η/η₀ = {numbers['piezoviscous']:.2g}"
     )
 
 
@@ -88,9 +88,10 @@ def _asperities(numbers: Numbers) -> str:
 
 
 def _inertia(numbers: Numbers) -> str:
+    pocket = ", and in full in one pocket" if "pocket_depth_ratio" in numbers else ""
     return (
         f"Re = {numbers['reynolds_number']:.2g}, Re·h/l = {numbers['reduced_reynolds_number']:.2g}: to first order "
-        "over the whole film, and in full in one pocket; not added to what the film carries"
+        f"over the whole film{pocket}; not added to what the film carries"
     )
 
 
