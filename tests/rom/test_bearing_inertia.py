@@ -99,7 +99,7 @@ def test_slow_flow_over_a_groove_is_that_of_the_mesh() -> None:
     speed = speed_of(5)
     _, found = judged_film(bearing(speed), 1024)
     loads = [
-        find(POCKET_MODELS, name).solve(pocket(speed)).quantities["load_per_area"].value
+        find(POCKET_MODELS, name).solve(pocket(speed), resolution=80).quantities["load_per_area"].value
         for name in ("navier_stokes", "stokes")
     ]
     assert found.load / LENGTH == pytest.approx(loads[0] - loads[1], rel=0.01)
@@ -148,6 +148,33 @@ def test_pressed_flow_knows_no_axis_by_name() -> None:
     inner = (slice(8, -8), slice(8, -8))
     assert np.abs(one).max() > 1.0
     assert np.abs(one[inner] - other.T[inner]).max() < 0.02 * np.abs(one[inner]).max()
+
+
+def test_a_wedge_rubs_as_the_momentum_of_its_own_velocity_has_it() -> None:
+    """τ = ηU/h + h/2 ∂p/∂x + ρ ∫ Y (u ∂u/∂x + w ∂u/∂z) dz, the integral by brute force from u and its continuity."""
+    speed, length, low, rise = 4.0, 1e-3, 20e-6, 25e-6
+    wedge = {"shape": "linear", "length": f"{length} m", "film": f"{low} m", "rise": f"{rise} m", "texture": None}
+    found, added = judged_film(bearing(speed, geometry=wedge), 512)
+    flow = float((found.network.couette[0] - found.network.east[0] * np.diff(found.state.pressure, axis=0)[0])[0])
+
+    def velocity(x: float, z: Array) -> Array:
+        h = low + rise * (1 - x / length)
+        part = z / h
+        return speed * part + 6 * (flow / h - speed / 2) * part * (1 - part)
+
+    def momentum(x: float) -> float:
+        h, step = low + rise * (1 - x / length), 1e-6 * length
+        z = np.linspace(0, h, 2001)
+        u = velocity(x, z)
+        along = (velocity(x + step, z) - velocity(x - step, z)) / (2 * step)
+        above = -np.concatenate([[0.0], np.cumsum((along[1:] + along[:-1]) / 2) * (z[1] - z[0])])
+        return float(np.trapezoid(z / h * (u * along + above * np.gradient(u, z)), z))
+
+    places = (found.grid.x[1:] + found.grid.x[:-1]) / 2
+    felt = DENSITY * sum(momentum(float(x)) for x in places) * length / places.size
+    pressed = float((np.diff(added.pressure[:, 0]) * (low + rise * (1 - places / length)) / 2).sum())
+    assert abs(felt) > 1e-3 * abs(pressed)
+    assert added.friction == pytest.approx(felt + pressed, rel=1e-3)
 
 
 def test_a_pad_without_flow_through_its_sides_is_a_line_of_it() -> None:
