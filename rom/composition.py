@@ -230,7 +230,7 @@ def at_film(taken: Composition, cells: int, progress: Progress = silent) -> Comp
     quantities = reading.quantities(scene, found)
     rough = problem.shape.roughness is not None
     return Composed(
-        levels=tuple({n: q.value for n, q in reading.quantities(scene, one).items()} for one in _grids(found)),
+        levels=tuple({n: q.value for n, q in reading.quantities(scene, one).items()} for one in solved_grids(found)),
         units={name: quantity.unit for name, quantity in quantities.items()},
         doubt=reading.doubt(scene, found, quantities) if rough else {},
         residual=found.residual,

@@ -1,5 +1,6 @@
 """What inertia would add to a composed bearing: to first order over its whole film, and in one pocket by the ladder."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -11,8 +12,9 @@ from rom.bearing_inertia import Inertia, inertia
 from rom.bearing_numbers import bearing_numbers, without_texture
 from rom.bearing_rung import load_loops
 from rom.cavitation.solve import solve
-from rom.composition import Amount, Composed, Composition, added
+from rom.composition import Amount, Composed, Composition, added, solved_grids
 from rom.composition_load import under_load
+from rom.convergence import converge
 from rom.ladder import Effect, Model, find, of_kind
 from rom.ring_geometry import Ring
 from rom.scene import read_scene
@@ -22,6 +24,9 @@ FIRST_ORDER = "inertial_reynolds"
 
 PERIOD = 2.0
 """Lengths of a pocket from one to the next, where one alone is judged."""
+
+ORDER = 2
+"""Of the loads in the cells, where nothing is torn."""
 
 UNITS: Mapping[str, str] = {"load": "N", "friction": "N", "inlet_flow": "m^3/s"}
 
@@ -79,9 +84,8 @@ def inertia_added(taken: Composition, cells: int, models: Sequence[Model]) -> In
     """
     scene = taken.scene
     load_loops(scene.wide)
-    found = solve(taken.problem(), (cells, cells), ruptures=taken.ruptures)
-    fine = inertia(scene, found)
-    coarse = fine if found.coarser is None else inertia(scene, found.coarser)
+    grids = solved_grids(solve(taken.problem(), (cells, cells), ruptures=taken.ruptures))
+    found = {grid.grid.x.size: inertia(scene, grid) for grid in reversed(grids)}
     pocket = one_pocket(scene, models)
     number = bearing_numbers(scene)["reduced_reynolds_number"]
     beyond = min(1.0, number) if pocket is None else abs(pocket.over_first_order - 1) + pocket.within
@@ -91,16 +95,18 @@ def inertia_added(taken: Composition, cells: int, models: Sequence[Model]) -> In
         plain = Composition(scene=smooth, sides=taken.sides, ruptures=taken.ruptures, factors=taken.factors)
         bare = inertia(smooth, solve(plain.problem(), (cells, cells), ruptures=taken.ruptures)).load
     return InertiaAdded(
-        amounts={name: _amount(name, fine, coarse, beyond, wide=scene.wide) for name in UNITS},
+        amounts={name: _amount(name, found, beyond, wide=scene.wide) for name in UNITS},
         untextured_load=bare,
         pocket=pocket,
     )
 
 
-def _amount(name: str, fine: Inertia, coarse: Inertia, beyond: float, *, wide: bool) -> Amount:
-    value: float = getattr(fine, name)
+def _amount(name: str, found: Mapping[int, Inertia], beyond: float, *, wide: bool) -> Amount:
+    """On the finest of some grids; as a film's torn part has an edge of cells, they are not trusted to be ordered."""
+    values = [getattr(one, name) for one in found.values()]
+    error = converge([*found], values, formal_order=ORDER).uncertainty if len(values) > 1 else math.inf
     unit = {"N": "N/m", "m^3/s": "m^2/s"}[UNITS[name]] if wide else UNITS[name]
-    return Amount(value=value, uncertainty=abs(value - getattr(coarse, name)) + beyond * abs(value), unit=unit)
+    return Amount(value=values[-1], uncertainty=error + beyond * abs(values[-1]), unit=unit)
 
 
 def one_pocket(scene: Bearing, models: Sequence[Model]) -> PocketJudged | None:

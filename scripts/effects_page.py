@@ -12,7 +12,7 @@ from scripts import effects_figures
 from scripts.effects import AT_FILM, SHOWN, UNDER_LOAD, Shown, Told, cell, left_out, sentences, shown
 from scripts.pages import percent, render, write_figures
 
-MORE = ("friction_coefficient", "contact_share"), ("friction", "contact_share", "pressure_max")
+MORE = ("friction_coefficient", "contact_share"), ("contact_share", "pressure_max")
 """Columns of the page's tables beside those that are drawn: at a film, and under a load."""
 
 SYMBOLS = {
@@ -40,7 +40,7 @@ class View:
 
     title: str
     columns: Mapping[str, Shown]
-    rows: Sequence[tuple[str, Sequence[str]]]
+    tables: Mapping[str, Sequence[tuple[str, Sequence[str]]]]
     figure: str
     words: Mapping[str, Sequence[str]]
     untold: Mapping[str, str]
@@ -95,18 +95,19 @@ def _view(title: str, found: Study, drawn: Sequence[str], more: Sequence[str], b
     def row(title: str, of: Mapping[str, Amount], *, sign: bool = True) -> tuple[str, list[str]]:
         return title, [cell(of.get(name), how, sign=sign) for name, how in columns.items()]
 
-    rows = [
+    on = [
         row("plain film", found.plain, sign=False),
         *(row(f"+ {one.name}", one.on) for one in found.contributions),
         row("all of it", found.full, sign=False),
-        *(row(f"{one.name}, added to all the others", one.alone) for one in found.contributions),
-        *([row("inertia, not counted", beside)] if beside else []),
     ]
+    alone = [row(one.name, one.alone) for one in found.contributions]
+    if beside:
+        alone.append(row("inertia, not counted", beside))
     judged = {name: how for name, how in shown(found, drawn).items() if name != "side_leakage"}
     return View(
         title=title,
         columns=columns,
-        rows=rows,
+        tables={"Switched on one after the other": on, "Each added to all the others": alone},
         figure=effects_figures.waterfall(found, shown(found, drawn), beside),
         words={SHOWN[name].title: sentences(found, name, beside.get(name)) for name in judged},
         untold=found.untold,
