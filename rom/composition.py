@@ -240,7 +240,7 @@ def at_film(taken: Composition, cells: int, progress: Progress = silent) -> Comp
     )
 
 
-def _grids(found: Solution) -> tuple[Solution, ...]:
+def solved_grids(found: Solution) -> tuple[Solution, ...]:
     """A solution and those on grids about half and a quarter as fine, as far as there are any."""
     grids = [found]
     while (coarser := grids[-1].coarser) is not None and coarser.grid.x.size <= 0.75 * grids[-1].grid.x.size:

@@ -13,7 +13,7 @@ from rom.bearing_quantities import carried, nominal_area
 from rom.bearing_rung import load_loops
 from rom.cavitation.grid import Grid, grid
 from rom.cavitation.network import State
-from rom.cavitation.solve import Solution, solve
+from rom.cavitation.solve import COARSEST, Solution, solve
 from rom.composition import Composed, Composition
 from rom.ladder import Progress, silent
 from rom.mixed.balance import Speed, balanced
@@ -132,7 +132,7 @@ class ComposedFilm:
 def under_load(taken: Composition, pressure: float, cells: int, progress: Progress = silent) -> Composed:
     """The film at which a composition carries a load over its nominal area, Pa, and what it does there.
 
-    Solved on two grids, to say how far off it is; what flow factors and contact pressures are off by moves the film by
+    Solved on three grids, to say how far off it is; what flow factors and contact pressures are off by moves the film by
     that part of the load over how fast the load falls with the film.
 
     Raises
@@ -147,8 +147,9 @@ def under_load(taken: Composition, pressure: float, cells: int, progress: Progre
     load_loops(taken.scene.wide)
     cpu, guess, speed = time.process_time(), taken.scene.geometry.film, taken.scene.motion.speed
     found: list[Carrying] = []
-    for count, size in enumerate((cells // 2, cells)):
-        progress(count / 2, f"{size} cells along a side")
+    sizes = [size for size in (cells // 4, cells // 2, cells) if size >= COARSEST or size == cells]
+    for count, size in enumerate(sizes):
+        progress(count / len(sizes), f"{size} cells along a side")
         film = ComposedFilm(taken=taken, cells=size)
         found.append(balanced(Speed(film=film, speed=speed), pressure, tolerance=TOLERANCE, guess=guess))
         guess = found[-1].taken.scene.geometry.film

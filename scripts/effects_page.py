@@ -5,33 +5,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from rom.bearing_numbers import bearing_numbers
 from rom.composition import Amount
 from rom.composition_study import Study
+from rom.kind import kinds
 from scripts import effects_figures
 from scripts.effects import AT_FILM, SHOWN, UNDER_LOAD, Shown, Told, cell, left_out, sentences, shown
 from scripts.pages import percent, render, write_figures
 
 MORE = ("friction_coefficient", "contact_share"), ("contact_share", "pressure_max")
 """Columns of the page's tables beside those that are drawn: at a film, and under a load."""
-
-SYMBOLS = {
-    "slenderness": "width over length B/L",
-    "convergence": "greatest over least film, less 1",
-    "finest": "shortest feature over length",
-    "starvation": "θ of the inlet",
-    "cavitation_number": "(p_ambient − p_c)/(6ηuL/h²)",
-    "compression": "θ − 1 at 6ηuL/h²",
-    "piezoviscous": "ln η/η₀ at 6ηuL/h²",
-    "roughness_ratio": "Sq/h",
-    "peak_ratio": "Sp/h",
-    "roughness_period": "roughness period over length",
-    "texture_density": "part covered by pockets",
-    "pocket_depth_ratio": "pocket depth over h",
-    "pocket_length_ratio": "pocket length over L",
-    "reynolds_number": "Re = ρuh/η",
-    "reduced_reynolds_number": "Re·h/l of the shortest feature",
-}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,7 +38,7 @@ def write_page(told: Told, entries: Mapping[str, Any], out: Path) -> None:
         views.append(_view(title, told.under_load, UNDER_LOAD, MORE[1], beside))
     names = ("effects_at_film", "effects_under_load")
     write_figures({name: view.figure for name, view in zip(names, views, strict=False)}, out)
-    numbers = bearing_numbers(told.scene)
+    kind = kinds()[told.scene.kind]
     render(
         "effects.html.j2",
         out / "report.html",
@@ -65,7 +47,7 @@ def write_page(told: Told, entries: Mapping[str, Any], out: Path) -> None:
         views=views,
         treated=told.treated,
         left_out=left_out(told.scene),
-        numbers=[(SYMBOLS[name], f"{value:.3g}") for name, value in numbers.items()],
+        numbers=[(kind.symbols[name], f"{value:.3g}") for name, value in kind.numbers(told.scene).items()],
         inertia=told.inertia,
         loaded=told.loaded_inertia,
         thicker=None if told.thicker is None else f"{cell(told.thicker, SHOWN['film'], sign=True)} µm",
