@@ -132,8 +132,8 @@ class ComposedFilm:
 def under_load(taken: Composition, pressure: float, cells: int, progress: Progress = silent) -> Composed:
     """The film at which a composition carries a load over its nominal area, Pa, and what it does there.
 
-    Solved on three grids, to say how far off it is; what flow factors and contact pressures are off by moves the film by
-    that part of the load over how fast the load falls with the film.
+    Solved on three grids, to say how far off it is; what flow factors and contact pressures are off by moves the film
+    by that part of the load over how fast the load falls with the film.
 
     Raises
     ------
