@@ -23,6 +23,7 @@ from rom.mixed.film import Seeping, mixed_problem
 from rom.mixed.reading import mixed_doubt, mixed_quantities
 from rom.mixed.wall import asperities_of
 from rom.ring_geometry import Ring
+from rom.rough_film import averaged_film
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,7 +49,10 @@ class Composition:
         return self.scene.roughness is not None and self.factors
 
     def problem(self, reach: float | None = None) -> Problem:
-        """The film to be solved; flow factors are those of mean gaps down to ``reach``, m, by default of this film."""
+        """The film to be solved; flow factors are those of mean gaps down to ``reach``, m, by default of this film.
+
+        Raises InputError where flow factors are not known, or seal this film.
+        """
         scene = self.scene
         if scene.asperities is not None:
             problem = mixed_problem(scene, asperities_of(scene))
@@ -56,9 +60,9 @@ class Composition:
                 smooth = SmoothFlow(mean_gap=asperities_of(scene).mean_gap)
                 problem = replace(problem, shape=replace(problem.shape, roughness=smooth))
         else:
-            problem = scene.problem()
-            if self.rough and scene.roughness is not None:
-                known = Seeping(scene.roughness.factors(reach or scene.geometry.film))
+            problem = averaged_film(scene) if self.rough and reach is None else scene.problem()
+            if reach is not None and self.rough and scene.roughness is not None:
+                known = Seeping(scene.roughness.factors(reach))
                 problem = replace(problem, shape=replace(problem.shape, roughness=known))
         return problem if self.sides else replace(problem, ends=replace(problem.ends, sides=None))
 

@@ -58,9 +58,9 @@ def _texture(numbers: Numbers) -> str:
 
 def _cavitation(numbers: Numbers) -> str:
     number = numbers["cavitation_number"]
-    return f"mass is kept where the film tears, since (p_ambient − p_c)/(6ηuL/h²) = {number:.2g}" + (
-        ": it bears little of what sliding pulls" if number < 1 else ": it hardly ever tears"
-    )
+    bears = "it bears little of what sliding pulls" if number < 1 else "it hardly ever tears"
+    starved = "; without it the starved inlet counts as full" if numbers.get("starvation", 1.0) < 1 else ""
+    return f"mass is kept where the film tears, since (p_ambient − p_c)/(6ηuL/h²) = {number:.2g}: {bears}{starved}"
 
 
 def _pressure(numbers: Numbers) -> str:

@@ -288,3 +288,14 @@ def test_compositions_of_one_scene_are_told_apart() -> None:
     whole = Composition(scene=scene())
     assert replace(whole, sides=False) != whole
     assert Composition(scene=scene()) == whole
+
+
+def test_a_film_that_its_roughness_seals_is_told_and_the_asperities_carry_on() -> None:
+    thin = scene(geometry={"film": "0.3 um", "rise": "0.1 um", "texture": None}, lubricant=CONSTANT)
+    found = study(thin, lambda taken, _progress: at_film(taken, CELLS))
+    assert set(found.untold) == {"with roughness"}
+    assert "seals a film" in found.untold["with roughness"]
+    assert found.full["contact_load"].value > 0
+    roughness, asperities = found.contributions[-2:]
+    assert roughness.on == {} == asperities.on == asperities.alone
+    assert roughness.alone["load"].value > 0
