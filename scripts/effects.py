@@ -79,7 +79,6 @@ SHOWN: Mapping[str, Shown] = {
     "inlet_flow_per_width": Shown(title="inlet flow", unit="mm²/s", factor=1e6),
     "side_leakage": Shown(title="side leakage", unit="mm³/s", factor=1e9),
     "contact_share": Shown(title="carried by contact", unit="%", factor=100),
-    "pressure_max": Shown(title="greatest film pressure", unit="MPa", factor=1e-6),
 }
 AT_FILM = ("load", "friction", "inlet_flow_per_width", "side_leakage")
 UNDER_LOAD = ("film", "friction_coefficient", "inlet_flow_per_width", "side_leakage")

@@ -12,8 +12,8 @@ from scripts import effects_figures
 from scripts.effects import AT_FILM, SHOWN, UNDER_LOAD, Shown, Told, cell, left_out, sentences, shown
 from scripts.pages import percent, render, write_figures
 
-MORE = ("friction_coefficient", "contact_share"), ("contact_share", "pressure_max")
-"""Columns of the page's tables beside those that are drawn: at a film, and under a load."""
+MORE = "contact_share"
+"""A column of the page's tables beside those that are drawn."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,11 +31,11 @@ class View:
 def write_page(told: Told, entries: Mapping[str, Any], out: Path) -> None:
     """Write the page and its figures; InputError if a file cannot be written."""
     film = told.scene.geometry.film
-    views = [_view(f"At the film of the scene, {film * 1e6:.4g} µm", told.at_film, AT_FILM, MORE[0], _beside(told))]
+    views = [_view(f"At the film of the scene, {film * 1e6:.4g} µm", told.at_film, AT_FILM, _beside(told))]
     if told.under_load is not None and told.scene.load is not None:
         title = f"Under {told.scene.load.pressure / 1e6:.4g} MPa over the nominal area"
         beside = {} if told.thicker is None else {"film": told.thicker}
-        views.append(_view(title, told.under_load, UNDER_LOAD, MORE[1], beside))
+        views.append(_view(title, told.under_load, UNDER_LOAD, beside))
     names = ("effects_at_film", "effects_under_load")
     write_figures({name: view.figure for name, view in zip(names, views, strict=False)}, out)
     kind = kinds()[told.scene.kind]
@@ -71,8 +71,8 @@ def _beside(told: Told) -> dict[str, Amount]:
     }
 
 
-def _view(title: str, found: Study, drawn: Sequence[str], more: Sequence[str], beside: Mapping[str, Amount]) -> View:
-    columns = shown(found, (*drawn, *more))
+def _view(title: str, found: Study, drawn: Sequence[str], beside: Mapping[str, Amount]) -> View:
+    columns = shown(found, (*drawn, MORE))
 
     def row(title: str, of: Mapping[str, Amount], *, sign: bool = True) -> tuple[str, list[str]]:
         return title, [cell(of.get(name), how, sign=sign) for name, how in columns.items()]
