@@ -11,6 +11,7 @@ from scripts import (
     compare,
     contact_series,
     doctor,
+    effects,
     export,
     factors,
     generate,
@@ -44,6 +45,7 @@ for module in (
     factors,
     stribeck,
     leakage,
+    effects,
     export,
     doctor,
 ):

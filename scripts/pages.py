@@ -20,7 +20,7 @@ def render(template: str, path: Path, **entries: Any) -> None:
         trim_blocks=True,
     )
     environment.filters.update(
-        percent=_percent,
+        percent=percent,
         share=_share,
         seconds=_seconds,
         number=_number,
@@ -53,7 +53,8 @@ def _share(part: float) -> str:
     return f"{percent:.0f} %" if percent >= 99.5 else f"{percent:.2g} %"
 
 
-def _percent(part: float) -> str:
+def percent(part: float) -> str:
+    """A part with its sign, in per cent."""
     percent = 100 * part
     if abs(percent) < 1e-3:
         return "0 %"

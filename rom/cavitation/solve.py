@@ -118,7 +118,9 @@ def solve(
             )
         except UnsettledError as error:
             if given:
-                again = solve(problem, cells, tolerance=tolerance, storage=storage, progress=progress)
+                again = solve(
+                    problem, cells, tolerance=tolerance, ruptures=ruptures, storage=storage, progress=progress
+                )
                 return replace(again, turned=turned)
             if nodes is finest:
                 raise

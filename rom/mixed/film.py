@@ -1,5 +1,6 @@
 """A film and the asperities that reach through it, at any separation of the walls and any speed."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -14,7 +15,7 @@ from rom.cavitation.network import State
 from rom.cavitation.problem import Problem
 from rom.cavitation.solve import TOLERANCE, Solution, solve
 from rom.gap import Array
-from rom.homogenization.gap_factors import GapFactors
+from rom.homogenization.gap_factors import FactorsOverGap, GapFactors
 from rom.mixed.asperities import Asperities
 from rom.mixed.touching import Touching, quarters, touching
 
@@ -111,8 +112,7 @@ class MixedFilm:
     @property
     def widest(self) -> float:
         """The thickest film that the geometry allows, m."""
-        geometry = self.scene.geometry
-        return geometry.clearance if isinstance(geometry, Journal) else geometry.length
+        return widest_film(self.scene)
 
     def scene_at(self, film: float, speed: float) -> Bearing:
         """The scene with another least film, m, and speed, m/s."""
@@ -151,10 +151,15 @@ class MixedFilm:
         return carried(scene, self.grid.x, force)
 
 
+def widest_film(scene: Bearing) -> float:
+    """The thickest least film that a geometry allows, m."""
+    return scene.geometry.clearance if isinstance(scene.geometry, Journal) else scene.geometry.length
+
+
 def mixed_problem(scene: Bearing, asperities: Asperities) -> Problem:
     """The film of a scene, averaged over its asperities."""
     problem = scene.problem()
-    return replace(problem, shape=replace(problem.shape, roughness=Seeping(asperities)))
+    return replace(problem, shape=replace(problem.shape, roughness=Seeping(asperities, asperities.mean_gap)))
 
 
 def mixed_state(scene: Bearing, found: Solution, contact: Touching) -> MixedState:
@@ -174,13 +179,17 @@ def mixed_state(scene: Bearing, found: Solution, contact: Touching) -> MixedStat
 
 @dataclass(frozen=True)
 class Seeping:
-    """Flow factors that let at least ``SEEPING`` of a smooth film through, so that no place is cut off."""
+    """Flow factors that let at least ``SEEPING`` of a smooth film through, so that no place is cut off.
 
-    asperities: Asperities
+    ``mean_gap`` is that of rough walls over the separation, m, where the two are not the same.
+    """
+
+    factors: FactorsOverGap
+    mean_gap: Callable[[Array], Array] = np.asarray
 
     def __call__(self, separation: Array, /) -> GapFactors:
         """The factors, each of the shape of ``separation``."""
-        found, h = self.asperities(separation), self.asperities.mean_gap(separation)
+        found, h = self.factors(separation), self.mean_gap(separation)
         least = SEEPING * h**3
         sealed = (found.along < least) | (found.across < least)
         return replace(

@@ -45,13 +45,21 @@ def test_a_smooth_pad_has_the_numbers_of_its_film_and_no_others() -> None:
     assert bearing_numbers(scene()) == pytest.approx(
         {
             "convergence": 2.0,
+            "thickness_ratio": 3.0,
+            "divergence": 2.0,
+            "finest": 1.0,
             "slenderness": 1.5,
             "starvation": 1.0,
             "cavitation_number": 1e5 / MADE,
             "compression": 0.0,
             "piezoviscous": 0.0,
+            "pressure_dependence": 0.0,
         }
     )
+
+
+def test_a_wedge_that_slides_towards_its_thin_end_widens_nowhere() -> None:
+    assert bearing_numbers(scene(motion={"speed": "2 m/s"}))["divergence"] == pytest.approx(0.0)
 
 
 def test_each_table_adds_its_own_numbers() -> None:

@@ -1,0 +1,169 @@
+"""What inertia would add to a composed bearing: to first order over its whole film, and in one pocket by the ladder."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from contact.units import with_unit
+from rom.bearing import Bearing
+from rom.bearing_inertia import Inertia, inertia
+from rom.bearing_numbers import bearing_numbers, without_texture
+from rom.bearing_rung import load_loops
+from rom.cavitation.solve import solve
+from rom.composition import Amount, Composed, Composition, added, solved_grids
+from rom.composition_load import under_load
+from rom.convergence import converge
+from rom.ladder import Effect, Model, find, of_kind
+from rom.ring_geometry import Ring
+from rom.scene import read_scene
+
+FIRST_ORDER = "inertial_reynolds"
+"""The rung of pockets that keeps as much of inertia as is kept here; the one expected nearest to the best judges it."""
+
+PERIOD = 2.0
+"""Lengths of a pocket from one to the next, where one alone is judged."""
+
+ORDER = 2
+"""Of the loads in the cells, where nothing is torn."""
+
+UNITS: Mapping[str, str] = {"load": "N", "friction": "N", "inlet_flow": "m^3/s"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class PocketJudged:
+    """One pocket between flat lands: by which model, why, its load over that of first-order inertia, and by which part
+    that model may be off.
+    """
+
+    model: str
+    why: str
+    over_first_order: float
+    within: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class InertiaAdded:
+    """What inertia adds to a film in balance, to first order; never a part of what the film is said to carry.
+
+    Attributes
+    ----------
+    amounts : of ``load``, ``friction`` and ``inlet_flow``, over the whole bearing (per width if infinitely wide).
+    untextured_load : what it adds without the pockets, in the same film; None where there are none.
+    pocket : what the models of pockets say of one; None without pockets.
+    """
+
+    amounts: Mapping[str, Amount]
+    untextured_load: float | None
+    pocket: PocketJudged | None
+
+
+def judged(scene: Bearing) -> str | None:
+    """Why inertia cannot be judged, in words; None where it can."""
+    if scene.lubricant.density is None:
+        return "the scene does not say how dense the lubricant is"
+    if isinstance(scene.geometry, Ring):
+        return "on a ring the liquid also turns, which is not looked at"
+    if scene.motion.speed == 0:
+        return "nothing slides"
+    return None
+
+
+def inertia_added(taken: Composition, cells: int, models: Sequence[Model]) -> InertiaAdded:
+    """First-order inertia of a composition's film, its error by two grids and by the nonlinear film in one pocket.
+
+    ``models`` : of pockets, among others; the one is taken that is expected nearest to the best.
+
+    Raises
+    ------
+    InputError
+        Where it cannot be judged, as :func:`judged` says.
+    ConvergenceError
+        If a film does not come into balance.
+    """
+    scene = taken.scene
+    load_loops(scene.wide)
+    grids = solved_grids(solve(taken.problem(), (cells, cells), ruptures=taken.ruptures))
+    found = {grid.grid.x.size: inertia(scene, grid) for grid in reversed(grids)}
+    pocket = one_pocket(scene, models)
+    number = bearing_numbers(scene)["reduced_reynolds_number"]
+    beyond = min(1.0, number) if pocket is None else abs(pocket.over_first_order - 1) + pocket.within
+    bare = None
+    if pocket is not None:
+        smooth = without_texture(scene)
+        plain = Composition(scene=smooth, sides=taken.sides, ruptures=taken.ruptures, factors=taken.factors)
+        bare = inertia(smooth, solve(plain.problem(), (cells, cells), ruptures=taken.ruptures)).load
+    return InertiaAdded(
+        amounts={name: _amount(name, found, beyond, wide=scene.wide) for name in UNITS},
+        untextured_load=bare,
+        pocket=pocket,
+    )
+
+
+def _amount(name: str, found: Mapping[int, Inertia], beyond: float, *, wide: bool) -> Amount:
+    """On the finest of some grids; as a film's torn part has an edge of cells, they are not trusted to be ordered."""
+    values = [getattr(one, name) for one in found.values()]
+    error = converge([*found], values, formal_order=ORDER).uncertainty if len(values) > 1 else math.inf
+    unit = {"N": "N/m", "m^3/s": "m^2/s"}[UNITS[name]] if wide else UNITS[name]
+    return Amount(value=values[-1], uncertainty=error + beyond * abs(values[-1]), unit=unit)
+
+
+def one_pocket(scene: Bearing, models: Sequence[Model]) -> PocketJudged | None:
+    """A pocket in the middle line of its texture, between flat lands as far apart as the walls are there.
+
+    None for walls without pockets, or where no model of pockets knows how near it is. The film is that at the middle
+    of the first column, the thickest and so the heaviest of a film that narrows; a flat floor counts as an arc.
+    """
+    texture, density = getattr(scene.geometry, "texture", None), scene.lubricant.density
+    if texture is None or density is None:
+        return None
+    shape = without_texture(scene).geometry.film_shape()
+    place = texture.start + texture.length / 2
+    film = float(shape.thickness(np.array([place]), np.array([sum(shape.across) / 2]))[0])
+    lengths = {"length": PERIOD * texture.length, "film": film, "width": texture.length, "depth": texture.depth}
+    pocket = read_scene(
+        {
+            "name": f"a pocket of {scene.name}"[:200],
+            "kind": "pocket",
+            "geometry": {"profile": "cylindrical", **{name: with_unit(value, "m") for name, value in lengths.items()}},
+            "lubricant": {
+                "viscosity": with_unit(scene.lubricant.viscosity, "Pa*s"),
+                "density": with_unit(density, "kg/m^3"),
+            },
+            "motion": {"speed": with_unit(abs(scene.motion.speed), "m/s")},
+        }
+    )
+    able = [
+        (fits.within, model.name, model, fits.reason)
+        for model in of_kind(models, "pocket")
+        if Effect.INERTIA in model.keeps and model.available().available
+        for fits in [model.applies(pocket)]
+        if fits.applies and fits.within is not None and model.name != FIRST_ORDER
+    ]
+    if not able:
+        return None
+    within, name, chosen, why = min(able, key=lambda one: one[:2])
+    first = find(models, FIRST_ORDER).solve(pocket).quantities["load_per_area"].value
+    ratio = chosen.solve(pocket).quantities["load_per_area"].value / first
+    return PocketJudged(model=name, why=why, over_first_order=ratio, within=within)
+
+
+def under_its_load(
+    taken: Composition, whole: Composed, pressure: float, cells: int, models: Sequence[Model]
+) -> tuple[InertiaAdded, Amount]:
+    """What inertia adds at the film that carries a load, Pa over the nominal area, and how much thicker it makes it, m.
+
+    ``whole`` is the composition under that load; with inertia its film has so much less to carry.
+    """
+    scene = taken.scene
+    there = scene.model_copy(update={"geometry": scene.geometry.at_film(whole.values["film"])})
+    found = inertia_added(replace(taken, scene=there), cells, models)
+    load = found.amounts["load"]
+    part = load.value / whole.values["load_per_width" if scene.wide else "load"]
+    relieved = under_load(taken, pressure * (1 - part), cells)
+    thicker = added(relieved, whole, "film")
+    assert thicker is not None
+    relative = load.uncertainty / abs(load.value) if load.value else 0.0
+    unsure = abs(thicker.value) * relative + thicker.uncertainty
+    return found, Amount(value=thicker.value, uncertainty=unsure, unit="m")
