@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from contact.units import with_unit
+from rom.advice.advise import advise
 from rom.bearing import Bearing
 from rom.bearing_inertia import Inertia, inertia
 from rom.bearing_numbers import bearing_numbers, without_texture
@@ -15,12 +16,15 @@ from rom.cavitation.solve import solve
 from rom.composition import Amount, Composed, Composition, added, solved_grids
 from rom.composition_load import under_load
 from rom.convergence import converge
-from rom.ladder import Effect, Model, find, of_kind
+from rom.ladder import Model, find, of_kind
 from rom.ring_geometry import Ring
 from rom.scene import read_scene
 
 FIRST_ORDER = "inertial_reynolds"
-"""The rung of pockets that keeps as much of inertia as is kept here; the one expected nearest to the best judges it."""
+"""The rung of pockets that keeps as much of inertia as is kept here; the cheapest that is enough judges it."""
+
+JUDGED_BY, WITHIN = "load_plus", 0.05
+"""What of one pocket it must be near in, and how near."""
 
 PERIOD = 2.0
 """Lengths of a pocket from one to the next, where one alone is judged."""
@@ -134,19 +138,14 @@ def one_pocket(scene: Bearing, models: Sequence[Model]) -> PocketJudged | None:
             "motion": {"speed": with_unit(abs(scene.motion.speed), "m/s")},
         }
     )
-    able = [
-        (fits.within, model.name, model, fits.reason)
-        for model in of_kind(models, "pocket")
-        if Effect.INERTIA in model.keeps and model.available().available
-        for fits in [model.applies(pocket)]
-        if fits.applies and fits.within is not None and model.name != FIRST_ORDER
-    ]
-    if not able:
+    found = advise(pocket, of_kind(models, "pocket"), quantity=JUDGED_BY, within=WITHIN)
+    judge = found.chosen or found.nearest
+    if judge is None or judge.error is None or judge.error > 1:
         return None
-    within, name, chosen, why = min(able, key=lambda one: one[:2])
     first = find(models, FIRST_ORDER).solve(pocket).quantities["load_per_area"].value
-    ratio = chosen.solve(pocket).quantities["load_per_area"].value / first
-    return PocketJudged(model=name, why=why, over_first_order=ratio, within=within)
+    told = found.result or find(models, judge.model).solve(pocket, resolution=judge.resolution)
+    ratio = told.quantities["load_per_area"].value / first
+    return PocketJudged(model=judge.model, why=judge.reason, over_first_order=ratio, within=judge.error)
 
 
 def under_its_load(

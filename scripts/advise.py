@@ -101,7 +101,7 @@ def tell(scene: Scene, found: Advice) -> None:
 def shortfall(found: Advice, title: str) -> str:
     """That no rung is enough, and which comes nearest."""
     told = f"no rung here is known to give the {title} within {percent(found.within)}"
-    if found.omitted is not None and found.omitted.part > found.within:
+    if found.omitted is not None and found.omitted.part > found.within / 2:
         return f"{told}: {found.omitted.reason}"
     if found.nearest is None or found.nearest.error is None:
         return told

@@ -1,7 +1,7 @@
 """The cheapest rung that is enough: judged by the numbers of a scene first, then by the rungs next to it."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import StrEnum
 from math import inf
 
@@ -58,7 +58,7 @@ class Advice:
     numbers : the dimensionless numbers of the scene.
     result : of the chosen rung, if it was run to be sure.
     spent_cpu_s : CPU seconds of all that was run.
-    omitted : what every rung of the kind leaves out; where that is too much, none is chosen.
+    omitted : what every rung of the kind leaves out; the rest of the tolerance is left for the rungs.
     """
 
     quantity: str
@@ -103,7 +103,8 @@ def advise(
     fitted to sweeps, and the difference to the next rung, if that is cheap. A rung that the numbers put beyond
     ``HOPELESS`` tolerances is not run, nor one that is put beyond the tolerance if to be sure of it costs more than the
     cheapest that is enough. Where the two disagree, one more rung up is run and decides, if it is cheap;
-    else the rung is passed over. What all of them leave out is judged apart. Errors are of CERTAINTY 0.95.
+    else the rung is passed over. What all of them leave out is judged apart and
+    taken off the tolerance. Errors are of CERTAINTY 0.95.
 
     Parameters
     ----------
@@ -132,13 +133,15 @@ def advise(
             )
         return known[key]
 
+    omitted = kind.omitted(scene, quantity)
+    left = within - (omitted.part if omitted else 0.0)
     fits = {model.name: model.applies(scene) for model in models}
     asked = Question(
         scene=scene,
         kind=kind,
         models=[model for model in models if fits[model.name].applies],
         quantity=quantity,
-        within=within,
+        within=left,
         table=laws or table(),
         numbers=kind.numbers(scene),
         run=solved,
@@ -151,17 +154,12 @@ def advise(
         if not fit.applies
     ]
     chosen: Considered | None = None
-    secure = min((asked.cost(model) for model in asked.models if _keeps(a_priori(asked, model), within)), default=inf)
+    secure = min((asked.cost(model) for model in asked.models if _keeps(a_priori(asked, model), left)), default=inf)
     for model in sorted(asked.models, key=lambda model: (asked.cost(model), -len(model.keeps))):
-        one = _after(asked, model) if chosen else _considered(asked, model, secure)
+        one = _after(asked, model) if chosen or left <= 0 else _considered(asked, model, secure)
         considered.append(one)
         if one.verdict is Verdict.CHOSEN:
             chosen = one
-    omitted = kind.omitted(scene, quantity)
-    if chosen is not None and omitted is not None and omitted.part + (chosen.error or 0.0) > within:
-        told = replace(chosen, verdict=Verdict.NOT_ENOUGH, reason=omitted.reason)
-        considered = [told if one is chosen else one for one in considered]
-        chosen = None
     short = [one for one in considered if one.error is not None and one.verdict is Verdict.NOT_ENOUGH]
     return Advice(
         quantity=quantity,

@@ -8,12 +8,13 @@ from numpy.typing import NDArray
 from pydantic import ValidationError
 
 from contact.entries import Part
+from contact.errors import ConvergenceError
 from contact.toml import Location, in_one_line, known_keys, unknown_key
 from contact.units import Quantity
 from rom.bearing import Bearing
 from rom.bearing_geometry import SHAPES
 from rom.bearing_numbers import bearing_numbers
-from rom.kind import Kind
+from rom.kind import Kind, Omission
 from rom.lubricants.laws import LAWS
 from rom.roughness import ROUGHNESSES
 from rom.sweeping import Columns, Powers, Sweeping
@@ -29,6 +30,9 @@ COLUMNS = {
 }
 """Columns of a table of many cases, and the numbers of the scene that stand in them."""
 
+LOAD, LEAST_LOAD = "load_per_width", 1e-3
+"""A load below this part of the friction is as good as none."""
+
 SYMBOLS = {"compression": "ϑ", "starvation": "θ", "slenderness": "B/L"}
 
 
@@ -42,8 +46,9 @@ CHOSEN: Mapping[tuple[str, ...], Mapping[str, type[Part]]] = {
 
 
 def scale(values: Mapping[str, Any], quantity: str) -> Any:
-    """The size of a quantity."""
-    return np.abs(values[quantity])
+    """The size of a quantity; of the load at least ``LEAST_LOAD`` of the friction."""
+    size = np.abs(values[quantity])
+    return np.maximum(size, LEAST_LOAD * np.abs(values["friction_per_width"])) if quantity == LOAD else size
 
 
 def columns(scene: Bearing) -> dict[str, Quantity | str]:
@@ -130,6 +135,16 @@ NUMBERS = {
 """How people write the numbers of a bearing, p being 6ηuL/h²."""
 
 
+def omitted(scene: Bearing, quantity: str) -> Omission | None:
+    """Inertia, to first order, of a lubricant whose density is told; None where a film does not come into balance."""
+    from rom.bearing_omission import inertia_omitted  # the advice on pockets, which it asks, needs the kinds itself
+
+    try:
+        return inertia_omitted(scene, quantity)
+    except ConvergenceError:
+        return None
+
+
 KIND = Kind(
     name="bearing",
     scene=Bearing,
@@ -139,6 +154,7 @@ KIND = Kind(
     columns=columns,
     numbers=bearing_numbers,
     symbols=NUMBERS,
+    omitted=omitted,
     files=frozenset({"table", "surface", "thickness"}),
     lists=frozenset({("roughness", "spacing"), ("roughness", "surface", "size"), ("roughness", "surface", "points")}),
     told=told,
