@@ -10,6 +10,9 @@ from rom.pocket import Pocket
 SYMBOLS = {"reynolds_number": "Re", "depth": "d/Ly", "aspect": "2d/w", "slope": "slope"}
 """``slope`` is that of the steeper side of a groove, 2d/w if its lowest point is in the middle."""
 
+NARROWEST = 5.0
+"""Film thicknesses: grooves that are narrower were not among those of the sweep."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class ErrorLaw:
@@ -29,12 +32,16 @@ class ErrorLaw:
         return math.prod(factors)
 
     def within(self, scene: Pocket) -> float | None:
-        """The smallest tolerance that the load is expected to keep, None beyond the last threshold."""
+        """The smallest tolerance that the load is expected to keep, None beyond the last threshold or the sweep."""
+        if _narrowest(scene) < NARROWEST:
+            return None
         number = self.number(scene)
         return min((t for t, limit in self.thresholds.items() if number <= limit), default=None)
 
     def told(self, scene: Pocket) -> str:
         """What is to be expected, in words."""
+        if (narrowest := _narrowest(scene)) < NARROWEST:
+            return f"w/Ly = {narrowest:.3g}: loads were compared for grooves of {NARROWEST:g} film thicknesses and more"
         kept, worst = self.within(scene), max(self.thresholds)
         found = f"{words(self.powers)} = {self.number(scene):.3g}"
         if kept is None:
@@ -44,6 +51,11 @@ class ErrorLaw:
     def applicability(self, scene: Pocket, words_before: str) -> Applicability:
         """What a model says of a scene: these words, then what is to be expected."""
         return Applicability(applies=True, within=self.within(scene), reason=f"{words_before}; {self.told(scene)}")
+
+
+def _narrowest(scene: Pocket) -> float:
+    """The width of the narrowest groove, in film thicknesses; what rounding takes from it counts for nothing."""
+    return min(groove.width for groove in scene.grooves) / scene.geometry.film * (1 + 1e-9)
 
 
 def words(powers: Mapping[str, float]) -> str:
