@@ -10,8 +10,8 @@ from rom.pocket import Pocket
 SYMBOLS = {"reynolds_number": "Re", "depth": "d/Ly", "aspect": "2d/w", "slope": "slope"}
 """``slope`` is that of the steeper side of a groove, 2d/w if its lowest point is in the middle."""
 
-NARROWEST = 5.0
-"""Film thicknesses: grooves that are narrower were not among those of the sweep."""
+NARROWEST, DEEPEST = 5.0, 0.5
+"""w/Ly and 2d/w: grooves that are narrower, or deeper for their width, were not among those of the sweep."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,15 +33,15 @@ class ErrorLaw:
 
     def within(self, scene: Pocket) -> float | None:
         """The smallest tolerance that the load is expected to keep, None beyond the last threshold or the sweep."""
-        if _narrowest(scene) < NARROWEST:
+        if _beyond(scene):
             return None
         number = self.number(scene)
         return min((t for t, limit in self.thresholds.items() if number <= limit), default=None)
 
     def told(self, scene: Pocket) -> str:
         """What is to be expected, in words."""
-        if (narrowest := _narrowest(scene)) < NARROWEST:
-            return f"w/Ly = {narrowest:.3g}: loads were compared for grooves of {NARROWEST:g} film thicknesses and more"
+        if beyond := _beyond(scene):
+            return beyond
         kept, worst = self.within(scene), max(self.thresholds)
         found = f"{words(self.powers)} = {self.number(scene):.3g}"
         if kept is None:
@@ -53,9 +53,14 @@ class ErrorLaw:
         return Applicability(applies=True, within=self.within(scene), reason=f"{words_before}; {self.told(scene)}")
 
 
-def _narrowest(scene: Pocket) -> float:
-    """The width of the narrowest groove, in film thicknesses; what rounding takes from it counts for nothing."""
-    return min(groove.width for groove in scene.grooves) / scene.geometry.film * (1 + 1e-9)
+def _beyond(scene: Pocket) -> str:
+    """Why nothing is known of grooves like these, "" where they were compared; rounding counts for nothing."""
+    narrowest = min(groove.width for groove in scene.grooves) / scene.geometry.film
+    if narrowest < NARROWEST * (1 - 1e-9):
+        return f"w/Ly = {narrowest:.3g}: loads were compared for grooves of {NARROWEST:g} film thicknesses and more"
+    if scene.aspect > DEEPEST * (1 + 1e-9):
+        return f"2d/w = {scene.aspect:.3g}: loads were compared for grooves up to {DEEPEST:g}"
+    return ""
 
 
 def words(powers: Mapping[str, float]) -> str:
