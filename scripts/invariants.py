@@ -21,6 +21,10 @@ LAWS: Mapping[str, Law] = {
 }
 
 
+RECOMPUTED = 2.0
+"""A residual that is found afresh, in fields read back from files, may be so many tolerances."""
+
+
 def broken(scene: Any, result: Result) -> list[str]:
     """What an answer breaks, in words; nothing of a good one."""
     faults = [*_not_finite(result), *_not_solved(result)]
@@ -48,7 +52,7 @@ def _not_finite(result: Result) -> Iterator[str]:
 def _not_solved(result: Result) -> Iterator[str]:
     numerics, bars = result.numerics, result.provenance.get("uncertainty", {})
     told = [bar / abs(result.quantities[name].value) for name, bar in bars.items() if result.quantities[name].value]
-    allowed = max([numerics.tolerance, *told])
+    allowed = RECOMPUTED * max([numerics.tolerance, *told])
     if not (numerics.residual <= allowed or result.provenance.get("warnings")):
         yield f"the residual is {numerics.residual:.2g}, above {allowed:.2g}, and neither warning nor error bar says so"
     if min(numerics.cpu_s, numerics.wall_s, numerics.iterations) < 0 or numerics.degrees_of_freedom < 1:
