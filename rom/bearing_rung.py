@@ -22,6 +22,7 @@ from rom.gap import Array
 from rom.ladder import Applicability, Effect, Model, Progress, chosen_scheme, chosen_tolerance, one_process, silent
 from rom.provenance import provenance
 from rom.result import Field, Numerics, Result
+from rom.validity import NOTHING_COARSER
 
 RESOLUTION_MEANING = "cells along the sliding, and as many across where the bearing has a width"
 RESIDUAL_MEANING = "largest net flow into a node over the largest flow through a face"
@@ -117,7 +118,9 @@ def solve(
     warnings = [*unresolved(found), *beyond(found), *odd(scene, found), *unbalanced(scene, found, quantities)]
     uncertainty = uncertainties(scene, found, quantities, reading)
     if not uncertainty:
-        warnings.append("there is no coarser grid to compare with; how far off this is cannot be said")
+        warnings.append(NOTHING_COARSER)
+    if unknown := [name for name, bar in uncertainty.items() if not math.isfinite(bar)]:
+        warnings.append(f"{', '.join(unknown)}: {NOTHING_COARSER}, as the roughness has too few points")
     return Result(
         model=model,
         quantities=quantities,
@@ -137,7 +140,7 @@ def solve(
             keeps=tuple(keeps),
             sources=sources,
             warnings=warnings,
-            uncertainty=uncertainty,
+            uncertainty={name: bar for name, bar in uncertainty.items() if math.isfinite(bar)},
             grids=[{"nodes": list(level.shape), "iterations": level.iterations} for level in found.levels],
         ),
     )

@@ -10,6 +10,9 @@ from rom.pocket import Pocket
 SYMBOLS = {"reynolds_number": "Re", "depth": "d/Ly", "aspect": "2d/w", "slope": "slope"}
 """``slope`` is that of the steeper side of a groove, 2d/w if its lowest point is in the middle."""
 
+NARROWEST, DEEPEST = 5.0, 0.5
+"""w/Ly and 2d/w: grooves that are narrower, or deeper for their width, were not among those of the sweep."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class ErrorLaw:
@@ -29,12 +32,16 @@ class ErrorLaw:
         return math.prod(factors)
 
     def within(self, scene: Pocket) -> float | None:
-        """The smallest tolerance that the load is expected to keep, None beyond the last threshold."""
+        """The smallest tolerance that the load is expected to keep, None beyond the last threshold or the sweep."""
+        if _beyond(scene):
+            return None
         number = self.number(scene)
         return min((t for t, limit in self.thresholds.items() if number <= limit), default=None)
 
     def told(self, scene: Pocket) -> str:
         """What is to be expected, in words."""
+        if beyond := _beyond(scene):
+            return beyond
         kept, worst = self.within(scene), max(self.thresholds)
         found = f"{words(self.powers)} = {self.number(scene):.3g}"
         if kept is None:
@@ -44,6 +51,16 @@ class ErrorLaw:
     def applicability(self, scene: Pocket, words_before: str) -> Applicability:
         """What a model says of a scene: these words, then what is to be expected."""
         return Applicability(applies=True, within=self.within(scene), reason=f"{words_before}; {self.told(scene)}")
+
+
+def _beyond(scene: Pocket) -> str:
+    """Why nothing is known of grooves like these, "" where they were compared; rounding counts for nothing."""
+    narrowest = min(groove.width for groove in scene.grooves) / scene.geometry.film
+    if narrowest < NARROWEST * (1 - 1e-9):
+        return f"w/Ly = {narrowest:.3g}: loads were compared for grooves of {NARROWEST:g} film thicknesses and more"
+    if scene.aspect > DEEPEST * (1 + 1e-9):
+        return f"2d/w = {scene.aspect:.3g}: loads were compared for grooves up to {DEEPEST:g}"
+    return ""
 
 
 def words(powers: Mapping[str, float]) -> str:

@@ -15,6 +15,7 @@ from rom.gap_validity import cautions
 from rom.ladder import Applicability, Effect, Model
 from rom.result import Field
 from rom.rough_gap import RoughGap
+from rom.validity import NOTHING_COARSER
 from rom.walls import Walls
 
 RESIDUAL_MEANING = "largest part of a coefficient by which iterating on would change it"
@@ -43,8 +44,11 @@ def work(task: Task, *, find: Callable[[Walls, float], Found], slope: bool) -> A
     walls = scene.walls(max(task.heights.shape))
     found = find(walls, scene.mean_gap)
     bars: Mapping[str, float] = {}
+    warnings = [*cautions(scene, walls), *found.warnings]
     if found.uncertainty is not None:
         bars = coefficients(_with_lost_waves(found.factors, found.uncertainty, scene, walls, slope=slope))
+        if not np.isfinite(found.uncertainty.pressure).all():
+            warnings.append(NOTHING_COARSER)
     return Answer(
         quantities=gap_quantities(scene, walls, found.factors),
         fields={
@@ -53,7 +57,7 @@ def work(task: Task, *, find: Callable[[Walls, float], Found], slope: bool) -> A
         },
         residual=found.residual,
         iterations=found.iterations,
-        warnings=(*cautions(scene, walls), *found.warnings),
+        warnings=tuple(warnings),
         uncertainty={name: bar for name, bar in bars.items() if np.isfinite(bar)},
     )
 

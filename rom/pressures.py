@@ -15,16 +15,23 @@ FINE = 60
 """Parts of a bin's width at which the load of a density is added up."""
 
 FARTHEST = 8.0
-"""E* g' beyond the mean pressure, where hardly any estimate has pressures left."""
+"""E* g' from the mean pressure, where hardly any estimate has pressures left."""
 
 
 def bin_edges(scene: RoughContact) -> Array:
-    """From 0 to the mean pressure and twice E* g' beyond, Pa; as many bins again below a hardness that lies within."""
-    top = scene.load.pressure + 2 * scene.pressure_unit
+    """To twice E* g' beyond the mean pressure, Pa; as many bins again below a hardness that lies within.
+
+    From 0, or where all is in contact and pressures are all alike, from the least that is worth a bin.
+    """
+    bottom, top = _least(scene), scene.load.pressure + 2 * scene.pressure_unit
     if scene.hardness < top:
-        lower, upper = np.linspace(0, scene.hardness, BINS + 1), np.linspace(scene.hardness, top, BINS + 1)
+        lower, upper = np.linspace(bottom, scene.hardness, BINS + 1), np.linspace(scene.hardness, top, BINS + 1)
         return np.concatenate([lower, upper[1:]])
-    return np.linspace(0, top, BINS + 1)
+    return np.linspace(bottom, top, BINS + 1)
+
+
+def _least(scene: RoughContact) -> float:
+    return max(0.0, scene.load.pressure - FARTHEST * scene.pressure_unit)
 
 
 def density_of_contact(contact: Contact, edges: Array) -> Array:
@@ -52,7 +59,7 @@ def load_mismatch(scene: RoughContact, estimate: Estimate) -> float:
         farthest = scene.load.pressure + FARTHEST * scene.pressure_unit
         top = min(scene.hardness, farthest) if bounded else farthest
         nodes, weights = np.polynomial.legendre.leggauss(NODES)
-        edges = np.linspace(0, top, FINE * BINS + 1)
+        edges = np.linspace(_least(scene), top, FINE * BINS + 1)
         middle, half = (edges[1:] + edges[:-1]) / 2, np.diff(edges) / 2
         pressure = middle[:, None] + half[:, None] * nodes
         carried += float(((pressure * estimate.pressure_density(pressure)) @ weights * half).sum())

@@ -16,6 +16,7 @@ from rom.leakage.passage import Passage, dimensionless, mass_flow
 from rom.pressed import TOLERANCE, prepare
 from rom.result import Field
 from rom.seal import Seal
+from rom.validity import NOTHING_COARSER
 
 RESIDUAL_MEANING = (
     "part of the leakage by which iterating on would change it, or by how much contact breaks its conditions"
@@ -52,7 +53,7 @@ def leak(task: Task, *, flow: Flow) -> Answer:
         },
         residual=max(found.complementarity, passage.unsolved),
         iterations=max(found.iterations + passage.iterations, 1),
-        warnings=_warnings(scene, found),
+        warnings=(*_warnings(scene, found), *(() if math.isfinite(passage.uncertainty) else (NOTHING_COARSER,))),
         uncertainty={
             "permeability": passage.uncertainty,
             "leakage_per_width": leakage_of(scene, passage.uncertainty),

@@ -21,3 +21,7 @@ def cautions(scene: Pocket, law: ErrorLaw | None = None) -> tuple[str, ...]:
     if law is not None and law.within(scene) is None:
         told.append(law.told(scene))
     return tuple(told)
+
+
+NOTHING_COARSER = "there is no coarser grid to compare with; how far off this is cannot be said"
+"""A warning: of answers without error bars."""

@@ -165,7 +165,7 @@ def _grids(points: int) -> Iterator[Probe]:
     for shape in (*shapes, (2, n), (n, 2), (3, n // 2), (n, n // 8), (17, n - 5)):
         gap = truncated(whole[: shape[0], : shape[1]], 0.0 if min(shape) < 4 else 0.2)
         yield Probe(group="sizes", name=f"{shape[0]} × {shape[1]}", gap=gap)
-    for unit in (1e-9, 1e6):
+    for unit in (1e-9, 1e5):
         yield Probe(group="sizes", name=f"gap in units of {unit:g} m", gap=unit / ROUGHNESS * truncated(whole, 0.2))
 
 

@@ -1,8 +1,7 @@
 """Where the cell problems are solved: by every solver and by all in their order, judged by formulas and elimination."""
 
-import time
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
@@ -10,15 +9,9 @@ import numpy as np
 
 from contact.errors import ConvergenceError, InputError
 from rom.gap import Array
-from scripts import stability_spots as spots_of
 from scripts.cell_probes import REFUSED, Probe, probes
 from scripts.common import progress_bar
-from scripts.stability_made import Made
-from scripts.stability_spots import MEANING as ALWAYS
-from scripts.stability_spots import State, columns_of, count, entries_of, in_groups, in_rows, table_of
-
-SLOW = 100
-"""More iterations than this, on the finest grid and of all three problems together, are slow."""
+from scripts.stability_form import BAD, GOOD, Judged, Map, Outcome, Spot, count, named, summed, tried
 
 DEFAULT, TRUTH, OTHERWISE = "default", "elimination", "multigrid_double"
 """All solvers in their order, on nested grids; the one that the others are judged by, and what judges it."""
@@ -34,24 +27,6 @@ ROUNDING = 1e-9
 
 TRACES = 1e-13
 """Of the largest h³: by so much more A may be off, as conductances below 1e-14 of it are closed."""
-
-
-MEANING: Mapping[State, str] = {
-    State.CONVERGED: f"A within {ALLOWED:g}, and {TRACES:g} of the largest h³; or {PART:g} of the default's error bar",
-    State.SLOW: f"the same, after more than {SLOW} iterations",
-    **ALWAYS,
-}
-
-
-@dataclass(frozen=True, kw_only=True)
-class Spot(spots_of.Spot):
-    """What became of one question to one solver; None where there was no answer.
-
-    ``error`` is that of A₁₁ or A₂₂, the larger, over A, ``told`` what the solver says of it.
-    """
-
-    error: float | None = None
-    told: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -119,39 +94,35 @@ def truth_of(probe: Probe) -> tuple[Array, Array | None, str]:
     return np.full((2, 2), np.nan), None, "nothing"
 
 
-def tried(probe: Probe, solver: str, truth: tuple[Array, Array | None, str] | None) -> Spot:
-    """Put a probe to a solver and judge the answer; whatever else is raised is wrong."""
+Truth = tuple[Array, Array | None, str]
+
+
+def put(probe: Probe, solver: str, truth: Truth | None) -> Spot:
+    """A probe put to a solver; what has no truth must be refused."""
     spot = partial(Spot, group=probe.group, row=probe.name, column=solver)
-    cpu = time.process_time()
-    try:
-        found = asked(probe, solver)
-    except Exception as error:  # a question must end in an answer or in an error of the project's, and is told if not
-        spent = time.process_time() - cpu
-        if isinstance(error, InputError):
-            state = State.REFUSED if probe.expected == REFUSED and "\n" not in str(error) else State.WRONG
-        else:
-            state = State.STALLED if isinstance(error, ConvergenceError) else State.WRONG
-        known = isinstance(error, InputError | ConvergenceError)
-        message = str(error) if known else f"{type(error).__name__}: {error}"
-        return spot(state=state, iterations=getattr(error, "iterations", None), cpu_s=spent, message=message)
-    spent = time.process_time() - cpu
-    if truth is None:
-        return spot(state=State.WRONG, cpu_s=spent, message="an answer: none exists")
-    return _judged(spot(state=State.CONVERGED, iterations=found.iterations, cpu_s=spent), found, truth)
+
+    def judge(found: Answer) -> Judged:
+        assert truth is not None
+        return judged(found, truth, solver)
+
+    return tried(spot, lambda: asked(probe, solver), judge, refused=probe.expected == REFUSED)
 
 
-def _judged(spot: Spot, found: Answer, truth: tuple[Array, Array | None, str]) -> Spot:
-    """With the error, and what it makes of the answer."""
+def judged(found: Answer, truth: Truth, solver: str) -> Judged:
+    """By what is taken for right."""
     right, shear, source = truth
     errors = _over_diagonal(found.pressure - right, right, found.traces)
-    error, told = float(errors.max()), found.told
     aside = 0.0 if shear is None else float(np.abs(found.shear - shear).max())
     bound = np.maximum(ALLOWED, PART * found.bar)
-    if not ((errors <= bound).all() and aside <= bound.max()):
-        message = f"A is off by {error:.2g} and B by {aside:.2g}, {bound.max():.2g} allowed, by {source}"
-        return replace(spot, state=State.WRONG, error=error if np.isfinite(error) else None, told=told, message=message)
-    state = State.SLOW if (spot.iterations or 0) > SLOW else State.CONVERGED
-    return replace(spot, state=state, error=error, told=told, message="taken for right" * (source == spot.column))
+    good = bool((errors <= bound).all() and aside <= bound.max())
+    missed = f"A is off by {errors.max():.2g} and B by {aside:.2g}, {bound.max():.2g} allowed, by {source}"
+    return Judged(
+        iterations=found.iterations,
+        right=good,
+        error=float(errors.max()),
+        numbers={"told": found.told},
+        message="taken for right" * (source == solver) if good else missed,
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -161,7 +132,7 @@ class CellFamily:
     resolution: int = 128
     resolution_meaning: str = "nodes along a side of the cells"
 
-    def make(self, *, resolution: int, out: Path, processes: int, scratch: Path) -> Made:  # noqa: ARG002
+    def make(self, *, resolution: int, out: Path, processes: int, scratch: Path) -> Map:  # noqa: ARG002
         """Try every probe by every solver, one after the other: CPU times are to be compared."""
         if not 64 <= resolution <= 512:
             raise InputError(f"--resolution: got {resolution}; the cells take 64 to 512 nodes along a side")
@@ -171,18 +142,22 @@ class CellFamily:
             for number, probe in enumerate(every):
                 advance(number, f"{probe.group}: {probe.name}")
                 truth = None if probe.expected == REFUSED else truth_of(probe)
-                spots += [tried(probe, solver, truth) for solver in (solvers() if truth else [DEFAULT])]
-        return Made(
-            entries=entries_of("cell", resolution, spots, in_words(spots)),
-            columns=columns_of(spots, ("error", "told")),
-            table=table_of(in_groups(spots) | by_solver(spots)),
-            template="stability_cell.html.j2",
-            page={
-                "tables": {name: in_rows(found) for name, found in in_groups(spots).items()},
-                "solvers": solvers(),
-                "states": [(state, MEANING[state], count(spots, state)) for state in State],
-                "told": in_words(spots),
-            },
+                spots += [put(probe, solver, truth) for solver in (solvers() if truth else [DEFAULT])]
+        return Map(
+            family="cell",
+            title="Cell problems of homogenization",
+            axes=f"Periodic gaps on {resolution} nodes along a side where nothing else is said (rows): contrasts of h³ "
+            "to 10¹⁶, contact to 60 %, lays, pixels a hundred times as long as wide, odd, prime and tiny grids, "
+            "gaps near "
+            "sealing, offsets, and what makes no sense; by each solver alone and by the default, all in their order on "
+            "nested grids (columns).",
+            judge="A and B by formulas where there are any, else by sparse elimination; the error is that of A. It may "
+            f"be {ALLOWED:g} and {TRACES:g} of the largest h³, or {PART:g} of the default's error bar. Iterations are "
+            "those of all three problems on the finest grid.",
+            resolution=resolution,
+            resolution_meaning=self.resolution_meaning,
+            spots=spots,
+            told=in_words(spots),
         )
 
 
@@ -203,31 +178,25 @@ def in_words(spots: Sequence[Spot]) -> list[str]:
     """What a reader should know."""
     lines = []
     for name, own in by_solver(spots).items():
-        good = [spot for spot in own if spot.state in (State.CONVERGED, State.SLOW)]
-        if not good:
-            continue
-        worst = max(good, key=lambda spot: spot.error or 0)
-        lines.append(
-            f"{name}: {len(good)} of {len(own)} right, {count(own, State.SLOW)} of these slowly, "
-            f"{count(own, State.STALLED)} stalled, {count(own, State.WRONG)} wrong; at most "
-            f"{max(spot.iterations or 0 for spot in good)} iterations, A off by at most {worst.error:.1e} "
-            f"({worst.group}: {worst.row}), {sum(spot.cpu_s for spot in own):.2g} s in all."
-        )
-    short = [spot for spot in spots if spot.told and spot.error and spot.error > max(spot.told, ROUNDING)]
+        if good := [spot for spot in own if spot.outcome in GOOD]:
+            worst = max(good, key=lambda spot: spot.error or 0)
+            lines.append(
+                f"{name}: {summed(own)}; at most {max(spot.iterations or 0 for spot in good)} iterations, A off by at "
+                f"most {worst.error:.1e} ({worst.group}: {worst.row}), {sum(spot.cpu_s for spot in own):.2g} s in all."
+            )
+    over = {spot.place: (spot.error or 0.0) / told for spot in spots if (told := spot.numbers.get("told"))}
+    short = [spot for spot in spots if over.get(spot.place, 0.0) > 1 and (spot.error or 0.0) > ROUNDING]
     if short:
-        most = max(short, key=lambda spot: (spot.error or 0) / (spot.told or 1))
+        most = max(short, key=lambda spot: over[spot.place])
         lines.append(
             f"{len(short)} errors above {ROUNDING:g} are larger than what the solver says is left to gain, at most "
-            f"{(most.error or 0) / (most.told or 1):.2g} times ({most.column}, {most.group}: {most.row})."
+            f"{over[most.place]:.2g} times ({most.place})."
         )
     refused = [spot for spot in spots if spot.group == "limits"]
     if refused:
-        lines.append(f"{count(refused, State.REFUSED)} of {len(refused)} questions that make no sense are refused.")
-    return lines + [
-        f"{spot.state.capitalize()}: {spot.column}: {spot.group}: {spot.row}: {spot.message}"
-        for spot in spots
-        if spot.state is State.WRONG or (spot.state is State.STALLED and spot.column == DEFAULT)
-    ]
+        lines.append(f"{count(refused, Outcome.REFUSED)} of {len(refused)} questions that make no sense are refused.")
+    default = [spot for spot in spots if spot.column == DEFAULT]
+    return lines + named(default, *BAD) + named([s for s in spots if s.column != DEFAULT], Outcome.WRONG)
 
 
 CELL = CellFamily()

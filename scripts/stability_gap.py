@@ -3,8 +3,8 @@
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
-from enum import StrEnum
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -12,16 +12,14 @@ from matplotlib.figure import Figure
 from contact.errors import InputError
 from rom.ladder import of_kind
 from rom.result import Result
-from scripts import stability_spots as spots_of
 from scripts.common import models
 from scripts.executors import local
 from scripts.figures import svg
 from scripts.gap_probes import CUT, CUTS, Probe, probes
 from scripts.gap_truths import JUDGED, Truth, agreeing, exact_stokes, exact_thin, extrapolated
 from scripts.runs import Failure, Job
-from scripts.stability_made import Made
-from scripts.stability_runs import answers_to
-from scripts.stability_spots import columns_of, count, entries_of, in_groups, in_rows, table_of
+from scripts.stability_form import GOOD, Map, Outcome, Spot, count, in_groups, in_rows
+from scripts.stability_runs import SECOND, answers_to, failed
 from scripts.views.rough_gap import STYLES
 
 KIND = "rough_gap"
@@ -39,59 +37,17 @@ SLOW = {"homogenized": 100, "slope_corrected": 100, "stokes": 600, "navier_stoke
 ROUNDING = 1e-9
 
 
-class State(StrEnum):
-    """What became of a question."""
+UNJUDGED = "nothing finer to judge it by"
+"""Why a run that converged has no error."""
 
-    CONVERGED = "converged"
-    SLOW = "slow"
-    RESCUED = "rescued"
-    INACCURATE = "inaccurate"
-    UNJUDGED = "unjudged"
-    STALLED = "stalled"
-    UNSTEADY = "unsteady"
-    UNFINISHED = "unfinished"
-    DIVERGED = "diverged"
-    MESH = "no mesh"
-    REFUSED = "refused"
-    WRONG = "wrong"
-    FAILED = "failed"
-
-
-GOOD = (State.CONVERGED, State.SLOW, State.RESCUED)
-
-MEANING: Mapping[State, str] = {
-    State.CONVERGED: f"every coefficient ({', '.join(JUDGED)}) within {ALLOWED:.0%}, and within the error bar told",
-    State.SLOW: "the same, after many iterations (above 100 of thin films, above 600 of OpenFOAM's three drives)",
-    State.RESCUED: "the same, but OpenFOAM needed its second recipe",
-    State.INACCURATE: f"solved, but more than {ALLOWED:.0%} off: too coarse a mesh, or the model leaves out too much",
-    State.UNJUDGED: "solved, and nothing finer is there to judge it by",
-    State.STALLED: "the flow stands still, but pressure or cross flow miss the tolerance",
-    State.UNSTEADY: "the flow swings from iteration to iteration and gets no nearer to a steady one",
-    State.UNFINISHED: "was getting nearer when its iterations were used up",
-    State.DIVERGED: "the numbers grew beyond all bounds",
-    State.MESH: "OpenFOAM's mesh check finds faults, and nothing is solved",
-    State.REFUSED: "refused in one line",
-    State.WRONG: "outside of the error bar that the model tells",
-    State.FAILED: "anything else: a fault",
-}
-
-
-@dataclass(frozen=True, kw_only=True)
-class Spot(spots_of.Spot):
-    """What became of one question; None where there is no number.
-
-    ``error`` is that of the coefficient that is off most, over itself, by ``judge``; ``imbalance`` that of momentum.
-    """
-
-    setting: str
-    error: float | None = None
-    worst: str = ""
-    judge: str = ""
-    imbalance: float | None = None
-    A11: float | None = None
-    A22: float | None = None
-    B1: float | None = None
-    friction: float | None = None
+TOO_SHORT, LEFT_OUT, CUT_OUT, TOLD, SILENT = (
+    "error bar too short",
+    "slope left out",
+    "contact cut out",
+    "told",
+    "not told",
+)
+"""Why an answer is wrong, or inaccurate."""
 
 
 def spot_of(probe: Probe, answer: Result | Failure, truth: Truth | None, thin: Truth | None = None) -> Spot:
@@ -100,51 +56,43 @@ def spot_of(probe: Probe, answer: Result | Failure, truth: Truth | None, thin: T
     The error is by ``truth``, Stokes flow or whatever is the best at hand. ``thin`` is thin-film theory: what the error
     bars of ``homogenized`` are about, and of all flows that with the most flow and the least friction.
     """
-    blank = Spot(
-        group=probe.group,
-        row=probe.row,
-        column=probe.column,
-        setting=probe.setting.name,
-        state=State.UNJUDGED,
-        message=_cells(probe),
-    )
+    place: dict[str, Any] = {"group": probe.group, "row": probe.row, "column": probe.column}
+    cells = _cells(probe)
     if isinstance(answer, Failure):
-        return replace(
-            blank,
-            state=_state_of(answer),
-            iterations=answer.iterations,
-            cpu_s=answer.cpu_s or 0.0,
-            message=f"{answer.message} {blank.message}".strip(),
-        )
+        blank: dict[str, float | None] = dict.fromkeys(("imbalance", *JUDGED))
+        spot = failed(answer, **place, numbers=blank)
+        return replace(spot, message=f"{spot.message} {cells}".strip())
     values = {name: answer.quantities[name].value for name in JUDGED if name in answer.quantities}
-    spot = replace(
-        blank,
-        A11=values.get("A11"),
-        A22=values.get("A22"),
-        B1=values.get("B1"),
-        friction=values.get("friction"),
+    imbalance = max(answer.provenance.get("imbalance", {}).values(), default=None)
+    spot = Spot(
+        **place,
+        outcome=Outcome.CONVERGED,
+        why="" if truth else UNJUDGED,
         iterations=answer.numerics.iterations,
         cpu_s=answer.numerics.cpu_s,
-        imbalance=max(answer.provenance.get("imbalance", {}).values(), default=None),
+        message=cells,
+        numbers={"imbalance": imbalance, **{name: values.get(name) for name in JUDGED}},
     )
+    worst = ""
     if truth:
         parts = {n: abs(values[n] - right) / max(abs(right), LEAST) for n, right in truth.values.items() if n in values}
         worst = max(parts, key=lambda name: parts[name])
-        spot = replace(spot, error=parts[worst], worst=worst, judge=truth.source)
+        spot = replace(spot, error=parts[worst], message=f"{worst} judged by {truth.source} {cells}".strip())
     plain = probe.setting.model.name == "homogenized"
     bars: Mapping[str, float] = answer.provenance.get("uncertainty", {})
+    warned = bool(answer.provenance.get("warnings"))
     if short := _short(values, bars, thin if plain else truth):
-        return replace(spot, state=State.WRONG, message=short)
+        return replace(spot, outcome=Outcome.WRONG, why=TOO_SHORT, message=short)
     if thin and not plain and (beyond := _beyond(values, bars, thin)):
-        return replace(spot, state=State.INACCURATE, message=f"{beyond} {spot.message}".strip())
-    if spot.error is None:
-        return spot
-    if spot.error > ALLOWED:
-        return replace(spot, state=State.INACCURATE)
+        outcome, why = (Outcome.INACCURATE, TOLD) if warned else (Outcome.WRONG, SILENT)
+        return replace(spot, outcome=outcome, why=why, message=f"{beyond}; {spot.message}".strip("; "))
+    if spot.error is not None and spot.error > ALLOWED:
+        why = CUT_OUT if probe.wave is None else LEFT_OUT if plain else TOLD if warned or worst in bars else SILENT
+        return replace(spot, outcome=Outcome.WRONG if why == SILENT else Outcome.INACCURATE, why=why)
     if any(len(one) > 1 for one in answer.provenance.get("runs", {}).values()):
-        return replace(spot, state=State.RESCUED)
+        return replace(spot, outcome=Outcome.SLOW, why=SECOND)
     slow = (spot.iterations or 0) > SLOW[answer.model]
-    return replace(spot, state=State.SLOW if slow else State.CONVERGED)
+    return replace(spot, outcome=Outcome.SLOW if slow else Outcome.CONVERGED)
 
 
 def _short(values: Mapping[str, float], bars: Mapping[str, float], right: Truth | None) -> str:
@@ -170,14 +118,6 @@ def _beyond(values: Mapping[str, float], bars: Mapping[str, float], thin: Truth)
     return ""
 
 
-def _state_of(failure: Failure) -> State:
-    if failure.kind == InputError.__name__:
-        return State.REFUSED
-    if "mesh check" in failure.message:
-        return State.MESH
-    return State(failure.outcome or State.FAILED)
-
-
 def _cells(probe: Probe) -> str:
     """How long the cells are, over how thick."""
     if probe.wave is None or probe.setting.resolution is None or probe.scene.layers is None:
@@ -195,7 +135,7 @@ class GapFamily:
     resolution: int = FEWEST
     resolution_meaning: str = "mesh columns of OpenFOAM's finest bumps, half as many as of its finest ridges"
 
-    def make(self, *, resolution: int, out: Path, processes: int, scratch: Path) -> Made:
+    def make(self, *, resolution: int, out: Path, processes: int, scratch: Path) -> Map:
         """Solve what is not in ``out`` already, and judge all of it."""
         if not FEWEST <= resolution <= MOST or resolution % 2:
             raise InputError(f"--resolution: got {resolution}; it must be even, {FEWEST} to {MOST}")
@@ -207,21 +147,26 @@ class GapFamily:
         found = [(probe, answers[job.path]) for probe, job in zip(asked, jobs, strict=True)]
         with local(processes, scratch) as executor:
             spots = judged(found, executor)
-        groups = in_groups(spots)
-        told = in_words(spots)
-        return Made(
-            entries=entries_of(KIND, resolution, spots, told, State),
-            columns=columns_of(spots, ("error", "imbalance", *JUDGED)),
-            table=table_of(by_axis(spots), State),
-            template="stability_gap.html.j2",
-            page={
-                "tables": {name: in_rows(own) for name, own in groups.items()},
-                "states": [(state, MEANING[state], count(spots, state)) for state in State],
-                "told": told,
-                "figure": against_cut(spots),
-                "absent": absent,
-            },
+        return Map(
+            family=KIND,
+            title="Rough gaps in three dimensions",
+            axes="A gap of mean height h between a flat wall, which also slides, and ridges a cos(2πx/L), bumps "
+            "a cos(2πx/L) cos(2πy/L) (a and L over h), or a wall pressed against it: how near the walls come (columns: "
+            "the least distance, over h), how steep they are, contact (columns: the smallest gap that is open, over "
+            f"h), the shape of cells, inertia. OpenFOAM with {resolution} mesh columns and other numbers of "
+            "them as told, "
+            "with a quarter as many layers where nothing else is said.",
+            judge=f"The error is that of the coefficient ({', '.join(JUDGED)}) that is off most, over itself, by exact "
+            "Stokes flow where it is known, else by what two meshes tend to; of pressed walls that of A against the "
+            f"smallest gap of all. Good is within {ALLOWED:.0%} and within the error bar told; those of homogenized, "
+            "which leaves out slope, are held to thin-film theory. Iterations are those of all drives; slow is above "
+            f"{SLOW['homogenized']} of thin films, {SLOW['stokes']} of OpenFOAM.",
+            resolution=resolution,
+            resolution_meaning=self.resolution_meaning,
+            spots=spots,
+            told=in_words(spots),
             absent=absent,
+            figures={"against_cut": against_cut(spots)},
         )
 
 
@@ -275,39 +220,25 @@ def _at_least_cut(probe: Probe, found: Sequence[Answered]) -> Truth | None:
     return Truth(values=values, off=dict.fromkeys(values, np.inf), source=f"its own answer at a smallest gap of {last}")
 
 
-def by_axis(spots: Sequence[Spot]) -> dict[str, list[Spot]]:
-    """By what is varied."""
-    axes = dict.fromkeys(spot.group.partition(":")[0] for spot in spots)
-    return {axis: [spot for spot in spots if spot.group.partition(":")[0] == axis] for axis in axes}
-
-
 def in_words(spots: Sequence[Spot]) -> list[str]:
-    """What a reader should know: of every setting in every group, where it is not good, and how."""
+    """What a reader should know: of every group, where it is not good, and how."""
     lines = []
     for group, own in in_groups(spots).items():
-        for setting in dict.fromkeys(spot.setting for spot in own):
-            some = [spot for spot in own if spot.setting == setting]
-            good = [spot for spot in some if spot.state in GOOD]
-            told = [
-                f"{state} at {_places([spot for spot in some if spot.state is state])}"
-                for state in State
-                if state not in GOOD and count(some, state)
-            ]
-            title = group if setting in group else f"{group}: {setting}"
-            lines.append("; ".join([f"{title}: good at {len(good)} of {len(some)} places", *told]) + ".")
-    held = [spot for spot in spots if spot.imbalance is not None]
+        words = dict.fromkeys(spot.why or spot.outcome for spot in own if spot.outcome not in GOOD)
+        told = [f"{word} at {_places([spot for spot in own if (spot.why or spot.outcome) == word])}" for word in words]
+        lines.append("; ".join([f"{group}: good at {count(own, *GOOD)} of {len(own)} places", *told]) + ".")
+    held = [(imbalance, spot) for spot in spots if (imbalance := spot.numbers["imbalance"]) is not None]
     if held:
-        least = max(held, key=lambda spot: spot.imbalance or 0)
+        most, least = max(held, key=lambda pair: pair[0])
         lines.append(
-            f"The walls hold the liquid within {least.imbalance:.1e} of the drag of a smooth gap in all of {len(held)} "
-            f"resolved answers; the worst is {least.group}: {least.row}, {least.column}."
+            f"The walls hold the liquid within {most:.1e} of the drag of a smooth gap in all of {len(held)} resolved "
+            f"answers; the worst is {least.place}."
         )
     return lines
 
 
 def _places(spots: Sequence[Spot]) -> str:
-    rows = {row: ", ".join(cells) for row, cells in in_rows(spots).items()}
-    return "; ".join(cells if row == spots[0].setting else f"{row} with {cells}" for row, cells in rows.items())
+    return "; ".join(f"{row} with {', '.join(cells)}" for row, cells in in_rows(spots).items())
 
 
 def against_cut(spots: Sequence[Spot]) -> str:
@@ -320,7 +251,7 @@ def against_cut(spots: Sequence[Spot]) -> str:
         for quantity, axes in zip(("A11", "friction"), column, strict=True):
             for setting, cells in in_rows(own).items():
                 model, _, columns = setting.partition("-")
-                known = [(float(c), value) for c, s in cells.items() if (value := getattr(s, quantity)) is not None]
+                known = [(float(c), value) for c, s in cells.items() if (value := s.numbers[quantity]) is not None]
                 if known:
                     axes.plot(
                         *zip(*known, strict=True),
@@ -340,7 +271,7 @@ def against_cut(spots: Sequence[Spot]) -> str:
 
 
 def _columns(spots: Sequence[Spot]) -> set[int]:
-    return {int(columns) for spot in spots if (columns := spot.setting.partition("-")[2])}
+    return {int(columns) for spot in spots if (columns := spot.row.partition("-")[2])}
 
 
 GAP = GapFamily()

@@ -1,32 +1,32 @@
 """Where each model of a pocket with each scheme converges, over Reynolds number and depth."""
 
-from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from statistics import median
 from typing import Any
-
-from rich.table import Table
 
 from foamcases.residuals import PATIENCE
 from foamcases.tries import RECIPE
 from rom.ladder import of_kind
 from rom.pocket import Pocket
-from rom.provenance import code, commit, machine, versions
+from rom.result import Result
 from rom.scene import load_scene
 from rom.setting import Setting
 from rom.validity import TURBULENT
 from scripts.common import models
-from scripts.runs import Job
-from scripts.stability_made import Made
-from scripts.stability_map import MEANING, Map, State, columns, in_words, spot_of
-from scripts.stability_runs import answers_to
+from scripts.runs import Failure, Job
+from scripts.stability_form import Map, Outcome, Spot, count, in_groups
+from scripts.stability_runs import SECOND, answers_to, failed
 
 KIND = "pocket"
 RUNS = "runs"
 
+RE, DEPTH = "Re", "d+"
+
 
 @dataclass(frozen=True, kw_only=True)
-class Family:
+class PocketFamily:
     """A scene file, and the Reynolds numbers and depths (in film thicknesses) that it is varied to."""
 
     scene: Path
@@ -37,15 +37,15 @@ class Family:
 
     @property
     def places(self) -> tuple[tuple[float, float], ...]:
-        """Every Reynolds number with every depth."""
-        return tuple((number, depth) for number in self.reynolds_numbers for depth in self.depths_plus)
+        """Every Reynolds number with every depth, from the deepest down."""
+        return tuple((number, depth) for depth in reversed(self.depths_plus) for number in self.reynolds_numbers)
 
     def at(self, reynolds_number: float, depth_plus: float) -> Pocket:
         """The scene at a place of the map."""
         depth = depth_plus * _pocket(self.scene).geometry.film
         return _pocket(self.scene, f"motion.reynolds_number={reynolds_number!r}", f"geometry.depth={depth!r} m")
 
-    def make(self, *, resolution: int, out: Path, processes: int, scratch: Path) -> Made:
+    def make(self, *, resolution: int, out: Path, processes: int, scratch: Path) -> Map:
         """Solve what is not in ``out`` already, and put all of it together."""
         ladder = of_kind(models(), KIND)
         absent = {model.name: found.detail for model in ladder if not (found := model.available()).available}
@@ -55,68 +55,91 @@ class Family:
             if model.name not in absent
             for scheme in model.schemes or (None,)
         ]
-        maps = _maps(self, settings, out / RUNS, processes, scratch)
-        return Made(
-            entries=_entries(resolution, maps, absent),
-            columns=columns(maps),
-            table=_table_of(maps),
-            template="stability.html.j2",
-            page=_shown(self, maps),
+        scenes = {at: self.at(*at) for at in self.places}
+        jobs = {
+            (setting, at): Job(
+                scene=scene, setting=setting, path=out / RUNS / f"Re{at[0]:g}-d{at[1]:g}" / f"{setting.name}.h5"
+            )
+            for setting in settings
+            for at, scene in scenes.items()
+        }
+        answers = answers_to(list(jobs.values()), processes, scratch)
+        spots = [spot_of(setting, *at, answers[job.path]) for (setting, at), job in jobs.items()]
+        shape, turbulent = _pocket(self.scene).geometry, f"{TURBULENT:g}"
+        groove = shape.grooves[0]
+        return Map(
+            family=KIND,
+            title="A groove under a sliding wall",
+            axes=f"A groove {1e6 * groove.width:g} µm wide in a period of {1e6 * shape.length:g} µm under a film of "
+            f"{1e6 * shape.film:g} µm: Re = ρ u Ly/η (columns) and depth d+ = d/Ly (rows), by every model with every "
+            f"scheme; OpenFOAM with {resolution} mesh columns, the other models as they are by default. Above Re = "
+            f"{turbulent} shear flow turns turbulent, and every model takes it as laminar.",
+            judge="By the equations of each model: its residual, recomputed. A run that converged is steady by its own "
+            "equations; whether the real flow is, it cannot say. OpenFOAM gives up when its residual has not halved "
+            f"for {PATIENCE} iterations; the second try: {RECIPE}.",
+            resolution=resolution,
+            resolution_meaning=self.resolution_meaning,
+            spots=spots,
+            told=[line for name, own in in_groups(spots).items() for line in in_words(name, own, spots)],
             absent=absent,
         )
 
 
-def _maps(family: Family, settings: Sequence[Setting], place: Path, processes: int, scratch: Path) -> list[Map]:
-    """Solve what is not on disk, store each answer as it comes, and put all of them together."""
-    scenes = {at: family.at(*at) for at in family.places}
-    jobs = {
-        (setting.name, at): Job(
-            scene=scene, setting=setting, path=place / f"Re{at[0]:g}-d{at[1]:g}" / f"{setting.name}.h5"
-        )
-        for setting in settings
-        for at, scene in scenes.items()
+def spot_of(setting: Setting, reynolds_number: float, depth_plus: float, answer: Result | Failure) -> Spot:
+    """The run of which this is the answer."""
+    where: dict[str, Any] = {
+        "group": setting.model.name + (f", {setting.scheme}" if setting.scheme else ""),
+        "row": f"{DEPTH} {depth_plus:g}",
+        "column": f"{RE} {reynolds_number:g}",
     }
-    answers = answers_to(list(jobs.values()), processes, scratch)
-    return [
-        Map(
-            setting=setting,
-            spots=tuple(spot_of(*at, answers[jobs[setting.name, at].path]) for at in family.places),
-        )
-        for setting in settings
+    numbers = {"reynolds_number": reynolds_number, "depth_plus": depth_plus}
+    if isinstance(answer, Failure):
+        return failed(answer, **where, numbers={**numbers, "load_plus": None})
+    tries = answer.provenance.get("tries", [])
+    told = [f"{one['outcome']} after {one['iterations']} iterations at the first try" for one in tries[:-1]]
+    return Spot(
+        **where,
+        outcome=Outcome.SLOW if told else Outcome.CONVERGED,
+        why=SECOND if told else "",
+        iterations=answer.numerics.iterations,
+        cpu_s=answer.numerics.cpu_s,
+        message="; ".join([*told, *answer.provenance.get("warnings", [])]),
+        numbers={**numbers, "load_plus": answer.quantities["load_plus"].value},
+    )
+
+
+def in_words(name: str, own: Sequence[Spot], every: Sequence[Spot]) -> list[str]:
+    """What a reader should know of a model: where it converges and where not, and how far its scheme is off."""
+    good = count(own, Outcome.CONVERGED)
+    told = [f"{name}: converges at {'all' if good == len(own) else good} of {len(own)} places."]
+    told += [
+        f"{name}: {word} at {len(some)}: {_places(some)}."
+        for word in dict.fromkeys(spot.why or spot.outcome for spot in own if spot.outcome is not Outcome.CONVERGED)
+        if (some := [spot for spot in own if (spot.why or spot.outcome) == word])
     ]
+    model, _, scheme = name.partition(", ")
+    first = next(group for group in in_groups(every) if group.partition(", ")[0] == model)
+    gaps = _gaps(own, in_groups(every)[first])
+    if scheme and first != name and gaps:
+        scheme = first.partition(", ")[2]
+        told.append(f"{name}: at half of them its load is {100 * median(gaps):.2g} % or more from that of {scheme}.")
+    return told
 
 
-def _entries(resolution: int, maps: Sequence[Map], absent: dict[str, str]) -> dict[str, Any]:
-    return {
-        "family": KIND,
-        "resolution": resolution,
-        "maps": [
-            {
-                "model": map_.setting.model.name,
-                "scheme": map_.setting.scheme or "",
-                "counts": {state.value: map_.count(state) for state in State},
-                "cpu_s": map_.cpu_s,
-                "in_words": in_words(map_, maps),
-                "runs": [asdict(spot) for spot in map_.spots],
-            }
-            for map_ in maps
-        ],
-        "absent": absent,
-        "provenance": {"machine": machine(), "code": code(), "commit": commit(), "versions": versions()},
-    }
+def _gaps(own: Sequence[Spot], first: Sequence[Spot]) -> list[float]:
+    others = {(spot.row, spot.column): spot.numbers["load_plus"] for spot in first}
+    pairs = ((spot.numbers["load_plus"], others[spot.row, spot.column]) for spot in own)
+    return [abs(load / other - 1) for load, other in pairs if load is not None and other]
 
 
-def _shown(family: Family, maps: Sequence[Map]) -> dict[str, Any]:
-    return {
-        "family": family,
-        "scene": _pocket(family.scene),
-        "maps": maps,
-        "told": [in_words(map_, maps) for map_ in maps],
-        "states": [(state, MEANING[state], sum(map_.count(state) for map_ in maps)) for state in State],
-        "recipe": RECIPE,
-        "patience": PATIENCE,
-        "turbulent": TURBULENT,
-    }
+def _places(spots: Iterable[Spot]) -> str:
+    """The places of runs, gathered by Reynolds number or by depth, whichever is shorter."""
+    at = [(spot.column.removeprefix(f"{RE} "), spot.row.removeprefix(f"{DEPTH} ")) for spot in spots]
+    numbers = {n: ", ".join(d for m, d in at if m == n) for n, _ in at}
+    depths = {d: ", ".join(n for n, e in at if e == d) for _, d in at}
+    if len(depths) < len(numbers):
+        return "; ".join(f"{DEPTH} {depth} at {RE} {numbers}" for depth, numbers in depths.items())
+    return "; ".join(f"{RE} {number} at {DEPTH} {depths}" for number, depths in numbers.items())
 
 
 def _pocket(path: Path, *overrides: str) -> Pocket:
@@ -125,16 +148,7 @@ def _pocket(path: Path, *overrides: str) -> Pocket:
     return scene
 
 
-def _table_of(maps: Sequence[Map]) -> Table:
-    states = [state for state in State if any(map_.count(state) for map_ in maps)]
-    table = Table("model", "scheme", *(state.value for state in states), "CPU s")
-    for map_ in maps:
-        counts = (str(map_.count(state)) for state in states)
-        table.add_row(map_.setting.model.name, map_.setting.scheme or "-", *counts, f"{map_.cpu_s:.3g}")
-    return table
-
-
-POCKET = Family(
+POCKET = PocketFamily(
     scene=Path(__file__).parent / "scenes" / "pocket.toml",
     reynolds_numbers=(40.0, 160.0, 500.0, 1000.0, 2000.0, 5000.0),
     depths_plus=(0.25, 0.5, 0.75, 1.25, 2.0, 3.0),

@@ -2,13 +2,21 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
-from contact.errors import InputError
+from contact.errors import ConvergenceError, InputError, UnavailableError
 from rom.result import Result
 from scripts.common import messages, progress_bar
 from scripts.executors import local
 from scripts.runs import Failure, Job, store, stored
+from scripts.stability_form import Outcome, Spot
 from scripts.sweep import Solved, expected_cost, run
+
+SECOND = "second try"
+"""Why a run that converged is slow."""
+
+MESH = "no mesh"
+"""Why a run stalled whose mesh OpenFOAM finds faults in."""
 
 
 def answers_to(jobs: Sequence[Job], processes: int, scratch: Path) -> dict[Path, Result | Failure]:
@@ -34,3 +42,21 @@ def answers_to(jobs: Sequence[Job], processes: int, scratch: Path) -> dict[Path,
         messages.print(f"stopped at {len(answers)} of {len(jobs)} runs; the same command goes on", soft_wrap=True)
         raise
     return answers
+
+
+def failed(failure: Failure, **place: Any) -> Spot:
+    """The spot of a run without an answer: refused, given up in one of the ways of a solver, or a fault."""
+    if failure.kind == InputError.__name__:
+        outcome, why = Outcome.REFUSED, ""
+    elif failure.kind in (ConvergenceError.__name__, UnavailableError.__name__):
+        outcome, why = Outcome.STALLED, MESH if "mesh check" in failure.message else failure.outcome
+    else:
+        outcome, why = Outcome.WRONG, "fault"
+    return Spot(
+        outcome=outcome,
+        why="" if why == outcome else why,
+        iterations=failure.iterations,
+        cpu_s=failure.cpu_s or 0.0,
+        message=failure.message,
+        **place,
+    )

@@ -4,6 +4,7 @@ import os
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 
 from foamcases.openfoam import availability
 from rom.kind import Scene
@@ -12,6 +13,10 @@ from rom.scene import load_scene
 POCKET = Path(__file__).parent.parent / "scripts" / "scenes" / "pocket.toml"
 MEASURED = Path(__file__).parent.parent.parent / "shared" / "surfaces"
 """Instrument files that are not the project's own; ROUGHFILM_SURFACES may name another place."""
+
+settings.register_profile("fixed", derandomize=True, database=None, deadline=None)
+settings.register_profile("long", max_examples=5000, deadline=None)
+settings.load_profile("fixed")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from contact.errors import ConvergenceError, Outcome
 from rom.cavitation.discretise import Faces, faces, network
 from rom.cavitation.grid import Grid, grid
 from rom.cavitation.interpolation import carried, interpolated
@@ -25,6 +26,9 @@ COLD, WARM = 400, 6
 
 TOLERANCE = 1e-9
 """Of the residual, by default."""
+
+EMPTY = 1e-6
+"""A part by which a gap may be emptier than empty, by rounding."""
 
 Progress = Callable[[float, str], None]
 
@@ -84,7 +88,8 @@ def solve(
     Raises
     ------
     ConvergenceError
-        If the residual does not meet the tolerance: no result leaves that does not balance.
+        If the residual does not meet the tolerance: no result leaves that does not balance. Or if it does, but with a
+        part of the gap filled less than not at all.
 
     Sources: Jakobsson and Floberg 1957; Elrod 1981, doi:10.1115/1.3251669; Sahlin et al. 2007,
     doi:10.1016/j.triboint.2007.02.021.
@@ -137,7 +142,20 @@ def solve(
         if nodes is not finest:
             start = carried(found.state, nodes, grid(problem.shape, sizes[number + 1]), problem.shape.joined)
     assert found is not None
+    _not_emptier_than_empty(found)
     return found
+
+
+def _not_emptier_than_empty(found: Solution) -> None:
+    """ConvergenceError where a slanting lay takes more out of a node that is not full than there is in it."""
+    least = float(found.state.fill.min())
+    if least < -EMPTY:
+        raise ConvergenceError(
+            f"cavitation: the balance wants a node filled to {least:.3g}, as pressures beside it drive more along the "
+            "lay than flows in; take more cells, or direct, which follows every wave",
+            outcome=Outcome.STALLED,
+            iterations=sum(level.iterations for level in found.levels),
+        )
 
 
 def on_grid(

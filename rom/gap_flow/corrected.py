@@ -188,7 +188,8 @@ def _left_out(
     )
     shear, friction = np.full(2, np.nan), np.nan
     if len(part) > 2:
-        doubt = corrected.friction * SAFETY * part[2] * part.max() / (1 + part.max())
-        friction = min(doubt, max(corrected.friction - thin.friction, bound.friction - corrected.friction))
-        shear = np.full(2, doubt / corrected.friction * np.hypot(*corrected.shear))
+        doubt = float(SAFETY * part[2] * part.max() / (1 + part.max()))
+        most = max(corrected.friction - thin.friction, bound.friction - corrected.friction)
+        friction = min(doubt * corrected.friction, most)
+        shear = np.full(2, doubt * np.hypot(*corrected.shear))
     return replace(thin, pressure=np.sqrt(np.outer(a, a)), shear=shear, friction=friction)

@@ -115,13 +115,13 @@ class FactorTable:
 
     def friction_doubt(self, mean_gap: float) -> float:
         """By which part d + 3e may be off at a mean gap, m, as the grid has it; 1 at most."""
-        doubts = [
-            (point.uncertainty.couette + 3 * point.uncertainty.shear_couette)
-            / (point.factors.couette + 3 * point.factors.shear_couette)
-            for point in self.points
-        ]
+        own, unsure = (
+            np.array([part.couette + 3 * part.shear_couette for part in parts])
+            for parts in zip(*((point.factors, point.uncertainty) for point in self.points), strict=True)
+        )
         gaps = [self.scale * point.mean_gap for point in self.points]
-        return float(np.interp(mean_gap, gaps, np.minimum(doubts, 1.0)))
+        doubts = np.divide(np.minimum(unsure, own), own, out=np.ones_like(own), where=own > 0)
+        return float(np.interp(mean_gap, gaps, doubts))
 
     def __call__(self, mean_gap: Array, /) -> GapFactors:
         """The factors at mean gaps, m, of any shape.

@@ -36,7 +36,7 @@ def homogenized_leakage(gap: ArrayLike, spacing: tuple[float, float]) -> Leakage
             uncertainty=0.0 if closed else float(found.uncertainty.pressure[i, i]),
             sealed=closed,
             corrector=found.correctors[i],
-            unsolved=found.unsolved,
+            unsolved=0.0 if closed else found.unsolved,
             iterations=found.iterations,
             residual=found.residual,
         )

@@ -109,7 +109,8 @@ class AsperityTable:
         inside = np.clip(g, self._approaches[0], None)
         doubts = [p.separation_uncertainty + SAFETY * p.separation_missed * self.factors.rms for p in self._pressed]
         slope = self._log_pressure.derivative()(np.log(inside)) / inside
-        doubt = slope * np.interp(inside, self._approaches, doubts)
+        missed = np.interp(inside, self._approaches, doubts)
+        doubt = np.where(np.isfinite(missed), slope * np.where(np.isfinite(missed), missed, 0.0), np.inf)
         return np.where(g > 0, np.where(g < self._approaches[0], np.maximum(doubt, 1.0), doubt), 0.0)
 
     def separation_at(self, pressure: float) -> float:

@@ -166,3 +166,13 @@ def test_rungs_say_where_they_leave_their_range(make_contact):
     assert "P/H = 0.05" in find(RUNGS, "elastic").applies(make_contact(hardness=2e9)).reason
     assert "plasticity index E* g'/H = 5" in find(RUNGS, "elastic").applies(make_contact(hardness=2e9)).reason
     assert "give a finite one" in find(RUNGS, "bearing_area").applies(make_contact()).reason
+
+
+@pytest.mark.parametrize("name", ["persson", "elastic"])
+def test_pressures_that_are_all_alike_fall_into_bins(name, make_contact):
+    """Full contact at forty times what the roughness adds: nearly all pressures would lie within one bin from 0."""
+    scene = make_contact(wave(64, 1e-10) | {"points": [64, 64]}, pressure=2e7)
+    assert scene.load.pressure > 20 * scene.pressure_unit
+    area, load = binned(solved(name, scene))
+    assert area == pytest.approx(1, abs=1e-4)  # four deviations lie within the bins
+    assert load == pytest.approx(2e7, rel=1e-3)

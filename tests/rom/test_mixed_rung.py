@@ -188,3 +188,43 @@ def test_a_file_that_is_no_table_and_another_table_are_refused(tips, tmp_path):
     del written["roughness"]["digest"]
     with pytest.raises(InputError, match=r"roughness\.table: in .*table\.h5: is no table of flow factors"):
         read_scene(written)
+
+
+FEW = {
+    "kind": "surface",
+    "surface": {
+        "kind": "milled",
+        "size": ["9.2 mm", "16 mm"],
+        "points": [8, 16],
+        "radius": "36 mm",
+        "feed": "9.2 mm",
+        "depth": "40 um",
+    },
+}
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {},
+        {"asperities": {"solid": {"modulus": "0.2 GPa", "poisson": 0.2, "hardness": "60 kPa"}}},
+        {"geometry": {"shape": "parallel", "length": "40 mm", "film": "15 um"}},
+    ],
+)
+def test_roughness_of_few_points_has_no_error_bar_and_says_so(changes):
+    """Where all faces are closed nothing rubs, and where no coarser grid is nothing says how far off pressures are."""
+    entries = {
+        "name": "few points",
+        "kind": "bearing",
+        "geometry": {"shape": "parallel", "length": "40 mm", "width": "75 mm", "film": "15 um"},
+        "lubricant": {"viscosity": "0.3 Pa*s", "cavitation_pressure": "-20 kPa"},
+        "motion": {"speed": "10 mm/s"},
+        "roughness": FEW,
+        "asperities": {"friction": 0.1, "solid": {"modulus": "10 GPa", "poisson": 0.0}},
+    }
+    found = MIXED.solve(read_scene(entries | changes), resolution=32)
+    bars = found.provenance["uncertainty"]
+    assert all(math.isfinite(bar) for bar in bars.values())
+    assert "contact_load_per_width" not in bars
+    assert value(found, "contact_load_per_width") > 0
+    assert any("contact_load_per_width" in told and "no coarser grid" in told for told in found.provenance["warnings"])

@@ -78,3 +78,17 @@ def test_shipped_laws_hold_on_grooves_they_were_not_fitted_to(make_scene, model)
         kept.append(abs(load - exact) <= (within + 0.01) * abs(exact))
     assert len(kept) >= 8
     assert np.mean(kept) >= 0.9
+
+
+@pytest.mark.parametrize(("width", "depth"), [(0.149, 0.25), (0.16, 1.4)])
+def test_of_grooves_beyond_those_compared_no_law_tells(make_scene, width, depth):
+    """Narrower than five film thicknesses, or deeper than a quarter of their width: of such loads nothing is known."""
+    law = ErrorLaw(powers={"slope": 1}, thresholds={0.05: 1.25})
+    assert law.within(make_scene(0.16, 1.3, 20)) == 0.05
+    scene = make_scene(width, depth, 20)
+    assert law.within(scene) is None
+    assert "loads were compared for grooves" in law.told(scene)
+    assert (
+        "loads were compared"
+        in find(ladder(rom.models), "film_slope").solve(scene, resolution=50).provenance["warnings"][0]
+    )

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import rom.models
-from contact.errors import InputError
+from contact.errors import ConvergenceError, InputError
 from rom.cavitation.oblique import wetness
 from rom.homogenization.ridges import sinusoidal_ridges
 from rom.ladder import find, ladder, of_kind
@@ -377,3 +377,23 @@ def test_tips_stay_wet_behind_a_film_as_is_said(ratio, within):
         wet = float(wetness(np.array(torn + part * (1 - torn)), np.array(torn)))
         assert wet == pytest.approx(held, abs=within)
         assert wet == pytest.approx(rub, abs=within)
+
+
+def test_a_gap_that_the_balance_wants_emptier_than_empty_is_no_answer():
+    """Ridges that all but touch, on a grid too coarse for what they drive along their lay into a cavity."""
+    entries = {
+        "name": "all but touching",
+        "kind": "bearing",
+        "geometry": {"shape": "parabolic", "length": "19.8 mm", "width": "1.98 mm", "film": "10 um", "rise": "2.67 um"},
+        "lubricant": {"viscosity": "2.88 mPa*s"},
+        "motion": {"speed": "-0.269 m/s"},
+        "boundary": {"inlet": {"pressure": "34 kPa"}},
+        "roughness": {
+            "kind": "sinusoid",
+            "amplitude": "9.5 um",
+            "wavelength": "19.8 mm",
+            "direction": "45 deg",
+        },
+    }
+    with pytest.raises(ConvergenceError, match="wants a node filled to -"):
+        HOMOGENIZED.solve(read_scene(entries), resolution=32)

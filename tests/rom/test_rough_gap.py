@@ -238,3 +238,23 @@ def test_waves_that_a_grid_cannot_hold_count_in_the_error_bars():
         value = found.quantities[name].value
         assert value == pytest.approx(1.0, abs=1e-9)
         assert 0.7 * abs(value - truth) < found.provenance["uncertainty"][name] < 2 * abs(value - truth)
+
+
+@pytest.mark.parametrize("name", ["homogenized", "slope_corrected"])
+def test_an_answer_without_error_bars_says_so(name):
+    few = BUMPS | {"points": [6, 6], "wavelength_y": "40 um"}
+    scene = read_scene(changed(geometry={"surface": few, "amplitude": None, "wavelength": None}))
+    found = find(MODELS, name).solve(scene)
+    assert "uncertainty" not in found.provenance
+    assert any("no coarser grid" in warning for warning in found.provenance["warnings"])
+
+
+def test_nodes_that_are_open_each_by_itself_neither_pass_nor_rub(tmp_path):
+    i, j = np.indices((16, 16))
+    path = tmp_path / "checkerboard.npy"
+    np.save(path, np.where((i + j) % 2, 1e-7, -1e-7))
+    pressed = {"solid": {"modulus": "1 GPa", "poisson": 0.3}, "load": {"pressure": "1 kPa"}}
+    geometry = {"surface": str(path), "spacing": "1 um", "amplitude": None, "wavelength": None, "mean_gap": None}
+    found = find(MODELS, "slope_corrected").solve(read_scene(changed(geometry=geometry, **pressed)))
+    assert found.quantities["contact_area"].value == pytest.approx(0.5)
+    assert {found.quantities[name].value for name in ("A11", "A22", "friction")} == {0.0}

@@ -237,3 +237,24 @@ def test_a_medium_of_one_gap_is_a_smooth_gap():
     found = effective_medium(power, composite_modulus=1e7, load=1e-25)
     assert found.mean_gap > 15 * 1e-7
     assert found.permeability == pytest.approx(found.mean_gap**3, rel=0.03)
+
+
+def test_a_direction_that_is_sealed_has_nothing_left_to_solve(tmp_path):
+    """Ridges across seal; what the solver leaves open along them is no residual of that."""
+    path = tmp_path / "ridges.npy"
+    noise = np.random.default_rng(20071).standard_normal((16, 16))
+    np.save(path, 1e-7 * np.where((np.arange(16) % 8 < 2)[:, None], 9.0, noise))
+    across, along = (seal(str(path), spacing="1 um", direction=direction, pressure="0.5 MPa") for direction in "xy")
+    model = find(RUNGS, "homogenized_leakage")
+    sealed, open_ = model.solve(across), model.solve(along)
+    assert (sealed.quantities["sealed"].value, open_.quantities["sealed"].value) == (1, 0)
+    assert sealed.numerics.residual <= sealed.numerics.tolerance
+
+
+@pytest.mark.parametrize("name", ["homogenized_leakage", "direct_leakage"])
+def test_an_answer_without_error_bar_says_so(name, tmp_path):
+    path = tmp_path / "odd.npy"
+    np.save(path, 1e-7 * np.random.default_rng(20071).standard_normal((6, 6)))
+    found = find(RUNGS, name).solve(seal(str(path), spacing="1 um", pressure="1 kPa"))
+    assert "uncertainty" not in found.provenance
+    assert any("no coarser grid" in warning for warning in found.provenance["warnings"])

@@ -19,7 +19,8 @@ from scripts.cavitation_check import broken_balance
 from scripts.cavitation_probes import PLANE, probes
 from scripts.cavitation_scenes import REFUSED, Answer, Probe, bound, liquid, slider
 from scripts.cli import app
-from scripts.stability_cavitation import State, methods, sizes, told, tried
+from scripts.stability_cavitation import methods, put, sizes, told
+from scripts.stability_form import Outcome as Found
 
 
 def test_the_balance_of_a_film_is_told_and_a_wrong_one_is_found():
@@ -81,18 +82,18 @@ def test_every_way_to_go_wrong_is_told():
         return ask
 
     stalled = ConvergenceError("cavitation: stalled", outcome=Outcome.STALLED, iterations=7)
-    assert tried(probe(lambda: Answer(iterations=3, error=1e-4))).state is State.CONVERGED
-    assert tried(probe(lambda: Answer(iterations=101, error=1e-4))).state is State.SLOW
-    assert tried(probe(lambda: Answer(iterations=3, error=2e-3))).state is State.WRONG
-    assert tried(probe(lambda: Answer(iterations=3, error=np.nan))).state is State.WRONG
-    assert tried(probe(lambda: Answer(iterations=3, error=0.0), expected=REFUSED)).state is State.WRONG
-    found = tried(probe(raises(stalled)))
-    assert (found.state, found.iterations) == (State.STALLED, 7)
-    assert "Stalled: g: r, c: cavitation: stalled" in told([found])
-    assert tried(probe(raises(stalled), expected=REFUSED)).state is State.REFUSED
-    assert tried(probe(raises(InputError("x: got y")))).state is State.WRONG
-    broken = tried(probe(raises(ZeroDivisionError("oh")), expected=REFUSED))
-    assert (broken.state, broken.message) == (State.WRONG, "ZeroDivisionError: oh")
+    assert put(probe(lambda: Answer(iterations=3, error=1e-4))).outcome is Found.CONVERGED
+    assert put(probe(lambda: Answer(iterations=101, error=1e-4))).outcome is Found.SLOW
+    assert put(probe(lambda: Answer(iterations=3, error=2e-3))).outcome is Found.WRONG
+    assert put(probe(lambda: Answer(iterations=3, error=np.nan))).outcome is Found.WRONG
+    assert put(probe(lambda: Answer(iterations=3, error=0.0), expected=REFUSED)).outcome is Found.WRONG
+    found = put(probe(raises(stalled)))
+    assert (found.outcome, found.iterations) == (Found.STALLED, 7)
+    assert "Stalled: g: r, c (7 iterations): cavitation: stalled" in told([found])
+    assert put(probe(raises(stalled), expected=REFUSED)).outcome is Found.REFUSED
+    assert put(probe(raises(InputError("x: got y")))).outcome is Found.WRONG
+    broken = put(probe(raises(ZeroDivisionError("oh")), expected=REFUSED))
+    assert (broken.outcome, broken.message) == (Found.WRONG, "ZeroDivisionError: oh")
 
 
 def test_sizes_go_by_decades():
@@ -107,8 +108,8 @@ def test_the_default_and_the_schur_complement_converge_all_over_a_small_map(monk
     monkeypatch.setattr(stability_cavitation, "MODULI", (0.05, 1.0, 100.0))
     asked = list(methods(100))
     assert len(asked) == 3 * 9
-    spots = [tried(one) for one in asked]
-    assert {spot.state for spot in spots if spot.group != "switch"} == {State.CONVERGED}
+    spots = [put(one) for one in asked]
+    assert {spot.outcome for spot in spots if spot.group != "switch"} == {Found.CONVERGED}
     assert max(spot.iterations for spot in spots if spot.group != "switch") <= 20
 
 
@@ -122,8 +123,8 @@ def test_the_probes_are_different_and_hold_what_they_should():
 
 @pytest.mark.parametrize("group", ["reversed sliding", "at rest", "very starved", "many cavities"])
 def test_the_default_solver_answers(group):
-    states = {tried(one).state for one in probes() if one.group == group}
-    assert states <= {State.CONVERGED, State.SLOW}
+    outcomes = {put(one).outcome for one in probes() if one.group == group}
+    assert outcomes <= {Found.CONVERGED, Found.SLOW}
 
 
 def test_the_map_is_a_page_a_table_and_json(tmp_path, monkeypatch):
@@ -141,7 +142,7 @@ def test_the_map_is_a_page_a_table_and_json(tmp_path, monkeypatch):
     with (tmp_path / "stability.csv").open() as file:
         assert len(list(csv.DictReader(file))) == len(entries["runs"])
     page = (tmp_path / "report.html").read_text()
-    assert "The switch algorithm" in page
+    assert "The switch algorithm of the thesis" in page
     assert "α p0 = 2" in page
     assert "src=" not in page
 

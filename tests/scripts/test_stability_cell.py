@@ -13,7 +13,8 @@ from rom.homogenization.paths import sealed
 from scripts import stability_cell
 from scripts.cell_probes import REFUSED, Probe, probes
 from scripts.cli import app
-from scripts.stability_cell import DEFAULT, State, asked, in_words, solvers, tried, truth_of
+from scripts.stability_cell import DEFAULT, asked, in_words, put, solvers, truth_of
+from scripts.stability_form import Outcome as Found
 
 LINE = 1e-6 * np.repeat(np.array([1.0, 2.0, 1.0, 4.0]), 4)
 RIDGES = np.tile(LINE[:, None], (1, 16))
@@ -32,14 +33,14 @@ def ridges():
 def test_a_formula_judges_elimination_and_elimination_the_rest():
     exact = ridges()
     for name in solvers():
-        spot = tried(probe(exact=exact), name, truth_of(probe(exact=exact)))
-        assert (spot.state, spot.message) == (State.CONVERGED, "")
+        spot = put(probe(exact=exact), name, truth_of(probe(exact=exact)))
+        assert (spot.outcome, spot.message) == (Found.CONVERGED, "")
         assert spot.error < 1e-8
         right, shear, source = truth_of(probe())
         assert source == "elimination"
         assert np.diag(right) == pytest.approx((exact[0], exact[2]), rel=1e-12)
         assert shear is not None
-    assert tried(probe(), "elimination", truth_of(probe())).message == "taken for right"
+    assert put(probe(), "elimination", truth_of(probe())).message == "taken for right"
 
 
 @pytest.mark.parametrize("wrong", [(1.00001, 1.0), (1.0, 0.9999), (np.nan, 1.0), (0.0, 1.0)])
@@ -47,7 +48,7 @@ def test_a_wrong_a_is_told(wrong):
     exact = ridges()
     other = (exact[0] * wrong[0], 0.0, exact[2] * wrong[1])
     for name in ("multigrid", "elimination"):
-        assert tried(probe(), name, truth_of(probe(exact=other))).state is State.WRONG
+        assert put(probe(), name, truth_of(probe(exact=other))).outcome is Found.WRONG
 
 
 def test_the_default_may_be_off_by_a_part_of_its_bar_and_no_more(monkeypatch):
@@ -55,21 +56,21 @@ def test_the_default_may_be_off_by_a_part_of_its_bar_and_no_more(monkeypatch):
     found = asked(probe(), DEFAULT)
     off = replace(found, pressure=found.pressure * (1 + 1e-3), bar=np.full((2, 2), 1.1e-2))
     monkeypatch.setattr(stability_cell, "asked", lambda *_: off)
-    assert tried(probe(), DEFAULT, right).state is State.CONVERGED
+    assert put(probe(), DEFAULT, right).outcome is Found.CONVERGED
     monkeypatch.setattr(stability_cell, "asked", lambda *_: replace(off, bar=np.full((2, 2), 0.9e-2)))
-    assert tried(probe(), DEFAULT, right).state is State.WRONG
+    assert put(probe(), DEFAULT, right).outcome is Found.WRONG
     sharp = replace(found, shear=found.shear + 1e-3, bar=np.zeros((2, 2)))
     monkeypatch.setattr(stability_cell, "asked", lambda *_: sharp)
-    assert tried(probe(), DEFAULT, right).state is State.WRONG
+    assert put(probe(), DEFAULT, right).outcome is Found.WRONG
 
 
 def test_every_way_to_go_wrong_is_told(monkeypatch):
     right = truth_of(probe())
-    assert tried(probe(gap=-RIDGES, expected=REFUSED), DEFAULT, None).state is State.REFUSED
-    assert tried(probe(gap=-RIDGES), DEFAULT, right).state is State.WRONG
-    assert tried(probe(expected=REFUSED), DEFAULT, None).state is State.WRONG
-    broken = tried(probe(gap=None), "multigrid", right)
-    assert broken.state is State.WRONG
+    assert put(probe(gap=-RIDGES, expected=REFUSED), DEFAULT, None).outcome is Found.REFUSED
+    assert put(probe(gap=-RIDGES), DEFAULT, right).outcome is Found.WRONG
+    assert put(probe(expected=REFUSED), DEFAULT, None).outcome is Found.WRONG
+    broken = put(probe(gap=None), "multigrid", right)
+    assert broken.outcome is Found.WRONG
     assert ": " in broken.message
 
     def stalls(*_):
@@ -77,13 +78,13 @@ def test_every_way_to_go_wrong_is_told(monkeypatch):
 
     found = asked(probe(), DEFAULT)
     monkeypatch.setattr(stability_cell, "asked", stalls)
-    stalled = tried(probe(), DEFAULT, right)
-    assert (stalled.state, stalled.iterations) == (State.STALLED, 7)
-    assert "Stalled: default: g: n: the system: stalled" in in_words([stalled])
+    stalled = put(probe(), DEFAULT, right)
+    assert (stalled.outcome, stalled.iterations) == (Found.STALLED, 7)
+    assert "Stalled: g: n, default (7 iterations): the system: stalled" in in_words([stalled])
     assert truth_of(probe())[2] == "nothing"
     monkeypatch.setattr(stability_cell, "asked", lambda *_: replace(found, iterations=101))
-    assert tried(probe(), DEFAULT, right).state is State.SLOW
-    assert tried(probe(), DEFAULT, (np.full((2, 2), np.nan), None, "nothing")).state is State.WRONG
+    assert put(probe(), DEFAULT, right).outcome is Found.SLOW
+    assert put(probe(), DEFAULT, (np.full((2, 2), np.nan), None, "nothing")).outcome is Found.WRONG
 
 
 def test_the_probes_are_different_and_hold_what_they_should():
@@ -113,7 +114,7 @@ def test_the_map_is_a_page_a_table_and_json(tmp_path, monkeypatch):
     assert result.exit_code == 0, result.stderr
     entries = json.loads(result.stdout)
     assert entries == json.loads((tmp_path / "stability.json").read_text())
-    assert entries["counts"] == {"converged": 48, "slow": 0, "stalled": 0, "wrong": 0, "refused": 23}
+    assert entries["counts"] == {"converged": 48, "slow": 0, "inaccurate": 0, "stalled": 0, "wrong": 0, "refused": 23}
     with (tmp_path / "stability.csv").open() as file:
         assert len(list(csv.DictReader(file))) == 71
     page = (tmp_path / "report.html").read_text()

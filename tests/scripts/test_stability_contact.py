@@ -14,7 +14,8 @@ from scripts import stability_contact
 from scripts.cli import app
 from scripts.contact_check import broken_conditions, displacement, rms_slope
 from scripts.contact_probes import MODULUS, Probe, probes
-from scripts.stability_contact import State, told, tried
+from scripts.stability_contact import put, told
+from scripts.stability_form import Outcome as Found
 
 N, LENGTH, DEPTH = 64, 1e-4, 1e-7
 X = LENGTH * np.arange(N)[:, None] / N + np.zeros(N)
@@ -55,10 +56,10 @@ def test_every_way_to_go_wrong_is_told(monkeypatch):
     probe = Probe(
         group="g", row="r", column="c", heights=RIPPLE, spacing=SPACING, hardness=math.inf, load=2 * FULL.max()
     )
-    assert tried(probe).state is State.CONVERGED
-    assert tried(replace(probe, load=-1.0)).state is State.WRONG
-    assert tried(replace(probe, load=-1.0, expected="refused")).state is State.REFUSED
-    assert tried(replace(probe, expected="refused")).state is State.WRONG
+    assert put(probe).outcome is Found.CONVERGED
+    assert put(replace(probe, load=-1.0)).outcome is Found.WRONG
+    assert put(replace(probe, load=-1.0, expected="refused")).outcome is Found.REFUSED
+    assert put(replace(probe, expected="refused")).outcome is Found.WRONG
 
     found = stability_contact.pressed(probe)
 
@@ -66,14 +67,14 @@ def test_every_way_to_go_wrong_is_told(monkeypatch):
         raise ConvergenceError("contact: stalled", outcome=Outcome.STALLED, iterations=7)
 
     monkeypatch.setattr(stability_contact, "pressed", stalls)
-    stalled = tried(probe)
-    assert (stalled.state, stalled.iterations) == (State.STALLED, 7)
+    stalled = put(probe)
+    assert (stalled.outcome, stalled.iterations) == (Found.STALLED, 7)
     assert "Stalled: g: r, c (7 iterations): contact: stalled" in told([stalled])
     monkeypatch.setattr(stability_contact, "pressed", lambda _probe: replace(found, iterations=101))
-    assert tried(probe).state is State.SLOW
+    assert put(probe).outcome is Found.SLOW
     even = np.full(found.pressure.shape, probe.load)
     monkeypatch.setattr(stability_contact, "pressed", lambda _probe: replace(found, pressure=even))
-    assert tried(probe).state is State.WRONG
+    assert put(probe).outcome is Found.WRONG
 
 
 def test_the_probes_are_different_and_hold_what_they_should():

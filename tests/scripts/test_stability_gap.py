@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from contact.errors import ConvergenceError, InputError, Outcome
+from contact.errors import ConvergenceError, Outcome
 from contact.units import Quantity
 from rom.ladder import find, of_kind
 from rom.setting import Setting
@@ -19,7 +19,9 @@ from scripts.common import models
 from scripts.gap_probes import CUT, CUTS, INERTIA, NEAR, NEAREST, Wave, probes, wave_scene
 from scripts.gap_truths import JUDGED, Truth, agreeing, exact_stokes, exact_thin, extrapolated
 from scripts.runs import failure_of
-from scripts.stability_gap import State, in_words, judged, spot_of
+from scripts.stability_form import Outcome as Found
+from scripts.stability_gap import CUT_OUT, LEFT_OUT, SILENT, TOLD, TOO_SHORT, UNJUDGED, in_words, judged, spot_of
+from scripts.stability_runs import SECOND
 
 LADDER = of_kind(models(), "rough_gap")
 CHEAP = [find(LADDER, name) for name in ("homogenized", "slope_corrected")]
@@ -86,17 +88,26 @@ def test_two_meshes_of_second_order_tell_the_limit(asked):
 def test_the_judge_tells_right_from_wrong(asked):
     probe, result = asked
     right = exact_thin(probe.wave)
-    assert spot_of(probe, result, right, right).state is State.CONVERGED
+    assert spot_of(probe, result, right, right).outcome is Found.CONVERGED
     wrong = spot_of(probe, other(result, part=1.01), right, right)
-    assert (wrong.state, wrong.worst) == (State.WRONG, "A22")
+    assert (wrong.outcome, wrong.why) == (Found.WRONG, TOO_SHORT)
     assert wrong.error == pytest.approx(0.01, rel=1e-3)
     assert "A22 off by" in wrong.message
     bare = without_bars(result)
-    assert spot_of(probe, other(bare, part=1.01), right).state is State.CONVERGED
-    assert spot_of(probe, other(bare, part=0.94), right).state is State.INACCURATE
-    assert spot_of(probe, other(bare, tries=2), right).state is State.RESCUED
-    assert spot_of(probe, other(bare, iterations=101), right).state is State.SLOW
-    assert spot_of(probe, bare, None).state is State.UNJUDGED
+    assert spot_of(probe, other(bare, part=1.01), right).outcome is Found.CONVERGED
+    far = spot_of(probe, other(bare, part=0.94), right)
+    assert (far.outcome, far.why) == (Found.INACCURATE, LEFT_OUT)
+    resolved = replace(probe, setting=Setting(model=find(LADDER, "stokes"), resolution=32))
+    silent = spot_of(resolved, replace(other(bare, part=0.94), model="stokes"), right)
+    assert (silent.outcome, silent.why) == (Found.WRONG, SILENT)
+    warned = replace(bare, model="stokes", provenance={**bare.provenance, "warnings": ["coarse"]})
+    told = spot_of(resolved, other(warned, part=0.94), right)
+    assert (told.outcome, told.why) == (Found.INACCURATE, TOLD)
+    again = spot_of(probe, other(bare, tries=2), right)
+    assert (again.outcome, again.why) == (Found.SLOW, SECOND)
+    assert spot_of(probe, other(bare, iterations=101), right).outcome is Found.SLOW
+    alone = spot_of(probe, bare, None)
+    assert (alone.outcome, alone.why, alone.error) == (Found.CONVERGED, UNJUDGED, None)
 
 
 @pytest.mark.parametrize(("name", "part"), [("A11", 1.06), ("A22", 1.06), ("friction", 0.94)])
@@ -105,10 +116,10 @@ def test_what_no_flow_can_do_is_told_of_all_but_thin_films(asked, name, part):
     bare, thin = without_bars(result), exact_thin(probe.wave)
     resolved = replace(probe, setting=Setting(model=find(LADDER, "stokes"), resolution=32))
     impossible = spot_of(resolved, other(bare, part=part, name=name), None, thin)
-    assert impossible.state is State.INACCURATE
+    assert (impossible.outcome, impossible.why) == (Found.WRONG, SILENT)
     assert f"than is possible: {name} is" in impossible.message
-    assert spot_of(resolved, other(bare, part=2 - part, name=name), None, thin).state is State.UNJUDGED
-    assert spot_of(probe, other(bare, part=part, name=name), None, thin).state is State.UNJUDGED
+    assert spot_of(resolved, other(bare, part=2 - part, name=name), None, thin).why == UNJUDGED
+    assert spot_of(probe, other(bare, part=part, name=name), None, thin).why == UNJUDGED
 
 
 def test_bars_of_thin_films_are_about_thin_films_and_their_error_about_all(asked):
@@ -116,9 +127,9 @@ def test_bars_of_thin_films_are_about_thin_films_and_their_error_about_all(asked
     thin = exact_thin(probe.wave)
     steep = Truth(values={**thin.values, "A11": thin.values["A11"] / 1.1}, off=thin.off, source="somewhere")
     found = spot_of(probe, result, steep, thin)
-    assert (found.state, found.worst) == (State.INACCURATE, "A11")
+    assert (found.outcome, found.why, found.message) == (Found.INACCURATE, LEFT_OUT, "A11 judged by somewhere")
     assert found.error == pytest.approx(0.1, rel=1e-2)
-    assert spot_of(probe, other(result, part=1.01), steep, thin).state is State.WRONG
+    assert spot_of(probe, other(result, part=1.01), steep, thin).outcome is Found.WRONG
 
 
 def test_two_meshes_that_disagree_judge_no_cheap_rung():
@@ -128,25 +139,11 @@ def test_two_meshes_that_disagree_judge_no_cheap_rung():
     assert agreeing(None) is None
 
 
-@pytest.mark.parametrize(
-    ("error", "state"),
-    [
-        (ConvergenceError("OpenFOAM: the mesh check found faults; change it"), State.MESH),
-        (ConvergenceError("no word how"), State.FAILED),
-        (ConvergenceError("it swings", outcome=Outcome.UNSTEADY, iterations=613), State.UNSTEADY),
-        (InputError("width: got 1; it must be 2"), State.REFUSED),
-        (ZeroDivisionError("by zero"), State.FAILED),
-    ],
-)
-def test_every_way_to_fail_has_a_state(asked, error, state):
-    spot = spot_of(asked[0], failure_of(error), exact_thin(asked[0].wave))
-    assert (spot.state, spot.A11) == (state, None)
-    assert f"{state} at {spot.column}." in in_words([spot])[0]
-
-
-def test_every_outcome_of_a_solver_is_a_state_and_every_state_has_a_meaning():
-    assert {outcome.value for outcome in Outcome} <= {state.value for state in State}
-    assert set(stability_gap.MEANING) == set(State)
+def test_a_run_without_an_answer_has_no_numbers_and_is_told(asked):
+    failure = failure_of(ConvergenceError("it swings", outcome=Outcome.UNSTEADY, iterations=613))
+    spot = spot_of(asked[0], failure, exact_thin(asked[0].wave))
+    assert (spot.outcome, spot.why, spot.numbers["A11"]) == (Found.STALLED, "unsteady", None)
+    assert f"unsteady at {spot.row} with {spot.column}." in in_words([spot])[0]
 
 
 def test_the_probes_are_what_their_places_say(every):
@@ -175,10 +172,10 @@ def test_two_meshes_judge_inertia_and_the_smallest_cut_the_pressed(every, asked)
     found = [(one, other(result, part=1.1 if one.column == f"{CUTS[0]:g}" else 1.0)) for one in some]
     with ThreadPoolExecutor(1) as executor:
         spots = judged(found, executor)
-    assert {spot.judge.split()[-1] for spot in spots} == {"meshes", f"{CUTS[-1]:g}"}
+    assert {spot.message.split(" (")[0].split()[-1] for spot in spots} == {"meshes", f"{CUTS[-1]:g}"}
     pressed = [spot for spot in spots if spot.group.startswith(CUT)]
-    assert {spot.column for spot in pressed if spot.state is State.INACCURATE} == {f"{CUTS[0]:g}"}
-    assert [spot.error for spot in pressed if spot.state is State.INACCURATE] == pytest.approx([0.1] * 3)
+    assert {spot.column for spot in pressed if spot.why == CUT_OUT} == {f"{CUTS[0]:g}"}
+    assert [spot.error for spot in pressed if spot.why == CUT_OUT] == pytest.approx([0.1] * 3)
 
 
 def test_the_map_is_a_page_a_table_and_json_and_is_used_again(tmp_path, monkeypatch):
@@ -194,7 +191,7 @@ def test_the_map_is_a_page_a_table_and_json_and_is_used_again(tmp_path, monkeypa
     assert result.exit_code == 0, result.stderr
     entries = json.loads(result.stdout)
     assert entries == json.loads((tmp_path / "stability.json").read_text())
-    assert entries["counts"]["failed"] == 0
+    assert not [one for one in entries["runs"] if one["why"] == "fault"]
     assert sum(entries["counts"].values()) == len(entries["runs"])
     with (tmp_path / "stability.csv").open() as file:
         assert len(list(csv.DictReader(file))) == len(entries["runs"])
