@@ -228,9 +228,14 @@ def fit_grid(kind: Kind, model: str, found: Sequence[Case]) -> Grid:
     return Grid(kind=kind.name, model=model, laws=laws)
 
 
+def settles_itself(model: Model) -> bool:
+    """Whether a rung refines until its residual is met: quadratures, whose finer grids cost nothing."""
+    return model.order is None and model.own_resolutions is None
+
+
 def fit(kind: Kind, found: Sequence[Case]) -> tuple[list[Step], list[Grid]]:
     """All steps of a kind, and the grids of its rungs."""
-    rungs = [model.name for model in of_kind(models(), kind.name)]
+    rungs = [model.name for model in of_kind(models(), kind.name) if not settles_itself(model)]
     grids = [fit_grid(kind, model, found) for model in rungs]
     return [fit_step(kind, plan, found) for plan in STEPS[kind.name]], [grid for grid in grids if grid.laws]
 
