@@ -38,6 +38,11 @@ def nothing_omitted(_scene: Any, _quantity: str) -> None:
     """For kinds whose best rung keeps all that is of interest."""
 
 
+def nothing_composed(_scene: Any) -> tuple[str, ...]:
+    """For kinds whose scenes are not put together of effects."""
+    return ()
+
+
 @dataclass(frozen=True, kw_only=True)
 class Omission:
     """What every rung of a kind leaves out: by which part of its size that changes a quantity, and why, in words."""
@@ -64,6 +69,7 @@ class Kind:
     lists : where lists stand that are one value; a study sweeps every other list, and lists of these.
     numbers : the dimensionless numbers that tell how far its rungs may be off; those without meaning are left out.
     symbols : how people write them.
+    composed : composed(scene): how each of several effects of a scene is told, and why so, a line each.
     omitted : omitted(scene, quantity): what none of its rungs keeps, None where that is nothing or cannot be told.
     told : the first fault of a scene in one line, from pydantic's error and the entries; by default by the models.
     sweeping : how a report over many cases judges them; None if there is none.
@@ -77,6 +83,7 @@ class Kind:
     columns: Callable[[Any], Mapping[str, Quantity | str]]
     numbers: Callable[[Any], Mapping[str, float]]
     symbols: Mapping[str, str]
+    composed: Callable[[Any], Sequence[str]] = nothing_composed
     omitted: Callable[[Any, str], Omission | None] = nothing_omitted
     files: frozenset[str] = frozenset()
     no_files: frozenset[str] = frozenset()

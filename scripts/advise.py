@@ -42,7 +42,7 @@ def command(
     read = load_scene(scene, set_ or ())
     found = advice_for(read, want, within)
     if as_json:
-        print_json(entries_of(found))
+        print_json({**entries_of(found), "composition": list(kinds()[read.kind].composed(read))})
     else:
         tell(read, found)
     if found.chosen is None:
@@ -89,6 +89,8 @@ def tell(scene: Scene, found: Advice) -> None:
     output.print(shown)
     for one in found.considered:
         output.print(f"[bold]{one.model}[/]: {one.verdict}: {escape(one.reason)}", soft_wrap=True)
+    for line in kind.composed(scene):
+        output.print(f"  {escape(line)}", soft_wrap=True)
     if found.omitted is not None:
         output.print(f"[bold]all of them[/]: {escape(found.omitted.reason)}", soft_wrap=True)
     numbers = ", ".join(

@@ -145,6 +145,13 @@ def omitted(scene: Bearing, quantity: str) -> Omission | None:
         return None
 
 
+def composed(scene: Bearing) -> tuple[str, ...]:
+    """By which model each effect is told, and why."""
+    from rom.composition_treatment import treatments  # as above
+
+    return tuple(f"{one.effect}: {one.model}, {one.why}" for one in treatments(scene))
+
+
 KIND = Kind(
     name="bearing",
     scene=Bearing,
@@ -154,6 +161,7 @@ KIND = Kind(
     columns=columns,
     numbers=bearing_numbers,
     symbols=NUMBERS,
+    composed=composed,
     omitted=omitted,
     files=frozenset({"table", "surface", "thickness"}),
     lists=frozenset({("roughness", "spacing"), ("roughness", "surface", "size"), ("roughness", "surface", "points")}),
