@@ -77,7 +77,7 @@ def judged(scene: Bearing) -> str | None:
 def inertia_added(taken: Composition, cells: int, models: Sequence[Model]) -> InertiaAdded:
     """First-order inertia of a composition's film, its error by two grids and by the nonlinear film in one pocket.
 
-    ``models`` : of pockets, among others; the one is taken that is expected nearest to the best.
+    ``models`` : of pockets, among others; the cheapest is taken that is enough.
 
     Raises
     ------
