@@ -86,9 +86,10 @@ class Question:
         return model.cost(self.scene, self.resolution(model) if resolution is None else resolution)
 
     def difference(self, one: Result, other: Result) -> float:
-        """Of the quantity, over the size that the second one gives."""
+        """Of the quantity, over the smaller size of the two: where little is left, they may be counted otherwise."""
         values = (one.quantities[self.quantity].value, other.quantities[self.quantity].value)
-        return over(abs(values[0] - values[1]), self.kind.scale_of(other, self.quantity))
+        size = min(self.kind.scale_of(result, self.quantity) for result in (one, other))
+        return over(abs(values[0] - values[1]), size)
 
     def told(self, result: Result) -> float | None:
         """By how much a result may be off by its own word, over its size; None if it does not say."""
