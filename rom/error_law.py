@@ -50,7 +50,7 @@ class ErrorLaw:
 
     def applicability(self, scene: Pocket, words_before: str) -> Applicability:
         """What a model says of a scene: these words, then what is to be expected."""
-        return Applicability(applies=True, within=self.within(scene), reason=f"{words_before}; {self.told(scene)}")
+        return Applicability(applies=True, reason=f"{words_before}; {self.told(scene)}")
 
 
 def _beyond(scene: Pocket) -> str:

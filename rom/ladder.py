@@ -37,14 +37,10 @@ class Effect(StrEnum):
 
 @dataclass(frozen=True, kw_only=True)
 class Applicability:
-    """Whether a model can say something of a scene, and why or with what left out, in words.
-
-    ``within`` is the smallest part of the load by which it is expected to be off at most, None where that is not known.
-    """
+    """Whether a model can say something of a scene, and why or with what left out, in words."""
 
     applies: bool
     reason: str
-    within: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

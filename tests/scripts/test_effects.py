@@ -69,7 +69,12 @@ def test_the_page_is_whole(pad: tuple[Path, dict[str, Any]]) -> None:
     assert page.count("<svg") == 2
     for one in told["treatments"]:
         assert one["why"].split(",")[0] in page
-    for words in ("Each added to all the others", "inertia, not counted", "Under 2 MPa", told["inertia"]["pocket"]["model"]):
+    for words in (
+        "Each added to all the others",
+        "inertia, not counted",
+        "Under 2 MPa",
+        told["inertia"]["pocket"]["model"],
+    ):
         assert words in page
     assert {path.name for path in out.iterdir()} == {
         "report.html",
