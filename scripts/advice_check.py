@@ -63,7 +63,7 @@ class Trial:
     @property
     def missed(self) -> bool:
         """Whether the true error is beyond what was asked."""
-        return self.error is not None and self.error > self.within
+        return self.error is not None and not self.error <= self.within
 
     @property
     def cost_ratio(self) -> float:

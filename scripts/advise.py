@@ -9,7 +9,7 @@ from rich.table import Table
 
 from contact.errors import InputError
 from rom.advice.advise import Advice, Considered, Verdict, advise, wanted
-from rom.advice.estimates import Estimate, percent
+from rom.advice.estimates import Estimate, near, percent
 from rom.advice.laws import table
 from rom.kind import Scene, kinds
 from rom.ladder import of_kind
@@ -96,7 +96,8 @@ def tell(scene: Scene, found: Advice) -> None:
     numbers = ", ".join(
         f"{kind.symbols[name]} = {value:.3g}" for name, value in found.numbers.items() if name in kind.symbols
     )
-    output.print(f"numbers of the scene: {escape(numbers)}", soft_wrap=True)
+    if numbers:
+        output.print(f"numbers of the scene: {escape(numbers)}", soft_wrap=True)
     output.print(f"{found.spent_cpu_s:.2g} CPU s spent to be sure; laws: {_origin()}", soft_wrap=True)
 
 
@@ -107,7 +108,9 @@ def shortfall(found: Advice, title: str) -> str:
         return f"{told}: {found.omitted.reason}"
     if found.nearest is None or found.nearest.error is None:
         return told
-    return f"{told}; {found.nearest.model} comes nearest, within {percent(found.nearest.error)}"
+    if found.nearest.sure:
+        return f"{told}; {found.nearest.model} comes nearest, {near(found.nearest.error)}"
+    return f"{told}, as the scene lies beyond those that were swept; {found.nearest.model} may come nearest"
 
 
 def _short(estimate: Estimate | None) -> str:

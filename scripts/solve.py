@@ -55,6 +55,7 @@ def command(
     result, advised = None, None
     if within is not None:
         own = {"model": model, "resolution": resolution, "tolerance": tolerance, "scheme": scheme}
+        own["processes"] = processes if processes != 1 else None
         if given := [name for name, value in own.items() if value is not None]:
             raise InputError(f"--{given[0]}: --within chooses the model and how it is run; leave one of them out")
         found = advice_for(read, want, within)

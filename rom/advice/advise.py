@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from math import inf
 
-from contact.errors import InputError
+from contact.errors import ConvergenceError, InputError, UnavailableError
 from rom.advice.estimates import Estimate, Question, a_posteriori, a_priori, affordable, by_its_own_word, percent
 from rom.advice.laws import Numbers, Table, table
 from rom.kind import Omission, Scene, kinds
@@ -43,6 +43,12 @@ class Considered:
         """That is expected at most: by the rungs next to it if they were run, else by the numbers; None if unknown."""
         estimate = self.a_posteriori or self.a_priori
         return None if estimate is None else estimate.error
+
+    @property
+    def sure(self) -> bool:
+        """Whether the sweeps reach as far as what is expected."""
+        estimate = self.a_posteriori or self.a_priori
+        return estimate is not None and estimate.sure
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -123,14 +129,23 @@ def advise(
         raise InputError(f"--within: got {within!r}; it must be above 0 and below 1, for example 5%")
     kind = kinds()[scene.kind]
     known: dict[tuple[str, int], Result] = {}
+    failed: dict[tuple[str, int], Exception] = {}
 
     def solved(model: Model, resolution: int) -> Result:
         key = (model.name, resolution)
+        if key in failed:
+            raise failed[key]
         if key not in known:
             progress(0.0, f"running {model.name} on {resolution}")
-            known[key] = (
-                model.solve(scene, resolution=resolution, progress=progress) if run is None else run(model, resolution)
-            )
+            try:
+                known[key] = (
+                    model.solve(scene, resolution=resolution, progress=progress)
+                    if run is None
+                    else run(model, resolution)
+                )
+            except (InputError, ConvergenceError, UnavailableError) as error:
+                failed[key] = error
+                raise
         return known[key]
 
     omitted = kind.omitted(scene, quantity)
@@ -154,7 +169,8 @@ def advise(
         if not fit.applies
     ]
     chosen: Considered | None = None
-    secure = min((asked.cost(model) for model in asked.models if _keeps(a_priori(asked, model), left)), default=inf)
+    here = [model for model in asked.models if model.available().available]
+    secure = min((asked.cost(model) for model in here if _keeps(a_priori(asked, model), left)), default=inf)
     for model in sorted(asked.models, key=lambda model: (asked.cost(model), -len(model.keeps))):
         one = _after(asked, model) if chosen or left <= 0 else _considered(asked, model, secure)
         considered.append(one)
@@ -175,16 +191,17 @@ def advise(
 
 
 def _after(asked: Question, model: Model) -> Considered:
-    """A rung that costs no less than the one chosen: it is not run."""
+    """A rung that costs no less than the one chosen, or of whose tolerance nothing is left: it is not run."""
     before = a_priori(asked, model)
-    short = before is not None and before.error > asked.within
+    lost = "what all of them leave out takes all of the tolerance" if asked.within <= 0 else None
+    short = lost is not None or (before is not None and not before.error <= asked.within)
     told = "" if before is None else f"expected within {percent(before.error)}, "
     return Considered(
         model=model.name,
         resolution=asked.resolution(model),
         cpu_s=asked.cost(model),
         verdict=Verdict.NOT_ENOUGH if short else Verdict.NOT_NEEDED,
-        reason=_main(before) if short else f"{told}for {asked.cost(model):.2g} CPU s",
+        reason=lost or _main(before) if short else f"{told}for {asked.cost(model):.2g} CPU s",
         a_priori=before,
     )
 
@@ -229,9 +246,10 @@ def _considered(asked: Question, model: Model, secure: float) -> Considered:
     agree = before is None or not before.sure or (before.error <= asked.within) == (after.error <= asked.within)
     if not agree:
         chain = asked.chain(model)
-        if len(chain) > 2 and affordable(asked, chain[2], model):
-            decided = a_posteriori(asked, model, above=2)
-            after = after if decided is None else decided
+        dear = len(chain) < 3 or not affordable(asked, chain[2], model)
+        decided = None if dear else a_posteriori(asked, model, above=2)
+        if decided is not None:
+            after = decided
         elif after.error <= asked.within:
             return judged(Verdict.NOT_ENOUGH, f"{_main(before)}; the two estimates disagree", after)
     enough = after.sure and after.error <= asked.within
@@ -241,15 +259,16 @@ def _considered(asked: Question, model: Model, secure: float) -> Considered:
 def _top(asked: Question, model: Model, judged: Callable[..., Considered]) -> Considered:
     """Judge a rung at the top: by its grids, from the coarsest that its numbers allow on, each by its own word."""
     before = a_priori(asked, model)
-    after = None
+    last: tuple[Estimate, int] | None = None
     for resolution in (one for one in model.resolutions_of(asked.scene) if one >= asked.resolution(model)):
         after = by_its_own_word(asked, model, resolution)
         if after is None:
             break
         if after.error <= asked.within:
             return judged(Verdict.CHOSEN, after.reasons[0], after, resolution)
-    if after is not None:
-        return judged(Verdict.NOT_ENOUGH, after.reasons[0], after, resolution)
+        last = after, resolution
+    if last is not None:
+        return judged(Verdict.NOT_ENOUGH, last[0].reasons[0], *last)
     if _keeps(before, asked.within):
         return judged(Verdict.CHOSEN, _main(before))
     return judged(Verdict.NOT_ENOUGH, "how far off its grid is is not known here" if before is None else _main(before))

@@ -70,13 +70,26 @@ class Question:
         """
         if model.order is None and resolution >= max(model.resolutions_of(self.scene)):
             return 0.0
-        law = self.table.grid(self.kind.name, model.name, self.quantity)
-        return None if law is None else law.error({**self.numbers, "resolution": float(resolution)})
+        law, numbers = self.grid_law(model), self._numbers_on(resolution)
+        return law.error(numbers, "resolution") if law is not None and law.knows(numbers) else None
+
+    def grid_law(self, model: Model) -> Law | None:
+        """That of a rung's resolutions; None where there is none."""
+        return self.table.grid(self.kind.name, model.name, self.quantity)
+
+    def beyond_grids(self, model: Model, resolution: int) -> str | None:
+        """The number that lies beyond what a rung's resolutions were tried on; None if there is none."""
+        law, numbers = self.grid_law(model), self._numbers_on(resolution)
+        return law.beyond(numbers, "resolution") if law is not None and law.knows(numbers) else None
+
+    def _numbers_on(self, resolution: int) -> Numbers:
+        return {**self.numbers, "resolution": float(resolution)}
 
     def resolution(self, model: Model) -> int:
         """The coarsest that uses up no more than its share of the tolerance, or the finest; else the default."""
         offered = model.resolutions_of(self.scene)
-        if self.table.grid(self.kind.name, model.name, self.quantity) is None:
+        law = self.grid_law(model)
+        if law is None or not law.knows(self._numbers_on(offered[0])):
             return model.resolution_of(self.scene)
         fine = [one for one in offered if (self.grid(model, one) or 0.0) <= GRID_SHARE * self.within]
         return min(fine, default=max(offered))
@@ -99,8 +112,11 @@ class Question:
 
 
 def over(error: float, size: float) -> float:
-    """An error as a part of a size; infinite where there is an error and no size."""
-    return error / size if size > 0 else math.inf if error > 0 else 0.0
+    """An error as a part of a size; infinite where there is an error and no size, or where one of them is no number."""
+    if error == 0:
+        return 0.0
+    part = error / size if size > 0 else math.inf
+    return math.inf if math.isnan(part) else part
 
 
 def percent(part: float) -> str:
@@ -110,43 +126,66 @@ def percent(part: float) -> str:
     return f"{100 * part:.2g} %" if part < 0.1 else f"{100 * part:.0f} %"
 
 
+def bounded(part: float) -> str:
+    """An error that is expected at most, as the end of a sentence about it."""
+    return percent(part) if part > MOST else f"up to {percent(part)}"
+
+
+def near(part: float) -> str:
+    """How near a rung is, as the end of a sentence about it."""
+    return f"within {percent(part)}" if part <= MOST else f"off by {percent(part)}"
+
+
 def a_priori(asked: Question, model: Model) -> Estimate | None:
     """By the numbers of the scene: what a rung and those above it leave out, and what its resolution costs.
 
     The parts are independent bounds and add up as squares. None where a step, or its grid, is not in the table.
     """
-    parts, reasons, sure = [], [], True
-    for rung in asked.chain(model)[:-1]:
-        step = asked.step(rung)
-        assert step is not None
-        law = step.left_out.get(asked.quantity)
-        if law is None or not law.powers.keys() <= asked.numbers.keys():
-            return None
-        error, beyond = law.error(asked.numbers), law.beyond(asked.numbers)
-        parts.append(error)
-        sure = sure and beyond is None
-        reasons.append((error, _told(asked, rung, step, error, beyond, law)))
+    left = left_out(asked, asked.chain(model))
     resolution = asked.resolution(model)
     grid = asked.grid(model, resolution)
-    if grid is None:
+    if left is None or grid is None:
         return None
+    parts, reasons, sure = left
     if grid > 0:
-        parts.append(grid)
-        reasons.append((grid, f"a resolution of {resolution} costs up to {percent(grid)}"))
+        beyond = asked.beyond_grids(model, resolution)
+        told = f"a resolution of {resolution} costs {bounded(grid)}"
+        reasons = [*reasons, (grid, told + _lies(asked, beyond, asked.grid_law(model)))]
+        parts, sure = [*parts, grid], sure and beyond is None
     kept = [reason for _, reason in sorted(reasons, key=lambda told: -told[0])]
     return Estimate(error=math.hypot(*parts), reasons=tuple(kept), sure=sure)
 
 
-def _told(asked: Question, rung: Model, step: Step, error: float, beyond: str | None, law: Law) -> str:
+def left_out(asked: Question, chain: Sequence[Model]) -> tuple[list[float], list[tuple[float, str]], bool] | None:
+    """Of every step up a chain the error and, beside it, the reason; whether all are sure; None if one is not known."""
+    parts, reasons, sure = [], [], True
+    for rung in chain[:-1]:
+        step = asked.step(rung)
+        law = None if step is None else step.left_out.get(asked.quantity)
+        if step is None or law is None or not law.knows(asked.numbers):
+            return None
+        error, beyond = law.error(asked.numbers, step.tells), law.beyond(asked.numbers, step.tells)
+        parts.append(error)
+        sure = sure and beyond is None
+        reasons.append((error, _told(asked, rung, step, error) + _lies(asked, beyond, law)))
+    return parts, reasons, sure
+
+
+def _told(asked: Question, rung: Model, step: Step, error: float) -> str:
+    value = asked.numbers.get(step.tells)
+    number = "" if value is None else f"{asked.kind.symbols[step.tells]} = {value:.2g}: "
     title = asked.kind.compared[asked.quantity]
-    number = f"{asked.kind.symbols[step.tells]} = {asked.numbers[step.tells]:.2g}: " if step.tells else ""
-    size = percent(error) if error > MOST else f"up to {percent(error)}"
-    told = f"{number}{step.adds} may change the {title} by {size}; {rung.name} would miss it"
-    if beyond is None:
-        return told
+    return f"{number}{step.adds} may change the {title} by {bounded(error)}; {rung.name} would miss it"
+
+
+def _lies(asked: Question, beyond: str | None, law: Law | None) -> str:
+    if beyond is None or law is None:
+        return ""
     least, most = law.reach[beyond]
+    if beyond == "resolution":
+        return f" (and none coarser than {least:.0f} was swept)"
     symbol, value = asked.kind.symbols[beyond], asked.numbers[beyond]
-    return f"{told} (and {symbol} = {value:.2g} lies beyond the {least:.2g} to {most:.2g} that were swept)"
+    return f" (and {symbol} = {value:.2g} lies beyond the {least:.2g} to {most:.2g} that were swept)"
 
 
 def a_posteriori(asked: Question, model: Model, above: int = 1) -> Estimate | None:
@@ -155,13 +194,15 @@ def a_posteriori(asked: Question, model: Model, above: int = 1) -> Estimate | No
     The difference to the rung above is the error but for what that leaves out itself. From a rung below, the size of
     the last step tells by the sweeps how large the next would be.
     """
+    chain = asked.chain(model)
+    other = chain[above] if len(chain) > above and affordable(asked, chain[above], model) else None
+    left = None if other is None else a_priori(asked, other)
+    if (other is not None and left is None) or (other is None and above > 1):
+        return None
     own = run(asked, model)
     if own is None or asked.quantity not in own.quantities:
         return None
-    chain = asked.chain(model)
-    if len(chain) > above and affordable(asked, chain[above], model):
-        return _from_above(asked, own, chain[above])
-    return _from_below(asked, model, own) if above == 1 else None
+    return _from_below(asked, model, own) if other is None or left is None else _from_above(asked, own, other, left)
 
 
 def by_its_own_word(asked: Question, model: Model, resolution: int) -> Estimate | None:
@@ -170,7 +211,7 @@ def by_its_own_word(asked: Question, model: Model, resolution: int) -> Estimate 
     told = None if own is None or asked.quantity not in own.quantities else asked.told(own)
     if told is None:
         return None
-    return Estimate(error=told, reasons=(f"on {resolution} it says itself that it is within {percent(told)}",))
+    return Estimate(error=told, reasons=(f"on {resolution} it says itself that it is {near(told)}",))
 
 
 def affordable(asked: Question, other: Model, model: Model) -> bool:
@@ -188,15 +229,13 @@ def run(asked: Question, model: Model, resolution: int | None = None) -> Result 
         return None
 
 
-def _from_above(asked: Question, own: Result, other: Model) -> Estimate | None:
+def _from_above(asked: Question, own: Result, other: Model, left: Estimate) -> Estimate | None:
     found = run(asked, other)
     if found is None or asked.quantity not in found.quantities:
         return None
-    apart, left = asked.difference(own, found), a_priori(asked, other)
-    if left is None:
-        return None
+    apart = asked.difference(own, found)
     told = f"{other.name} was run too and differs by {percent(apart)}"
-    more = f", being itself within {percent(left.error)}" if left.error > 0 else ""
+    more = f", being itself {near(left.error)}" if left.error > 0 else ""
     return Estimate(error=apart + left.error, reasons=(told + more,), sure=left.sure)
 
 
@@ -205,12 +244,18 @@ def _from_below(asked: Question, model: Model, own: Result) -> Estimate | None:
     law = None if step is None else step.seen.get(asked.quantity)
     if step is None or law is None:
         return None
-    below = find(asked.models, step.seen_from)
+    below, higher = find(asked.models, step.seen_from), left_out(asked, asked.chain(model)[1:])
     found = run(asked, below)
-    if found is None or asked.quantity not in found.quantities:
+    if found is None or higher is None or asked.quantity not in found.quantities:
         return None
     apart = asked.difference(found, own)
     numbers = {**asked.numbers, "correction": apart}
-    left, grid = law.error(numbers), asked.told(own) or asked.grid(model, asked.resolution(model)) or 0.0
-    told = f"{below.name} was run too and differs by {percent(apart)}, by which {model.name} is within {percent(left)}"
-    return Estimate(error=math.hypot(left, grid), reasons=(told,), sure=law.beyond(numbers) is None)
+    word = asked.told(own)
+    grid = asked.grid(model, asked.resolution(model)) if word is None else word
+    if grid is None or not law.knows(numbers):
+        return None
+    left, (parts, reasons, sure) = law.error(numbers), higher
+    error = math.hypot(left, grid, *parts)
+    told = f"{below.name} was run too and differs by {percent(apart)}, by which {model.name} is {near(error)}"
+    more = [reason for part, reason in reasons if part > left]
+    return Estimate(error=error, reasons=("; ".join((told, *more)),), sure=sure and law.beyond(numbers) is None)

@@ -25,7 +25,7 @@ class Law:
     ----------
     coefficient : C.
     powers : of the numbers.
-    reach : the least and the greatest value of each in the sweep, and of the product, under ``""``.
+    reach : the least and the greatest value of each in the sweep.
     scenes : how many were fitted to.
     spread : the factor between the bound and the middle of the errors.
     """
@@ -36,19 +36,38 @@ class Law:
     scenes: int = 0
     spread: float = 1.0
 
-    def error(self, numbers: Numbers) -> float:
-        """What is to be expected at most; infinite where a number vanishes by which it divides."""
-        try:
-            parts: list[float] = [numbers[name] ** power for name, power in self.powers.items()]
-        except ZeroDivisionError:
-            return math.inf
-        return self.coefficient * math.prod(parts)
+    def knows(self, numbers: Numbers) -> bool:
+        """Whether a scene has all the numbers that are asked for."""
+        return self.powers.keys() <= numbers.keys()
 
-    def beyond(self, numbers: Numbers) -> str | None:
-        """The number that lies where errors grow beyond those of the sweep; None if there is none."""
+    def error(self, numbers: Numbers, follows: str = "") -> float:
+        """What is to be expected at most; infinite where a number vanishes by which it divides, or is none.
+
+        Beyond the sweep an error shrinks with the number that it ``follows`` alone, which takes the effect itself away;
+        of the others a power says nothing there.
+        """
+        parts = []
+        for name, power in self.powers.items():
+            least, greatest = (0.0, math.inf) if name == follows else self.reach.get(name, (0.0, math.inf))
+            number = max(numbers[name], least) if power > 0 else min(numbers[name], greatest)
+            if numbers[name] < 0:
+                return math.inf
+            try:
+                parts.append(number**power)
+            except (ZeroDivisionError, OverflowError):
+                return math.inf
+        found = self.coefficient * math.prod(parts)
+        return math.inf if math.isnan(found) else found
+
+    def beyond(self, numbers: Numbers, follows: str = "") -> str | None:
+        """The number that lies where nothing was swept and errors may be larger; None if there is none.
+
+        As effects vanish with a scene's numbers, that is above the sweep, and below it where the error grows there.
+        """
         for name, power in self.powers.items():
             least, greatest = self.reach.get(name, (0.0, math.inf))
-            if (power > 0 and numbers[name] > FARTHER * greatest) or (power < 0 and numbers[name] < least / FARTHER):
+            above, below = numbers[name] > FARTHER * greatest, numbers[name] < least / FARTHER
+            if (above and (power > 0 or name != follows)) or (below and power < 0):
                 return name
         return None
 

@@ -9,7 +9,8 @@ import rom.models
 from contact.errors import ConvergenceError, InputError
 from contact.units import Quantity
 from rom.advice.advise import Verdict, advise, wanted
-from rom.advice.laws import Law, Step, Table, read_table, table
+from rom.advice.estimates import near
+from rom.advice.laws import Grid, Law, Step, Table, read_table, table
 from rom.kind import Omission, kinds
 from rom.ladder import Applicability, Availability, Effect, Model, best, ladder, of_kind
 from rom.result import Numerics, Result
@@ -104,10 +105,26 @@ def scene(make_scene):
 def test_a_law_is_a_product_of_powers_and_says_where_it_was_not_fitted():
     found = Law(coefficient=0.5, powers={"a": 2.0, "b": -1.0}, reach={"a": (0.1, 1.0), "b": (1.0, 10.0)})
     assert found.error({"a": 0.2, "b": 4.0}) == pytest.approx(0.5 * 0.04 / 4)
-    assert found.beyond({"a": 0.01, "b": 100.0}) is None, "where errors shrink it may be left"
+    assert found.beyond({"a": 0.01, "b": 4.0}) is None, "where effects vanish it may be left"
     assert found.beyond({"a": 2.0, "b": 4.0}) == "a"
     assert found.beyond({"a": 0.5, "b": 0.1}) == "b"
     assert found.error({"a": 1.0, "b": 0.0}) == float("inf")
+
+
+def test_beyond_the_sweep_an_error_shrinks_with_the_number_that_it_follows_alone():
+    found = Law(coefficient=0.5, powers={"a": 2.0, "b": -1.0}, reach={"a": (0.1, 1.0), "b": (1.0, 10.0)})
+    least = found.error({"a": 0.1, "b": 10.0})
+    assert found.error({"a": 0.01, "b": 1000.0}) == least
+    assert found.error({"a": 0.01, "b": 10.0}, "a") == pytest.approx(least / 100)
+    assert found.error({"a": 0.1, "b": 1000.0}, "b") == pytest.approx(least / 100)
+    assert found.beyond({"a": 0.5, "b": 1000.0}) == "b", "nothing was swept there, whatever its power"
+    assert found.beyond({"a": 0.5, "b": 1000.0}, "b") is None
+
+
+@pytest.mark.parametrize("number", [-1e-3, float("nan"), 1e200])
+def test_a_number_without_meaning_promises_nothing(number):
+    assert not Law(coefficient=0.5, powers={"a": 2.0, "b": -0.25}).error({"a": 1e200, "b": number}) < float("inf")
+    assert not Law(coefficient=0.5, powers={"a": 2.0}).error({"a": number}) < 1e3
 
 
 def test_both_estimates_agree_that_the_cheapest_will_do(scene):
@@ -167,6 +184,58 @@ def test_a_rung_without_a_law_is_not_trusted_unless_a_cheap_one_tells(scene):
     assert unknown.advise(scene, 0.05).chosen.model == "reynolds"
     blind = Fakes({"reynolds": 0.5, "film": None})
     assert blind.advise(scene, 0.05).chosen.model == "navier_stokes"
+
+
+def test_what_has_failed_is_not_run_again(scene):
+    cheap = {"navier_stokes": 2e-4, "film": 1.5e-4}
+    fakes = Fakes({"reynolds": 0.01, "film": 0.01}, {"navier_stokes": None}, cheap)
+    assert fakes.advise(scene, 0.05).chosen.model == "film"
+    assert fakes.ran.count("navier_stokes") == 1, "to settle a disagreement, and to check film"
+
+
+def test_a_rung_of_which_no_tolerance_is_left_is_not_called_not_needed(scene, monkeypatch):
+    told = Omission(part=0.3, reason="heat, which no rung keeps")
+    kind = replace(kinds()["pocket"], omitted=lambda _scene, _quantity: told)
+    monkeypatch.setattr("rom.advice.advise.kinds", lambda: {"pocket": kind})
+    found = Fakes({"reynolds": None, "film": 0.0}).advise(scene, 0.05)
+    assert {one.verdict for one in found.considered} == {Verdict.NOT_ENOUGH}
+
+
+def test_a_step_seen_from_another_rung_counts_the_steps_above_too(scene):
+    fakes = Fakes({"reynolds": 0.04, "film": 0.03}, costs={"film": 100.0, "navier_stokes": 200.0})
+    first, second = fakes.table.steps
+    seen = replace(first, seen_from="film", seen={"load_plus": law(0.01)})
+    fakes.table = replace(fakes.table, steps=[seen, second])
+    found = fakes.advise(scene, 0.1).considered[0]
+    assert found.a_posteriori.error == pytest.approx((0.01**2 + 0.03**2) ** 0.5)
+    assert "within 3.2 %; something may change the load by up to 3 %; film would miss it" in found.reason
+
+
+def test_a_law_without_powers_needs_no_numbers(scene, monkeypatch):
+    kind = replace(kinds()["pocket"], numbers=lambda _scene: {})
+    monkeypatch.setattr("rom.advice.advise.kinds", lambda: {"pocket": kind})
+    fakes = Fakes({"reynolds": 0.02, "film": 0.01}, {"reynolds": 1.0, "film": 1.0})
+    fakes.table = replace(fakes.table, steps=[replace(step, tells="slope") for step in fakes.table.steps])
+    assert fakes.advise(scene, 0.05).chosen.model == "reynolds"
+
+
+def test_a_grid_beyond_those_that_were_swept_is_not_trusted(scene):
+    fakes = Fakes({"reynolds": 0.5, "film": 0.5})
+    fakes.models = [replace(model, order=2) for model in fakes.models]
+    powers, reach = (
+        {"resolution": -2.0, "reynolds_number": 0.1},
+        {"resolution": (4.0, 16.0), "reynolds_number": (0.5, 9)},
+    )
+    laws = {"load_plus": Law(coefficient=1e-3, powers=powers, reach=reach)}
+    fakes.table = replace(fakes.table, grids=[Grid(kind="pocket", model="navier_stokes", laws=laws)])
+    found = fakes.advise(scene, 0.05)
+    assert found.chosen is None
+    assert "Re = 20 lies beyond the 0.5 to 9 that were swept" in found.considered[-1].reason
+
+
+@pytest.mark.parametrize(("part", "told"), [(0.05, "within 5 %"), (4.0, "off by more than 300 %")])
+def test_how_near_a_rung_is_in_words(part, told):
+    assert near(part) == told
 
 
 def test_a_grid_of_which_nothing_is_known_is_not_trusted(scene):

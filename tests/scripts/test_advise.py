@@ -2,6 +2,7 @@
 
 import json
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
@@ -56,6 +57,31 @@ def test_solve_takes_what_is_advised_and_keeps_why(run, groove, tmp_path):
     assert load(file).provenance["advice"]["within"] == 0.1
 
 
+@pytest.mark.parametrize(
+    ("scene", "wants"),
+    [("dry_contact", ("contact area", "mean gap")), ("seal", ("leakage", "contact area"))],
+)
+def test_a_flat_surface_has_no_numbers_and_is_judged_all_the_same(run, tmp_path, scene, wants):
+    np.save(tmp_path / "flat.npy", np.zeros((16, 16)))
+    flat = ["--set", f"geometry.surface={tmp_path / 'flat.npy'}", "--set", "geometry.spacing=1um"]
+    for want in wants:
+        found = run("advise", f"{SCENES}/{scene}.toml", *flat, "--within", "5%", "--want", want, "--json")
+        assert found.exit_code == 0, found.stderr
+        told = json.loads(found.stdout)
+        assert told["numbers"] == {}
+        assert told["expected_error"] <= 0.05
+    assert "numbers of the scene" not in run("advise", f"{SCENES}/{scene}.toml", *flat, "--within", "5%").stdout
+
+
+def test_a_lubricant_that_boils_above_ambient_is_judged(run):
+    pressures = {"lubricant.cavitation_pressure": "10kPa", "boundary.inlet.pressure": "1MPa"}
+    sets = [text for key, value in pressures.items() for text in ("--set", f"{key}={value}")]
+    boiling = [f"{SCENES}/parabolic_slider.toml", *sets, "--set", "boundary.outlet.pressure=1MPa"]
+    told = json.loads(run("advise", *boiling, "--within", "5%", "--json").stdout)
+    assert told["numbers"]["cavitation_number"] < 0
+    assert told["model"] == "reynolds_cavitating"
+
+
 def test_it_says_when_none_will_do(run):
     asked = [f"{SCENES}/parabolic_slider.toml", "--within", "1e-13"]
     found = run("advise", *asked, "--json")
@@ -76,6 +102,7 @@ def test_it_says_when_none_will_do(run):
         (["--within", "5%", "--model", "film"], "--model: --within chooses"),
         (["--within", "5%", "--resolution", "50"], "--resolution: --within chooses"),
         (["--within", "5%", "--want", "lift"], "--want: got 'lift'"),
+        (["--within", "5%", "--processes", "2"], "--processes: --within chooses"),
         (["--want", "load", "--model", "film"], "--want: says of which quantity"),
         ([], "--model: is missing"),
     ],
