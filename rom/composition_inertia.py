@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from contact.errors import ConvergenceError, InputError, UnavailableError
 from contact.units import with_unit
 from rom.advice.advise import advise
 from rom.bearing import Bearing
@@ -19,6 +20,7 @@ from rom.convergence import converge
 from rom.ladder import Model, find, of_kind
 from rom.ring_geometry import Ring
 from rom.scene import read_scene
+from rom.texture import Texture
 
 FIRST_ORDER = "inertial_reynolds"
 """The rung of pockets that keeps as much of inertia as is kept here; the cheapest that is enough judges it."""
@@ -54,8 +56,8 @@ class InertiaAdded:
     Attributes
     ----------
     amounts : of ``load``, ``friction`` and ``inlet_flow``, over the whole bearing (per width if infinitely wide).
-    untextured_load : what it adds without the pockets, in the same film; None where there are none.
-    pocket : what the models of pockets say of one; None without pockets.
+    untextured_load : what it adds without the pockets, in the same film; None where ``pocket`` is.
+    pocket : what the models of pockets say of one; None without pockets, and where they cannot tell.
     """
 
     amounts: Mapping[str, Amount]
@@ -116,12 +118,20 @@ def _amount(name: str, found: Mapping[int, Inertia], beyond: float, *, wide: boo
 def one_pocket(scene: Bearing, models: Sequence[Model]) -> PocketJudged | None:
     """A pocket in the middle line of its texture, between flat lands as far apart as the walls are there.
 
-    None for walls without pockets, or where no model of pockets knows how near it is. The film is that at the middle
-    of the first column, the thickest and so the heaviest of a film that narrows; a flat floor counts as an arc.
+    None for walls without pockets, for pockets that are no scene of their own, such as those deeper than a half circle,
+    and where no model knows how near it is. The film is that at the middle of the first column, the thickest and so the
+    heaviest of a film that narrows; a flat floor counts as an arc.
     """
     texture, density = getattr(scene.geometry, "texture", None), scene.lubricant.density
     if texture is None or density is None:
         return None
+    try:
+        return _judged_pocket(scene, texture, density, of_kind(models, "pocket"))
+    except (InputError, ConvergenceError, UnavailableError):
+        return None
+
+
+def _judged_pocket(scene: Bearing, texture: Texture, density: float, models: Sequence[Model]) -> PocketJudged | None:
     shape = without_texture(scene).geometry.film_shape()
     place = texture.start + texture.length / 2
     film = float(shape.thickness(np.array([place]), np.array([sum(shape.across) / 2]))[0])
@@ -138,9 +148,9 @@ def one_pocket(scene: Bearing, models: Sequence[Model]) -> PocketJudged | None:
             "motion": {"speed": with_unit(abs(scene.motion.speed), "m/s")},
         }
     )
-    found = advise(pocket, of_kind(models, "pocket"), quantity=JUDGED_BY, within=WITHIN)
+    found = advise(pocket, models, quantity=JUDGED_BY, within=WITHIN)
     judge = found.chosen or found.nearest
-    if judge is None or judge.error is None or judge.error > 1:
+    if judge is None or judge.error is None or judge.error > 1 or not judge.sure:
         return None
     first = find(models, FIRST_ORDER).solve(pocket).quantities["load_per_area"].value
     told = found.result or find(models, judge.model).solve(pocket, resolution=judge.resolution)

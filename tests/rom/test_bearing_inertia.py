@@ -1,7 +1,8 @@
 """First-order inertia of a bearing's film: pockets judged elsewhere, ridges at any angle, symmetry of the two axes."""
 
 from dataclasses import replace
-from typing import Any
+from pathlib import Path
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -15,14 +16,15 @@ from rom.cavitation.discretise import Ends
 from rom.cavitation.problem import Problem
 from rom.cavitation.solve import Solution, solve
 from rom.composition import Composed, Composition, at_film
-from rom.composition_inertia import inertia_added, judged, under_its_load
+from rom.composition_inertia import inertia_added, judged, one_pocket, under_its_load
 from rom.composition_load import under_load
 from rom.film_flow import inertia_pressure
 from rom.gap import Array
 from rom.ladder import find, ladder, of_kind
-from rom.scene import read_scene
+from rom.scene import load_scene, read_scene
 
 VISCOSITY, DENSITY, FILM, LENGTH, WIDTH = 0.01, 1000.0, 30e-6, 1e-3, 0.3e-3
+PAD = Path("scripts/scenes/pad.toml")
 POCKET_MODELS = of_kind(ladder(rom.models, foamcases.models), "pocket")
 
 
@@ -234,3 +236,9 @@ def test_what_cannot_be_judged_is_refused_and_said() -> None:
     assert judged(bearing(0.0)) == "nothing slides"
     with pytest.raises(InputError, match="density: is missing"):
         judged_film(light, 16)
+
+
+@pytest.mark.parametrize("odd", ["geometry.texture.depth=1.5mm", "lubricant.density=1e20 kg/m^3"])
+def test_pockets_that_are_no_scene_of_their_own_are_not_judged(odd: str) -> None:
+    assert one_pocket(cast(Bearing, load_scene(PAD, [])), POCKET_MODELS) is not None
+    assert one_pocket(cast(Bearing, load_scene(PAD, [odd])), POCKET_MODELS) is None
