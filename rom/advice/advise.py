@@ -24,6 +24,7 @@ class Verdict(StrEnum):
     DOES_NOT_APPLY = "does not apply"
     NOT_HERE = "not on this machine"
     NOT_NEEDED = "not needed"
+    IN_VAIN = "tried in vain"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -160,6 +161,7 @@ def advise(
         table=laws or table(),
         numbers=kind.numbers(scene),
         run=solved,
+        failed=failed,
     )
     if not asked.models:
         raise InputError(f"scene: no rung applies: {'; '.join(fit.reason for fit in fits.values())}")
@@ -239,6 +241,8 @@ def _considered(asked: Question, model: Model, secure: float) -> Considered:
         return _top(asked, model, judged)
     after = a_posteriori(asked, model)
     if after is None:
+        if failure := asked.failed.get((model.name, resolution)):
+            return judged(Verdict.IN_VAIN, str(failure))
         if _keeps(before, asked.within):
             return judged(Verdict.CHOSEN, _main(before))
         why = "its error is not known here, and no cheap rung can tell" if before is None else _main(before)
@@ -269,6 +273,8 @@ def _top(asked: Question, model: Model, judged: Callable[..., Considered]) -> Co
         last = after, resolution
     if last is not None:
         return judged(Verdict.NOT_ENOUGH, last[0].reasons[0], *last)
+    if failure := asked.failed.get((model.name, asked.resolution(model))):
+        return judged(Verdict.IN_VAIN, str(failure))
     if _keeps(before, asked.within):
         return judged(Verdict.CHOSEN, _main(before))
     return judged(Verdict.NOT_ENOUGH, "how far off its grid is is not known here" if before is None else _main(before))

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from contact.errors import ConvergenceError, InputError, UnavailableError
 from rom.advice.laws import Law, Numbers, Step, Table
@@ -32,7 +32,10 @@ class Estimate:
 
 @dataclass(frozen=True, kw_only=True)
 class Question:
-    """What is asked: a scene, the rungs of its kind that apply to it, the quantity and how far off it may be."""
+    """What is asked: a scene, the rungs of its kind that apply to it, the quantity and how far off it may be.
+
+    ``failed`` : of what was run in vain, by name and resolution, why.
+    """
 
     scene: Scene
     kind: Kind
@@ -42,6 +45,7 @@ class Question:
     table: Table
     numbers: Numbers
     run: Callable[[Model, int], Result]
+    failed: Mapping[tuple[str, int], Exception] = field(default_factory=dict)
 
     def step(self, model: Model) -> Step | None:
         """That of a rung, towards one that applies; None at the top."""

@@ -248,10 +248,23 @@ def test_a_grid_of_which_nothing_is_known_is_not_trusted(scene):
 
 
 def test_a_check_that_does_not_converge_decides_nothing(scene):
-    fakes = Fakes({"reynolds": 0.02, "film": 0.01}, {"reynolds": None})
+    cheap = {"navier_stokes": 2e-4, "film": 1.5e-4}
+    fakes = Fakes({"reynolds": 0.02, "film": 0.01}, {"film": None}, cheap)
     found = fakes.advise(scene, 0.05)
     assert found.chosen.model == "reynolds", "by its numbers, as nothing can be run beside it"
-    assert found.result is None
+    assert found.result.model == "reynolds"
+
+
+def test_a_rung_that_was_tried_in_vain_is_not_advised(scene):
+    fakes = Fakes({"reynolds": 0.02, "film": 0.01}, {"reynolds": None})
+    found = fakes.advise(scene, 0.05)
+    assert found.chosen.model == "film"
+    assert (found.considered[0].verdict, found.considered[0].reason) == (Verdict.IN_VAIN, "no")
+    top = Fakes({"reynolds": 0.5, "film": 0.2}, {"navier_stokes": None})
+    top.models = [replace(one, write=None) for one in top.models]
+    found = top.advise(scene, 0.01)
+    assert found.considered[-1].verdict is Verdict.IN_VAIN
+    assert (found.chosen, found.nearest.model) == (None, "film")
 
 
 def test_a_law_that_is_left_does_not_count_as_an_estimate(scene):
