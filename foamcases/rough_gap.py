@@ -13,6 +13,7 @@ from foamcases.gap_bars import error_bars
 from foamcases.gap_case import GapCard, layers_of, mesh_of, write_gap_case
 from foamcases.gap_dictionaries import DRIVES, SLIDING_SPEED
 from foamcases.gap_fields import GapFlow, read_gap_flow
+from foamcases.gap_mesh import Columns
 from foamcases.gap_run import GapRun, run_gap
 from foamcases.rung import Cases
 from rom.gap_flow.factors import RoughGapFactors
@@ -28,6 +29,9 @@ RESOLUTIONS = (16, 32, 64)
 
 UNBALANCED = 0.02
 """Of the drag of a smooth gap: what the walls do not hold of the drive more than that is told."""
+
+LOST = 0.05
+"""Of the shear across a thin film: what columns do not see more than that is told."""
 
 INERTIAL = 1.0
 """Re g' above which inertia counts enough for its own error to be told, which one mesh cannot."""
@@ -79,13 +83,28 @@ def factors_of(flows: dict[str, GapFlow], *, slides: bool) -> tuple[RoughGapFact
     flow = flows["sliding"]
     columns = flow.columns
     friction = flow.pull(SLIDING_SPEED) / SLIDING_SPEED
-    couette = float(np.divide(1.0, columns.height, out=np.zeros(columns.kept.shape), where=columns.kept).mean())
+    couette = _shear(columns)
     passes = [drive.name in flows for drive in DRIVES[:2]]
     return replace(
         still,
         shear=np.where(passes, flow.flow / (SLIDING_SPEED / 2), 0.0),
         friction=friction + 2 / flow.layers**2 * (friction - couette),
     ), pulled
+
+
+def lost_shear(scene: RoughGap, columns: Columns) -> float:
+    """The part of <1/h> on the surface's own points that the columns of a mesh do not see: shear of thin films.
+
+    Friction is at least that shear, whatever else the liquid does.
+    """
+    gap = scene.walls(max(scene.surface().shape)).gap / scene.mean_gap
+    whole = float(np.divide(1.0, gap, out=np.zeros(gap.shape), where=gap > 0).mean())
+    return max(0.0, 1 - _shear(columns) / whole)
+
+
+def _shear(columns: Columns) -> float:
+    """<1/h>, h in mean gaps, over the columns that are open."""
+    return float(np.divide(1.0, columns.height, out=np.zeros(columns.kept.shape), where=columns.kept).mean())
 
 
 def read(scene: RoughGap, directory: Path, run: GapRun, *, model: str, keeps: frozenset[Effect]) -> Result:
@@ -114,6 +133,11 @@ def read(scene: RoughGap, directory: Path, run: GapRun, *, model: str, keeps: fr
         warnings.append("no error bars: what one mesh does to inertia is not known, refine it to see")
     if columns.closed_in > CLOSED_IN:
         warnings.append(f"contact closes in {columns.closed_in:.1%} of the open volume, which is left out")
+    if walls.slides and (lost := lost_shear(scene, columns)) > LOST:
+        warnings.append(
+            f"the walls come nearer between these columns than at them: {lost:.0%} of the shear across a thin film is "
+            "not seen, and friction is too small by as much; take more columns"
+        )
     for name, checked in run.flows.items():
         warnings += [f"{name}: {again}" for again in map(str, checked.tries[1:])]
     return Result(

@@ -13,7 +13,7 @@ from rich.table import Table
 import rom.advice
 from contact.errors import InputError
 from contact.files import replacing
-from rom.advice.laws import CERTAINTY, Grid, Law, Numbers, Step
+from rom.advice.laws import CERTAINTY, Grid, Law, Numbers, Step, on_grid
 from rom.convergence import Kind as Way
 from rom.convergence import converge
 from rom.gap import Array
@@ -192,7 +192,7 @@ def grid_rows(kind: Kind, model: str, found: Sequence[Case], quantity: str) -> R
             continue
         top = {**grids[-1].values, **(case.truth if model == case.best else {})}
         rows += [
-            ({**case.numbers, "resolution": float(run.resolution)}, apart(kind, case, run.values, top, quantity))
+            (on_grid(case.numbers, run.resolution), apart(kind, case, run.values, top, quantity))
             for run in (grids if model == case.best else grids[:-1])
         ]
     return rows
@@ -223,7 +223,7 @@ def fit_step(kind: Kind, plan: Plan, found: Sequence[Case]) -> Step:
 
 def fit_grid(kind: Kind, model: str, found: Sequence[Case]) -> Grid:
     """What a rung's resolution is worth, by quantity."""
-    features = ("resolution", *GRIDS_APART.get((kind.name, model), GRIDS[kind.name]))
+    features = GRIDS_APART.get((kind.name, model), GRIDS[kind.name])
     laws = {q: law for q in kind.compared if (law := fitted(grid_rows(kind, model, found, q), features)) is not None}
     return Grid(kind=kind.name, model=model, laws=laws)
 

@@ -172,13 +172,13 @@ STEPS: Mapping[str, Sequence[Plan]] = {
 }
 
 GRIDS: Mapping[str, tuple[str, ...]] = {
-    "pocket": ("reynolds_number", "film", "aspect", "slope", "loaded"),
-    "rough_gap": ("waves", "height"),
-    "bearing": ("thickness_ratio", "finest"),
-    "dry_contact": ("waves",),
-    "seal": ("waves",),
+    "pocket": ("resolution", "reynolds_number", "film", "aspect", "slope", "loaded"),
+    "rough_gap": ("points_per_wave", "height"),
+    "bearing": ("resolution", "thickness_ratio", "finest"),
+    "dry_contact": ("points_per_wave", "pressure", "hardness"),
+    "seal": ("points_per_wave", "pressure", "hardness"),
 }
-"""What orders the error of a resolution, beside that itself: of every rung of a kind."""
+"""What orders the error of a resolution: of every rung of a kind."""
 
-GRIDS_APART: Mapping[tuple[str, str], tuple[str, ...]] = {("bearing", "direct"): ("roughness_period",)}
+GRIDS_APART: Mapping[tuple[str, str], tuple[str, ...]] = {("bearing", "direct"): ("resolution", "roughness_period")}
 """Of rungs whose grid has something else to follow."""

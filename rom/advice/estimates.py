@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from contact.errors import ConvergenceError, InputError, UnavailableError
-from rom.advice.laws import Law, Numbers, Step, Table
+from rom.advice.laws import RESOLVING, Law, Numbers, Step, Table, on_grid
 from rom.kind import Kind, Scene
 from rom.ladder import Model, find
 from rom.result import Result
@@ -74,8 +74,8 @@ class Question:
         """
         if model.order is None and resolution >= max(model.resolutions_of(self.scene)):
             return 0.0
-        law, numbers = self.grid_law(model), self._numbers_on(resolution)
-        return law.error(numbers, "resolution") if law is not None and law.knows(numbers) else None
+        law, numbers = self.grid_law(model), on_grid(self.numbers, resolution)
+        return law.error(numbers, RESOLVING) if law is not None and law.knows(numbers) else None
 
     def grid_law(self, model: Model) -> Law | None:
         """That of a rung's resolutions; None where there is none."""
@@ -83,20 +83,17 @@ class Question:
 
     def beyond_grids(self, model: Model, resolution: int) -> str | None:
         """The number that lies beyond what a rung's resolutions were tried on; None if there is none."""
-        law, numbers = self.grid_law(model), self._numbers_on(resolution)
-        return law.beyond(numbers, "resolution") if law is not None and law.knows(numbers) else None
-
-    def _numbers_on(self, resolution: int) -> Numbers:
-        return {**self.numbers, "resolution": float(resolution)}
+        law, numbers = self.grid_law(model), on_grid(self.numbers, resolution)
+        return law.beyond(numbers, RESOLVING) if law is not None and law.knows(numbers) else None
 
     def resolution(self, model: Model) -> int:
-        """The coarsest that uses up no more than its share of the tolerance, or the finest; else the default."""
+        """The coarsest known to use up no more than its share of the tolerance, or the finest; else the default."""
         offered = model.resolutions_of(self.scene)
         law = self.grid_law(model)
-        if law is None or not law.knows(self._numbers_on(offered[0])):
+        if law is None or not law.knows(on_grid(self.numbers, offered[0])):
             return model.resolution_of(self.scene)
         fine = [one for one in offered if (self.grid(model, one) or 0.0) <= GRID_SHARE * self.within]
-        return min(fine, default=max(offered))
+        return min((one for one in fine if self.beyond_grids(model, one) is None), default=max(offered))
 
     def cost(self, model: Model, resolution: int | None = None) -> float:
         """Expected CPU seconds, by default at the chosen resolution."""
@@ -168,7 +165,7 @@ def left_out(asked: Question, chain: Sequence[Model]) -> tuple[list[float], list
         law = None if step is None else step.left_out.get(asked.quantity)
         if step is None or law is None or not law.knows(asked.numbers):
             return None
-        error, beyond = law.error(asked.numbers, step.tells), law.beyond(asked.numbers, step.tells)
+        error, beyond = law.error(asked.numbers, (step.tells,)), law.beyond(asked.numbers, (step.tells,))
         parts.append(error)
         sure = sure and beyond is None
         reasons.append((error, _told(asked, rung, step, error) + _lies(asked, beyond, law)))
@@ -186,8 +183,8 @@ def _lies(asked: Question, beyond: str | None, law: Law | None) -> str:
     if beyond is None or law is None:
         return ""
     least, most = law.reach[beyond]
-    if beyond == "resolution":
-        return f" (and none coarser than {least:.0f} was swept)"
+    if beyond in RESOLVING:
+        return f" (and none coarser than {least:.2g} {beyond.replace('_', ' ')} was swept)"
     symbol, value = asked.kind.symbols[beyond], asked.numbers[beyond]
     return f" (and {symbol} = {value:.2g} lies beyond the {least:.2g} to {most:.2g} that were swept)"
 

@@ -40,7 +40,7 @@ class Law:
         """Whether a scene has all the numbers that are asked for."""
         return self.powers.keys() <= numbers.keys()
 
-    def error(self, numbers: Numbers, follows: str = "") -> float:
+    def error(self, numbers: Numbers, follows: Container[str] = ()) -> float:
         """What is to be expected at most; infinite where a number vanishes by which it divides, or is none.
 
         Beyond the sweep an error shrinks with the number that it ``follows`` alone, which takes the effect itself away;
@@ -48,7 +48,7 @@ class Law:
         """
         parts = []
         for name, power in self.powers.items():
-            least, greatest = (0.0, math.inf) if name == follows else self.reach.get(name, (0.0, math.inf))
+            least, greatest = (0.0, math.inf) if name in follows else self.reach.get(name, (0.0, math.inf))
             number = max(numbers[name], least) if power > 0 else min(numbers[name], greatest)
             if numbers[name] < 0:
                 return math.inf
@@ -59,7 +59,7 @@ class Law:
         found = self.coefficient * math.prod(parts)
         return math.inf if math.isnan(found) else found
 
-    def beyond(self, numbers: Numbers, follows: str = "") -> str | None:
+    def beyond(self, numbers: Numbers, follows: Container[str] = ()) -> str | None:
         """The number that lies where nothing was swept and errors may be larger; None if there is none.
 
         As effects vanish with a scene's numbers, that is above the sweep, and below it where the error grows there.
@@ -67,9 +67,21 @@ class Law:
         for name, power in self.powers.items():
             least, greatest = self.reach.get(name, (0.0, math.inf))
             above, below = numbers[name] > FARTHER * greatest, numbers[name] < least / FARTHER
-            if (above and (power > 0 or name != follows)) or (below and power < 0):
+            if (above and (power > 0 or name not in follows)) or (below and power < 0):
                 return name
         return None
+
+
+RESOLVING = ("resolution", "points_per_wave")
+"""Numbers that a grid makes greater at will."""
+
+
+def on_grid(numbers: Numbers, resolution: int) -> Numbers:
+    """A scene's numbers with those of a grid: its resolution, and points per wave of a surface that has ``waves``."""
+    told = {**numbers, "resolution": float(resolution)}
+    if "waves" in numbers:
+        told["points_per_wave"] = resolution / numbers["waves"] if numbers["waves"] > 0 else math.inf
+    return told
 
 
 FARTHER = 1.2

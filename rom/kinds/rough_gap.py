@@ -74,19 +74,17 @@ TOUCHING = 1e-3
 
 
 def numbers(scene: RoughGap) -> dict[str, float]:
-    """λ = 2π Sq/g'; flat walls have only Re."""
-    if not scene.rms_height > 0:
-        return {"reynolds_number": scene.reynolds_number}
+    """λ = 2π Sq/g', of which flat walls have none."""
     surface = scene.surface()
     walls = scene.walls(max(surface.shape))
-    wavelength = 2 * np.pi * scene.rms_height / scene.rms_slope
+    waves = max(surface.size) * scene.rms_slope / (2 * np.pi * scene.rms_height) if scene.rms_height > 0 else 0.0
     return {
         "slope": scene.rms_slope,
         "height": scene.rms_height / scene.mean_gap,
         "shortness": scene.gap_over_wavelength,
         "reynolds_number": scene.reynolds_number,
         "roughness_reynolds_number": scene.reynolds_number * scene.rms_slope,
-        "waves": max(surface.size) / wavelength,
+        "waves": waves,
         "least_gap": max(float(walls.gap.min()) / scene.mean_gap, TOUCHING),
     }
 

@@ -75,3 +75,12 @@ def test_a_gap_that_contact_seals_is_an_answer():
     found = MODEL.solve(scene)
     assert [found.quantities[name].value for name in ("A11", "A12", "A21", "A22")] == [0.0] * 4
     assert any("seals the gap both ways" in warning for warning in found.provenance["warnings"])
+
+
+def test_walls_that_come_nearer_between_columns_are_told():
+    """<1/h> of a sinusoid is 1/√(1 - a²); 16 columns miss most of it where the walls nearly touch."""
+    apart = MODEL.solve(scene_of(surface="sinusoid", amplitude="0.3 um", wavelength="5 um"), resolution=16)
+    near = MODEL.solve(scene_of(surface="sinusoid", amplitude="0.995 um", wavelength="5 um"), resolution=16)
+    assert not any("come nearer" in warning for warning in apart.provenance["warnings"])
+    assert any("friction is too small by as much" in warning for warning in near.provenance["warnings"])
+    assert near.quantities["friction"].value < 1 / np.sqrt(1 - 0.995**2), "less than shear alone must be"

@@ -10,7 +10,7 @@ from contact.errors import ConvergenceError, InputError
 from contact.units import Quantity
 from rom.advice.advise import Verdict, advise, wanted
 from rom.advice.estimates import near
-from rom.advice.laws import Grid, Law, Step, Table, read_table, table
+from rom.advice.laws import RESOLVING, Grid, Law, Step, Table, read_table, table
 from rom.kind import Omission, kinds
 from rom.ladder import Applicability, Availability, Effect, Model, best, ladder, of_kind
 from rom.result import Numerics, Result
@@ -115,7 +115,7 @@ def test_beyond_the_sweep_an_error_shrinks_with_the_number_that_it_follows_alone
     found = Law(coefficient=0.5, powers={"a": 2.0, "b": -1.0}, reach={"a": (0.1, 1.0), "b": (1.0, 10.0)})
     least = found.error({"a": 0.1, "b": 10.0})
     assert found.error({"a": 0.01, "b": 1000.0}) == least
-    assert found.error({"a": 0.01, "b": 10.0}, "a") == pytest.approx(least / 100)
+    assert found.error({"a": 0.01, "b": 10.0}, ("a",)) == pytest.approx(least / 100)
     assert found.error({"a": 0.1, "b": 1000.0}, "b") == pytest.approx(least / 100)
     assert found.beyond({"a": 0.5, "b": 1000.0}) == "b", "nothing was swept there, whatever its power"
     assert found.beyond({"a": 0.5, "b": 1000.0}, "b") is None
@@ -313,7 +313,7 @@ def test_the_table_names_rungs_quantities_and_numbers_that_exist():
     laws = [(one.kind, law) for one in found.steps for law in (*one.left_out.values(), *one.seen.values())]
     laws += [(one.kind, law) for one in found.grids for law in one.laws.values()]
     for kind, one in laws:
-        assert set(one.powers) <= {*kinds()[kind].symbols, "resolution", "correction"}
+        assert set(one.powers) <= {*kinds()[kind].symbols, *RESOLVING, "correction"}
         assert one.coefficient > 0
 
 
