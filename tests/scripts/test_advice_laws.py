@@ -3,13 +3,16 @@
 import numpy as np
 import pytest
 
+from rom.advice.advise import advise
 from rom.advice.laws import read_table
 from rom.kind import kinds
+from rom.ladder import best, find, of_kind
 from rom.scene import scene_entries
 from scripts.advice_check import Trial, score, tried
 from scripts.advice_fit import Case, cases, fit, fitted, written
 from scripts.advice_runs import PARTS, Drawn, Run
 from scripts.advice_scenes import DRAWN, random_scene
+from scripts.common import models
 
 
 def test_seeds_to_fit_and_to_check_are_apart():
@@ -142,3 +145,22 @@ def test_the_score_counts_misses_and_those_without_an_answer():
     assert (found.scenes, found.answered, found.kept) == (3, 2, 1)
     assert found.share == 0.5
     assert found.cost_ratio == 0.01
+
+
+@pytest.mark.parametrize(("kind", "seeds"), [("bearing", range(9100, 9106)), ("dry_contact", range(9200, 9206))])
+def test_what_is_advised_is_near_the_best_rung_on_scenes_that_no_law_has_seen(kind, seeds):
+    ladder, kept = of_kind(models(), kind), []
+    for seed in seeds:
+        scene = random_scene(kind, seed)
+        quantity = next(iter(kinds()[kind].compared))
+        found = advise(scene, ladder, quantity=quantity, within=0.1)
+        if found.chosen is None:
+            continue
+        rung = best([model for model in ladder if model.applies(scene).applies])
+        truth = rung.solve(scene)
+        chosen = find(ladder, found.chosen.model)
+        told = found.result or chosen.solve(scene, resolution=found.chosen.resolution)
+        apart = abs(told.quantities[quantity].value - truth.quantities[quantity].value)
+        kept.append(apart <= 0.1 * kinds()[kind].scale_of(truth, quantity))
+    assert len(kept) >= 5
+    assert all(kept)
