@@ -28,9 +28,9 @@ def inertia_omitted(scene: Bearing, quantity: str) -> Omission | None:
     size = abs(bearing_quantities(scene, found)[quantity].value)
     part = abs(getattr(inertia(scene, found), ADDED[quantity])) / width / size if size > 0 else 0.0
     number = bearing_numbers(scene)["reduced_reynolds_number"]
-    told = f"{100 * part:.2g} %" if part < 1 else "more than 100 %"
+    told = f"by about {100 * part:.2g} %" if part < 1 else "by more than first order can tell"
     return Omission(
         part=part,
-        reason=f"Re·h/L = {number:.2g}: inertia, which no rung of a bearing keeps, changes the {ADDED[quantity]} by "
-        f"about {told}",
+        reason=f"Re·h/L = {number:.2g}: inertia, which no rung of a bearing keeps, changes the {ADDED[quantity]} "
+        f"{told}",
     )

@@ -137,7 +137,7 @@ NUMBERS = {
 
 def omitted(scene: Bearing, quantity: str) -> Omission | None:
     """Inertia, to first order, of a lubricant whose density is told; None where a film does not come into balance."""
-    from rom.bearing_omission import inertia_omitted  # the advice on pockets, which it asks, needs the kinds itself
+    from rom.bearing_omission import inertia_omitted  # whose films take long to import
 
     try:
         return inertia_omitted(scene, quantity)
@@ -146,10 +146,13 @@ def omitted(scene: Bearing, quantity: str) -> Omission | None:
 
 
 def composed(scene: Bearing) -> tuple[str, ...]:
-    """By which model each effect is told, and why."""
+    """By which model each effect is told, and why; and of a load, that rungs take the film as it is given."""
     from rom.composition_treatment import treatments  # as above
 
-    return tuple(f"{one.effect}: {one.model}, {one.why}" for one in treatments(scene))
+    told = [f"{one.effect}: {one.model}, {one.why}" for one in treatments(scene)]
+    if scene.load is not None:
+        told.append("load: all of this is of the film as given; roughfilm effects finds the film under its load")
+    return tuple(told)
 
 
 KIND = Kind(

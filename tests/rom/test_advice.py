@@ -359,3 +359,22 @@ def test_steep_fast_grooves_need_more_than_shallow_slow_ones(make_scene):
     assert {one.model: one for one in shallow.considered}["reynolds"].verdict is Verdict.NOT_ENOUGH
     steep = advise(make_scene(0.15, 1.25, 160), models, quantity="load_plus", within=0.02)
     assert steep.chosen is None or steep.chosen.cpu_s > shallow.chosen.cpu_s
+
+
+def test_inertia_that_no_rung_of_a_bearing_keeps_is_that_of_a_wide_wedge_to_first_order():
+    """Half the density, half the part: to first order; without a density nothing is said."""
+    entries = {
+        "name": "wedge",
+        "kind": "bearing",
+        "geometry": {"shape": "linear", "length": "20 mm", "film": "40 um", "rise": "40 um"},
+        "lubricant": {"viscosity": "0.01 Pa*s", "density": "800 kg/m^3"},
+        "motion": {"speed": "10 m/s"},
+    }
+    kind = kinds()["bearing"]
+    whole = kind.omitted(kind.read(entries), "load_per_width")
+    half = kind.read({**entries, "lubricant": {"viscosity": "0.01 Pa*s", "density": "400 kg/m^3"}})
+    assert whole.part == pytest.approx(2 * kind.omitted(half, "load_per_width").part, rel=1e-9)
+    assert whole.reason.startswith(
+        "Re·h/L = 0.064: inertia, which no rung of a bearing keeps, changes the load by about "
+    )
+    assert kind.omitted(kind.read({**entries, "lubricant": {"viscosity": "0.01 Pa*s"}}), "load_per_width") is None
