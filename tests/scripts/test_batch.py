@@ -346,12 +346,11 @@ def test_a_killed_batch_of_openfoam_runs_goes_on(tmp_path):
     study = write_study(
         tmp_path / "s.toml",
         models=["navier_stokes"],
-        numbers=[40, 80, 120, 160],
+        numbers=[20, 40, 60, 80, 100, 120, 140, 160],
         more="resolution.navier_stokes = 30\n",
     )
     batch = Batch(study, out, tmp_path, "--jobs", 2)
-    wait_for(lambda: results(out))
-    assert list((out / ".scratch").glob("roughfilm-*"))
+    wait_for(lambda: results(out) and list((out / ".scratch").glob("roughfilm-*")))
     batch.process.kill()
     batch.end()
     wait_for(lambda: not batch.family(), 20)
