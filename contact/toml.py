@@ -18,6 +18,17 @@ Location = Sequence[int | str]
 """The keys that lead to a place in a file."""
 
 
+def toml_value(value: Any) -> str:
+    """A number, a text, a list or a table as a TOML file writes it, on one line."""
+    if isinstance(value, Mapping):
+        return (
+            "{ " + ", ".join(f"{key} = {toml_value(entry)}" for key, entry in value.items()) + " }" if value else "{}"
+        )
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(map(toml_value, value)) + "]"
+    return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
 def read_toml(path: Path, example: str) -> dict[str, Any]:
     """The nested entries of a TOML file; ``example`` is a line of it as it should be.
 

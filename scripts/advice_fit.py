@@ -13,12 +13,14 @@ from rich.table import Table
 import rom.advice
 from contact.errors import InputError
 from contact.files import replacing
-from rom.advice.laws import CERTAINTY, Grid, Law, Numbers, Step, on_grid
+from contact.toml import toml_value
+from rom.advice.laws import Grid, Law, Numbers, Step, on_grid
 from rom.convergence import Kind as Way
 from rom.convergence import converge
 from rom.gap import Array
 from rom.kind import Kind, Scene, kinds
 from rom.ladder import Model, best, of_kind
+from rom.ordering import CERTAINTY
 from scripts.advice_runs import PARTS, Drawn, Run, draw, read
 from scripts.advice_scenes import random_scene
 from scripts.advice_steps import GRIDS, GRIDS_APART, STEPS, Plan
@@ -243,24 +245,16 @@ def fit(kind: Kind, found: Sequence[Case]) -> tuple[list[Step], list[Grid]]:
 def written(steps: Sequence[Step], grids: Sequence[Grid], origin: Mapping[str, Any]) -> str:
     """The table as TOML."""
     lines = ["# Made by python -m scripts.advice_fit: errors that 95 of 100 random scenes did not exceed"]
-    lines += ["[provenance]", *(f"{key} = {_toml(value)}" for key, value in origin.items())]
+    lines += ["[provenance]", *(f"{key} = {toml_value(value)}" for key, value in origin.items())]
     for name, entries in (("step", steps), ("grid", grids)):
         for entry in entries:
             lines += ["", f"[[{name}]]"]
             for key, value in vars(entry).items():
                 if isinstance(value, Mapping):
-                    lines += [f"{key}.{quantity} = {_toml(vars(law))}" for quantity, law in value.items()]
+                    lines += [f"{key}.{quantity} = {toml_value(vars(law))}" for quantity, law in value.items()]
                 elif value:
-                    lines.append(f"{key} = {_toml(value)}")
+                    lines.append(f"{key} = {toml_value(value)}")
     return "\n".join(lines) + "\n"
-
-
-def _toml(value: Any) -> str:
-    if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{key} = {_toml(entry)}" for key, entry in value.items()) + " }" if value else "{}"
-    if isinstance(value, list | tuple):
-        return "[" + ", ".join(map(_toml, value)) + "]"
-    return f'"{value}"' if isinstance(value, str) else str(value)
 
 
 @in_one_line

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from contact.errors import ConvergenceError, InputError, UnavailableError
 from rom.advice.laws import RESOLVING, Law, Numbers, Step, Table, on_grid
 from rom.kind import Kind, Scene
-from rom.ladder import Model, find
+from rom.ladder import Model, best, find
 from rom.result import Result
 
 GRID_SHARE = 1 / 3
@@ -62,10 +62,6 @@ class Question:
         while (above := self.next(chain[-1])) is not None:
             chain.append(above)
         return chain
-
-    def best(self) -> Model:
-        """The top of the chains."""
-        return self.chain(max(self.models, key=lambda model: (len(model.keeps), model.complete)))[-1]
 
     def grid(self, model: Model, resolution: int) -> float | None:
         """What a resolution costs in accuracy, by the sweeps; None where they do not tell.
@@ -217,8 +213,8 @@ def by_its_own_word(asked: Question, model: Model, resolution: int) -> Estimate 
 
 def affordable(asked: Question, other: Model, model: Model) -> bool:
     """Whether a rung is here and cheap enough to check another."""
-    best = asked.best()
-    limit = max(CHEAP * asked.cost(best, best.resolution_of(asked.scene)), NEXT * asked.cost(model))
+    top = best(asked.models)
+    limit = max(CHEAP * asked.cost(top, top.resolution_of(asked.scene)), NEXT * asked.cost(model))
     return other.available().available and asked.cost(other) <= limit
 
 

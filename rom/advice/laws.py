@@ -11,9 +11,6 @@ from typing import Any
 Numbers = Mapping[str, float]
 """Dimensionless numbers by name."""
 
-CERTAINTY = 0.95
-"""The part of the scenes that were fitted to whose errors a law bounds."""
-
 TABLE = "laws.toml"
 
 
