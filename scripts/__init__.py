@@ -1,1 +1,1 @@
-"""The commands people run: arguments in, one call, files out; and the pictures they look at."""
+"""Programs and studies that are not installed."""

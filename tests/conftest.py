@@ -1,18 +1,16 @@
 """Scenes that the tests share, and skips with a reason."""
 
-import os
 from pathlib import Path
 
 import pytest
 from hypothesis import settings
+from places import MEASURED, SCENES
 
-from foamcases.openfoam import availability
-from rom.kind import Scene
-from rom.scene import load_scene
+from roughfilm.foamcases.openfoam.installation import availability
+from roughfilm.rom.ladder.kind import Scene
+from roughfilm.rom.ladder.scene import load_scene
 
-POCKET = Path(__file__).parent.parent / "scripts" / "scenes" / "pocket.toml"
-MEASURED = Path(__file__).parent.parent.parent / "shared" / "surfaces"
-"""Instrument files that are not the project's own; ROUGHFILM_SURFACES may name another place."""
+POCKET = SCENES / "pocket.toml"
 
 settings.register_profile("fixed", derandomize=True, database=None, deadline=None)
 settings.register_profile("long", max_examples=5000, deadline=None)
@@ -30,12 +28,11 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 @pytest.fixture(scope="session")
 def measured_file():
     """The path of a measured surface by its name; skips where the files are absent."""
-    folder = Path(os.environ.get("ROUGHFILM_SURFACES", MEASURED))
 
     def find(name: str) -> Path:
-        if not folder.is_dir():
-            pytest.skip(f"measured surfaces are not here: {folder} is absent")
-        return folder / name
+        if not MEASURED.is_dir():
+            pytest.skip(f"measured surfaces are not here: {MEASURED} is absent")
+        return MEASURED / name
 
     return find
 

@@ -7,7 +7,7 @@ the same range of ``index``; what belongs to them stands at the same places of `
 
 import numpy as np
 
-from contact.compiled import compiled
+from roughfilm.contact.foundation.compiled import compiled
 
 OFF, INSIDE, HARD = 0, 1, 2
 """What a node's ``state`` says: p = 0, 0 < p < H, p = H."""

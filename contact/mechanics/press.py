@@ -6,14 +6,14 @@ from functools import cached_property
 import numpy as np
 import scipy.fft
 
-from contact.errors import ConvergenceError, InputError, Outcome
-from contact.mechanics.contact import Contact
-from contact.mechanics.half_space import Boundary, HalfSpace
-from contact.mechanics.pieces import Pieces
-from contact.mechanics.projected_gradients import minimise, plane_of, violation_of
-from contact.mechanics.starts import refined, shifted, signed
-from contact.mechanics.team import Team
-from contact.surface import LARGEST_LENGTH, LEAST_SPACING, MOST_POINTS, Array
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
+from roughfilm.contact.foundation.thread_team import Team
+from roughfilm.contact.mechanics.contact import Contact
+from roughfilm.contact.mechanics.half_space import Boundary, HalfSpace
+from roughfilm.contact.mechanics.loop_ranges import Pieces
+from roughfilm.contact.mechanics.projected_gradients import minimise, plane_of, violation_of
+from roughfilm.contact.mechanics.starts import refined, shifted, signed
+from roughfilm.contact.surfaces.surface import LARGEST_LENGTH, LEAST_SPACING, MOST_POINTS, Array
 
 TOLERANCE = 1e-8
 """Of the complementarity, over the rms height."""
@@ -44,7 +44,7 @@ class Press:
     ----------
     heights : z, shape (nx, ny), m, upward. A side of one node makes it line contact, in plane strain.
     spacing : (dx, dy), m.
-    composite_modulus : E*, Pa; see ``contact.mechanics.solid``.
+    composite_modulus : E*, Pa; see ``roughfilm.contact.mechanics.solid``.
     hardness : H, Pa.
     boundary : "periodic": K answers 2/(E* |q|) to the wave vector q, and the mean pressure moves nothing; "free": the
         surface stands alone on the half-space, K is Love's (a line load's displacement is then against one a grid

@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from contact.errors import InputError
+from roughfilm.contact.foundation.errors import InputError
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -5,8 +5,8 @@ from typing import Literal
 import numpy as np
 from scipy.ndimage import correlate1d
 
-from contact.errors import InputError
-from contact.surface import Array, Surface
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.surfaces.surface import Array, Surface
 
 Direction = Literal["x", "y", "both", "none"]
 

@@ -5,8 +5,8 @@ from scipy.ndimage import distance_transform_edt
 from scipy.sparse import coo_array, csr_array
 from scipy.sparse.linalg import LinearOperator, cg
 
-from contact.errors import ConvergenceError, Outcome
-from contact.surface import Array, Mask, Surface
+from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
+from roughfilm.contact.surfaces.surface import Array, Mask, Surface
 
 TOLERANCE = 1e-9
 """Of the true residual, relative to the right-hand side."""

@@ -5,8 +5,8 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.polynomial import legendre
 
-from contact.errors import InputError
-from contact.surface import Array, Surface
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.surfaces.surface import Array, Surface
 
 Form = Literal["none", "mean", "tilt", "quadratic"]
 

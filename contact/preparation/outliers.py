@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contact.errors import InputError
-from contact.surface import Surface
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.surfaces.surface import Surface
 
 
 @dataclass(frozen=True, kw_only=True)

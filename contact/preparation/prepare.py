@@ -7,19 +7,19 @@ from typing import Any
 
 import numpy as np
 
-from contact.autocorrelation import autocorrelation, decay_lengths
-from contact.errors import InputError
-from contact.periodicity import THRESHOLD, periodicity_mismatch
-from contact.preparation.edges import LEAST_WIDTH, Direction, make_periodic, widest
-from contact.preparation.filling import fill_invalid
-from contact.preparation.form import remove_form
-from contact.preparation.grid import next_power_of_two, resample
-from contact.preparation.outliers import cut_outliers
-from contact.preparation.recipe import Edges, Grid, Recipe, Sampling, recipe_entries
-from contact.preparation.smoothing import smooth
-from contact.preparation.window import Window, best_window, cut_window
-from contact.spectrum import power_spectrum, texture_direction
-from contact.surface import MOST_POINTS, Mask, Surface
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.parameters.autocorrelation import autocorrelation, decay_lengths
+from roughfilm.contact.parameters.spectrum import power_spectrum, texture_direction
+from roughfilm.contact.preparation.edges import LEAST_WIDTH, Direction, make_periodic, widest
+from roughfilm.contact.preparation.filling import fill_invalid
+from roughfilm.contact.preparation.form import remove_form
+from roughfilm.contact.preparation.grid import next_power_of_two, resample
+from roughfilm.contact.preparation.outliers import cut_outliers
+from roughfilm.contact.preparation.recipe import Edges, Grid, Recipe, Sampling, recipe_entries
+from roughfilm.contact.preparation.smoothing import smooth
+from roughfilm.contact.preparation.window import Window, best_window, cut_window
+from roughfilm.contact.surfaces.periodicity import THRESHOLD, periodicity_mismatch
+from roughfilm.contact.surfaces.surface import MOST_POINTS, Mask, Surface
 
 WIDTH = 1 / 2
 """Standard deviation of the edges' filter over Sal, where the recipe does not tell it."""

@@ -7,12 +7,12 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, ValidationError
 
-from contact.entries import Coordinate, Length, Part
-from contact.errors import InputError
-from contact.preparation.edges import Direction
-from contact.preparation.form import Form
-from contact.preparation.grid import Method
-from contact.toml import Location, in_one_line, known_keys, read_toml, set_entry, unknown_key
+from roughfilm.contact.foundation.entries import Coordinate, Length, Part
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.toml import Location, in_one_line, known_keys, read_toml, set_entry, unknown_key
+from roughfilm.contact.preparation.edges import Direction
+from roughfilm.contact.preparation.form import Form
+from roughfilm.contact.preparation.grid import Method
 
 EXAMPLE = 'form = "quadratic"'
 

@@ -2,8 +2,8 @@
 
 from scipy.ndimage import uniform_filter
 
-from contact.errors import InputError
-from contact.surface import Surface
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.surfaces.surface import Surface
 
 
 def smooth(surface: Surface, points: int) -> Surface:

@@ -5,8 +5,8 @@ from itertools import product
 
 import numpy as np
 
-from contact.errors import InputError
-from contact.surface import Array, Mask, Surface
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.surfaces.surface import Array, Mask, Surface
 
 COARSE = 48
 """Positions along each direction in the first search."""

@@ -2,7 +2,7 @@
 
 import math
 
-from contact.errors import InputError
+from roughfilm.contact.foundation.errors import InputError
 
 WHOLE = 1e-3
 """How far from a whole number of repeats a length may be, relatively, and still be taken for it."""

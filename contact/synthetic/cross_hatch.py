@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 
-from contact.errors import InputError
-from contact.surface import Array, Surface
-from contact.synthetic.checks import length, number_between
-from contact.synthetic.grid import Grid, metres, radians
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.surfaces.surface import Array, Surface
+from roughfilm.contact.synthetic.checks import length, number_between
+from roughfilm.contact.synthetic.grid import Grid, metres, radians
 
 NEAR_SPACING, NEAR_ANGLE = 0.1, math.radians(3)
 """How far the grooves that close over the period may be from those that were asked."""

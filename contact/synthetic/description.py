@@ -6,19 +6,19 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, Field, TypeAdapter, ValidationError
 
-from contact.entries import Coordinate, InUnit, Length, Part, PositiveNumber, plain_number
-from contact.errors import InputError
-from contact.surface import Surface
-from contact.synthetic.cross_hatch import cross_hatch
-from contact.synthetic.distribution import rms_slope, with_skewness
-from contact.synthetic.gaussian import Autocorrelation, gaussian
-from contact.synthetic.grid import metres
-from contact.synthetic.milled import milled
-from contact.synthetic.plateau_honed import plateau_honed
-from contact.synthetic.self_affine import self_affine
-from contact.synthetic.sinusoids import Combination, sinusoid
-from contact.synthetic.waves import Amplitudes
-from contact.toml import Location, in_one_line, read_toml, unknown_key
+from roughfilm.contact.foundation.entries import Coordinate, InUnit, Length, Part, PositiveNumber, plain_number
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.toml import Location, in_one_line, read_toml, unknown_key
+from roughfilm.contact.surfaces.surface import Surface
+from roughfilm.contact.synthetic.cross_hatch import cross_hatch
+from roughfilm.contact.synthetic.distribution import rms_slope, with_skewness
+from roughfilm.contact.synthetic.gaussian import Autocorrelation, gaussian
+from roughfilm.contact.synthetic.grid import metres
+from roughfilm.contact.synthetic.milled import milled
+from roughfilm.contact.synthetic.plateau_honed import plateau_honed
+from roughfilm.contact.synthetic.self_affine import self_affine
+from roughfilm.contact.synthetic.sinusoids import Combination, sinusoid
+from roughfilm.contact.synthetic.waves import Amplitudes
 
 
 def _whole(value: object) -> object:
@@ -37,7 +37,7 @@ Angle = Annotated[float, InUnit("rad", _any)]
 
 
 class HeightDistribution(Part):
-    """Heights with a given Ssk, see ``contact.synthetic.distribution.with_skewness``."""
+    """Heights with a given Ssk, see ``roughfilm.contact.synthetic.distribution.with_skewness``."""
 
     skewness: Number
 
@@ -49,7 +49,7 @@ class _Described(Part):
 
 
 class SelfAffine(_Described):
-    """See ``contact.synthetic.self_affine``."""
+    """See ``roughfilm.contact.synthetic.self_affine``."""
 
     kind: Literal["self_affine"]
     seed: Whole
@@ -63,7 +63,7 @@ class SelfAffine(_Described):
 
 
 class Gaussian(_Described):
-    """See ``contact.synthetic.gaussian``."""
+    """See ``roughfilm.contact.synthetic.gaussian``."""
 
     kind: Literal["gaussian"]
     seed: Whole
@@ -77,7 +77,7 @@ class Gaussian(_Described):
 
 
 class Sinusoid(_Described):
-    """See ``contact.synthetic.sinusoids``."""
+    """See ``roughfilm.contact.synthetic.sinusoids``."""
 
     kind: Literal["sinusoid"]
     amplitude: Length
@@ -87,7 +87,7 @@ class Sinusoid(_Described):
 
 
 class CrossHatch(_Described):
-    """See ``contact.synthetic.cross_hatch``."""
+    """See ``roughfilm.contact.synthetic.cross_hatch``."""
 
     kind: Literal["cross_hatch"]
     spacing: Length
@@ -97,7 +97,7 @@ class CrossHatch(_Described):
 
 
 class Milled(_Described):
-    """See ``contact.synthetic.milled``."""
+    """See ``roughfilm.contact.synthetic.milled``."""
 
     kind: Literal["milled"]
     radius: Length
@@ -108,7 +108,7 @@ class Milled(_Described):
 
 
 class PlateauHoned(_Described):
-    """See ``contact.synthetic.plateau_honed``."""
+    """See ``roughfilm.contact.synthetic.plateau_honed``."""
 
     kind: Literal["plateau_honed"]
     seed: Whole

@@ -7,9 +7,9 @@ import scipy.fft
 import scipy.special
 from numpy.typing import NDArray
 
-from contact.errors import InputError
-from contact.surface import LARGEST_LENGTH, Array, Surface
-from contact.synthetic.checks import number_between, whole_between
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.surfaces.surface import LARGEST_LENGTH, Array, Surface
+from roughfilm.contact.synthetic.checks import number_between, whole_between
 
 LARGEST_SKEWNESS = 4.0
 NEARLY_GAUSSIAN = 3e-3

@@ -8,9 +8,9 @@ from numpy.polynomial import chebyshev
 from scipy.optimize import minimize
 from scipy.special import ndtri
 
-from contact.errors import InputError
-from contact.surface import Array
-from contact.synthetic.checks import length, number_between, whole_between
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.surfaces.surface import Array
+from roughfilm.contact.synthetic.checks import length, number_between, whole_between
 
 ORDER = 6
 """Of the polynomial by which the distribution departs from the normal one: up to four conditions, and room."""

@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 
-from contact.errors import InputError
-from contact.surface import Array, Surface
-from contact.synthetic.checks import length, number_between, repeats
-from contact.synthetic.grid import Grid, metres
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.surfaces.surface import Array, Surface
+from roughfilm.contact.synthetic.checks import length, number_between, repeats
+from roughfilm.contact.synthetic.grid import Grid, metres
 
 
 def milled(

@@ -5,11 +5,11 @@ import math
 import numpy as np
 import scipy.special
 
-from contact.surface import Array, Surface
-from contact.synthetic.checks import length, number_between, whole_between
-from contact.synthetic.gaussian import correlation_lengths, spectrum
-from contact.synthetic.grid import Grid, metres, radians
-from contact.synthetic.waves import LARGEST_SEED, random_waves
+from roughfilm.contact.surfaces.surface import Array, Surface
+from roughfilm.contact.synthetic.checks import length, number_between, whole_between
+from roughfilm.contact.synthetic.gaussian import correlation_lengths, spectrum
+from roughfilm.contact.synthetic.grid import Grid, metres, radians
+from roughfilm.contact.synthetic.waves import LARGEST_SEED, random_waves
 
 
 def plateau_honed(

@@ -4,12 +4,12 @@ import numpy as np
 import scipy.fft
 from numpy.typing import NDArray
 
-from contact.errors import InputError
-from contact.surface import Array
-from contact.synthetic.checks import length as checked_length
-from contact.synthetic.checks import number_between, whole_between
-from contact.synthetic.four_moments import FEWEST, MOST, FourMoments, heights_with
-from contact.synthetic.waves import LARGEST_SEED
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.surfaces.surface import Array
+from roughfilm.contact.synthetic.checks import length as checked_length
+from roughfilm.contact.synthetic.checks import number_between, whole_between
+from roughfilm.contact.synthetic.four_moments import FEWEST, MOST, FourMoments, heights_with
+from roughfilm.contact.synthetic.waves import LARGEST_SEED
 
 TURNS = 200
 IMPROVEMENT = 1e-3

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from contact.errors import InputError
-from contact.surface import Array
-from contact.synthetic.checks import whole_between
-from contact.synthetic.waves import LARGEST_SEED
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.surfaces.surface import Array
+from roughfilm.contact.synthetic.checks import whole_between
+from roughfilm.contact.synthetic.waves import LARGEST_SEED
 
 LARGEST_HEIGHT = 1e100
 

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from contact.errors import InputError
-from contact.surface import Array, Surface
-from contact.synthetic.checks import length, number_between, whole_between
-from contact.synthetic.grid import Grid, metres
-from contact.synthetic.waves import LARGEST_SEED, Amplitudes, random_waves
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.surfaces.surface import Array, Surface
+from roughfilm.contact.synthetic.checks import length, number_between, whole_between
+from roughfilm.contact.synthetic.grid import Grid, metres
+from roughfilm.contact.synthetic.waves import LARGEST_SEED, Amplitudes, random_waves
 
 
 def self_affine(

@@ -5,10 +5,10 @@ from typing import Literal
 
 import numpy as np
 
-from contact.errors import InputError
-from contact.surface import Surface
-from contact.synthetic.checks import length, repeats
-from contact.synthetic.grid import Grid, metres
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.surfaces.surface import Surface
+from roughfilm.contact.synthetic.checks import length, repeats
+from roughfilm.contact.synthetic.grid import Grid, metres
 
 Combination = Literal["product", "sum"]
 

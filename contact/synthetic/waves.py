@@ -8,9 +8,9 @@ import numpy as np
 import scipy.fft
 from numpy.typing import NDArray
 
-from contact.errors import InputError
-from contact.surface import Array
-from contact.synthetic.grid import Grid
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.surfaces.surface import Array
+from roughfilm.contact.synthetic.grid import Grid
 
 Index = NDArray[np.int64]
 Amplitudes = Literal["fixed", "random"]

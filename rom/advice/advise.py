@@ -5,12 +5,20 @@ from dataclasses import dataclass
 from enum import StrEnum
 from math import inf
 
-from contact.errors import ConvergenceError, InputError, UnavailableError
-from rom.advice.estimates import Estimate, Question, a_posteriori, a_priori, affordable, by_its_own_word, percent
-from rom.advice.laws import Numbers, Table, table
-from rom.kind import Omission, Scene, kinds
-from rom.ladder import Model, Progress, silent
-from rom.result import Result
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
+from roughfilm.rom.advice.estimates import (
+    Estimate,
+    Question,
+    a_posteriori,
+    a_priori,
+    affordable,
+    by_its_own_word,
+    percent,
+)
+from roughfilm.rom.advice.laws import Numbers, Table, table
+from roughfilm.rom.ladder.kind import Omission, Scene, kinds
+from roughfilm.rom.ladder.model import Model, Progress, silent
+from roughfilm.rom.ladder.result import Result
 
 HOPELESS = 5.0
 """Times the tolerance: a rung that is farther off by the numbers of the scene is not run to be sure."""

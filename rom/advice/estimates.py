@@ -4,11 +4,11 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from contact.errors import ConvergenceError, InputError, UnavailableError
-from rom.advice.laws import RESOLVING, Law, Numbers, Step, Table, on_grid
-from rom.kind import Kind, Scene
-from rom.ladder import Model, best, find
-from rom.result import Result
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
+from roughfilm.rom.advice.laws import RESOLVING, Law, Numbers, Step, Table, on_grid
+from roughfilm.rom.ladder.kind import Kind, Scene
+from roughfilm.rom.ladder.model import Model, best, find
+from roughfilm.rom.ladder.result import Result
 
 GRID_SHARE = 1 / 3
 """Of the tolerance, what the resolution may use up."""

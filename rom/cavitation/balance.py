@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from contact.compiled import compiled, inlined
+from roughfilm.contact.foundation.compiled import compiled, inlined
 
 FILM, CAVITY, FIXED, FLOODED = 0, 1, 2, 3
 """What is unknown at a node: its pressure; its filled part; nothing; nothing, as more than enough is brought."""

@@ -2,7 +2,7 @@
 
 from typing import Protocol
 
-from rom.gap import Array
+from roughfilm.rom.pocket.gap import Array
 
 
 class Fluid(Protocol):

@@ -3,9 +3,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from rom.cavitation.grid import Grid
-from rom.cavitation.network import State
-from rom.gap import Array
+from roughfilm.rom.cavitation.grid import Grid
+from roughfilm.rom.cavitation.network import State
+from roughfilm.rom.pocket.gap import Array
 
 
 def carried(state: State, coarse: Grid, fine: Grid, joined: tuple[bool, bool]) -> State:

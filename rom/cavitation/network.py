@@ -7,9 +7,9 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from rom.cavitation.balance import conduct, linearise
-from rom.cavitation.oblique import Oblique
-from rom.gap import Array
+from roughfilm.rom.cavitation.balance import conduct, linearise
+from roughfilm.rom.cavitation.oblique import Oblique
+from roughfilm.rom.pocket.gap import Array
 
 Values = TypeVar("Values", bound=NDArray[Any])
 
@@ -27,7 +27,7 @@ class Network:
 
     in m³/s at the density of the cavitation pressure; towards (i, j+1) it is the second part alone. The liquid that
     fills a node comes from upstream, its compression from both sides: F is continuous where a film begins or ends, and
-    of second order inside it. A slanting lay adds what :class:`rom.cavitation.oblique.Oblique` says.
+    of second order inside it. A slanting lay adds what :class:`roughfilm.rom.cavitation.oblique.Oblique` says.
 
     Attributes
     ----------

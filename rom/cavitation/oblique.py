@@ -22,9 +22,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.compiled import compiled, inlined
-from rom.cavitation.balance import CAVITY, FILM, FIXED
-from rom.gap import Array
+from roughfilm.contact.foundation.compiled import compiled, inlined
+from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED
+from roughfilm.rom.pocket.gap import Array
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,7 +39,7 @@ class Oblique:
     ----------
     cross : G = A₁₂/(12η) of the cells, m³/(Pa s).
     drift : D, m³/s, towards j+1 of the faces; of either sign.
-    upstream : ω >= 1/2, of the compression, as in :class:`rom.cavitation.network.Network`.
+    upstream : ω >= 1/2, of the compression, as in :class:`roughfilm.rom.cavitation.network.Network`.
     torn : ξ₀ of the faces towards j+1.
     fixed : nodes whose pressure is given: beyond them lies what lies before them.
     periodic : whether i is.

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from contact.compiled import compiled, inlined
-from rom.cavitation.balance import CAVITY, FILM, FIXED
-from rom.cavitation.fluid import Fluid
-from rom.cavitation.network import Network, State
-from rom.cavitation.oblique import wet
+from roughfilm.contact.foundation.compiled import compiled, inlined
+from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED
+from roughfilm.rom.cavitation.fluid import Fluid
+from roughfilm.rom.cavitation.network import Network, State
+from roughfilm.rom.cavitation.oblique import wet
 
 
 @inlined

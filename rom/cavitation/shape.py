@@ -4,8 +4,8 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from rom.gap import Array
-from rom.homogenization.gap_factors import FactorsOverGap
+from roughfilm.rom.homogenization.gap_factors import FactorsOverGap
+from roughfilm.rom.pocket.gap import Array
 
 Thickness = Callable[[Array, Array], Array]
 

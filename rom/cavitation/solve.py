@@ -6,17 +6,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from contact.errors import ConvergenceError, Outcome
-from rom.cavitation.discretise import Faces, faces, network
-from rom.cavitation.grid import Grid, grid
-from rom.cavitation.interpolation import carried, interpolated
-from rom.cavitation.line import line_step
-from rom.cavitation.network import Network, State
-from rom.cavitation.newton import UnsettledError, settle
-from rom.cavitation.plane import plane_step
-from rom.cavitation.problem import Problem
-from rom.gap import Array
-from rom.homogenization.gap_factors import mirrored_factors
+from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
+from roughfilm.rom.cavitation.discretise import Faces, faces, network
+from roughfilm.rom.cavitation.grid import Grid, grid
+from roughfilm.rom.cavitation.interpolation import carried, interpolated
+from roughfilm.rom.cavitation.line import line_step
+from roughfilm.rom.cavitation.network import Network, State
+from roughfilm.rom.cavitation.newton import UnsettledError, settle
+from roughfilm.rom.cavitation.plane import plane_step
+from roughfilm.rom.cavitation.problem import Problem
+from roughfilm.rom.homogenization.gap_factors import mirrored_factors
+from roughfilm.rom.pocket.gap import Array
 
 COARSEST = 16
 """Cells along each side where it begins, from a film everywhere at the pressure of cavitation."""
@@ -170,7 +170,7 @@ def on_grid(
 ) -> Solution:
     """Solve on one grid, after some sweeps of relaxation from ``start``, or from a film at the pressure of cavitation.
 
-    ``storage``: of transient flow, as :func:`rom.cavitation.discretise.network` takes it.
+    ``storage``: of transient flow, as :func:`roughfilm.rom.cavitation.discretise.network` takes it.
     """
     sampled = faces(problem.shape, nodes)
     net = network(

@@ -5,13 +5,13 @@ from itertools import pairwise
 
 import numpy as np
 
-from contact.errors import ConvergenceError, InputError
-from rom.cavitation.discretise import faces
-from rom.cavitation.grid import grid
-from rom.cavitation.network import State
-from rom.cavitation.problem import Problem
-from rom.cavitation.solve import TOLERANCE, WARM, Solution, on_grid, solve
-from rom.gap import Array
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.rom.cavitation.discretise import faces
+from roughfilm.rom.cavitation.grid import grid
+from roughfilm.rom.cavitation.network import State
+from roughfilm.rom.cavitation.problem import Problem
+from roughfilm.rom.cavitation.solve import TOLERANCE, WARM, Solution, on_grid, solve
+from roughfilm.rom.pocket.gap import Array
 
 
 def march(

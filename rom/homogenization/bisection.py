@@ -5,9 +5,9 @@ from dataclasses import replace
 from itertools import pairwise, zip_longest
 from typing import TypeVar
 
-from contact.workers import workers
-from rom.homogenization.table import Point
-from rom.ladder import Progress
+from roughfilm.contact.foundation.threads import workers
+from roughfilm.rom.homogenization.table import Point
+from roughfilm.rom.ladder.model import Progress
 
 Table = TypeVar("Table")
 

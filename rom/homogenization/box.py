@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rom.gap import Array
-from rom.homogenization.solvers import Matrix
+from roughfilm.rom.homogenization.solvers import Matrix
+from roughfilm.rom.pocket.gap import Array
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -5,14 +5,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contact.compiled import compiled
-from rom.gap import Array
-from rom.homogenization.conductance import FaceRule, faces, without_traces
-from rom.homogenization.factors import FlowFactors
-from rom.homogenization.grids import refined
-from rom.homogenization.paths import sealed
-from rom.homogenization.solvers import SOLVERS, Matrix, Solver, Source, first_to_converge
-from rom.multigrid.multigrid import Solved
+from roughfilm.contact.foundation.compiled import compiled
+from roughfilm.rom.homogenization.conductance import FaceRule, faces, without_traces
+from roughfilm.rom.homogenization.factors import FlowFactors
+from roughfilm.rom.homogenization.grids import refined
+from roughfilm.rom.homogenization.paths import sealed
+from roughfilm.rom.homogenization.solvers import SOLVERS, Matrix, Solver, Source, first_to_converge
+from roughfilm.rom.multigrid.multigrid import Solved
+from roughfilm.rom.pocket.gap import Array
 
 TOLERANCE = 1e-8
 """Of A; far below what any grid is good for."""
@@ -60,7 +60,7 @@ def solve_cell(
     spacing : (dx, dy), m.
     tolerance : of what iterating on would change A₁₁ and A₂₂ by, over themselves; and e, over its part from χ₃.
     start : correctors of a gap much alike, in the units of :class:`Cell`, shape (3, nx, ny) or those of a coarser grid.
-    solvers : names in :data:`rom.homogenization.solvers.SOLVERS`, tried in this order.
+    solvers : names in :data:`roughfilm.rom.homogenization.solvers.SOLVERS`, tried in this order.
 
     Raises
     ------

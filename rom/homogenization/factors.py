@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 from typing import Self
 
-from rom.gap import Array
+from roughfilm.rom.pocket.gap import Array
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,16 +6,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from contact.errors import InputError
-from contact.surface import LARGEST_LENGTH, LEAST_SPACING
-from rom.gap import Array
-from rom.homogenization.cell import Cell, solve_cell
-from rom.homogenization.conductance import CLOSED, FaceRule, without_traces
-from rom.homogenization.factors import FlowFactors
-from rom.homogenization.grids import coarser_grids
-from rom.homogenization.richardson import sufficient, uncertainty_of
-from rom.homogenization.solvers import SOLVERS
-from rom.ladder import Progress, silent
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.surfaces.surface import LARGEST_LENGTH, LEAST_SPACING
+from roughfilm.rom.homogenization.cell import Cell, solve_cell
+from roughfilm.rom.homogenization.conductance import CLOSED, FaceRule, without_traces
+from roughfilm.rom.homogenization.factors import FlowFactors
+from roughfilm.rom.homogenization.grids import coarser_grids
+from roughfilm.rom.homogenization.richardson import sufficient, uncertainty_of
+from roughfilm.rom.homogenization.solvers import SOLVERS
+from roughfilm.rom.ladder.model import Progress, silent
+from roughfilm.rom.pocket.gap import Array
 
 LONGEST = 1e4
 """Of a pixel, over its width."""
@@ -29,7 +29,7 @@ class Estimated:
     ----------
     factors : on the gap's own nodes.
     uncertainty : of each, in the same units; ``mean_gap`` has none, it is that of the nodes.
-    correctors : as in :class:`rom.homogenization.cell.Cell`.
+    correctors : as in :class:`roughfilm.rom.homogenization.cell.Cell`.
     contact : the part of the nodes that are closed: where h = 0, or h³ below 1e-14 of the largest.
     unsolved : the largest part of A₁₁, A₂₂ or e by which iterating on would change them.
     residual : of χ, which may be far larger: where next to nothing flows χ counts as much as elsewhere.
@@ -63,7 +63,7 @@ def flow_factors(
     offset : m, is added to the gap everywhere: Sahlin 2008, who lets contact through, takes 1e-8.
     tolerance : of each cell, as :func:`rom.homogenization.cell.solve_cell` takes it; by default a hundredth of what the
         coarser grids say that the grid is off by.
-    solvers : as :func:`rom.homogenization.cell.solve_cell` takes them.
+    solvers : as :func:`roughfilm.rom.homogenization.cell.solve_cell` takes them.
 
     Raises
     ------
@@ -116,7 +116,7 @@ def checked_gap(gap: ArrayLike, spacing: tuple[float, float]) -> Array:
     h = np.asarray(gap)
     if h.ndim != 2 or min(h.shape, default=0) < 2:
         raise InputError(
-            f"gap: got shape {h.shape}; give at least 2 x 2 nodes (rom.homogenization.line takes profiles)"
+            f"gap: got shape {h.shape}; give at least 2 x 2 nodes (roughfilm.rom.homogenization.line takes profiles)"
         )
     if h.dtype.kind not in "fiu":
         raise InputError(f"gap: got {h.dtype}; give real numbers, in m")

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from rom.gap import Array
-from rom.homogenization.conductance import FaceRule, faces, without_traces
+from roughfilm.rom.homogenization.conductance import FaceRule, faces, without_traces
+from roughfilm.rom.pocket.gap import Array
 
 
 def flux(
@@ -17,7 +17,7 @@ def flux(
     ----------
     gap : h, m, shape (nx, ny).
     spacing : (dx, dy), m.
-    corrector : χ_i, m, shape (nx, ny), as :func:`rom.homogenization.flow_factors.flow_factors` gives it.
+    corrector : χ_i, m, shape (nx, ny), as :func:`roughfilm.rom.homogenization.flow_factors.flow_factors` gives it.
     """
     parts = faces(without_traces(gap), rule)
     drops = _drops(corrector, spacing)

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from contact.compiled import compiled
-from rom.gap import Array
+from roughfilm.contact.foundation.compiled import compiled
+from roughfilm.rom.pocket.gap import Array
 
 FEWEST = 8
 """Nodes in a direction that is coarsened."""

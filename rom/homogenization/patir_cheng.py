@@ -6,13 +6,13 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rom.gap import Array
-from rom.homogenization.box import Box, Flow
-from rom.homogenization.cell import TOLERANCE
-from rom.homogenization.conductance import FaceRule, faces, without_traces
-from rom.homogenization.flow_factors import checked_gap
-from rom.homogenization.paths import sealed_between_ends
-from rom.multigrid.multigrid import Multigrid, Solved
+from roughfilm.rom.homogenization.box import Box, Flow
+from roughfilm.rom.homogenization.cell import TOLERANCE
+from roughfilm.rom.homogenization.conductance import FaceRule, faces, without_traces
+from roughfilm.rom.homogenization.flow_factors import checked_gap
+from roughfilm.rom.homogenization.paths import sealed_between_ends
+from roughfilm.rom.multigrid.multigrid import Multigrid, Solved
+from roughfilm.rom.pocket.gap import Array
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,7 +77,7 @@ def patir_cheng(
     Raises
     ------
     InputError
-        As :func:`rom.homogenization.flow_factors.flow_factors` does.
+        As :func:`roughfilm.rom.homogenization.flow_factors.flow_factors` does.
     ConvergenceError
         If a problem does not meet the tolerance.
 

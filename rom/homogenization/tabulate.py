@@ -6,15 +6,15 @@ from threading import Lock
 
 import numpy as np
 
-from contact.errors import InputError
-from contact.workers import workers
-from rom.gap import Array
-from rom.homogenization.bisection import bisected
-from rom.homogenization.conductance import FaceRule
-from rom.homogenization.flow_factors import checked_gap, flow_factors
-from rom.homogenization.separation import Separations
-from rom.homogenization.table import FactorTable, Point, relative_row, told_rows
-from rom.ladder import Progress, silent
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.threads import workers
+from roughfilm.rom.homogenization.bisection import bisected
+from roughfilm.rom.homogenization.conductance import FaceRule
+from roughfilm.rom.homogenization.flow_factors import checked_gap, flow_factors
+from roughfilm.rom.homogenization.separation import Separations
+from roughfilm.rom.homogenization.table import FactorTable, Point, relative_row, told_rows
+from roughfilm.rom.ladder.model import Progress, silent
+from roughfilm.rom.pocket.gap import Array
 
 TOLERANCE = 0.005
 """Of the factors that the cells give."""

@@ -2,7 +2,7 @@
 
 import math
 
-from contact.entries import Part
+from roughfilm.contact.foundation.entries import Part
 
 
 class Law(Part):

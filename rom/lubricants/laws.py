@@ -1,9 +1,9 @@
 """All laws that a scene may name."""
 
-from contact.entries import Part
-from rom.lubricants.compressibility import ConstantBulkModulus, DowsonHigginson, Incompressible
-from rom.lubricants.tabulated import Tabulated
-from rom.lubricants.viscosity import Barus, ConstantViscosity, Roelands
+from roughfilm.contact.foundation.entries import Part
+from roughfilm.rom.lubricants.compressibility import ConstantBulkModulus, DowsonHigginson, Incompressible
+from roughfilm.rom.lubricants.tabulated import Tabulated
+from roughfilm.rom.lubricants.viscosity import Barus, ConstantViscosity, Roelands
 
 Compressibility = Incompressible | ConstantBulkModulus | DowsonHigginson | Tabulated
 Piezoviscosity = ConstantViscosity | Barus | Roelands

@@ -9,13 +9,13 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import BeforeValidator, PlainSerializer, model_validator
 
-from contact.entries import plain_number
-from contact.errors import InputError
-from contact.units import with_unit
-from rom.gap import Array
-from rom.lubricants.compressibility import DowsonHigginson
-from rom.lubricants.law import Law
-from rom.two_columns import MOST, read_rows
+from roughfilm.contact.foundation.entries import plain_number
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.units import with_unit
+from roughfilm.rom.lubricants.compressibility import DowsonHigginson
+from roughfilm.rom.lubricants.law import Law
+from roughfilm.rom.parts.columns_file import MOST, read_rows
+from roughfilm.rom.pocket.gap import Array
 
 FEWEST = 3
 COLUMNS = {"pressure": "Pa", "density": "kg/m^3"}

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from contact.compiled import compiled
+from roughfilm.contact.foundation.compiled import compiled
 
 
 @compiled

@@ -12,8 +12,8 @@ All loops that call each other stand in this file: a compiled loop is kept until
 
 import numpy as np
 
-from contact.compiled import compiled, inlined
-from rom.multigrid.rows import GROUNDED, THIN, Rows
+from roughfilm.contact.foundation.compiled import compiled, inlined
+from roughfilm.rom.multigrid.rows import GROUNDED, THIN, Rows
 
 
 @compiled

@@ -1,6 +1,6 @@
 """Pieces of the film without a Dirichlet node: found, and held at a node in the preconditioner, to have an inverse."""
 
-from contact.compiled import compiled
+from roughfilm.contact.foundation.compiled import compiled
 
 ROUNDING = 4e-15
 """Of the diagonal: if it is more than the couplings by less, it is not more."""

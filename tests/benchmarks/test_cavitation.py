@@ -24,21 +24,21 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from places import BENCHMARKS
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from contact.files import replacing
-from rom.cavitation.discretise import Ends
-from rom.cavitation.problem import Problem
-from rom.cavitation.shape import Shape
-from rom.cavitation.solve import solve
-from rom.lubricants.compressibility import ConstantBulkModulus
-from rom.provenance import circumstances
-from scripts.charts_peers import PROGRAMS, one_thread
+from roughfilm.charts.peer_runs import PROGRAMS, one_thread
+from roughfilm.contact.foundation.files import replacing
+from roughfilm.rom.cavitation.discretise import Ends
+from roughfilm.rom.cavitation.problem import Problem
+from roughfilm.rom.cavitation.shape import Shape
+from roughfilm.rom.cavitation.solve import solve
+from roughfilm.rom.ladder.provenance import circumstances
+from roughfilm.rom.lubricants.compressibility import ConstantBulkModulus
 
-ROOT = Path(__file__).parent.parent.parent
 PROGRAM = PROGRAMS / "gapflow_.py"
-RESULTS = ROOT / "runs" / "benchmarks" / "cavitation.json"
+RESULTS = BENCHMARKS / "cavitation.json"
 STEADY = 1e-4
 NODES = tuple(int(n) for n in np.unique(np.round(np.geomspace(5, 5121, 60))))
 REPEATS = 5

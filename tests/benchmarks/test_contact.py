@@ -14,15 +14,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from places import BENCHMARKS, ROOT
 
-from contact.files import replacing
-from contact.synthetic.self_affine import self_affine
-from rom.provenance import circumstances
-from scripts.charts_peers import PROGRAMS, TOLERANCES, VIOLATION
+from roughfilm.charts.peer_runs import PROGRAMS, TOLERANCES, VIOLATION
+from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.synthetic.self_affine import self_affine
+from roughfilm.rom.ladder.provenance import circumstances
 
-ROOT = Path(__file__).parent.parent.parent
 PROGRAM = PROGRAMS / "run.py"
-RESULTS = ROOT / "runs" / "benchmarks" / "contact.json"
+RESULTS = BENCHMARKS / "contact.json"
 SIDE = 1e-3
 AREA, MEAN_GAP = 1e-5, 1e-6
 

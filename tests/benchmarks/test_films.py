@@ -3,18 +3,17 @@
 import json
 import time
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
+from places import BENCHMARKS, SCENES
 
-from contact.files import replacing
-from rom.cavitation.solve import solve
-from rom.provenance import circumstances
-from rom.scene import load_scene
+from roughfilm.contact.foundation.files import replacing
+from roughfilm.rom.cavitation.solve import solve
+from roughfilm.rom.ladder.provenance import circumstances
+from roughfilm.rom.ladder.scene import load_scene
 
-ROOT = Path(__file__).parent.parent.parent
-SLIDER = ROOT / "scripts" / "scenes" / "parabolic_slider.toml"
-RESULTS = ROOT / "runs" / "benchmarks" / "films.json"
+SLIDER = SCENES / "parabolic_slider.toml"
+RESULTS = BENCHMARKS / "films.json"
 REPEATS = 5
 LINES = [(bulk, theta, 100_000) for bulk in (0.07, 0.3, 1, 10) for theta in (0.55, 0.8, 1)]
 PLANES = [(bulk, theta, cells) for bulk in (0.07, 10) for theta in (0.55, 1) for cells in (128, 256, 512, 1024)]

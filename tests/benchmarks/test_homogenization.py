@@ -19,21 +19,21 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from places import BENCHMARKS, ROOT
 
-from contact.files import replacing
-from contact.preparation.prepare import prepare
-from contact.preparation.recipe import read_recipe
-from contact.surface_files import read_surface
-from contact.synthetic.self_affine import self_affine
-from rom.homogenization.cell import solve_cell
-from rom.homogenization.conductance import FaceRule, faces
-from rom.homogenization.tabulate import tabulate
-from rom.provenance import circumstances
-from scripts.charts_peers import PROGRAMS, one_thread
+from roughfilm.charts.peer_runs import PROGRAMS, one_thread
+from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.preparation.prepare import prepare
+from roughfilm.contact.preparation.recipe import read_recipe
+from roughfilm.contact.surfaces.files import read_surface
+from roughfilm.contact.synthetic.self_affine import self_affine
+from roughfilm.rom.homogenization.cell import solve_cell
+from roughfilm.rom.homogenization.conductance import FaceRule, faces
+from roughfilm.rom.homogenization.tabulate import tabulate
+from roughfilm.rom.ladder.provenance import circumstances
 
-ROOT = Path(__file__).parent.parent.parent
 PROGRAM = PROGRAMS / "cells.py"
-RESULTS = ROOT / "runs" / "benchmarks" / "homogenization.json"
+RESULTS = BENCHMARKS / "homogenization.json"
 
 SIDE, WAVES, CONTACT = 1e-3, 8, 0.2
 """Of the surface: its period, m, how many of its longest waves that holds, and how much of it is cut off."""

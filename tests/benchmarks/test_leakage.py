@@ -7,23 +7,23 @@ timed beside elimination (SuperLU) on the same network, which must agree.
 import json
 import os
 import time
-from pathlib import Path
 
 import numpy as np
 import pytest
+from places import BENCHMARKS
 
-from contact.files import replacing
-from contact.inputs import Inputs
-from contact.mechanics.contact_store import load_contact
-from contact.mechanics.press import Press
-from contact.synthetic.self_affine import self_affine
-from rom.leakage.direct import direct_flow, direct_leakage
-from rom.leakage.homogenized import homogenized_leakage
-from rom.leakage.series import SOUGHT
-from rom.provenance import circumstances
-from scripts.leakage_run import chosen_loads, ready, sealing, solved
+from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.inputs import Inputs
+from roughfilm.contact.mechanics.press import Press
+from roughfilm.contact.mechanics.store import load_contact
+from roughfilm.contact.synthetic.self_affine import self_affine
+from roughfilm.rom.ladder.provenance import circumstances
+from roughfilm.rom.seal.leakage.curve import chosen_loads, ready, sealing, solved
+from roughfilm.rom.seal.leakage.direct import direct_flow, direct_leakage
+from roughfilm.rom.seal.leakage.homogenized import homogenized_leakage
+from roughfilm.rom.seal.leakage.series import SOUGHT
 
-RESULTS = Path(__file__).parent.parent.parent / "runs" / "benchmarks" / "leakage.json"
+RESULTS = BENCHMARKS / "leakage.json"
 
 POINTS, SIDE, MODULUS, THREADS = 512, 42e-6, 10e6 / 0.75, 2
 AGREED = 1e-6

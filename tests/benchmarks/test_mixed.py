@@ -9,16 +9,15 @@ import re
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import pytest
+from places import BENCHMARKS, ROOT, SCENES
 
-from contact.files import replacing
-from rom.provenance import circumstances
+from roughfilm.contact.foundation.files import replacing
+from roughfilm.rom.ladder.provenance import circumstances
 
-ROOT = Path(__file__).parent.parent.parent
-RESULTS = ROOT / "runs" / "benchmarks" / "mixed.json"
-SCENE = ROOT / "scripts" / "scenes" / "rough_washer.toml"
+RESULTS = BENCHMARKS / "mixed.json"
+SCENE = SCENES / "rough_washer.toml"
 
 STEEL = ("--modulus", "210GPa", "--poisson", "0.3", "--hardness", "5GPa")
 NAMES = ("milled_NT1100.opd", "isotropic.al3d")
@@ -30,7 +29,7 @@ TABLE_S, CURVES_S = 60.0, 20.0
 def command(*arguments):
     """Run one command of ours alone; what it cost."""
     before, started = os.times(), time.perf_counter()
-    asked = [sys.executable, "-m", "scripts.cli", *map(str, arguments)]
+    asked = [sys.executable, "-m", "roughfilm.cli.main", *map(str, arguments)]
     subprocess.run(asked, cwd=ROOT, env=os.environ | {"PYTHONPATH": str(ROOT)}, check=True, stdout=subprocess.DEVNULL)
     after = os.times()
     cpu = after.children_user + after.children_system - before.children_user - before.children_system
@@ -68,7 +67,7 @@ def test_a_measured_surface_becomes_curves(measured_file, tmp_path, name):
     told = json.loads((tmp_path / "curves" / "stribeck.json").read_text())
     factors = json.loads(
         subprocess.run(
-            [sys.executable, "-m", "scripts.cli", "factors", contacts, "--out", table, "--json"],
+            [sys.executable, "-m", "roughfilm.cli.main", "factors", contacts, "--out", table, "--json"],
             cwd=ROOT,
             env=os.environ | {"PYTHONPATH": str(ROOT)},
             check=True,

@@ -1,17 +1,16 @@
 """CPU time and load of every model at every resolution of its chart, as JSON with the machine: pytest -m benchmark."""
 
 import json
-from pathlib import Path
 
 import pytest
+from places import BENCHMARKS
 
-import foamcases.models
-import rom.models
-from contact.files import replacing
-from rom.ladder import ladder
-from rom.provenance import commit, machine, versions
+from roughfilm import foamcases, rom
+from roughfilm.contact.foundation.files import replacing
+from roughfilm.rom.ladder.model import ladder
+from roughfilm.rom.ladder.provenance import commit, machine, versions
 
-RESULTS = Path(__file__).parent.parent.parent / "runs" / "benchmarks" / "models.json"
+RESULTS = BENCHMARKS / "models.json"
 REPEATS = 3
 
 
@@ -19,7 +18,7 @@ REPEATS = 3
 def test_cost_of_every_model(make_scene):
     scene = make_scene(0.3, 0.75, 160)
     rows = []
-    for model in ladder(rom.models, foamcases.models):
+    for model in ladder(rom, foamcases):
         if not model.available().available:
             continue
         for resolution in model.resolutions:

@@ -8,26 +8,24 @@ Both meshes, columns and snappyHexMesh, take the gap 1 + 0.3 cos cos, 2.5 mean g
 """
 
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
+from places import BENCHMARKS, SCENES
 
-import foamcases.models
-import rom.models
-from contact.files import replacing
-from foamcases.gap_dictionaries import DRIVES
-from foamcases.snapped import run_snapped, write_snapped
-from foamcases.solid import carved
-from rom.gap_flow.ritz import ritz_flow
-from rom.ladder import find, ladder, of_kind
-from rom.provenance import circumstances
-from rom.scene import load_scene, read_scene
+from roughfilm import foamcases, rom
+from roughfilm.contact.foundation.files import replacing
+from roughfilm.foamcases.rough_gap.dictionaries import DRIVES
+from roughfilm.foamcases.snappy.snapped import run_snapped, write_snapped
+from roughfilm.foamcases.snappy.solid import carved
+from roughfilm.rom.ladder.model import find, ladder, of_kind
+from roughfilm.rom.ladder.provenance import circumstances
+from roughfilm.rom.ladder.scene import load_scene, read_scene
+from roughfilm.rom.rough_gap.flow.ritz import ritz_flow
 
-ROOT = Path(__file__).parent.parent.parent
-SCENE = ROOT / "scripts" / "scenes" / "random_gap.toml"
-RESULTS = ROOT / "runs" / "benchmarks" / "rough_gap.json"
-MODELS = of_kind(ladder(rom.models, foamcases.models), "rough_gap")
+SCENE = SCENES / "random_gap.toml"
+RESULTS = BENCHMARKS / "rough_gap.json"
+MODELS = of_kind(ladder(rom, foamcases), "rough_gap")
 
 LONG = "geometry.mean_gap=7.8125um"
 """The period is then 12.8 mean gaps long."""

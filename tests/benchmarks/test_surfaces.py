@@ -3,20 +3,20 @@
 import json
 import time
 import warnings
-from pathlib import Path
 
 import numpy as np
 import pytest
+from places import BENCHMARKS
 
-from contact.files import replacing
-from contact.parameters import parameters
-from contact.preparation.prepare import prepare
-from contact.preparation.recipe import Recipe
-from contact.surface import Surface
-from contact.synthetic.self_affine import self_affine
-from rom.provenance import commit, machine, versions
+from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.parameters.parameters import parameters
+from roughfilm.contact.preparation.prepare import prepare
+from roughfilm.contact.preparation.recipe import Recipe
+from roughfilm.contact.surfaces.surface import Surface
+from roughfilm.contact.synthetic.self_affine import self_affine
+from roughfilm.rom.ladder.provenance import commit, machine, versions
 
-RESULTS = Path(__file__).parent.parent.parent / "runs" / "benchmarks" / "surfaces.json"
+RESULTS = BENCHMARKS / "surfaces.json"
 REPEATS = 3
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from contact.surface import Surface
+from roughfilm.contact.surfaces.surface import Surface
 
 
 def open_measured(path: Path) -> Surface:

@@ -5,11 +5,11 @@ from types import SimpleNamespace
 
 import pytest
 
-from foamcases.case import CARD, read_card
-from foamcases.gap_case import GapCard, mesh_of, write_gap_case
-from foamcases.gap_fields import read_gap_flow
-from foamcases.gap_run import run_gap
-from foamcases.rough_gap import factors_of
+from roughfilm.foamcases.pocket.case import CARD, read_card
+from roughfilm.foamcases.rough_gap.case import GapCard, mesh_of, write_gap_case
+from roughfilm.foamcases.rough_gap.cases import factors_of
+from roughfilm.foamcases.rough_gap.fields import read_gap_flow
+from roughfilm.foamcases.rough_gap.run import run_gap
 
 
 @pytest.fixture

@@ -7,14 +7,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from contact.inputs import Inputs
-from rom.bearing import Bearing
-from rom.dry_contact import DryContact
-from rom.homogenization.factors import FlowFactors
-from rom.homogenization.table import FactorTable, Point
-from rom.homogenization.table_store import save_table
-from rom.mixed.asperity_table import AsperityTable
-from rom.scene import read_scene
+from roughfilm.contact.foundation.inputs import Inputs
+from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.dry_contact.scene import DryContact
+from roughfilm.rom.homogenization.factors import FlowFactors
+from roughfilm.rom.homogenization.table import FactorTable, Point
+from roughfilm.rom.homogenization.table_store import save_table
+from roughfilm.rom.ladder.scene import read_scene
 
 ROUGH = {
     "kind": "self_affine",

@@ -5,7 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from contact.mechanics import kernels
+from roughfilm.contact.mechanics import kernels
 
 PROGRAM = """
 import sys

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from contact.errors import InputError
-from contact.mechanics.moments import SpectralMoments, wave_power
-from contact.synthetic.distribution import rms_slope
-from contact.synthetic.gaussian import gaussian
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.mechanics.moments import SpectralMoments, wave_power
+from roughfilm.contact.synthetic.distribution import rms_slope
+from roughfilm.contact.synthetic.gaussian import gaussian
 
 
 def gaussian_surface(seed, points=(256, 256)):

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from contact.errors import InputError
-from contact.periodicity import THRESHOLD, periodicity_mismatch
-from contact.preparation.edges import make_periodic, widest
-from contact.surface import Surface
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.preparation.edges import make_periodic, widest
+from roughfilm.contact.surfaces.periodicity import THRESHOLD, periodicity_mismatch
+from roughfilm.contact.surfaces.surface import Surface
 
 
 def rough(seed, shape=(200, 160), keep=20):

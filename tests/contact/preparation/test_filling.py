@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from contact.preparation.filling import fill_invalid
-from contact.surface import Surface
+from roughfilm.contact.preparation.filling import fill_invalid
+from roughfilm.contact.surfaces.surface import Surface
 
 SPACING = (1.5e-6, 0.4e-6)
 X, Y = np.meshgrid(np.arange(60) * SPACING[0], np.arange(45) * SPACING[1], indexing="ij")

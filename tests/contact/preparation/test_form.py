@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from contact.errors import InputError
-from contact.preparation.form import remove_form
-from contact.surface import Surface
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.preparation.form import remove_form
+from roughfilm.contact.surfaces.surface import Surface
 
 NX, NY = 37, 24
 X, Y = np.meshgrid(np.arange(NX) * 2.0e-6, np.arange(NY) * 0.7e-6, indexing="ij")

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from contact.errors import InputError
-from contact.preparation.grid import next_power_of_two, resample
-from contact.surface import Surface
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.preparation.grid import next_power_of_two, resample
+from roughfilm.contact.surfaces.surface import Surface
 
 
 def test_powers_of_two_are_never_fewer():

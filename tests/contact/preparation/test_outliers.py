@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from contact.errors import InputError
-from contact.preparation.outliers import cut_outliers
-from contact.surface import Surface
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.preparation.outliers import cut_outliers
+from roughfilm.contact.surfaces.surface import Surface
 
 
 def body_with_spikes():

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from contact.errors import InputError
-from contact.parameters import parameters
-from contact.periodicity import THRESHOLD
-from contact.preparation.prepare import prepare
-from contact.preparation.recipe import Recipe, read_recipe, recipe_entries
-from contact.surface import Surface
-from contact.surface_files import read_surface
-from contact.surface_store import load_surface, save_surface
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.parameters.parameters import parameters
+from roughfilm.contact.preparation.prepare import prepare
+from roughfilm.contact.preparation.recipe import Recipe, read_recipe, recipe_entries
+from roughfilm.contact.surfaces.files import read_surface
+from roughfilm.contact.surfaces.periodicity import THRESHOLD
+from roughfilm.contact.surfaces.store import load_surface, save_surface
+from roughfilm.contact.surfaces.surface import Surface
 
 
 def measured(seed=841, lay=1.0):

@@ -1,13 +1,10 @@
 """A recipe says every step, is read back as it was written, and names its faults."""
 
-from pathlib import Path
-
 import pytest
+from places import SURFACES
 
-from contact.errors import InputError
-from contact.preparation.recipe import Recipe, load_recipe, read_recipe, recipe_entries
-
-ROOT = Path(__file__).parents[3]
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.preparation.recipe import Recipe, load_recipe, read_recipe, recipe_entries
 
 FULL = """
 form = "tilt"
@@ -50,7 +47,7 @@ def test_without_a_file_the_thesis_numbers_hold():
 
 
 def test_the_recipe_beside_the_scenes_is_the_usual_one():
-    assert load_recipe(ROOT / "scripts" / "surfaces" / "recipe.toml") == Recipe()
+    assert load_recipe(SURFACES / "recipe.toml") == Recipe()
 
 
 def test_overrides_reach_every_table():

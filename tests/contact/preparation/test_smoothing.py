@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from contact.errors import InputError
-from contact.preparation.smoothing import smooth
-from contact.surface import Surface
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.preparation.smoothing import smooth
+from roughfilm.contact.surfaces.surface import Surface
 
 
 @pytest.mark.parametrize("points", [3, 5])

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from contact.errors import InputError
-from contact.periodicity import periodicity_mismatch
-from contact.preparation.window import Window, best_window, cut_window
-from contact.surface import Surface
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.preparation.window import Window, best_window, cut_window
+from roughfilm.contact.surfaces.periodicity import periodicity_mismatch
+from roughfilm.contact.surfaces.surface import Surface
 
 X, Y = np.meshgrid(np.arange(157), np.arange(131), indexing="ij")
 NOTHING = np.zeros(X.shape, bool)

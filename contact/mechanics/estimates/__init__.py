@@ -1,0 +1,1 @@
+"""Contact area, gap and pressure estimated from statistics of the heights."""

@@ -1,0 +1,55 @@
+"""The area of an elastic rough contact at light load, which grows in proportion to it."""
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from roughfilm.contact.mechanics.checks import finite, positive
+from roughfilm.contact.surfaces.surface import Array
+
+BUSH_GIBSON_THOMAS = math.sqrt(2 * math.pi)
+"""κ of asperities that do not feel each other, in the limit of far separation."""
+
+PERSSON = math.sqrt(8 / math.pi)
+"""κ of Persson's theory, whose exact limit is that of full contact."""
+
+
+def light_load_area_fraction(load: ArrayLike, *, composite_modulus: float, rms_slope: float, kappa: float) -> Array:
+    """A/A0 = κ P/(E* g').
+
+    Parameters
+    ----------
+    load : P, mean pressure, any shape, Pa.
+    composite_modulus : E*, Pa.
+    rms_slope : g' = sqrt(<|∇z|²>), of both directions together.
+    kappa : κ, `PERSSON` (1.596) to `BUSH_GIBSON_THOMAS` (2.507); solved contacts lie between, at 2.0 to 2.2.
+
+    Returns
+    -------
+    Same shape as the load.
+
+    Raises
+    ------
+    InputError
+        If a number is not finite, or one but the load is not above 0.
+
+    Notes
+    -----
+    For isotropic Gaussian surfaces and A/A0 up to a few per cent. For ridges (line contact) Persson's holds as an
+    estimate with g' across them; that of Bush, Gibson and Thomas counts summits and does not.
+
+    Source: Bush, Gibson and Thomas, Wear 35 (1975) 87, doi:10.1016/0043-1648(75)90145-3; Persson, J. Chem. Phys. 115
+    (2001) 3840, doi:10.1063/1.1388626; Hyun, Pei, Molinari and Robbins, Phys. Rev. E 70 (2004) 026117,
+    doi:10.1103/PhysRevE.70.026117.
+
+    Examples
+    --------
+    >>> light = {"composite_modulus": 1e11, "rms_slope": 0.1}
+    >>> float(light_load_area_fraction(1e8, kappa=2.0, **light))
+    0.02
+    """
+    stiffness = positive("light_load.composite_modulus", composite_modulus) * positive(
+        "light_load.rms_slope", rms_slope
+    )
+    return np.asarray(positive("light_load.kappa", kappa) * finite("light_load.load", load) / stiffness)

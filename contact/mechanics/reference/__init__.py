@@ -1,0 +1,1 @@
+"""The contact algorithm of the source, kept for comparison."""

@@ -1,0 +1,244 @@
+"""A series of contacts in HDF5: every finished load at once, and never a half of one.
+
+The HDF5 file stands behind a block of 512 bytes with the digest of all that follows, as those of surfaces do. A load is
+added to a copy, which then takes the place of the file.
+"""
+
+import json
+import math
+import os
+import shutil
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+from roughfilm.contact.foundation.checked_hdf5 import BLOCK, block, digest_of, marked, reading_guarded, refuse_damaged
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.inputs import Inputs
+from roughfilm.contact.mechanics.contact import Contact
+from roughfilm.contact.surfaces.surface import Array
+
+SCHEMA = 1
+MARK = b"roughfilm contact, HDF5 behind 512 bytes, sha256 "
+REMEDY = "remove it or choose another place"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Row:
+    """The numbers of one load, those of `Contact` among them; None where the model has none.
+
+    Attributes
+    ----------
+    pressure_max : Pa.
+    cpu_s : s.
+    """
+
+    load: float
+    area_fraction: float
+    area_fraction_pixel: float | None
+    plastic_fraction: float
+    mean_gap: float | None
+    approach: float | None
+    complementarity: float | None
+    iterations: int | None
+    pressure_max: float | None
+    cpu_s: float
+
+
+NUMBERS = tuple(entry.name for entry in fields(Row))
+
+UNITS = {"load": "Pa", "mean_gap": "m", "approach": "m", "pressure_max": "Pa", "cpu_s": "s"}
+"""Of the numbers of a row; all others are pure numbers."""
+
+
+def row_of(contact: Contact, cpu_s: float) -> Row:
+    """The numbers of a contact that took ``cpu_s`` seconds of processor time."""
+    return Row(
+        load=contact.load,
+        area_fraction=contact.area_fraction,
+        area_fraction_pixel=contact.area_fraction_pixel,
+        plastic_fraction=contact.plastic_fraction,
+        mean_gap=contact.mean_gap,
+        approach=contact.approach,
+        complementarity=contact.complementarity,
+        iterations=contact.iterations,
+        pressure_max=float(contact.pressure.max()),
+        cpu_s=cpu_s,
+    )
+
+
+def add(path: Path, inputs: Inputs, found: Sequence[tuple[Row, Contact | None]]) -> None:
+    """Write loads to a file of a series, all or none; those that it holds for these inputs stay.
+
+    Parameters
+    ----------
+    found : the numbers of each load, and its fields, if the model has them.
+
+    Raises
+    ------
+    InputError
+        If ``path`` cannot be written, was damaged, or holds something else.
+    """
+    before = finished(path, inputs)
+    with replacing(path) as scratch:
+        if before:
+            shutil.copyfile(path, scratch)
+        mode = {"name": scratch, "mode": "r+"} if before else {"name": scratch, "mode": "w", "userblock_size": BLOCK}
+        with h5py.File(**mode) as file:
+            if not before:
+                _begin(file, inputs)
+            for row, contact in found:
+                _put(file, row, contact)
+            _tabulate(file, before | {row.load: row for row, _ in found})
+        with scratch.open("r+b") as raw:
+            raw.write(block(MARK, digest_of(scratch)))
+            os.fsync(raw.fileno())
+
+
+def _put(file: h5py.File, row: Row, contact: Contact | None) -> None:
+    name = f"loads/{row.load!r}"
+    if name in file:
+        del file[name]
+    group = file.create_group(name)
+    group.attrs.update(_numbers(row))
+    if contact is not None:
+        group.attrs["hardness"] = contact.hardness
+        for name, values in _arrays(contact).items():
+            _write(group, name, values, "Pa" if name == "pressure" else "m")
+
+
+def finished(path: Path, inputs: Inputs) -> dict[float, Row]:
+    """The loads that a file holds for these inputs, by load; none if there is no such file, or an empty one.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, was damaged or changed, or holds another series or something else.
+    """
+    try:
+        with path.open("rb") as raw:
+            head = raw.read(len(MARK))
+        if not head:
+            return {}
+        if head != MARK:
+            raise InputError(f"{path}: is no series of contacts; {REMEDY}")
+        refuse_damaged(path, MARK, REMEDY)
+        with h5py.File(path) as file:
+            if file.attrs["schema"] != SCHEMA:
+                raise InputError(f"{path}: is of another version of roughfilm; {REMEDY}")
+            if file.attrs["digest"] != inputs.digest:
+                raise InputError(f"{path}: holds another series, {inputs.difference(file.attrs['settings'])}; {REMEDY}")
+            columns = [file[f"series/{name}"][()] for name in NUMBERS]
+            rows = [_row(dict(zip(NUMBERS, numbers, strict=True))) for numbers in zip(*columns, strict=True)]
+            return {row.load: row for row in rows}
+    except FileNotFoundError:
+        return {}
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read ({error.strerror or error}); choose another place") from error
+
+
+def is_series(path: Path) -> bool:
+    """Whether a file holds a series of contacts, whatever its name."""
+    return marked(path, MARK)
+
+
+def load_series(path: Path) -> tuple[Inputs, tuple[float, ...]]:
+    """What the contacts in a file are of, and the loads at which it holds fields, rising, Pa.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, was damaged or changed, or holds something else.
+    """
+    if not is_series(path):
+        raise InputError(f"{path}: is no series of contacts; {REMEDY}")
+    with reading_guarded(path, MARK, SCHEMA, REMEDY) as file:
+        dx_dy = file.attrs["spacing"]
+        inputs = Inputs(
+            heights=file["heights"][()],
+            spacing=(float(dx_dy[0]), float(dx_dy[1])),
+            settings=json.loads(file.attrs["settings"]),
+        )
+        loads = sorted(float(name) for name, group in file["loads"].items() if "pressure" in group)
+    return inputs, tuple(loads)
+
+
+def load_contact(path: Path, load: float) -> Contact:
+    """The contact at a load that a file holds; u_e = g00 − h1 − u_p + gap, which holds where the solver left it.
+
+    Raises
+    ------
+    InputError
+        If the file was damaged or changed, or holds no fields at this load.
+    """
+    refuse_damaged(path, MARK, REMEDY)
+    with h5py.File(path) as file:
+        name = f"loads/{load!r}"
+        if name not in file or "pressure" not in file[name]:
+            raise InputError(f"{path}: holds no fields at {load!r} Pa; solve this load")
+        group = file[name]
+        row = _row(group.attrs)
+        heights, dx_dy = file["heights"][()], file.attrs["spacing"]
+        gap, plastic = group["gap"][()], group["plastic_displacement"][()]
+        approach = float(group.attrs["approach"])
+        return Contact(
+            load=load,
+            hardness=float(group.attrs["hardness"]),
+            heights=heights,
+            spacing=(float(dx_dy[0]), float(dx_dy[1])),
+            pressure=group["pressure"][()],
+            elastic_displacement=approach - (heights.max() - heights) - plastic + gap,
+            plastic_displacement=plastic,
+            approach=approach,
+            gap=gap,
+            complementarity=float(group.attrs["complementarity"]),
+            iterations=int(row.iterations or 0),
+        )
+
+
+def _begin(file: h5py.File, inputs: Inputs) -> None:
+    file.attrs["schema"] = SCHEMA
+    file.attrs["digest"] = inputs.digest
+    file.attrs["settings"] = json.dumps(inputs.settings, sort_keys=True, allow_nan=False)
+    file.attrs["spacing"] = inputs.spacing
+    file.attrs["spacing_unit"] = "m"
+    _write(file, "heights", inputs.heights, "m")
+
+
+def _write(group: h5py.Group, name: str, values: Array, unit: str) -> None:
+    written = group.create_dataset(name, data=values, compression="gzip", compression_opts=1, shuffle=True)
+    written.attrs["unit"] = unit
+
+
+def _tabulate(file: h5py.File, rows: Mapping[float, Row]) -> None:
+    """Write ``series``: every number of all loads as a column, loads rising; NaN where there is none."""
+    if "series" in file:
+        del file["series"]
+    ordered = [_numbers(rows[load]) for load in sorted(rows)]
+    for name in NUMBERS:
+        column = np.array([numbers[name] for numbers in ordered])
+        file.create_dataset(f"series/{name}", data=column).attrs["unit"] = UNITS.get(name, "1")
+
+
+def _numbers(row: Row) -> dict[str, float]:
+    return {name: math.nan if value is None else float(value) for name, value in vars(row).items()}
+
+
+def _arrays(contact: Contact) -> dict[str, Array]:
+    return {
+        "pressure": contact.pressure,
+        "gap": contact.gap,
+        "plastic_displacement": contact.plastic_displacement,
+    }
+
+
+def _row(attributes: Mapping[str, Any]) -> Row:
+    numbers = {name: float(attributes[name]) for name in NUMBERS}
+    told: dict[str, Any] = {name: None if math.isnan(number) else number for name, number in numbers.items()}
+    told["iterations"] = None if told["iterations"] is None else int(told["iterations"])
+    return Row(**told)

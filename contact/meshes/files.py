@@ -1,0 +1,68 @@
+"""Meshes in files that other tools read: VTU, STL and Gmsh, written by meshio."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.meshes.mesh import Mesh, Sort, boundary, in_triangles
+from roughfilm.contact.surfaces.surface import Array
+
+FORMATS = {".vtu": "vtu", ".stl": "stl", ".msh": "gmsh22"}
+"""What meshio calls the format of each suffix. Gmsh's is 2.2, which every version of Gmsh and most others read."""
+
+
+def mesh_format(path: Path) -> str:
+    """The format that a file is to have by its suffix, as meshio calls it; InputError if it is none of ``FORMATS``."""
+    if path.suffix.lower() not in FORMATS:
+        *first, last = FORMATS
+        raise InputError(f"{path}: got the suffix {path.suffix!r}; write {', '.join(first)} or {last}")
+    return FORMATS[path.suffix.lower()]
+
+
+def write_mesh(mesh: Mesh, path: Path) -> Mesh:
+    """Write a mesh, whole or not at all, and return what went into the file.
+
+    VTU (binary) and Gmsh 2.2 (text) keep cells and data in double precision. STL (binary) holds triangles in single
+    precision and no data: quads are cut in two, hexahedra give the closed surface around them.
+
+    Raises
+    ------
+    InputError
+        For another suffix, a mesh without cells, lines in STL, or a place that cannot be written.
+    """
+    name = mesh_format(path)
+    if len(mesh.cells) == 0:
+        raise InputError(f"{path}: there is nothing to export, no cell is left; look at the gap or the mask")
+    if name == "stl":
+        mesh = _for_stl(mesh, path)
+    import meshio  # slow to import, and most commands do without
+
+    point_data: dict[str, Any] = dict(mesh.point_data)
+    cell_data: dict[str, list[Any]] = {key: [values] for key, values in mesh.cell_data.items()}
+    if name == "gmsh22":
+        # meshio 5.3.5 writes the repr of each number, which for those of NumPy 2 is none that Gmsh can read.
+        point_data = {key: values.astype(object) for key, values in point_data.items()}
+        cell_data = {key: [values.astype(object)] for key, (values,) in cell_data.items()}
+        tags = np.ones(len(mesh.cells), dtype=np.int32)
+        cell_data |= {"gmsh:physical": [tags], "gmsh:geometrical": [tags]}
+    written = meshio.Mesh(mesh.points, [(mesh.sort.value, mesh.cells)], point_data, cell_data)
+    options: dict[str, bool] = {"vtu": {}, "stl": {"binary": True}, "gmsh22": {"binary": False}}[name]
+    with replacing(path) as scratch:
+        meshio.write(scratch, written, file_format=name, **options)
+    return mesh
+
+
+def _for_stl(mesh: Mesh, path: Path) -> Mesh:
+    if mesh.sort is Sort.LINE:
+        raise InputError(f"{path}: STL holds triangles and this is a line; write .vtu or .msh")
+    surface = boundary(mesh) if mesh.sort is Sort.HEXAHEDRON else in_triangles(mesh)
+    surface = Mesh(points=surface.points, sort=surface.sort, cells=surface.cells)
+    return surface.kept(_area(surface) > 0)
+
+
+def _area(mesh: Mesh) -> Array:
+    first, second, third = np.moveaxis(mesh.points[mesh.cells], 1, 0)
+    return np.asarray(np.linalg.norm(np.cross(second - first, third - first), axis=1))

@@ -1,0 +1,1 @@
+"""Height, feature and spatial parameters of a surface, and their exact values on simple surfaces."""

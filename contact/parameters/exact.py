@@ -1,0 +1,112 @@
+"""Roughness parameters that are known in closed form: of Gaussian heights, a sinusoid, simple autocorrelations."""
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.special import ndtr, ndtri
+
+from roughfilm.contact.parameters.autocorrelation import DECAYED
+from roughfilm.contact.parameters.bearing_curve import CORE_WINDOW, Core
+from roughfilm.contact.parameters.heights import HeightStatistics
+from roughfilm.contact.surfaces.surface import Array
+
+
+def gaussian_average(rms: float) -> float:
+    """Sa of Gaussian heights, Sq √(2/π), m."""
+    return rms * math.sqrt(2 / math.pi)
+
+
+def gaussian_bearing_curve(ratio: ArrayLike, rms: float) -> Array:
+    """Height over the mean above which a part ``ratio`` (between 0 and 1) of Gaussian heights lies, −Sq Φ⁻¹(m), m."""
+    height: Array = -rms * ndtri(np.asarray(ratio, dtype=np.float64))
+    return height
+
+
+def gaussian_core(rms: float) -> Core:
+    """Core, peaks and valleys of Gaussian heights of a given Sq, with their mean at 0.
+
+    The flattest window is the middle one, |z| < a Sq with Φ(a) = 0.7 for w = 0.4, and the line fitted to it has
+    Sk = Sq (12/w³) (erf(a)/(2√π) − w φ(a)) = 2.57396 Sq. (Its secant has 2a/w = 2.622 Sq, 1.9 % more.)
+    Above u = Sk/2 lies the part Q = 1 − Φ(u/Sq), by φ(u/Sq) Sq/Q − u on average, and Spk is twice that.
+
+    Examples
+    --------
+    >>> core = gaussian_core(1.0)
+    >>> round(core.height, 5), round(core.peak_ratio, 5)
+    (2.57396, 0.09905)
+    """
+    w = CORE_WINDOW
+    a = float(ndtri((1 + w) / 2))
+    upper = 6 / w**3 * (math.erf(a) / (2 * math.sqrt(math.pi)) - w * _normal(a))
+    part = float(ndtr(-upper))
+    peak = 2 * (_normal(upper) / part - upper)
+    return Core(
+        upper=upper * rms,
+        lower=-upper * rms,
+        peak=peak * rms,
+        valley=peak * rms,
+        peak_ratio=part,
+        valley_ratio=1 - part,
+    )
+
+
+def sinusoid_statistics(amplitude: float) -> HeightStatistics:
+    """Of z = A sin: Sa = 2A/π, Sq = A/√2, Sp = Sv = A, Ssk = 0, Sku = 3/2; along a line or a surface of ridges."""
+    return HeightStatistics(
+        mean=0.0,
+        average=2 * amplitude / math.pi,
+        rms=amplitude / math.sqrt(2),
+        peak=amplitude,
+        valley=amplitude,
+        skewness=0.0,
+        kurtosis=1.5,
+    )
+
+
+def sinusoid_bearing_curve(ratio: ArrayLike, amplitude: float) -> Array:
+    """Height over the mean above which a part ``ratio`` (between 0 and 1) of a sinusoid lies, A cos πm, m."""
+    height: Array = amplitude * np.cos(np.pi * np.asarray(ratio, dtype=np.float64))
+    return height
+
+
+def sinusoid_core(amplitude: float) -> Core:
+    """Core, peaks and valleys of a sinusoid with its mean at 0.
+
+    Its bearing curve A cos πm is flattest at both ends; the first counts, 0 < m < w = 0.4. The line fitted there has
+    Sk = A (12/w³) ((1 − cos πw)/π² − w sin(πw)/(2π)) and the height A sin(πw)/(πw) at m = w/2. It begins above the
+    crests, so that there are no peaks, and ends at −A cos πb, below which lies the part b, by A (sin(πb)/(πb) − cos πb)
+    on average; Svk is twice that.
+
+    Examples
+    --------
+    >>> core = sinusoid_core(1.0)
+    >>> round(core.height, 4), round(core.valley, 4), round(core.valley_ratio, 4)
+    (1.7747, 0.4439, 0.7307)
+    """
+    w = CORE_WINDOW
+    turn = math.pi * w
+    height = 12 / w**3 * ((1 - math.cos(turn)) / math.pi**2 - w * math.sin(turn) / (2 * math.pi))
+    upper = math.sin(turn) / turn + height * w / 2
+    lower = upper - height
+    half = math.acos(-lower)
+    return Core(
+        upper=upper * amplitude,
+        lower=lower * amplitude,
+        peak=0.0,
+        valley=2 * (math.sin(half) / half + lower) * amplitude,
+        peak_ratio=0.0,
+        valley_ratio=1 - half / math.pi,
+    )
+
+
+def decay_length(correlation_length: float, exponent: float = 2.0) -> float:
+    """Sal of a surface whose autocorrelation is exp(−(t/λ)ⁿ): λ (ln 5)^(1/n), m.
+
+    For n = 2, with λx ≠ λy along two axes at right angles, Sal is that of the shorter and Str = λ shorter/λ longer.
+    """
+    return correlation_length * math.pow(math.log(1 / DECAYED), 1 / exponent)
+
+
+def _normal(x: float) -> float:
+    return math.exp(-x * x / 2) / math.sqrt(2 * math.pi)

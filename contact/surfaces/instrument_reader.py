@@ -1,0 +1,91 @@
+"""The child that reads one instrument file: asked by its argument, it answers one line of JSON and the heights.
+
+Only :mod:`roughfilm.contact.surfaces.instruments` starts it.
+"""
+
+import json
+import os
+import sys
+import warnings
+from typing import Any, BinaryIO
+
+import numpy as np
+
+UNMARKED = {"hgt", "nms"}
+"""Formats that any bytes of the right number pass for: believed only if the file is named so."""
+
+UNKNOWN = "is in no format that is known here, or damaged; export it again from the instrument"
+
+
+def _read(path: str, channel: str | None, most: int) -> tuple[dict[str, Any], Any]:
+    from SurfaceTopography import open_topography
+    from SurfaceTopography.Exceptions import CannotDetectFileFormat
+    from SurfaceTopography.Support.UnitConversion import get_unit_conversion_factor
+
+    try:
+        reader = open_topography(path)
+    except CannotDetectFileFormat:
+        return {"fault": UNKNOWN}, None
+    if reader.format() in UNMARKED and not path.lower().endswith(reader.format()):
+        return {"fault": UNKNOWN}, None
+    channels = [one for one in reader.channels if one.dim == 2]
+    names = ", ".join(repr(one.name) for one in channels)
+    if not channels:
+        return {"fault": "holds no map of heights; export one from the instrument"}, None
+    chosen = reader.default_channel if channel is None else None
+    for one in channels:
+        if channel is not None and one.name == channel:
+            chosen = one
+    if chosen is None or chosen.dim != 2:
+        return {"fault": f"has no channel {channel!r}; its channels are {names}"}, None
+    if str(chosen.data_kind).rpartition(".")[2].lower() != "height":
+        return {"fault": f"channel {chosen.name!r} holds no heights; its channels are {names}"}, None
+    nx, ny = (int(count) for count in chosen.nb_grid_pts)
+    if nx * ny > most:
+        return {"fault": f"claims {nx} x {ny} points; at most {most} fit a file of its length"}, None
+    known = chosen.physical_sizes is not None
+    topography = reader.topography(
+        channel_index=chosen.index, **({} if known else {"physical_sizes": (float(nx), float(ny))})
+    )
+    heights = np.ma.filled(np.ma.asarray(topography.heights(), dtype=np.float64), np.nan)
+    unit = topography.unit
+    factor = get_unit_conversion_factor(unit, "m") if unit is not None else None
+    size = [float(length) * factor for length in topography.physical_sizes] if known and factor else None
+    told = {"shape": heights.shape, "height_unit": unit, "size": size}
+    return {**told, "format": reader.format(), "channel": chosen.name}, heights
+
+
+def main(request: dict[str, Any], out: BinaryIO) -> None:
+    """Read what ``request`` names and write it to ``out``; a fault of the file is told as ``{"fault": text}``."""
+    try:
+        told, heights = _read(request["path"], request["channel"], request["most"])
+    except ImportError as error:
+        told, heights = {"missing": " ".join(str(error).split())[:120]}, None
+    except MemoryError:
+        told, heights = {"fault": "needs more memory than a file of its length should; it may be damaged"}, None
+    except Exception as error:  # forty readers of damaged files raise whatever they like
+        reason = " ".join(str(error).split())[:120]
+        told, heights = {"fault": f"cannot be read ({type(error).__name__}: {reason}); it may be damaged"}, None
+    out.write(json.dumps(told).encode() + b"\n")
+    if heights is not None:
+        out.write(np.ascontiguousarray(heights).data)
+    out.flush()
+
+
+def _limit(memory: int, seconds: int) -> None:
+    try:
+        import resource
+    except ImportError:  # not on Windows, where only the time is limited, by the parent
+        return
+    resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
+    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
+
+
+if __name__ == "__main__":
+    warnings.simplefilter("ignore")
+    asked = json.loads(sys.argv[1])
+    pipe = os.fdopen(os.dup(1), "wb")
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 1)  # what a reader prints must not reach the pipe
+    _limit(asked["memory"], asked["seconds"])
+    main(asked, pipe)

@@ -1,0 +1,53 @@
+"""Surfaces in HDF5 of our own: written whole or not at all, the same surface always as the same bytes."""
+
+import json
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+from roughfilm.contact.foundation.checked_hdf5 import marked, reading_guarded, write_guarded
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.surfaces.surface import MOST_POINTS, Surface
+
+SCHEMA = 1
+MARK = b"roughfilm surface, HDF5 behind 512 bytes, sha256 "
+
+
+def save_surface(surface: Surface, path: Path) -> None:
+    """Write ``heights`` (m, [x, y]) and ``invalid``, with ``spacing`` (m), ``periodic`` and ``source`` as attributes.
+
+    Raises InputError if ``path`` cannot be written.
+    """
+
+    def fill(file: h5py.File) -> None:
+        file.attrs["schema"] = SCHEMA
+        file.attrs["spacing"] = surface.spacing
+        file.attrs["spacing_unit"] = "m"
+        file.attrs["periodic"] = surface.periodic
+        file.attrs["source"] = json.dumps(surface.source, sort_keys=True, allow_nan=False)
+        file.create_dataset("heights", data=surface.heights, compression="gzip", shuffle=True).attrs["unit"] = "m"
+        if surface.invalid.any():
+            file.create_dataset("invalid", data=surface.invalid, compression="gzip")
+
+    write_guarded(path, MARK, fill)
+
+
+def is_surface(path: Path) -> bool:
+    """Whether a file begins as our surfaces do, whatever its name."""
+    return marked(path, MARK)
+
+
+def load_surface(path: Path) -> Surface:
+    """Read a surface back as it was; InputError if the file was damaged or changed, or is of another version."""
+    with reading_guarded(path, MARK, SCHEMA, "make it again") as file:
+        shape = file["heights"].shape
+        if shape[0] * shape[1] > MOST_POINTS:
+            raise InputError(f"{path}: holds {shape[0]} x {shape[1]} points; at most {MOST_POINTS} are read")
+        return Surface(
+            heights=file["heights"][()],
+            spacing=tuple(file.attrs["spacing"]),
+            invalid=file["invalid"][()] if "invalid" in file else np.zeros(shape, dtype=bool),
+            periodic=bool(file.attrs["periodic"]),
+            source=json.loads(file.attrs["source"]),
+        )

@@ -1,0 +1,99 @@
+"""Closed forms for surfaces of known spectrum: moments of self-affine ones, correlation and slope of Gaussian ones."""
+
+import math
+
+import numpy as np
+
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.surfaces.surface import Array
+
+
+def self_affine_moment(order: int, *, hurst: float, roll_off: float, cut_off: float) -> float:
+    """∫ q^(order + 1) C(q) dq from 0 to qs, for C = 1 up to qr and (q/qr)^(-2 - 2H) from there to qs.
+
+    qr^(k + 2) [1/(k + 2) + (s^(k - 2H) - 1)/(k - 2H)] with k the order and s = qs/qr; ln s for the fraction if k = 2H.
+
+    Parameters
+    ----------
+    order : k: 0 for heights, 2 for slopes, 4 for curvatures.
+    hurst : H, above 0 and at most 1.
+    roll_off, cut_off : 2π/qr and 2π/qs, m, the latter the shorter.
+
+    Returns
+    -------
+    In 1/m^(k + 2), per unit of C. Ratios are those of mean squares: the second over the zeroth moment is the mean
+    square slope over the mean square height, of a surface whose period holds many roll-off lengths.
+
+    Raises
+    ------
+    InputError
+        If H, the order or the lengths are out of range.
+
+    Notes
+    -----
+    Source: Persson et al., J. Phys. Condens. Matter 17 (2005) R1, doi:10.1088/0953-8984/17/1/R01.
+
+    Examples
+    --------
+    >>> self_affine_moment(2, hurst=1.0, roll_off=2 * math.pi, cut_off=2 * math.pi / math.e)
+    1.25
+    """
+    if not (0 < hurst <= 1 and 0 < cut_off <= roll_off < math.inf and order in (0, 2, 4)):
+        raise InputError(
+            f"self_affine_moment: got order {order!r}, hurst {hurst!r}, roll_off {roll_off!r} m, cut_off {cut_off!r} m;"
+            " write 0, 2 or 4, 0 < hurst <= 1, and a cut-off up to the roll-off"
+        )
+    exponent, ratio = order - 2 * hurst, roll_off / cut_off
+    tail = math.log(ratio) if exponent == 0 else (ratio**exponent - 1) / exponent
+    return (2 * math.pi / roll_off) ** (order + 2) * (1 / (order + 2) + tail)
+
+
+def rms_slope_over_height(*, hurst: float, roll_off: float, cut_off: float) -> float:
+    """sqrt(<|∇h|²>/<h²>) of a self-affine surface, 1/m; see ``self_affine_moment``."""
+    second, zeroth = (self_affine_moment(order, hurst=hurst, roll_off=roll_off, cut_off=cut_off) for order in (2, 0))
+    return math.sqrt(second / zeroth)
+
+
+def autocorrelation(distance: Array, correlation_length: float, *, exponent: float = 2.0) -> Array:
+    """R = 0.2^((t/λ)^exponent): of Gaussian form for exponent 2, exponential for 1.
+
+    Parameters
+    ----------
+    distance : t >= 0, m, any shape.
+    correlation_length : λ, m, where R = 0.2.
+    exponent : above 0 and at most 2.
+
+    Returns
+    -------
+    R, of the same shape.
+
+    Raises
+    ------
+    InputError
+        If the correlation length is not above zero, or the exponent out of range.
+    """
+    if not (correlation_length > 0 and 0 < exponent <= 2):
+        raise InputError(
+            f"autocorrelation: got correlation length {correlation_length!r} m, exponent {exponent!r}; write a length "
+            "above zero and an exponent above 0 and at most 2"
+        )
+    value: Array = 0.2 ** ((np.asarray(distance, dtype=float) / correlation_length) ** exponent)
+    return value
+
+
+def gaussian_rms_slope(rms_height: float, along: float, across: float) -> float:
+    """sqrt(<|∇h|²>) = σ sqrt(2 ln 5 (1/along² + 1/across²)) for R = 0.2^(ρ²), from its curvature at the origin.
+
+    Parameters
+    ----------
+    rms_height : σ, m.
+    along, across : correlation lengths, m, where R = 0.2.
+
+    Raises
+    ------
+    InputError
+        If a correlation length is not above zero.
+    """
+    if not min(along, across) > 0:
+        raise InputError(f"gaussian_rms_slope: got lengths {along!r} and {across!r} m; write two above zero")
+    return rms_height * math.sqrt(2 * math.log(5) * (1 / along**2 + 1 / across**2))

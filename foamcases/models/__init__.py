@@ -1,1 +1,0 @@
-"""One file, one model; each ends with ``MODEL``."""

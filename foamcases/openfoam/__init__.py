@@ -1,0 +1,1 @@
+"""OpenFOAM itself: installation, dictionaries, meshes, runs and residuals."""

@@ -1,0 +1,67 @@
+"""Which OpenFOAM is on this machine, and the one variable it needs."""
+
+import os
+import re
+import shutil
+import subprocess
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+
+from roughfilm.rom.ladder.model import Availability
+
+PROGRAMS = ("checkMesh", "simpleFoam")
+OPEN_MPI = {
+    "OMPI_ALLOW_RUN_AS_ROOT": "1",
+    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+    "OMPI_MCA_rmaps_base_oversubscribe": "1",
+    "OMPI_MCA_hwloc_base_binding_policy": "none",
+    "OMPI_MCA_mpi_yield_when_idle": "1",
+}
+"""Open MPI by any user, on any number of cores, several runs not all on the same, waiting without spinning."""
+
+REMEDY = "install it with: sudo apt-get install openfoam"
+
+
+@cache
+def environment() -> Mapping[str, str]:
+    """The environment to run OpenFOAM in: a sourced distribution as it is, else Debian's package found by dpkg."""
+    found = {**os.environ, **OPEN_MPI}
+    if os.environ.get("WM_PROJECT_DIR"):
+        return found
+    place = _packaged()
+    return {**found, "WM_PROJECT_DIR": str(place)} if place else found
+
+
+@cache
+def availability() -> Availability:
+    """Whether OpenFOAM runs here: its version, or what is missing and what to do."""
+    missing = [program for program in PROGRAMS if shutil.which(program) is None]
+    if missing:
+        return Availability(available=False, detail=f"no {' or '.join(missing)} on the PATH; {REMEDY}")
+    try:
+        answer = subprocess.run(
+            ["simpleFoam", "-help"], env=environment(), capture_output=True, text=True, timeout=60, check=False
+        )
+    except (OSError, subprocess.SubprocessError) as error:
+        return Availability(available=False, detail=f"simpleFoam does not start ({error}); {REMEDY}")
+    if answer.returncode != 0:
+        return Availability(
+            available=False,
+            detail="simpleFoam does not start; set WM_PROJECT_DIR to OpenFOAM's share directory, or " + REMEDY,
+        )
+    found = re.search(r"OpenFOAM-\W*v?(\w+)", answer.stdout)
+    return Availability(available=True, detail=f"OpenFOAM v{found[1]}" if found else "OpenFOAM, version unknown")
+
+
+def _packaged() -> Path | None:
+    try:
+        listing = subprocess.run(
+            ["dpkg", "-L", "openfoam"], capture_output=True, text=True, timeout=60, check=True
+        ).stdout
+    except (OSError, subprocess.SubprocessError):
+        return None
+    for line in listing.splitlines():
+        if line.endswith("/etc/controlDict") and "templates" not in line:
+            return Path(line).parent.parent
+    return None

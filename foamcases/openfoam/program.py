@@ -1,0 +1,110 @@
+"""One program of OpenFOAM run to its end in a case: its log, its own CPU time, and nothing left running."""
+
+import os
+import re
+import signal
+import subprocess
+import threading
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from roughfilm.contact.foundation.child_processes import leash
+from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
+from roughfilm.foamcases.openfoam.installation import environment
+
+POLL_S = 0.02
+GRACE_S = 5.0
+"""How long a program that was told to stop may take; mpirun ends its processes in that time."""
+LOG_TAIL = 12
+TRACE = re.compile(r"#\d+ ")
+"""A line of the trace that OpenFOAM prints of itself when a number is beyond bounds."""
+
+Watch = Callable[[], bool]
+"""Called again and again while a program runs; True stops it."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ended:
+    """How a program ended: its exit code (minus the signal that ended it), its log, and the CPU seconds of it alone."""
+
+    code: int
+    log: str
+    cpu_s: float
+
+
+def execute(directory: Path, command: Sequence[str], log_name: str, watch: Watch = lambda: False) -> Ended:
+    """Run a command in a directory with its output in a log there; it ends with this process, however that ends."""
+    log = directory / log_name
+    process = None
+    try:
+        with log.open("wb") as output, uninterrupted():
+            process = subprocess.Popen(
+                [*leash(), *command],
+                cwd=directory,
+                env=environment(),
+                stdin=subprocess.DEVNULL,
+                stdout=output,
+                stderr=output,
+            )
+        while True:
+            ended, status, used = os.wait4(process.pid, os.WNOHANG)
+            if ended:
+                break
+            if watch():
+                process.terminate()
+            time.sleep(POLL_S)
+    except BaseException:
+        if process is not None:
+            _stop(process)
+        raise
+    process.returncode = os.waitstatus_to_exitcode(status)
+    text = log.read_text(encoding="utf-8", errors="replace")
+    return Ended(code=process.returncode, log=text, cpu_s=used.ru_utime + used.ru_stime)
+
+
+@contextmanager
+def uninterrupted() -> Iterator[None]:
+    """Let signals to stop wait: one that came while a program is being started would leave it running, in no hand."""
+    if threading.current_thread() is not threading.main_thread():
+        yield  # signals are the main thread's
+        return
+    came: list[int] = []
+    before = {number: signal.signal(number, lambda n, _: came.append(n)) for number in (signal.SIGTERM, signal.SIGINT)}
+    try:
+        yield
+    finally:
+        for stop, handler in before.items():
+            signal.signal(stop, signal.SIG_DFL if handler is None else handler)
+        for number in came:
+            signal.raise_signal(number)
+
+
+def succeed(directory: Path, command: Sequence[str], log_name: str) -> Ended:
+    """Run a command that must end well; ConvergenceError if it stops in error."""
+    ended = execute(directory, command, log_name)
+    if ended.code != 0:
+        raise failure(f"{command[0]} stopped with code {ended.code}; look into the log below", ended.log)
+    return ended
+
+
+def failure(
+    reason: str, log: str, *, outcome: Outcome = Outcome.FAILED, iterations: int | None = None
+) -> ConvergenceError:
+    """The error for a run of this outcome, with the last lines of its log."""
+    tail = [line for line in log.splitlines() if line.strip() and not TRACE.match(line)][-LOG_TAIL:]
+    error = ConvergenceError(f"OpenFOAM: {reason}", outcome=outcome, iterations=iterations)
+    if tail:
+        error.add_note("\n".join(tail))
+    return error
+
+
+def _stop(process: "subprocess.Popen[bytes]") -> None:
+    process.terminate()
+    try:
+        process.wait(GRACE_S)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()

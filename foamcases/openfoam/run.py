@@ -1,0 +1,131 @@
+"""One run of a case, believed only after it was checked."""
+
+import math
+import shutil
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from foamlib import FoamFile
+
+from roughfilm.contact.foundation.errors import Outcome, UnavailableError
+from roughfilm.foamcases.openfoam.installation import availability
+from roughfilm.foamcases.openfoam.iterate import Asked, Settled, Try, iterate
+from roughfilm.foamcases.openfoam.program import Ended, failure, succeed
+from roughfilm.foamcases.openfoam.residuals import Judged, Residuals
+from roughfilm.foamcases.pocket.case import Card, read_card
+from roughfilm.rom.ladder.model import Progress, silent
+
+REMEDIES = {
+    Outcome.DIVERGED: "lower the Reynolds number or change the resolution",
+    Outcome.UNSTEADY: "lower the Reynolds number, change the resolution or take --scheme upwind",
+    Outcome.STALLED: "loosen --tolerance, or take a model without slope where the wall is nearly flat",
+    Outcome.UNFINISHED: "loosen --tolerance or change the resolution",
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Run:
+    """What a successful run says of itself.
+
+    ``residual`` is the largest initial residual of velocity and pressure that a new process finds in the fields on
+    disk; ``warnings`` are the mesh check's remarks; the last of the ``tries`` converged.
+    """
+
+    residual: float
+    cpu_s: float
+    wall_s: float
+    version: str
+    tries: tuple[Try, ...]
+    warnings: tuple[str, ...]
+
+
+def run_case(directory: Path, *, progress: Progress = silent) -> Run:
+    """Check the mesh, run simpleFoam as :func:`foamcases.openfoam.iterate.iterate` does, and verify the fields it left.
+
+    Raises
+    ------
+    UnavailableError
+        If OpenFOAM is not here, or mpirun where the case asks for several processes.
+    ConvergenceError
+        If the mesh check fails, simpleFoam stops in error or without convergence, or the fields on disk do not
+        satisfy the equations; with its outcome and the last lines of the log.
+    """
+    version = ready(read_card(directory, Card).processes)
+    wall = time.perf_counter()
+    mesh = check_mesh(directory)
+    checked = converge(directory, read_card(directory, Card), Judged(), progress)
+    return Run(
+        residual=checked.residual,
+        cpu_s=mesh.cpu_s + checked.cpu_s,
+        wall_s=time.perf_counter() - wall,
+        version=version,
+        tries=checked.tries,
+        warnings=remarks(mesh),
+    )
+
+
+def ready(processes: int) -> str:
+    """The version of OpenFOAM that is here; UnavailableError if none is, or no mpirun for several processes."""
+    found = availability()
+    if not found.available:
+        raise UnavailableError(found.detail)
+    if processes > 1 and shutil.which("mpirun") is None:
+        raise UnavailableError("no mpirun on the PATH; leave --processes out, or: sudo apt-get install openmpi-bin")
+    return found.detail
+
+
+def check_mesh(
+    directory: Path, *, tolerated: tuple[str, ...] = (), remedy: str = "change the resolution or the shape of the walls"
+) -> Ended:
+    """Run checkMesh; ConvergenceError if it finds faults other than those whose words are tolerated."""
+    mesh = succeed(directory, ["checkMesh"], "log.checkMesh")
+    faults = [line for line in mesh.log.splitlines() if line.lstrip().startswith("***")]
+    borne = bool(faults) and all(any(words in fault for words in tolerated) for fault in faults)
+    if "Mesh OK" not in mesh.log and not borne:
+        raise failure(f"the mesh check found faults; {remedy}", mesh.log)
+    return mesh
+
+
+def remarks(mesh: Ended) -> tuple[str, ...]:
+    """What the mesh check says that is no fault."""
+    return tuple(line.strip(" *") for line in mesh.log.splitlines() if line.strip().startswith("*"))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Checked:
+    """A converged flow: its residual in the fields on disk as a new process finds it, and how it came about."""
+
+    residual: float
+    cpu_s: float
+    tries: tuple[Try, ...]
+
+
+def converge(
+    directory: Path, asked: Asked, judged: Judged, progress: Progress, settled: Settled | None = None
+) -> Checked:
+    """Iterate a flow and verify the fields it left; ConvergenceError as :func:`run_case` raises it."""
+    tries = iterate(directory, asked, judged, progress, settled)
+    last = tries[-1]
+    if last.outcome is not Outcome.CONVERGED:
+        told = "; ".join([*map(str, tries), REMEDIES[last.outcome]])
+        raise failure(told, last.log, outcome=last.outcome, iterations=last.iterations)
+    cpu = sum(one.cpu_s for one in tries)
+    if asked.processes > 1:
+        cpu += succeed(directory, ["reconstructPar", "-latestTime"], "log.reconstructPar").cpu_s
+
+    control = FoamFile(directory / "system" / "controlDict")
+    end_time = control["endTime"]
+    control["endTime"] = last.iterations + 1
+    verified = succeed(directory, ["simpleFoam"], "log.verify")
+    control["endTime"] = end_time
+    found_residuals = Residuals(directory / "log.verify", judged)
+    found_residuals.read()
+    residual = max(found_residuals.greatest, default=math.inf)
+    allowed = judged.slack * asked.tolerance
+    if not residual <= 2 * allowed:
+        raise failure(
+            f"the fields on disk leave a residual of {residual:.1e}, not {allowed:.0e}; run again",
+            verified.log,
+        )
+    return Checked(residual=residual, cpu_s=cpu + verified.cpu_s, tries=tries)

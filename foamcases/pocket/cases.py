@@ -1,0 +1,85 @@
+"""A pocket scene by OpenFOAM: what its cases cost, and their result."""
+
+from pathlib import Path
+
+from roughfilm.foamcases.openfoam.dictionaries import VELOCITY_RELAXATION
+from roughfilm.foamcases.openfoam.model import Cases
+from roughfilm.foamcases.openfoam.run import Run, run_case
+from roughfilm.foamcases.pocket.case import RESOLUTION, Card, read_card, write_case
+from roughfilm.foamcases.pocket.fields import read_channel
+from roughfilm.rom.ladder.model import Effect
+from roughfilm.rom.ladder.provenance import provenance
+from roughfilm.rom.ladder.result import Field, Numerics, Result
+from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
+from roughfilm.rom.pocket.validity import cautions
+
+SOURCES = ("10.1115/1.1828067", "10.1063/1.168744", "10.1080/01495728408961817")
+RESOLUTIONS = (30, 60, 120, 240)
+
+
+def cost(_scene: Pocket, resolution: int) -> float:
+    """CPU seconds of one run, measured over 60 to 480 columns: start-up, then cells times iterations."""
+    return float(0.3 + 2.4 * (resolution / 240) ** 2.4)
+
+
+def read(scene: Pocket, directory: Path, run: Run, *, model: str, keeps: frozenset[Effect]) -> Result:
+    """The result of a case that was run; see :func:`roughfilm.foamcases.pocket.fields.read_channel` for the errors."""
+    card, channel = read_card(directory, Card), read_channel(directory)
+    film, pascal = scene.geometry.film, scene.pressure_unit
+    lowest, highest = channel.pressure_range()
+    return Result(
+        model=model,
+        quantities=pocket_quantities(
+            scene,
+            load=channel.mean(channel.wall_pressure),
+            friction=channel.mean(channel.wall_shear),
+            pressure_max=highest,
+            pressure_min=lowest,
+            backflow=channel.back_flow(),
+        ),
+        fields={
+            "position": Field(values=channel.position * film, unit="m"),
+            "film_thickness": Field(values=channel.film_thickness * film, unit="m"),
+            "pressure": Field(values=channel.wall_pressure * pascal, unit="Pa"),
+            "shear_stress": Field(values=channel.wall_shear * pascal, unit="Pa"),
+            "vertices": Field(values=channel.vertices * film, unit="m"),
+            "cell_velocity": Field(values=channel.velocity * scene.speed, unit="m/s"),
+            "cell_pressure": Field(values=channel.pressure * pascal, unit="Pa"),
+        },
+        numerics=Numerics(
+            residual=run.residual,
+            iterations=run.tries[-1].iterations,
+            cpu_s=run.cpu_s,
+            wall_s=run.wall_s,
+            degrees_of_freedom=3 * card.columns * card.layers,
+            resolution=card.resolution,
+            tolerance=card.tolerance,
+            scheme=card.scheme,
+        ),
+        provenance=provenance(
+            scene,
+            keeps=tuple(keeps),
+            sources=SOURCES,
+            openfoam=run.version,
+            velocity_relaxation=VELOCITY_RELAXATION,
+            reynolds_number_run=card.reynolds_number,
+            processes=card.processes,
+            tries=[{"recipe": t.recipe, "outcome": str(t.outcome), "iterations": t.iterations} for t in run.tries],
+            warnings=[*cautions(scene), *run.warnings],
+        ),
+    )
+
+
+CASES = Cases(
+    kind="pocket",
+    sources=SOURCES,
+    resolution=RESOLUTION,
+    resolutions=RESOLUTIONS,
+    resolution_meaning="mesh columns along the film, with a fifth as many layers across",
+    residual_meaning="largest initial residual of velocity and pressure that a new process finds in the fields on disk",
+    cost=cost,
+    write=write_case,
+    write_to_run=write_case,
+    run=run_case,
+    read=read,
+)

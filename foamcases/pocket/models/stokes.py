@@ -1,0 +1,21 @@
+"""The Stokes equations in OpenFOAM: all of the shape, no inertia."""
+
+from roughfilm.foamcases.openfoam.model import CREEPING, openfoam_model
+from roughfilm.foamcases.pocket.cases import CASES
+from roughfilm.rom.ladder.model import Applicability, Effect
+from roughfilm.rom.pocket.scene import Pocket
+
+
+def applies(scene: Pocket) -> Applicability:
+    """Always; says how much inertia it leaves out."""
+    return Applicability(applies=True, reason=f"leaves out inertia (Re Ly/w = {scene.reduced_reynolds_number:.3g})")
+
+
+MODEL = openfoam_model(
+    CASES,
+    name="stokes",
+    summary="adds slope: the whole film resolved, inertia negligible",
+    keeps=frozenset({Effect.SLOPE}),
+    applies=applies,
+    reynolds_number=CREEPING,
+)

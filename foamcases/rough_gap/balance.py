@@ -1,0 +1,69 @@
+"""Whether the walls hold what drives the flow: the balance of momentum over a whole period, from the fields alone."""
+
+import numpy as np
+
+from roughfilm.foamcases.openfoam.block_mesh import Mask
+from roughfilm.foamcases.rough_gap.dictionaries import Drive
+from roughfilm.foamcases.rough_gap.fields import GapFlow
+from roughfilm.rom.pocket.gap import Array
+
+
+def held(flow: GapFlow, speed: float) -> Array:
+    """Force per plan area along x and y with which the walls hold the liquid, shape (2,), in ηV/h̄.
+
+    Shear and pressure on both walls and on the edges of contact, as the scheme sees them: the velocity at the centre of
+    mass of the cell at the wall over its distance, and that cell's pressure. In a steady flow it is the mean gradient
+    times the liquid's volume, 12 <h> along it, 0 under a sliding wall, up to an error that falls with the cells.
+
+    Parameters
+    ----------
+    speed : of the upper wall.
+    """
+    columns = flow.columns
+    vertices, kept = columns.vertices, columns.kept
+    steps = vertices[1, 1, 0, :2] - vertices[0, 0, 0, :2]
+    total = np.zeros(2)
+    half = np.divide(columns.squared_height, columns.height, out=np.ones(kept.shape), where=kept) / (2 * flow.layers)
+    for layer, sign in ((0, -1.0), (-1, 1.0)):
+        z = vertices[:, :, layer, 2]
+        slope = np.stack([_middle(np.diff(z, axis=axis), axis) / steps[axis] for axis in range(2)], axis=-1)
+        distance = half / np.hypot(1, np.hypot(slope[..., 0], slope[..., 1]))
+        wall = np.array([speed if sign > 0 else 0.0, 0.0])
+        area = np.hypot(1, np.hypot(slope[..., 0], slope[..., 1]))
+        shear = (flow.velocity[:, :, layer, :2] - wall) / distance[..., None] * area[..., None]
+        push = -sign * flow.pressure[:, :, layer, None] * slope
+        total += np.where(kept[..., None], shear + push, 0.0).mean(axis=(0, 1))
+    return total + _at_edges(flow, steps)
+
+
+def imbalance(flow: GapFlow, drive: Drive) -> float:
+    """By how much the walls miss to hold what drives the flow, over 12 η V/h̄, the drag of a smooth gap."""
+    volume = np.where(flow.columns.kept, flow.columns.height, 0.0).mean()
+    return float(np.abs(held(flow, drive.speed) / 12 - np.array(drive.gradient) * volume).max())
+
+
+def _at_edges(flow: GapFlow, steps: Array) -> Array:
+    """The part of the edges of contact."""
+    vertices, kept = flow.columns.vertices, flow.columns.kept
+    height = vertices[:, :, -1, 2] - vertices[:, :, 0, 2]
+    total = np.zeros(2)
+    for axis in range(2):
+        sides = _middle(height, axis)  # of every side of a column normal to the axis
+        for sign, side in ((1, np.take(sides, range(1, sides.shape[axis]), axis=axis)), (-1, _first(sides, axis))):
+            bare: Mask = kept & ~np.roll(kept, -sign, axis=axis)
+            face = np.where(bare, side / flow.layers / steps[axis], 0.0)[..., None]
+            shear = flow.velocity[..., :2] / (steps[axis] / 2)
+            total += (face[..., None] * shear).sum(axis=2).mean(axis=(0, 1))
+            total[axis] += sign * (face * flow.pressure).sum(axis=2).mean()
+    return total
+
+
+def _first(values: Array, axis: int) -> Array:
+    return np.take(values, range(values.shape[axis] - 1), axis=axis)
+
+
+def _middle(values: Array, axis: int) -> Array:
+    """Means of neighbours along the other axis."""
+    other = 1 - axis
+    n = values.shape[other]
+    return (np.take(values, range(1, n), axis=other) + np.take(values, range(n - 1), axis=other)) / 2

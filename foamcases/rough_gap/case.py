@@ -1,0 +1,240 @@
+"""A case directory for a rough gap: one mesh, and a case of simpleFoam for each way to drive the flow."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.foamcases.openfoam.block_mesh import write_block
+from roughfilm.foamcases.openfoam.dictionaries import write_files
+from roughfilm.foamcases.openfoam.memory import check_memory
+from roughfilm.foamcases.openfoam.residuals import Judged
+from roughfilm.foamcases.pocket.case import SHELL, check_tolerance, commands, write_papers, write_whole
+from roughfilm.foamcases.rough_gap.dictionaries import (
+    CONTACT,
+    DRIVES,
+    SIDES,
+    Drive,
+    gap_dictionaries,
+    parts_of,
+    relaxation,
+)
+from roughfilm.foamcases.rough_gap.mesh import Columns, columns_between
+from roughfilm.foamcases.rough_gap.start import Start
+from roughfilm.rom.homogenization.paths import sealed
+from roughfilm.rom.parts.pressed_surface import COARSEST
+from roughfilm.rom.rough_gap.scene import FEWEST_LAYERS, RoughGap
+from roughfilm.rom.rough_gap.walls import Walls
+
+RESOLUTION = 64
+TOLERANCE = 1e-5
+"""By what part of itself a flow may still change; or the residuals at which simpleFoam stops by itself."""
+
+SLACK = 300.0
+"""How much larger residuals may be if the flow has settled: they are of waves as short as the cells."""
+
+LAYERS_PER_COLUMN = 1 / 4
+"""Cells across the gap for each along its longer side, where the scene does not say how many."""
+
+RUN = """\
+first={first}
+(cd $first && checkMesh > log.checkMesh 2>&1) || exit 1
+grep -h "Mesh OK" $first/log.checkMesh
+status=0
+for drive in {drives}; do
+    (cd $drive &&
+    {commands}) || status=1
+    grep -H "SIMPLE solution converged" $drive/log.simpleFoam || echo "$drive: ended after all of its iterations"
+done
+exit $status
+"""
+
+README = """\
+One period of a rough gap, for OpenFOAM's simpleFoam. Run it with ./Allrun
+
+Each of these directories is a case: {drives}. Their mesh is the same, in constant/polyMesh here.
+  along    a mean pressure gradient drives the flow along x (constant/fvOptions)
+  across   the same along y
+  sliding  the upper wall (patch "upper") slides along x
+Lengths are in mean gaps h; velocities in V = h^2 G / (12 eta), with the pressure gradient G = {gradient:.12g} Pa/m,
+which a smooth gap carries on average; nu = 1 / Re. So
+  p [Pa]      = p * {pressure:.12g}      (without the mean gradient's part)
+  U [m/s]     = U * {speed:.12g}
+  x, y, z [m] = x, y, z * {length:.12g}
+"lower" is the wall at rest, "contact" the edges of what the walls' contact closes; all else repeats itself.
+
+The mean velocity of all cells is in postProcessing/flow/0/volFieldValue.dat of each case, by iteration. A flow has
+settled when it no longer changes; residuals need not fall with it, being of waves as short as the cells, and a case may
+well end after all of its iterations. Times the volume of the mesh over the area of its period that mean velocity is
+  along, across   (A11, A21) and (A12, A22) over h^3, times {excess:.12g} by the layers: divide by that
+  sliding         (B1, B2) over h
+"""
+
+
+@dataclass(frozen=True, kw_only=True)
+class GapCard:
+    """What running a case and reading it back needs to know of how it was written.
+
+    ``judged`` are the fields of each drive in which anything moves, its main velocity first; ``relaxation`` is that of
+    its velocity.
+    """
+
+    layers: int
+    cells: int
+    reynolds_number: float
+    resolution: int
+    tolerance: float
+    scheme: str
+    processes: int
+    judged: dict[str, list[str]]
+    relaxation: dict[str, float]
+
+    @property
+    def drives(self) -> dict[str, Judged]:
+        """What each drive is to be judged by."""
+        return {name: Judged(main=fields[0], fields=tuple(fields), slack=SLACK) for name, fields in self.judged.items()}
+
+
+def layers_of(scene: RoughGap, resolution: int) -> int:
+    """Cells across the gap: those that the scene asks for, or a quarter of those along its longer side."""
+    return scene.layers or max(FEWEST_LAYERS, round(resolution * LAYERS_PER_COLUMN))
+
+
+EVEN = 1e-12
+"""Of the mean gap: heights that differ by less are the same but for rounding."""
+
+
+def mesh_of(scene: RoughGap, resolution: int) -> tuple[Walls, Columns]:
+    """The walls with so many nodes along the longer side, and the mesh between them."""
+    walls = scene.walls(resolution)
+    return walls, columns_between(walls, scene.mean_gap, layers_of(scene, resolution))
+
+
+def judged_of(drive: Drive, walls: Walls) -> tuple[str, ...]:
+    """In which fields anything moves, the main velocity first.
+
+    Where the walls do not change along the flow the velocity has one component and there is no pressure; where they do
+    not change across it, none aside.
+    """
+    both = np.stack([walls.lower, walls.upper])
+    changes = [bool((np.ptp(both, axis=axis) > EVEN * walls.mean_gap).any()) for axis in (1, 2)]
+    main = int(drive.gradient[1] != 0)
+    names = "Ux", "Uy"
+    if not changes[main]:
+        return (names[main],)
+    return (names[main], *([names[1 - main]] if changes[1 - main] else []), "Uz", "p")
+
+
+def write_gap_case(
+    scene: RoughGap,
+    directory: Path,
+    *,
+    reynolds_number: float,
+    resolution: int | None,
+    tolerance: float | None,
+    scheme: str,
+    processes: int = 1,
+    run: bool = False,
+) -> None:
+    """Write the cases of a scene at a Reynolds number of the model's choice, one for each drive, in one directory.
+
+    ``resolution`` is the number of columns along the longer side; in a direction that contact seals there is no flow,
+    and no case. ``run`` says that they are to be run on this machine. The directory is there whole or not at all.
+
+    Raises
+    ------
+    InputError
+        For numbers out of range, a directory that is not empty, a mesh that does not fit into this machine's memory, or
+        a gap through which nothing flows; if it is to be run here, that is a directory without cases.
+    """
+    own = max(scene.surface().shape)
+    resolution = min(own, RESOLUTION) if resolution is None else resolution
+    tolerance = TOLERANCE if tolerance is None else tolerance
+    if not min(own, COARSEST) <= resolution <= own:
+        told = f"the surface has {own} points along its longer side, take {min(own, COARSEST)} to {own}"
+        raise InputError(f"--resolution: got {resolution}; {told}")
+    check_tolerance(tolerance)
+    nx, ny = (max(2, round(points * resolution / own)) for points in scene.surface().shape)
+    if not 1 <= processes <= max(1, nx * ny // 2):
+        raise InputError(f"--processes: got {processes}; it must be 1 to {nx * ny // 2}, two columns for each")
+    check_memory((nx, ny), layers_of(scene, resolution), run=run)
+    walls, columns = mesh_of(scene, resolution)
+    layers = layers_of(scene, resolution)
+    sides = walls.spacing[0] / scene.mean_gap, walls.spacing[1] / scene.mean_gap
+    drives = _drives(walls, columns)
+    judged = {drive.name: list(judged_of(drive, walls)) for drive in drives}
+    if not drives and not run:
+        raise InputError(
+            "scene: contact seals the gap both ways on this mesh; "
+            "take more columns, lower the load or take a smaller mesh.smallest_gap"
+        )
+    card = GapCard(
+        layers=layers,
+        cells=int(columns.kept.sum()) * layers,
+        reynolds_number=reynolds_number,
+        resolution=resolution,
+        tolerance=tolerance,
+        scheme=scheme,
+        processes=processes,
+        judged=judged,
+        relaxation={name: relaxation(layers, sides, straight=len(fields) == 1) for name, fields in judged.items()},
+    )
+    closed = partial(write_papers, readme="", allrun="", card=card)
+    write_whole(directory, _filled(scene, walls, columns, drives, card) if drives else closed)
+
+
+def _drives(walls: Walls, columns: Columns) -> list[Drive]:
+    """Those that make anything flow."""
+    closed = sealed(columns.kept.astype(float))
+    open_to = {"along": not closed[0], "across": not closed[1], "sliding": walls.slides and not all(closed)}
+    return [drive for drive in DRIVES if open_to[drive.name]]
+
+
+def _filled(
+    scene: RoughGap, walls: Walls, columns: Columns, drives: list[Drive], card: GapCard
+) -> Callable[[Path], None]:
+    """What fills a directory with the cases."""
+    shape = (*columns.kept.shape, card.layers)
+    kept = np.broadcast_to(columns.kept[..., None], shape)
+    chosen = kept.ravel(order="F")
+    patches = SIDES if kept.all() else (*SIDES, CONTACT)
+    speed = scene.nominal_flow / scene.mean_gap
+    names = " ".join(drive.name for drive in drives)
+    readme = README.format(
+        drives=names,
+        gradient=scene.pressure_gradient,
+        pressure=scene.pressure_gradient * scene.mean_gap / 12 * card.reynolds_number,
+        speed=speed,
+        length=scene.mean_gap,
+        excess=1 + 2 / card.layers**2,
+    )
+    allrun = SHELL + RUN.format(first=drives[0].name, drives=names, commands=commands(card.processes))
+
+    def fill(place: Path) -> None:
+        write_block(columns.vertices, SIDES, place, kept=kept, cut=CONTACT)
+        start = Start(walls, scene.mean_gap, columns)
+        for drive in drives:
+            velocity, pressure = start.fields(drive)
+            case = place / drive.name
+            write_files(
+                case,
+                gap_dictionaries(
+                    drive,
+                    reynolds_number=card.reynolds_number,
+                    tolerance=card.tolerance,
+                    scheme=card.scheme,
+                    parts=parts_of(card.processes, walls.size),
+                    relaxation=card.relaxation[drive.name],
+                    moving=card.drives[drive.name].fields,
+                    velocity=velocity.reshape(-1, 3, order="F")[chosen],
+                    pressure=pressure.reshape(-1, order="F")[chosen] / card.reynolds_number,
+                    patches=patches,
+                ),
+            )
+            (case / "constant" / "polyMesh").symlink_to(Path("..") / ".." / "constant" / "polyMesh")
+        write_papers(place, readme=readme, allrun=allrun, card=card)
+
+    return fill

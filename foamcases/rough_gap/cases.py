@@ -1,0 +1,202 @@
+"""A rough gap by OpenFOAM: what its cases cost, and their result."""
+
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from roughfilm.contact.foundation.units import Quantity
+from roughfilm.foamcases.openfoam.model import Cases
+from roughfilm.foamcases.pocket.case import read_card
+from roughfilm.foamcases.rough_gap.balance import imbalance
+from roughfilm.foamcases.rough_gap.case import GapCard, layers_of, mesh_of, write_gap_case
+from roughfilm.foamcases.rough_gap.dictionaries import DRIVES, SLIDING_SPEED
+from roughfilm.foamcases.rough_gap.fields import GapFlow, read_gap_flow
+from roughfilm.foamcases.rough_gap.mesh import Columns
+from roughfilm.foamcases.rough_gap.run import GapRun, run_gap
+from roughfilm.foamcases.rough_gap.uncertainty import error_bars
+from roughfilm.rom.ladder.model import Effect
+from roughfilm.rom.ladder.provenance import provenance
+from roughfilm.rom.ladder.result import Field, Numerics, Result
+from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors
+from roughfilm.rom.rough_gap.quantities import coefficients, gap_quantities
+from roughfilm.rom.rough_gap.scene import RoughGap
+from roughfilm.rom.rough_gap.validity import cautions
+
+SOURCES = ("10.1063/1.168744", "10.1080/01495728408961817")
+RESOLUTIONS = (16, 32, 64)
+
+UNBALANCED = 0.02
+"""Of the drag of a smooth gap: what the walls do not hold of the drive more than that is told."""
+
+LOST = 0.05
+"""Of the shear across a thin film: what columns do not see more than that is told."""
+
+INERTIAL = 1.0
+"""Re g' above which inertia counts enough for its own error to be told, which one mesh cannot."""
+
+CLOSED_IN = 1e-3
+"""Of the open volume: what is left out more than that is told."""
+
+
+def resolutions(scene: RoughGap) -> tuple[int, ...]:
+    """Those of ``RESOLUTIONS`` for which the surface has points enough, or all that it has."""
+    own = max(scene.surface().shape)
+    return tuple(n for n in RESOLUTIONS if n <= own) or (own,)
+
+
+def cost(scene: RoughGap, resolution: int) -> float:
+    """CPU seconds of all drives, measured over 8 to 128 columns: start-up, then cells times iterations.
+
+    Of the latter there are some four for each layer, up to twice as many between walls as short as the gap is high.
+    """
+    nx, ny = scene.surface().shape
+    layers = layers_of(scene, resolution)
+    cells = resolution**2 * min(nx, ny) / max(nx, ny) * layers
+    return float(2 + 3 * 6e-6 * cells * layers)
+
+
+def factors_of(flows: dict[str, GapFlow], *, slides: bool) -> tuple[RoughGapFactors, dict[str, float]]:
+    """The factors of a gap over a smooth one's from its flows, and B once more from how they pull at the upper wall.
+
+    A uniform layering by N makes the flow of a parabola too large by 2/N² of itself in every column: its velocity is
+    exact but for the same g h²/(8 η N²) in all cells, and the midpoint rule adds a third of that. A is divided by
+    1 + 2/N². Pressure under a sliding wall is too small by the same, so that B stays; of friction d + 3e the part 3e,
+    which is what exceeds <1/h>, is multiplied by it. All three are exact in the limit of small slopes.
+
+    By the reciprocal theorem the flow under a gradient along j pulls the upper wall with h̄ B_j G/2 in Stokes flow. What
+    is sealed lets nothing through, whatever the mean of the cells' velocities is.
+    """
+    still = RoughGapFactors(mean_gap=1.0, pressure=np.zeros((2, 2)), shear=np.full(2, np.nan), friction=np.nan)
+    excess = 0.0
+    pulled = {}
+    for j, drive in enumerate(DRIVES[:2]):
+        if drive.name in flows:
+            flow = flows[drive.name]
+            excess = 2 / flow.layers**2
+            still.pressure[:, j] = flow.flow / (1 + excess)
+            if slides:
+                pulled[f"B{j + 1}"] = -flow.pull(0.0) / 6
+    if "sliding" not in flows:
+        return still, pulled
+    flow = flows["sliding"]
+    columns = flow.columns
+    friction = flow.pull(SLIDING_SPEED) / SLIDING_SPEED
+    couette = _shear(columns)
+    passes = [drive.name in flows for drive in DRIVES[:2]]
+    return replace(
+        still,
+        shear=np.where(passes, flow.flow / (SLIDING_SPEED / 2), 0.0),
+        friction=friction + 2 / flow.layers**2 * (friction - couette),
+    ), pulled
+
+
+def lost_shear(scene: RoughGap, columns: Columns) -> float:
+    """The part of <1/h> on the surface's own points that the columns of a mesh do not see: shear of thin films.
+
+    Friction is at least that shear, whatever else the liquid does.
+    """
+    gap = scene.walls(max(scene.surface().shape)).gap / scene.mean_gap
+    whole = float(np.divide(1.0, gap, out=np.zeros(gap.shape), where=gap > 0).mean())
+    return max(0.0, 1 - _shear(columns) / whole)
+
+
+def _shear(columns: Columns) -> float:
+    """<1/h>, h in mean gaps, over the columns that are open."""
+    return float(np.divide(1.0, columns.height, out=np.zeros(columns.kept.shape), where=columns.kept).mean())
+
+
+def read(scene: RoughGap, directory: Path, run: GapRun, *, model: str, keeps: frozenset[Effect]) -> Result:
+    """The result of a case that was run; see :func:`foamcases.rough_gap.fields.read_gap_flow` for the errors."""
+    card = read_card(directory, GapCard)
+    walls, columns = mesh_of(scene, card.resolution)
+    flows = {name: read_gap_flow(directory / name, card, columns) for name in card.judged}
+    found, pulled = factors_of(flows, slides=walls.slides)
+    shape = (*columns.kept.shape, card.layers)
+    along = flows.get("along") or GapFlow(columns=columns, velocity=np.zeros((*shape, 3)), pressure=np.zeros(shape))
+    speed = scene.nominal_flow / scene.mean_gap
+    bars, thin = error_bars(found, scene, walls, card.layers)
+    reynolds = {
+        f"A{i}{i}_over_reynolds": Quantity(value=float(found.pressure[i - 1, i - 1] / of), unit="1")
+        for i in (1, 2)
+        if (of := thin.pressure[i - 1, i - 1]) > 0
+    }
+    warnings = [*cautions(scene, walls), *run.warnings]
+    missed = {drive.name: imbalance(flows[drive.name], drive) for drive in DRIVES if drive.name in flows}
+    if max(missed.values(), default=0.0) > UNBALANCED:
+        warnings.append(
+            f"the walls do not hold {max(missed.values()):.1%} of what drives the flow; the mesh is too coarse or skew"
+        )
+    blind = card.reynolds_number * scene.rms_slope > INERTIAL
+    if blind:
+        warnings.append("no error bars: what one mesh does to inertia is not known, refine it to see")
+    if columns.closed_in > CLOSED_IN:
+        warnings.append(f"contact closes in {columns.closed_in:.1%} of the open volume, which is left out")
+    if walls.slides and (lost := lost_shear(scene, columns)) > LOST:
+        warnings.append(
+            f"the walls come nearer between these columns than at them: {lost:.0%} of the shear across a thin film is "
+            "not seen, and friction is too small by as much; take more columns"
+        )
+    for name, checked in run.flows.items():
+        warnings += [f"{name}: {again}" for again in map(str, checked.tries[1:])]
+    return Result(
+        model=model,
+        quantities=gap_quantities(scene, walls, found) | reynolds,
+        fields={
+            "gap": Field(values=walls.gap, unit="m"),
+            "flow": Field(
+                values=np.hypot(*np.moveaxis(along.flow_per_width, -1, 0)) * scene.nominal_flow, unit="m^2/s"
+            ),
+            "vertices": Field(values=columns.vertices * scene.mean_gap, unit="m"),
+            "kept": Field(values=columns.kept.astype(float), unit="1"),
+            "cell_velocity": Field(values=along.velocity * speed, unit="m/s"),
+            "cell_pressure": Field(values=along.pressure * scene.pressure_gradient * scene.mean_gap / 12, unit="Pa"),
+        },
+        numerics=Numerics(
+            residual=max(run.unsettled.values(), default=0.0),
+            iterations=sum(flow.tries[-1].iterations for flow in run.flows.values()),
+            cpu_s=run.cpu_s,
+            wall_s=run.wall_s,
+            degrees_of_freedom=4 * card.cells,
+            resolution=card.resolution,
+            tolerance=card.tolerance,
+            scheme=card.scheme,
+        ),
+        provenance=provenance(
+            scene,
+            keeps=tuple(keeps),
+            sources=SOURCES,
+            openfoam=run.version,
+            velocity_relaxation=card.relaxation,
+            reynolds_number_run=card.reynolds_number,
+            processes=card.processes,
+            layers=card.layers,
+            closed_in=columns.closed_in,
+            reciprocal=pulled,
+            equations={name: flow.residual for name, flow in run.flows.items()},
+            imbalance=missed,
+            runs={
+                name: [{"recipe": t.recipe, "outcome": str(t.outcome), "iterations": t.iterations} for t in flow.tries]
+                for name, flow in run.flows.items()
+            },
+            warnings=warnings,
+            **({} if blind else {"uncertainty": coefficients(bars)}),
+        ),
+    )
+
+
+CASES = Cases(
+    kind="rough_gap",
+    sources=SOURCES,
+    resolution=None,
+    resolutions=(),
+    own_resolutions=resolutions,
+    resolution_meaning="mesh columns along the longer side, by default with a quarter as many layers across",
+    residual_meaning="largest part of a flow by which iterating on would change it, by what a new process does to it",
+    cost=cost,
+    write=write_gap_case,
+    write_to_run=partial(write_gap_case, run=True),
+    run=run_gap,
+    read=read,
+)

@@ -1,0 +1,86 @@
+"""The flow through a rough gap, read back from its cases as arrays over columns and layers, and what it adds up to."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from foamlib import FoamCase
+
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.foamcases.rough_gap.case import GapCard
+from roughfilm.foamcases.rough_gap.mesh import Columns
+from roughfilm.rom.pocket.gap import Array
+
+
+@dataclass(frozen=True, kw_only=True)
+class GapFlow:
+    """A flow through the mesh of a gap; 0 in columns that are not there.
+
+    In units of the mean gap h̄, of V = h̄²G/(12η) and of ηV/h̄.
+
+    Attributes
+    ----------
+    columns : the mesh.
+    velocity : shape (nx, ny, layers, 3).
+    pressure : shape (nx, ny, layers), of mean 0, without the part of the mean gradient.
+    """
+
+    columns: Columns
+    velocity: Array
+    pressure: Array
+
+    @property
+    def layers(self) -> int:
+        """Cells across the gap."""
+        return int(self.velocity.shape[2])
+
+    @property
+    def flow_per_width(self) -> Array:
+        """∫u dz over the gap, mean over each column, shape (nx, ny, 2)."""
+        return np.asarray(self.velocity[..., :2].mean(axis=2) * self.columns.height[..., None])
+
+    @property
+    def flow(self) -> Array:
+        """Its mean over the period, contact included, shape (2,)."""
+        return np.asarray(self.flow_per_width.mean(axis=(0, 1)))
+
+    def pull(self, speed: float) -> float:
+        """Mean over the period of η ∂u/∂z on a flat upper wall that slides along x, as the scheme itself sees it.
+
+        A one-sided difference between the wall and the centre of mass of the highest cells: against the wall's motion.
+        """
+        kept = self.columns.kept
+        distance = np.divide(self.columns.squared_height, self.columns.height, out=np.ones(kept.shape), where=kept)
+        shear = (speed - self.velocity[:, :, -1, 0]) / (distance / (2 * self.layers))
+        return float(np.where(kept, shear, 0.0).mean())
+
+
+def read_gap_flow(case: Path, card: GapCard, columns: Columns) -> GapFlow:
+    """Read the last fields of one drive of a case on the mesh of its scene.
+
+    Raises
+    ------
+    InputError
+        If the case has another mesh.
+    ConvergenceError
+        If it holds no finished fields, or fields that are not finite.
+    """
+    shape = (*columns.kept.shape, card.layers)
+    kept = np.broadcast_to(columns.kept[..., None], shape).ravel(order="F")
+    if int(kept.sum()) != card.cells:
+        raise InputError(f"{case}: has {card.cells} cells, and the scene's mesh {int(kept.sum())}; generate it again")
+    velocity, pressure = np.zeros((kept.size, 3)), np.zeros(kept.size)
+    try:
+        last = FoamCase(case)[-1]
+        velocity[kept] = np.asarray(last["U"].internal_field, dtype=float)
+        pressure[kept] = np.asarray(last["p"].internal_field, dtype=float) * card.reynolds_number
+    except (OSError, LookupError, ValueError) as error:
+        raise ConvergenceError(f"{case}: holds no finished fields; run the case first") from error
+    if not (np.isfinite(velocity).all() and np.isfinite(pressure).all()):
+        raise ConvergenceError(f"{case}: the fields are not finite; lower the Reynolds number or refine the mesh")
+    pressure[kept] -= pressure[kept].mean()
+    return GapFlow(
+        columns=columns,
+        velocity=velocity.reshape(*shape, 3, order="F"),
+        pressure=pressure.reshape(shape, order="F"),
+    )

@@ -1,0 +1,23 @@
+"""The steady Navier-Stokes equations between rough walls in OpenFOAM: slope and inertia in full."""
+
+from roughfilm.foamcases.openfoam.model import openfoam_model
+from roughfilm.foamcases.rough_gap.cases import CASES
+from roughfilm.rom.ladder.model import Applicability, Effect
+from roughfilm.rom.rough_gap.scene import RoughGap
+
+
+def applies(scene: RoughGap) -> Applicability:
+    """Always; says that the flow is taken as laminar and steady."""
+    return Applicability(
+        applies=True, reason=f"leaves nothing out of a steady laminar flow (Re = {scene.reynolds_number:.3g})"
+    )
+
+
+MODEL = openfoam_model(
+    CASES,
+    name="navier_stokes",
+    summary="adds slope and inertia in full: the best rung",
+    keeps=frozenset({Effect.ROUGHNESS, Effect.SLOPE, Effect.INERTIA}),
+    applies=applies,
+    schemes=("linear_upwind", "upwind"),
+)

@@ -1,0 +1,1 @@
+"""Meshes of rough gaps by snappyHexMesh."""

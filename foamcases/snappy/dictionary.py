@@ -1,0 +1,71 @@
+"""What snappyHexMesh is told: numbers and names from this file alone, as in every dictionary."""
+
+from roughfilm.foamcases.openfoam.dictionaries import Dictionary
+from roughfilm.foamcases.rough_gap.dictionaries import CONTACT
+
+SURFACE = "solid.stl"
+"""Of the solid, in ``constant/triSurface``."""
+
+MOST_CELLS = 20_000_000
+
+SKEWEST = 3.9
+"""Skewness that a face may get by snapping; the mesh check takes 4."""
+
+
+def snappy_dictionary(inside: tuple[float, float, float], level: int) -> Dictionary:
+    """``system/snappyHexMeshDict``: cut away what the liquid at ``inside`` does not reach, move faces onto the solid.
+
+    Cells at the solid are halved ``level`` times. No layers are added. The faces of the solid become the patch of what
+    is cut out.
+    """
+    name = CONTACT.name
+    return (
+        "dictionary",
+        {
+            "castellatedMesh": True,
+            "snap": True,
+            "addLayers": False,
+            "mergeTolerance": 1e-6,
+            "geometry": {name: {"type": "triSurfaceMesh", "file": SURFACE}},
+            "castellatedMeshControls": {
+                "maxLocalCells": MOST_CELLS,
+                "maxGlobalCells": MOST_CELLS,
+                "minRefinementCells": 0,
+                "nCellsBetweenLevels": 2,
+                "features": [],
+                "refinementSurfaces": {name: {"level": [level, level], "patchInfo": {"type": "wall"}}},
+                "refinementRegions": {},
+                "resolveFeatureAngle": 30,
+                "locationInMesh": list(inside),
+                "allowFreeStandingZoneFaces": False,
+            },
+            "snapControls": {
+                "nSmoothPatch": 3,
+                "tolerance": 2.0,
+                "nSolveIter": 30,
+                "nRelaxIter": 5,
+                "nFeatureSnapIter": 10,
+                "implicitFeatureSnap": True,
+                "explicitFeatureSnap": False,
+                "multiRegionFeatureSnap": False,
+            },
+            "addLayersControls": {},
+            "meshQualityControls": {
+                "maxNonOrtho": 65,
+                "maxBoundarySkewness": SKEWEST,
+                "maxInternalSkewness": SKEWEST,
+                "maxConcave": 80,
+                "minVol": 1e-13,
+                "minTetQuality": 1e-15,
+                "minArea": -1,
+                "minTwist": 0.02,
+                "minDeterminant": 0.001,
+                "minFaceWeight": 0.05,
+                "minVolRatio": 0.01,
+                "minTriangleTwist": -1,
+                "nSmoothScale": 4,
+                "errorReduction": 0.75,
+                "relaxed": {"maxNonOrtho": 75},
+            },
+        },
+    )

@@ -1,0 +1,117 @@
+"""Solids that snappyHexMesh cuts out of a block, repeated beyond the period; the walls of a gap as such."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughfilm.contact.meshes.mesh import Mesh, in_triangles
+from roughfilm.rom.meshes.walls_mesh import Part, wall_mesh
+from roughfilm.rom.pocket.gap import Array
+from roughfilm.rom.rough_gap.walls import Walls
+
+MARGIN = 0.25
+"""Of a period, by which the solid goes on beyond it."""
+
+ASIDE = (0.37, 0.31, 0.43)
+"""Of a cell, by which the place that tells where the liquid is lies beside the corner of one."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Box:
+    """One period of space, cut into equal cells, before the solid is taken out of it.
+
+    Attributes
+    ----------
+    size : along x and y, which begin at 0.
+    bottom, top : in z.
+    cells : along x, y and z.
+    """
+
+    size: tuple[float, float]
+    bottom: float
+    top: float
+    cells: tuple[int, int, int]
+
+    @property
+    def vertices(self) -> Array:
+        """Corners of the cells, shape (nx + 1, ny + 1, nz + 1, 3)."""
+        ends = (0.0, self.size[0]), (0.0, self.size[1]), (self.bottom, self.top)
+        axes = [np.linspace(*end, count + 1) for end, count in zip(ends, self.cells, strict=True)]
+        return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
+
+    @property
+    def steps(self) -> Array:
+        """Sides of a cell."""
+        return np.asarray([*self.size, self.top - self.bottom]) / self.cells
+
+
+@dataclass(frozen=True, kw_only=True)
+class Carved:
+    """A box, the triangles of the solid in it, and a place in the liquid; all in one unit of length."""
+
+    box: Box
+    solid: Mesh
+    inside: tuple[float, float, float]
+
+
+def repeated(solid: Mesh, size: tuple[float, float]) -> Mesh:
+    """Triangles of one period, and of the next on all sides as far as they lie within ``MARGIN`` of the period."""
+    surface = in_triangles(solid)
+    shifts = [np.array([i * size[0], j * size[1], 0.0]) for i in (-1, 0, 1) for j in (-1, 0, 1)]
+    points = np.concatenate([surface.points + shift for shift in shifts])
+    count = len(surface.points)
+    cells = np.concatenate([surface.cells + n * count for n in range(len(shifts))])
+    whole = Mesh(points=points, sort=surface.sort, cells=cells)
+    near = np.ones(len(points), dtype=bool)
+    for axis, length in enumerate(size):
+        near &= (points[:, axis] >= -MARGIN * length) & (points[:, axis] <= (1 + MARGIN) * length)
+    return whole.kept(np.asarray(near[cells].any(axis=1)))
+
+
+def carved(walls: Walls, unit: float, layers: int) -> Carved:
+    """The gap between walls, in cells of 1/``layers`` of the unit on each side, about.
+
+    What is narrower than about half a cell is cut away with the solid; the shape of the rest is met to second order.
+    Where the walls touch, the lower one goes on upward by two cells, so that it cuts the block cleanly. A flat upper
+    wall is the top of the box.
+
+    Parameters
+    ----------
+    unit : of length, m.
+    layers : cells for each unit of length.
+    """
+    length, width = (side / unit for side in walls.size)
+    step = 1 / layers
+    lowest, highest = float(walls.lower.min()) / unit, float(walls.upper.max()) / unit
+    top = highest if walls.slides else highest + 2 * step
+    down = int(np.ceil((top - lowest) / step)) + 2
+    box = Box(
+        size=(length, width),
+        bottom=top - down * step,
+        top=top,
+        cells=(max(2, round(length / step)), max(2, round(width / step)), down),
+    )
+    raised = Walls(
+        lower=np.where(walls.gap > 0, walls.lower, walls.upper + 2 * step * unit),
+        upper=walls.upper,
+        spacing=walls.spacing,
+    )
+    parts = (Part.LOWER,) if walls.slides else (Part.LOWER, Part.UPPER)
+    sheets = [repeated(wall_mesh(raised, part), walls.size) for part in parts]
+    i, j = np.unravel_index(walls.gap.argmax(), walls.gap.shape)
+    middle = (walls.lower[i, j] + walls.upper[i, j]) / 2
+    x, y, z = np.array([i * walls.spacing[0], j * walls.spacing[1], middle]) / unit + ASIDE * box.steps
+    return Carved(box=box, solid=_scaled(_together(sheets), 1 / unit), inside=(x % length, y % width, z))
+
+
+def _together(meshes: list[Mesh]) -> Mesh:
+    starts = np.cumsum([0, *(len(mesh.points) for mesh in meshes)])
+    return Mesh(
+        points=np.concatenate([mesh.points for mesh in meshes]),
+        sort=meshes[0].sort,
+        cells=np.concatenate([mesh.cells + start for mesh, start in zip(meshes, starts[:-1], strict=True)]),
+    )
+
+
+def _scaled(mesh: Mesh, factor: float) -> Mesh:
+    return Mesh(points=mesh.points * factor, sort=mesh.sort, cells=mesh.cells)

@@ -1,0 +1,1 @@
+"""Bearings: pads, journals, washers; cavitation, roughness and asperities."""

@@ -1,0 +1,1 @@
+"""How much each physical effect contributes to a bearing."""

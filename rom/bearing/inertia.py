@@ -1,0 +1,152 @@
+r"""What inertia adds to a film in balance, to first order in the Reynolds number.
+
+Across the film, Y = z/h from the still wall to the sliding one, u = UY + 6a φ and v = 6b φ with φ = Y(1 - Y), as the
+Reynolds equation has them: q = h (U/2 + a, b). The momentum weighted with φ, which removes the unknown first-order
+profile, gives the flow that inertia drives in a film whose pressure it changes by p₁,
+
+    q₁ = -h³/(12η) ∇p₁ - ρ h²/(2η) C,    ∇·q₁ = 0,
+    Cx = ∂x(h (U²/20 + Ua/5 + 9a²/35)) + ∂y(h b (U/10 + 9a/35)) + U h' (U/60 + a/70),
+    Cy = ∂x(h b (U/10 + 9a/35)) + ∂y(9h b²/35) + U h' b/70,    h' = ∂h/∂x,
+
+and weighted with Y what the sliding wall feels of it, h/2 ∂p₁/∂x + ρD with
+
+    D = ∂x(h (U²/4 + 3Ua/5 + 3a²/5)) + ∂y(h b (3U/10 + 3a/5)) - U h' (U/20 + a/10).
+
+On a line this is :func:`rom.pocket.closed_form.inertia_pressure_gradient`. Where the film is torn, and where its ends
+or sides have a pressure, p₁ = 0: the film ends where it did, and what liquid loses or gains as it enters is left out.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_array, csc_array
+from scipy.sparse.linalg import spsolve
+
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.bearing.quantities import carried
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.cavitation.balance import CAVITY, FILM
+from roughfilm.rom.cavitation.solve import Solution
+from roughfilm.rom.pocket.gap import Array
+
+
+@dataclass(frozen=True, kw_only=True)
+class Inertia:
+    """What inertia adds: p₁, Pa, at the nodes, shape (nx, ny); of load and friction, N, and of the flow that enters,
+    m³/s (N/m and m²/s if infinitely wide).
+    """
+
+    pressure: Array
+    load: float
+    friction: float
+    inlet_flow: float
+
+
+def inertia(scene: Bearing, found: Solution) -> Inertia:
+    """First-order inertia of a film in balance, of a lubricant whose density is told.
+
+    With roughness the velocities are those of a smooth film as thick as the mean gap, what p₁ drives that of the rough
+    one, without the slant of a lay.
+
+    Raises
+    ------
+    InputError
+        Without a density, and on rings, whose liquid also turns.
+    """
+    density, shape = scene.lubricant.density, found.problem.shape
+    if density is None:
+        raise InputError("scene.lubricant.density: is missing; inertia cannot be judged without it")
+    if shape.polar or shape.joined[0]:
+        raise InputError("scene.geometry: inertia is not judged on rings, where the liquid also turns")
+    h, problem, grid = found.faces.thickness, found.problem, found.grid
+    viscosity = problem.viscosity / problem.piezoviscosity.fluidity(found.state.pressure, problem.viscosity)[0]
+    speed = problem.speed
+    mobility = problem.mobility(found.state.pressure)[0]
+    east, north = found.network.conductance(mobility)
+    a, b = _excess(found, east, north)
+    through_x = h * (speed**2 / 20 + speed * a / 5 + 9 * a**2 / 35)
+    through_xy = h * b * (speed / 10 + 9 * a / 35)
+    through_y = 9 * h * b**2 / 35
+    wet = found.kind != CAVITY
+    dx, dy = grid.spacing_x[:-1, None], grid.spacing_y[:-1]
+    rise = speed * np.diff(h, axis=0) / dx
+    mean = _means(through_xy, 0)
+    x_force = np.diff(through_x, axis=0) / dx + _slope(mean, 1, grid.y) + rise * _means(speed / 60 + a / 70, 0)
+    drive = -density * _means(h**2 / (2 * viscosity), 0) * x_force * grid.share_y * _both(wet, 0)
+    drive_y = np.zeros((h.shape[0], h.shape[1] - 1))
+    if h.shape[1] > 1:
+        climb = speed * _slope(h, 0, grid.x)
+        y_force = _slope(_means(through_xy, 1), 0, grid.x) + np.diff(through_y, axis=1) / dy
+        y_force += _means(climb * b / 70, 1)
+        drive_y = -density * _means(h**2 / (2 * viscosity), 1) * y_force * grid.share_x[:, None] * _both(wet, 1)
+    pressure = _balanced(found.kind == FILM, east[:-1], north[:, :-1], drive, drive_y)
+
+    flow = drive - east[:-1] * np.diff(pressure, axis=0)
+    feels = np.diff(h * (speed**2 / 4 + 3 * speed * a / 5 + 3 * a**2 / 5), axis=0) / dx
+    feels += _slope(_means(h * b * (3 * speed / 10 + 3 * a / 5), 0), 1, grid.y)
+    feels -= rise * _means(speed / 20 + a / 10, 0)
+    felt = _means(h, 0) / 2 * np.diff(pressure, axis=0) / dx + density * feels * _both(wet, 0)
+    x = -grid.x if found.turned else grid.x
+    force = grid.areas * (found.state.pressure + scene.lubricant.cavitation_pressure)
+    return Inertia(
+        pressure=pressure,
+        load=carried(scene, x, force + grid.areas * pressure) - carried(scene, x, force),
+        friction=float((felt * dx * grid.share_y).sum()),
+        inlet_flow=float(flow[0].sum()),
+    )
+
+
+def _excess(found: Solution, east: Array, north: Array) -> tuple[Array, Array]:
+    """The a and b of the nodes, m/s: flow over thickness, as the faces beside them let through, less that of shear."""
+    grid, h, pressure = found.grid, found.faces.thickness, found.state.pressure
+    along = (found.network.couette[:-1] - east[:-1] * np.diff(pressure, axis=0)) / grid.share_y
+    a = np.vstack([along[:1], _means(along, 0), along[-1:]]) / h - found.problem.speed / 2
+    if h.shape[1] == 1:
+        return a, np.zeros_like(a)
+    across = -north[:, :-1] * np.diff(pressure, axis=1) / grid.share_x[:, None]
+    ends = [0 * across[:, :1]] * 2 if found.problem.ends.sides is None else [across[:, :1], across[:, -1:]]
+    return a, np.hstack([ends[0], _means(across, 1), ends[1]]) / h
+
+
+def _balanced(free: NDArray[np.bool_], east: Array, north: Array, drive_x: Array, drive_y: Array) -> Array:
+    """The pressure of free nodes, zero elsewhere, that drives as much into each of them as the drives take out."""
+    number = np.full(free.shape, -1)
+    number[free] = np.arange(free.sum())
+    into = np.zeros(free.shape)
+    into[:-1] -= drive_x
+    into[1:] += drive_x
+    into[:, :-1] -= drive_y
+    into[:, 1:] += drive_y
+    rows, columns, values = [], [], []
+    pairs = ((number[:-1], number[1:], east), (number[:, :-1], number[:, 1:], north))
+    for one, other, conductance in pairs:
+        for here, there in ((one, other), (other, one)):
+            known, both = here >= 0, (here >= 0) & (there >= 0)
+            rows += [here[known], here[both]]
+            columns += [here[known], there[both]]
+            values += [conductance[known], -conductance[both]]
+    size = int(free.sum())
+    found = np.zeros(free.shape)
+    if size:
+        entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
+        found[free] = spsolve(csc_array(coo_array(entries, shape=(size, size))), into[free])
+    return found
+
+
+def _slope(values: Array, axis: int, places: Array) -> Array:
+    """The derivative at the nodes, zero where there is one node alone."""
+    if values.shape[axis] == 1:
+        return np.zeros_like(values)
+    return np.asarray(np.gradient(values, places, axis=axis))
+
+
+def _means(values: Array, axis: int) -> Array:
+    """On the faces between the nodes."""
+    moved = np.moveaxis(values, axis, 0)
+    return np.moveaxis((moved[1:] + moved[:-1]) / 2, 0, axis)
+
+
+def _both(values: NDArray[np.bool_], axis: int) -> NDArray[np.bool_]:
+    moved = np.moveaxis(values, axis, 0)
+    return np.moveaxis(moved[1:] & moved[:-1], 0, axis)

@@ -1,0 +1,1 @@
+"""Mixed lubrication: film and asperities share the load."""

@@ -1,0 +1,117 @@
+"""Points of Stribeck curves in HDF5, keyed by what they are computed from, and as a table for spreadsheets."""
+
+import json
+from collections.abc import Sequence
+from dataclasses import fields
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+from roughfilm.contact.foundation.checked_hdf5 import marked, reading_guarded, write_guarded
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.inputs import Inputs
+from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve, StribeckPoint
+
+SCHEMA = 1
+MARK = b"roughfilm stribeck, HDF5 behind 512 bytes, sha256 "
+REMEDY = "remove it or choose another place"
+
+UNITS = {
+    "pressure": "Pa",
+    "speed": "m/s",
+    "separation": "m",
+    "least_gap": "m",
+    "load": "N",
+    "film_load": "N",
+    "contact_load": "N",
+    "friction": "N",
+    "pressure_max": "Pa",
+    "contact_pressure_max": "Pa",
+    "cpu_s": "s",
+}
+"""Of the numbers of a point; all others are pure numbers."""
+
+NUMBERS = tuple(entry.name for entry in fields(StribeckPoint) if entry.name != "uncertainty")
+
+
+def save_points(
+    path: Path, inputs: Inputs, points: Sequence[StribeckPoint], curves: Sequence[StribeckCurve] = ()
+) -> None:
+    """Write points whole or not at all: ``points/`` has a column for each number, by load, then speed.
+
+    ``uncertainty/`` has a column for each number that was estimated, NaN where it was not; ``lift_off/`` a row a load.
+
+    Raises
+    ------
+    InputError
+        If ``path`` cannot be written.
+    """
+    ordered = sorted(points, key=lambda point: (point.pressure, point.speed))
+
+    def fill(file: h5py.File) -> None:
+        file.attrs["schema"] = SCHEMA
+        file.attrs["digest"] = inputs.digest
+        file.attrs["settings"] = json.dumps(inputs.settings, sort_keys=True, allow_nan=False)
+        for name in NUMBERS:
+            _write(file, f"points/{name}", [getattr(point, name) for point in ordered], UNITS.get(name, "1"))
+        for name in sorted({name for point in ordered for name in point.uncertainty}):
+            column = [point.uncertainty.get(name, np.nan) for point in ordered]
+            _write(file, f"uncertainty/{name}", column, UNITS.get(name, "1"))
+        if curves:
+            _write(file, "lift_off/pressure", [curve.pressure for curve in curves], "Pa")
+            _write(file, "lift_off/speed", [curve.lift_off.speed for curve in curves], "m/s")
+            _write(file, "lift_off/uncertainty", [curve.lift_off.uncertainty for curve in curves], "m/s")
+
+    write_guarded(path, MARK, fill)
+
+
+def known_points(path: Path, inputs: Inputs) -> tuple[StribeckPoint, ...]:
+    """The points that a file holds for these inputs; none if there is no such file, or an empty one.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, was damaged or changed, or holds other curves or something else.
+    """
+    try:
+        if path.stat().st_size == 0:
+            return ()
+        if not marked(path, MARK):
+            raise InputError(f"{path}: holds no Stribeck curves; {REMEDY}")
+        with reading_guarded(path, MARK, SCHEMA, REMEDY) as file:
+            if file.attrs["digest"] != inputs.digest:
+                told = inputs.difference(file.attrs["settings"])
+                raise InputError(f"{path}: holds other curves, {told}; {REMEDY}")
+            columns = {name: file[f"points/{name}"][()] for name in NUMBERS}
+            doubts = {name: column[()] for name, column in file.get("uncertainty", {}).items()}
+    except FileNotFoundError:
+        return ()
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read ({error.strerror or error}); choose another place") from error
+    return tuple(
+        StribeckPoint(
+            **{name: float(column[row]) for name, column in columns.items()},
+            uncertainty={name: float(column[row]) for name, column in doubts.items() if not np.isnan(column[row])},
+        )
+        for row in range(len(columns["speed"]))
+    )
+
+
+def write_csv(path: Path, curves: Sequence[StribeckCurve]) -> None:
+    """One row a point, with its units in the first line and the uncertainty of each number that has one."""
+    doubts = sorted({name for curve in curves for point in curve.points for name in point.uncertainty})
+    heads = [f"{name} ({UNITS.get(name, '1')})" for name in NUMBERS]
+    heads += [f"{name} ± ({UNITS.get(name, '1')})" for name in doubts]
+    lines = [", ".join(heads)]
+    for point in (point for curve in curves for point in curve.points):
+        numbers = [repr(float(getattr(point, name))) for name in NUMBERS]
+        numbers += [repr(float(point.uncertainty[name])) if name in point.uncertainty else "" for name in doubts]
+        lines.append(", ".join(numbers))
+    with replacing(path) as scratch:
+        scratch.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def _write(file: h5py.File, name: str, values: Sequence[float], unit: str) -> None:
+    file.create_dataset(name, data=np.array(values, dtype=np.float64)).attrs["unit"] = unit

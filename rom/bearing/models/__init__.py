@@ -1,0 +1,1 @@
+"""The models of a bearing, one a file."""

@@ -1,0 +1,23 @@
+"""The Reynolds equation with cavitation over every wave of the roughness."""
+
+from roughfilm.rom.bearing.film import follows, rough_film, rough_resolutions
+from roughfilm.rom.bearing.solve import bearing_model
+from roughfilm.rom.ladder.model import Effect
+
+MODEL = bearing_model(
+    name="direct",
+    summary="Reynolds equation with mass-conserving cavitation over every wave of the roughness",
+    keeps=frozenset(
+        {
+            Effect.SIDE_FLOW,
+            Effect.CAVITATION,
+            Effect.PRESSURE_DEPENDENCE,
+            Effect.ROUGHNESS,
+            Effect.FINITE_WAVES,
+        }
+    ),
+    applies=follows,
+    film=rough_film,
+    resolutions=rough_resolutions,
+    in_plane=2e-5,
+)

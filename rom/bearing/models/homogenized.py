@@ -1,0 +1,15 @@
+"""The Reynolds equation with cavitation, its coefficients averaged over the roughness."""
+
+from roughfilm.rom.bearing.film import averaged_film, averages_film
+from roughfilm.rom.bearing.solve import SOURCES, bearing_model
+from roughfilm.rom.ladder.model import Effect
+
+MODEL = bearing_model(
+    name="homogenized",
+    summary="homogenized Reynolds equation with mass-conserving cavitation: roughness by its flow factors",
+    keeps=frozenset({Effect.SIDE_FLOW, Effect.CAVITATION, Effect.PRESSURE_DEPENDENCE, Effect.ROUGHNESS}),
+    sources=(*SOURCES, "10.1016/j.jmaa.2005.09.036"),
+    applies=averages_film,
+    film=averaged_film,
+    in_plane=4e-6,
+)

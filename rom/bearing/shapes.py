@@ -1,0 +1,206 @@
+"""The shape of a bearing's film, as a scene file writes it: one class a shape, each with its film thickness."""
+
+import math
+from typing import Annotated, Literal, Self
+
+import numpy as np
+from pydantic import BeforeValidator, Field, model_validator
+
+from roughfilm.contact.foundation.entries import Length, Part, plain_number
+from roughfilm.rom.bearing.given import Given
+from roughfilm.rom.bearing.pad import Pad
+from roughfilm.rom.bearing.ring import Sector, Washer
+from roughfilm.rom.bearing.texture import Texture, pocketed
+from roughfilm.rom.cavitation.shape import Shape
+from roughfilm.rom.pocket.gap import Array
+
+
+def _below_one(value: object) -> float:
+    number = plain_number(value)
+    if not 0 <= number < 1:
+        raise ValueError(f"got {number!r}; it must be 0 or more and below 1")
+    return number
+
+
+Ratio = Annotated[float, BeforeValidator(_below_one)]
+Count = Annotated[int, Field(strict=True, ge=1, le=10_000)]
+
+
+class Parallel(Pad):
+    """h = film."""
+
+    shape: Literal["parallel"]
+
+    def untextured(self, x: Array) -> Array:
+        """h(x), m."""
+        return np.full_like(x, self.film)
+
+
+class Linear(Pad):
+    """h falls evenly from film + rise at the inlet to film at the outlet."""
+
+    shape: Literal["linear"]
+    rise: Length
+
+    def untextured(self, x: Array) -> Array:
+        """h(x), m."""
+        return np.asarray(self.film + self.rise * (1 - x / self.length))
+
+
+class Step(Pad):
+    """h = film + rise up to ``step`` from the inlet, m, film from there on: Rayleigh's bearing."""
+
+    shape: Literal["step"]
+    rise: Length
+    step: Length
+
+    @model_validator(mode="after")
+    def _inside(self) -> Self:
+        if self.step >= self.length:
+            raise ValueError(f"step: got {self.step!r} m; it must lie inside the length of {self.length!r} m")
+        return self
+
+    def breaks(self) -> tuple[float, ...]:
+        """Where h or its slope jumps, m."""
+        return 0.0, self.step, self.length
+
+    def untextured(self, x: Array) -> Array:
+        """h(x), m."""
+        return np.where(x < self.step, self.film + self.rise, self.film)
+
+
+class Parabolic(Pad):
+    """``count`` equal parabolas one after the other, each from film + rise at its ends down to film in its middle."""
+
+    shape: Literal["parabolic"]
+    rise: Length
+    count: Count = 1
+
+    @property
+    def finest(self) -> float:
+        """The shortest feature along the sliding, m."""
+        return self.length / self.count
+
+    def breaks(self) -> tuple[float, ...]:
+        """Where h or its slope jumps, m."""
+        return (*(self.length * number / self.count for number in range(self.count)), self.length)
+
+    def untextured(self, x: Array) -> Array:
+        """h(x), m."""
+        part = self.length / self.count
+        along = x - part * np.clip(np.floor(x / part), 0, self.count - 1)
+        return np.asarray(self.film + self.rise * (2 * along / part - 1) ** 2)
+
+
+class Wavy(Pad):
+    """A parallel film whose inlet, up to ``extent``, is wavy; half of the length by default."""
+
+    amplitude: Length
+    wavelength: Length
+    extent: Length | None = None
+
+    @property
+    def end(self) -> float:
+        """Where the waves end, m."""
+        return self.length / 2 if self.extent is None else self.extent
+
+    @property
+    def finest(self) -> float:
+        """The shortest feature along the sliding, m."""
+        return self.wavelength
+
+    @model_validator(mode="after")
+    def _inside(self) -> Self:
+        if self.end > self.length:
+            raise ValueError(f"extent: got {self.extent!r} m; it must be at most the length, {self.length!r} m")
+        return self
+
+    def breaks(self) -> tuple[float, ...]:
+        """Where h or its slope jumps, m."""
+        return tuple(sorted({0.0, self.end, self.length}))
+
+
+class SinusoidalInlet(Wavy):
+    """h = film + amplitude sin(2π x/wavelength) at the inlet."""
+
+    shape: Literal["sinusoidal_inlet"]
+
+    @model_validator(mode="after")
+    def _open(self) -> Self:
+        if self.amplitude >= self.film:
+            raise ValueError(f"amplitude: got {self.amplitude!r} m; it must be below film, or the walls would touch")
+        return self
+
+    def untextured(self, x: Array) -> Array:
+        """h(x), m."""
+        wave = self.amplitude * np.sin(2 * np.pi * x / self.wavelength)
+        return np.asarray(self.film + np.where(x < self.end, wave, 0.0))
+
+
+class SquaredCosineInlet(Wavy):
+    """h = film + amplitude cos²(π x/wavelength) at the inlet: pockets, with a step where they end."""
+
+    shape: Literal["squared_cosine_inlet"]
+
+    def untextured(self, x: Array) -> Array:
+        """h(x), m."""
+        wave = self.amplitude * np.cos(np.pi * x / self.wavelength) ** 2
+        return np.asarray(self.film + np.where(x < self.end, wave, 0.0))
+
+
+class Journal(Part):
+    """A full journal bearing, unrolled from the widest place on: h = clearance (1 + eccentricity cos φ), x = R φ."""
+
+    shape: Literal["journal"]
+    radius: Length
+    clearance: Length
+    eccentricity: Ratio
+    width: Length | None = None
+    texture: Texture | None = None
+
+    @property
+    def film(self) -> float:
+        """The least film thickness, m."""
+        return self.clearance * (1 - self.eccentricity)
+
+    @property
+    def length(self) -> float:
+        """Once round, m."""
+        return 2 * math.pi * self.radius
+
+    def at_film(self, film: float) -> Self:
+        """The same shaft, moved to another least film thickness, which is at most the clearance."""
+        return self.model_copy(update={"eccentricity": 1 - film / self.clearance})
+
+    @model_validator(mode="after")
+    def _thin(self) -> Self:
+        if self.clearance > 0.1 * self.radius:
+            raise ValueError(f"clearance: got {self.clearance!r} m; it must be at most a tenth of the radius")
+        return self
+
+    def film_shape(self) -> Shape:
+        """The film."""
+        smooth = Shape(
+            thickness=lambda x, y: self.clearance * (1 + self.eccentricity * np.cos(x / self.radius)) + 0 * y,
+            breaks=(0.0, self.length),
+            across=(0.0, self.length if self.width is None else self.width),
+            wide=self.width is None,
+        )
+        return smooth if self.texture is None else pocketed(smooth, self.texture)
+
+
+AnyShape = (
+    Parallel | Linear | Step | Parabolic | SinusoidalInlet | SquaredCosineInlet | Given | Journal | Sector | Washer
+)
+SHAPES: dict[str, type[Part]] = {
+    "parallel": Parallel,
+    "linear": Linear,
+    "step": Step,
+    "parabolic": Parabolic,
+    "sinusoidal_inlet": SinusoidalInlet,
+    "squared_cosine_inlet": SquaredCosineInlet,
+    "given": Given,
+    "journal": Journal,
+    "sector": Sector,
+    "washer": Washer,
+}

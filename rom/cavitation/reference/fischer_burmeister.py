@@ -1,0 +1,176 @@
+"""Newton's method of Fischer–Burmeister type for the default solver's equations on a line, from a cold start."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughfilm.contact.foundation.compiled import compiled
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
+from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED, along
+from roughfilm.rom.cavitation.fluid import Fluid
+from roughfilm.rom.cavitation.network import Network, State
+from roughfilm.rom.pocket.gap import Array
+
+LIMIT = 500
+"""Steps of Newton's method, at most."""
+
+EPSILON = np.finfo(float).eps
+"""Added to the cavity in the derivatives, which have none where both parts are zero."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Balanced:
+    """A state that balances; ``residual`` is the largest net flow into a node over the largest through a face."""
+
+    state: State
+    residual: float
+    iterations: int
+
+
+def fischer_burmeister(
+    network: Network, fluid: Fluid, *, pressure_unit: float, tolerance: float = 1e-9, limit: int = LIMIT
+) -> Balanced:
+    """Solve G(p, c) = 0 and F(p, c) = p + c - √(p² + c²) = 0, where c = 1 - ξ is the cavity's part and p over its unit.
+
+    G are the balances of ``network``, F = 0 says that p >= 0, c >= 0, p c = 0. Newton's method takes both at once: at
+    every node the unknown with the larger derivative of F is eliminated, and the Schur complement, tridiagonal, is
+    solved. Every step is taken whole and put back into 0 <= p, 0 <= c <= 1; it begins with a film at the pressure of
+    cavitation. What an inlet brings beyond need is the unknown in place of its pressure.
+
+    Parameters
+    ----------
+    pressure_unit : Pa; the size of the pressures, against which c counts.
+    tolerance : of G, over the largest flow through a face, and of F.
+
+    Valid for lines whose ends are not joined.
+
+    Raises
+    ------
+    InputError
+        If the network is not such a line.
+    ConvergenceError
+        If after ``limit`` steps either is above the tolerance, or the numbers grow beyond all bounds.
+
+    Source: Woloszynski, Podsiadlo and Stachowiak 2015, doi:10.1007/s11249-015-0487-4.
+    """
+    if network.shape[1] > 1 or network.periodic[0]:
+        raise InputError(f"network: got {network.shape} nodes, periodic {network.periodic}; it must be an open line")
+    pressure = np.where(network.fixed, network.pressure, 0.0)
+    cavity = np.zeros(network.shape)
+    supplied = network.supply is not None
+    surplus = 0.0
+    unit = float(network.couette.max()) or 1.0
+    kinds = [np.where(network.fixed, np.int8(FIXED), np.int8(kind)) for kind in (FILM, CAVITY)]
+    by_pressure, by_fill = ([np.empty(network.shape) for _ in range(6)] for _ in kinds)
+    residual = np.inf
+    for iteration in range(limit + 1):
+        with np.errstate(all="ignore"):
+            laws = (*fluid.compression(pressure), *fluid.mobility(pressure))
+        for kind, parts in zip(kinds, (by_pressure, by_fill), strict=True):
+            largest = network.linearise(kind, pressure, 1 - cavity, laws, parts)
+        balance = by_pressure[0]
+        scaled = pressure[:, 0] / pressure_unit
+        if supplied:
+            balance[0] += surplus * unit
+            scaled[0] = surplus
+            by_pressure[1][0], by_pressure[3][0], by_pressure[2][1] = unit / pressure_unit, by_pressure[3][0], 0.0
+        balance[network.fixed] = 0
+        residual = float(np.abs(balance).max()) / (largest or 1.0)
+        broken = np.abs(scaled + cavity[:, 0] - np.hypot(scaled, cavity[:, 0]))
+        broken[network.fixed[:, 0]] = 0
+        if not np.isfinite(residual):
+            break
+        if max(residual, float(broken.max())) <= tolerance:
+            return Balanced(state=State(pressure=pressure, fill=1 - cavity), residual=residual, iterations=iteration)
+        change, opened = _step(network, by_pressure, by_fill, scaled, cavity[:, 0], pressure_unit)
+        if supplied:
+            surplus = max(surplus + change[0], 0.0)
+            change[0] = 0
+        pressure[:, 0] = np.maximum(pressure[:, 0] + change * pressure_unit, 0.0)
+        cavity[:, 0] = np.clip(cavity[:, 0] + opened, 0.0, 1.0)
+    raise ConvergenceError(
+        f"fischer_burmeister: residual {residual:.1e} misses the tolerance {tolerance:.1e} after {iteration} steps; "
+        "take the default solver",
+        outcome=Outcome.UNFINISHED if np.isfinite(residual) else Outcome.DIVERGED,
+        iterations=iteration,
+    )
+
+
+def _step(
+    network: Network, by_pressure: list[Array], by_fill: list[Array], pressure: Array, cavity: Array, unit: float
+) -> tuple[Array, Array]:
+    """The changes of pressure, over its unit, and of the cavity."""
+    size = np.hypot(pressure, cavity + EPSILON)
+    by_p, by_c = 1 - pressure / size, 1 - cavity / size
+    merit = pressure + cavity - np.hypot(pressure, cavity)
+    fixed = network.fixed[:, 0]
+    by_p[fixed], by_c[fixed], merit[fixed] = 0.0, 1.0, 0.0
+    right, lower, centre, upper = (np.empty_like(pressure) for _ in range(4))
+    balance, centre_p, west_p, east_p = (part[:, 0] for part in by_pressure[:4])
+    centre_f, west_f, east_f = (part[:, 0] for part in by_fill[1:4])
+    keeps = reduced(
+        balance,
+        centre_p,
+        west_p,
+        east_p,
+        centre_f,
+        west_f,
+        east_f,
+        by_p,
+        by_c,
+        merit,
+        unit,
+        lower,
+        centre,
+        upper,
+        right,
+    )
+    along(lower, centre, upper, right, np.empty_like(right))
+    with np.errstate(all="ignore"):
+        other = np.where(keeps, (-merit - by_p * right) / by_c, (-merit - by_c * right) / by_p)
+    change, opened = np.where(keeps, right, other), np.where(keeps, other, right)
+    change[fixed] = opened[fixed] = 0
+    return change, opened
+
+
+@compiled
+def reduced(balance, centre_p, west_p, east_p, centre_f, west_f, east_f, by_p, by_c, merit, unit, lower, centre, upper, right):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
+    """The Schur complement, by columns; returns where the pressure is kept and the cavity eliminated.
+
+    Derivatives ``_p`` are by the pressure, ``_f`` by the filled part; unknowns are p over ``unit`` and the cavity.
+    """
+    n = balance.size
+    keeps = by_c >= by_p
+    for i in range(n):
+        right[i] = -balance[i]
+        lower[i] = upper[i] = 0.0
+    for j in range(n):
+        kept = 0.0
+        if keeps[j]:
+            ratio, known = by_p[j] / by_c[j], merit[j] / by_c[j]
+        else:
+            ratio, known = by_c[j] / by_p[j], merit[j] / by_p[j]
+        for side in range(3):
+            i = j + side - 1
+            if i < 0 or i >= n:
+                continue
+            # how the balance of node i changes with the unknowns of node j
+            if side == 0:
+                p, c = east_p[i] * unit, -east_f[i]
+            elif side == 1:
+                p, c = centre_p[i] * unit, -centre_f[i]
+            else:
+                p, c = west_p[i] * unit, -west_f[i]
+            if keeps[j]:
+                kept = p - c * ratio
+                right[i] += c * known
+            else:
+                kept = c - p * ratio
+                right[i] += p * known
+            if side == 0:
+                upper[i] = kept
+            elif side == 1:
+                centre[i] = kept
+            else:
+                lower[i] = kept
+    return keeps

@@ -1,0 +1,161 @@
+"""The cavitation algorithm of Paper B for a line: density as the unknown, a switch in front of the pressure."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import solve_banded
+
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
+from roughfilm.rom.cavitation.grid import Grid, grid
+from roughfilm.rom.cavitation.problem import Problem
+from roughfilm.rom.pocket.gap import Array
+
+LIMIT = 3000
+"""Fixed-point steps, at most."""
+
+TOLERANCE = 1e-8
+"""Of the relative change of θ from one step to the next."""
+
+RETURNS = 50
+"""So many times the switch may come back to a state it had left before the steps are said to go round."""
+
+PATIENCE = 200
+"""So many steps with the switch at rest must halve the change."""
+
+INVERSIONS = 60
+"""Steps of Newton's method from density to pressure."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Switched:
+    """A film found by the switch algorithm: density ratio θ and pressure above that of cavitation, Pa, at the nodes."""
+
+    grid: Grid
+    theta: Array
+    pressure: Array
+    iterations: int
+
+    @property
+    def load(self) -> float:
+        """∫ p dx, N/m."""
+        return float((self.grid.share_x * self.pressure).sum())
+
+
+def switched(problem: Problem, cells: int, *, limit: int = LIMIT) -> Switched:
+    """Solve (u/2) d(θh)/dx - d/dx(θ h³/12η g dp/dθ dθ/dx) = 0 with the switch g = 1 where θ > 1, else 0.
+
+    The Couette term has second-order backward differences, the Poiseuille term central ones: the slope is
+    dp/dθ (g₂(θ₂ - 1) - g₁(θ₁ - 1)) over the distance, so that a cavity has the pressure of cavitation. Each step
+    θₙ = f(θₙ₋₁) takes g, dp/dθ and η from the one before; it begins from a film everywhere, at the pressure of
+    cavitation. The paper does not say how g is placed between nodes: here as in Elrod's scheme, which it builds on.
+
+    Valid for infinitely wide films slid towards growing x, of a lubricant that is compressible; at a starved inlet the
+    film must not reach the inlet, whose density is given.
+
+    Raises
+    ------
+    InputError
+        If the film is not of that kind.
+    ConvergenceError
+        If the changes do not get below 1e-8 within ``limit`` steps, if they no longer fall while the switch rests, if
+        the switch keeps coming back to states that it has left, or if densities leave the range of the lubricant's law.
+
+    Sources: Sahlin et al. 2007, doi:10.1016/j.triboint.2007.02.021; Elrod 1981, doi:10.1115/1.3251669.
+    """
+    shape, ends = problem.shape, problem.ends
+    if not shape.wide or any(shape.joined) or problem.speed <= 0:
+        raise InputError("shape: got a film with sides, joined ends or reversed sliding; the switch algorithm has none")
+    if problem.initial_compressibility == 0:
+        raise InputError("compressibility: got an incompressible lubricant; the switch algorithm needs dp/dθ")
+    nodes = grid(shape, (cells, 1))
+    thickness: Array = shape.thickness(nodes.x, np.zeros_like(nodes.x))
+    step = np.diff(nodes.x)
+    if np.ptp(step) > 1e-6 * step.mean():
+        raise InputError("shape: got breaks between equal cells; the switch algorithm needs equal cells")
+    at = np.array([ends.inlet or 0.0, ends.outlet])
+    given = 1 + problem.compression(at)[0]
+    first, last = (ends.theta if ends.inlet is None else float(given[0])), float(given[1])
+    theta, pressure = np.ones_like(nodes.x), np.zeros_like(nodes.x)
+    theta[0], theta[-1] = first, last
+    seen: set[bytes] = set()
+    returns, before = 0, b""
+    least, rested = np.inf, 0
+    for iteration in range(1, limit + 1):
+        film = np.asarray(theta > 1) if iteration > 1 else np.ones(theta.size, dtype=np.bool_)
+        switch = np.packbits(film).tobytes()
+        returns += switch != before and switch in seen
+        if switch != before:
+            least, rested = np.inf, 0
+        seen.add(switch)
+        before = switch
+        if returns > RETURNS:
+            raise _failed("the switch goes round states it has left", Outcome.UNSTEADY, iteration)
+        found = _solved(problem, thickness, float(step.mean()), theta, pressure, film)
+        if not np.isfinite(found).all():
+            raise _failed("densities grow beyond all bounds", Outcome.DIVERGED, iteration)
+        change = float(np.abs(found - theta).max()) / float(np.abs(found).max())
+        theta, pressure = found, _pressure(problem, found, iteration)
+        if change < TOLERANCE:
+            return Switched(grid=nodes, theta=theta, pressure=pressure, iterations=iteration)
+        rested += 1
+        if change < least / 2:
+            least, rested = change, 0
+        elif rested > PATIENCE:
+            raise _failed(f"the switch rests, but the change stays near {least:.1e}", Outcome.STALLED, iteration)
+    raise _failed(f"relative change {change:.1e} misses {TOLERANCE:g}", Outcome.UNFINISHED, limit)
+
+
+def _solved(
+    problem: Problem, thickness: Array, step: float, theta: Array, pressure: Array, film: NDArray[np.bool_]
+) -> Array:
+    """One step: θ from the switch, dp/dθ and viscosity of the step before; unknowns are all nodes."""
+    n = theta.size
+    mobility = problem.mobility(pressure)[0] / problem.compression(pressure)[1]
+    cubed = mobility * thickness**3 / (12 * problem.viscosity * step)
+    face = (cubed[:-1] + cubed[1:]) / 2
+    carried = problem.speed / 2 * thickness
+    # bands of row i: columns i + 1, i, i - 1, i - 2
+    bands = np.zeros((4, n))
+    right = np.zeros(n)
+    bands[1, [0, -1]] = 1.0
+    right[0], right[-1] = theta[0], theta[-1]
+    inner = np.arange(1, n - 1)
+    bands[1, inner] += 1.5 * carried[inner]
+    bands[2, inner - 1] -= 2.0 * carried[inner - 1]
+    bands[3, inner[1:] - 2] += 0.5 * carried[inner[1:] - 2]
+    bands[2, 0] += 0.5 * carried[0]  # the first node has one before it: its western face is the inlet
+    switch = film.astype(float)
+    bands[1, inner] += (face[inner - 1] + face[inner]) * switch[inner]
+    bands[2, inner - 1] -= face[inner - 1] * switch[inner - 1]
+    bands[0, inner + 1] -= face[inner] * switch[inner + 1]
+    right[inner] += (
+        (face[inner - 1] + face[inner]) * switch[inner]
+        - face[inner - 1] * switch[inner - 1]
+        - face[inner] * switch[inner + 1]
+    )
+    return np.asarray(solve_banded((2, 1), bands, right, check_finite=False))
+
+
+def _pressure(problem: Problem, theta: Array, iteration: int) -> Array:
+    """The pressure of every density, 0 in cavities."""
+    excess = np.maximum(theta - 1, 0.0)
+    pressure = np.log1p(excess) / problem.initial_compressibility
+    for _ in range(INVERSIONS):
+        with np.errstate(all="ignore"):
+            value, slope = problem.compression(pressure)
+            change = (excess - value) / slope
+        pressure = pressure + change
+        if not np.isfinite(pressure).all():
+            break
+        if np.abs(change).max() <= 1e-13 * (pressure.max() or 1.0):
+            return pressure
+    raise _failed("densities leave the range of the law of compressibility", Outcome.DIVERGED, iteration)
+
+
+def _failed(what: str, outcome: Outcome, iterations: int) -> ConvergenceError:
+    return ConvergenceError(
+        f"switch algorithm: {what} after {iterations} steps; take the default solver",
+        outcome=outcome,
+        iterations=iterations,
+    )

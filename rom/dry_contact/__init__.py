@@ -1,0 +1,1 @@
+"""A rough surface pressed on a flat one without a liquid."""

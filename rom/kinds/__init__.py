@@ -1,1 +1,0 @@
-"""One file, one kind of scene; each ends with ``KIND``."""

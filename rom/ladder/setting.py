@@ -1,0 +1,84 @@
+"""A setting: a model with its resolution and advection scheme; and those that a study asks for."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from roughfilm.contact.foundation.errors import InputError, UnavailableError
+from roughfilm.rom.ladder.kind import Scene
+from roughfilm.rom.ladder.model import Model, Progress, silent
+from roughfilm.rom.ladder.result import Result
+
+
+@dataclass(frozen=True, kw_only=True)
+class Setting:
+    """One way to solve a scene: a model, at a resolution and with a scheme, None for the model's own default."""
+
+    model: Model
+    resolution: int | None = None
+    scheme: str | None = None
+
+    @property
+    def name(self) -> str:
+        """The model's name and what was chosen, fit for a file: navier_stokes-240-upwind."""
+        return "-".join(str(part) for part in (self.model.name, self.resolution, self.scheme) if part is not None)
+
+    def cost(self, scene: Scene) -> float:
+        """Expected CPU seconds."""
+        return self.model.cost(scene, self.resolution or self.model.resolution_of(scene))
+
+    def solve(self, scene: Scene, progress: Progress = silent) -> Result:
+        """Solve a scene; raises what the model's ``solve`` raises."""
+        return self.model.solve(scene, resolution=self.resolution, scheme=self.scheme, progress=progress)
+
+
+def read_settings(table: object, models: Sequence[Model]) -> tuple[Setting, ...]:
+    """The settings of a study's table ``[study]``, plainest model first; errors as ``load_study`` raises them."""
+    if not isinstance(table, dict):
+        raise InputError("study: is not a table; write [study]")
+    for key in table:
+        if key not in ("models", "resolution", "scheme"):
+            raise InputError(f"study.{key}: unknown key; known here: models, resolution, scheme")
+    names = [model.name for model in models]
+    wanted = table.get("models", [model.name for model in models if model.available().available])
+    if not isinstance(wanted, list) or not wanted or len(set(map(str, wanted))) < len(wanted):
+        raise InputError(f"study.models: got {wanted!r}; list different ones of {', '.join(names)}")
+    for name in wanted:
+        if name not in names:
+            raise InputError(f"study.models: got {name!r}; it must be one of {', '.join(names)}")
+    chosen = [model for model in models if model.name in wanted]
+    for model in chosen:
+        if not model.available().available:
+            raise UnavailableError(f"study.models: {model.name}: {model.available().detail}")
+    resolutions = _by_model(table, "resolution", names if "models" not in table else wanted)
+    schemes = _by_model(table, "scheme", names if "models" not in table else wanted)
+    for name, values in resolutions.items():
+        for value in values:
+            if isinstance(value, bool) or not isinstance(value, int) or value < 1:
+                raise InputError(f"study.resolution.{name}: got {value!r}; write a whole number above zero")
+    for model in models:
+        for value in schemes.get(model.name, ()):
+            if value not in model.schemes:
+                remedy = f"it must be one of {', '.join(model.schemes)}" if model.schemes else "it offers no choice"
+                raise InputError(f"study.scheme.{model.name}: got {value!r}; {remedy}")
+    return tuple(
+        Setting(model=model, resolution=resolution, scheme=scheme)
+        for model in chosen
+        for resolution in resolutions.get(model.name, [None])
+        for scheme in schemes.get(model.name, [None])
+    )
+
+
+def _by_model(table: Mapping[str, Any], key: str, names: Sequence[str]) -> dict[str, list[Any]]:
+    """One value or a list of different ones for each model of ``[study]``'s ``resolution`` or ``scheme``."""
+    entries = table.get(key, {})
+    if not isinstance(entries, dict):
+        raise InputError(f"study.{key}: got {entries!r}; write {{ MODEL = VALUE }}")
+    chosen = {}
+    for name, value in entries.items():
+        if name not in names:
+            raise InputError(f"study.{key}.{name}: is no model of this study; it must be one of {', '.join(names)}")
+        chosen[name] = value if isinstance(value, list) else [value]
+        if not chosen[name] or len(set(map(repr, chosen[name]))) < len(chosen[name]):
+            raise InputError(f"study.{key}.{name}: got {value!r}; write one value or a list of different ones")
+    return chosen

@@ -1,0 +1,106 @@
+"""What a model says of places, as a mesh with data, wherever a result tells where its fields are."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.meshes.mesh import Mesh, grid
+from roughfilm.rom.ladder.kind import Scene
+from roughfilm.rom.ladder.result import Field, Result
+from roughfilm.rom.ladder.scene import read_scene
+from roughfilm.rom.meshes.walls_mesh import periodic
+from roughfilm.rom.parts.pressed_surface import RoughContact
+from roughfilm.rom.pocket.gap import Array
+from roughfilm.rom.rough_gap.scene import RoughGap
+
+PLACES = {"vertices", "kept", "x", "y"}
+"""Fields that say where the others are."""
+
+
+def result_mesh(result: Result) -> Mesh:
+    """The fields of a result over cells, or at the points of a plane, in m and in the units of the fields.
+
+    A result with ``vertices``, (nx+1, ny+1, 2) or (nx+1, ny+1, nz+1, 3), gives quads or hexahedra with all fields of
+    shape (nx, ny, ...) or (nx, ny, nz, ...) as their data; those that ``kept``, (nx, ny), denies are left out. One with
+    ``x`` and ``y``, (nx, ny), gives quads between these places (x in rad goes round the origin at the radius y), or
+    lines where ny = 1. One of a dry contact, a seal or a rough gap gives quads over one period of its surface.
+
+    Raises
+    ------
+    InputError
+        If the result has no such fields, or its surface cannot be read again.
+    """
+    fields = result.fields
+    if "vertices" in fields:
+        return _cells(fields)
+    if "x" in fields and "y" in fields:
+        return _plane(fields)
+    plane = {name: field for name, field in fields.items() if field.values.ndim == 2}
+    scene = _scene(result)
+    if not plane or not isinstance(scene, RoughContact | RoughGap):
+        raise InputError(
+            f"result of {result.model}: none of its fields ({', '.join(sorted(fields)) or 'it has none'}) says where "
+            "it is in a plane or in space; export a result of a model that resolves the film or the surface"
+        )
+    return _period(plane, scene.surface().size)
+
+
+def labelled(name: str, field: Field) -> str:
+    """The name of a field in a mesh, with its unit."""
+    return name if field.unit == "1" else f"{name} ({field.unit})"
+
+
+def _cells(fields: Mapping[str, Field]) -> Mesh:
+    vertices = fields["vertices"].values
+    mesh = grid(_in_space(vertices))
+    shape = tuple(size - 1 for size in vertices.shape[:-1])
+    data = _data(fields, shape)
+    mesh = Mesh(points=mesh.points, sort=mesh.sort, cells=mesh.cells, cell_data=data)
+    if "kept" not in fields:
+        return mesh
+    kept = fields["kept"].values > 0
+    return mesh.kept(np.repeat(kept.ravel(), mesh.cells.shape[0] // kept.size))
+
+
+def _plane(fields: Mapping[str, Field]) -> Mesh:
+    x, y = fields["x"].values, fields["y"].values
+    places = np.stack([y * np.cos(x), y * np.sin(x)] if fields["x"].unit == "rad" else [x, y], axis=-1)
+    points = _in_space(places[:, 0] if x.shape[1] == 1 else places)
+    mesh = grid(points)
+    return Mesh(points=mesh.points, sort=mesh.sort, cells=mesh.cells, point_data=_data(fields, x.shape))
+
+
+def _period(fields: Mapping[str, Field], size: tuple[float, float]) -> Mesh:
+    shape = next(iter(fields.values())).values.shape
+    ends = [np.linspace(0.0, length, count + 1) for length, count in zip(size, shape, strict=True)]
+    mesh = grid(_in_space(np.stack(np.meshgrid(*ends, indexing="ij"), axis=-1)))
+    whole = {
+        name: Field(values=periodic(field.values), unit=field.unit)
+        for name, field in fields.items()
+        if field.values.shape == shape
+    }
+    nodes = (shape[0] + 1, shape[1] + 1)
+    return Mesh(points=mesh.points, sort=mesh.sort, cells=mesh.cells, point_data=_data(whole, nodes))
+
+
+def _data(fields: Mapping[str, Field], shape: tuple[int, ...]) -> dict[str, Array]:
+    """The fields with one number, or one vector, for each place of that shape; vectors with all three parts."""
+    found = {}
+    for name, field in fields.items():
+        rest = field.values.shape[len(shape) :]
+        if name in PLACES or field.values.shape[: len(shape)] != shape or rest not in ((), (2,), (3,)):
+            continue
+        values = field.values.astype(float)
+        found[labelled(name, field)] = _in_space(values).reshape(-1, 3) if rest else values.ravel()
+    return found
+
+
+def _in_space(vectors: Array) -> Array:
+    missing = 3 - vectors.shape[-1]
+    return np.pad(vectors, [(0, 0)] * (vectors.ndim - 1) + [(0, missing)])
+
+
+def _scene(result: Result) -> Scene | None:
+    entries = result.provenance.get("scene")
+    return read_scene(entries) if isinstance(entries, dict) else None

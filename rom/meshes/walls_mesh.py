@@ -1,0 +1,67 @@
+"""The walls of a rough gap, and the liquid between them, as meshes over one period."""
+
+from enum import StrEnum
+
+import numpy as np
+
+from roughfilm.contact.meshes.mesh import Mesh, grid
+from roughfilm.rom.pocket.gap import Array
+from roughfilm.rom.rough_gap.walls import Walls
+
+
+class Part(StrEnum):
+    """What of a gap is meant."""
+
+    LOWER = "lower"
+    UPPER = "upper"
+    GAP = "gap"
+
+
+def wall_mesh(walls: Walls, part: Part) -> Mesh:
+    """One wall in quads, their normals into the liquid; data: the gap over or under each point, m.
+
+    Bilinear between the nodes, so of second order in the spacing; the last row of points is the first, a period on.
+    """
+    heights = walls.lower if part is Part.LOWER else walls.upper
+    places = np.stack([*_places(walls), periodic(heights)], axis=-1)
+    if part is Part.UPPER:  # with y before x the normals point down
+        mesh = grid(places.transpose(1, 0, 2))
+        return _with_gap(mesh, periodic(walls.gap).T)
+    return _with_gap(grid(places), periodic(walls.gap))
+
+
+def gap_mesh(walls: Walls, layers: int) -> Mesh:
+    """The liquid between the walls in ``layers`` layers of hexahedra; data: the gap at each point, m.
+
+    z = lower + Z gap with Z uniform from 0 to 1. Columns that are closed at all four corners are left out; at the
+    edge of contact some corners of a cell lie at the same place, so that the cells hold the gap's volume, Σ gap dx dy.
+    """
+    x, y = _places(walls)
+    lower, gap = periodic(walls.lower), periodic(walls.gap)
+    across = np.linspace(0.0, 1.0, layers + 1)
+    points = np.empty((*gap.shape, layers + 1, 3))
+    points[..., 0], points[..., 1] = x[:, :, None], y[:, :, None]
+    points[..., 2] = lower[:, :, None] + gap[:, :, None] * across
+    mesh = _with_gap(grid(points), np.repeat(gap[:, :, None], layers + 1, axis=2))
+    return mesh.kept(np.repeat(open_columns(gap).ravel(), layers))
+
+
+def periodic(values: Array) -> Array:
+    """Values at the nodes of one period, and again at its end: shape (nx + 1, ny + 1)."""
+    return np.pad(values, ((0, 1), (0, 1)), mode="wrap")
+
+
+def open_columns(gap: Array) -> Array:
+    """Whether any corner of a column is open, from the gap at the corners of shape (nx + 1, ny + 1); shape (nx, ny)."""
+    is_open = gap > 0
+    return np.asarray(is_open[1:, 1:] | is_open[:-1, 1:] | is_open[1:, :-1] | is_open[:-1, :-1])
+
+
+def _places(walls: Walls) -> tuple[Array, Array]:
+    (nx, ny), (dx, dy) = walls.lower.shape, walls.spacing
+    x, y = np.meshgrid(np.arange(nx + 1) * dx, np.arange(ny + 1) * dy, indexing="ij")
+    return x, y
+
+
+def _with_gap(mesh: Mesh, gap: Array) -> Mesh:
+    return Mesh(points=mesh.points, sort=mesh.sort, cells=mesh.cells, point_data={"gap (m)": gap.ravel()})

@@ -1,1 +1,0 @@
-"""Mixed lubrication: asperities and liquid carry one load between them."""

@@ -1,0 +1,1 @@
+"""Tables of a scene file that several kinds of scenes share."""

@@ -1,0 +1,1 @@
+"""A film over one period of a textured wall: Reynolds, inertia and slope."""

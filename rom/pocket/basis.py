@@ -1,0 +1,67 @@
+"""Polynomials across a film that vanish on both walls, ordered so that the flow fixes the first of them."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.polynomial import legendre
+
+from roughfilm.rom.pocket.gap import Array
+
+STIFFNESS = 2.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Basis:
+    """φ_k(Y), k = 0 .. n-1, between the still wall (Y = 0) and the sliding one (Y = 1), at some points.
+
+    φ_k ∝ P_k - P_{k+2} of s = 2Y - 1, so that ∫φ_j'φ_k' = 0 for j ≠ k and ∫φ_k = 0 for k > 0: viscosity does not mix
+    them, and of flow and pressure gradient, which is the same all across, only the first one knows.
+
+    Scaled so that ∫φ_k'² = ``STIFFNESS``. ``shape``, ``slope`` and ``primitive`` (zero at Y = 0): shape (n, points);
+    ``flow`` is ∫φ_0. At Gauss points f @ ``weights`` is ∫f and f @ ``above`` is the integral from each point to Y = 1.
+    """
+
+    nodes: Array
+    weights: Array
+    shape: Array
+    slope: Array
+    primitive: Array
+    above: Array
+    flow: float
+
+
+@lru_cache(maxsize=8)
+def gauss_basis(modes: int) -> Basis:
+    """The first ``modes`` polynomials at as many Gauss points as integrate a product of three of them exactly."""
+    return _basis(modes, *legendre.leggauss((3 * modes + 5) // 2))
+
+
+@lru_cache(maxsize=8)
+def even_basis(modes: int, layers: int) -> Basis:
+    """The same in the middles of equal layers, with the midpoint rule."""
+    return _basis(modes, (2 * np.arange(layers) + 1) / layers - 1, np.full(layers, 2 / layers))
+
+
+def _basis(modes: int, s: Array, weights: Array) -> Basis:
+    k, degree = np.arange(modes), np.arange(s.size)
+    series = np.zeros((modes, modes + 2))
+    series[k, k] = 1 / np.sqrt(2 * (2 * k + 3))
+    series[k, k + 2] = -series[k, k]
+    to_series = (legendre.legvander(s, s.size - 1) * weights[:, None]).T * (degree[:, None] + 0.5)
+    from_above = legendre.legval(s, legendre.legint(np.eye(s.size), lbnd=1))
+    return Basis(
+        nodes=(s + 1) / 2,
+        weights=weights / 2,
+        shape=np.asarray(legendre.legval(s, series.T)),
+        slope=np.asarray(2 * legendre.legval(s, legendre.legder(series, axis=1).T)),
+        primitive=np.asarray(legendre.legval(s, legendre.legint(series, lbnd=-1, axis=1).T) / 2),
+        above=np.asarray(-(from_above.T @ to_series).T / 2),
+        flow=float(series[0, 0]),
+    )
+
+
+def sliding_wall_slope(modes: int) -> Array:
+    """φ_k'(1), shape (modes,)."""
+    k = np.arange(modes)
+    return np.asarray(-2 * np.sqrt((2 * k + 3) / 2))

@@ -1,0 +1,193 @@
+"""One period of a film and the grooves in its still wall, as a scene file writes them."""
+
+from itertools import pairwise
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import (
+    BeforeValidator,
+    Field,
+    PlainSerializer,
+    SerializerFunctionWrapHandler,
+    model_serializer,
+    model_validator,
+)
+
+from roughfilm.contact.foundation.entries import Coordinate, Length, Part
+from roughfilm.rom.pocket import groove
+from roughfilm.rom.pocket.gap import Gap
+from roughfilm.rom.pocket.profile import Points, checked
+
+MOST_GROOVES = 100
+
+
+class _Placed(Part):
+    """A groove that lies at ``position``, counted from the middle of the period, m."""
+
+    position: Coordinate = 0.0
+
+
+class _Drawn(_Placed):
+    """A groove of given width, its middle at ``position``, and given depth, m."""
+
+    width: Length
+    depth: Length
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """Where it begins and ends, m from the middle of the period."""
+        return self.position - self.width / 2, self.position + self.width / 2
+
+    @property
+    def slope(self) -> float:
+        """Mean slope of the wall between the lowest point and the nearer edge."""
+        return 2 * self.depth / self.width
+
+
+class Cylindrical(_Drawn):
+    """A circular arc through both edges."""
+
+    profile: Literal["cylindrical"]
+
+    @model_validator(mode="after")
+    def _at_most_a_half_circle(self) -> Self:
+        if self.depth > self.width / 2:
+            raise ValueError(
+                f"depth: got {self.depth!r} m; the arc would be more than a half circle, "
+                f"it must be at most width / 2 = {self.width / 2!r} m"
+            )
+        return self
+
+    def shape(self) -> groove.Groove:
+        """Its depth along the wall."""
+        return groove.cylindrical(width=self.width, depth=self.depth)
+
+
+class Splined(_Drawn):
+    """Two cubics, level at the edges and at the lowest point, which lies ``shift`` ahead of the middle, m."""
+
+    profile: Literal["splined"]
+    shift: Coordinate = 0.0
+
+    @model_validator(mode="after")
+    def _lowest_point_inside(self) -> Self:
+        if abs(self.shift) >= self.width / 2:
+            raise ValueError(
+                f"shift: got {self.shift!r} m; the lowest point would lie outside the groove, "
+                f"it must be nearer to the middle than width / 2 = {self.width / 2!r} m"
+            )
+        return self
+
+    @property
+    def slope(self) -> float:
+        """Mean slope of the wall between the lowest point and the nearer edge."""
+        return self.depth / (self.width / 2 - abs(self.shift))
+
+    def shape(self) -> groove.Groove:
+        """Its depth along the wall."""
+        return groove.splined(width=self.width, depth=self.depth, shift=self.shift)
+
+
+class Through(_Placed):
+    """A groove through points (distance from ``position``, depth), m."""
+
+    profile: Literal["points"]
+    points: Annotated[Points, BeforeValidator(checked), PlainSerializer(lambda points: [list(row) for row in points])]
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """Where it begins and ends, m from the middle of the period."""
+        return self.position + self.points[0][0], self.position + self.points[-1][0]
+
+    @property
+    def width(self) -> float:
+        """From the first point to the last, m."""
+        return self.points[-1][0] - self.points[0][0]
+
+    @property
+    def depth(self) -> float:
+        """That of the deepest point, m."""
+        return max(depth for _, depth in self.points)
+
+    @property
+    def slope(self) -> float:
+        """Mean slope of the wall between the lowest point and the nearer edge."""
+        (first, _), *_, (last, _) = self.points
+        lowest = next(place for place, depth in self.points if depth == self.depth)
+        return self.depth / min(lowest - first, last - lowest)
+
+    def shape(self) -> groove.Groove:
+        """Its depth along the wall."""
+        return groove.through(points=self.points)
+
+
+AnyGroove = Cylindrical | Splined | Through
+PROFILES: dict[str, type[Part]] = {"cylindrical": Cylindrical, "splined": Splined, "points": Through}
+
+
+class PocketGeometry(Part):
+    """One period of a channel whose still lower wall has grooves; lengths in m.
+
+    The keys of a single groove may stand beside ``length`` and ``film``, and are written back there.
+    """
+
+    length: Length
+    film: Length
+    grooves: tuple[Annotated[AnyGroove, Field(discriminator="profile")], ...]
+
+    @model_validator(mode="before")
+    @classmethod
+    def _gather_grooves(cls, entries: Any) -> Any:
+        if not isinstance(entries, dict):
+            return entries
+        own = {key: entries[key] for key in ("length", "film") if key in entries}
+        single = {key: value for key, value in entries.items() if key not in cls.model_fields}
+        if single and "grooves" in entries:
+            keys = " and ".join(single)
+            raise ValueError(f"got {keys} beside grooves; give either one groove in geometry or geometry.grooves")
+        grooves = entries.get("grooves", [single])
+        if not isinstance(grooves, list | tuple) or not 1 <= len(grooves) <= MOST_GROOVES:
+            raise ValueError(f"grooves: got {grooves!r:.60}; write 1 to {MOST_GROOVES} tables [[geometry.grooves]]")
+        return {**own, "grooves": [{"profile": "cylindrical", **g} if isinstance(g, dict) else g for g in grooves]}
+
+    @model_serializer(mode="wrap")
+    def _lay_a_single_groove_flat(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        entries: dict[str, Any] = handler(self)
+        if len(self.grooves) == 1:
+            entries.update(entries.pop("grooves")[0])
+        return entries
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        _in_film_thicknesses("length", self.length / self.film, 1e-2)
+        for number, one in enumerate(self.grooves):
+            place = f"grooves.{number}." if len(self.grooves) > 1 else ""
+            width, depth = ("points", "points") if isinstance(one, Through) else ("width", "depth")
+            if one.width >= self.length:
+                raise ValueError(f"{place}{width}: got {one.width!r} m; it must be below length, {self.length!r} m")
+            _in_film_thicknesses(place + width, one.width / self.film, 1e-2)
+            _in_film_thicknesses(place + depth, one.depth / self.film, 1e-9)
+            beyond = max(abs(end) for end in one.span) - self.length / 2
+            if beyond > groove.SAME_PLACE * self.length:
+                raise ValueError(
+                    f"{place}position: got {one.position!r} m; the groove reaches {beyond:.4g} m over the end of the "
+                    "period, move it or make it narrower"
+                )
+        along = sorted(enumerate(self.grooves), key=lambda pair: pair[1].span)
+        for (number, one), (other_number, other) in pairwise(along):
+            overlap = min(one.span[1], other.span[1]) - other.span[0]
+            if overlap > groove.SAME_PLACE * self.length:
+                raise ValueError(
+                    f"grooves: got {overlap:.4g} m of overlap between numbers {number} and {other_number}, counted "
+                    "from 0; move one or make it narrower"
+                )
+        return self
+
+    def gap(self) -> Gap:
+        """The gap that the grooves leave open."""
+        grooves = [(one.position, one.shape()) for one in self.grooves]
+        return groove.channel(length=self.length, film=self.film, grooves=grooves)
+
+
+def _in_film_thicknesses(place: str, value: float, least: float) -> None:
+    if not least <= value <= 1e5:
+        raise ValueError(f"{place}: got {value:.3g} film thicknesses; it must be {least:g} to 100000 of them")

@@ -1,0 +1,196 @@
+"""Pockets: load and friction of a film over grooves."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import ValidationError
+
+from roughfilm.contact.foundation.toml import Location, in_one_line, known_keys, unknown_key
+from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.ladder.kind import Kind
+from roughfilm.rom.ladder.model import Effect
+from roughfilm.rom.ladder.scene import scene_entries
+from roughfilm.rom.ladder.sweeping import Columns, Sweeping
+from roughfilm.rom.pocket import quadrature
+from roughfilm.rom.pocket.error_law import words
+from roughfilm.rom.pocket.geometry import PROFILES, PocketGeometry
+from roughfilm.rom.pocket.scene import Pocket
+
+LOADED = 0.05
+"""A smaller load, over the greatest pressure, is the difference of two larger ones; its error follows no number."""
+
+LEAST_LOAD = 1e-3
+"""A load below this part of the greatest pressure is no load to divide by; the pressure is taken instead."""
+
+RATIOS = {
+    "film_plus": ("film", "length"),
+    "width_plus": ("width", "length"),
+    "depth_plus": ("depth", "film"),
+    "shift_plus": ("shift", "width"),
+}
+"""The dimensionless numbers of a groove and the lengths they divide: w+, d+ and xd+ of doi:10.1115/1.1828067."""
+
+
+def greatest_pressure(values: Mapping[str, Any]) -> Any:
+    """The greatest pressure by size, p+; a number or the shape of the values."""
+    return np.maximum(np.abs(values["pressure_max_plus"]), np.abs(values["pressure_min_plus"]))
+
+
+def scale(values: Mapping[str, Any], quantity: str) -> Any:
+    """The size of a quantity, or the greatest pressure where there is hardly any load."""
+    size = np.abs(values[quantity])
+    if quantity != "load_plus":
+        return size
+    pressure = greatest_pressure(values)
+    return np.where(size > LEAST_LOAD * pressure, size, pressure)
+
+
+def columns(scene: Pocket) -> dict[str, Quantity | str]:
+    """The shape of the groove and its dimensionless numbers, where there is one groove, and the Reynolds number."""
+    geometry = scene_entries(scene)["geometry"]
+    ratios = {
+        plus: float(f"{_length(geometry[one]) / _length(geometry[other]):.12g}")
+        for plus, (one, other) in RATIOS.items()
+        if one in geometry and other in geometry
+    }
+    numbers = {**ratios, "reynolds_number": scene.reynolds_number}
+    return {
+        "profile": str(geometry.get("profile", "several grooves")),
+        **{name: Quantity(value=float(number), unit="1") for name, number in numbers.items()},
+    }
+
+
+def features(given: Columns) -> dict[str, NDArray[Any]]:
+    """Re, d/Ly, 2d/w, and the mean slope of the steeper side; ``given`` as in :func:`columns`."""
+    width, depth = given["width_plus"] / given["film_plus"], given["depth_plus"]
+    return {
+        "reynolds_number": given["reynolds_number"],
+        "depth": depth,
+        "aspect": 2 * depth / width,
+        "slope": depth / (width * (0.5 - np.abs(given["shift_plus"]))),
+    }
+
+
+def worth(values: Columns) -> NDArray[np.bool_]:
+    """Which cases carry a load above ``LOADED`` of the greatest pressure."""
+    return np.asarray(np.abs(values["load_plus"]) > LOADED * greatest_pressure(values))
+
+
+NUMBERS = {
+    "reynolds_number": "Re",
+    "reduced_reynolds_number": "Re·h/w",
+    "film": "h/L",
+    "depth": "d/h",
+    "aspect": "2d/w",
+    "slope": "slope",
+    "asymmetry": "2|s|/w",
+    "loaded": "load/p_max",
+}
+"""How people write the numbers: h the film, L its period, w, d and s a groove's width, depth and shift."""
+
+LEAST_ASYMMETRY = 1e-3
+"""Of a groove whose lowest point is in the middle."""
+
+
+def numbers(scene: Pocket) -> dict[str, float]:
+    """Of several grooves the deepest, narrowest and steepest count.
+
+    Load over greatest pressure is told to first order in Re; where it is small, load is the difference of larger ones.
+    """
+    told = first_order(scene)
+    return {
+        "reynolds_number": scene.reynolds_number,
+        "reduced_reynolds_number": scene.reduced_reynolds_number,
+        "film": scene.geometry.film / scene.geometry.length,
+        "depth": scene.depth,
+        "aspect": scene.aspect,
+        "slope": scene.slope,
+        "asymmetry": max(1 - scene.aspect / scene.slope, LEAST_ASYMMETRY),
+        "loaded": max(abs(told["load_plus"]) / greatest_pressure(told), LEAST_LOAD),
+    }
+
+
+def first_order(scene: Pocket) -> dict[str, float]:
+    """What the Reynolds equation with first-order inertia says, in closed form."""
+    found = quadrature.solve(scene, model="inertial_reynolds", keeps=frozenset({Effect.INERTIA}), sources=())
+    return {name: quantity.value for name, quantity in found.quantities.items()}
+
+
+def _length(text: str) -> float:
+    return float(text.partition(" ")[0])
+
+
+def _location(path: Location, entries: Mapping[str, Any]) -> tuple[list[int | str], str | None]:
+    """Where a fault stands in the file, and the profile of the groove that it is in, if it is in one."""
+    location = list(path)
+    if location[:2] != ["geometry", "grooves"] or len(location) < 3:
+        return location, None
+    profile = str(location.pop(3)) if len(location) > 3 else None
+    if "grooves" not in entries["geometry"]:
+        del location[1:3]
+    return location, profile
+
+
+def told(error: ValidationError, entries: Mapping[str, Any]) -> str:
+    """The first fault in one line; keys of a groove are known by its profile."""
+    fault = sorted(error.errors(include_url=False), key=lambda fault: fault["type"] != "extra_forbidden")[0]
+    _, profile = _location(fault["loc"], entries)
+
+    def unknown(location: Location) -> str:
+        *path, key = location
+        known = [*PROFILES[profile].model_fields] if profile else known_keys(Pocket, path)
+        if path == ["geometry"]:
+            known = [*dict.fromkeys([*PocketGeometry.model_fields, *known])]
+        if profile and any(key in other.model_fields for other in PROFILES.values()):
+            return f"no key of profile {profile!r}; known here: {', '.join(known)}"
+        return unknown_key(key, known)
+
+    return in_one_line(error, "scene", unknown, lambda path: _location(path, entries)[0])
+
+
+KIND = Kind(
+    name="pocket",
+    scene=Pocket,
+    summary="a groove under a sliding wall",
+    compared={"load_plus": "load", "friction_plus": "friction"},
+    scale=scale,
+    columns=columns,
+    numbers=numbers,
+    symbols=NUMBERS,
+    files=frozenset({"points"}),
+    replaces={
+        "motion.speed": ("reynolds_number",),
+        "motion.reynolds_number": ("speed",),
+        "geometry.points": ("width", "depth", "shift"),
+    },
+    told=told,
+    sweeping=Sweeping(
+        given={
+            "profile": None,
+            "width_plus": None,
+            "depth_plus": None,
+            "reynolds_number": None,
+            "film_plus": None,
+            "shift_plus": 0.0,
+        },
+        quantities=("load_plus", "friction_plus", "pressure_max_plus", "pressure_min_plus", "backflow"),
+        features=features,
+        worth=worth,
+        candidates={
+            "Re": {"reynolds_number": 1},
+            "d/Ly": {"depth": 1},
+            "2d/w": {"aspect": 1},
+            "slope": {"slope": 1},
+            "2Ly/w": {"depth": -1, "aspect": 1},
+            "Re 2Ly/w": {"reynolds_number": 1, "depth": -1, "aspect": 1},
+            "Re 2d/w": {"reynolds_number": 1, "aspect": 1},
+            "Re slope": {"reynolds_number": 1, "slope": 1},
+            "Re (2d/w)²": {"reynolds_number": 1, "aspect": 2},
+            "2d²/(w Ly)": {"depth": 1, "aspect": 1},
+        },
+        fitted=("reynolds_number", "depth", "aspect"),
+        words=words,
+    ),
+)

@@ -1,0 +1,1 @@
+"""The models of a pocket, one a file."""

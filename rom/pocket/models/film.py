@@ -1,0 +1,24 @@
+"""The thin-film Navier-Stokes equations: all of inertia, lowest order in slope."""
+
+from roughfilm.rom.ladder.model import Applicability, Effect
+from roughfilm.rom.pocket.error_law import ErrorLaw
+from roughfilm.rom.pocket.scene import Pocket
+from roughfilm.rom.pocket.solve import film_model
+
+LAW = ErrorLaw(powers={"depth": -1, "aspect": 1}, thresholds={0.05: 0.4})
+
+
+def applies(scene: Pocket) -> Applicability:
+    """Always; says how far its load may be off."""
+    return LAW.applicability(scene, "keeps all of inertia, leaves out slope")
+
+
+MODEL = film_model(
+    name="film",
+    summary="thin-film Navier-Stokes: inertia in full",
+    keeps=frozenset({Effect.INERTIA}),
+    complete=True,
+    sources=("10.1098/rstl.1886.0005", "10.1115/1.1828067"),
+    applies=applies,
+    law=LAW,
+)

@@ -1,0 +1,71 @@
+r"""What the walls' slope adds to a thin-film flow, to second order, as forces on its cells.
+
+Against the full Navier-Stokes equations a thin film leaves out the stress that its own velocity (u, v) causes along the
+film: with y upward, M = ∫_y^1 u v dy, and pressure across the film from the momentum in y,
+
+    T = 2 ∂u/∂x + Re v² - Re ∂M/∂x.
+
+Its divergence ∂T/∂x is tested with the φ_k and integrated by parts, so that no second derivative of the wall is needed.
+Where the wall has a corner the thin film's v jumps; in truth a disturbance dies away from its source as the slowest
+mode that vanishes on both walls does, over h / π. T is smoothed over that length:
+
+    T - (h/π)² ∂²T/∂x² = T of the thin film,
+
+which changes nothing of second order where the wall is smooth.
+"""
+
+import numpy as np
+
+from roughfilm.rom.pocket import periodic_solve as ring
+from roughfilm.rom.pocket.basis import Basis
+from roughfilm.rom.pocket.gap import Array
+from roughfilm.rom.pocket.thin_film import Flow, Strip, all_amplitudes, stream_function, velocity
+
+REACH = 1 / np.pi
+"""How far a disturbance reaches along the film, in film thicknesses: the slowest mode is sin(πY) exp(-πx/h)."""
+
+
+def velocities(film: Strip, across: Basis, state: Flow) -> tuple[Array, Array]:
+    """Velocity u along and v across the film in each cell, shape (cells, points); v = -∂ψ/∂x at constant y."""
+    u = velocity(film, across, state)
+    psi = stream_function(film, across, state)
+    rise = (np.roll(psi, -1, axis=0) - psi) / film.lengths[:, None]
+    return u, np.asarray(-rise - u * (1 - across.nodes) * _wall_slope(film)[:, None])
+
+
+def imbalance(film: Strip, across: Basis, reynolds_number: float, state: Flow) -> Array:
+    """-∫∫ φ_k ∂T/∂x dy dx of every cell, shape (cells, n): to be answered by :func:`rom.pocket.thin_film.step`."""
+    u, v = velocities(film, across, state)
+    below, slope = 1 - across.nodes, _wall_slope(film)[:, None]
+    h, between = film.thickness[:, None], (film.lengths + np.roll(film.lengths, 1))[:, None] / 2
+    shear = 1 + all_amplitudes(film, across, state) @ across.slope
+    moment = h * ((u * v) @ across.above)
+
+    def along(values: Array, by_height: Array) -> Array:
+        """∂/∂x at constant y, at the faces, of values whose ∂/∂Y is given."""
+        return np.asarray(
+            (values - np.roll(values, 1, axis=0)) / between + _at_faces(film, by_height * below * slope / h)
+        )
+
+    stress = 2 * along(u, shear) + reynolds_number * (_at_faces(film, v**2) - along(moment, -h * u * v))
+    stress = _smoothed(film, stress)
+    through = film.face_thickness[:, None] * (stress @ (across.weights * across.shape).T)
+    inside = (stress + np.roll(stress, -1, axis=0)) / 2 * below * (film.lengths[:, None] * slope)
+    return np.asarray(through - np.roll(through, -1, axis=0) + inside @ (across.weights * across.slope).T)
+
+
+def _wall_slope(film: Strip) -> Array:
+    return np.asarray((np.roll(film.face_thickness, -1) - film.face_thickness) / film.lengths)
+
+
+def _at_faces(film: Strip, values: Array) -> Array:
+    left, right = film.middle[:, 1, None], film.middle[:, 2, None]
+    return np.asarray(left * np.roll(values, 1, axis=0) + right * values)
+
+
+def _smoothed(film: Strip, values: Array) -> Array:
+    """Solve f - (REACH h)² f'' = values at the faces."""
+    right, left = film.lengths, np.roll(film.lengths, 1)
+    reach = 2 * (REACH * film.face_thickness) ** 2 / (left + right)
+    row = np.stack([-reach / left, 1 + reach / left + reach / right, -reach / right], axis=1)
+    return ring.solve(row[:, :, None, None], values[:, None, :])[:, 0]

@@ -1,0 +1,193 @@
+r"""The thin-film (Prandtl) Navier-Stokes equations along a gap: all of inertia, lowest order in slope.
+
+In units of film thickness Ly, sliding speed u and viscous stress η u / Ly, with Y = 0 on the still wall, Y = 1 on the
+sliding one, and ψ(x, Y) = h ∫_0^Y u dY the stream function:
+
+    Re [ ∂(h u²)/∂x - ∂(u ∂ψ/∂x)/∂Y ] = -h dp/dx + (1/h) ∂²u/∂Y²,      ψ(x, 1) = q.
+
+Across the film u = Y + Σ a_k φ_k(Y) (:mod:`roughfilm.rom.pocket.basis`), tested with the same φ_k; the flow gives
+a_0 = (q/h - 1/2) / ∫φ_0, and of all the tests only that with φ_0 knows the pressure. Along the film finite volumes of
+second order: the momentum through a face is reconstructed from the side the fluid comes from, at each Y by itself, so
+that back-flow takes its values from downstream and nothing rings.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughfilm.rom.pocket import periodic_solve as ring
+from roughfilm.rom.pocket.basis import STIFFNESS, Basis
+from roughfilm.rom.pocket.columns import columns
+from roughfilm.rom.pocket.gap import Array, Gap
+
+OFFSETS = (-2, -1, 0, 1)
+"""The cells from which the values at a face are made, counted from the cell on its right."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Strip:
+    """The gap cut into cells round the period, in film thicknesses.
+
+    ``faces`` has one entry more than the cells; ``face_thickness`` leaves the last face out, which is the first again.
+    ``middle`` interpolates to a face, ``from_left`` and ``from_right`` reconstruct from one side; shape (cells, 4), by
+    OFFSETS.
+    """
+
+    faces: Array
+    face_thickness: Array
+    centres: Array
+    thickness: Array
+    lengths: Array
+    middle: Array
+    from_left: Array
+    from_right: Array
+
+
+@dataclass(frozen=True, kw_only=True)
+class Flow:
+    """``amplitudes`` a_1 .. a_{n-1} of each cell, shape (cells, n-1), and the volume flow q."""
+
+    amplitudes: Array
+    flow: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Linearised:
+    """Imbalance of every cell and test function, shape (cells, n), and what it changes by.
+
+    ``blocks``, shape (cells, 5, n, n-1), by the amplitudes of cells i-2 .. i+2; ``by_flow``, shape (cells, n), by q.
+    ``force`` is the largest force in a cell: of viscosity, or the momentum that flows through a face.
+    """
+
+    imbalance: Array
+    blocks: Array
+    by_flow: Array
+    force: float
+
+
+def strip(gap: Gap, resolution: int, *, second_order: bool = True) -> Strip:
+    """Cut a gap into about ``resolution`` cells, closer where it bends; every corner is a face."""
+    faces = columns(gap, resolution)
+    centres, lengths = (faces[1:] + faces[:-1]) / 2, np.diff(faces)
+    left2, left, right, right2 = (np.roll(lengths, -offset) for offset in OFFSETS)
+    from_left, from_right, middle = (np.zeros((lengths.size, len(OFFSETS))) for _ in range(3))
+    reach = left / (left + left2) if second_order else np.zeros_like(left)
+    from_left[:, 0], from_left[:, 1] = -reach, 1 + reach
+    reach = right / (right + right2) if second_order else np.zeros_like(left)
+    from_right[:, 2], from_right[:, 3] = 1 + reach, -reach
+    middle[:, 1], middle[:, 2] = right / (left + right), left / (left + right)
+    return Strip(
+        faces=faces,
+        face_thickness=gap.thickness(faces[:-1] * gap.film) / gap.film,
+        centres=centres,
+        thickness=gap.thickness(centres * gap.film) / gap.film,
+        lengths=lengths,
+        middle=middle,
+        from_left=from_left,
+        from_right=from_right,
+    )
+
+
+def creeping(film: Strip, modes: int) -> Flow:
+    """The flow without inertia: that of the Reynolds equation on these cells."""
+    h, dx = film.thickness, film.lengths
+    return Flow(amplitudes=np.zeros((h.size, modes - 1)), flow=float((dx / h**2).sum() / (2 * (dx / h**3).sum())))
+
+
+def first_amplitude(across: Basis, h: Array, flow: float) -> Array:
+    """a_0 = (q/h - 1/2) / ∫φ_0; shape of ``h``."""
+    return np.asarray((flow / h - 0.5) / across.flow)
+
+
+def all_amplitudes(film: Strip, across: Basis, state: Flow) -> Array:
+    """a_0 .. a_{n-1} of each cell, shape (cells, n)."""
+    return np.column_stack([first_amplitude(across, film.thickness, state.flow), state.amplitudes])
+
+
+def velocity(film: Strip, across: Basis, state: Flow) -> Array:
+    """Velocity u along each cell, shape (cells, points)."""
+    return np.asarray(across.nodes + all_amplitudes(film, across, state) @ across.shape)
+
+
+def face_amplitudes(film: Strip, across: Basis, state: Flow) -> Array:
+    """a_0 .. a_{n-1} at each face, interpolated (the first is exact), shape (cells, n)."""
+    inner = np.einsum("fo,fok->fk", film.middle, _around(state.amplitudes))
+    return np.column_stack([first_amplitude(across, film.face_thickness, state.flow), inner])
+
+
+def stream_function(film: Strip, across: Basis, state: Flow) -> Array:
+    """ψ at each face and point across, shape (cells, points)."""
+    return np.asarray(
+        film.face_thickness[:, None] * (across.nodes**2 / 2 + face_amplitudes(film, across, state) @ across.primitive)
+    )
+
+
+def linearise(film: Strip, across: Basis, reynolds_number: float, state: Flow) -> Linearised:
+    """The balance of momentum in each cell against each test function, and its derivatives."""
+    h, h_face, dx = film.thickness, film.face_thickness, film.lengths
+    weighted, inner = across.weights * across.shape, across.shape[1:]
+    a, u = all_amplitudes(film, across, state), velocity(film, across, state)
+
+    from_flow = across.nodes + first_amplitude(across, h_face, state.flow)[:, None] * across.shape[0]
+    around = _around(state.amplitudes @ inner)
+    forward = from_flow + np.einsum("fo,fom->fm", film.middle, around) > 0
+    parts = np.where(forward[:, None, :], film.from_left[:, :, None], film.from_right[:, :, None])
+    u_face = from_flow + (parts * around).sum(axis=1)
+
+    through = h_face[:, None] * (u_face**2 @ weighted.T)
+    rise = _next(stream_function(film, across, state)) - stream_function(film, across, state)
+    viscous = (dx / h)[:, None] * STIFFNESS * a
+    turning = across.weights * across.slope
+    imbalance = reynolds_number * (_next(through) - through + (u * rise) @ turning.T) + viscous
+
+    n = a.shape[1]
+    blocks = np.zeros((h.size, 5, n, n - 1))
+    by_face = (2 * h_face[:, None] * u_face)[:, None, None, :] * weighted
+    by_face = (by_face * parts[:, :, None, :]) @ inner.T
+    blocks[:, 1:] += _next(by_face)
+    blocks[:, :-1] -= by_face
+    blocks[:, 2] += (turning * rise[:, None, :]) @ inner.T
+    by_stream = (turning * u[:, None, :]) @ across.primitive[1:].T
+    lever = film.middle * h_face[:, None]
+    blocks[:, 1:] += _next(lever)[:, :, None, None] * by_stream[:, None]
+    blocks[:, :-1] -= lever[:, :, None, None] * by_stream[:, None]
+    blocks *= reynolds_number
+    k = np.arange(1, n)
+    blocks[:, 2, k, k - 1] += (dx / h)[:, None] * STIFFNESS
+
+    through_by_flow = 2 / across.flow * (u_face * across.shape[0]) @ weighted.T
+    by_flow = reynolds_number * (_next(through_by_flow) - through_by_flow)
+    by_flow += reynolds_number * (across.shape[0] * rise) @ turning.T / (across.flow * h)[:, None]
+    by_flow[:, 0] += dx * STIFFNESS / (across.flow * h**2)
+    force = float(max(np.abs(viscous).max(), reynolds_number * np.abs(through).max()))
+    return Linearised(imbalance=imbalance, blocks=blocks, by_flow=by_flow, force=force)
+
+
+def pressure_rise(film: Strip, across: Basis, imbalance: Array) -> Array:
+    """What pressure must rise by along each cell to balance the first test function, shape (cells,)."""
+    return np.asarray(-imbalance[:, 0] / (film.thickness * across.flow))
+
+
+def step(film: Strip, across: Basis, linear: Linearised, imbalance: Array) -> tuple[Flow, Array]:
+    """Answer of the flow to an imbalance: what takes it away, with no pressure rise over the whole period.
+
+    Returns the change of flow and the change of pressure rise along each cell.
+    """
+    known = np.stack([imbalance[:, 1:], linear.by_flow[:, 1:]], axis=2)
+    answer = ring.solve(linear.blocks[:, :, 1:], known)
+    around = np.stack([np.roll(answer, -offset, axis=0) for offset in range(-2, 3)], axis=1)
+    first = np.einsum("iok,iokr->ir", linear.blocks[:, :, 0], around)
+    lever = -1 / (film.thickness * across.flow)
+    rise, by_flow = lever * (imbalance[:, 0] - first[:, 0]), lever * (linear.by_flow[:, 0] - first[:, 1])
+    flow = float(rise.sum() / by_flow.sum())
+    change = Flow(amplitudes=answer[:, :, 1] * flow - answer[:, :, 0], flow=-flow)
+    return change, np.asarray(rise - by_flow * flow)
+
+
+def _next(values: Array) -> Array:
+    return np.roll(values, -1, axis=0)
+
+
+def _around(values: Array) -> Array:
+    """The values of the cells by OFFSETS, shape (cells, 4, ...)."""
+    return np.stack([np.roll(values, -offset, axis=0) for offset in OFFSETS], axis=1)

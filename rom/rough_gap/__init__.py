@@ -1,0 +1,1 @@
+"""Flow through the gap between rough walls."""

@@ -1,0 +1,1 @@
+"""Flow between rough walls to second order in slope, and exact solutions."""

@@ -1,0 +1,207 @@
+"""Stokes flow in a small cell of a gap between any smooth walls, to several digits and without a mesh."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import cho_factor, cho_solve
+from scipy.special import eval_jacobi, roots_legendre
+
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
+from roughfilm.rom.pocket.gap import Array
+from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors
+from roughfilm.rom.rough_gap.walls import Walls
+
+TOLERANCE = 1e-4
+"""Of A, B and friction over those of a smooth film."""
+
+FIRST = (2, 2)
+"""Waves in a side, and functions across the gap, of the first basis."""
+
+MOST = 2500
+"""Functions; more take above a minute."""
+
+Flow = tuple[Array, Array, Array]
+"""û, its gradient along the film, of shape (2, 3, points), and ∂û/∂s at places of one s."""
+
+
+def ritz_flow(walls: Walls, *, tolerance: float = TOLERANCE) -> RoughGapFactors:
+    """Factors of a gap in Stokes flow: the least dissipation of all flows of a basis that grows until nothing changes.
+
+    On the strip 0 < s < 1, of which the gap is the image z = z₁ + s h, a flow û without divergence is made of uniform
+    ones, of (∂_yψ, -∂_xψ, 0) with ψ = e^{iq·x} s(1-s) P_n(s), and of (f'∂_xφ, f'∂_yφ, -f∇²φ) with f = s²(1-s)² P_n(s).
+    In the gap it is u = û_x/h, v = û_y/h, w = û_s + (∇z₁ + s∇h)·(u, v), again without divergence and at rest on the
+    walls. Errors are squares of those of the flow; A comes from below (as a quadratic form), friction from above.
+
+    Parameters
+    ----------
+    walls : m, waves are drawn through their nodes. Smooth, with a few waves in a side: a basis with all waves up to m
+        in a side and n functions across has 8 m (m + 1) n functions.
+    tolerance : of what one more wave and function change in A/h̄³, B/h̄ and f h̄.
+
+    Raises
+    ------
+    InputError
+        If the walls touch, or the tolerance is not above 0.
+    ConvergenceError
+        If 2500 functions do not meet the tolerance.
+    """
+    if not tolerance > 0:
+        raise InputError(f"tolerance: got {tolerance!r}; it must be above 0")
+    if not walls.gap.min() > 0:
+        raise InputError("walls: touch; keep them apart, this basis has no edges of contact")
+    mean, (dx, dy) = walls.mean_gap, walls.spacing
+    unit = Walls(lower=walls.lower / mean, upper=walls.upper / mean, spacing=(dx / mean, dy / mean))
+    before, change, functions = None, np.inf, 0
+    for waves, heights in _sizes():
+        form = _least_dissipation(unit, waves, heights)
+        functions = _functions(waves, heights)
+        pressure = np.asarray(12 * np.linalg.inv(form[:2, :2]), dtype=np.float64)
+        shear, friction = np.full(2, np.nan), np.nan
+        if walls.slides:
+            shear = -pressure @ form[:2, 2] / 6
+            friction = float(form[2, 2] - 3 * shear @ np.linalg.solve(pressure, shear))
+        now = np.array([*pressure.ravel(), *shear, friction])
+        if before is not None:
+            change = float(np.nanmax(np.abs(now - before)))
+            if change < tolerance:
+                found = RoughGapFactors(mean_gap=1.0, pressure=pressure, shear=shear, friction=friction)
+                return found.scaled(mean)
+        before = now
+    raise ConvergenceError(
+        f"ritz flow: factors still change by {change:.1e} with {functions} functions; "
+        "loosen the tolerance, or take a smaller or smoother cell",
+        outcome=Outcome.UNFINISHED,
+    )
+
+
+def _functions(waves: int, heights: int) -> int:
+    return ((2 * waves + 1) ** 2 - 1) * 2 * heights + 2 * heights
+
+
+def _sizes() -> Iterator[tuple[int, int]]:
+    waves, heights = FIRST
+    while _functions(waves, heights) <= MOST:
+        yield waves, heights
+        waves, heights = waves + 1, heights + 1
+
+
+def _least_dissipation(walls: Walls, waves: int, heights: int) -> Array:
+    """Over η, for flow along x, along y and a sliding wall, shape (3, 3) or (2, 2)."""
+    surface = _surface(walls, waves)
+    points, weights = roots_legendre(heights + 4)
+    drives = 3 if walls.slides else 2
+    functions = drives + _functions(waves, heights)
+    total = np.zeros((functions, functions))
+    for s, weight in zip((points + 1) / 2, weights / 2, strict=True):
+        flows = (*surface.driven(s, drives), *surface.basis(s, heights))
+        matrix = np.array([surface.gradient(s, flow) for flow in flows])
+        total += (matrix * (weight / surface.gap.size)) @ matrix.T
+    size = np.sqrt(np.diag(total))[drives:]
+    inner = total[drives:, drives:] / np.outer(size, size)
+    outer = total[drives:, :drives] / size[:, None]
+    return np.asarray(total[:drives, :drives] - outer.T @ cho_solve(cho_factor(inner), outer))
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Surface:
+    """At evenly spaced points of the cell, flat: the gap, ∇z₁ and ∇h with their gradients, and the waves.
+
+    ``lower`` and ``rise``: shape (2, points); ``lower_x``, ``rise_x``: (2, 2, points). ``waves``: value, gradient,
+    second derivatives and gradient of the Laplacian of each.
+    """
+
+    gap: Array
+    lower: Array
+    rise: Array
+    lower_x: Array
+    rise_x: Array
+    waves: tuple[tuple[Array, Array, Array, float], ...]
+
+    def driven(self, s: float, drives: int) -> Iterator[Flow]:
+        """Unit flux along x, along y, and no flux under a wall that slides at 1."""
+        yield from _uniform(6 * s * (1 - s), 6 - 12 * s, self.gap.size)
+        if drives > 2:
+            none, part, area = np.zeros_like(self.gap), 3 * s**2 - 2 * s, s**3 - s**2
+            along = np.array([[self.rise[k] * part, none, -self.rise_x[k, 0] * area] for k in range(2)])
+            up = np.array([self.gap * (6 * s - 2), none, -self.rise[0] * part])
+            yield np.array([self.gap * part, none, -self.rise[0] * area]), along, up
+
+    def basis(self, s: float, heights: int) -> Iterator[Flow]:
+        """Flows without mean flux, at rest on the walls."""
+        none = np.zeros_like(self.gap)
+        for n in range(heights):
+            g, g_s, _ = _shape(n, 1, s)
+            f, f_s, f_ss = _shape(n, 2, s)
+            yield from _uniform(*_shape(n + 1, 1, s)[:2], self.gap.size)
+            for value, (x, y), bend, square in self.waves:
+                twisted = np.array([[bend[k, 1], -bend[k, 0], none] for k in range(2)])
+                yield np.array([y, -x, none]) * g, twisted * g, np.array([y, -x, none]) * g_s
+                along = np.array([[bend[k, 0] * f_s, bend[k, 1] * f_s, square * (x, y)[k] * f] for k in range(2)])
+                lifted = np.array([x * f_ss, y * f_ss, square * value * f_s])
+                yield np.array([x * f_s, y * f_s, square * value * f]), along, lifted
+
+    def gradient(self, s: float, flow: Flow) -> Array:
+        """Velocity gradient in the gap times √h, all components behind one another."""
+        own, along, up = flow
+        h, tilt, tilt_x = self.gap, self.lower + s * self.rise, self.lower_x + s * self.rise_x
+        u, u_s = own[:2] / h, up[:2] / h
+        u_x = along[:, :2] / h - self.rise[:, None] * u / h
+        w_x = along[:, 2] + (tilt_x * u).sum(axis=1) + (tilt * u_x).sum(axis=1)
+        w_s = up[2] + (self.rise * u + tilt * u_s).sum(axis=0)
+        steep = np.array([*u_s, w_s]) / h
+        level = np.concatenate([u_x, w_x[:, None]], axis=1) - tilt[:, None] * steep
+        return np.asarray((np.concatenate([level.reshape(6, -1), steep]) * np.sqrt(h)).ravel())
+
+
+def _surface(walls: Walls, waves: int) -> _Surface:
+    size = walls.size
+    counts = [2 * (2 * waves + min(n // 2, 4) + 2) for n in walls.lower.shape]
+    x, y = np.meshgrid(*(np.arange(n) / n * side for n, side in zip(counts, size, strict=True)), indexing="ij")
+    place = np.array([x.ravel(), y.ravel()])
+    below, gap = _derivatives(walls.lower, size, place), _derivatives(walls.gap, size, place)
+    made = []
+    for p in range(waves + 1):
+        for r in range(-waves, waves + 1):
+            if (p, r) <= (0, 0):
+                continue
+            q = 2 * np.pi * np.array([p / size[0], r / size[1]])
+            phase = q @ place
+            for value, slope in ((np.cos(phase), -np.sin(phase)), (np.sin(phase), np.cos(phase))):
+                made.append((value, q[:, None] * slope, np.multiply.outer(np.outer(q, q), -value), float(q @ q)))
+    return _Surface(gap=gap[0], lower=below[1], lower_x=below[2], rise=gap[1], rise_x=gap[2], waves=tuple(made))
+
+
+def _uniform(value: float, slope: float, places: int) -> Iterator[Flow]:
+    """The same everywhere along the film, along x and along y."""
+    for direction in np.eye(3)[:2, :, None]:
+        constant = np.broadcast_to(direction, (3, places))
+        yield constant * value, np.zeros((2, 3, places)), constant * slope
+
+
+def _shape(n: int, power: int, s: float) -> tuple[float, float, float]:
+    """(s(1-s))^power P_n(s) and its first two derivatives; P_n that of Jacobi for (s(1-s))^power."""
+    bump = np.polynomial.Polynomial([0, 1, -1]) ** power
+    t = 2 * s - 1
+    values = [
+        np.prod(n + 2 * power + 1 + np.arange(k)) * eval_jacobi(n - k, power + k, power + k, t) if n >= k else 0.0
+        for k in range(3)
+    ]
+    b = [bump.deriv(k)(s) if k else bump(s) for k in range(3)]
+    return (
+        b[0] * values[0],
+        b[1] * values[0] + b[0] * values[1],
+        b[2] * values[0] + 2 * b[1] * values[1] + b[0] * values[2],
+    )
+
+
+def _derivatives(heights: Array, size: tuple[float, float], place: Array) -> tuple[Array, Array, Array]:
+    """Of the trigonometric polynomial through the nodes: value, gradient, second derivatives, at some places."""
+    parts = np.fft.fft2(heights, norm="forward")
+    kept = np.argwhere(np.abs(parts) > 1e-15 * np.abs(parts).max())
+    whole = np.array([np.fft.fftfreq(n, 1 / n) for n in heights.shape], dtype=object)
+    q = 2 * np.pi * np.array([[whole[i][place[i]] / size[i] for i in range(2)] for place in kept])
+    waves = np.exp(1j * q @ place) * parts[kept[:, 0], kept[:, 1]][:, None]
+    gradient = np.array([(1j * q[:, i] @ waves).real for i in range(2)])
+    second = np.array([[-(q[:, i] * q[:, j]) @ waves for j in range(2)] for i in range(2)]).real
+    return waves.sum(axis=0).real, gradient, second

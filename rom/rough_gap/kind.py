@@ -1,0 +1,131 @@
+"""Rough gaps: what passes through one period between two walls."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.ladder.kind import Kind
+from roughfilm.rom.ladder.sweeping import Columns, Powers, Sweeping
+from roughfilm.rom.rough_gap.geometry import SINUSOID
+from roughfilm.rom.rough_gap.scene import RoughGap
+
+LEAST_FLOW = 1e-4
+"""A flow below this part of that through a smooth gap is as good as none."""
+
+SYMBOLS = {"slope": "g'", "height": "Sq/h̄", "reynolds_number": "Re", "shortness": "h̄/λ"}
+
+
+def scale(values: Mapping[str, Any], quantity: str) -> Any:
+    """The size of a coefficient, at least ``LEAST_FLOW``."""
+    return np.maximum(np.abs(values[quantity]), LEAST_FLOW)
+
+
+def columns(scene: RoughGap) -> dict[str, Quantity | str]:
+    """The surface's name, Re, and of the walls' difference Sq/h̄, g' and h̄/λ with λ = 2π Sq/g'."""
+    numbers = {
+        "height_ratio": scene.rms_height / scene.mean_gap,
+        "rms_slope": scene.rms_slope,
+        "gap_over_wavelength": scene.gap_over_wavelength,
+        "reynolds_number": scene.reynolds_number,
+    }
+    return {
+        "rough_surface": scene.geometry.name,
+        **{name: Quantity(value=float(f"{number:.12g}"), unit="1") for name, number in numbers.items()},
+    }
+
+
+def features(given: Columns) -> dict[str, NDArray[Any]]:
+    """g', Sq/h̄, Re and h̄/λ; ``given`` as in :func:`columns`."""
+    return {
+        "slope": given["rms_slope"],
+        "height": given["height_ratio"],
+        "reynolds_number": given["reynolds_number"],
+        "shortness": given["gap_over_wavelength"],
+    }
+
+
+def worth(values: Columns) -> NDArray[np.bool_]:
+    """Every case through which something flows both ways."""
+    return np.asarray((values["A11"] > LEAST_FLOW) & (values["A22"] > LEAST_FLOW))
+
+
+def words(powers: Powers) -> str:
+    """A product of powers as people write it."""
+    told = [SYMBOLS[name] if power == 1 else f"({SYMBOLS[name]})^{power:g}" for name, power in powers.items()]
+    return " · ".join(told)
+
+
+NUMBERS = {
+    "slope": "g'",
+    "height": "Sq/h̄",
+    "shortness": "h̄/λ",
+    "reynolds_number": "Re",
+    "roughness_reynolds_number": "Re·g'",
+    "waves": "side/λ",
+    "least_gap": "h_min/h̄",
+}
+"""How people write the numbers of a rough gap."""
+
+TOUCHING = 1e-3
+"""The least gap, over the mean one, of walls that touch."""
+
+
+def numbers(scene: RoughGap) -> dict[str, float]:
+    """λ = 2π Sq/g', of which flat walls have none."""
+    surface = scene.surface()
+    walls = scene.walls(max(surface.shape))
+    waves = max(surface.size) * scene.rms_slope / (2 * np.pi * scene.rms_height) if scene.rms_height > 0 else 0.0
+    return {
+        "slope": scene.rms_slope,
+        "height": scene.rms_height / scene.mean_gap,
+        "shortness": scene.gap_over_wavelength,
+        "reynolds_number": scene.reynolds_number,
+        "roughness_reynolds_number": scene.reynolds_number * scene.rms_slope,
+        "waves": waves,
+        "least_gap": max(float(walls.gap.min()) / scene.mean_gap, TOUCHING),
+    }
+
+
+KIND = Kind(
+    name="rough_gap",
+    scene=RoughGap,
+    summary="a liquid between two walls that are near each other, one or both rough",
+    compared={"A11": "flow along x", "A22": "flow along y"},
+    scale=scale,
+    columns=columns,
+    numbers=numbers,
+    symbols=NUMBERS,
+    files=frozenset({"surface"}),
+    no_files=frozenset({SINUSOID}),
+    replaces={
+        "geometry.surface": ("digest", "spacing", "amplitude", "wavelength"),
+        "flow.pressure_gradient": ("reynolds_number",),
+        "flow.reynolds_number": ("pressure_gradient",),
+    },
+    lists=frozenset({("geometry", "spacing"), ("geometry", "surface", "size"), ("geometry", "surface", "points")}),
+    sweeping=Sweeping(
+        given={
+            "rough_surface": None,
+            "height_ratio": None,
+            "rms_slope": None,
+            "gap_over_wavelength": None,
+            "reynolds_number": None,
+        },
+        quantities=("A11", "A22"),
+        features=features,
+        worth=worth,
+        candidates={
+            "Re": {"reynolds_number": 1},
+            "Sq/h̄": {"height": 1},
+            "g'": {"slope": 1},
+            "Re g'": {"reynolds_number": 1, "slope": 1},
+            "Re g' Sq/h̄": {"reynolds_number": 1, "slope": 1, "height": 1},
+            "h̄/λ": {"shortness": 1},
+        },
+        fitted=("slope", "height", "reynolds_number"),
+        words=words,
+    ),
+)

@@ -1,0 +1,42 @@
+"""The mean gap alone: no roughness."""
+
+import numpy as np
+
+from roughfilm.rom.ladder.model import Applicability
+from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors
+from roughfilm.rom.rough_gap.model import Found, gap_model
+from roughfilm.rom.rough_gap.scene import RoughGap
+from roughfilm.rom.rough_gap.walls import Walls
+
+
+def applies(scene: RoughGap) -> Applicability:
+    """Always; says how rough the gap is."""
+    reason = f"leaves out roughness (Sq/h̄ = {scene.rms_height / scene.mean_gap:.3g}), slope and inertia"
+    return Applicability(applies=True, reason=reason)
+
+
+def find(walls: Walls, _mean_gap: float) -> Found:
+    """A smooth gap."""
+    return Found(
+        factors=RoughGapFactors(
+            mean_gap=1.0,
+            pressure=np.eye(2),
+            shear=np.array([1.0, 0.0]) if walls.slides else np.full(2, np.nan),
+            friction=1.0 if walls.slides else np.nan,
+        ),
+        uncertainty=None,
+        flow=np.ones(walls.lower.shape),
+        residual=0.0,
+        iterations=1,
+    )
+
+
+MODEL = gap_model(
+    name="smooth_gap",
+    summary="a smooth gap as thick as the mean one",
+    keeps=frozenset(),
+    sources=("10.1098/rstl.1886.0005",),
+    applies=applies,
+    find=find,
+    cost=lambda _nodes: 1e-4,
+)

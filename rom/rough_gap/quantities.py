@@ -1,0 +1,38 @@
+"""What a rough gap lets through and rubs, as every model of it tells."""
+
+import numpy as np
+
+from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors
+from roughfilm.rom.rough_gap.scene import RoughGap
+from roughfilm.rom.rough_gap.walls import Walls
+
+
+def coefficients(factors: RoughGapFactors) -> dict[str, float]:
+    """By the names of their quantities; B and friction only where the upper wall can slide."""
+    a = factors.pressure
+    told = {f"A{i + 1}{j + 1}": float(a[i, j]) for i in range(2) for j in range(2)}
+    if np.isnan(factors.friction):
+        return told
+    return {**told, "B1": float(factors.shear[0]), "B2": float(factors.shear[1]), "friction": factors.friction}
+
+
+def gap_quantities(scene: RoughGap, walls: Walls, factors: RoughGapFactors) -> dict[str, Quantity]:
+    """The quantities of a rough gap from its factors over those of a smooth gap as thick as the mean one.
+
+    Flows per width are those at the scene's gradient along x and along y.
+    """
+    smooth = scene.nominal_flow
+    along, across = (float(factors.pressure[i, i]) for i in range(2))
+    return {
+        **{name: _number(value) for name, value in coefficients(factors).items()},
+        "flow_per_width_x": Quantity(value=along * smooth, unit="m^2/s"),
+        "flow_per_width_y": Quantity(value=across * smooth, unit="m^2/s"),
+        "mean_gap": Quantity(value=walls.mean_gap, unit="m"),
+        "rms_height": Quantity(value=scene.rms_height, unit="m"),
+        "contact_area": _number(float(np.mean(walls.gap == 0))),
+    }
+
+
+def _number(value: float) -> Quantity:
+    return Quantity(value=value, unit="1")

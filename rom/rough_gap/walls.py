@@ -1,0 +1,50 @@
+"""The two walls of a rough gap over one period: what every model of it solves on."""
+
+from dataclasses import dataclass, replace
+from typing import Self
+
+import numpy as np
+
+from roughfilm.rom.pocket.gap import Array
+
+
+@dataclass(frozen=True, kw_only=True)
+class Walls:
+    """Heights of both walls at the same nodes, which repeat themselves in x and y.
+
+    The lower wall is at rest. The upper one slides along x if it is flat. Where they meet, they touch.
+
+    Attributes
+    ----------
+    lower, upper : heights, m, shape (nx, ny); the upper wall is nowhere below the lower one.
+    spacing : (dx, dy) of the nodes, m.
+    """
+
+    lower: Array
+    upper: Array
+    spacing: tuple[float, float]
+
+    @property
+    def gap(self) -> Array:
+        """Upper less lower height, m, shape (nx, ny); 0 in contact."""
+        return np.asarray(self.upper - self.lower)
+
+    @property
+    def mean_gap(self) -> float:
+        """Over all nodes, contact among them, m."""
+        return float(self.gap.mean())
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Length and width of the period, m."""
+        (nx, ny), (dx, dy) = self.lower.shape, self.spacing
+        return nx * dx, ny * dy
+
+    @property
+    def slides(self) -> bool:
+        """Whether the upper wall is flat, so that the flow stays steady when it slides."""
+        return bool(np.ptp(self.upper) == 0)
+
+    def closed_below(self, smallest: float) -> Self:
+        """The same walls, but touching wherever the gap is smaller than that, m."""
+        return replace(self, lower=np.where(self.gap < smallest, self.upper, self.lower))

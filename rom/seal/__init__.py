@@ -1,0 +1,1 @@
+"""Leakage between a rough surface and a flat one."""

@@ -1,0 +1,67 @@
+"""Seals: what leaks between a rough surface and a flat one."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.dry_contact import kind as dry_contact
+from roughfilm.rom.ladder.kind import Kind
+from roughfilm.rom.ladder.sweeping import Columns, Sweeping
+from roughfilm.rom.seal.scene import Seal
+
+LEAST_LEAKAGE = 1e-4
+"""Leakage below this part of that of a smooth gap as thick as the rms height is as good as none."""
+
+
+def scale(values: Mapping[str, Any], quantity: str) -> Any:
+    """The size of a quantity; of leakage at least ``LEAST_LEAKAGE`` of that of a smooth gap."""
+    size = np.abs(values[quantity])
+    return np.maximum(size, LEAST_LEAKAGE * values["smooth_leakage"]) if quantity == "leakage_per_width" else size
+
+
+def columns(scene: Seal) -> dict[str, Quantity | str]:
+    """As a dry contact has them, and the direction of the flow."""
+    return {**dry_contact.columns(scene), "direction": scene.flow.direction}
+
+
+def worth(values: Columns) -> NDArray[np.bool_]:
+    """Every case whose leakage counts."""
+    return np.asarray(values["leakage_per_width"] > LEAST_LEAKAGE * values["smooth_leakage"])
+
+
+def numbers(scene: Seal) -> dict[str, float]:
+    """Those of a dry contact, and the seal's length over the side of the surface along the flow."""
+    told = dry_contact.numbers(scene)
+    return {**told, "length": scene.flow.length / scene.surface().size[scene.axis]} if told else {}
+
+
+KIND = Kind(
+    name="seal",
+    scene=Seal,
+    summary="a liquid pressed through between a rough surface and a flat one",
+    compared={"leakage_per_width": "leakage", "area_fraction": "contact area"},
+    scale=scale,
+    columns=columns,
+    numbers=numbers,
+    symbols={**dry_contact.NUMBERS, "length": "length/side"},
+    files=frozenset({"surface"}),
+    replaces=dry_contact.KIND.replaces,
+    lists=dry_contact.KIND.lists,
+    sweeping=Sweeping(
+        given={
+            "rough_surface": None,
+            "pressure_ratio": None,
+            "hardness_ratio": dry_contact.NEVER_PLASTIC,
+            "nayak": None,
+        },
+        quantities=("leakage_per_width", "area_fraction", "smooth_leakage", "sealed"),
+        features=dry_contact.features,
+        worth=worth,
+        candidates={"P/(E* g')": {"pressure": 1}, "α": {"breadth": 1}},
+        fitted=("pressure", "breadth"),
+        words=dry_contact.words,
+    ),
+)

@@ -1,0 +1,1 @@
+"""Permeability of the gap in contact: direct, homogenized and by percolation."""

@@ -1,0 +1,142 @@
+"""The flow through one period of a gap, or several, between two reservoirs: every wave followed, nothing averaged."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
+from roughfilm.rom.homogenization.box import Box
+from roughfilm.rom.homogenization.conductance import CLOSED, FaceRule, faces, without_traces
+from roughfilm.rom.homogenization.flow_factors import checked_gap
+from roughfilm.rom.homogenization.grids import coarser_grids, refined
+from roughfilm.rom.homogenization.paths import sealed_between_ends
+from roughfilm.rom.homogenization.richardson import off, sufficient
+from roughfilm.rom.homogenization.solvers import SOLVERS, Solver, Source, first_to_converge
+from roughfilm.rom.multigrid.multigrid import Solved
+from roughfilm.rom.pocket.gap import Array
+from roughfilm.rom.seal.leakage.passage import Leakage, Passage, shut
+
+
+def direct_leakage(gap: ArrayLike, spacing: tuple[float, float], *, periods: int = 1) -> Leakage:
+    """Both directions, as :func:`direct_flow` takes one."""
+    return Leakage(
+        along=direct_flow(gap, spacing, 0, periods=periods), across=direct_flow(gap, spacing, 1, periods=periods)
+    )
+
+
+def direct_flow(
+    gap: ArrayLike,
+    spacing: tuple[float, float],
+    direction: int,
+    *,
+    periods: int = 1,
+    rule: FaceRule = FaceRule.LINEAR,
+    tolerance: float | None = None,
+    solvers: Sequence[str] = tuple(SOLVERS),
+) -> Passage:
+    """Solve ∇·(h³∇p) = 0 with p given at the two ends of a gap and periodic across, and take the flow.
+
+    The ends go through the nodes at x = 0 and their copies ``periods`` periods on. The flow is an energy: its error is
+    the square of that of the pressure. As the pressure at the ends is that of the reservoirs, more flows than on and on
+    in a periodic gap, K ≥ A₁₁ on any grid; the difference falls with the number of periods, as 1/periods.
+
+    Parameters
+    ----------
+    gap : h >= 0, m, shape (nx, ny); one period. Nodes where h = 0 are contact, whose faces are closed; all may be.
+    spacing : (dx, dy), m; pixels need not be square.
+    direction : 0 for flow in x, 1 in y.
+    periods : in the direction of the flow, one after the other.
+    tolerance : what iterating on may change K by, over itself; by default a hundredth of what coarser grids say that
+        the grid is off by.
+    solvers : names in :data:`roughfilm.rom.homogenization.solvers.SOLVERS`, tried in this order.
+
+    Raises
+    ------
+    InputError
+        As :func:`roughfilm.rom.homogenization.flow_factors.flow_factors` does, and for periods below 1.
+    ConvergenceError
+        If none of the solvers meets the tolerance.
+
+    Second order in the spacing where the gap is smooth and open, near first order at the edges of contact; the
+    uncertainty comes from every second and fourth node, as that of flow factors.
+
+    Source: Sahlin 2008, F.7 and F.11; there contact is 10 nm open, and what a sealed gap leaks is subtracted.
+    """
+    if tolerance is not None and not 0 < tolerance < 1:
+        raise InputError(f"tolerance: got {tolerance!r}; it must be above 0 and below 1")
+    if not (isinstance(periods, int) and periods >= 1):
+        raise InputError(f"periods: got {periods!r}; give 1 or more")
+    if np.ndim(gap) == 2 and np.size(gap) and not np.any(gap):
+        return shut(np.tile(gap, (periods, 1) if direction == 0 else (1, periods)).shape)
+    h = checked_gap(gap, spacing)
+    if direction == 1:
+        h, spacing = np.ascontiguousarray(h.T), (spacing[1], spacing[0])
+    scale = float(h.mean())
+    found: list[_Solution] = []
+    for grid, (dx, dy) in coarser_grids(h / scale, spacing):
+        flows = [np.array([one.permeability]) for one in found]
+        limit = sufficient(flows) if tolerance is None else tolerance
+        found.append(_solve(np.tile(grid, (periods, 1)), dy / dx, rule, limit, solvers, found[-1] if found else None))
+    finest = found[-1]
+    closed = sealed_between_ends(np.tile(h, (periods, 1)), joined=True)
+    trace = CLOSED ** (1 / 3) * float(h.max()) if ((h > 0) & (without_traces(h) == 0)).any() else 0.0
+    doubt = float(off([np.array(one.permeability) for one in found])) + finest.left
+    corrector = finest.corrector * spacing[0]
+    return Passage(
+        permeability=finest.permeability * scale**3,
+        uncertainty=0.0 if closed else doubt * scale**3 + trace**3,
+        sealed=closed,
+        corrector=np.ascontiguousarray(corrector.T) if direction == 1 else corrector,
+        unsolved=finest.left / finest.permeability if finest.permeability > 0 else 0.0,
+        iterations=finest.iterations,
+        residual=finest.residual,
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Solution:
+    """On one grid, of a gap of mean 1; the corrector in spacings."""
+
+    permeability: float
+    left: float
+    corrector: Array
+    iterations: int
+    residual: float
+
+
+def _solve(
+    h: Array, aspect: float, rule: FaceRule, tolerance: float, solvers: Sequence[str], coarser: _Solution | None
+) -> _Solution:
+    counted = without_traces(h)
+    if sealed_between_ends(counted, joined=True):
+        return _Solution(permeability=0.0, left=0.0, corrector=np.zeros(h.shape), iterations=0, residual=0.0)
+    parts = faces(counted, rule)
+    box = Box(east=parts.east * aspect, north=parts.north / aspect, joined=True)
+    matrix = box.matrix()
+    start = None if coarser is None else refined(coarser.corrector, h.shape)[1:] * (len(h) / len(coarser.corrector))
+    source = Source(values=box.source(), whole=box.whole(), start=start)
+    per_width = 1 / (aspect * h.shape[1])
+
+    def attempt(solve: Solver) -> tuple[Solved, float, float]:
+        (solved,) = solve(matrix, [source], tolerance)
+        flow = box.flow(solved.solution)
+        left = max(solved.left / len(h), flow.uneven)
+        if left > 2 * tolerance * flow.through:
+            raise ConvergenceError(
+                f"the flow through the gap: sections differ by what may change it by {left / flow.through:.3g} of "
+                f"itself, not {tolerance:g}; ask for less",
+                outcome=Outcome.STALLED,
+                iterations=solved.iterations,
+            )
+        return solved, flow.through * per_width, left * per_width
+
+    (solved, through, left), _ = first_to_converge(solvers, attempt)
+    return _Solution(
+        permeability=through,
+        left=left,
+        corrector=np.pad(solved.solution, ((1, 0), (0, 0))),
+        iterations=solved.iterations,
+        residual=solved.residual,
+    )

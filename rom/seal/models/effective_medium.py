@@ -1,0 +1,70 @@
+"""Leakage by Persson's contact and an effective medium: the spectrum alone, in closed form but for a root."""
+
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.mechanics.moments import wave_power
+from roughfilm.rom.dry_contact.model import Answer, Task, contact_model
+from roughfilm.rom.ladder.model import Applicability, Effect
+from roughfilm.rom.seal.model import gap_shares, quantities
+from roughfilm.rom.seal.scene import Seal
+
+RESIDUAL_MEANING = "of the equation of the effective medium, over its positive terms"
+
+FLAT = "got a flat surface, which has no spectrum; it is sealed, take direct_leakage"
+
+
+def work(task: Task) -> Answer:
+    """The estimate from the spectrum of the heights at hand; InputError for a flat surface."""
+    from roughfilm.rom.seal.leakage.effective_medium import effective_medium  # scipy is slow to import
+
+    scene: Seal = task.scene
+    own = task.heights.shape == scene.surface().shape
+    spectrum = scene.spectrum() if own else wave_power(task.heights, task.spacing)
+    if spectrum is None:
+        raise InputError(f"effective_medium: {FLAT}")
+    found = effective_medium(spectrum, composite_modulus=scene.composite_modulus, load=scene.load.pressure)
+    told = quantities(scene, found.permeability, found.sealed, found.area_fraction, found.mean_gap, task.heights.std())
+    return Answer(
+        quantities=told,
+        fields=gap_shares(float(task.heights.std()), found.gaps, found.shares),
+        residual=found.residual,
+        iterations=1,
+        warnings=() if scene.solid.hardness is None else ("takes the solid as elastic",),
+    )
+
+
+def prepare(_task: Task) -> None:
+    """Import what is slow to import, which is not the cost of a scene."""
+    import roughfilm.rom.seal.leakage.effective_medium  # noqa: F401
+
+
+def applies(scene: Seal) -> Applicability:
+    """To every rough surface."""
+    if scene.spectrum() is None:
+        return Applicability(applies=False, reason=FLAT)
+    reason = (
+        "keeps elastic contact of all scales on average over all isotropic Gaussian surfaces of this spectrum; leaves "
+        "out plasticity, lay, and that a surface seals at an area of its own: within a factor of two or three up to a "
+        "third of the load that seals, off by orders of magnitude near it"
+    )
+    return Applicability(applies=True, reason=reason)
+
+
+MODEL = contact_model(
+    kind="seal",
+    name="effective_medium",
+    summary="leakage from the spectrum: gaps by Persson's theory, put together as an effective medium",
+    keeps=frozenset({Effect.DEFORMATION, Effect.ROUGHNESS}),
+    complete=False,
+    sources=(
+        "10.1140/epje/i2010-10558-6",
+        "10.1103/PhysRevLett.108.244301",
+        "10.1007/s11249-020-01378-7",
+        "10.1016/j.jmps.2011.08.004",
+    ),
+    residual_meaning=RESIDUAL_MEANING,
+    applies=applies,
+    work=work,
+    prepare=prepare,
+    default_tolerance=1e-9,
+    cost=lambda heights: 6e-3 + 3e-7 * heights,
+)

@@ -1,0 +1,1 @@
+"""Many cases of one scene: sweeps, tables, comparison, convergence, and what orders errors."""

@@ -1,0 +1,99 @@
+"""What separates the rungs: differences to the best one, the effects between neighbours, errors against cost."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from roughfilm.rom.ladder.kind import kind_of
+from roughfilm.rom.ladder.model import Effect, Model, best, one_effect_away
+from roughfilm.rom.ladder.result import Result
+
+
+@dataclass(frozen=True, kw_only=True)
+class Difference:
+    """How far one model is from another in one quantity: absolute, and relative to the best rung's ``scale``."""
+
+    model: str
+    other: str
+    effect: Effect | None
+    quantity: str
+    absolute: float
+    relative: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Point:
+    """One run on the speed-accuracy chart: CPU seconds, and its error against the best rung in what both give."""
+
+    model: str
+    resolution: int
+    cpu_s: float
+    error: Mapping[str, float]
+
+
+def scale(result: Result, quantity: str) -> float:
+    """What an error in a quantity is divided by, as the kind of scene says: mostly its size."""
+    return kind_of(result).scale_of(result, quantity)
+
+
+def _difference(result: Result, other: Result, quantity: str, effect: Effect | None, top: Result) -> Difference:
+    absolute = result.quantities[quantity].value - other.quantities[quantity].value
+    return Difference(
+        model=result.model,
+        other=other.model,
+        effect=effect,
+        quantity=quantity,
+        absolute=absolute,
+        relative=absolute / scale(top, quantity),
+    )
+
+
+def to_best(models: Sequence[Model], results: Mapping[str, Result]) -> tuple[Difference, ...]:
+    """Every solved model's difference to the best solved rung."""
+    solved = [model for model in models if model.name in results]
+    top = results[best(solved).name]
+    return tuple(
+        _difference(results[model.name], top, quantity, None, top)
+        for model in solved
+        if model.name != top.model
+        for quantity in kind_of(top).shared(results[model.name], top)
+    )
+
+
+def effects(models: Sequence[Model], results: Mapping[str, Result]) -> tuple[Difference, ...]:
+    """For each pair of solved models one effect apart, what that effect adds: with it less without it."""
+    solved = [model for model in models if model.name in results]
+    top = results[best(solved).name]
+    return tuple(
+        _difference(results[other.name], results[model.name], quantity, effect, top)
+        for model in solved
+        for other, effect in one_effect_away(model, solved)
+        for quantity in kind_of(top).shared(results[model.name], results[other.name], top)
+    )
+
+
+def points(reference: Result, runs: Sequence[Result]) -> tuple[Point, ...]:
+    """Each run's error against a reference run, which is left out itself."""
+    return tuple(
+        Point(
+            model=run.model,
+            resolution=run.numerics.resolution,
+            cpu_s=run.numerics.cpu_s,
+            error={
+                quantity: abs(run.quantities[quantity].value - reference.quantities[quantity].value)
+                / scale(reference, quantity)
+                for quantity in kind_of(reference).shared(run, reference)
+            },
+        )
+        for run in runs
+        if (run.model, run.numerics.resolution) != (reference.model, reference.numerics.resolution)
+    )
+
+
+def pareto_front(chart: Sequence[Point], quantity: str) -> tuple[Point, ...]:
+    """The points that no other point beats in both cost and error, cheapest first."""
+    front: list[Point] = []
+    known = [point for point in chart if quantity in point.error]
+    for point in sorted(known, key=lambda point: (point.cpu_s, point.error[quantity])):
+        if not front or point.error[quantity] < front[-1].error[quantity]:
+            front.append(point)
+    return tuple(front)

@@ -1,0 +1,70 @@
+"""Which number of a scene orders the errors of a model over a sweep, and up to where each tolerance is kept."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughfilm.rom.pocket.gap import Array
+
+CERTAINTY = 0.95
+"""The part of the cases below a threshold that keep its tolerance."""
+
+LEAST_ERROR = 1e-6
+"""Smaller errors say nothing: the numerical uncertainty of any reference is larger."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ordering:
+    """How well a product of powers orders errors.
+
+    ``rank`` is Spearman's correlation, 1 for a perfect order; ``thresholds`` gives for each tolerance the greatest
+    number up to which ``CERTAINTY`` of the cases keep it, None where not even the smallest does; ``coverage`` is the
+    part of the cases below their threshold, the mean over the tolerances.
+    """
+
+    powers: Mapping[str, float]
+    rank: float
+    thresholds: Mapping[float, float | None]
+    coverage: float
+
+
+def product(features: Mapping[str, Array], powers: Mapping[str, float]) -> Array:
+    """Π feature^power; shape of the features."""
+    return np.asarray(np.exp(sum(power * np.log(features[name]) for name, power in powers.items())))
+
+
+def fitted_powers(features: Mapping[str, Array], error: Array, *, step: float) -> dict[str, float]:
+    """The powers of the product that fits the logarithm of the errors best, as multiples of ``step``.
+
+    They are scaled so that the largest is 1 in size; zeros are left out.
+    """
+    matrix = np.column_stack([np.ones(error.size), *(np.log(values) for values in features.values())])
+    powers = np.linalg.lstsq(matrix, np.log(np.maximum(error, LEAST_ERROR)), rcond=None)[0][1:]
+    largest = np.abs(powers).max() or 1.0
+    rounded = np.round(powers / largest / step) * step
+    return {name: float(power) for name, power in zip(features, rounded, strict=True) if power != 0}
+
+
+def ordering(
+    features: Mapping[str, Array], powers: Mapping[str, float], error: Array, tolerances: Sequence[float]
+) -> Ordering:
+    """How a product of powers orders the errors."""
+    from scipy.stats import spearmanr  # slow to import
+
+    number = product(features, powers)
+    thresholds = {tolerance: threshold(number, error, tolerance) for tolerance in tolerances}
+    covered = [0.0 if limit is None else float(np.mean(number <= limit)) for limit in thresholds.values()]
+    constant = number.max() <= (1 + 1e-9) * number.min()
+    rank = 0.0 if constant else float(spearmanr(number, error).statistic)
+    return Ordering(powers=powers, rank=rank, thresholds=thresholds, coverage=sum(covered) / len(covered))
+
+
+def threshold(number: Array, error: Array, tolerance: float) -> float | None:
+    """The greatest number up to which ``CERTAINTY`` of the cases have no larger error; None if there is none."""
+    order = np.argsort(number, kind="stable")
+    ordered = number[order]
+    kept = np.cumsum(error[order] <= tolerance) / np.arange(1, number.size + 1)
+    last_of_equals = np.append(ordered[1:] > ordered[:-1] * (1 + 1e-9), True)
+    good = np.flatnonzero((kept >= CERTAINTY) & last_of_equals)
+    return float(ordered[good[-1]]) if good.size else None

@@ -1,0 +1,97 @@
+"""A finished sweep: what every model says of every case, side by side."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.ladder.kind import Kind, kinds
+from roughfilm.rom.ladder.sweeping import Sweeping
+from roughfilm.rom.pocket.gap import Array
+
+SOLVED = "solved"
+"""The outcome of a row that holds numbers; any other says why it does not."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sweep:
+    """Cases, what they were given, shape (cases,), and what was found by setting and quantity, NaN for nothing.
+
+    ``kind`` names the kind of their scenes, which says what ``given`` holds. A setting is a model's name and what the
+    study chose for it: navier_stokes-240-upwind.
+    """
+
+    kind: str
+    names: tuple[str, ...]
+    given: Mapping[str, NDArray[Any]]
+    found: Mapping[str, Mapping[str, Array]]
+    cpu_s: Mapping[str, Array]
+    failures: tuple[tuple[str, str, str], ...]
+
+    def features(self) -> dict[str, Array]:
+        """The numbers by which errors are ordered, shape (cases,)."""
+        return {
+            name: np.asarray(values, dtype=float)
+            for name, values in sweeping(kinds()[self.kind]).features(self.given).items()
+        }
+
+
+def sweeping(kind: Kind) -> Sweeping:
+    """How sweeps over a kind of scene are judged; InputError if nobody has said."""
+    if kind.sweeping is None:
+        raise InputError(f"the table holds {kind.name} scenes; there is no report over many of them yet")
+    return kind.sweeping
+
+
+def read_sweep(table: Mapping[str, NDArray[Any]], kind: str) -> Sweep:
+    """The sweep in a table of ``roughfilm batch``; InputError if columns are missing."""
+    judged = sweeping(kinds()[kind])
+    try:
+        cases, first, index = np.unique(table["case"], return_index=True, return_inverse=True)
+        settings = table["setting"]
+        given = {name: _given(table, name, default)[first] for name, default in judged.given.items()}
+        found, cpu_s = {}, {}
+        for setting in dict.fromkeys(str(name) for name in settings):
+            rows = settings == setting
+            found[setting] = {name: _spread(table[name], index, rows, cases.size) for name in judged.quantities}
+            cpu_s[setting] = _spread(table["cpu_s"], index, rows, cases.size)
+        failed = np.flatnonzero(table["outcome"] != SOLVED)
+        failures = tuple((str(table["case"][i]), str(settings[i]), str(table["outcome"][i])) for i in failed)
+    except (KeyError, IndexError) as error:
+        raise InputError(f"the table has no column {error}; make it again with roughfilm batch") from None
+    return Sweep(
+        kind=kind,
+        names=tuple(str(case) for case in cases),
+        given=given,
+        found=found,
+        cpu_s=cpu_s,
+        failures=failures,
+    )
+
+
+def loaded(sweep: Sweep, reference: str) -> NDArray[np.bool_]:
+    """Which cases have a load (or what else is compared) worth dividing by; shape (cases,)."""
+    return np.asarray(sweeping(kinds()[sweep.kind]).worth(sweep.found[reference]))
+
+
+def relative_error(sweep: Sweep, setting: str, reference: str, quantity: str) -> Array:
+    """|difference to the reference| / what the kind of scene says to divide by, mostly its size; shape (cases,)."""
+    best = sweep.found[reference]
+    scale = kinds()[sweep.kind].scale(best, quantity)
+    return np.asarray(np.abs(sweep.found[setting][quantity] - best[quantity]) / scale)
+
+
+def _given(table: Mapping[str, NDArray[Any]], name: str, default: float | None) -> NDArray[Any]:
+    if default is None:
+        return table[name]
+    values = table[name] if name in table else np.full(table["case"].size, default)
+    return np.where(np.isnan(values), default, values)
+
+
+def _spread(values: NDArray[Any], index: NDArray[np.int64], rows: NDArray[np.bool_], cases: int) -> Array:
+    spread = np.full(cases, np.nan)
+    spread[index[rows]] = values[rows]
+    return spread

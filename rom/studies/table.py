@@ -1,0 +1,76 @@
+"""Columns with units, as CSV for people and as HDF5 for figures and reports."""
+
+import csv
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.files import replacing
+
+
+@dataclass(frozen=True, kw_only=True)
+class Column:
+    """One column: numbers (NaN where there is none) with their unit ("1" for none), or texts with unit ""."""
+
+    values: Sequence[float] | Sequence[str]
+    unit: str
+
+
+def write_csv(table: Mapping[str, Column], path: Path) -> None:
+    """Write one line of names, "load_per_area (Pa)" where there is a unit, and one line a row; NaN is left empty."""
+    header = [name if column.unit in ("", "1") else f"{name} ({column.unit})" for name, column in table.items()]
+    with replacing(path) as scratch, scratch.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(header)
+        writer.writerows(zip(*([_text(value) for value in column.values] for column in table.values()), strict=True))
+
+
+def write_hdf5(table: Mapping[str, Column], path: Path) -> None:
+    """Write one dataset a column, in order, each with its ``unit`` as attribute."""
+    with replacing(path) as scratch, h5py.File(scratch, "w", track_order=True) as file:
+        for name, column in table.items():
+            texts = column.unit == ""
+            dataset = file.create_dataset(name, data=list(column.values), dtype=h5py.string_dtype() if texts else float)
+            dataset.attrs["unit"] = column.unit
+
+
+def read_table(path: Path) -> dict[str, NDArray[Any]]:
+    """The columns of a table.h5 by name: floats in SI units (NaN where there is none) or texts, all of one length.
+
+    Raises
+    ------
+    InputError
+        If the file is missing or is not such a table.
+
+    Examples
+    --------
+    Load against depth of the cylindrical grooves by one model::
+
+        table = read_table(Path("study/table.h5"))
+        chosen = (table["model"] == "navier_stokes") & (table["profile"] == "cylindrical")
+        axes.plot(table["depth_plus"][chosen], table["load_plus"][chosen], "o")
+    """
+    try:
+        with h5py.File(path) as file:
+            return {
+                name: np.asarray(item.asstr()[()], dtype=str) if item.attrs["unit"] == "" else np.asarray(item[()])
+                for name, item in file.items()
+            }
+    except (OSError, LookupError, TypeError, AttributeError) as error:
+        raise InputError(
+            f"{path}: is not a table of roughfilm; name a table.h5 that 'roughfilm batch' wrote"
+        ) from error
+
+
+def _text(value: float | str) -> str:
+    if isinstance(value, str):
+        return value
+    if np.isnan(value):
+        return ""
+    return repr(int(value)) if float(value).is_integer() and abs(value) < 1e15 else repr(float(value))

@@ -1,0 +1,1 @@
+"""Batches of cases: jobs, executors, directories and tables."""

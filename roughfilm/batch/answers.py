@@ -1,0 +1,62 @@
+"""The runs of models behind a map: each solved once, stored as it comes, and used again."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from roughfilm.batch.execute import Solved, expected_cost, run
+from roughfilm.batch.executors import local
+from roughfilm.batch.jobs import Failure, Job, store, stored
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
+from roughfilm.rom.ladder.result import Result
+from roughfilm.stability.form import Outcome, Spot
+from roughfilm.terminal.console import messages, progress_bar
+
+SECOND = "second try"
+"""Why a run that converged is slow."""
+
+MESH = "no mesh"
+"""Why a run stalled whose mesh OpenFOAM finds faults in."""
+
+
+def answers_to(jobs: Sequence[Job], processes: int, scratch: Path) -> dict[Path, Result | Failure]:
+    """The answer of every job by its file, from disk or solved now, without fields; stopped, the next call goes on."""
+    answers: dict[Path, Result | Failure] = {}
+    for job in jobs:
+        fits = job.setting.model.applies(job.scene)
+        refused = Failure(kind=InputError.__name__, message=fits.reason)
+        if found := stored(job, with_fields=False) if fits.applies else refused:
+            answers[job.path] = found
+    missing = [job for job in jobs if job.path not in answers]
+    try:
+        if missing:
+            with progress_bar(sum(map(expected_cost, missing))) as advance, local(processes, scratch) as executor:
+                advance(0.0, f"starting {len(missing)} runs")
+                spent = 0.0
+                for job, answer in run(missing, executor):
+                    store(job, answer.file if isinstance(answer, Solved) else answer)
+                    answers[job.path] = answer.result if isinstance(answer, Solved) else answer
+                    spent += expected_cost(job)
+                    advance(spent, f"{len(answers)} of {len(jobs)} runs")
+    except (KeyboardInterrupt, SystemExit):
+        messages.print(f"stopped at {len(answers)} of {len(jobs)} runs; the same command goes on", soft_wrap=True)
+        raise
+    return answers
+
+
+def failed(failure: Failure, **place: Any) -> Spot:
+    """The spot of a run without an answer: refused, given up in one of the ways of a solver, or a fault."""
+    if failure.kind == InputError.__name__:
+        outcome, why = Outcome.REFUSED, ""
+    elif failure.kind in (ConvergenceError.__name__, UnavailableError.__name__):
+        outcome, why = Outcome.STALLED, MESH if "mesh check" in failure.message else failure.outcome
+    else:
+        outcome, why = Outcome.WRONG, "fault"
+    return Spot(
+        outcome=outcome,
+        why="" if why == outcome else why,
+        iterations=failure.iterations,
+        cpu_s=failure.cpu_s or 0.0,
+        message=failure.message,
+        **place,
+    )

@@ -1,0 +1,155 @@
+"""Where jobs run: in processes of this machine, or on a dask cluster; both as ``concurrent.futures`` executors."""
+
+import asyncio
+import logging
+import multiprocessing
+import os
+import signal
+import tempfile
+import threading
+from collections.abc import Callable, Iterator
+from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
+from contextlib import contextmanager, suppress
+from functools import partial
+from multiprocessing import forkserver
+from multiprocessing.connection import Connection
+from multiprocessing.context import ForkServerProcess
+from pathlib import Path
+from typing import Any
+
+from roughfilm.contact.foundation.errors import UnavailableError
+from roughfilm.terminal.console import messages
+
+SCHEDULER_TIMEOUT_S = 5
+THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+"""Set to 1 where the user says nothing: the cores are kept busy by jobs, not by the libraries inside one."""
+
+
+class Processes(ThreadPoolExecutor):
+    """Each thread keeps a process, so that a process that dies takes the one call with it that ran there.
+
+    A ``ProcessPoolExecutor`` would fail every pending call, and wait forever for one that died while it answered.
+    The processes end when this one ends or shuts them down; what they leave in ``scratch`` is for their user to remove.
+    """
+
+    def __init__(self, count: int, scratch: Path) -> None:
+        super().__init__(count)
+        self._context = multiprocessing.get_context("forkserver")
+        self._context.set_forkserver_preload(["roughfilm.batch.execute"])
+        handler = signal.signal(signal.SIGINT, signal.SIG_IGN)  # is inherited: a Ctrl-C is for this process alone
+        forkserver.ensure_running()
+        signal.signal(signal.SIGINT, handler)
+        self._scratch = scratch
+        self._alive, self._writer = self._context.Pipe(duplex=False)
+        self._own = threading.local()
+        self._started: list[ForkServerProcess] = []
+
+    def submit(self, call: Callable[..., Any], /, *arguments: Any, **options: Any) -> Future[Any]:
+        """Call in one of the processes; the future raises BrokenExecutor if the process dies."""
+        return super().submit(self._in_process, partial(call, *arguments, **options))
+
+    def _in_process(self, call: Callable[[], Any]) -> Any:
+        if not hasattr(self._own, "pipe"):
+            self._start()
+        try:
+            self._own.pipe.send(call)
+            value, error = self._own.pipe.recv()
+        except (EOFError, OSError):
+            _kill(self._own.process)
+            del self._own.pipe
+            raise BrokenExecutor("the process died") from None
+        if error is not None:
+            raise error
+        return value
+
+    def _start(self) -> None:
+        pipe, far_end = self._context.Pipe()
+        process = self._context.Process(target=_work, args=(far_end, self._alive, self._scratch), daemon=True)
+        process.start()
+        far_end.close()  # or the end of the process would not be the end of the pipe
+        self._own.pipe, self._own.process = pipe, process
+        self._started.append(process)
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = True) -> None:
+        """End the processes at once; calls that are not finished are lost."""
+        super().shutdown(wait=False, cancel_futures=cancel_futures)
+        self._writer.close()
+        for process in self._started:
+            if process.is_alive():
+                _kill(process)
+            process.join()
+        super().shutdown(wait=wait)
+
+
+def _kill(process: ForkServerProcess) -> None:
+    """Kill a process and what it started, even if only the latter is left."""
+    assert process.pid is not None
+    with suppress(ProcessLookupError):
+        os.killpg(process.pid, signal.SIGKILL)
+
+
+@contextmanager
+def local(count: int, scratch: Path) -> Iterator[Executor]:
+    """An executor of that many processes here; their temporary files go to ``scratch``."""
+    for name in THREADS:
+        os.environ.setdefault(name, "1")
+    with Processes(count, scratch) as executor:
+        yield executor
+
+
+@contextmanager
+def dask(address: str) -> Iterator[Executor]:
+    """The executor of a running dask cluster, whose workers have roughfilm installed.
+
+    Raises UnavailableError if dask is not installed or the scheduler does not answer.
+    """
+    try:
+        import distributed
+    except ImportError:
+        told = "--executor dask: needs the library distributed; install it with: pip install 'roughfilm[cluster]'"
+        raise UnavailableError(told) from None
+    logging.disable()  # dask and tornado would say in many lines what we say in one
+    try:
+        asyncio.run(asyncio.wait_for(_greet(address), SCHEDULER_TIMEOUT_S))
+        client = distributed.Client(address, set_as_default=False)
+    except Exception as error:  # whatever answers there may send anything
+        reason = " ".join(str(error).split()) or f"silent for {SCHEDULER_TIMEOUT_S} s"
+        told = f"--scheduler {address}: is no dask scheduler that answers ({reason}); start one with: dask scheduler"
+        raise UnavailableError(told) from None
+    with client:
+        if not client.nthreads():
+            messages.print(f"{address} has no workers yet; waiting for the first", markup=False, soft_wrap=True)
+        yield client.get_executor(pure=False)
+
+
+async def _greet(address: str) -> None:
+    from distributed import rpc
+
+    async with rpc(address) as scheduler:
+        kind = (await scheduler.identity())["type"]
+    if kind != "Scheduler":
+        raise ValueError(f"it is a {kind}")
+
+
+def _work(pipe: Connection, alive: Connection, scratch: Path) -> None:
+    """The life of a process: answer calls until the sender ends, in a group of its own that a Ctrl-C does not reach."""
+    os.setpgrp()
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    tempfile.tempdir = str(scratch)
+    threading.Thread(target=_end_with, args=(alive,), daemon=True).start()
+    with suppress(EOFError, OSError):  # the sender is gone
+        while True:
+            pipe.send(_answer(pipe.recv()))
+
+
+def _end_with(alive: Connection) -> None:
+    """End this process and what it started when the only writer of ``alive`` closes it or dies, in whatever way."""
+    alive.poll(None)
+    os.killpg(0, signal.SIGKILL)
+
+
+def _answer(call: Callable[[], Any]) -> tuple[Any, Exception | None]:
+    try:
+        return call(), None
+    except Exception as error:
+        return None, error

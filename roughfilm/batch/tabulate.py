@@ -1,0 +1,103 @@
+"""The table of a batch: one row for each case and setting, with what varies, what came out and how."""
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from roughfilm.batch.jobs import Failure, Job
+from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.ladder.kind import kinds
+from roughfilm.rom.ladder.result import Result
+from roughfilm.rom.ladder.scene import scene_entries
+from roughfilm.rom.studies.study import Case, Key
+from roughfilm.rom.studies.table import Column
+
+Cell = Quantity | str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Row:
+    """What was asked, and what came of it, by the name of the column."""
+
+    asked: Mapping[str, Cell]
+    answer: Mapping[str, Cell]
+
+
+def row_of(keys: Mapping[str, Key], case: Case, job: Job, answer: Result | Failure) -> Row:
+    """The row of a job: one case of a study in which ``keys`` vary."""
+    setting = job.setting
+    entries = scene_entries(case.scene)
+    if isinstance(answer, Result):
+        scheme, resolution = answer.numerics.scheme, answer.numerics.resolution
+    else:
+        scheme, resolution = setting.scheme or "", setting.resolution or setting.model.resolution_of(case.scene)
+    asked: dict[str, Cell] = {
+        "case": job.path.parent.name,
+        "kind": case.scene.kind,
+        "setting": setting.name,
+        "model": setting.model.name,
+        "scheme": scheme,
+        "resolution": _number(resolution),
+        **{label: _cell(_at(entries, keys[label], spelt)) for label, spelt in case.varied.items()},
+        **kinds()[case.scene.kind].columns(case.scene),
+    }
+    if isinstance(answer, Failure):
+        return Row(asked=asked, answer={"outcome": f"{answer.kind}: {answer.message}"})
+    numbers = answer.numerics
+    return Row(
+        asked=asked,
+        answer={
+            "outcome": "solved",
+            **dict(sorted(answer.quantities.items())),
+            "residual": _number(numbers.residual),
+            "iterations": _number(numbers.iterations),
+            "cpu_s": Quantity(value=numbers.cpu_s, unit="s"),
+            "warnings": "; ".join(answer.provenance.get("warnings", [])),
+        },
+    )
+
+
+def columns(rows: Sequence[Row]) -> dict[str, Column]:
+    """The rows as columns, in the order in which their names first appear."""
+    asked = dict.fromkeys(name for row in rows for name in row.asked)
+    answer = dict.fromkeys(name for row in rows for name in row.answer)
+    return {
+        **{name: _column([row.asked.get(name) for row in rows]) for name in asked},
+        **{name: _column([row.answer.get(name) for row in rows]) for name in answer},
+    }
+
+
+def _column(cells: Sequence[Cell | None]) -> Column:
+    if any(isinstance(cell, str) for cell in cells):
+        texts = [f"{cell.value!r} {cell.unit}" if isinstance(cell, Quantity) else cell or "" for cell in cells]
+        return Column(values=texts, unit="")
+    unit = next(cell.unit for cell in cells if isinstance(cell, Quantity))
+    return Column(values=[cell.value if isinstance(cell, Quantity) else float("nan") for cell in cells], unit=unit)
+
+
+def _number(value: float) -> Quantity:
+    return Quantity(value=float(value), unit="1")
+
+
+def _at(entries: Any, key: Key, spelt: Any) -> Any:
+    """The entry of the scene at a key, or what the study says there if the scene keeps it in another way."""
+    try:
+        for part in key:
+            entries = entries[part]
+    except (LookupError, TypeError):
+        return spelt
+    return entries
+
+
+def _cell(value: Any) -> Cell:
+    """A number, a text such as "3e-05 m" as a quantity, anything else as text."""
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        return _number(value)
+    if isinstance(value, str):
+        number, _, unit = value.partition(" ")
+        try:
+            return Quantity(value=float(number), unit=unit) if unit else value
+        except ValueError:
+            return value
+    return json.dumps(value)

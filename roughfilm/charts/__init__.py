@@ -1,0 +1,1 @@
+"""Charts of speed against accuracy, with the programs of others."""

@@ -1,0 +1,147 @@
+"""simpleFoam as its best-known tutorial sets it up: schemes, solvers, relaxation and stopping of ``pitzDaily``."""
+
+import json
+import re
+import time
+from collections.abc import Mapping
+from dataclasses import asdict, replace
+from functools import partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+
+from roughfilm.charts.family import Measured, Peer
+from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
+from roughfilm.foamcases.openfoam.block_mesh import write_block
+from roughfilm.foamcases.openfoam.dictionaries import SIDES, Dictionary, control, write_files
+from roughfilm.foamcases.openfoam.installation import availability
+from roughfilm.foamcases.openfoam.program import Ended, succeed
+from roughfilm.foamcases.pocket.case import CARD, Card, read_card, write_case
+from roughfilm.foamcases.pocket.fields import read_channel
+from roughfilm.rom.pocket.gap import Array
+from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
+
+NAME = "simpleFoam, tutorial"
+TUTORIAL = "pitzDaily"
+ITERATIONS = 2000
+
+LINEAR = ("Gauss", "linear")
+
+SETTINGS: Mapping[str, Dictionary] = {
+    "system/controlDict": control(ITERATIONS),
+    "system/fvSchemes": (
+        "dictionary",
+        {
+            "ddtSchemes": {"default": "steadyState"},
+            "gradSchemes": {"default": LINEAR},
+            "divSchemes": {
+                "default": "none",
+                "div(phi,U)": ("bounded", "Gauss", "linearUpwind", "grad(U)"),
+                "div((nuEff*dev2(T(grad(U)))))": LINEAR,
+            },
+            "laplacianSchemes": {"default": (*LINEAR, "corrected")},
+            "interpolationSchemes": {"default": "linear"},
+            "snGradSchemes": {"default": "corrected"},
+        },
+    ),
+    "system/fvSolution": (
+        "dictionary",
+        {
+            "solvers": {
+                "p": {"solver": "GAMG", "smoother": "GaussSeidel", "tolerance": 1e-6, "relTol": 0.1},
+                "U": {"solver": "smoothSolver", "smoother": "symGaussSeidel", "tolerance": 1e-5, "relTol": 0.1},
+            },
+            "SIMPLE": {
+                "nNonOrthogonalCorrectors": 0,
+                "consistent": True,
+                "pRefCell": 0,
+                "pRefValue": 0,
+                "residualControl": {"p": 1e-2, "U": 1e-3},
+            },
+            "relaxationFactors": {"equations": {"U": 0.9}},
+        },
+    ),
+}
+"""Of tutorials/incompressible/simpleFoam/pitzDaily as OpenFOAM has it from v1606 on, less what concerns turbulence; a
+periodic flow needs a reference for its pressure besides."""
+
+_CONVERGED = re.compile(r"SIMPLE solution converged in (\d+) iterations")
+
+
+def absent() -> str | None:
+    """Why OpenFOAM cannot be asked here; None where it can."""
+    found = availability()
+    return None if found.available else found.detail
+
+
+def run(directory: Path) -> tuple[Ended, int]:
+    """Run simpleFoam with the tutorial's settings in a case directory: how it ended, after how many iterations.
+
+    Raises ConvergenceError if it stops in error, or its residuals do not come down to what the tutorial asks.
+    """
+    for name in SETTINGS:
+        (directory / name).unlink()  # or its entries would stay
+    write_files(directory, SETTINGS)
+    ended = succeed(directory, ["simpleFoam"], "log.simpleFoam")
+    converged = _CONVERGED.search(ended.log)
+    if converged is None:
+        told = f"simpleFoam with the settings of {TUTORIAL}: not converged after {ITERATIONS} iterations"
+        raise ConvergenceError(told, outcome=Outcome.UNFINISHED, iterations=ITERATIONS)
+    return ended, int(converged[1])
+
+
+def uniform(scene: Pocket, columns: int, layers: int) -> Array:
+    """Vertices of a mesh with columns of one width, as blockMesh makes it, in film thicknesses."""
+    gap = scene.gap()
+    x = np.linspace(gap.breaks[0], gap.breaks[-1], columns + 1)
+    h = gap.thickness(x) / gap.film
+    vertices = np.empty((columns + 1, layers + 1, 2, 3))
+    vertices[..., 0] = (x / gap.film)[:, None, None]
+    vertices[..., 1] = (1 - h[:, None] * (1 - np.linspace(0, 1, layers + 1)))[:, :, None]
+    vertices[..., 2] = [0.0, 1.0]
+    return vertices
+
+
+def pocket_load(scene: Pocket, resolution: int) -> Measured:
+    """Load of a pocket on uniform columns, as many layers across as this project's own mesh has."""
+    started = time.thread_time()
+    with TemporaryDirectory(prefix="roughfilm-") as place:
+        directory = Path(place) / "case"
+        write_case(
+            scene,
+            directory,
+            reynolds_number=scene.reynolds_number,
+            resolution=resolution,
+            tolerance=None,
+            scheme="linear_upwind",
+        )
+        card = replace(read_card(directory, Card), columns=resolution)
+        (directory / CARD).write_text(json.dumps(asdict(card)), encoding="utf-8")
+        write_block(uniform(scene, resolution, card.layers), SIDES, directory)
+        ended, iterations = run(directory)
+        channel = read_channel(directory)
+        least, greatest = channel.pressure_range()
+        found = pocket_quantities(
+            scene,
+            load=channel.mean(channel.wall_pressure),
+            friction=channel.mean(channel.wall_shear),
+            pressure_max=greatest,
+            pressure_min=least,
+            backflow=channel.back_flow(),
+        )
+        spent = time.thread_time() - started
+    return Measured(
+        value=found["load_plus"].value,
+        cpu_s=ended.cpu_s + spent,
+        told={"version": availability().detail, "iterations": iterations},
+    )
+
+
+def on_pocket(scene: Pocket, costs: Mapping[int, float]) -> Peer:
+    """The tutorial's settings on a pocket."""
+    settings = (
+        f"uniform columns, as blockMesh makes them; schemes, linear solvers, relaxation (0.9, SIMPLEC) and stopping "
+        f"(residuals 1e-2 of p, 1e-3 of U) of the tutorial {TUTORIAL}"
+    )
+    return Peer(name=NAME, settings=settings, costs=costs, measure=partial(pocket_load, scene), absent=absent)

@@ -1,0 +1,210 @@
+"""roughfilm compare: every model that applies on one scene, in one report."""
+
+import json
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.markup import escape
+from rich.table import Table
+
+from roughfilm.batch.jobs import Job, jobs_of, run_all
+from roughfilm.cli.solve import table_of
+from roughfilm.contact.foundation.errors import ConvergenceError
+from roughfilm.contact.foundation.files import replacing
+from roughfilm.figures.rendering import draw_apart
+from roughfilm.figures.view import views
+from roughfilm.pages.comparison import Picture, Report, cheapest_within, write_comparison
+from roughfilm.pages.render import write_figures
+from roughfilm.rom.ladder.kind import Scene, kinds
+from roughfilm.rom.ladder.model import Model, best, of_kind
+from roughfilm.rom.ladder.result import Result
+from roughfilm.rom.ladder.scene import load_scene
+from roughfilm.rom.ladder.store import as_entries
+from roughfilm.rom.studies.comparison import effects, points, scale, to_best
+from roughfilm.rom.studies.convergence import GRIDS, Convergence, Kind, convergence
+from roughfilm.terminal.console import (
+    NOT_CONVERGED,
+    AsJson,
+    Overrides,
+    ScenePath,
+    in_one_line,
+    make_directory,
+    messages,
+    models,
+    output,
+    print_json,
+    run_alone,
+)
+
+RESULTS = "results"
+
+
+@in_one_line
+def command(
+    scene: ScenePath,
+    out: Annotated[Path, typer.Option(help="Report, results and figures go here; finished results are used again.")],
+    set_: Overrides = None,
+    grids: Annotated[
+        int, typer.Option(min=GRIDS, max=4, help="Grids of the convergence study; the fourth is finer, and slow.")
+    ] = GRIDS,
+    as_json: AsJson = False,
+) -> None:
+    """Run every model that applies and write report.html, results (.h5) and figures."""
+    read = load_scene(scene, set_ or ())
+    make_directory(out)
+    ladder = of_kind(models(), read.kind)
+    left_out = {model.name: reason for model in ladder if (reason := _reason_to_leave_out(model, read))}
+    failed: dict[str, str] = {}
+    jobs = jobs_of(read, [model for model in ladder if model.name not in left_out], out / RESULTS, grids)
+    runs = run_all(jobs, failed)
+    results = _finest(runs)
+    absent = {**left_out, **failed}
+    if not results:
+        raise ConvergenceError("no model solved the scene: " + "; ".join(f"{k}: {v}" for k, v in absent.items()))
+
+    report = _judge(read, ladder, results, [result for _, result in runs], absent, out)
+    write_comparison(report, out / "report.html")
+    if as_json:
+        print_json(_entries(report, out))
+    else:
+        for result in results.values():
+            output.print(table_of(result))
+        for name, study in report.convergence.items():
+            output.print(_table_of_convergence(name, study))
+        output.print(f"report: {escape(str(out / 'report.html'))}", soft_wrap=True)
+    for name, reason in absent.items():
+        messages.print(f"[yellow]left out:[/] {name}: {escape(reason)}", soft_wrap=True)
+    if failed:
+        raise typer.Exit(NOT_CONVERGED)
+
+
+def _reason_to_leave_out(model: Model, scene: Scene) -> str | None:
+    fits, found = model.applies(scene), model.available()
+    if not fits.applies:
+        return fits.reason
+    return None if found.available else found.detail
+
+
+def _finest(runs: Sequence[tuple[Job, Result]]) -> dict[str, Result]:
+    """The finest result of every model that solved the scene at its default resolution."""
+    return {
+        job.setting.model.name: max(
+            (result for _, result in runs if result.model == job.setting.model.name),
+            key=lambda result: result.numerics.resolution,
+        )
+        for job, _ in runs
+        if job.setting.resolution is None
+    }
+
+
+def _table_of_convergence(model: str, study: Mapping[str, Convergence]) -> Table:
+    grids = next(iter(study.values())).grids
+    table = Table("quantity", "order", "value", "±", "kind", title=f"{model} on grids {', '.join(map(str, grids))}")
+    for quantity, found in study.items():
+        table.add_row(quantity, found.order_told, f"{found.value:.5g}", f"{found.uncertainty:.1e}", found.kind)
+    return table
+
+
+def _judge(
+    scene: Scene,
+    ladder: tuple[Model, ...],
+    results: Mapping[str, Result],
+    runs: Sequence[Result],
+    absent: Mapping[str, str],
+    out: Path,
+) -> Report:
+    from roughfilm.figures.base import grid_convergence, speed_against_accuracy  # matplotlib is slow to import
+
+    view, titles = views()[scene.kind], kinds()[scene.kind].compared
+    top = best([model for model in ladder if model.name in results])
+    chart = points(results[top.name], runs)
+    studies = {
+        model.name: study
+        for model in ladder
+        if model.order and model.name in results and (study := convergence(model, runs))
+    }
+    extrapolated = any(found.kind is Kind.MONOTONE for study in studies.values() for found in study.values())
+    floor = _uncertainty(results[top.name], convergence(top, runs))
+    plots = {
+        **view.plots(scene, results),
+        "chart": speed_against_accuracy(chart, floor, titles, view),
+        **({"convergence": grid_convergence(studies, titles, view)} if extrapolated else {}),
+    }
+    report = Report(
+        scene=scene,
+        kind=kinds()[scene.kind],
+        view=view,
+        models=ladder,
+        results=results,
+        absent=absent,
+        best=top.name,
+        to_best=to_best(ladder, results),
+        effects=effects(ladder, results),
+        chart=chart,
+        uncertainty=floor,
+        convergence=studies,
+        plots=plots,
+        pictures=_pictures(results, view.drawing, out),
+    )
+    write_figures(plots, out)
+    with replacing(out / "chart.json") as scratch:
+        scratch.write_text(json.dumps(_raw(report), indent=1) + "\n", encoding="utf-8")
+    return report
+
+
+def _uncertainty(result: Result, study: Mapping[str, Convergence]) -> dict[str, float]:
+    """Of each compared quantity, over its scale: by its grids, or told by the run itself where that is more.
+
+    Grids that a study refines in some directions only cannot tell of the others.
+    """
+    told = result.provenance.get("uncertainty", {})
+    return {name: max(found.uncertainty, told.get(name, 0.0)) / scale(result, name) for name, found in study.items()}
+
+
+def _entries(report: Report, out: Path) -> dict[str, Any]:
+    return {
+        **as_entries(report.results[report.best]),
+        "models": [as_entries(result) for result in report.results.values()],
+        "differences": [asdict(difference) for difference in report.to_best + report.effects],
+        "cheapest_within_10_percent": cheapest_within(report, 0.10),
+        "convergence": {
+            model: {quantity: asdict(found) for quantity, found in study.items()}
+            for model, study in report.convergence.items()
+        },
+        "chart": _raw(report),
+        "absent": dict(report.absent),
+        "report": str(out / "report.html"),
+    }
+
+
+def _raw(report: Report) -> dict[str, Any]:
+    reference = report.results[report.best]
+    return {
+        "reference": {
+            "model": reference.model,
+            "resolution": reference.numerics.resolution,
+            "cpu_s": reference.numerics.cpu_s,
+            "uncertainty": dict(report.uncertainty),
+        },
+        "points": [asdict(point) for point in report.chart],
+        "machine": {**reference.provenance["machine"], "load_average": reference.provenance["load_average"]},
+    }
+
+
+def _pictures(results: Mapping[str, Result], drawing: str, out: Path) -> tuple[Picture, ...]:
+    def picture(name: str) -> Picture:
+        path = out / f"flow-{name}.png"
+        drawn = draw_apart(drawing, out / RESULTS / f"{name}.h5", path)
+        return Picture(model=name, path=path if drawn.available else None, reason=drawn.detail)
+
+    resolved = [name for name, result in results.items() if "vertices" in result.fields]
+    with ThreadPoolExecutor() as pool:
+        return tuple(pool.map(picture, reversed(resolved)))
+
+
+if __name__ == "__main__":
+    run_alone(command)

@@ -1,0 +1,292 @@
+"""roughfilm effects: what each effect of a bearing adds to load, friction and flow, switched on one at a time."""
+
+import json
+import math
+import os
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.markup import escape
+from rich.table import Table
+
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.files import replacing
+from roughfilm.pages.error_bars import with_error
+from roughfilm.pages.render import percent
+from roughfilm.rom.bearing.effects.ablation import EFFECTS, Amount, Composition, at_film, effects_of
+from roughfilm.rom.bearing.effects.contributions import Study, study
+from roughfilm.rom.bearing.effects.explanation import Treatment, treatments
+from roughfilm.rom.bearing.effects.inertia import InertiaAdded, inertia_added, judged, under_its_load
+from roughfilm.rom.bearing.effects.under_load import under_load
+from roughfilm.rom.bearing.mixed.wall import asperities_of
+from roughfilm.rom.bearing.numbers import bearing_numbers
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.ladder.provenance import circumstances
+from roughfilm.rom.ladder.scene import load_scene, scene_entries
+from roughfilm.terminal.console import (
+    AsJson,
+    Overrides,
+    ScenePath,
+    in_one_line,
+    make_directory,
+    messages,
+    models,
+    output,
+    print_json,
+    progress_bar,
+    run_alone,
+)
+from roughfilm.terminal.output_file import refuse_unwritable
+
+CELLS = {True: 1024, False: 128}
+"""Along the sliding, and as many across; by default, of infinitely wide bearings and of others."""
+
+COARSEST, FINEST = 16, {True: 65_536, False: 1024}
+
+NOTHING = 1e-9
+"""In the units of the tables: rounding."""
+
+SOURCES = (
+    "10.1098/rstl.1886.0005",
+    "10.1115/1.3251669",
+    "10.1016/j.triboint.2007.02.021",
+    "10.1016/j.jmaa.2005.09.036",
+    "10.1115/1.1828067",
+    "Sahlin 2008, Paper E",
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shown:
+    """A quantity of the tables: its name in words, its unit there, and how many of it are one of SI."""
+
+    title: str
+    unit: str
+    factor: float = 1.0
+
+
+SHOWN: Mapping[str, Shown] = {
+    "film": Shown(title="film thickness", unit="µm", factor=1e6),
+    "load": Shown(title="load", unit="N"),
+    "load_per_width": Shown(title="load", unit="N/m"),
+    "friction": Shown(title="friction", unit="N"),
+    "friction_per_width": Shown(title="friction", unit="N/m"),
+    "friction_coefficient": Shown(title="friction coefficient", unit="10⁻³", factor=1e3),
+    "inlet_flow_per_width": Shown(title="inlet flow", unit="mm²/s", factor=1e6),
+    "side_leakage": Shown(title="side leakage", unit="mm³/s", factor=1e9),
+    "contact_share": Shown(title="carried by contact", unit="%", factor=100),
+}
+AT_FILM = ("load", "friction", "inlet_flow_per_width", "side_leakage")
+UNDER_LOAD = ("film", "friction_coefficient", "inlet_flow_per_width", "side_leakage")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Told:
+    """All that is told of one scene.
+
+    ``inertia`` is at the film of the scene, ``loaded_inertia`` at that under the load, which it would make ``thicker``
+    by so much, m; None where they are not judged.
+    """
+
+    scene: Bearing
+    treated: tuple[Treatment, ...]
+    at_film: Study
+    inertia: InertiaAdded | None
+    under_load: Study | None = None
+    loaded_inertia: InertiaAdded | None = None
+    thicker: Amount | None = None
+
+
+@in_one_line
+def command(
+    scene: ScenePath,
+    out: Annotated[Path, typer.Option(help="The page, its figures and the numbers go here.")],
+    load: Annotated[
+        str | None, typer.Option(help="Over the nominal area, e.g. 2MPa; by default that of the scene, if it has one.")
+    ] = None,
+    resolution: Annotated[
+        int | None, typer.Option(help="Cells along and across; by default 128, of an infinitely wide bearing 1024.")
+    ] = None,
+    set_: Overrides = None,
+    as_json: AsJson = False,
+) -> None:
+    """Switch the effects of a bearing on one at a time: what each adds to load, friction and flow, and to the film."""
+    started, cpu = time.perf_counter(), sum(os.times()[:4])
+    overrides = [*(set_ or ()), *([] if load is None else [f"load.pressure={load}"])]
+    read = load_scene(scene, overrides)
+    if not isinstance(read, Bearing):
+        raise InputError(
+            f"{scene}: kind: got {read.kind!r}; effects are those of a bearing (scripts/examples/scenes/pad.toml)"
+        )
+    cells = CELLS[read.wide] if resolution is None else resolution
+    if not COARSEST <= cells <= FINEST[read.wide]:
+        raise InputError(f"--resolution: got {cells}; it must be {COARSEST} to {FINEST[read.wide]} cells along a side")
+    make_directory(out)
+    refuse_unwritable(out / "report.html")
+    with progress_bar(1.0) as advance:
+        found = tell(read, cells, advance)
+    entries = entries_of(found) | {
+        "numerics": {
+            "resolution": cells,
+            "residual": max(one.residual for one in (found.at_film, found.under_load) if one is not None),
+            "balance": 0.0 if found.under_load is None else found.under_load.balance,
+            "cpu_s": sum(os.times()[:4]) - cpu,
+            "wall_s": time.perf_counter() - started,
+        }
+    }
+    with replacing(out / "effects.json") as scratch:
+        scratch.write_text(json.dumps(entries, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    from roughfilm.pages.effects import write_page  # matplotlib is slow to import
+
+    write_page(found, entries, out)
+    if as_json:
+        print_json({**entries, "report": str(out / "report.html")})
+        return
+    _say(found, out)
+
+
+def tell(scene: Bearing, cells: int, advance: Any) -> Told:
+    """All that the page tells of a scene."""
+    if scene.asperities is not None:
+        asperities_of(scene, lambda done, words: advance(0.4 * done, f"asperities: {words}"))
+    share = 0.6 if scene.load is None else 0.3
+    at = study(
+        scene,
+        lambda taken, progress: at_film(taken, cells, progress),
+        lambda done, words: advance(0.4 + share * done, words),
+    )
+    whole, heavy = Composition(scene=scene), judged(scene) is None
+    told = Told(
+        scene=scene,
+        treated=treatments(scene),
+        at_film=at,
+        inertia=inertia_added(whole, cells, models()) if heavy else None,
+    )
+    if scene.load is None:
+        return told
+    pressure = scene.load.pressure
+    loaded = study(
+        scene,
+        lambda taken, progress: under_load(taken, pressure, cells, progress),
+        lambda done, words: advance(0.7 + share * done, f"under load, {words}"),
+    )
+    there, thicker = under_its_load(whole, loaded.whole, pressure, cells, models()) if heavy else (None, None)
+    return replace(told, under_load=loaded, loaded_inertia=there, thicker=thicker)
+
+
+def left_out(scene: Bearing) -> list[str]:
+    """The effects that a scene does not have."""
+    present = effects_of(scene)
+    return [effect.name for effect in EFFECTS if effect not in present]
+
+
+def entries_of(told: Told) -> dict[str, Any]:
+    """The object of ``--json``, but for what it cost."""
+    found = [one for one in (told.at_film, told.under_load) if one is not None]
+    under = {} if told.under_load is None else told.under_load.full
+    return {
+        "quantities": {name: asdict(one) for name, one in told.at_film.full.items()}
+        | {f"{name} under load": asdict(one) for name, one in under.items()},
+        "numbers": {name: _number(value) for name, value in bearing_numbers(told.scene).items()},
+        "treatments": [asdict(one) for one in told.treated],
+        "left_out": left_out(told.scene),
+        "at_film": _study(told.at_film),
+        "under_load": None if told.under_load is None else _study(told.under_load),
+        "inertia": _inertia(told.inertia),
+        "inertia_under_load": _inertia(told.loaded_inertia)
+        and {**(_inertia(told.loaded_inertia) or {}), "thicker": asdict(told.thicker) if told.thicker else None},
+        "provenance": {
+            "scene": scene_entries(told.scene),
+            "warnings": list(dict.fromkeys(warning for one in found for warning in one.warnings)),
+            "sources": list(SOURCES),
+            **circumstances(),
+        },
+    }
+
+
+def _study(one: Study) -> dict[str, Any]:
+    return {
+        "plain": {name: asdict(told) for name, told in one.plain.items()},
+        "contributions": [asdict(part) for part in one.contributions],
+        "full": {name: asdict(told) for name, told in one.full.items()},
+        "untold": dict(one.untold),
+    }
+
+
+def _inertia(one: InertiaAdded | None) -> dict[str, Any] | None:
+    return None if one is None else asdict(one)
+
+
+def _number(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def shown(told: Study, names: Sequence[str]) -> dict[str, Shown]:
+    """Those of the quantities that a study tells, by width where there is none of the whole."""
+    names = [name if name in told.full else f"{name}_per_width" for name in names]
+    return {name: SHOWN[name] for name in names if name in told.full and name in SHOWN}
+
+
+def cell(one: Amount | None, how: Shown, *, sign: bool = False) -> str:
+    """A number with its error in the unit of its table; with its sign where it is added to another."""
+    if one is None:
+        return "–"
+    if max(abs(one.value), one.uncertainty) * how.factor < NOTHING:
+        return "0"
+    told = with_error(how.factor * one.value, how.factor * one.uncertainty)
+    return f"+{told}" if sign and one.value > 0 and not told.startswith("(") else told.replace("-", "−")
+
+
+def sentences(study_told: Study, name: str, inertia: Amount | None) -> list[str]:
+    """What each effect adds to one quantity, in words, as parts of all of it."""
+    how, full = SHOWN[name], study_told.full[name]
+    told = []
+    for one in study_told.contributions:
+        on, alone = one.on.get(name), one.alone.get(name)
+        if on is None and alone is None:
+            continue
+        parts = [_adds(on, how, full.value)] if on else []
+        parts += [f"to all the others {_adds(alone, how, full.value)}"] if alone else []
+        told.append(f"{one.name}: {', '.join(parts)}")
+    if inertia is not None:
+        told.append(f"inertia, not counted above: {_adds(inertia, how, full.value)}")
+    return told
+
+
+def _adds(one: Amount, how: Shown, full: float) -> str:
+    part = f" ({percent(one.value / abs(full))})".replace("-", "−") if full else ""
+    return f"{cell(one, how, sign=True)} {how.unit}{part}"
+
+
+def _say(told: Told, out: Path) -> None:
+    views = [("at the film of the scene", told.at_film, AT_FILM)]
+    if told.under_load is not None and told.scene.load is not None:
+        views.append((f"under {told.scene.load.pressure / 1e6:.4g} MPa", told.under_load, UNDER_LOAD))
+    for title, found, names in views:
+        columns = shown(found, names)
+        table = Table("", *(f"{how.title}, {how.unit}" for how in columns.values()), title=title)
+        for column in table.columns[1:]:
+            column.justify = "right"
+        table.add_row("plain film", *(cell(found.plain.get(name), how) for name, how in columns.items()))
+        for one in found.contributions:
+            table.add_row(f"+ {one.name}", *(cell(one.on.get(name), how, sign=True) for name, how in columns.items()))
+        table.add_row("all of it", *(cell(found.full[name], how) for name, how in columns.items()), style="bold")
+        output.print(table)
+    load = next(iter(shown(told.at_film, ("load",))))
+    for sentence in sentences(told.at_film, load, told.inertia.amounts["load"] if told.inertia else None):
+        output.print(f"load, {escape(sentence)}", soft_wrap=True)
+    for treated in told.treated:
+        output.print(f"{treated.effect} by {treated.model}: {escape(treated.why)}", soft_wrap=True)
+    if missing := left_out(told.scene):
+        output.print(f"left out, as the scene has none of it: {', '.join(missing)}", soft_wrap=True)
+    output.print(f"report: {escape(str(out / 'report.html'))}", soft_wrap=True)
+    for warning in dict.fromkeys((*told.at_film.warnings, *(told.under_load.warnings if told.under_load else ()))):
+        messages.print(f"[yellow]warning:[/] {escape(warning)}", soft_wrap=True)
+
+
+if __name__ == "__main__":
+    run_alone(command)

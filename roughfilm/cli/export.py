@@ -1,0 +1,143 @@
+"""roughfilm export: a gap, a surface or a result as a mesh that other tools read."""
+
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.markup import escape
+
+from roughfilm.cli.surface import refuse_same
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.units import Quantity, to_si
+from roughfilm.contact.meshes.files import mesh_format, write_mesh
+from roughfilm.contact.meshes.mesh import Mesh, Sort
+from roughfilm.contact.meshes.surface import surface_mesh
+from roughfilm.contact.surfaces.files import read_surface
+from roughfilm.contact.surfaces.store import is_surface
+from roughfilm.contact.synthetic.description import make, read_description
+from roughfilm.rom.ladder.provenance import circumstances
+from roughfilm.rom.ladder.scene import kind_named, load_entries, load_scene, scene_entries
+from roughfilm.rom.ladder.store import load
+from roughfilm.rom.meshes.result_mesh import PLACES, labelled, result_mesh
+from roughfilm.rom.meshes.walls_mesh import Part, gap_mesh, wall_mesh
+from roughfilm.rom.rough_gap.scene import RoughGap
+from roughfilm.rom.rough_gap.walls import Walls
+from roughfilm.terminal.console import AsJson, Overrides, in_one_line, messages, output, print_json, run_alone
+
+RESOLUTION, LAYERS = 64, 8
+MOST_CELLS = 20_000_000
+CONTENT = {Sort.LINE: ("length", "m"), Sort.HEXAHEDRON: ("volume", "m^3")}
+
+
+@in_one_line
+def command(
+    file: Annotated[
+        Path, typer.Argument(metavar="FILE", help="A scene of a rough gap, a surface, or a result that solve wrote.")
+    ],
+    out: Annotated[Path, typer.Option(help="The mesh is written here: .vtu, .stl or .msh (Gmsh).")],
+    what: Annotated[Part | None, typer.Option(help="Of a gap: the liquid in it (the default), or a wall.")] = None,
+    resolution: Annotated[int | None, typer.Option(help="Of a gap: columns along its longer side.")] = None,
+    layers: Annotated[int | None, typer.Option(help="Of a gap: layers of cells between its walls.")] = None,
+    spacing: Annotated[
+        str | None, typer.Option(help="Of a surface's points, if its file does not tell it: 1um.")
+    ] = None,
+    set_: Overrides = None,
+    as_json: AsJson = False,
+) -> None:
+    """Write a gap, a surface or a result as a mesh for other tools: lengths in metres, data named with their units."""
+    refuse_same({"FILE": file, "--out": out})
+    mesh_format(out)
+    mesh, told = _mesh(file, what, resolution, layers, _metres(spacing), set_)
+    written = write_mesh(mesh, out)
+    name, unit = CONTENT.get(written.sort, ("area", "m^2"))
+    size = Quantity(value=written.content, unit=unit)
+    told["left_out"] = sorted({*told["left_out"], *_data(mesh)} - set(_data(written)))
+    if as_json:
+        print_json(
+            {
+                "quantities": {name: asdict(size)},
+                "numerics": {"cells": len(written.cells), "points": len(written.points), "sort": str(written.sort)},
+                "provenance": {"file": str(file), "out": str(out), "data": _data(written), **told, **circumstances()},
+            }
+        )
+        return
+    output.print(
+        f"written: {escape(str(out))}: {len(written.cells)} cells ({written.sort}), {name} {size.value:.6g} {unit}",
+        soft_wrap=True,
+    )
+    for known in _data(written):
+        output.print(f"  data: {escape(known)}", soft_wrap=True)
+    if told["left_out"]:
+        messages.print(f"left out: {escape(', '.join(told['left_out']))}", soft_wrap=True)
+
+
+def _mesh(
+    file: Path,
+    what: Part | None,
+    resolution: int | None,
+    layers: int | None,
+    spacing: float | None,
+    set_: list[str] | None,
+) -> tuple[Mesh, dict[str, Any]]:
+    """The mesh of a file of any sort, and what must be told of it."""
+    for_gaps = {"--what": what, "--resolution": resolution, "--layers": layers}
+    if file.suffix.lower() == ".toml" and kind_named(load_entries(file)) is not None:
+        return _of_scene(file, what or Part.GAP, resolution, layers, set_)
+    for option, given in {**for_gaps, "--set": set_}.items():
+        if given:
+            raise InputError(f"{option}: got {given}, but {file} is no scene of a rough gap; leave it out")
+    if file.suffix.lower() == ".toml":
+        return surface_mesh(make(read_description(file))), {"left_out": []}
+    if file.suffix.lower() in (".h5", ".hdf5") and not (file.is_file() and is_surface(file)):
+        result = load(file)
+        mesh = result_mesh(result)
+        names = [labelled(name, field) for name, field in result.fields.items() if name not in PLACES]
+        left_out = sorted(set(names) - set(_data(mesh)))
+        return mesh, {"model": result.model, "scene": result.provenance.get("scene"), "left_out": left_out}
+    if spacing is None and file.suffix.lower() == ".npy" and file.is_file() and not is_surface(file):
+        raise InputError(f"{file}: tells no spacing of its points; give it by --spacing 1um")
+    surface = read_surface(file, spacing=None if spacing is None else (spacing, spacing))
+    return surface_mesh(surface), {"surface": dict(surface.source), "left_out": []}
+
+
+def _metres(spacing: str | None) -> float | None:
+    try:
+        return None if spacing is None else to_si(spacing, "m")
+    except ValueError as error:
+        raise InputError(f"--spacing: {error}") from None
+
+
+def _of_scene(
+    file: Path, part: Part, resolution: int | None, layers: int | None, set_: list[str] | None
+) -> tuple[Mesh, dict[str, Any]]:
+    scene = load_scene(file, set_ or ())
+    if not isinstance(scene, RoughGap):
+        raise InputError(f"{file}: got a scene of kind {scene.kind!r}; solve it with --out and export the result")
+    if layers is not None and part is not Part.GAP:
+        raise InputError(f"--layers: got {layers}, but a wall has none; leave it out")
+    layers = (scene.layers or LAYERS) if layers is None else layers
+    own = max(scene.surface().shape)
+    resolution = min(own, RESOLUTION) if resolution is None else resolution
+    if not 2 <= resolution <= own:
+        raise InputError(
+            f"--resolution: got {resolution}; the surface has {own} points along its longer side, take 2 to {own}"
+        )
+    if layers < 1 or resolution**2 * layers > MOST_CELLS:
+        raise InputError(f"--layers: got {layers}; take 1 or more, and at most {MOST_CELLS} cells in all")
+    walls = scene.walls(resolution)
+    mesh = gap_mesh(walls, layers) if part is Part.GAP else wall_mesh(walls, part)
+    return mesh, {"what": str(part), "walls": _told(walls), "scene": scene_entries(scene), "left_out": []}
+
+
+def _told(walls: Walls) -> dict[str, Any]:
+    nx, ny = walls.gap.shape
+    return {"nodes": [nx, ny], "spacing": list(walls.spacing), "mean_gap": walls.mean_gap}
+
+
+def _data(mesh: Mesh) -> list[str]:
+    return sorted({*mesh.point_data, *mesh.cell_data})
+
+
+if __name__ == "__main__":
+    run_alone(command)

@@ -1,0 +1,109 @@
+"""roughfilm solve: one model on one scene."""
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.markup import escape
+from rich.table import Table
+
+from roughfilm.cli.advise import Want, advice_for, entries_of, shortfall
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.rom.ladder.kind import kinds
+from roughfilm.rom.ladder.model import find, of_kind
+from roughfilm.rom.ladder.result import Result
+from roughfilm.rom.ladder.scene import load_scene
+from roughfilm.rom.ladder.store import as_entries, save
+from roughfilm.terminal.console import (
+    AsJson,
+    Overrides,
+    Processes,
+    Resolution,
+    ScenePath,
+    Scheme,
+    Tolerance,
+    in_one_line,
+    messages,
+    models,
+    output,
+    print_json,
+    progress_bar,
+    run_alone,
+)
+
+
+@in_one_line
+def command(
+    scene: ScenePath,
+    model: Annotated[str | None, typer.Option(help="A name from 'roughfilm models'.")] = None,
+    within: Annotated[
+        str | None, typer.Option(help="Instead of a model: take the cheapest that is no farther off, for example 5%.")
+    ] = None,
+    want: Want = None,
+    out: Annotated[Path | None, typer.Option(help="Write the result with its fields here (HDF5).")] = None,
+    set_: Overrides = None,
+    resolution: Resolution = None,
+    tolerance: Tolerance = None,
+    scheme: Scheme = None,
+    processes: Processes = 1,
+    as_json: AsJson = False,
+) -> None:
+    """Solve a scene with one model, or with the cheapest that is enough."""
+    read = load_scene(scene, set_ or ())
+    ladder = of_kind(models(), read.kind)
+    result, advised = None, None
+    if within is not None:
+        own = {"model": model, "resolution": resolution, "tolerance": tolerance, "scheme": scheme}
+        own["processes"] = processes if processes != 1 else None
+        if given := [name for name, value in own.items() if value is not None]:
+            raise InputError(f"--{given[0]}: --within chooses the model and how it is run; leave one of them out")
+        found = advice_for(read, want, within)
+        if found.chosen is None:
+            raise ConvergenceError(f"--within: {shortfall(found, kinds()[read.kind].compared[found.quantity])}")
+        model, resolution, result, advised = found.chosen.model, found.chosen.resolution, found.result, found
+        messages.print(f"{model} at resolution {resolution}: {found.chosen.reason}", soft_wrap=True, markup=False)
+    elif want is not None:
+        raise InputError("--want: says of which quantity --within speaks; give that too")
+    if model is None:
+        raise InputError("--model: is missing; name one from 'roughfilm models', or give --within 5%")
+    rung = find(ladder, model)
+    if result is None:
+        with progress_bar(1.0) as advance:
+            result = rung.solve(
+                read, resolution=resolution, tolerance=tolerance, scheme=scheme, processes=processes, progress=advance
+            )
+    if advised is not None:
+        result = replace(result, provenance={**result.provenance, "advice": entries_of(advised)})
+    if out is not None:
+        save(result, out)
+    if as_json:
+        print_json(as_entries(result))
+    else:
+        output.print(table_of(result))
+        numbers = result.numerics
+        output.print(
+            f"residual {numbers.residual:.1e} ({rung.residual_meaning}), {numbers.iterations} iterations, "
+            f"{numbers.degrees_of_freedom} unknowns, {numbers.cpu_s:.3g} CPU s"
+        )
+        for one in result.provenance.get("tries", [])[1:]:
+            output.print(f"second try, after a first one that was in vain: {one['recipe']}")
+        output.print(rung.applies(read).reason)
+        for warning in result.provenance.get("warnings", []):
+            output.print(f"[yellow]warning:[/] {escape(warning)}")
+
+
+def table_of(result: Result) -> Table:
+    """The quantities of a result, as people read them."""
+    known = result.provenance.get("uncertainty", {})
+    columns = ("quantity", "value", "±", "unit") if known else ("quantity", "value", "unit")
+    table = Table(*columns, title=f"{escape(result.provenance['scene']['name'])} by {result.model}")
+    table.columns[1].justify = "right"
+    for name, quantity in result.quantities.items():
+        told = [f"{known[name]:.1e}" if name in known else ""] if known else []
+        table.add_row(name, f"{quantity.value:.5g}", *told, "" if quantity.unit == "1" else quantity.unit)
+    return table
+
+
+if __name__ == "__main__":
+    run_alone(command)

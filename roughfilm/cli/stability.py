@@ -1,0 +1,154 @@
+"""roughfilm stability: where solvers converge, and what becomes of them elsewhere."""
+
+import json
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.markup import escape
+
+from roughfilm.batch.directory import alone
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.files import replacing
+from roughfilm.pages.render import render, write_figures
+from roughfilm.rom.ladder.provenance import code, versions
+from roughfilm.rom.studies.table import write_csv
+from roughfilm.stability.cavitation import CAVITATION
+from roughfilm.stability.cell import CELL
+from roughfilm.stability.contact import CONTACT
+from roughfilm.stability.form import BAD, MEANING, Family, Outcome, columns_of, table_of
+from roughfilm.stability.gap import GAP
+from roughfilm.stability.laws import MIXED, SEAL
+from roughfilm.stability.pocket import POCKET
+from roughfilm.terminal.console import AsJson, in_one_line, make_directory, messages, output, print_json, run_alone
+
+FAMILIES: dict[str, Family] = {
+    "pocket": POCKET,
+    "cavitation": CAVITATION,
+    "contact": CONTACT,
+    "cell": CELL,
+    "seal": SEAL,
+    "mixed": MIXED,
+    "rough_gap": GAP,
+}
+
+ALL = "all"
+
+Entries = Mapping[str, Any]
+"""Of a map, as its file holds them."""
+
+
+@in_one_line
+def command(
+    family: Annotated[
+        str, typer.Argument(metavar="FAMILY", help=f"What is mapped: {', '.join(FAMILIES)}, or all of them: {ALL}.")
+    ],
+    out: Annotated[Path, typer.Option(help="Tables and the page go here, and runs of models, which are used again.")],
+    resolution: Annotated[
+        int | None,
+        typer.Option(help="; ".join(f"{name}: {one.resolution_meaning}" for name, one in FAMILIES.items()) + "."),
+    ] = None,
+    jobs: Annotated[int | None, typer.Option(help="Processes; by default one for each core.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Map where solvers converge, and write stability.csv, .json and report.html."""
+    if family not in (*FAMILIES, ALL):
+        raise InputError(f"FAMILY: got {family!r}; it must be one of {', '.join(FAMILIES)}, {ALL}")
+    processes = len(os.sched_getaffinity(0)) if jobs is None else jobs
+    if processes < 1:
+        raise InputError(f"--jobs: got {jobs}; it must be 1 or more")
+    if family == ALL and resolution is not None:
+        raise InputError(f"--resolution: got {resolution} for {ALL}; every map counts it in its own way, leave it out")
+    make_directory(out)
+    if family != ALL:
+        found = _mapped(family, out, resolution, processes)
+        entries: dict[str, Any] = dict(found)
+        maps = [found]
+    else:
+        maps = [known or _mapped(name, out / name, None, processes) for name, known in _known(out).items()]
+        entries = {"family": ALL, "maps": maps}
+        _write(maps, {one["family"]: out / one["family"] for one in maps}, entries, out)
+    if as_json:
+        print_json(entries)
+        return
+    counted = {one["family"]: one["runs"] for one in maps} if family == ALL else _by_group(maps[0])
+    output.print(table_of(counted, "family" if family == ALL else "group"))
+    output.print(f"page: {escape(str(out / 'report.html'))}", soft_wrap=True)
+    for name, reason in {name: reason for one in maps for name, reason in one["absent"].items()}.items():
+        messages.print(f"[yellow]left out:[/] {name}: {escape(reason)}", soft_wrap=True)
+
+
+def _by_group(found: Entries) -> dict[str, list[Entries]]:
+    groups = dict.fromkeys(run["group"] for run in found["runs"])
+    return {group: [run for run in found["runs"] if run["group"] == group] for group in groups}
+
+
+def _known(out: Path) -> dict[str, Entries | None]:
+    """By family the map that stands there already, if it was made by the same code at its own resolution."""
+    return {name: _same(out / name / "stability.json", one.resolution) for name, one in FAMILIES.items()}
+
+
+def _same(path: Path, resolution: int) -> Entries | None:
+    try:
+        found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        made = found["provenance"]
+        same = (made["code"], made["versions"], found["resolution"]) == (code(), versions(), resolution)
+        return found if same else None
+    except (OSError, ValueError, LookupError, TypeError):
+        return None
+
+
+def _mapped(family: str, out: Path, resolution: int | None, processes: int) -> Entries:
+    """One map, made and written."""
+    chosen = FAMILIES[family]
+    make_directory(out)
+    with alone(out) as scratch:
+        made = chosen.make(
+            resolution=chosen.resolution if resolution is None else resolution,
+            out=out,
+            processes=processes,
+            scratch=scratch,
+        )
+        write_figures(made.figures, out)
+        entries = made.entries
+        _write([entries], {family: out}, entries, out)
+    return entries
+
+
+def _write(maps: Sequence[Entries], places: Mapping[str, Path], entries: Entries, out: Path) -> None:
+    """The table, the page and, last, the entries, by which the next call knows that all is there."""
+    write_csv(columns_of(maps), out / "stability.csv")
+    figures = {
+        family: {path.stem: path.read_text(encoding="utf-8") for path in sorted(place.glob("*.svg"))}
+        for family, place in places.items()
+    }
+    bad = [(one["family"], run) for one in maps for run in one["runs"] if run["outcome"] in BAD]
+    render(
+        "stability.html.j2",
+        out / "report.html",
+        maps=maps,
+        groups={one["family"]: [_as_table(*group) for group in _by_group(one).items()] for one in maps},
+        outcomes=[outcome.value for outcome in Outcome],
+        meaning=MEANING,
+        figures=figures,
+        bad=bad,
+    )
+    with replacing(out / "stability.json") as path:
+        path.write_text(json.dumps(entries, indent=1) + "\n", encoding="utf-8")
+
+
+def _as_table(name: str, runs: Sequence[Entries]) -> dict[str, Any]:
+    """By row and column; without columns where no two rows share one."""
+    rows: dict[str, dict[str, Entries]] = {}
+    for run in runs:
+        rows.setdefault(run["row"], {})[run["column"]] = run
+    columns = list(dict.fromkeys(run["column"] for run in runs))
+    shared = len(rows) == 1 or any(sum(column in cells for cells in rows.values()) > 1 for column in columns)
+    few = len(columns) <= max(map(len, rows.values())) + 2
+    return {"name": name, "rows": rows, "columns": columns if shared and few else []}
+
+
+if __name__ == "__main__":
+    run_alone(command)

@@ -1,0 +1,165 @@
+"""The pictures of a series of contacts."""
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from roughfilm.contact.mechanics.contact import Contact
+from roughfilm.contact.mechanics.load_series import MOST_BINS, Spread
+from roughfilm.contact.mechanics.store import Row
+from roughfilm.contact.surfaces.surface import Array
+from roughfilm.figures.base import svg
+
+MOST_PIXELS = 640
+"""Of a picture along a side; finer surfaces are drawn by every second, third ... point."""
+
+AREA, PLASTIC, BEFORE, UNLOADED, PLANE = "#2166ac", "#b2182b", "0.6", "#e08214", "black"
+PRESSURES = mpl.colormaps["inferno"].with_extremes(bad="#dfe4ea")
+GAPS = mpl.colormaps["cividis"].with_extremes(bad="#b2182b")
+
+
+def areas(rows: Sequence[Row]) -> str:
+    """Real and plastic area against load."""
+    figure, axes = _small()
+    loads = _loads(rows)
+    _line(axes, loads, [100 * row.area_fraction for row in rows], AREA, "in contact")
+    plastic = np.array([100 * row.plastic_fraction for row in rows])
+    if plastic.any():
+        _line(axes, loads, np.where(plastic > 0, plastic, np.nan), PLASTIC, "plastic")
+        axes.legend()
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel("load, MPa")
+    axes.set_ylabel("part of the nominal area, %")
+    return svg(figure)
+
+
+def mean_gaps(rows: Sequence[Row]) -> str:
+    """Mean gap against load; empty if the model has none."""
+    told = [row for row in rows if row.mean_gap is not None]
+    if not told:
+        return ""
+    figure, axes = _small()
+    _line(axes, _loads(told), [1e6 * (row.mean_gap or 0.0) for row in told], AREA, "mean gap")
+    axes.set_xscale("log")
+    axes.set_ylim(bottom=0)
+    axes.set_xlabel("load, MPa")
+    axes.set_ylabel("mean gap, µm")
+    return svg(figure)
+
+
+def maps(contact: Contact) -> str:
+    """Pressure and gap over the surface."""
+    width, height = _size(contact)
+    figure = Figure(figsize=(11, min(5.2, 1.1 + 4.4 * height / width)), layout="constrained")
+    panels = figure.subplots(1, 2)
+    pressure = np.where(contact.in_contact, contact.pressure, np.nan) / 1e6
+    image = _map(panels[0], contact, pressure, cmap=PRESSURES, vmin=0, vmax=_top(contact) / 1e6)
+    figure.colorbar(image, ax=panels[0], label="pressure, MPa", shrink=0.9)
+    gap = np.where(contact.in_contact, np.nan, contact.gap) * 1e6
+    open_ = gap[np.isfinite(gap)]
+    top = float(np.percentile(open_, 99.9)) if open_.size else 1.0
+    image = _map(panels[1], contact, gap, cmap=GAPS, vmin=0, vmax=top or 1.0)
+    figure.colorbar(image, ax=panels[1], label="gap, µm", shrink=0.9)
+    return svg(figure)
+
+
+def pressures(spreads: Sequence[Spread], hardness: float) -> str:
+    """How much of the nominal area carries which pressure, at a few loads; empty if the model does not say."""
+    drawn = [spread for spread in spreads if spread.density.any()]
+    if not drawn:
+        return ""
+    figure = Figure(figsize=(11, 3.6), layout="constrained")
+    axes = figure.add_subplot()
+    colours = mpl.colormaps["viridis"](np.linspace(0.0, 0.85, len(drawn)))
+    for spread, colour in zip(drawn, colours, strict=True):
+        density = np.where(spread.density > 0, spread.density, np.nan) * 1e9
+        axes.plot(
+            spread.pressure / 1e9,
+            density,
+            ".-" if density.size <= MOST_BINS else "-",
+            color=colour,
+            label=f"{float(f'{spread.load / 1e6:.3g}'):g} MPa",
+        )
+    if math.isfinite(hardness):
+        axes.axvline(hardness / 1e9, color="black", linestyle=":", linewidth=1)
+    top = max(float(spread.density.max()) for spread in drawn) * 1e9
+    axes.set_yscale("log")
+    axes.set_ylim(bottom=max(axes.get_ylim()[0], top * 1e-6))
+    axes.set_xlim(left=0)
+    axes.set_xlabel("pressure, GPa" + (" (dotted: hardness)" if math.isfinite(hardness) else ""))
+    axes.set_ylabel("density of the\nnominal area, 1/GPa")
+    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), title="load")
+    return svg(figure)
+
+
+def section(contact: Contact) -> str:
+    """Heights along a line through the largest pressure: undeformed, loaded, unloaded if plastic, and the plane."""
+    figure = Figure(figsize=(11, 5.4), layout="constrained")
+    upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1.3))
+    row = section_row(contact)
+    x = np.arange(contact.heights.shape[0]) * contact.spacing[0] * 1e6
+    plane = float(contact.heights.max()) - contact.approach
+    lines = (
+        (contact.heights, "undeformed", BEFORE, 1.0),
+        *([(contact.unloaded_heights, "unloaded again", UNLOADED, 1.2)] if contact.plastic.any() else []),
+        (contact.loaded_heights, "under load", AREA, 1.2),
+    )
+    for heights, label, colour, width in lines:
+        upper.plot(x, (heights[:, row] - plane) * 1e6, color=colour, label=label, linewidth=width)
+    upper.axhline(0, color=PLANE, linewidth=1, linestyle="--", label="plane")
+    upper.set_ylabel("height above the plane, µm")
+    upper.legend(ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1.0))
+    lower.fill_between(x, contact.pressure[:, row] / 1e6, color=PLASTIC, linewidth=0, step="mid")
+    lower.set_ylim(0, 1.08 * _top(contact) / 1e6)
+    lower.set_ylabel("pressure, MPa")
+    lower.set_xlabel("x, µm")
+    upper.set_xlim(x[0], x[-1])
+    return svg(figure)
+
+
+def section_row(contact: Contact) -> int:
+    """The row of points along x that carries the most of all that hold the largest pressure."""
+    peak = contact.pressure.max(axis=0)
+    carried = np.where(peak >= peak.max(), contact.pressure.sum(axis=0), -1.0)
+    return int(np.argmax(carried))
+
+
+def _small() -> tuple[Figure, Axes]:
+    figure = Figure(figsize=(5.4, 4.0), layout="constrained")
+    return figure, figure.add_subplot()
+
+
+def _loads(rows: Sequence[Row]) -> list[float]:
+    return [row.load / 1e6 for row in rows]
+
+
+def _line(axes: Axes, x: Sequence[float], y: Any, colour: str, label: str) -> None:
+    axes.plot(x, y, "o-", color=colour, label=label, markersize=4, linewidth=1.6)
+
+
+def _top(contact: Contact) -> float:
+    return (
+        contact.hardness if contact.plastic.any() else float(np.percentile(contact.pressure[contact.in_contact], 99.9))
+    )
+
+
+def _size(contact: Contact) -> tuple[float, float]:
+    nx, ny = contact.heights.shape
+    return nx * contact.spacing[0] * 1e6, ny * contact.spacing[1] * 1e6
+
+
+def _map(axes: Axes, contact: Contact, values: Array, **how: Any) -> Any:
+    step = max(1, -(-max(values.shape) // MOST_PIXELS))
+    width, height = _size(contact)
+    axes.grid(visible=False)
+    axes.set_xlabel("x, µm")
+    axes.set_ylabel("y, µm")
+    return axes.imshow(
+        values[::step, ::step].T, origin="lower", extent=(0, width, 0, height), interpolation="nearest", **how
+    )

@@ -1,0 +1,47 @@
+"""Pictures drawn by VTK in a process of their own, because missing graphics libraries make it crash."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+from roughfilm.rom.ladder.model import Availability
+
+REMEDY = "install graphics libraries with: sudo apt-get install libegl1 libgl1-mesa-dri libxrender1"
+TIME_LIMIT_S = 180
+
+PROBE = """
+import pyvista
+plotter = pyvista.Plotter(off_screen=True)
+plotter.add_mesh(pyvista.Sphere())
+plotter.screenshot()
+print(pyvista.vtk_version_info)
+"""
+
+
+def draw_apart(module: str, file: Path, picture: Path) -> Availability:
+    """Run a module that draws what a file holds into a PNG; says why where it fails."""
+    return _apart("-m", module, str(file), str(picture))
+
+
+def probe() -> Availability:
+    """Whether a picture can be drawn here."""
+    found = _apart("-c", PROBE)
+    if not found.available:
+        return found
+    return Availability(available=True, detail="pyvista draws, VTK " + found.detail.strip("()").replace(", ", "."))
+
+
+def _apart(*arguments: str) -> Availability:
+    try:
+        run = subprocess.run(
+            [sys.executable, "-P", *arguments], capture_output=True, text=True, timeout=TIME_LIMIT_S, check=False
+        )
+    except (OSError, subprocess.SubprocessError) as error:
+        return Availability(available=False, detail=f"drawing did not end ({error}); {REMEDY}")
+    if run.returncode != 0:
+        crashed = run.returncode < 0
+        last = next(iter(run.stderr.strip().splitlines()[::-1]), "no word")
+        detail = f"VTK crashes here (exit code {run.returncode}); {REMEDY}" if crashed else f"drawing failed ({last})"
+        return Availability(available=False, detail=detail)
+    lines = run.stdout.strip().splitlines()
+    return Availability(available=True, detail=lines[-1] if lines else "")

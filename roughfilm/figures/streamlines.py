@@ -1,0 +1,109 @@
+"""Streamlines and speed in and above grooves: python -m roughfilm.figures.streamlines RESULT.h5 PICTURE.png."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from roughfilm.contact.foundation.files import replacing
+from roughfilm.rom.ladder.result import Result
+from roughfilm.rom.ladder.store import load
+from roughfilm.rom.pocket.gap import Array
+
+MARGIN = 0.35
+"""How much of the film is shown on each side of the grooves, in parts of the length they take."""
+
+SHALLOW = 1e-3
+"""Where the film is deeper than elsewhere by less than this part of the deepest groove, there is no groove."""
+
+WINDOW = (1500, 500)
+"""Pixels."""
+
+HEIGHT_TO_WIDTH = 0.22
+"""Shape of the picture: the film is stretched upward until it fills it."""
+
+
+def stream_function(vertices: Array, velocity: Array) -> Array:
+    """ψ = ∫ u dy from the still wall, at the vertices; shape (nx + 1, ny + 1), m²/s.
+
+    Second order; the mean of the two neighbouring columns at each inner vertex.
+    """
+    thickness = np.diff(vertices[:, :, 1], axis=1)
+    layers = (thickness[1:] + thickness[:-1]) / 2
+    columns = np.concatenate([np.zeros((velocity.shape[0], 1)), np.cumsum(velocity[..., 0] * layers, axis=1)], axis=1)
+    periodic = np.concatenate([columns[-1:], columns, columns[:1]])
+    return np.asarray((periodic[1:] + periodic[:-1]) / 2)
+
+
+def shown(vertices: Array) -> slice:
+    """The columns of vertices that a picture shows: all grooves, with a margin on both sides."""
+    x, lower = vertices[:, 0, 0], vertices[:, 0, 1]
+    depth = lower.max() - lower
+    grooved = np.flatnonzero(depth > SHALLOW * depth.max())
+    left, right = x[grooved[0]], x[grooved[-1]]
+    margin = MARGIN * (right - left)
+    inside = np.flatnonzero((x >= left - margin) & (x <= right + margin))
+    return slice(int(inside[0]), int(inside[-1]) + 1)
+
+
+def draw(result: Result, picture: Path) -> None:
+    """Draw one PNG: colour is speed relative to the sliding wall's, lines are streamlines."""
+    import pyvista
+
+    vertices = result.fields["vertices"].values
+    velocity = result.fields["cell_velocity"].values
+    sliding_speed = float(result.fields["cell_velocity"].values[..., 0].max())
+    x, y = vertices[..., 0] * 1e6, vertices[..., 1] * 1e6
+    window = shown(vertices)
+    left, right = x[window.start, 0], x[window.stop - 1, 0]
+    width, height = right - left, y.max() - y.min()
+    stretch = max(1.0, HEIGHT_TO_WIDTH * width / height)
+
+    grid = pyvista.StructuredGrid(x[window, :, None], y[window, :, None] * stretch, np.zeros_like(x[window, :, None]))
+    speed = np.linalg.norm(velocity, axis=2)[window.start : window.stop - 1]
+    grid.cell_data["speed"] = (speed / sliding_speed).ravel(order="F")
+    psi = stream_function(vertices, velocity)[window]
+    grid.point_data["psi"] = psi.ravel(order="F")
+    flow = psi[:, -1].mean()
+    levels = [*(np.linspace(0, 1, 15)[1:-1] ** 1.5 * flow)]
+    if psi.min() < -1e-5 * flow:
+        levels += [*np.linspace(psi.min(), 0, 6)[1:]]
+    lines = grid.contour(sorted(levels), scalars="psi")
+
+    plotter = pyvista.Plotter(off_screen=True, window_size=list(WINDOW))
+    plotter.background_color = "white"  # type: ignore[assignment]
+    plotter.add_mesh(
+        grid.cell_data_to_point_data(),
+        scalars="speed",
+        cmap="viridis",
+        clim=(0, 1),
+        lighting=False,
+        scalar_bar_args={
+            "title": "",
+            "n_labels": 6,
+            "vertical": False,
+            "width": 0.4,
+            "height": 0.09,
+            "position_x": 0.3,
+            "position_y": 0.02,
+            "label_font_size": 22,
+            "fmt": "%.1f",
+            "color": "#222222",
+        },
+    )
+    plotter.add_mesh(lines, color="white", line_width=2)
+    plotter.add_mesh(grid.extract_feature_edges(), color="#222222", line_width=2)
+    plotter.view_xy()  # type: ignore[call-arg]
+    plotter.camera.parallel_projection = True
+    plotter.camera.focal_point = (
+        (left + right) / 2,
+        (y.max() + y.min()) / 2 * stretch - 0.035 * width,
+        0,
+    )
+    plotter.camera.parallel_scale = width / WINDOW[0] * WINDOW[1] / 2 * 1.04
+    with replacing(picture) as scratch:
+        plotter.screenshot(str(scratch))
+
+
+if __name__ == "__main__":
+    draw(load(Path(sys.argv[1])), Path(sys.argv[2]))

@@ -1,0 +1,145 @@
+"""The pictures of a surface and its preparation."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+
+from roughfilm.contact.parameters.bearing_curve import bearing_curve
+from roughfilm.contact.parameters.spectrum import power_spectrum, radial_power
+from roughfilm.contact.preparation.prepare import Prepared
+from roughfilm.contact.surfaces.surface import Array, Surface
+from roughfilm.figures.base import svg
+
+MOST_PIXELS = 640
+"""Of a picture along a side; finer surfaces are drawn by every second, third ... pixel."""
+
+COLOURS = mpl.colormaps["cividis"].with_extremes(bad="#d7301f")
+BEFORE, AFTER = "#e08214", "#2166ac"
+
+
+def height_maps(prepared: Prepared) -> str:
+    """The measured surface with its invalid points and window, and the prepared one, in the same colours."""
+    figure = Figure(figsize=(11, _height(prepared.measured, 4.6)), layout="constrained")
+    panels = figure.subplots(1, 2)
+    limits = _limits(prepared.measured)
+    for axes, surface, title in zip(
+        panels, (prepared.measured, prepared.surface), ("measured, form removed", "prepared"), strict=True
+    ):
+        image = _map(axes, surface, _drawn(surface), limits)
+        axes.set_title(title)
+    window = prepared.record["window"]
+    dx, dy = (step * 1e6 for step in prepared.measured.spacing)
+    (i, j), (nx, ny) = window["start"], window["pixels"]
+    panels[0].add_patch(Rectangle((i * dx, j * dy), nx * dx, ny * dy, fill=False, edgecolor="black", linewidth=1.5))
+    figure.colorbar(image, ax=panels, label="height, µm", shrink=0.9)
+    return svg(figure)
+
+
+def joints(prepared: Prepared) -> str:
+    """One and a quarter cells each way at three stages; black squares where the cells meet."""
+    figure = Figure(figsize=(11, _height(prepared.surface, 2.9)), layout="constrained")
+    panels = figure.subplots(1, 3)
+    limits = _limits(prepared.measured)
+    stages = (prepared.cell, prepared.joined, prepared.surface)
+    for axes, surface, title in zip(panels, stages, ("as measured", "edges joined", "smoothed"), strict=True):
+        nx, ny = surface.shape
+        tiled = np.pad(surface.heights, ((0, nx // 4), (0, ny // 4)), mode="wrap")
+        image = _map(axes, surface, tiled, limits)
+        width, height = (length * 1e6 for length in surface.size)
+        for x, y in ((width, 0), (0, height), (width, 1.25 * height), (1.25 * width, height)):
+            axes.plot(x, y, "ks", markersize=7, clip_on=False, zorder=5)
+        axes.set_title(title)
+    figure.colorbar(image, ax=panels, label="height, µm", shrink=0.85)
+    return svg(figure)
+
+
+def bearing_curves(prepared: Prepared) -> str:
+    """Height against the part of the surface above it, with the cut levels."""
+    figure = Figure(figsize=(5.4, 4.0), layout="constrained")
+    axes = figure.add_subplot()
+    for surface, label, colour in ((prepared.filled, "measured", BEFORE), (prepared.surface, "prepared", AFTER)):
+        ratio, height = bearing_curve(surface.heights)
+        axes.plot(100 * ratio, height * 1e6, color=colour, label=label)
+    for level in ("highest", "lowest"):
+        axes.axhline(prepared.record["outliers"][level] * 1e6, color="black", linestyle=":", linewidth=1)
+    axes.set_xlabel("bearing ratio, % (dotted: cut)")
+    axes.set_ylabel("height, µm")
+    axes.legend()
+    return svg(figure)
+
+
+def power_spectra(prepared: Prepared) -> str:
+    """Power by wavelength, all directions together, summed over quarters of an octave."""
+    figure = Figure(figsize=(5.4, 4.0), layout="constrained")
+    axes = figure.add_subplot()
+    for surface, label, colour in _both(prepared):
+        frequency, power = radial_power(power_spectrum(surface))
+        quarter = np.rint(4 * np.log2(frequency[1:] / frequency[1])).astype(int)
+        octaves = 4 * np.bincount(quarter, weights=power[1:])
+        drawn = octaves > 1e-9 * octaves.max()
+        wavelength = 2 ** (-np.arange(octaves.size) / 4) / frequency[1]
+        axes.loglog(wavelength[drawn] * 1e6, octaves[drawn] * 1e12, color=colour, label=label)
+    axes.invert_xaxis()
+    axes.set_xlabel("wavelength, µm")
+    axes.set_ylabel("mean square height per octave, µm²")
+    axes.legend()
+    return svg(figure)
+
+
+def edge_profiles(prepared: Prepared) -> str:
+    """The lines of pixels at both ends of each direction: black the outermost, grey the ten next to each."""
+    figure = Figure(figsize=(11, 3.4), layout="constrained")
+    panels = figure.subplots(1, 2)
+    surface = prepared.surface
+    for axis, axes in enumerate(panels):
+        lines = np.moveaxis(surface.heights, axis, 0) * 1e6
+        place = (np.arange(lines.shape[1]) + 0.5) * surface.spacing[1 - axis] * 1e6
+        near = min(11, lines.shape[0] // 2)
+        for k in (*range(1, near), *range(-near, -1)):
+            axes.plot(place, lines[k], color="0.75", linewidth=0.6)
+        axes.plot(place, lines[0], "k-", linewidth=1, label="first line")
+        axes.plot(place, lines[-1], "k--", linewidth=1, label="last line")
+        axes.set_xlabel(f"{'yx'[axis]}, µm, along the joint across {'xy'[axis]}")
+        axes.set_ylabel("height, µm")
+    panels[0].legend()
+    return svg(figure)
+
+
+def _height(surface: Surface, width: float) -> float:
+    """Of a figure whose maps are so wide at most, inches."""
+    return min(5.0, 1.0 + width * surface.size[1] / surface.size[0])
+
+
+def _both(prepared: Prepared) -> Sequence[tuple[Surface, str, str]]:
+    return (prepared.measured, "measured", BEFORE), (prepared.surface, "prepared", AFTER)
+
+
+def _limits(surface: Surface) -> tuple[float, float]:
+    low, high = np.percentile(surface.heights[surface.valid], [0.1, 99.9]) * 1e6
+    return float(low), float(high)
+
+
+def _drawn(surface: Surface) -> Array:
+    return np.where(surface.invalid, np.nan, surface.heights)
+
+
+def _map(axes: Axes, surface: Surface, heights: Array, limits: tuple[float, float]) -> Any:
+    step = max(1, -(-max(heights.shape) // MOST_PIXELS))
+    width, height = (count * length * 1e6 for count, length in zip(heights.shape, surface.spacing, strict=True))
+    axes.grid(visible=False)
+    axes.set_xlabel("x, µm")
+    axes.set_ylabel("y, µm")
+    return axes.imshow(
+        heights[::step, ::step].T * 1e6,
+        origin="lower",
+        extent=(0, width, 0, height),
+        cmap=COLOURS,
+        vmin=limits[0],
+        vmax=limits[1],
+        interpolation="nearest",
+    )

@@ -1,0 +1,85 @@
+"""The plots of a sweep: errors against the number that orders them, errors against cost."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from roughfilm.figures.base import svg
+from roughfilm.figures.view import views
+from roughfilm.rom.ladder.kind import kinds
+from roughfilm.rom.studies.ordering import Ordering, product
+from roughfilm.rom.studies.sweep import Sweep, loaded, relative_error, sweeping
+
+LEAST_PERCENT = 1e-3
+
+
+def errors_in_order(
+    sweep: Sweep, reference: str, orderings: Mapping[tuple[str, str], Ordering], settings: Sequence[str]
+) -> str:
+    """Error against the number that orders it, a panel for each setting and quantity, with the thresholds."""
+    kind, groups = kinds()[sweep.kind], views()[sweep.kind].groups(sweep.given)
+    figure = Figure(figsize=(10, 0.6 + 2.6 * len(settings)), layout="constrained")
+    panels, told = figure.subplots(len(settings), len(kind.compared), squeeze=False), set[str]()
+    for line, setting in zip(panels, settings, strict=True):
+        for axes, (quantity, title) in zip(line, kind.compared.items(), strict=True):
+            if (setting, quantity) not in orderings:
+                axes.set_axis_off()
+                axes.set_title(f"{setting}: {title}, nothing to order", fontsize=9)
+                continue
+            found = orderings[setting, quantity]
+            number = product(sweep.features(), found.powers)
+            error = 100 * relative_error(sweep, setting, reference, quantity)
+            error[~loaded(sweep, reference)] = np.nan
+            for (group, rows), sign in zip(groups.items(), "osD^v<>", strict=False):
+                label = None if group in told else group
+                told.add(group)
+                axes.plot(number[rows], np.maximum(error[rows], LEAST_PERCENT), sign, ms=3, alpha=0.6, label=label)
+            for tolerance, limit in found.thresholds.items():
+                if limit is not None:
+                    axes.plot([number.min(), limit, limit], [100 * tolerance] * 2 + [LEAST_PERCENT], "k:", lw=0.8)
+            axes.set_xscale("log")
+            axes.set_yscale("log")
+            axes.set_title(f"{setting}: {title}, rank correlation {found.rank:.3f}", fontsize=9)
+            axes.set_xlabel(sweeping(kind).words(found.powers), fontsize=8)
+            axes.set_ylabel("error, %", fontsize=8)
+    figure.legend(loc="outside upper center", ncols=4, fontsize=8)
+    return svg(figure)
+
+
+def sweep_chart(sweep: Sweep, reference: str, settings: Sequence[str]) -> str:
+    """CPU seconds against error over all cases: a dot each, the median, and a bar up to 95 of 100 cases."""
+    kind, view = kinds()[sweep.kind], views()[sweep.kind]
+    figure = Figure(figsize=(10, 4.6), layout="constrained")
+    panels = figure.subplots(1, len(kind.compared))
+    for axes, (quantity, title) in zip(panels, kind.compared.items(), strict=True):
+        for setting in settings:
+            error = np.maximum(100 * relative_error(sweep, setting, reference, quantity), LEAST_PERCENT)
+            time = sweep.cpu_s[setting]
+            known = np.isfinite(error) & np.isfinite(time) & loaded(sweep, reference)
+            if not known.any():
+                continue
+            middle, high = np.percentile(error[known], [50, 95])
+            axes.plot(time[known], error[known], ".", color=view.style_of(setting).colour, ms=2, alpha=0.25)
+            axes.errorbar(
+                np.median(time[known]),
+                middle,
+                [[0], [high - middle]],
+                fmt=view.style_of(setting).marker,
+                color=view.style_of(setting).colour,
+                capsize=4,
+                label=setting,
+            )
+        axes.axvline(
+            np.nanmedian(sweep.cpu_s[reference]),
+            color=view.style_of(reference).colour,
+            ls=":",
+            label=f"{reference} (reference)",
+        )
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.set_xlabel("CPU time a case, s")
+        axes.set_ylabel(f"error in {title}, %")
+    handles, labels = panels[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=4, fontsize=8)
+    return svg(figure)

@@ -1,0 +1,89 @@
+"""The page of a comparison: every model on one scene."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from roughfilm.figures.view import View
+from roughfilm.pages.render import embedded, render
+from roughfilm.rom.ladder.kind import Kind, Scene
+from roughfilm.rom.ladder.model import Model, best
+from roughfilm.rom.ladder.result import Result
+from roughfilm.rom.ladder.scene import scene_entries
+from roughfilm.rom.studies.comparison import Difference, Point
+from roughfilm.rom.studies.convergence import Convergence
+
+LINKS = "https://doi.org/"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Picture:
+    """A picture of one model's flow, or why there is none."""
+
+    model: str
+    path: Path | None
+    reason: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Report:
+    """Everything the page shows."""
+
+    scene: Scene
+    kind: Kind
+    view: View
+    models: tuple[Model, ...]
+    results: Mapping[str, Result]
+    absent: Mapping[str, str]
+    best: str
+    to_best: tuple[Difference, ...]
+    effects: tuple[Difference, ...]
+    chart: tuple[Point, ...]
+    uncertainty: Mapping[str, float]
+    convergence: Mapping[str, Mapping[str, Convergence]]
+    plots: Mapping[str, str]
+    pictures: tuple[Picture, ...]
+
+
+def cheapest_within(report: Report, part: float) -> str:
+    """The model with the least CPU time that has all compared quantities within ``part`` of the best rung's."""
+    asked = report.kind.shared(report.results[report.best])
+    worst = {
+        name: 0.0 if asked == report.kind.shared(report.results[report.best], result) else float("inf")
+        for name, result in report.results.items()
+    }
+    for difference in report.to_best:
+        worst[difference.model] = max(worst[difference.model], abs(difference.relative))
+    enough = [name for name, error in worst.items() if error <= part]
+    return min(enough, key=lambda name: report.results[name].numerics.cpu_s)
+
+
+def write_comparison(report: Report, path: Path) -> None:
+    """Write the page; InputError if it cannot be written."""
+    render(
+        report.view.page,
+        path,
+        report=report,
+        view=report.view,
+        compared=report.kind.compared,
+        reduced=report.best != best([model for model in report.models if model.applies(report.scene).applies]).name,
+        best=report.results[report.best],
+        entries=scene_entries(report.scene),
+        cheapest={part: cheapest_within(report, part) for part in (0.01, 0.10)},
+        known=max(report.uncertainty.values(), default=0.0),
+        differences=_by_model(report.to_best),
+        pictures=[(picture, "" if picture.path is None else embedded(picture.path)) for picture in report.pictures],
+        sources=_sources(report),
+    )
+
+
+def _by_model(differences: tuple[Difference, ...]) -> dict[str, dict[str, Difference]]:
+    table: dict[str, dict[str, Difference]] = {}
+    for difference in differences:
+        table.setdefault(difference.model, {})[difference.quantity] = difference
+    return table
+
+
+def _sources(report: Report) -> list[tuple[str, str]]:
+    names = {doi for result in report.results.values() for doi in result.provenance["sources"]}
+    return [(doi, LINKS + doi) for doi in sorted(names)]

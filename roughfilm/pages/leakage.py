@@ -1,0 +1,111 @@
+"""The page of a series of leakage."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from roughfilm.cli.contact import digits
+from roughfilm.cli.leakage import WORDS, in_words, leaks
+from roughfilm.contact.mechanics.store import load_contact
+from roughfilm.contact.parameters.autocorrelation import autocorrelation, decay_lengths
+from roughfilm.contact.parameters.peaks import lowest_valleys
+from roughfilm.figures import leakage as leakage_figures
+from roughfilm.figures.contact_view import view_of, view_picture
+from roughfilm.pages.render import render
+from roughfilm.rom.seal.leakage.curve import Ready
+from roughfilm.rom.seal.leakage.effective_medium import effective_medium
+from roughfilm.rom.seal.leakage.percolation import Threshold
+from roughfilm.rom.seal.leakage.series import SOUGHT, Row
+from roughfilm.rom.seal.scene import Seal
+
+
+def write_page(
+    scene: Seal,
+    body: Ready,
+    rows: Mapping[float, Row],
+    found: Mapping[str, Threshold],
+    told: Mapping[str, Any],
+    directory: Path,
+) -> None:
+    """Write report.html of a series and of what ``--json`` told; InputError if the file cannot be written."""
+    ordered, spectrum = list(rows.values()), scene.spectrum()
+    flat = float(np.ptp(body.surface.heights)) == 0
+    depth = 0.0 if flat else _valley_depth(body)
+    estimated = (
+        {}
+        if spectrum is None
+        else {
+            load: effective_medium(spectrum, composite_modulus=scene.composite_modulus, load=load).permeability
+            for load in rows
+        }
+    )
+    shown = _shown(ordered, scene.axis)
+    contacts = [load_contact(body.contacts, load) for load in shown]
+    picture, why = view_picture([view_of(contact) for contact in contacts])
+    render(
+        "leakage.html.j2",
+        directory / "report.html",
+        scene=scene,
+        told=told,
+        warnings=told["provenance"]["warnings"],
+        thresholds={WORDS[name]: in_words(threshold) for name, threshold in found.items()},
+        cards=[(axis, found[f"direct_{axis}"]) for axis in "xy"],
+        first=ordered[0],
+        first_leak=leaks(scene, ordered[0], SOUGHT[scene.axis]),
+        periods=scene.flow.length / body.surface.size[scene.axis],
+        ratio=_ratio(ordered, scene.flow.direction),
+        areas=leakage_figures.areas(ordered, found),
+        leakages=leakage_figures.leakages(scene, ordered, found, estimated),
+        scaled=leakage_figures.scaled(ordered, depth, scene.composite_modulus) if _leaks(ordered) else None,
+        valley_depth=depth,
+        paths=leakage_figures.paths(contacts, scene.axis) if any(one.gap.any() for one in contacts) else None,
+        picture=picture,
+        why=why,
+        shown=shown,
+        rows=[
+            [
+                digits(row.load * 1e-6),
+                digits(row.area_fraction * 100),
+                digits(row.mean_gap * 1e6),
+                *(leaks(scene, row, name) for name in SOUGHT),
+                *(_bar(row, name) for name in SOUGHT[:2]),
+            ]
+            for row in ordered
+        ],
+    )
+
+
+def _valley_depth(body: Ready) -> float:
+    apart = decay_lengths(autocorrelation(body.surface), body.surface.spacing).shortest
+    return float(lowest_valleys(body.surface, apart).mean())
+
+
+def _shown(rows: Sequence[Row], axis: int) -> tuple[float, ...]:
+    """Four loads: two that leak along the flow, the last that does, the first that does not."""
+    name = SOUGHT[axis]
+    opened = [row.load for row in rows if not getattr(row, f"{name}_sealed")]
+    shut = [row.load for row in rows if getattr(row, f"{name}_sealed")]
+    middle = [opened[len(opened) // 2], opened[min(len(opened) - 1, 4 * len(opened) // 5)]] if opened else []
+    return tuple(sorted({*opened[-1:], *shut[:1], *middle, *([] if opened else shut[-1:])}))
+
+
+def _ratio(rows: Sequence[Row], axis: str) -> float | None:
+    """How much more leaks directly than averaged, in the middle of the loads that leak both ways."""
+    both = [
+        getattr(row, f"direct_{axis}") / getattr(row, f"homogenized_{axis}")
+        for row in rows
+        if getattr(row, f"homogenized_{axis}") > 0
+    ]
+    return float(np.median(both)) if both else None
+
+
+def _leaks(rows: Sequence[Row]) -> bool:
+    return any(row.direct_x > 0 or row.direct_y > 0 for row in rows)
+
+
+def _bar(row: Row, name: str) -> str:
+    """An error bar, as a part of the value."""
+    value, doubt = getattr(row, name), getattr(row, f"{name}_uncertainty")
+    return "–" if value == 0 else f"{100 * doubt / value:.2g} %"

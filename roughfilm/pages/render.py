@@ -1,0 +1,102 @@
+"""Self-contained HTML pages that a person would rather look at than read, from templates."""
+
+import base64
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import jinja2
+
+from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.units import Quantity
+
+TEMPLATES = Path(__file__).parent / "templates"
+
+
+def render(template: str | Path, path: Path, **entries: Any) -> None:
+    """Fill a template and write the page; InputError if it cannot be written.
+
+    A template is a name in ``templates`` beside this file, or the path of one elsewhere, which may extend these.
+    """
+    template = Path(template)
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader([TEMPLATES / template.parent, TEMPLATES]),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+    )
+    environment.filters.update(
+        percent=percent,
+        share=_share,
+        seconds=_seconds,
+        number=_number,
+        digits=_digits,
+        si=_si,
+        micro=_micro,
+        quantity=_quantity,
+        difference=_difference,
+    )
+    page = environment.get_template(template.name).render(**entries)
+    with replacing(path) as scratch:
+        scratch.write_text(page, encoding="utf-8", errors="replace")
+
+
+def write_figures(plots: Mapping[str, str], directory: Path) -> None:
+    """Write each figure, SVG text by name, as a file of its own; InputError if it cannot be written."""
+    for name, text in plots.items():
+        with replacing(directory / f"{name}.svg") as scratch:
+            scratch.write_text('<?xml version="1.0" encoding="utf-8"?>\n' + text, encoding="utf-8")
+
+
+def embedded(path: Path) -> str:
+    """A PNG file as the text of an image's address."""
+    return "data:image/png;base64," + base64.b64encode(path.read_bytes()).decode("ascii")
+
+
+def _share(part: float) -> str:
+    """A part without sign, in per cent."""
+    percent = 100 * part
+    return f"{percent:.0f} %" if percent >= 99.5 else f"{percent:.2g} %"
+
+
+def percent(part: float) -> str:
+    """A part with its sign, in per cent."""
+    percent = 100 * part
+    if abs(percent) < 1e-3:
+        return "0 %"
+    return f"{percent:+.0f} %" if abs(percent) >= 99.5 else f"{percent:+.2g} %"
+
+
+def _seconds(value: float) -> str:
+    return f"{value * 1e3:.2g} ms" if value < 0.1 else f"{value:.2g} s"
+
+
+def _number(value: float) -> str:
+    return "0" if abs(value) < 5e-5 else f"{value:.4g}"
+
+
+def _digits(value: float) -> str:
+    return "0" if abs(value) < 5e-7 else f"{value:.6g}"
+
+
+def _quantity(found: Quantity) -> str:
+    """A quantity with its unit, in µm and MPa where these fit."""
+    known = {"1": _number, "m": _micro, "Pa": _si}
+    return known[found.unit](found.value) if found.unit in known else f"{found.value:.4g} {found.unit}"
+
+
+def _difference(value: float, unit: str) -> str:
+    if unit == "1":
+        return f"{value:+.4f}"
+    return ("+" if value >= 0 else "−") + _quantity(Quantity(value=abs(value), unit=unit))
+
+
+def _micro(value: float) -> str:
+    return f"{value * 1e3:.4g} mm" if value >= 1e-3 else f"{value * 1e6:.4g} µm"
+
+
+def _si(value: float) -> str:
+    for factor, prefix in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
+        if abs(value) >= factor:
+            return f"{value / factor:.4g} {prefix}Pa"
+    return f"{value:.4g} Pa"

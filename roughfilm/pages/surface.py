@@ -1,0 +1,63 @@
+"""The page of a prepared surface."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from roughfilm.cli import surface
+from roughfilm.contact.foundation.units import Quantity
+from roughfilm.contact.preparation.prepare import Prepared
+from roughfilm.contact.surfaces.periodicity import THRESHOLD
+from roughfilm.figures import surface as surface_figures
+from roughfilm.pages.render import render
+
+MEANINGS = {
+    "Sa": "mean distance from the mean plane",
+    "Sq": "root mean square height",
+    "Sp": "highest point above the mean plane",
+    "Sv": "lowest point below it",
+    "Sz": "from the lowest point to the highest",
+    "Ssk": "skewness: negative for plateaus with valleys",
+    "Sku": "kurtosis: 3 for Gaussian heights",
+    "Sk": "core height: the line through the flattest 40 % of the bearing curve",
+    "Spk": "peaks above the core",
+    "Svk": "valleys below the core",
+    "Smr1": "bearing ratio where the peaks begin",
+    "Smr2": "bearing ratio where the valleys begin",
+    "Sal": "shortest distance at which the autocorrelation drops to 0.2",
+    "Str": "that distance over the longest one: 0 a lay, 1 none",
+    "Std": "direction of the lay from the x axis",
+    "St": "the same as Sz",
+    "Spm": "mean of the five highest peaks",
+    "Svm": "mean of the five lowest valleys",
+}
+
+
+def write_page(
+    prepared: Prepared, quantities: Mapping[str, Quantity], provenance: Mapping[str, Any], path: Path
+) -> None:
+    """Write the page; InputError if the file cannot be written."""
+    rows = [
+        (name, meaning, *surface.in_unit(quantities[f"raw_{name}"]), surface.in_unit(quantities[name])[0])
+        for name, meaning in MEANINGS.items()
+    ]
+    source = provenance["surface"]
+    while "prepared_from" in source:
+        source = source["prepared_from"]
+    render(
+        "surface.html.j2",
+        path,
+        name=source.get("file") or source.get("synthetic", {}).get("kind", "surface"),
+        source=source,
+        prepared=prepared,
+        rows=rows,
+        steps=[line.partition(": ") for line in surface.told(prepared)],
+        mismatch=prepared.record["periodicity_mismatch"],
+        threshold=THRESHOLD,
+        maps=surface_figures.height_maps(prepared),
+        joints=surface_figures.joints(prepared),
+        edges=surface_figures.edge_profiles(prepared),
+        bearing=surface_figures.bearing_curves(prepared),
+        spectrum=surface_figures.power_spectra(prepared),
+        provenance=provenance,
+    )

@@ -1,0 +1,1 @@
+"""Maps of where solvers converge and how accurate they are."""

@@ -1,0 +1,115 @@
+"""Whether a film balances, told by NumPy alone: flows computed afresh from the film thickness and the state."""
+
+import math
+
+import numpy as np
+
+from roughfilm.rom.cavitation.problem import Problem
+from roughfilm.rom.cavitation.solve import Solution
+from roughfilm.rom.pocket.gap import Array
+
+GAUSS = (0.5 - 0.5 / math.sqrt(3), 0.5 + 0.5 / math.sqrt(3))
+
+
+def broken_balance(found: Solution) -> float:
+    """The largest net flow into a node whose state is free, over the largest flow; infinite if the state cannot be.
+
+    p >= 0, 0 <= ξ <= 1, and where p > 0 the gap is full; ends and sides have what was asked for. An inlet node that is
+    full may let in less than is brought, never more.
+    """
+    problem, x, y = found.problem, found.grid.x, found.grid.y
+    pressure, fill = found.state.pressure, found.state.fill
+    shape, ends = problem.shape, problem.ends
+    if not (np.isfinite(pressure).all() and np.isfinite(fill).all()):
+        return math.inf
+    if pressure.min() < 0 or fill.min() < 0 or fill.max() > 1 or (fill[pressure > 0] < 1).any():
+        return math.inf
+    free, wanted = np.ones(pressure.shape, dtype=bool), pressure.copy()
+    given: list[tuple[tuple[slice, slice], float]] = []
+    if not shape.joined[0]:
+        given.append((np.s_[-1:, :], ends.outlet))
+        if ends.inlet is not None:
+            given.append((np.s_[:1, :], ends.inlet))
+    if ends.sides is not None:
+        given += [(np.s_[:, :1], ends.sides[0]), (np.s_[:, -1:], ends.sides[1])]
+    for place, value in given:
+        free[place], wanted[place] = False, value
+    if (np.abs(pressure - wanted) > 0).any():
+        return math.inf
+    along, across = _flows(problem, x, y, pressure, fill)
+    left = along - np.roll(along, 1, axis=0) + across - np.roll(across, 1, axis=1)
+    if ends.inlet is None and not shape.joined[0]:
+        drag = problem.speed / 2 * _across(problem, y) * _radius(problem, y)
+        brought = drag * ends.theta * shape.thickness(np.full_like(y, x[0]), y)
+        left[0] = along[0] - brought
+        left[0] = np.where(fill[0] < 1, left[0], np.maximum(left[0], 0.0))
+    largest = max(float(np.abs(along).max()), float(np.abs(across).max()))
+    return float(np.abs(left[free]).max()) / largest if largest > 0 and free.any() else 0.0
+
+
+def _flows(problem: Problem, x: Array, y: Array, pressure: Array, fill: Array) -> tuple[Array, Array]:
+    """Through the faces towards the next node in x and in y, zero where there is none; m³/s at p = 0."""
+    shape = problem.shape
+    share_x, share_y = _share(x, shape.breaks[-1] if shape.joined[0] else None), _across(problem, y)
+    radius = _radius(problem, y)
+    excess = problem.compression(pressure)[0]
+    slope = float(problem.compression(np.zeros(1))[1][0])
+    mobility = problem.mobility(pressure)[0]
+    faces = x.size if shape.joined[0] else x.size - 1
+    step = (np.append(np.diff(x), shape.breaks[-1] - x[-1]) if shape.joined[0] else np.diff(x))[:, None]
+    rise = (np.roll(pressure, -1, axis=0) - pressure)[:faces]
+    mean, cube = np.zeros((faces, y.size)), np.zeros((faces, y.size))
+    lowest = y[0] - (shape.across[1] - y[-1]) / 2 if shape.joined[1] else y[0]
+    begins = np.append(lowest, (y[:-1] + y[1:]) / 2)
+    strips = [y] if shape.wide else [begins + part * share_y for part in (0.25, 0.75)]
+    for strip in strips:
+        h = [shape.thickness(*np.broadcast_arrays(x[:faces, None] + g * step, strip)) for g in GAUSS]
+        cubed = h[0] ** -3.0 + h[1] ** -3.0
+        mean += (h[0] ** -2.0 + h[1] ** -2.0) / cubed / len(strips)
+        cube += 2 / cubed / len(strips)
+    carried = problem.speed / 2 * share_y * radius * mean
+    permits = cube * share_y / (12 * problem.viscosity * radius * step)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        upstream = np.where(carried * slope > 0, np.maximum(0.5, 1 - permits / (carried * slope)), 0.5)
+    ahead = np.roll(excess, -1, axis=0)[:faces]
+    phi = _between(mobility, np.roll(mobility, -1, axis=0))[:faces]
+    along = np.zeros(pressure.shape)
+    along[:faces] = carried * (fill[:faces] + upstream * excess[:faces] + (1 - upstream) * ahead) - permits * phi * rise
+    across = np.zeros(pressure.shape)
+    if y.size > 1:
+        width = np.diff(y)
+        rows = slice(1 if problem.ends.inlet is None and not shape.joined[0] else 0, None)
+        before = np.append(step[-1] if shape.joined[0] else [[0.0]], step)[: x.size]
+        after = np.append(step, 0.0)[: x.size]
+        for part in (-0.25 * before, 0.25 * after):
+            place = (x + part)[:, None]
+            h = [shape.thickness(*np.broadcast_arrays(place, y[:-1] + g * width)) for g in GAUSS]
+            cubed = 2 / (h[0] ** -3.0 + h[1] ** -3.0) / 2
+            middle = (radius[:-1] + radius[1:]) / 2
+            permits = cubed * share_x[:, None] * middle / (12 * problem.viscosity * width)
+            flow = -permits * _between(mobility[:, :-1], mobility[:, 1:]) * np.diff(pressure, axis=1)
+            across[rows, :-1] += flow[rows]
+    return along, across
+
+
+def _between(first: Array, second: Array) -> Array:
+    """The mean of φ over p where φ is exponential in p: the integral of a^(1-s) b^s over s from 0 to 1."""
+    nodes, weights = np.polynomial.legendre.leggauss(12)
+    parts = [weight / 2 * first ** ((1 - node) / 2) * second ** ((1 + node) / 2) for node, weight in zip(nodes, weights, strict=True)]  # fmt: skip  # noqa: E501
+    return np.asarray(sum(parts))
+
+
+def _radius(problem: Problem, y: Array) -> Array:
+    return y if problem.shape.polar else np.ones_like(y)
+
+
+def _across(problem: Problem, y: Array) -> Array:
+    shape = problem.shape
+    return np.ones(1) if shape.wide else _share(y, shape.across[1] if shape.joined[1] else None)
+
+
+def _share(places: Array, end: float | None) -> Array:
+    """Lengths of the control volumes; with an ``end``, that is where the first place is met again."""
+    before = np.diff(places, prepend=places[0] if end is None else places[0] - (end - places[-1]))
+    after = np.diff(places, append=places[-1] if end is None else end)
+    return np.asarray((before + after) / 2)

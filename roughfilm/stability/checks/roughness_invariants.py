@@ -1,0 +1,159 @@
+"""Laws of rough walls: what a pressed surface and a gap may be, and bounds of what passes through."""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+from roughfilm.rom.dry_contact.scene import DryContact
+from roughfilm.rom.ladder.result import Result
+from roughfilm.rom.parts.pressed_surface import RoughContact
+from roughfilm.rom.parts.restriction import restricted
+from roughfilm.rom.pocket.gap import Array
+from roughfilm.rom.rough_gap.scene import RoughGap
+from roughfilm.rom.seal.scene import Seal
+from roughfilm.stability.checks.contact import broken_conditions
+
+BROKEN = 2e-8
+"""Conditions of contact may be broken by that, over the rms height."""
+
+BOUND = 1e-6
+"""Bounds may be passed by that part, for what solvers leave open and traces that count as closed."""
+
+COARSE = 0.1
+"""And by that part by flow in three dimensions, on a coarse mesh."""
+
+COVERS = (2, 3, 5)
+"""Copies of a period in which an open path is sought: what leads round it leads into another copy of one of them."""
+
+
+def dry_contact(scene: DryContact, result: Result) -> Iterator[str]:
+    """Parts are parts, and what touches can bear the load; resolved pressures keep the conditions of contact."""
+    value = {name: quantity.value for name, quantity in result.quantities.items()}
+    plastic, load = "plasticity" in result.provenance["keeps"], scene.load.pressure
+    area = value["area_fraction"]
+    if not 0 <= value.get("plastic_fraction", 0.0) <= area * (1 + BOUND) <= (1 + BOUND) ** 2:
+        yield f"area {area:.6g}, of which plastic {value.get('plastic_fraction', 0.0):.6g}"
+    if plastic and area * scene.hardness < load * (1 - 1e-3):
+        yield f"an area of {area:.6g} at the hardness cannot bear {load:.6g} Pa"
+    if value.get("mean_gap", 0.0) < 0:
+        yield f"the mean gap is {value['mean_gap']:.6g} m"
+    density, edges = result.fields["pressure_density"].values, result.fields["bin_edges"].values
+    if density.min() < 0 or (density * np.diff(edges)).sum() > 1 + 1e-6 or (np.diff(edges) <= 0).any():
+        yield "pressures are told that are no distribution"
+    if "pressure" in result.fields:
+        hardness = scene.hardness if plastic else math.inf
+        pressure, gap = result.fields["pressure"].values, result.fields["gap"].values
+        worst = _broken(scene, pressure, hardness)
+        if worst > max(BROKEN, 2 * result.numerics.tolerance):
+            yield f"the conditions of contact are broken by {worst:.2g} of the rms height"
+        if gap.min() < 0 or gap[(pressure > 0) & (pressure < hardness)].any():
+            yield "a gap below 0, or one where pressure is transmitted"
+
+
+def _broken(scene: RoughContact, pressure: Array, hardness: float) -> float:
+    surface = scene.surface()
+    (nx, ny), (length, width) = pressure.shape, surface.size
+    return broken_conditions(
+        pressure,
+        restricted(surface.heights, (nx, ny)),
+        (length / nx, width / ny),
+        composite_modulus=scene.composite_modulus,
+        hardness=hardness,
+        load=scene.load.pressure,
+    )
+
+
+def seal(scene: Seal, result: Result) -> Iterator[str]:
+    """Sealed where no open path leads through, and only there; else between the bounds of its gap."""
+    value = {name: quantity.value for name, quantity in result.quantities.items()}
+    passed, area = value["permeability"], value["area_fraction"]
+    if not 0 <= area <= 1 + ROUNDING_UP:
+        yield f"the area is {area:.6g}"
+    if (value["sealed"] == 1) != (passed == 0) or value["leakage_per_width"] < 0:
+        yield f"sealed is {value['sealed']:g} where {passed:.3g} m³ pass"
+    share = result.fields["gap_share"].values
+    if share.min() < 0 or share.sum() > 1 + 1e-6:
+        yield "gaps are told that are no distribution"
+    if "gap" not in result.fields:
+        return
+    gap = result.fields["gap"].values
+    gap = gap if scene.axis == 0 else gap.T
+    low, high = bounds(gap)
+    ends = result.model == "direct_leakage"
+    if not ends and (passed == 0) == leads_through(gap):
+        yield f"{passed:.3g} m³ pass where an open path {'leads' if leads_through(gap) else 'does not lead'} through"
+    if passed > high * (1 + BOUND) or passed < low * (1 - BOUND):
+        yield f"{passed:.6g} m³ pass, not {low:.6g} to {high:.6g}"
+
+
+ROUNDING_UP = 1e-9
+
+
+def leads_through(gap: Array) -> bool:
+    """Whether an open path leads round the period in x: told by what hangs together in several copies of it."""
+    nx, ny = gap.shape
+    nodes = np.arange(nx * ny).reshape(nx, ny)
+    for copies in COVERS:
+        pairs = []
+        for copy in range(copies):
+            here = nodes + copy * nodes.size
+            ahead = np.roll(here, -1, axis=0)
+            ahead[-1] = nodes[0] + (copy + 1) % copies * nodes.size
+            for other, open_ in (
+                (ahead, (gap > 0) & (np.roll(gap, -1, axis=0) > 0)),
+                (np.roll(here, -1, axis=1), (gap > 0) & (np.roll(gap, -1, axis=1) > 0)),
+            ):
+                pairs.append(np.array([here[open_], other[open_]]))
+        one, two = np.concatenate(pairs, axis=1)
+        size = copies * nodes.size
+        parts = connected_components(coo_array((np.ones(one.size), (one, two)), shape=(size, size)))[1]
+        parts = parts.reshape(copies, nx, ny)
+        if ((parts[1] == parts[0]) & (gap > 0)).any() or ((parts[-1] == parts[0]) & (gap > 0)).any():
+            return True
+    return False
+
+
+def bounds(gap: Array) -> tuple[float, float]:
+    """Of what passes along x through faces of 2 h₁² h₂²/(h₁ + h₂): every line by itself, and none kept apart, m³."""
+    ahead = np.roll(gap, -1, axis=0)
+    both = gap + ahead
+    faces = np.divide(2 * gap**2 * ahead**2, both, out=np.zeros_like(gap), where=both > 0)
+    with np.errstate(divide="ignore"):
+        lines = np.where((faces > 0).all(axis=0), 1 / np.mean(1 / faces, axis=0), 0.0)
+        whole = float(1 / np.mean(1 / faces.mean(axis=1)))
+    return float(lines.mean()), whole
+
+
+def rough_gap(scene: RoughGap, result: Result) -> Iterator[str]:
+    """A symmetric and at least 0, at most that of a thin film whose sections mix; friction at least a smooth gap's.
+
+    Stokes flow has more to dissipate than thin-film theory tells, and inertia more than Stokes flow.
+    """
+    value = {name: quantity.value for name, quantity in result.quantities.items()}
+    gap, mean = result.fields["gap"].values, scene.mean_gap
+    a = np.array([[value["A11"], value["A12"]], [value["A21"], value["A22"]]])
+    resolved = "vertices" in result.fields
+    slack = COARSE if resolved else 1e-6
+    size = max(a[0, 0], a[1, 1], 1e-6)
+    if "inertia" not in result.provenance["keeps"] and abs(a[0, 1] - a[1, 0]) > slack * size:
+        yield f"A12 = {a[0, 1]:.6g} is not A21 = {a[1, 0]:.6g}"
+    if np.linalg.eigvalsh((a + a.T) / 2).min() < -slack * size:
+        yield f"pressure drives liquid backwards, A = {a.tolist()}"
+    if not 0 <= value["contact_area"] < 1 or gap.min() < 0:
+        yield f"contact {value['contact_area']:.6g}, smallest gap {gap.min():.3g} m"
+    if result.model == "smooth_gap":
+        return
+    for name, own in (("A11", gap), ("A22", gap.T)):
+        low, high = (bound / mean**3 for bound in bounds(own))
+        if value[name] > high * (1 + slack) + BOUND:
+            yield f"{name} = {value[name]:.6g} is more than can pass, {high:.6g}"
+        if result.model == "homogenized" and value[name] < low * (1 - slack) - BOUND:
+            yield f"{name} = {value[name]:.6g} is less than must pass, {low:.6g}"
+        if result.model == "homogenized" and (value[name] == 0) == leads_through(own):
+            yield f"{name} = {value[name]:.6g} is not what open paths say"
+    open_ = float(((gap > 0) & (np.roll(gap, -1, 0) > 0) & (np.roll(gap, 1, 0) > 0)).mean())
+    if "friction" in value and value["friction"] < open_**2 * (1 - slack):
+        yield f"friction {value['friction']:.6g} is less than that of a smooth gap where it is open"

@@ -1,0 +1,1 @@
+"""The inputs that a map asks each solver for."""

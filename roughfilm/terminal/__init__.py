@@ -1,0 +1,1 @@
+"""Console output, options, exit codes and progress bars of the commands."""

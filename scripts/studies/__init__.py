@@ -1,0 +1,1 @@
+"""Studies that regenerate the figures of the source and judge its claims."""

@@ -1,0 +1,320 @@
+"""Fit the error laws of the advice to random scenes: python -m scripts.studies.advice.fit --out OUT.
+
+The laws are written to rom/advice/laws.toml.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+import typer
+from rich.table import Table
+
+from roughfilm.batch.directory import alone
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.toml import toml_value
+from roughfilm.rom.advice import laws
+from roughfilm.rom.advice.laws import Grid, Law, Numbers, Step, on_grid
+from roughfilm.rom.ladder.kind import Kind, Scene, kinds
+from roughfilm.rom.ladder.model import Model, best, of_kind
+from roughfilm.rom.pocket.gap import Array
+from roughfilm.rom.studies.convergence import Kind as Way
+from roughfilm.rom.studies.convergence import converge
+from roughfilm.rom.studies.ordering import CERTAINTY
+from roughfilm.terminal.console import in_one_line, make_directory, models, output, run_alone
+from scripts.studies.advice.runs import PARTS, Drawn, Run, draw, read
+from scripts.studies.advice.scenes import random_scene
+from scripts.studies.advice.steps import GRIDS, GRIDS_APART, STEPS, Plan
+
+Rows = list[tuple[Numbers, float]]
+"""The numbers of scenes, each with an error."""
+
+LEAST = 1e-7
+"""Smaller differences are rounding."""
+
+ENOUGH = 12
+"""Scenes to which powers are fitted; to fewer, a bound alone."""
+
+STEP = 0.05
+"""Powers are multiples of it."""
+
+RIDGE = 0.02
+"""Times the scenes: keeps powers of numbers that vary together from growing against each other."""
+
+STEEPEST = 6.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Case:
+    """A random scene that was solved: its numbers, what every rung says, and the best answer by quantity."""
+
+    seed: int
+    scene: Scene
+    numbers: Numbers
+    runs: Mapping[tuple[str, int], Run]
+    best: str
+    truth: Mapping[str, float]
+    bar: Mapping[str, float]
+
+    def finest(self, model: str) -> Run | None:
+        """The rung's run at its finest resolution; None where it has none."""
+        own = [run for (name, _), run in self.runs.items() if name == model and not run.failure]
+        return max(own, key=lambda run: run.resolution, default=None)
+
+    def grids(self, model: str) -> list[Run]:
+        """Its runs from coarse to fine."""
+        own = [run for (name, _), run in self.runs.items() if name == model and not run.failure]
+        return sorted(own, key=lambda run: run.resolution)
+
+
+def truths(kind: Kind, rung: Model, runs: Sequence[Run]) -> tuple[dict[str, float], dict[str, float]]:
+    """Of every compared quantity the best rung's value, at vanishing cells where its grids tell, and its error bar."""
+    value, bar = {}, {}
+    for quantity in kind.compared:
+        known = [run for run in runs if quantity in run.values]
+        if not known:
+            continue
+        value[quantity], bar[quantity] = known[-1].values[quantity], known[-1].uncertainty.get(quantity, 0.0)
+        if rung.order and len(known) > 1 and rung.write:
+            found = converge(
+                [run.resolution for run in known],
+                [run.values[quantity] for run in known],
+                formal_order=rung.order,
+                noise=1e-12,
+            )
+            bar[quantity] = found.uncertainty
+            if found.kind in (Way.MONOTONE, Way.TWO_GRIDS):
+                value[quantity] = found.value
+    return value, bar
+
+
+def cases(kind: str, drawn: Sequence[Drawn]) -> list[Case]:
+    """The scenes whose best rung has an answer."""
+    found, ladder, told = [], of_kind(models(), kind), kinds()[kind]
+    for one in drawn:
+        scene = random_scene(kind, one.seed)
+        rung = best([model for model in ladder if model.applies(scene).applies])
+        runs = sorted(
+            (run for run in one.runs if run.model == rung.name and not run.failure), key=lambda r: r.resolution
+        )
+        if not runs:
+            continue
+        value, bar = truths(told, rung, runs)
+        found.append(
+            Case(
+                seed=one.seed,
+                scene=scene,
+                numbers=told.numbers(scene),
+                runs={(run.model, run.resolution): run for run in one.runs},
+                best=rung.name,
+                truth=value,
+                bar=bar,
+            )
+        )
+    return found
+
+
+def apart(kind: Kind, case: Case, one: Mapping[str, float], other: Mapping[str, float], quantity: str) -> float:
+    """The difference of two answers over the size of the best one."""
+    top = case.finest(case.best)
+    assert top is not None
+    return abs(one[quantity] - other[quantity]) / float(kind.scale({**top.values, **case.truth}, quantity))
+
+
+def fitted(rows: Rows, features: Sequence[str]) -> Law | None:
+    """The law of these errors; None where there are none.
+
+    Least squares of logarithms with a ridge, then the coefficient that bounds ``CERTAINTY`` of the errors.
+    """
+    if not rows:
+        return None
+    usable = [(n, e) for n, e in rows if all(n.get(f, 0) > 0 and math.isfinite(n[f]) for f in features) and e > LEAST]
+    reach = {name: (min(n[name] for n, _ in usable), max(n[name] for n, _ in usable)) for name in features if usable}
+    powers: dict[str, float] = {}
+    if len(usable) >= ENOUGH and features:
+        x = np.log([[numbers[name] for name in features] for numbers, _ in usable])
+        y = np.log([error for _, error in usable])
+        powers = _powers(x, y, features)
+    errors = np.array([error for _, error in (usable or rows)])
+    shapes = np.array([math.prod(n[name] ** p for name, p in powers.items()) for n, _ in (usable or rows)])
+    ratios = np.maximum(errors, LEAST) / shapes
+    bound, middle = float(np.quantile(ratios, CERTAINTY)), float(np.median(ratios))
+    return Law(
+        coefficient=float(f"{bound:.3g}"),
+        powers=powers,
+        reach={name: (float(f"{a:.3g}"), float(f"{b:.3g}")) for name, (a, b) in reach.items() if name in powers},
+        scenes=len(usable or rows),
+        spread=float(f"{bound / middle:.3g}"),
+    )
+
+
+def _powers(x: Array, y: Array, features: Sequence[str]) -> dict[str, float]:
+    centred, size = x - x.mean(axis=0), x.shape[0]
+    spread = centred.std(axis=0)
+    varied = spread > 1e-6
+    scaled = centred[:, varied] / spread[varied]
+    slopes = np.linalg.solve(scaled.T @ scaled + RIDGE * size * np.eye(scaled.shape[1]), scaled.T @ (y - y.mean()))
+    found = np.zeros(x.shape[1])
+    found[varied] = np.clip(slopes / spread[varied], -STEEPEST, STEEPEST)
+    rounded = np.round(found / STEP) * STEP
+    return {name: round(float(power), 2) for name, power in zip(features, rounded, strict=True) if power}
+
+
+def step_rows(kind: Kind, plan: Plan, found: Sequence[Case], quantity: str) -> list[tuple[Case, float]]:
+    """The scenes, and how far a rung is from its next one, both at their finest; the best one extrapolated."""
+    rows = []
+    for case in found:
+        own, above = case.finest(plan.model), case.finest(plan.towards)
+        if own is None or above is None:
+            continue
+        values = {**above.values, **case.truth} if above.model == case.best else above.values
+        if quantity in own.values and quantity in values:
+            rows.append((case, apart(kind, case, own.values, values, quantity)))
+    return rows
+
+
+def seen_rows(kind: Kind, plan: Plan, found: Sequence[Case], quantity: str) -> Rows:
+    """The scenes' numbers with the size of the step from the rung below, and the error that is left."""
+    rows: Rows = []
+    for case, left in step_rows(kind, plan, found, quantity):
+        below, own = case.finest(plan.seen_from), case.finest(plan.model)
+        if below is not None and own is not None:
+            correction = apart(kind, case, below.values, own.values, quantity)
+            rows.append(({**case.numbers, "correction": correction}, left))
+    return rows
+
+
+def grid_rows(kind: Kind, model: str, found: Sequence[Case], quantity: str) -> Rows:
+    """The scenes' numbers with the resolution, and how far each grid is from the finest, or from the extrapolated."""
+    rows: Rows = []
+    for case in found:
+        grids = [run for run in case.grids(model) if quantity in run.values]
+        if len(grids) < 2:
+            continue
+        top = {**grids[-1].values, **(case.truth if model == case.best else {})}
+        rows += [
+            (on_grid(case.numbers, run.resolution), apart(kind, case, run.values, top, quantity))
+            for run in (grids if model == case.best else grids[:-1])
+        ]
+    return rows
+
+
+def fit_step(kind: Kind, plan: Plan, found: Sequence[Case]) -> Step:
+    """A step with its laws, by quantity."""
+    left_out: dict[str, Law] = {}
+    seen: dict[str, Law] = {}
+    for quantity in kind.compared:
+        rows = [(case.numbers, error) for case, error in step_rows(kind, plan, found, quantity)]
+        if (law := fitted(rows, plan.features)) is not None:
+            left_out[quantity] = law
+        if plan.seen_from:
+            told = fitted(seen_rows(kind, plan, found, quantity), ("correction", *plan.seen))
+            seen |= {} if told is None else {quantity: told}
+    return Step(
+        kind=kind.name,
+        model=plan.model,
+        towards=plan.towards,
+        adds=plan.adds,
+        tells=plan.tells,
+        left_out=left_out,
+        seen_from=plan.seen_from,
+        seen=seen,
+    )
+
+
+def fit_grid(kind: Kind, model: str, found: Sequence[Case]) -> Grid:
+    """What a rung's resolution is worth, by quantity."""
+    features = GRIDS_APART.get((kind.name, model), GRIDS[kind.name])
+    laws = {q: law for q in kind.compared if (law := fitted(grid_rows(kind, model, found, q), features)) is not None}
+    return Grid(kind=kind.name, model=model, laws=laws)
+
+
+def settles_itself(model: Model) -> bool:
+    """Whether a rung refines until its residual is met: quadratures, whose finer grids cost nothing."""
+    return model.order is None and model.own_resolutions is None
+
+
+def fit(kind: Kind, found: Sequence[Case]) -> tuple[list[Step], list[Grid]]:
+    """All steps of a kind, and the grids of its rungs."""
+    rungs = [model.name for model in of_kind(models(), kind.name) if not settles_itself(model)]
+    grids = [fit_grid(kind, model, found) for model in rungs]
+    return [fit_step(kind, plan, found) for plan in STEPS[kind.name]], [grid for grid in grids if grid.laws]
+
+
+def written(steps: Sequence[Step], grids: Sequence[Grid], origin: Mapping[str, Any]) -> str:
+    """The table as TOML."""
+    lines = ["# Made by python -m scripts.studies.advice.fit: errors that 95 of 100 random scenes did not exceed"]
+    lines += ["[provenance]", *(f"{key} = {toml_value(value)}" for key, value in origin.items())]
+    for name, entries in (("step", steps), ("grid", grids)):
+        for entry in entries:
+            lines += ["", f"[[{name}]]"]
+            for key, value in vars(entry).items():
+                if isinstance(value, Mapping):
+                    lines += [f"{key}.{quantity} = {toml_value(vars(law))}" for quantity, law in value.items()]
+                elif value:
+                    lines.append(f"{key} = {toml_value(value)}")
+    return "\n".join(lines) + "\n"
+
+
+OWN_TABLE = Path(laws.__file__).with_name(laws.TABLE)
+
+
+@in_one_line
+def command(
+    out: Annotated[Path, typer.Option(help="Runs go here and are used again.")],
+    jobs: Annotated[int, typer.Option(help="Processes.")] = 2,
+    table: Annotated[Path, typer.Option(help="Where the laws are written; by default the project's own.")] = OWN_TABLE,
+    again: Annotated[bool, typer.Option(help="Fit to the runs that are there, without solving any.")] = False,
+) -> None:
+    """Solve random scenes by every rung, fit laws, and write their table."""
+    make_directory(out)
+    if jobs < 1:
+        raise InputError(f"--jobs: got {jobs}; it must be 1 or more")
+    if not again:
+        with alone(out) as scratch:
+            for kind in STEPS:
+                draw("fit", kind, out, jobs, scratch)
+    steps: list[Step] = []
+    grids: list[Grid] = []
+    counts: dict[str, int] = {}
+    circumstances: Mapping[str, Any] = {}
+    for name in STEPS:
+        drawn, circumstances = read("fit", name, out)
+        solved = cases(name, drawn)
+        counts[name] = len(solved)
+        own_steps, own_grids = fit(kinds()[name], solved)
+        steps += own_steps
+        grids += own_grids
+        output.print(told(name, own_steps, own_grids))
+    origin = {
+        "command": "python -m scripts.studies.advice.fit --out OUT",
+        "certainty": CERTAINTY,
+        "scenes": counts,
+        "seeds": {name: [seeds.start, seeds.stop - 1] for name, seeds in PARTS["fit"].items()},
+        "commit": circumstances["commit"],
+        "code": circumstances["code"],
+        "processor": circumstances["machine"]["processor"],
+    }
+    with replacing(table) as scratch_file:
+        scratch_file.write_text(written(steps, grids, origin), encoding="utf-8")
+
+
+def told(kind: str, steps: Sequence[Step], grids: Sequence[Grid]) -> Table:
+    """The laws of a kind, for people."""
+    shown = Table("rung", "law", "quantity", "bound", "scenes", "bound over middle", title=kind)
+    laws = [(step.model, f"to {step.towards}", step.left_out) for step in steps]
+    laws += [(step.model, f"seen from {step.seen_from}", step.seen) for step in steps if step.seen]
+    laws += [(grid.model, "grid", grid.laws) for grid in grids]
+    for model, name, by_quantity in laws:
+        for quantity, law in by_quantity.items():
+            product = " · ".join(f"{number}^{power:g}" for number, power in law.powers.items())
+            shown.add_row(model, name, quantity, f"{law.coefficient:g} {product}", str(law.scenes), f"{law.spread:g}")
+    return shown
+
+
+if __name__ == "__main__":
+    run_alone(command)

@@ -1,0 +1,126 @@
+"""What every rung says of random scenes, at every resolution: solved once, in parallel, and kept in a table."""
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+from roughfilm.batch.answers import answers_to
+from roughfilm.batch.jobs import Failure, Job
+from roughfilm.contact.foundation.files import replacing
+from roughfilm.rom.ladder.kind import Scene, kind_of
+from roughfilm.rom.ladder.model import best, of_kind
+from roughfilm.rom.ladder.provenance import circumstances
+from roughfilm.rom.ladder.result import Result
+from roughfilm.rom.ladder.setting import Setting
+from roughfilm.rom.rough_gap.scene import RoughGap
+from roughfilm.terminal.console import models
+from scripts.studies.advice.scenes import random_scene
+
+PARTS: Mapping[str, Mapping[str, range]] = {
+    "fit": {
+        "pocket": range(3000, 3080),
+        "rough_gap": range(3000, 3036),
+        "bearing": range(3000, 3120),
+        "dry_contact": range(3000, 3070),
+        "seal": range(3000, 3070),
+    },
+    "check": {
+        "pocket": range(7000, 7070),
+        "rough_gap": range(7000, 7040),
+        "bearing": range(7000, 7080),
+        "dry_contact": range(7000, 7050),
+        "seal": range(7000, 7050),
+    },
+}
+"""Seeds of the scenes on which laws are fitted, and of those on which the advice is put to the test."""
+
+MESHED = (16, 32, 48)
+"""Columns of a random gap whose heights have so many points: the last is finer than a comparison takes by default."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Run:
+    """One rung at one resolution: what it says, how far off by its own word, CPU seconds; or why it says nothing."""
+
+    model: str
+    resolution: int
+    values: Mapping[str, float] = field(default_factory=dict)
+    uncertainty: Mapping[str, float] = field(default_factory=dict)
+    cpu_s: float = 0.0
+    failure: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Drawn:
+    """A random scene and its runs."""
+
+    kind: str
+    seed: int
+    runs: tuple[Run, ...]
+
+
+def settings_of(scene: Scene, part: str) -> list[Setting]:
+    """Every rung that applies and is here, at every resolution of it; to check, of those in OpenFOAM the best alone."""
+    rungs = [
+        model for model in of_kind(models(), scene.kind) if model.applies(scene).applies and model.available().available
+    ]
+    return [
+        Setting(model=model, resolution=resolution)
+        for model in rungs
+        if part == "fit" or not model.write or model is best(rungs)
+        for resolution in (MESHED if _is_random_gap(scene) and model.write else model.resolutions_of(scene))
+    ]
+
+
+def _is_random_gap(scene: Scene) -> bool:
+    return isinstance(scene, RoughGap) and scene.surface().shape == (MESHED[-1], MESHED[-1])
+
+
+def run_of(job: Job, answer: Result | Failure) -> Run:
+    """A row of the table."""
+    asked = job.setting
+    assert asked.resolution is not None
+    if isinstance(answer, Failure):
+        return Run(model=asked.model.name, resolution=asked.resolution, failure=f"{answer.kind}: {answer.message}")
+    kind = kind_of(answer)
+    told = answer.provenance.get("uncertainty", {})
+    return Run(
+        model=answer.model,
+        resolution=asked.resolution,
+        values={name: quantity.value for name, quantity in answer.quantities.items()},
+        uncertainty={name: told[name] for name in kind.compared if name in told},
+        cpu_s=answer.numerics.cpu_s,
+    )
+
+
+def draw(part: str, kind: str, out: Path, processes: int, scratch: Path) -> tuple[Drawn, ...]:
+    """Solve what is not solved yet, and write the table ``out``/part-kind.json."""
+    scenes = {seed: random_scene(kind, seed) for seed in PARTS[part][kind]}
+    jobs = {
+        seed: [
+            Job(scene=scene, setting=one, path=out / "found" / part / kind / str(seed) / f"{one.name}.h5")
+            for one in settings_of(scene, part)
+        ]
+        for seed, scene in scenes.items()
+    }
+    answers = answers_to([job for own in jobs.values() for job in own], processes, scratch)
+    drawn = tuple(
+        Drawn(kind=kind, seed=seed, runs=tuple(run_of(job, answers[job.path]) for job in own))
+        for seed, own in jobs.items()
+    )
+    entries = {"part": part, "kind": kind, "scenes": [asdict(one) for one in drawn], "provenance": circumstances()}
+    with replacing(out / f"{part}-{kind}.json") as file:
+        file.write_text(json.dumps(entries) + "\n", encoding="utf-8")
+    return drawn
+
+
+def read(part: str, kind: str, out: Path) -> tuple[Sequence[Drawn], Mapping[str, Any]]:
+    """The table that :func:`draw` wrote, and where it comes from."""
+    entries = json.loads((out / f"{part}-{kind}.json").read_text(encoding="utf-8"))
+    scenes = [
+        Drawn(kind=one["kind"], seed=one["seed"], runs=tuple(Run(**run) for run in one["runs"]))
+        for one in entries["scenes"]
+    ]
+    return scenes, entries["provenance"]

@@ -1,0 +1,1 @@
+"""Flow along and across a lay."""

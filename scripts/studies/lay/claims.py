@@ -1,0 +1,164 @@
+"""Claims 20, 21 and 26 of the source judged: bad joints, Patir and Cheng, and an offset at contact."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.stats import spearmanr
+
+from scripts.studies.claims import Claim
+from scripts.studies.lay.data import THICKNESSES, Compared, Turned, angle
+from scripts.studies.lay.joint import Joint, Joints, lowest
+from scripts.studies.lay.measured import OBLIQUE, Measured
+from scripts.studies.lay.offset import MADE, OFFSET, Offset
+
+EQUAL, SAMPLED, FAILS = 0.02, 0.1, 0.2
+"""Parts of A: what counts as equal, as the scatter of one finite box, and as failing."""
+
+OPEN = 0.1
+"""A/ĥ³ above which a gap counts as open."""
+
+HARMLESS = 0.05
+"""Part of A that the offset may add."""
+
+GOOD_JOINT = 0.1
+"""Periodicity mismatch below which there is no warning."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Lay:
+    """All that is judged and drawn; ``measured`` is empty where the instrument files are absent."""
+
+    turned: Turned
+    measured: Mapping[str, Measured]
+    joints: Joints
+    offsets: Mapping[str, Sequence[Offset]]
+
+
+def judge(lay: Lay) -> list[Claim]:
+    """Claims 20, 21 and 26."""
+    return [joint_throttles(lay.joints), box_equals_cell(lay), offset_is_harmless(lay.offsets)]
+
+
+def joint_throttles(joints: Joints) -> Claim:
+    """Claim 20."""
+    cut = [one for row in joints.cut.values() for one in row]
+    measured = {name: row for name, row in joints.measured.items() if name != OBLIQUE}
+    bad = [one for one in cut + list(joints.windows) if one.mismatch[0] > GOOD_JOINT]
+    good = [one for one in cut if one.mismatch[0] < GOOD_JOINT]
+    lost = [1 - one.passed[0] for one in bad]
+    harm = min(lost) > 0 and max(lost) > 0.1
+    clean = max(abs(1 - one.passed[0]) for one in good) < EQUAL
+    order = [_order([one for one in cut if one.thickness == thickness]) for thickness in THICKNESSES]
+    rows = {
+        "grooves that end between two others": (lowest, cut),
+        "random striated windows on average": (_mean, joints.windows),
+        "the worst of them": (lowest, joints.windows),
+    } | {name: (lowest, row) for name, row in measured.items()}
+    told = "; ".join(
+        f"{name} {_all([of(row, thickness)[0] for thickness in THICKNESSES])}"
+        f" (edges blended: {_all([of(row, thickness)[1] for thickness in THICKNESSES])})"
+        for name, (of, row) in rows.items()
+    )
+    return Claim(
+        number=20,
+        text="A bad periodic joint throttles the flow",
+        verdict="true" if harm and clean else "partly" if max(lost) > 0.1 else "false",
+        evidence=f"flow along the lay over that without a joint, at {', '.join(f'{t:g}' for t in THICKNESSES)} Sq: "
+        f"{told}. Windows whose grooves meet pass {_share(min(one.passed[0] for one in good))} and more. What cut "
+        f"grooves lose is ordered by periodicity_mismatch (rank correlation at least {min(order):.2f}); how much it is "
+        "depends on the thickness of the film more than on the mismatch. Blending the edges takes back a small part, "
+        "a window that fits takes back all",
+    )
+
+
+def _order(joints: Sequence[Joint]) -> float:
+    lost, mismatch = np.transpose([(1 - one.passed[0], one.mismatch[0]) for one in joints])
+    rounded = np.round(lost, 3)
+    return float(spearmanr(rounded, np.round(mismatch, 3)).statistic) if np.ptp(rounded) > 0 else 0.0
+
+
+def _all(parts: Sequence[float]) -> str:
+    return ", ".join(f"{100 * part:.3g}" for part in parts) + " %"
+
+
+def _mean(joints: Sequence[Joint], thickness: float) -> tuple[float, float]:
+    raw, after = np.nanmean([one.passed for one in joints if one.thickness == thickness], axis=0)
+    return float(raw), float(after)
+
+
+def _share(part: float) -> str:
+    return f"{100 * part:.3g} %"
+
+
+def worst(found: Sequence[Compared]) -> float:
+    """The largest |φ/A − 1| of both directions."""
+    return float(np.nanmax(np.abs([one.short for one in found])))
+
+
+def box_equals_cell(lay: Lay) -> Claim:
+    """Claim 21."""
+    turned = lay.turned
+
+    def of(texture: str, *, straight: bool) -> list[Compared]:
+        return [
+            one
+            for (name, _, turn), one in turned.found.items()
+            if name == texture and (straight == (min(turn) == 0)) and (straight or angle(turn) == np.pi / 4)
+        ]
+
+    straight, oblique = worst(of("grooves", straight=True)), of("grooves", straight=False)
+    crossed, crossed_oblique = worst(of("crossed grooves", straight=True)), of("crossed grooves", straight=False)
+    scatter = [float(np.sqrt(np.nanmean(np.square([o.short for o in row])))) for row in turned.isotropic.values()]
+    random = [worst([o]) for o in of("random lay", straight=True)]
+    as_said = straight < EQUAL and max(scatter) < SAMPLED and worst(oblique) > FAILS
+    across = max(one.cell.pressure[0, 1] / one.cell.pressure[0, 0] for one in crossed_oblique)
+    told = "".join(
+        f"; {one.name} where it touches: φ₁ {row.box.pressure[0]:.3g} and φ₂ {row.box.pressure[1]:.3g}, A₁₁ "
+        f"{row.cell.pressure[0, 0]:.3g}, A₂₂ {row.cell.pressure[1, 1]:.3g}, A₁₂ {row.cell.pressure[0, 1]:.3g}"
+        for one in lay.measured.values()
+        if (row := one.found.get(1)) is not None
+    )
+    return Claim(
+        number=21,
+        text="Patir–Cheng equals HNS for straight or isotropic lay and fails for crossed or oblique lay",
+        verdict="false" if not as_said else "true" if min(crossed, worst(crossed_oblique)) > FAILS else "partly",
+        evidence=f"at {', '.join(f'{t:g}' for t in THICKNESSES)} Sq: straight grooves within {straight:.0e}, "
+        f"isotropic surfaces equal but for the scatter of one box (rms {', '.join(map(_share, scatter))}), straight "
+        f"random lay too (largest {_share(max(random))}); grooves at 45° "
+        + ", ".join(f"{100 * one.short[0]:+.3g} %" for one in oblique)
+        + f". Crossed grooves do not fail as such: equal within {_share(crossed)} where their bisector lies along "
+        f"or across the flow, and turned by 45° φ₁ is {100 * min(one.short[0] for one in crossed_oblique):+.2g} % at "
+        f"worst, though A₁₂ is up to {across:.2g} A₁₁, which the method does not have. Not crossing but A₁₂ is what "
+        f"fails: φ₁φ₂ = A₁₁A₂₂ − A₁₂² in any large box{told}",
+    )
+
+
+def offset_is_harmless(offsets: Mapping[str, Sequence[Offset]]) -> Claim:
+    """Claim 26."""
+    added = {name: max(_added(one) for one in row) for name, row in offsets.items()}
+    coarse = next(iter(MADE))
+    leaks = {
+        name: [one.slit[one.closed == 0] for one in row if (one.closed == 0).any()] for name, row in offsets.items()
+    }
+    invented = {name: np.nanmax(np.concatenate(values)) for name, values in leaks.items() if values}
+    gave_up = sum(bool(np.isnan(one.offset).any()) for row in offsets.values() for one in row)
+    questions = sum(len(row) for row in offsets.values())
+    harmless = added[coarse] < HARMLESS
+    return Claim(
+        number=26,
+        text="A 10 nm offset at contact is enough and harmless",
+        verdict="false" if not harmless else "partly" if invented or max(added.values()) >= HARMLESS else "true",
+        evidence=f"undeformed contact; while A > {OPEN:g} ĥ³ it adds at most "
+        + ", ".join(f"{_share(part)} ({name})" for name, part in added.items())
+        + f", about 3 · {1e9 * OFFSET:g} nm over the channels' height. Near sealing it adds more without bound, and "
+        "where the gap is sealed it leaks like a smooth slit of "
+        + ", ".join(f"{1e9 * slit:.2g} nm ({name})" for name, slit in invented.items())
+        + f", so that nothing is ever sealed. The solver gave up on {gave_up} of {questions} gaps with the offset, and "
+        "on none with closed contact",
+    )
+
+
+def _added(one: Offset) -> float:
+    """What is added to the entries of an open gap; 0 where there are none."""
+    return float(np.nanmax(np.where(one.relative > OPEN, one.added, 0.0), initial=0.0))

@@ -1,0 +1,163 @@
+"""What a periodic joint at which valleys end does to the flow along them, where the truth is known."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from math import atan
+
+import numpy as np
+
+from roughfilm.contact.foundation.errors import ConvergenceError
+from roughfilm.contact.preparation.prepare import Prepared, prepare
+from roughfilm.contact.preparation.recipe import read_recipe
+from roughfilm.contact.surfaces.periodicity import periodicity_mismatch
+from roughfilm.contact.surfaces.surface import Surface
+from roughfilm.contact.synthetic.gaussian import gaussian
+from roughfilm.rom.homogenization.flow_factors import flow_factors
+from roughfilm.rom.homogenization.lay import turned
+from roughfilm.rom.pocket.gap import Array
+from scripts.studies.lay.data import ROUGHNESS, SIDE, THICKNESSES, gap_at, grooves_exactly
+from scripts.studies.lay.measured import STRIATED, along, lay_of
+
+EDGES_ONLY = {"form": "none", "outliers": {"points": 0}, "grid": {"points": "kept"}, "smoothing": 1}
+"""A recipe that does nothing but join the edges, as it is usually done."""
+
+GROOVES, NODES = 4, 192
+SHIFTS = tuple(np.linspace(0, 1, 11).tolist())
+"""Of grooves from end to end of the window, over their distance: at 0 and 1 they meet themselves at the joint."""
+
+WINDOWS, SEEDS, LAYS = 4, (811, 823), (0.0, 0.06)
+"""A window is a quarter of a random periodic surface along its lay, which is turned by so much, rad."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Joint:
+    """One window at one separation: flow along the lay where nothing ends at a joint, and with two kinds of joint.
+
+    Attributes
+    ----------
+    thickness : separation over Sq.
+    mismatch : ``periodicity_mismatch`` of the raw window, and of the window with edges joined.
+    passed : A along the lay over the truth, likewise; nan where both are 0.
+    """
+
+    thickness: float
+    mismatch: tuple[float, float]
+    passed: tuple[float, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Joints:
+    """All of them: sinusoidal grooves by shift, random windows, and measured surfaces by name."""
+
+    cut: Mapping[float, Sequence[Joint]]
+    windows: Sequence[Joint]
+    measured: Mapping[str, Sequence[Joint]]
+
+
+def cut_grooves(shift: float, nodes: int = NODES) -> Surface:
+    """Grooves along x that end ``shift`` of their distance beside where they began; periodic across."""
+    x, y = np.meshgrid(*(np.arange(nodes) / nodes,) * 2, indexing="ij")
+    heights = np.sqrt(2) * ROUGHNESS * np.cos(2 * np.pi * (GROOVES * y - shift * x))
+    return Surface(heights=heights, spacing=(SIDE / nodes, SIDE / nodes))
+
+
+def judged(window: Surface, joined: Surface, truth: Mapping[float, float], lay: float) -> list[Joint]:
+    """A window and the same with joined edges, at each thickness of which the true A along the lay is given."""
+    roughness = float(window.heights.std())
+    mismatch = (periodicity_mismatch(window), periodicity_mismatch(joined))
+    made = []
+    for thickness, true in truth.items():
+        found = [passed(one, thickness * roughness, lay) for one in (window, joined)]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            raw, after = np.divide(found, true)
+        made.append(Joint(thickness=thickness, mismatch=mismatch, passed=(float(raw), float(after))))
+    return made
+
+
+def passed(surface: Surface, separation: float, lay: float) -> float:
+    """A along the lay, m³, as if the surface were periodic; nan where the solver gave up."""
+    gap = gap_at(surface.heights - surface.heights.mean(), separation)
+    try:
+        return along(flow_factors(gap, surface.spacing).factors.pressure, lay)
+    except ConvergenceError:
+        return float("nan")
+
+
+def mirrored(surface: Surface) -> Surface:
+    """A surface and its mirror image behind it in x: twice as long, and no valley ends where they meet."""
+    return Surface(heights=np.concatenate([surface.heights, surface.heights[::-1]]), spacing=surface.spacing)
+
+
+def joined(surface: Surface) -> Surface:
+    """With its edges joined as a preparation does, and nothing else done."""
+    return prepare(surface, read_recipe(EDGES_ONLY)).joined
+
+
+def _cut(shift: float, nodes: int) -> list[Joint]:
+    surface = cut_grooves(shift, nodes)
+    slope = atan(shift / GROOVES)
+    truth = {}
+    for thickness in THICKNESSES:
+        mean = gap_at(surface.heights, thickness * ROUGHNESS).mean()
+        truth[thickness] = float(turned(grooves_exactly(thickness)[0], slope)[0, 0] * mean**3)
+    return judged(surface, joined(surface), truth, 0.0)
+
+
+def _windows(seed: int, lay: float, nodes: int) -> list[Joint]:
+    whole = gaussian(
+        size=(WINDOWS * SIDE, SIDE),
+        points=(WINDOWS * nodes, nodes),
+        seed=seed,
+        rms_height=ROUGHNESS,
+        correlation_length=40e-6,
+        anisotropy=20.0,
+        lay_angle=lay,
+    )
+    made = []
+    for part in np.split(whole.heights, WINDOWS):
+        window = Surface(heights=part - part.mean(), spacing=whole.spacing)
+        double, roughness = mirrored(window), float(window.heights.std())
+        truth = {thickness: passed(double, thickness * roughness, 0.0) for thickness in THICKNESSES}
+        made += judged(window, joined(window), truth, 0.0)
+    return made
+
+
+def _turned_to_x(surface: Surface) -> Surface:
+    return Surface(heights=np.array(surface.heights.T, order="C"), spacing=surface.spacing[::-1])
+
+
+def _measured(name: str, prepared: Prepared) -> list[Joint]:
+    """Of grinding marks along y the truth is the window with its mirror image; of oblique ones that with joined edges.
+
+    An oblique lay would meet its mirror image in chevrons, which let nothing across.
+    """
+    raw, after = prepared.cell, prepared.joined
+    if name == STRIATED:
+        raw, after = _turned_to_x(raw), _turned_to_x(after)
+        truth = {t: passed(mirrored(raw), t * float(raw.heights.std()), 0.0) for t in THICKNESSES}
+        return judged(raw, after, truth, 0.0)
+    lay = lay_of(prepared)
+    truth = {t: passed(after, t * float(raw.heights.std()), lay) for t in THICKNESSES}
+    return judged(raw, after, truth, lay)
+
+
+def join_all(
+    prepared: Mapping[str, Prepared], advance: Callable[[str], None], *, nodes: int = NODES, coarser: int = 1
+) -> Joints:
+    """All joints, with each shift, seed and lay or every so many only; ``advance`` is told of ``PARTS``."""
+    advance("cut grooves")
+    cut = {shift: _cut(shift, nodes) for shift in SHIFTS[::coarser]}
+    advance("random windows")
+    windows = [one for seed in SEEDS[::coarser] for lay in LAYS[::coarser] for one in _windows(seed, lay, nodes)]
+    advance("measured joints")
+    return Joints(cut=cut, windows=windows, measured={name: _measured(name, one) for name, one in prepared.items()})
+
+
+PARTS = 3
+
+
+def lowest(joints: Sequence[Joint], thickness: float) -> tuple[float, float]:
+    """The least that raw and joined windows let through over the truth, at a thickness."""
+    both: Array = np.array([one.passed for one in joints if one.thickness == thickness])
+    raw, after = np.nanmin(both, axis=0)
+    return float(raw), float(after)

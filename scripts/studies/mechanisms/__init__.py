@@ -1,0 +1,1 @@
+"""Two ways a parallel textured film carries load: inertia and cavitation."""

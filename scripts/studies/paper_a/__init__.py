@@ -1,0 +1,1 @@
+"""Paper A of the source: its figures regenerated, its claims judged."""

@@ -1,0 +1,1 @@
+"""Paper B of the source: its figures regenerated, its claims judged."""

@@ -1,0 +1,159 @@
+"""Figures B.1 to B.17 of Paper B, its numbers beside ours, and its claims judged, on one page.
+
+python -m scripts.studies.paper_b --out OUT. What the paper leaves open is chosen, and the page says how.
+Source: Sahlin, Almqvist, Larsson and Glavatskih, Tribol. Int. 40 (2007) 1294, doi:10.1016/j.triboint.2007.02.021.
+"""
+
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from roughfilm.pages.render import render, write_figures
+from roughfilm.terminal.console import AsJson, in_one_line, make_directory, progress_bar, run_alone
+from scripts.studies.claims import Claim, tell, write_numbers
+from scripts.studies.paper_b.claims import MAXIMA_APART, Row, judge, maxima, rows
+from scripts.studies.paper_b.data import (
+    CASES,
+    COARSE,
+    CONSTANT,
+    HALF,
+    MODULUS,
+    ORIGINAL,
+    PARTS,
+    READINGS,
+    ROUNDED,
+    Paper,
+    compute,
+    difference,
+)
+
+OPEN = (
+    (
+        "what S is (Eq. B.11)",
+        "both |∫ψ* dx − ∫ψ dx| / ∫ψ dx, as it is printed, and ∫|ψ* − ψ| dx / ∫ψ dx",
+        "ψ is p above ambient, or θ; the reference ψ is D&H-MNL, in B.10 and B.12 constant β, MNL",
+    ),
+    ("H0 = 25 µm (B.2 to B.5)", "25.4 µm", "the axes of B.2 and B.4 say 2.54 and 5.08"),
+    ("β of constant β, MNL: 3.3 or 3.34 GPa", f"{MODULUS:.4f} GPa", "C1/(C2 − 1), dp/dθ of the fit at θ = 1"),
+    ("θ = 1.0001 at the inlet (B.3, B.5)", "θ = 1.0001 in each law", "6.9 kPa in one law and 336 kPa in the other"),
+    ("measured oil (B.1)", "left out", "the points are not printed"),
+    ("film of B.13 to B.15", "H0 = 10 µm, A = 5 µm", "as B.16 and B.17, whose numbers are printed"),
+    ("wavelengths (B.13, B.16)", "10 and 5 mm", "peaks then reach 1.06 MPa in B.14 and θ = 1.0003 in B.15"),
+    ("inlet of B.14 and B.15", "flooded, p = pc", "the caption is damaged"),
+    ("lubricant of B.14 to B.17", "D&H-MNL", "not told; at 2 MPa it hardly matters"),
+    ("pressures", "above ambient", "the paper's are absolute where it writes pw = 2·10⁵ Pa; add 0.1 MPa"),
+)
+"""What the paper leaves open, what is taken, and why."""
+
+
+FRONTS = {"starved": ORIGINAL, "starved, moduli": HALF}
+"""Films that begin a little behind the reference."""
+
+
+@in_one_line
+def command(
+    out: Annotated[Path, typer.Option(help="The page, every figure by its number, and the numbers go here.")],
+    as_json: AsJson = False,
+) -> None:
+    """Solve the films of Paper B, draw its figures, and judge its claims."""
+    from roughfilm.figures.base import svg
+    from scripts.studies.paper_b import figures as paper_b_figures  # matplotlib is slow to import
+
+    make_directory(out)
+    with progress_bar(PARTS) as advance:
+        paper = compute(advance)
+    claims, compared = judge(paper), rows(paper)
+    drawings = paper_b_figures.NUMBERED | {"claim 9": paper_b_figures.reach}
+    plots = {name: svg(draw(paper)) for name, draw in drawings.items()}
+    write_figures({name.replace(" ", "_"): text for name, text in plots.items()}, out)
+    told = numbers(paper, claims, compared)
+    write_numbers(told, out / "paper_b.json")
+    render(
+        Path(__file__).parent / "page.html.j2",
+        out / "paper_b.html",
+        plots=plots,
+        captions={name: str(draw.__doc__) for name, draw in drawings.items()},
+        claims=claims,
+        rows=compared,
+        cells=paper.cells,
+        maxima=told["maxima"],
+        fronts=told["fronts"],
+        maxima_apart=MAXIMA_APART,
+        readings=told["readings"],
+        moduli=told["moduli"],
+        patterns=told["patterns"],
+        open=OPEN,
+    )
+    tell(claims, told, out / "paper_b.html", as_json=as_json)
+
+
+def numbers(paper: Paper, claims: list[Claim], compared: list[Row]) -> dict[str, Any]:
+    """What the page tells, as entries that JSON can hold: SI units, differences as parts of one."""
+    return {
+        "cells": paper.cells,
+        "claims": [asdict(claim) for claim in claims],
+        "differences": [
+            asdict(row.told)
+            | {"reference": row.reference, "grids_apart": row.grids_apart, "agrees": list(row.agrees)}
+            | asdict(row.found)
+            for row in compared
+        ],
+        "films": {
+            name: {
+                law: {
+                    "load": film.load,
+                    "load_coarser": paper.coarser[name][law].load,
+                    "peak": film.peak,
+                    "start": film.start,
+                    "rupture": film.rupture,
+                }
+                for law, film in films.items()
+            }
+            for name, films in paper.films.items()
+        },
+        "fronts": {case: 1e3 * front_apart(paper, case, law) for case, law in FRONTS.items()},
+        "maxima": {law: list(maxima(film)) for law, film in paper.films["twin"].items()},
+        "readings": {told: {name: _reading(paper, name, told) for name in ("single", "twin")} for told in READINGS},
+        "moduli": {
+            law: {case: paper.found[case, law, "p"][0].integrals for case in ("starved", "gap")}
+            for law in (CONSTANT, ROUNDED, COARSE)
+        },
+        "patterns": [
+            {
+                "pattern": name,
+                "inlet": inlet,
+                "load": film.load,
+                "load_coarser": paper.coarser_patterns[name, inlet].load,
+                "peak": film.peak,
+                "cavitated": float(film.weights[film.theta < 1].sum() / film.weights.sum()),
+            }
+            for (name, inlet), film in paper.patterns.items()
+        ],
+        "sweeps": {
+            name: {
+                "speeds": sweep.speeds.tolist(),
+                "peaks": sweep.peaks.tolist(),
+                "differences": {law: values.tolist() for law, values in sweep.differences.items()},
+            }
+            for name, sweep in paper.sweeps.items()
+        },
+    }
+
+
+def front_apart(paper: Paper, case: str, law: str) -> float:
+    """By how much the film begins behind that of the reference, m."""
+    films = paper.films[case]
+    reference = next(iter(films.values()))
+    return (films[law].start - reference.start) * float(reference.x[-1])
+
+
+def _reading(paper: Paper, case: str, told: str) -> dict[str, float]:
+    films = paper.readings[case, told]
+    reference, other = (films[law] for law in CASES[case].laws)
+    return asdict(difference(other.pressure, reference.pressure, reference.weights))
+
+
+if __name__ == "__main__":
+    run_alone(command)

@@ -1,0 +1,141 @@
+"""What Paper B tells in numbers and claims: its numbers beside ours, and each claim with a verdict."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from scripts.studies.claims import Claim
+from scripts.studies.paper_b.data import CONSTANT, DOUBLE, HALF, ORIGINAL, SOFT, Difference, Film, Paper
+
+
+@dataclass(frozen=True, kw_only=True)
+class Told:
+    """A difference that the paper prints: parts of one, to its last digit."""
+
+    figure: str
+    case: str
+    law: str
+    quantity: str
+    value: float
+    digit: float
+
+
+TOLD = (
+    Told(figure="B.3", case="single", law=SOFT, quantity="p", value=0.12, digit=0.01),
+    Told(figure="B.5", case="twin", law=SOFT, quantity="p", value=0.15, digit=0.01),
+    Told(figure="B.6", case="flooded", law=ORIGINAL, quantity="θ", value=0.0061, digit=0.0001),
+    Told(figure="B.7", case="flooded", law=ORIGINAL, quantity="p", value=0.017, digit=0.001),
+    Told(figure="B.8", case="starved", law=ORIGINAL, quantity="θ", value=0.0064, digit=0.0001),
+    Told(figure="B.9", case="starved", law=ORIGINAL, quantity="p", value=0.074, digit=0.001),
+    Told(figure="B.9", case="starved", law=CONSTANT, quantity="p", value=0.0011, digit=0.0001),
+    Told(figure="B.10", case="starved, moduli", law=HALF, quantity="p", value=0.084, digit=0.001),
+    Told(figure="B.10", case="starved, moduli", law=DOUBLE, quantity="p", value=0.048, digit=0.001),
+    Told(figure="B.11", case="gap", law=ORIGINAL, quantity="p", value=0.22, digit=0.01),
+    Told(figure="B.11", case="gap", law=CONSTANT, quantity="p", value=0.0054, digit=0.0001),
+    Told(figure="B.12", case="gap, moduli", law=HALF, quantity="p", value=0.25, digit=0.01),
+    Told(figure="B.12", case="gap, moduli", law=DOUBLE, quantity="p", value=0.19, digit=0.01),
+)
+MAXIMA_APART = 1.6e3
+"""By how much the paper's left maximum of Fig. B.5 is above its right one, Pa."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Row:
+    """A number of the paper beside both readings of Eq. B.11, and how far the coarser grid is from the finer."""
+
+    told: Told
+    reference: str
+    found: Difference
+    grids_apart: float
+
+    @property
+    def agrees(self) -> tuple[bool, bool]:
+        """Whether the paper's number is ours to its last digit, rounded or cut off: by integrals, and between."""
+        digit = self.told.digit
+        return self._to_a_digit(self.found.integrals, digit), self._to_a_digit(self.found.between, digit)
+
+    def _to_a_digit(self, value: float, digit: float) -> bool:
+        return -0.5 * digit <= value - self.told.value < digit
+
+
+def rows(paper: Paper) -> list[Row]:
+    """Every number of the paper."""
+    made = []
+    for told in TOLD:
+        fine, coarse = paper.found[told.case, told.law, told.quantity]
+        apart = max(abs(fine.between - coarse.between), abs(fine.integrals - coarse.integrals))
+        reference = next(iter(paper.films[told.case]))
+        made.append(Row(told=told, reference=reference, found=fine, grids_apart=apart))
+    return made
+
+
+def maxima(film: Film) -> tuple[float, float]:
+    """The greatest pressures of both halves, Pa."""
+    left = film.x <= film.x[-1] / 2
+    return float(film.pressure[left].max()), float(film.pressure[~left].max())
+
+
+def judge(paper: Paper) -> list[Claim]:
+    """Claims 8 to 10."""
+    return [laws_differ(paper), constant_modulus(paper), inlet_matters(paper)]
+
+
+def laws_differ(paper: Paper) -> Claim:
+    """Claim 8."""
+    said = {"flooded": 0.017, "starved": 0.074, "gap": 0.22}
+    found = {case: paper.found[case, ORIGINAL, "p"][0] for case in said}
+    near = [abs(found[case].integrals / value - 1) <= 0.1 for case, value in said.items()]
+    ordered = bool((np.diff([one.integrals for one in found.values()]) > 0).all())
+    flooded = found["flooded"]
+    return Claim(
+        number=8,
+        text="Two compressibility laws differ by 1.7 % in load flooded, 7.4 % and 22 % starved",
+        verdict="true" if all(near) else "partly" if any(near) and ordered else "false",
+        evidence="loads with D&H-Orig and D&H-MNL differ by "
+        + ", ".join(f"{100 * one.integrals:.3g} % ({case})" for case, one in found.items())
+        + f"; the paper's number of the flooded film is ∫|p* − p| dx / ∫p dx, here {100 * flooded.between:.3g} %, in "
+        "which excess upstream and lack downstream add up, while in the load they cancel; starved, both are the same",
+    )
+
+
+def constant_modulus(paper: Paper) -> Claim:
+    """Claim 9."""
+    told, at_fifty = [], []
+    for name, sweep in paper.sweeps.items():
+        reach = []
+        for part in (0.01, 0.02):
+            peak = sweep.reach(CONSTANT, part)
+            until = f"{sweep.peaks[-1] / 1e6:.0f} MPa at least" if peak is None else f"{peak / 1e6:.0f} MPa"
+            reach.append(f"{100 * part:.0f} % up to {until}")
+        at_fifty.append(sweep.at(CONSTANT, 50e6))
+        told.append(
+            f"{name}: under {', under '.join(reach)}; {100 * at_fifty[-1]:.2g} % at 50 MPa and "
+            f"{100 * sweep.at(CONSTANT, 100e6):.2g} % at 100 MPa "
+            f"(D&H-Orig: {100 * sweep.at(ORIGINAL, 50e6):.2g} % and {100 * sweep.at(ORIGINAL, 100e6):.2g} %)"
+        )
+    return Claim(
+        number=9,
+        text="Constant bulk modulus at ambient is as good as Dowson–Higginson up to about 50–100 MPa",
+        verdict="true" if max(at_fifty) < 0.02 else "partly" if min(at_fifty) < 0.02 else "false",
+        evidence="loads with constant β and with D&H-MNL, the speed raised: " + "; ".join(told),
+    )
+
+
+def inlet_matters(paper: Paper) -> Claim:
+    """Claim 10."""
+    full = {name: film.load for (name, inlet), film in paper.patterns.items() if inlet == "pc"}
+    pressed = {name: film.load for (name, inlet), film in paper.patterns.items() if inlet == "2 pc"}
+    raised = {name: pressed[name] / load - 1 for name, load in full.items()}
+    by_pattern = max(full.values()) / min(full.values()) >= 1.5
+    by_pressure, somewhere = min(raised.values()) >= 0.1, max(raised.values()) >= 0.1
+    loads = ", ".join(f"{name} {load / 1e3:.4g} kN/m" for name, load in full.items())
+    rises = ", ".join(f"{name} {100 * rise:+.3g} %" for name, rise in raised.items())
+    return Claim(
+        number=10,
+        text="Surface pattern and pressure at the inlet matter much for load",
+        verdict="true" if by_pattern and by_pressure else "partly" if by_pattern or somewhere else "false",
+        evidence=f"inlet at pc: {loads}, where the plain parallel gap has none; inlet at 2 pc: {rises}, where the "
+        "plain gap has 5 kN/m. The pattern decides: waves about the plain gap rupture the film, and load grows with "
+        "wavelength; pockets that end in a step do not, and load does not depend on wavelength. There the pressure at "
+        "the inlet adds little more than in the plain gap",
+    )

@@ -1,0 +1,283 @@
+"""Every film of Paper B solved, on two grids, and how far its solutions for two lubricants lie apart."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from roughfilm.rom.bearing.quantities import density_ratio, film_ends
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.cavitation.solve import solve
+from roughfilm.rom.ladder.scene import load_entries, read_scene
+from roughfilm.rom.pocket.gap import Array
+
+SCENES = Path(__file__).parent / "scenes"
+CELLS = 16384
+"""Of the finer grid; the coarser one has half as many."""
+
+AMBIENT = 1e5
+"""What the paper calls pc, Pa absolute."""
+
+MNL, ORIGINAL, CONSTANT = "D&H-MNL", "D&H-Orig", "Const β, MNL"
+SOFT, HALF, DOUBLE = "β = 0.069 GPa", "β = 3.34/2 GPa", "β = 3.34·2 GPa"
+ROUNDED, COARSE = "β = 3.34 GPa", "β = 3.3 GPa"
+C1, C2 = 2.22, 1.66
+MODULUS = C1 / (C2 - 1)
+"""Bulk modulus of D&H-MNL at pc: dp/dθ at θ = 1, GPa."""
+
+
+def constant(modulus: float) -> dict[str, Any]:
+    """P = β ln θ, with β in GPa."""
+    return {"law": "constant_bulk_modulus", "bulk_modulus": f"{modulus!r} GPa"}
+
+
+LAWS: dict[str, dict[str, Any]] = {
+    MNL: {"law": "dowson_higginson", "c1": f"{C1} GPa", "c2": C2},
+    ORIGINAL: {"law": "dowson_higginson", "c1": "0.59 GPa", "c2": 1.34},
+    CONSTANT: constant(MODULUS),
+    SOFT: constant(0.069),
+    HALF: constant(3.34 / 2),
+    DOUBLE: constant(3.34 * 2),
+    ROUNDED: constant(3.34),
+    COARSE: constant(3.3),
+}
+
+Inlet = Mapping[str, Any]
+FULL: Inlet = {"pressure": "0 MPa"}
+PRESSED: Inlet = {"pressure": f"{AMBIENT!r} Pa"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Case:
+    """A film whose solutions for several lubricants are compared with that for the first one."""
+
+    scene: str
+    inlet: Inlet
+    laws: tuple[str, ...]
+
+
+FLOODED: Inlet = {"theta": 1}
+STARVED: Inlet = {"theta": 0.55}
+GAP_STARVED: Inlet = {"theta": 0.85}
+DENSE: Inlet = {"theta": 1.0001}
+CASES = {
+    "single": Case(scene="single_parabola", inlet=DENSE, laws=(MNL, SOFT)),
+    "twin": Case(scene="twin_parabola", inlet=DENSE, laws=(MNL, SOFT)),
+    "flooded": Case(scene="thin_parabola", inlet=FLOODED, laws=(MNL, ORIGINAL)),
+    "starved": Case(scene="thin_parabola", inlet=STARVED, laws=(MNL, ORIGINAL, CONSTANT, ROUNDED, COARSE)),
+    "starved, moduli": Case(scene="thin_parabola", inlet=STARVED, laws=(CONSTANT, HALF, DOUBLE)),
+    "gap": Case(scene="converging_gap", inlet=GAP_STARVED, laws=(MNL, ORIGINAL, CONSTANT, ROUNDED, COARSE)),
+    "gap, moduli": Case(scene="converging_gap", inlet=GAP_STARVED, laws=(CONSTANT, HALF, DOUBLE)),
+}
+
+READINGS: dict[str, Inlet] = {
+    "θ = 1.0001 for each law": DENSE,
+    "p = 6.9 kPa for both": {"pressure": "6.9 kPa"},
+    "p = 336 kPa for both": {"pressure": "336 kPa"},
+    "θ = 1, flooded": FLOODED,
+}
+"""What the inlet of Figs. B.3 and B.5 may mean: θ = 1.0001 is 6.9 kPa in one law and 336 kPa in the other."""
+
+PATTERNS = {
+    "sinusoidal, 10 mm": "sinusoidal_long",
+    "sinusoidal, 5 mm": "sinusoidal_short",
+    "cos², 10 mm": "squared_cosine_long",
+    "cos², 5 mm": "squared_cosine_short",
+}
+INLETS = {"pc": FULL, "2 pc": PRESSED}
+
+STEPS = 33
+RANGES = {
+    "thin parabola, flooded": ("thin_parabola", FLOODED, (0.005, 5.0)),
+    "thin parabola, θ = 0.55": ("thin_parabola", STARVED, (0.005, 5.0)),
+    "converging gap, θ = 0.85": ("converging_gap", GAP_STARVED, (0.005, 5.0)),
+}
+"""Sliding speeds, m/s, that take the greatest pressure from about 1 MPa to several hundred."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Film:
+    """A film in balance at the nodes: m, Pa above pc; ``weights`` integrate over the length.
+
+    ``start`` and ``rupture`` are where the first film begins and the last one ends, x/L.
+    """
+
+    x: Array
+    thickness: Array
+    pressure: Array
+    theta: Array
+    weights: Array
+    start: float
+    rupture: float
+
+    @property
+    def load(self) -> float:
+        """∫p dx, N/m."""
+        return float(self.weights @ self.pressure)
+
+    @property
+    def peak(self) -> float:
+        """The greatest pressure, Pa."""
+        return float(self.pressure.max())
+
+
+@dataclass(frozen=True, kw_only=True)
+class Difference:
+    """How far ψ lies from a reference ψ: between the integrals, and the integral of |ψ - ψ_reference| over its own."""
+
+    integrals: float
+    between: float
+
+
+def difference(values: Array, reference: Array, weights: Array) -> Difference:
+    """Eq. B.11 in its two readings."""
+    whole = float(weights @ reference)
+    apart = values - reference
+    return Difference(integrals=abs(float(weights @ apart)) / whole, between=float(weights @ np.abs(apart)) / whole)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sweep:
+    """One film at rising speed: the greatest pressure with D&H-MNL, and by how much the loads of others differ."""
+
+    speeds: Array
+    peaks: Array
+    differences: dict[str, Array]
+
+    def reach(self, law: str, part: float) -> float | None:
+        """The greatest pressure up to which the load differs by less than a part, from 0; None if it always does."""
+        values = self.differences[law]
+        above = np.flatnonzero(values >= part)
+        if not above.size:
+            return None
+        first = int(above[0])
+        if first == 0:
+            return 0.0
+        pair = slice(first - 1, first + 1)
+        return float(np.exp(np.interp(np.log(part), np.log(values[pair]), np.log(self.peaks[pair]))))
+
+    def at(self, law: str, peak: float) -> float:
+        """The difference where the greatest pressure is ``peak``."""
+        return float(np.interp(peak, self.peaks, self.differences[law]))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Paper:
+    """All that is drawn, told and judged; ``coarser`` is ``films`` on half as many cells."""
+
+    cells: int
+    films: dict[str, dict[str, Film]]
+    coarser: dict[str, dict[str, Film]]
+    readings: dict[tuple[str, str], dict[str, Film]]
+    patterns: dict[tuple[str, str], Film]
+    coarser_patterns: dict[tuple[str, str], Film]
+    sweeps: dict[str, Sweep]
+
+    @cached_property
+    def found(self) -> dict[tuple[str, str, str], tuple[Difference, Difference]]:
+        """By case, law and "p" or "θ": the difference to the first law of the case, on both grids."""
+        return {
+            (case, law, quantity): (
+                _apart(self.films[case], law, quantity),
+                _apart(self.coarser[case], law, quantity),
+            )
+            for case, entry in CASES.items()
+            for law in entry.laws[1:]
+            for quantity in ("p", "θ")
+        }
+
+
+def _apart(films: dict[str, Film], law: str, quantity: str) -> Difference:
+    name = {"p": "pressure", "θ": "theta"}[quantity]
+    reference = next(iter(films.values()))
+    return difference(getattr(films[law], name), getattr(reference, name), reference.weights)
+
+
+def bearing(scene: str, law: str, inlet: Inlet, speed: float | None = None) -> Bearing:
+    """A scene of the paper with another lubricant, inlet or speed, m/s."""
+    entries = load_entries(SCENES / f"{scene}.toml")
+    entries["lubricant"]["compressibility"] = LAWS[law]
+    entries["boundary"]["inlet"] = dict(inlet)
+    if speed is not None:
+        entries["motion"]["speed"] = f"{speed!r} m/s"
+    made = read_scene(entries)
+    assert isinstance(made, Bearing)
+    return made
+
+
+def film(scene: Bearing, cells: int) -> Film:
+    """A scene solved."""
+    found = solve(scene.problem(), (cells, 1))
+    start, rupture = film_ends(found, 0)
+    return Film(
+        x=found.grid.x,
+        thickness=found.faces.thickness[:, 0],
+        pressure=found.state.pressure[:, 0],
+        theta=density_ratio(found)[:, 0],
+        weights=found.grid.areas[:, 0],
+        start=start,
+        rupture=rupture,
+    )
+
+
+def sweep(scene: str, inlet: Inlet, speeds: Array, cells: int) -> Sweep:
+    """One film at rising speeds."""
+    peaks, differences = np.empty(speeds.size), {law: np.empty(speeds.size) for law in (CONSTANT, ORIGINAL)}
+    for i, speed in enumerate(speeds):
+        reference = film(bearing(scene, MNL, inlet, float(speed)), cells)
+        peaks[i] = reference.peak
+        for law, values in differences.items():
+            values[i] = abs(film(bearing(scene, law, inlet, float(speed)), cells).load / reference.load - 1)
+    return Sweep(speeds=speeds, peaks=peaks, differences=differences)
+
+
+PARTS = 2 * len(CASES) + len(READINGS) + 1 + len(RANGES)
+
+
+def compute(advance: Callable[[float, str], None], *, cells: int = CELLS, steps: int = STEPS) -> Paper:
+    """Everything; ``advance`` is told how many of ``PARTS`` are done."""
+    done = 0
+
+    def tell(words: str) -> None:
+        nonlocal done
+        advance(done, words)
+        done += 1
+
+    grids: list[dict[str, dict[str, Film]]] = []
+    for size in (cells, cells // 2):
+        films = {}
+        for name, case in CASES.items():
+            tell(f"{name}, {size} cells")
+            films[name] = {law: film(bearing(case.scene, law, case.inlet), size) for law in case.laws}
+        grids.append(films)
+    readings = {}
+    for told, inlet in READINGS.items():
+        tell(told)
+        for name in ("single", "twin"):
+            case = CASES[name]
+            readings[name, told] = {law: film(bearing(case.scene, law, inlet), cells) for law in case.laws}
+    tell("patterns")
+    patterns, coarser_patterns = (
+        {
+            (name, told): film(bearing(scene, MNL, inlet), size)
+            for name, scene in PATTERNS.items()
+            for told, inlet in INLETS.items()
+        }
+        for size in (cells, cells // 2)
+    )
+    sweeps = {}
+    for name, (scene, inlet, ends) in RANGES.items():
+        tell(f"speeds, {name}")
+        sweeps[name] = sweep(scene, inlet, np.geomspace(*ends, steps), cells // 4)
+    return Paper(
+        cells=cells,
+        films=grids[0],
+        coarser=grids[1],
+        readings=readings,
+        patterns=patterns,
+        coarser_patterns=coarser_patterns,
+        sweeps=sweeps,
+    )

@@ -1,0 +1,1 @@
+"""Paper C of the source: its figures regenerated, its claims judged."""

@@ -1,0 +1,138 @@
+"""What Paper C claims of flow factors and films, judged by profiles made to its table: each with its numbers."""
+
+from itertools import pairwise
+
+import numpy as np
+
+from roughfilm.contact.surfaces.surface import Array
+from roughfilm.rom.homogenization.line_rules import Rule
+from scripts.studies.claims import Claim
+from scripts.studies.paper_c.data import ALPHAS, BESIDE, POINTS, RANGE, TABLE, WAYS, Paper
+from scripts.studies.paper_c.films import LOADS, MODULUS, SMOOTH, SPAN, Curve
+
+CLOSE = 1e-10
+"""Relative differences below which factors are the same."""
+
+ERROR = 1e-3
+"""Of the factors, for which nodes are counted."""
+
+SHOWN = (1e5, 1e6)
+"""Loads of Fig. C.13 between which films are put in order, N/m."""
+
+ORDERED = 0.95
+"""Of all pairs of profiles, for a number to be said to order their films."""
+
+
+def judge(paper: Paper) -> list[Claim]:
+    """Claims 11, 12 and 14."""
+    return [same_bearing_curve(paper), fewer_nodes(paper), ordered_by_roughness(paper)]
+
+
+def apart(values: Array) -> Array:
+    """By how much rearrangements differ at most, over the profile's own; shape (α, 2)."""
+    return np.asarray(np.ptp(values, axis=0) / values[0])
+
+
+def same_bearing_curve(paper: Paper) -> Claim:
+    """Claim 11."""
+    near = int(np.argmin(np.abs(RANGE - ALPHAS[0])))
+    worst = {way: max(float(apart(paper.shuffled[name, way]).max()) for name in TABLE) for way in WAYS}
+    thick = {way: max(float(apart(paper.shuffled[name, way])[near].max()) for name in TABLE) for way in WAYS}
+    sums, lines, refined = WAYS
+    told = "; ".join(f"{way}: {thick[way]:.1e} at α = {RANGE[near]:.2f}, {worst[way]:.1e} at most" for way in WAYS)
+    return Claim(
+        number=11,
+        text="Profiles with the same bearing curve have the same flow factors",
+        verdict="true" if worst[sums] < CLOSE and worst[refined] < worst[lines] else "false",
+        evidence=f"six rearrangements and the profile itself differ by: {told}. It is a theorem for flow across the "
+        f"ridges, and exact where only the heights are summed. Straight lines between rearranged points have another "
+        f"bearing curve than those before: {POINTS} heights do not tell the factors near contact, where the lines "
+        "about the highest point decide",
+    )
+
+
+def fewer_nodes(paper: Paper) -> Claim:
+    """Claim 12."""
+    near = ALPHAS[-1]
+
+    def needed(name: str, rule: Rule, left_out: int) -> float:
+        study = paper.convergence[name, near]
+        return float(np.median(np.nan_to_num(study.needed(rule, left_out, ERROR), nan=2 * study.nodes[-1])))
+
+    def ratios(left_out: int) -> list[float]:
+        return [
+            needed(name, rule, left_out) / needed(name, Rule.SIMPSON, left_out)
+            for name in TABLE
+            for rule in (Rule.TRAPEZOID, Rule.DIFFERENCES)
+        ]
+
+    def told(left_out: int) -> str:
+        return ", ".join(
+            f"{rule} {min(counts):,.0f} to {max(counts):,.0f} (order "
+            f"{np.median([paper.convergence[name, near].order(rule, left_out) for name in TABLE]):.1f})"
+            for rule in Rule
+            for counts in [[needed(name, rule, left_out) for name in TABLE]]
+        )
+
+    on, beside = min(ratios(0)) >= 2, min(ratios(BESIDE)) >= 2
+    return Claim(
+        number=12,
+        text="Simpson's rule needs far fewer nodes than the trapezoid rule or the differential equation",
+        verdict="true" if on and beside else "partly" if on or beside else "false",
+        evidence=f"nodes for {100 * ERROR:g} % at α = {near}, where N is a multiple of {POINTS} and every point is a "
+        f"node: {told(0)}; on {BESIDE} nodes fewer, most of them beside the points: {told(BESIDE)}: corners inside its "
+        f"pairs of steps cost Simpson's rule its order. At α = {ALPHAS[0]} all rules are within "
+        f"{_worst_at_first(paper):.0e} on {paper.convergence['A', ALPHAS[0]].nodes[0]:.0f} nodes. No nodes are needed "
+        "at all: the integrals of straight lines are closed forms. The differential equation by differences is the "
+        "midpoint rule",
+    )
+
+
+def _worst_at_first(paper: Paper) -> float:
+    studies = [paper.convergence[name, ALPHAS[0]] for name in TABLE]
+    return max(float(study.errors(rule, left_out)[:, 0].max()) for study in studies for rule, left_out in study.found)
+
+
+def ordered_by_roughness(paper: Paper) -> Claim:
+    """Claim 14."""
+    loads = [k for k, load in enumerate(LOADS) if SHOWN[0] <= load <= SHOWN[1]]
+    until = order_holds_to(paper.curves)
+    random, alike = paper.orderings["random"], paper.orderings["of one Ra"]
+    by = {number: [random.concordance(number, k) for k in loads] for number in random.numbers}
+    four = until >= SHOWN[1]
+    general = min(by["Ra"]) >= ORDERED
+    counter = against(random.numbers["Ra"], random.clearance[:, loads[-1]])
+    told = ", ".join(f"{number} {100 * min(parts):.1f} to {100 * max(parts):.1f} %" for number, parts in by.items())
+    within = [alike.concordance("rmax", k) for k in loads]
+    spread = np.ptp(alike.clearance[:, loads[-1]])
+    return Claim(
+        number=14,
+        text="The minimum film at a load follows Ra",
+        verdict="true" if four and general else "partly" if four or general else "false",
+        evidence=f"the four profiles, smooth first, keep the order of Ra for every seed up to {until / 1e6:.3g} MN/m "
+        f"(mean pressure {until / SPAN / 1e6:.3g} MPa, {until / SPAN / MODULUS:.2g} of β). Their rmax has the same "
+        f"order, and decides: of the pairs of {random.clearance.shape[0]} random profiles at {SHOWN[0] / 1e6:g} to "
+        f"{SHOWN[1] / 1e6:g} MN/m the rougher has the thinner film by: {told}; in one pair the rougher has "
+        f"{counter:.2g} times the Ra and the thicker film. Of {alike.clearance.shape[0]} profiles with the same Ra, "
+        f"films at {SHOWN[1] / 1e6:g} MN/m differ by {1e6 * spread:.2g} µm, in the order of rmax in "
+        f"{100 * min(within):.1f} % of the pairs. At a load the mean film is fixed but for second order in Rq over it, "
+        "and min h0 is that less rmax",
+    )
+
+
+def order_holds_to(curves: dict[str, list[Curve]]) -> float:
+    """The greatest load, N/m, up to which min h0 falls as Ra grows, for every seed; 0 if there is none."""
+    rough = [SMOOTH, *sorted(TABLE, key=lambda name: TABLE[name].average)]
+    loads: Array = np.geomspace(LOADS[0], 1e9, 400)
+    at = {name: [one.at(loads) for one in curves[name]] for name in rough}
+    held = np.ones(loads.size, dtype=bool)
+    for smoother, rougher in pairwise(rough):
+        held &= np.min(at[smoother], axis=0) > np.max(at[rougher], axis=0)
+    broken = np.flatnonzero(~held)
+    return 0.0 if broken.size and broken[0] == 0 else float(loads[broken[0] - 1] if broken.size else loads[-1])
+
+
+def against(rough: Array, clearance: Array) -> float:
+    """The greatest ratio of roughness in a pair whose rougher profile has the thicker film; 1 if there is none."""
+    ratio = rough[:, None] / rough
+    return float(ratio[clearance[:, None] > clearance].max(initial=1.0))

@@ -1,0 +1,212 @@
+"""Profiles made to Table C.2 of Paper C, their flow factors by every rule, and films between them and a flat slider."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughfilm.contact.surfaces.surface import Array
+from roughfilm.contact.synthetic.four_moments import FourMoments
+from roughfilm.contact.synthetic.profile import ground_profile
+from roughfilm.contact.synthetic.rearrangement import rearranged
+from roughfilm.rom.homogenization.factors import FlowFactors
+from roughfilm.rom.homogenization.grids import sampled
+from roughfilm.rom.homogenization.line import line_factors, profile_over_gap
+from roughfilm.rom.homogenization.line_rules import Rule, line_factors_on
+from scripts.studies.paper_c.films import (
+    Curve,
+    Film,
+    Ordering,
+    films,
+    load_curves,
+    loads_by_nodes,
+    peaks,
+    random_ordering,
+)
+
+TABLE = {
+    "A": FourMoments(average=0.93e-6, rms=1.2e-6, skewness=-0.99, kurtosis=4.3, peak=2.2e-6),
+    "B": FourMoments(average=0.29e-6, rms=0.37e-6, skewness=-0.49, kurtosis=3.3, peak=1.0e-6),
+    "C": FourMoments(average=0.13e-6, rms=0.17e-6, skewness=-0.010, kurtosis=3.6, peak=0.57e-6),
+    "D": FourMoments(average=0.37e-6, rms=0.47e-6, skewness=0.032, kurtosis=3.0, peak=1.4e-6),
+}
+"""Table C.2; its rmax is the height of the highest point over the mean, as α = 1 is contact."""
+
+LENGTH = 0.42e-3
+POINTS = 512
+ROLL_OFF = LENGTH / 4
+SEEDS = tuple(range(201, 209))
+ALPHAS = (0.49, 0.98)
+POWERS = tuple(range(10, 18))
+BESIDE = 4
+"""Nodes fewer than a power of two, so that hardly any falls on a point of the profile."""
+
+RANGE = np.sort(np.concatenate([np.linspace(0.02, 0.9, 45), 1 - np.geomspace(0.09, 1e-3, 25), ALPHAS]))
+SHUFFLES = tuple(range(301, 307))
+REFINED = 2**14
+WAYS = ("sums over the 512 heights", "lines between the 512 points", f"lines, refined to {REFINED} points first")
+
+
+PARTS = 7
+"""Of the work: four profiles, loads by nodes, films, random profiles."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Convergence:
+    """φx and φs of profiles on N nodes: ``found`` by rule and number of nodes left out, shape (seeds, N, 2).
+
+    ``exact`` is that of the same straight lines, shape (seeds, 2).
+    """
+
+    nodes: Array
+    exact: Array
+    found: dict[tuple[Rule, int], Array]
+
+    def errors(self, rule: Rule, left_out: int) -> Array:
+        """Over the exact ones, shape (seeds, N, 2)."""
+        return np.abs(self.found[rule, left_out] / self.exact[:, None] - 1)
+
+    def changes(self, rule: Rule, left_out: int) -> Array:
+        """Eq. C.21: from N/2 to N nodes, over their mean; shape (seeds, N - 1, 2)."""
+        values = self.found[rule, left_out]
+        return np.abs(2 * np.diff(values, axis=1) / (values[:, 1:] + values[:, :-1]))
+
+    def needed(self, rule: Rule, left_out: int, error: float) -> Array:
+        """Nodes from which on the error stays below, both of φx and φs, interpolated; shape (seeds,); NaN: too few."""
+        worst = self.errors(rule, left_out).max(axis=2)
+        found = np.full(worst.shape[0], np.nan)
+        for i, errors in enumerate(worst):
+            above = np.flatnonzero(errors > error)
+            if not above.size:
+                found[i] = self.nodes[0]
+            elif above[-1] + 1 < errors.size:
+                pair = slice(above[-1], above[-1] + 2)
+                found[i] = np.exp(np.interp(-np.log(error), -np.log(errors[pair]), np.log(self.nodes[pair])))
+        return found
+
+    def order(self, rule: Rule, left_out: int) -> float:
+        """Of the error of φx over the last four doublings above rounding, by least squares; the median over seeds."""
+        errors = self.errors(rule, left_out)[:, :, 0]
+        slopes = []
+        for one in errors:
+            kept = np.flatnonzero(one > 1e-12)[-5:]
+            slopes.append(-np.polyfit(np.log(self.nodes[kept]), np.log(one[kept]), 1)[0])
+        return float(np.median(slopes))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Paper:
+    """All that is drawn, told and judged.
+
+    ``factors``: φx and φs over ``RANGE``, shape (seeds, α, 2). ``shuffled``: the same of the first seed and of its six
+    rearrangements, by profile and way, shape (7, α, 2).
+    """
+
+    profiles: dict[str, list[Array]]
+    convergence: dict[tuple[str, float], Convergence]
+    factors: dict[str, Array]
+    shuffled: dict[tuple[str, str], Array]
+    loads: dict[tuple[str, Rule, int], Array]
+    powers: tuple[int, ...]
+    films: dict[str, dict[str, Film]]
+    peaks: dict[float, tuple[float, float]]
+    curves: dict[str, list[Curve]]
+    orderings: dict[str, Ordering]
+
+
+def make(name: str, seed: int) -> Array:
+    """Heights of a profile, m."""
+    return ground_profile(TABLE[name], length=LENGTH, points=POINTS, seed=seed, roll_off=ROLL_OFF)
+
+
+def gap(heights: Array, alpha: float) -> Array:
+    """Eq. C.12: H = 1 - α r/rmax; ``heights`` have a mean of 0."""
+    return np.asarray(1 - alpha * heights / heights.max())
+
+
+def both(factors: FlowFactors) -> tuple[float, float]:
+    """φx and φs."""
+    relative = factors.relative
+    return float(relative.pressure[0, 0]), float(relative.shear[0])
+
+
+def convergence(profiles: Sequence[Array], alpha: float, powers: Sequence[int]) -> Convergence:
+    """Every rule on 2ᵏ nodes, and on ``BESIDE`` fewer."""
+    gaps = [gap(heights, alpha) for heights in profiles]
+    return Convergence(
+        nodes=2.0 ** np.array(powers),
+        exact=np.array([both(line_factors(h).factors) for h in gaps]),
+        found={
+            (rule, left_out): np.array(
+                [[both(line_factors_on(h, 2**power - left_out, rule=rule).factors) for power in powers] for h in gaps]
+            )
+            for rule in Rule
+            for left_out in (0, BESIDE)
+        },
+    )
+
+
+def by_lines(heights: Array) -> Array:
+    """φx and φs over ``RANGE`` of straight lines, shape (α, 2)."""
+    mean_gap = heights.max() / RANGE
+    found = profile_over_gap(heights)(mean_gap)
+    return np.stack([found.along / mean_gap**3, found.drag / mean_gap], axis=1)
+
+
+def by_heights(heights: Array) -> Array:
+    """φx and φs over ``RANGE`` of sums over the heights, shape (α, 2)."""
+    found = [line_factors_on(gap(heights, alpha), heights.size, rule=Rule.TRAPEZOID) for alpha in RANGE]
+    return np.array([both(one.factors) for one in found])
+
+
+def shuffled(heights: Array, seeds: Sequence[int], refined: int) -> dict[str, Array]:
+    """φx and φs of a profile and of its rearrangements: heights summed, lines between them, lines of finer heights."""
+    orders = [heights, *(rearranged(heights, seed=seed) for seed in seeds)]
+    fine = sampled(heights[:, None], refined, 0)[:, 0]
+    finer = [fine, *(rearranged(fine, seed=seed, folds=0) for seed in seeds)]
+    ways = zip(WAYS, (orders, orders, finer), (by_heights, by_lines, by_lines), strict=True)
+    return {way: np.array([take(r) for r in rows]) for way, rows, take in ways}
+
+
+def compute(
+    advance: Callable[[float, str], None],
+    *,
+    seeds: Sequence[int] = SEEDS,
+    powers: Sequence[int] = POWERS,
+    refined: int = REFINED,
+    random: int = 100,
+) -> Paper:
+    """Everything; ``advance`` is told how many of the ``PARTS`` are done."""
+    profiles = {name: [make(name, seed) for seed in seeds] for name in TABLE}
+    study, factors, orders = {}, {}, {}
+    for part, (name, made) in enumerate(profiles.items()):
+        advance(part, f"integrating over profile {name}")
+        for alpha in ALPHAS:
+            study[name, alpha] = convergence(made, alpha, powers)
+        factors[name] = np.array([by_lines(heights) for heights in made])
+        for way, values in shuffled(made[0], SHUFFLES, refined).items():
+            orders[name, way] = values
+    first = {name: made[0] for name, made in profiles.items()}
+    advance(4, "loads by the number of nodes")
+    loads = {
+        (name, rule, left_out): loads_by_nodes(heights, [2**power - left_out for power in powers], rule)
+        for name, heights in first.items()
+        for rule in (Rule.SIMPSON, Rule.TRAPEZOID)
+        for left_out in (0, BESIDE)
+    }
+    advance(5, "films")
+    shown, by_modulus = films(first), peaks(first)
+    curves = load_curves(profiles)
+    advance(6, "films of random profiles")
+    return Paper(
+        profiles=profiles,
+        convergence=study,
+        factors=factors,
+        shuffled=orders,
+        loads=loads,
+        powers=tuple(powers),
+        films=shown,
+        peaks=by_modulus,
+        curves=curves,
+        orderings=random_ordering(random),
+    )

@@ -1,0 +1,1 @@
+"""Paper D of the source: its figures regenerated, its claims judged."""

@@ -1,0 +1,132 @@
+"""What Paper D claims of dry contact, judged by the profiles pressed: each with a verdict and its numbers."""
+
+import numpy as np
+
+from roughfilm.contact.surfaces.surface import Array
+from roughfilm.contact.synthetic.profile import STEEL_PROFILES
+from scripts.studies.claims import Claim
+from scripts.studies.paper_d.data import LENGTH, SPECTRA, STEEL, Paper
+
+LEAST_NODES = 4
+"""Fits take loads from which on the real area has at least so many nodes on average."""
+
+
+def judge(paper: Paper) -> list[Claim]:
+    """Claims 15 to 18."""
+    return [area_grows(paper), area_by_roughness(paper), plasticity(paper), highest_waves(paper)]
+
+
+def power_of(x: Array, y: Array) -> float:
+    """The exponent of the power law through points, by least squares."""
+    return float(np.polyfit(np.log(x), np.log(y), 1)[0])
+
+
+def straightness(x: Array, y: Array) -> float:
+    """R² of the line through the origin."""
+    line = x * float(x @ y) / float(x @ x)
+    return 1 - float(((y - line) ** 2).sum() / ((y - y.mean()) ** 2).sum())
+
+
+def settled(waves: Array, area: Array, part: float) -> int:
+    """The least n from which on the area stays within a part of its last value."""
+    outside = np.flatnonzero(np.abs(area / area[-1] - 1) > part)
+    return int(waves[outside[-1] + 1]) if outside.size else int(waves[0])
+
+
+def _told(values: dict[str, float], form: str) -> str:
+    return ", ".join(f"{name} {value:{form}}" for name, value in values.items())
+
+
+def area_grows(paper: Paper) -> Claim:
+    """Claim 15."""
+    loads, powers, fits = np.array(paper.loads), {}, {}
+    for (spectrum, name), state in paper.pressed.items():
+        area = state["area"].mean(axis=0)
+        used = area * paper.profiles[spectrum, name][0].size >= LEAST_NODES
+        key = f"{name} {spectrum}"
+        powers[key] = power_of(loads[used], area[used])
+        fits[key] = straightness(loads[used], area[used])
+    worst = max(abs(power - 1) for power in powers.values())
+    straight = min(fits.values())
+    return Claim(
+        number=15,
+        text="The real area of contact grows nearly linearly with load",
+        verdict="true" if worst <= 0.1 and straight >= 0.99 else "partly" if worst <= 0.25 else "false",
+        evidence=f"exponents {_told(powers, '.2f')}; R² of the line through the origin at least {straight:.3f} "
+        f"(loads from which on the area has {LEAST_NODES} nodes on average)",
+    )
+
+
+def area_by_roughness(paper: Paper) -> Claim:
+    """Claim 16."""
+    rough = np.array([row.average for row in STEEL_PROFILES.values()])
+    bound = paper.loads[-1] / LENGTH / STEEL.hardness
+    powers, ratios, told = {}, {}, []
+    for spectrum in SPECTRA:
+        areas = np.array([paper.pressed[spectrum, name]["area"][:, -1].mean() for name in STEEL_PROFILES])
+        powers[spectrum], ratios[spectrum] = power_of(rough, areas), float(areas.max() / areas.min())
+        told.append(
+            f"{spectrum}: {', '.join(f'{n} {100 * a:.1f} %' for n, a in zip(STEEL_PROFILES, areas, strict=True))}"
+        )
+    worst = max(ratios.values())
+    return Claim(
+        number=16,
+        text="The real area of contact hardly depends on Ra",
+        verdict="true" if worst <= 1.2 else "partly" if max(abs(p) for p in powers.values()) <= 0.5 else "false",
+        evidence=f"at the highest load {'; '.join(told)}; the greatest is {_told(ratios, '.2f')} times the least while "
+        f"Ra spans {rough.max() / rough.min():.1f}, A ~ Ra^n with n: {_told(powers, '.2f')}; it cannot be otherwise "
+        f"where most contact is plastic, since no surface can have less than W/H = {100 * bound:.1f} %",
+    )
+
+
+def plasticity(paper: Paper) -> Claim:
+    """Claim 17."""
+    rough = [row.average for row in STEEL_PROFILES.values()]
+    told, ranked, starts = [], [], []
+    for spectrum in SPECTRA:
+        index = {
+            name: float(paper.pressed[spectrum, name]["plasticity_index"][:, -1].mean()) for name in STEEL_PROFILES
+        }
+        light = {name: float(paper.pressed[spectrum, name]["plasticity_index"][:, 0].mean()) for name in STEEL_PROFILES}
+        finer = {name: float(paper.finer[spectrum, name]["plasticity_index"][:, 0].mean()) for name in STEEL_PROFILES}
+        ranked.append(bool((np.argsort(list(index.values())) == np.argsort(rough)).all()))
+        starts += list(finer.values())
+        told.append(
+            f"{spectrum}: {_told(index, '.2f')} at the highest load; {_told(light, '.2f')} at the least, where one or "
+            f"two nodes carry it; {_told(finer, '.2f')} there on a finer grid"
+        )
+    spread = min(
+        paper.pressed[spectrum, "A"]["plasticity_index"][:, -1].mean()
+        / paper.pressed[spectrum, "C"]["plasticity_index"][:, -1].mean()
+        for spectrum in SPECTRA
+    )
+    strong, always = all(ranked) and spread > 1.5, min(starts) > 0.01
+    return Claim(
+        number=17,
+        text="The plasticity index depends strongly on roughness and is not zero at small loads",
+        verdict="true" if strong and always else "partly" if strong or always else "false",
+        evidence="; ".join(told),
+    )
+
+
+def highest_waves(paper: Paper) -> Claim:
+    """Claim 18."""
+    waves, told, kept = np.array(paper.waves), [], []
+    for spectrum, state in paper.cut.items():
+        for name, areas in state.items():
+            mean = areas.mean(axis=0)
+            fives = [settled(waves, area, 0.05) for area in areas]
+            n1, n5 = settled(waves, mean, 0.01), settled(waves, mean, 0.05)
+            kept.append(n5 <= waves[-1] / 2)
+            told.append(
+                f"{spectrum}, {name}: within 5 % from n = {n5} on, within 1 % from {n1} on "
+                f"(single profiles 5 %: {min(fives)} to {max(fives)})"
+            )
+    return Claim(
+        number=18,
+        text="The highest frequencies do not change the real area of contact",
+        verdict="true" if all(kept) else "partly" if any(kept) else "false",
+        evidence=f"mean area of profile D at the highest load, of {waves[-1]} waves: "
+        + "; ".join(told)
+        + f"; the smooth ones have none beyond {SPECTRA['smooth']}",
+    )

@@ -1,0 +1,1 @@
+"""Paper E of the source: its figures regenerated, its claims judged."""

@@ -1,0 +1,165 @@
+"""Claims 19, 21 and 22 of the source judged on windows of a milled surface and on a thrust washer."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughfilm.pages.error_bars import with_error
+from roughfilm.rom.pocket.gap import Array
+from scripts.studies.claims import Claim
+from scripts.studies.paper_e.data import LOADS, SEEDS, Washer
+from scripts.studies.paper_e.windows import LOAD, PARTS, Leak
+
+FEW_PER_CENT = 0.05
+"""Within which two leakages count as equal."""
+
+EQUAL, PARTED = 0.02, 0.1
+"""Parts of the lift-off speed within which two methods agree, and beyond which they part."""
+
+STRAIGHT, CROSSED = ("surface 1", "surface 3"), "surface 2"
+MEASURED = ("milled", "ground")
+AXES = "xy"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Paper:
+    """All that is judged and drawn; ``windows`` is empty where the instrument files are absent.
+
+    Attributes
+    ----------
+    washers : by surface, with both methods.
+    lays : by lay and seed, as :func:`scripts.studies.paper_e.data.lays` names them.
+    rows : of the window whose ends count most, how many of it follow one another, and what more passes directly.
+    """
+
+    windows: Sequence[Leak]
+    rows: Sequence[tuple[int, float]]
+    washers: Mapping[str, Washer]
+    lays: Mapping[str, Washer]
+
+
+def judge(paper: Paper) -> list[Claim]:
+    """Claims 21 and 22, and 19 where the milled surface is there."""
+    direct = [direct_is_homogenized(paper.windows, paper.rows)] if paper.windows else []
+    return [*direct, methods_agree(paper.washers), lift_off(paper)]
+
+
+def direct_is_homogenized(windows: Sequence[Leak], rows: Sequence[tuple[int, float]]) -> Claim:
+    """Claim 19."""
+    usual = [one for one in windows if one.resolution == 1.0]
+    parts = {
+        window: np.array([[one.apart(axis) for axis in (0, 1)] for one in usual if _is(one, window, LOAD)])
+        for window in PARTS
+    }
+    crushed = max(one.load for one in usual)
+    hard = np.array([[one.apart(axis) for axis in (0, 1)] for one in usual if _is(one, "a", crushed)])
+    within = float(np.mean(np.concatenate([found.ravel() for found in parts.values()]) < FEW_PER_CENT))
+    shown = "; ".join(
+        f"window {window} ({PARTS[window]:.2g} of the sides, {found.shape[0]} place{'s' * (len(found) > 1)}) "
+        f"{_share(float(np.median(found)))}, {_share(found.min())} to {_share(found.max())}"
+        for window, found in parts.items()
+    )
+    longer = ", ".join(_share(part) for _, part in rows)
+    return Claim(
+        number=19,
+        text="HNS equals DNS in leakage within a few per cent for measured surfaces",
+        verdict="true" if within > 0.95 else "partly" if within > 0.3 else "false",
+        evidence="between two reservoirs one window lets more through than the same on and on, always, as flow comes "
+        f"in where it would have no way on: at {LOAD / 1e6:g} MPa more by (median and range) {shown}; {_share(within)} "
+        f"of all within {_share(FEW_PER_CENT)}. The worst falls with the windows in a row, not with their size alone: "
+        f"{longer} over {', '.join(str(count) for count, _ in rows)} of them. Under load few channels stay and one "
+        "window says less: window a "
+        + ", ".join(f"{_share(hard[0, axis])} along {AXES[axis]}" for axis in (0, 1))
+        + f" at {crushed / 1e6:g} MPa",
+    )
+
+
+def worst_cell(windows: Sequence[Leak]) -> tuple[Leak, int]:
+    """The cell and the direction in which the ends of one window count most, under the usual load."""
+    usual = [(one, axis) for one in windows if one.resolution == 1.0 and one.load == LOAD for axis in (0, 1)]
+    return max(usual, key=lambda pair: pair[0].apart(pair[1]))
+
+
+def _is(one: Leak, window: str, load: float) -> bool:
+    return one.window == window and one.load == load
+
+
+def parted(washer: Washer) -> Array:
+    """Patir and Cheng's lift-off speed over the homogenized one, less 1, by load."""
+    return np.asarray(washer.lift(boxed=True)[:, 0] / washer.lift()[:, 0] - 1)
+
+
+def methods_agree(washers: Mapping[str, Washer]) -> Claim:
+    """Claim 21, by lift-off speeds."""
+    straight = max(float(np.abs(parted(washers[name])).max()) for name in STRAIGHT)
+    crossed = parted(washers[CROSSED])
+    least = float(np.abs(crossed).min())
+    bars = washers[CROSSED].lift()
+    unsure = float((bars[:, 1] / bars[:, 0]).max())
+    there = [name for name in MEASURED if name in washers]
+    told = "".join(
+        f"; {name}, measured, {' / '.join(_signed(part) for part in parted(washers[name]))}" for name in there
+    )
+    holds = straight < EQUAL and least > max(PARTED, unsure)
+    return Claim(
+        number=21,
+        text="Patir–Cheng equals HNS for straight or isotropic lay and fails for crossed or oblique lay",
+        verdict="true" if holds else "partly" if straight < EQUAL or least > PARTED else "false",
+        evidence=f"lift-off speeds by Patir and Cheng over the homogenized ones, at "
+        f"{', '.join(f'{load / 1e6:g}' for load in LOADS)} MPa: straight lays within {_share(straight)}; marks that "
+        f"cross obliquely, one cut deeper, {' / '.join(_signed(part) for part in crossed)} (± {_share(unsure)} by "
+        f"grids and tables), films up to {_share(washers[CROSSED].apart())} off{told}. It is A₁₂ and B₂ that the "
+        "method has not: such a lay pumps sideways. Marks that cross symmetrically about the sliding have neither, "
+        "and agree (scripts.studies.lay)",
+    )
+
+
+def lay_lifts(lays: Mapping[str, Washer], lay: str) -> Array:
+    """Lift-off speeds of surface 3 under a lay, turns a minute, shape (seeds, loads)."""
+    return np.array([lays[f"{lay}, {seed}"].lift()[:, 0] for seed in SEEDS])
+
+
+def lift_off(paper: Paper) -> Claim:
+    """Claim 22."""
+    found = {name: one.lift() for name, one in (*paper.washers.items(), *paper.lays.items())}
+    rises = all((np.diff(lift[:, 0]) > lift[:-1, 1] + lift[1:, 1]).all() for lift in found.values())
+    along, across = lay_lifts(paper.lays, "along"), lay_lifts(paper.lays, "across")
+    outwards, inwards = lay_lifts(paper.lays, "+45°"), lay_lifts(paper.lays, "-45°")
+    bar = float(np.mean([found[f"along, {seed}"][:, 1] / found[f"along, {seed}"][:, 0] for seed in SEEDS]))
+    first = paper.washers["surface 1"].lift()[:, 0] / paper.lays["surface 1, across"].lift()[:, 0] - 1
+    changes = np.concatenate([(along / across - 1).ravel(), first])
+    lowers, raises = bool((changes < -bar).all()), bool((changes > bar).all())
+    names = list(paper.washers)
+    order = " < ".join(sorted(names, key=lambda name: found[name][1, 0]))
+    one = f"{LOADS[1] / 1e6:g} MPa"
+    helps = (
+        "they lower the speed" if lowers else "they raise the speed" if raises else "which is no more than is unsure"
+    )
+    return Claim(
+        number=22,
+        text="Higher load needs higher speed to lift off; ridges across the leakage direction lower that speed",
+        verdict="true" if rises and lowers else "partly" if rises or lowers else "false",
+        evidence=f"at {', '.join(f'{load / 1e6:g}' for load in LOADS)} MPa walls part at "
+        + "; ".join(f"{name} {_speeds(found[name])}" for name in names)
+        + f" rpm: {'always later' if rises else 'not always later'} under more load ({order} at {one}). Ridges across "
+        "the leakage against the same ridges along it: surface 3 "
+        + ", ".join(_signed(float(change)) for change in (along / across - 1).mean(axis=1))
+        + f" ({len(SEEDS)} samples), surface 1 {_signed(float(first.mean()))}, {helps} (± {_share(bar)}): what they "
+        "hold back across they let through along the sliding. What counts is an oblique lay: at "
+        f"{one} ridges that lead outwards with the sliding wall (+45°) part at {outwards.mean(axis=0)[1]:.3g} rpm, "
+        f"inwards (−45°) at {inwards.mean(axis=0)[1]:.3g}, along the sliding at {along.mean(axis=0)[1]:.3g}. So the "
+        "late lift-off of marks that cross comes of what they pump sideways, not of leakage that is not held back",
+    )
+
+
+def _speeds(lift: Array) -> str:
+    return " / ".join(with_error(*row) for row in lift)
+
+
+def _share(part: float) -> str:
+    return f"{100 * part:.2g} %"
+
+
+def _signed(part: float) -> str:
+    return f"{100 * part:+.2g} %"

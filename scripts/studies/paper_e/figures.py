@@ -1,0 +1,216 @@
+"""The figures of Paper E: leakage by window, resolution and load, and the thrust washer over speed."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from roughfilm.pages.stribeck import drawn_film
+from roughfilm.rom.bearing.mixed.film import MixedFilm
+from roughfilm.rom.bearing.mixed.stribeck import StribeckPoint
+from scripts.studies.paper_e.claims import Paper
+from scripts.studies.paper_e.data import CELLS, LOADS, SEEDS, SHOWN, Washer
+from scripts.studies.paper_e.windows import LOAD, PARTS, Leak
+from scripts.studies.paper_e.windows import LOADS as PRESSED
+
+COLOURS = ("#2166ac", "#b2182b", "#1a7f37", "#b07d2b", "#6a51a3")
+LINES = (":", "-", "--")
+WINDOWS = dict(zip(PARTS, COLOURS, strict=False))
+COUNTED = ("surface 1", "surface 2", "surface 3")
+ROUND = (10, 20, 50, 100, 200, 500)
+"""Turns a minute that are written at an axis."""
+
+LAYS = {"along": COLOURS[0], "across": COLOURS[2], "+45°": COLOURS[1], "-45°": COLOURS[3]}
+
+
+def leakages(windows: Sequence[Leak]) -> Figure:
+    """Figs. E.19 to E.21: volumes by window and place; by resolution; over the load."""
+    figure = Figure(figsize=(11.4, 4.0), layout="constrained")
+    places, grids, loads = figure.subplots(1, 3)
+    for window, colour in WINDOWS.items():
+        rows = [one for one in windows if one.window == window and one.resolution == 1.0]
+        usual = [one for one in rows if one.load == LOAD]
+        for axis, marker in ((0, "s"), (1, "o")):
+            where = list(PARTS).index(window) + 0.22 * (axis - 0.5) * 2 + np.linspace(-0.08, 0.08, len(usual))
+            label = f"along {'xy'[axis]}" if window == "a" else None
+            homogenized = [1e6 * one.volume(axis) for one in usual]
+            direct = [1e6 * one.volume(axis, direct=True) for one in usual]
+            places.plot(where, homogenized, marker, color=colour, ms=4.5, label=label)
+            places.plot(where, direct, marker, color=colour, ms=7.5, mfc="none", lw=0)
+        for one in {one.start: one for one in rows}:
+            here = [row for row in rows if row.start == one]
+            whole = 1.8 if window == "a" else 0.7
+            pressed = [row.load / 1e6 for row in here]
+            label = f"window {window}" if one == rows[0].start else None
+            loads.plot(pressed, [1e6 * row.volume(1) for row in here], color=colour, linewidth=whole, label=label)
+    places.set_xticks(range(len(PARTS)), list(PARTS))
+    places.set_xlabel(f"window, at {LOAD / 1e6:g} MPa")
+    places.legend(fontsize=8, title="full: HNS, empty: DNS", title_fontsize=8, loc="lower left")
+    for window in ("a", "b"):
+        rows = [one for one in windows if one.window == window and one.load in PRESSED[:3]]
+        start = rows[0].start
+        for load, line in zip(PRESSED[:3], LINES, strict=True):
+            found = sorted((one for one in rows if one.start == start and one.load == load), key=_resolution)
+            label = f"{load / 1e6:g} MPa" if window == "a" else None
+            grids.plot(
+                [one.resolution for one in found],
+                [1e6 * one.volume(1) for one in found],
+                "o" + line,
+                color=WINDOWS[window],
+                label=label,
+            )
+    grids.set_xscale("log", base=2)
+    grids.set_xticks([0.5, 1, 2], ["half", "as prepared", "double"])
+    grids.set_xlabel("nodes along a side, along y")
+    grids.set_ylim(bottom=0)
+    grids.legend(fontsize=8, loc="lower right")
+    loads.set_xscale("log")
+    loads.set_yscale("log")
+    loads.set_xlabel("load, MPa, along y")
+    loads.legend(fontsize=8)
+    for axes in (places, grids, loads):
+        axes.set_ylabel("leaked in 300 s, ml")
+    return figure
+
+
+def _resolution(one: Leak) -> float:
+    return one.resolution
+
+
+def pressures(washers: dict[str, Washer]) -> Figure:
+    """Figs. E.25 to E.27: the film's pressure at 30 and 300 turns a minute under 1 MPa."""
+    names = [name for name in COUNTED if name in washers]
+    figure = Figure(figsize=(11.4, 2.7 * len(SHOWN)), layout="constrained")
+    panels = figure.subplots(len(SHOWN), len(names), squeeze=False)
+    drawn = {}
+    for name in names:
+        one = washers[name]
+        film = MixedFilm(scene=one.scene, asperities=one.wall.asperities, cells=CELLS)
+        for turns in SHOWN:
+            drawn[name, turns] = drawn_film(film, point_at(one, 1, turns), f"{name}, {turns:g} rpm")
+    top = max(float(one.film.max()) for one in drawn.values()) / 1e6
+    for row, turns in zip(panels, SHOWN, strict=True):
+        for axes, name in zip(row, names, strict=True):
+            found = drawn[name, turns]
+            axes.grid(visible=False)
+            axes.set_aspect("equal")
+            image = axes.pcolormesh(
+                1e3 * found.x,
+                1e3 * found.y,
+                found.film / 1e6,
+                shading="gouraud",
+                cmap="viridis",
+                vmin=0,
+                vmax=top,
+                rasterized=True,
+            )
+            axes.set_title(found.title, fontsize=9)
+    figure.colorbar(image, ax=panels, label="film, MPa", shrink=0.8)
+    return figure
+
+
+def point_at(one: Washer, number: int, turns: float) -> StribeckPoint:
+    """The point of the ``number``-th load nearest to a speed."""
+    return min(one.curves[number].points, key=lambda point: abs(point.speed * one.turns - turns))
+
+
+def films(washers: dict[str, Washer]) -> Figure:
+    """Fig. E.28: the least separation over the first touch, by both methods, under 1 and 2 MPa."""
+    figure = Figure(figsize=(11.4, 4.2), layout="constrained")
+    panels = figure.subplots(1, 2, sharey=True)
+    for axes, number, end in zip(panels, (1, 2), (300, 600), strict=True):
+        for (name, one), colour in zip(washers.items(), COLOURS, strict=False):
+            touching = one.wall.asperities.touching
+            for curves, line in ((one.curves, "-"), (one.boxed, "--")):
+                points = [point for point in curves[number].points if point.speed * one.turns <= end * 1.15]
+                speeds = [point.speed * one.turns for point in points]
+                heights = [1e6 * (point.separation - touching) for point in points]
+                axes.plot(speeds, heights, line, color=colour, linewidth=1.4, label=name if line == "-" else None)
+            _bar(axes, one, number, colour)
+        axes.axhline(0, color="black", linewidth=0.8)
+        axes.set_xlim(0, end)
+        axes.set_ylim(-2.5, 12)
+        axes.set_title(f"{LOADS[number] / 1e6:g} MPa; full: HNS, dashed: Patir and Cheng", fontsize=10)
+        axes.set_xlabel("speed, rpm")
+    panels[0].set_ylabel("least separation over the first touch, µm")
+    panels[0].legend(fontsize=8, loc="upper left")
+    return figure
+
+
+def _bar(axes: Axes, one: Washer, number: int, colour: str) -> None:
+    speed, unsure = one.lift()[number]
+    axes.errorbar([speed], [0], xerr=[unsure], fmt="o", ms=3.5, color=colour, elinewidth=1.2, capsize=2)
+
+
+def friction(washers: dict[str, Washer]) -> Figure:
+    """Fig. E.29: the coefficient of friction over speed."""
+    figure = Figure(figsize=(11.4, 4.4), layout="constrained")
+    axes = figure.subplots()
+    for (name, one), colour in zip(washers.items(), COLOURS, strict=False):
+        for curve, line in zip(one.curves, LINES, strict=True):
+            speeds = [point.speed * one.turns for point in curve.points]
+            label = name if line == "-" else None
+            rubs = [point.friction_coefficient for point in curve.points]
+            axes.plot(speeds, rubs, line, color=colour, label=label, linewidth=1.3)
+    axes.set_yscale("log")
+    axes.set_xlabel("speed, rpm (dotted 0.5 MPa, full 1 MPa, dashed 2 MPa)")
+    axes.set_ylabel("coefficient of friction")
+    axes.legend(fontsize=8)
+    return figure
+
+
+def lays(paper: Paper) -> Figure:
+    """Lift-off over the load for every lay of surface 3, and of surface 1 along and across."""
+    figure = Figure(figsize=(11.4, 3.8), layout="constrained")
+    turned, first = figure.subplots(1, 2)
+    loads = np.array(LOADS) / 1e6
+    for lay, colour in LAYS.items():
+        for seed in SEEDS:
+            lift = paper.lays[f"{lay}, {seed}"].lift()
+            label = lay if seed == SEEDS[0] else None
+            turned.errorbar(loads, lift[:, 0], lift[:, 1], fmt="o-", color=colour, label=label, lw=1, ms=3, capsize=2)
+    turned.set_title("surface 3, two samples", fontsize=10)
+    pair = {"along": paper.washers["surface 1"], "across": paper.lays["surface 1, across"]}
+    for lay, one in pair.items():
+        lift = one.lift()
+        first.errorbar(loads, lift[:, 0], lift[:, 1], fmt="o-", color=LAYS[lay], label=lay, lw=1, ms=3, capsize=2)
+    first.set_title("surface 1", fontsize=10)
+    for axes in (turned, first):
+        axes.set_xlabel("load, MPa")
+        axes.set_ylabel("lift-off, rpm")
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.set_xticks(loads, [f"{load:g}" for load in loads])
+        axes.minorticks_off()
+        axes.set_yticks(ROUND, [f"{speed:g}" for speed in ROUND])
+        axes.set_ylim(7, 500)
+        axes.legend(fontsize=8, title="ridges against the sliding", title_fontsize=8, loc="lower right")
+    return figure
+
+
+def textures(washers: dict[str, Washer]) -> Figure:
+    """The surfaces themselves."""
+    figure = Figure(figsize=(11.4, 2.9), layout="constrained")
+    for axes, (name, one) in zip(figure.subplots(1, len(washers)), washers.items(), strict=True):
+        roughness = one.scene.roughness
+        heights, spacing = roughness.scaled_heights(), roughness.scaled_spacing()  # type: ignore[union-attr]
+        width, height = (count * step * 1e3 for count, step in zip(heights.shape, spacing, strict=True))
+        axes.grid(visible=False)
+        axes.imshow(1e6 * heights.T, origin="lower", extent=(0, width, 0, height), cmap="cividis", vmin=-6, vmax=9)
+        axes.set_title(f"{name}, Sq {1e6 * heights.std():.2f} µm", fontsize=9)
+        axes.set_xlabel("mm")
+    return figure
+
+
+def drawings(paper: Paper) -> dict[str, Figure]:
+    """What can be drawn, by name."""
+    washers = dict(paper.washers)
+    made = {
+        "textures": textures(washers),
+        "friction": friction(washers),
+        "films": films(washers),
+        "pressures": pressures(washers),
+        "lays": lays(paper),
+    }
+    return made | ({"leakages": leakages(paper.windows)} if paper.windows else {})

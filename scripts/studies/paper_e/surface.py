@@ -1,0 +1,66 @@
+"""A model surface like that of Fig. E.4 of Paper E: loaded, unloaded, and loaded again."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughfilm.contact.mechanics.contact import Contact
+from roughfilm.contact.mechanics.press import Press
+from roughfilm.contact.mechanics.solid import Solid, composite_modulus
+from roughfilm.contact.surfaces.surface import Array
+
+STEEL = Solid(modulus=210e9, poisson=0.3, hardness=5e9)
+LENGTH = 1e-3
+POINTS = 512
+LOADS = (50e6, 100e6, 400e6, 800e6)
+"""Mean pressures, Pa."""
+
+HEIGHT = 80e-6
+WAVES = ((1, 0.3, 0.4), (3, 1.0, 0.1), (7, 0.35, 0.62), (16, 0.07, 0.2))
+"""Waves in a length, amplitude over the largest, and phase in turns."""
+
+TOLERANCE = 1e-9
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reloading:
+    """How the surface that a load has flattened answers the same load on an elastic solid.
+
+    Attributes
+    ----------
+    pressure : the largest difference to the first loading, over H.
+    heights : the largest difference of the loaded surface, over the height of the surface.
+    highest : the largest pressure, over H.
+    """
+
+    load: float
+    pressure: float
+    heights: float
+    highest: float
+
+
+def model_heights(points: int = POINTS) -> Array:
+    """Four waves, with 0 at the lowest node, shape (points, 1), m."""
+    x = np.arange(points) / points
+    z = sum(part * np.cos(2 * np.pi * (waves * x - phase)) for waves, part, phase in WAVES)
+    z = np.asarray(z)[:, None]
+    return np.asarray((z - z.min()) * (HEIGHT / np.ptp(z)))
+
+
+def load_model(points: int = POINTS, loads: Sequence[float] = LOADS) -> list[Contact]:
+    """The contacts of the model surface."""
+    z = model_heights(points)
+    press = Press(z, (LENGTH / points, LENGTH / points), composite_modulus(STEEL), hardness=STEEL.hardness)
+    return [press.at(load, tolerance=TOLERANCE) for load in loads]
+
+
+def reload(first: Contact) -> Reloading:
+    """Press the unloaded surface again, without a bound on the pressure."""
+    again = Press(first.unloaded_heights, first.spacing, composite_modulus(STEEL)).at(first.load, tolerance=TOLERANCE)
+    return Reloading(
+        load=first.load,
+        pressure=float(np.abs(again.pressure - first.pressure).max()) / first.hardness,
+        heights=float(np.abs(again.loaded_heights - first.loaded_heights).max()) / float(np.ptp(first.heights)),
+        highest=float(again.pressure.max()) / first.hardness,
+    )

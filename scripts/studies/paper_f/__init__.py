@@ -1,0 +1,1 @@
+"""Paper F of the source: its figures regenerated, its claims judged."""

@@ -1,0 +1,249 @@
+"""Every surface of Paper F pressed until it is sealed: thresholds, area, leakage; each kept in a file of its own."""
+
+import hashlib
+import json
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.inputs import Inputs
+from roughfilm.contact.mechanics.contact import Contact
+from roughfilm.contact.mechanics.press import Press
+from roughfilm.contact.mechanics.solid import Solid, composite_modulus
+from roughfilm.contact.parameters.peaks import lowest_valleys
+from roughfilm.rom.homogenization.flow_factors import flow_factors
+from roughfilm.rom.ladder.provenance import code
+from roughfilm.rom.pocket.gap import Array
+from roughfilm.rom.seal.leakage.direct import direct_leakage
+from roughfilm.rom.seal.leakage.percolation import thresholds
+from scripts.studies.paper_f.surfaces import Made, Numbers, numbers_of
+
+MODULUS = composite_modulus(Solid(modulus=10e6, poisson=0.5), Solid(modulus=210e9, poisson=0.3))
+"""E*, Pa, of the elastomer against steel."""
+
+PARTS = (*np.geomspace(1e-4, 0.3, 9).tolist(), 0.45, 0.6, 0.75, 0.85, 0.92, 0.97)
+"""Loads at which leakage is found, over the one that seals both directions."""
+
+NEAR = 2e-3
+"""Of a load, between the last that leaves a path open and the first that does not."""
+
+TOLERANCE = 1e-6
+"""Of contacts, as ``Press.at`` takes it."""
+
+OFFSET = 1e-8
+"""m; the source lets this much through where it is closed."""
+
+FIRST, MOST = 0.3, 10.0
+"""Of E* g′: the first load that is tried for sealing, and the last."""
+
+
+OWN = hashlib.sha256(Path(__file__).read_bytes()).hexdigest()[:16]
+"""Of this file: what is kept was found by the same code."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pressed:
+    """One surface from the first touch until it is sealed; arrays are (loads, 2) where a direction counts.
+
+    Attributes
+    ----------
+    size : m, along x and y.
+    loads : W, Pa.
+    area : real over nominal area, corrected for whole pixels; ``pixels`` is not.
+    mean_gap : m.
+    valley : Svm of the surface under load, m.
+    flow : A₁₁ and A₂₂ of the cell, m³: HNS; ``doubt`` is how far off they may be.
+    direct : K between two reservoirs one period apart, in x and in y, m³: DNS.
+    offset : as ``flow``, with 10 nm let through everywhere; nan where the solver gave up.
+    threshold : the least load that leaves no path from end to end, Pa, in x and in y; sides are joined.
+    round_threshold : the least load that leaves none round the cell, as ``flow`` has it; never above the other.
+    sealed_area, sealed_pixels, round_area : area there.
+    sealed_offset : as ``offset`` at ``threshold``, in its direction, m³.
+    spots : contact at ``threshold``, shape (2, nx, ny).
+    """
+
+    family: str
+    seed: int
+    size: tuple[float, float]
+    numbers: Numbers
+    loads: Array
+    area: Array
+    pixels: Array
+    mean_gap: Array
+    valley: Array
+    flow: Array
+    doubt: Array
+    direct: Array
+    offset: Array
+    threshold: Array
+    round_threshold: Array
+    sealed_area: Array
+    sealed_pixels: Array
+    round_area: Array
+    sealed_offset: Array
+    spots: Array
+
+    @property
+    def name(self) -> str:
+        """Family and seed."""
+        return f"{self.family} {self.seed}"
+
+    def scaled(self, factor: float) -> Self:
+        """The surface ``factor`` times as high, by linear elasticity; the offset does not scale, and is lost."""
+        heights = {name: value * factor for name, value in self.numbers.heights.items()}
+        return replace(
+            self,
+            numbers=replace(self.numbers, heights=heights, slope=self.numbers.slope * factor),
+            loads=self.loads * factor,
+            mean_gap=self.mean_gap * factor,
+            valley=self.valley * factor,
+            flow=self.flow * factor**3,
+            doubt=self.doubt * factor**3,
+            direct=self.direct * factor**3,
+            offset=np.full_like(self.offset, np.nan),
+            threshold=self.threshold * factor,
+            round_threshold=self.round_threshold * factor,
+            sealed_offset=np.full_like(self.sealed_offset, np.nan),
+        )
+
+
+class Series:
+    """A surface under many loads, each found once and begun from the nearest one known."""
+
+    def __init__(self, heights: Array, spacing: tuple[float, float]) -> None:
+        self._press = Press(heights, spacing, MODULUS)
+        self._known: dict[float, Contact] = {}
+
+    def at(self, load: float, _start: Contact | None = None) -> Contact:
+        """The contact under a load, Pa."""
+        if load not in self._known:
+            nearest = min(self._known, key=lambda one: abs(np.log(one / load)), default=None)
+            start = None if nearest is None else self._known[nearest]
+            self._known[load] = self._press.at(load, tolerance=TOLERANCE, start=start)
+        return self._known[load]
+
+
+def sealed_contacts(series: Series, slope: float) -> list[Contact]:
+    """Contacts at the least loads that seal a surface of a rms slope: between ends in x and y, and round the cell.
+
+    Raises InputError where a path stays open up to ``MOST``.
+    """
+    loads = (FIRST * MODULUS * slope, MOST * MODULUS * slope)
+    found = [one.sealed for one in thresholds(series.at, *loads, precision=NEAR)]
+    if None in found:
+        raise InputError(f"surface: stays open up to {loads[1]:.3g} Pa; press one whose valleys do not lead through")
+    return [series.at(one.load) for one in found if one is not None]
+
+
+def press(made: Made, parts: Sequence[float] = PARTS) -> Pressed:
+    """Thresholds, and at each part of the greater one area, gap and leakage."""
+    surface, numbers = made.surface, numbers_of(made.surface)
+    series = Series(surface.heights, surface.spacing)
+    *ends, first_round, second_round = sealed_contacts(series, numbers.slope)
+    loads = [part * max(one.load for one in ends) for part in parts]
+    contacts = [series.at(load) for load in loads]
+    flows = [flow_factors(one.gap, surface.spacing) for one in contacts]
+
+    def valley(contact: Contact) -> float:
+        return float(lowest_valleys(surface.with_heights(contact.loaded_heights), numbers.decay).mean())
+
+    return Pressed(
+        family=made.family,
+        seed=made.seed,
+        size=surface.size,
+        numbers=numbers,
+        loads=np.array(loads),
+        area=np.array([one.area_fraction for one in contacts]),
+        pixels=np.array([one.area_fraction_pixel for one in contacts]),
+        mean_gap=np.array([one.mean_gap for one in contacts]),
+        valley=np.array([valley(one) for one in contacts]),
+        flow=np.array([np.diag(one.factors.pressure) for one in flows]),
+        doubt=np.array([np.diag(one.uncertainty.pressure) for one in flows]),
+        direct=np.array([direct_leakage(one.gap, surface.spacing).permeability for one in contacts]),
+        offset=np.array([_with_offset(one) for one in contacts]),
+        threshold=np.array([one.load for one in ends]),
+        round_threshold=np.array([first_round.load, second_round.load]),
+        sealed_area=np.array([one.area_fraction for one in ends]),
+        sealed_pixels=np.array([one.area_fraction_pixel for one in ends]),
+        round_area=np.array([first_round.area_fraction, second_round.area_fraction]),
+        sealed_offset=np.array([_with_offset(one)[i] for i, one in enumerate(ends)]),
+        spots=np.array([one.in_contact for one in ends]),
+    )
+
+
+def _with_offset(contact: Contact) -> Array:
+    try:
+        return np.diag(flow_factors(contact.gap, contact.spacing, offset=OFFSET).factors.pressure)
+    except ConvergenceError:
+        return np.full(2, np.nan)
+
+
+def press_all(
+    surfaces: Sequence[Made],
+    folder: Path | None,
+    advance: Callable[[str], None],
+    parts: Sequence[float] = PARTS,
+) -> list[Pressed]:
+    """Each surface, read from the folder where it was found before with the same inputs; ``advance`` is told each."""
+    found = []
+    for one in surfaces:
+        advance(one.name)
+        surface = one.surface
+        settings = {
+            "own": OWN,
+            "modulus": MODULUS,
+            "parts": list(parts),
+            "near": NEAR,
+            "offset": OFFSET,
+            "code": code(),
+        }
+        inputs = Inputs(heights=surface.heights, spacing=surface.spacing, settings=settings)
+        path = None if folder is None else folder / f"{one.name.replace(' ', '_')}.json"
+        known = None if path is None else read(path, inputs.digest)
+        if known is None:
+            known = press(one, parts)
+            if path is not None:
+                write(path, known, inputs.digest)
+        found.append(known)
+    return found
+
+
+def write(path: Path, found: Pressed, digest: str) -> None:
+    """Keep a surface; InputError if it cannot be written."""
+    entries = {name: _plain(value) for name, value in asdict(found).items()}
+    entries["spots"] = [np.packbits(one).tobytes().hex() for one in found.spots]
+    entries["nodes"] = list(found.spots.shape[1:])
+    with replacing(path) as scratch:
+        scratch.write_text(json.dumps({"digest": digest, "found": entries}) + "\n", encoding="utf-8")
+
+
+def read(path: Path, digest: str) -> Pressed | None:
+    """A surface as kept; None if there is none, if it is of other inputs, or no longer whole."""
+    try:
+        told = json.loads(path.read_text(encoding="utf-8"))
+        if told["digest"] != digest:
+            return None
+        return _whole(told["found"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+
+
+def _whole(entries: dict[str, Any]) -> Pressed:
+    nx, ny = entries.pop("nodes")
+    bits = [np.unpackbits(np.frombuffer(bytes.fromhex(one), dtype=np.uint8)) for one in entries.pop("spots")]
+    spots = np.array([one[: nx * ny].reshape(nx, ny) for one in bits], dtype=bool)
+    numbers = Numbers(**entries.pop("numbers"))
+    family, seed, (length, width) = entries.pop("family"), entries.pop("seed"), entries.pop("size")
+    arrays = {name: np.array(values, dtype=float) for name, values in entries.items()}
+    return Pressed(family=family, seed=seed, size=(length, width), numbers=numbers, spots=spots, **arrays)
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    return {name: _plain(one) for name, one in value.items()} if isinstance(value, Mapping) else value

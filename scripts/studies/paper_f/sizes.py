@@ -1,0 +1,82 @@
+"""The threshold on larger and larger random surfaces of one kind: how far one small surface is from the large one."""
+
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.synthetic.distribution import rms_slope
+from roughfilm.contact.synthetic.gaussian import gaussian
+from roughfilm.rom.ladder.provenance import code
+from roughfilm.rom.pocket.gap import Array
+from scripts.studies.paper_f.data import MODULUS, NEAR, Series, sealed_contacts
+from scripts.studies.paper_f.surfaces import SIDE
+
+CORRELATION = 4e-6
+"""Sal, m."""
+
+NODES_PER_SIDE = 128
+"""Of a surface of ``SIDE``."""
+
+COUNTS: Mapping[int, int] = {64: 32, 128: 24, 256: 12, 512: 6}
+"""Surfaces by nodes a side."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sizes:
+    """At the thresholds of surfaces, by correlation lengths a side: shape (surfaces, 4), ends in x, y, cell in x, y.
+
+    Attributes
+    ----------
+    area : real over nominal.
+    load : W/(E* g′).
+    """
+
+    area: Mapping[float, Array]
+    load: Mapping[float, Array]
+
+
+def grow(folder: Path | None, advance: Callable[[str], None], counts: Mapping[int, int] = COUNTS) -> Sizes:
+    """All sizes, read from the folder where they were found before; ``advance`` is told each."""
+    area, load = {}, {}
+    for nodes, count in counts.items():
+        advance(f"{nodes} × {nodes} nodes")
+        path = None if folder is None else folder / f"size_{nodes}.json"
+        key = {"count": count, "correlation": CORRELATION, "near": NEAR, "code": code()}
+        found = None if path is None else _kept(path, key)
+        if found is None:
+            found = np.array([_one(nodes, seed) for seed in range(601, 601 + count)])
+            if path is not None:
+                with replacing(path) as scratch:
+                    scratch.write_text(json.dumps({"key": key, "found": found.tolist()}) + "\n", encoding="utf-8")
+        lengths = nodes / NODES_PER_SIDE * SIDE / CORRELATION
+        area[lengths], load[lengths] = found[:, 0], found[:, 1]
+    return Sizes(area=area, load=load)
+
+
+def _kept(path: Path, key: Mapping[str, object]) -> Array | None:
+    try:
+        told = json.loads(path.read_text(encoding="utf-8"))
+        return np.array(told["found"], dtype=float) if told["key"] == key else None
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+
+
+def _one(nodes: int, seed: int) -> tuple[Array, Array]:
+    """Areas and loads at the thresholds of one surface."""
+    side = nodes / NODES_PER_SIDE * SIDE
+    surface = gaussian(
+        size=(side, side),
+        points=(nodes, nodes),
+        seed=seed + nodes,
+        rms_height=1e-7,
+        correlation_length=CORRELATION,
+        amplitudes="random",
+    )
+    slope = rms_slope(surface)
+    found = sealed_contacts(Series(surface.heights, surface.spacing), slope)
+    areas, loads = np.transpose([(one.area_fraction, one.load) for one in found])
+    return areas, loads / (MODULUS * slope)

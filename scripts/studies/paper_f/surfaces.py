@@ -1,0 +1,183 @@
+"""Families of made surfaces that stand for the ten unpublished ones of Paper F, and their eight heights."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from roughfilm.contact.parameters.heights import height_statistics
+from roughfilm.contact.parameters.parameters import parameters
+from roughfilm.contact.preparation.prepare import prepare
+from roughfilm.contact.preparation.recipe import read_recipe
+from roughfilm.contact.surfaces.files import read_surface
+from roughfilm.contact.surfaces.surface import Surface
+from roughfilm.contact.synthetic.distribution import rms_slope, with_skewness
+from roughfilm.contact.synthetic.gaussian import gaussian
+from roughfilm.contact.synthetic.plateau_honed import plateau_honed
+from roughfilm.contact.synthetic.self_affine import self_affine
+
+SIDE = 42e-6
+"""m, of the source."""
+
+POINTS = 128
+SHORTEST = SIDE / 16
+"""m; the shortest wave of the self-affine families, 8 nodes long."""
+
+LEAST, MOST = 0.06e-6, 0.48e-6
+"""Sa of the source's surfaces, m."""
+
+SEEDS = tuple(range(501, 509))
+
+HEIGHTS = ("Sa", "Sq", "St", "Sz", "Sp", "Spm", "Sv", "Svm")
+"""Of Fig. F.7 and F.10. St is the whole height and Sz = Spm + Svm, as the source has them."""
+
+MEASURED = ("isotropic.al3d", "ground_striated.x3p", "oblique_grooves.x3p", "milled_NT1100.opd")
+MEASURED_AVERAGE = 0.17e-6
+"""Sa, m, that measured surfaces are scaled to: the mean of the source's."""
+
+Family = Callable[[int, int], Surface]
+"""family(seed, points) → a surface of ``SIDE`` whose height does not matter."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Made:
+    """A surface, its family, and a number that tells it from the others of the family."""
+
+    family: str
+    seed: int
+    surface: Surface
+
+    @property
+    def name(self) -> str:
+        """Family and seed."""
+        return f"{self.family} {self.seed}"
+
+
+def _random(
+    seed: int, points: int, *, length: float, skewness: float = 0.0, anisotropy: float = 1.0, lay: float = 0.0
+) -> Surface:
+    made = gaussian(
+        size=(SIDE, SIDE),
+        points=(points, points),
+        seed=seed,
+        rms_height=1e-6,
+        correlation_length=length,
+        anisotropy=anisotropy,
+        lay_angle=np.radians(lay),
+        amplitudes="random",
+    )
+    return with_skewness(made, skewness) if skewness else made
+
+
+def _fractal(seed: int, points: int, *, hurst: float, roll_off: float) -> Surface:
+    return self_affine(
+        size=(SIDE, SIDE),
+        points=(points, points),
+        seed=seed,
+        hurst=hurst,
+        roll_off=roll_off,
+        cut_off=SHORTEST,
+        rms_height=1e-6,
+        amplitudes="random",
+    )
+
+
+def _plateau(seed: int, points: int) -> Surface:
+    return plateau_honed(
+        size=(SIDE, SIDE),
+        points=(points, points),
+        seed=seed,
+        plateau_rms_height=0.3e-6,
+        plateau_correlation_length=5e-6,
+        valley_rms_height=1e-6,
+        valley_correlation_length=6e-6,
+        material_ratio=0.6,
+        valley_anisotropy=2.0,
+        half_angle=np.radians(45),
+    )
+
+
+FAMILIES: Mapping[str, Family] = {
+    "smooth": partial(_random, length=8e-6),
+    "fine": partial(_random, length=4e-6),
+    "peaky": partial(_random, length=6e-6, skewness=1.0),
+    "valley-rich": partial(_random, length=6e-6, skewness=-1.0),
+    "plateau": _plateau,
+    "striated": partial(_random, length=4e-6, anisotropy=4.0),
+    "oblique": partial(_random, length=4e-6, anisotropy=4.0, lay=30.0),
+    "H 0.8, 42 µm": partial(_fractal, hurst=0.8, roll_off=SIDE),
+    "H 0.8, 14 µm": partial(_fractal, hurst=0.8, roll_off=SIDE / 3),
+    "H 0.5, 21 µm": partial(_fractal, hurst=0.5, roll_off=SIDE / 2),
+    "H 0.3, 42 µm": partial(_fractal, hurst=0.3, roll_off=SIDE),
+}
+"""Random ones of 4 to 8 µm Sal across the lay; self-affine ones by Hurst exponent and roll-off. Sq/g′ is then about
+what the source's loads at the threshold tell of its surfaces, 1.4 to 2.9 µm (W/(E* g′) being 0.28)."""
+
+
+def scaled(surface: Surface, average: float) -> Surface:
+    """The surface about its mean, as high as Sa says."""
+    heights = surface.heights - surface.heights.mean()
+    return surface.with_heights(heights * (average / height_statistics(heights).average))
+
+
+def made_surfaces(
+    families: Sequence[str] = tuple(FAMILIES), seeds: Sequence[int] = SEEDS, points: int = POINTS
+) -> list[Made]:
+    """Independent surfaces; those of a family have Sa from ``LEAST`` to ``MOST``, by a constant factor.
+
+    Sa only sets the unit of heights and loads: elasticity is linear, and a surface s times as high needs s times the
+    load for the same spots of contact. It is given out in another order in each family.
+    """
+    averages = np.geomspace(LEAST, MOST, len(seeds)) if len(seeds) > 1 else np.array([MEASURED_AVERAGE])
+    return [
+        Made(family=family, seed=seed, surface=scaled(FAMILIES[family](seed + 1000 * number, points), average))
+        for number, family in enumerate(families)
+        for seed, average in zip(seeds, np.random.default_rng(number + 7).permutation(averages), strict=True)
+    ]
+
+
+def measured_surfaces(folder: Path | None, points: int = POINTS, names: Sequence[str] = MEASURED) -> list[Made]:
+    """The measured ones that are in a folder, prepared, their longer side shrunk to ``SIDE`` and Sa scaled."""
+    if folder is None:
+        return []
+    recipe = read_recipe({"grid": {"points": [points, points]}})
+    made = []
+    for number, file in enumerate(folder / name for name in names):
+        if file.is_file():
+            one = prepare(read_surface(file), recipe).surface
+            part = SIDE / max(one.size)
+            shrunk = Surface(heights=one.heights, spacing=(one.spacing[0] * part, one.spacing[1] * part), periodic=True)
+            made.append(Made(family=file.stem, seed=number, surface=scaled(shrunk, MEASURED_AVERAGE)))
+    return made
+
+
+@dataclass(frozen=True, kw_only=True)
+class Numbers:
+    """What a surface is told by.
+
+    Attributes
+    ----------
+    heights : by the names of ``HEIGHTS``, m. A peak of Spm is a node that none within Sal in x and in y exceeds, so
+        that the five are different bumps (`contact.parameters.peaks`); the source does not say how it picks them.
+    slope : g′, rms slope.
+    decay : Sal, m.
+    aspect : Str.
+    skewness : Ssk.
+    """
+
+    heights: Mapping[str, float]
+    slope: float
+    decay: float
+    aspect: float
+    skewness: float
+
+
+def numbers_of(surface: Surface) -> Numbers:
+    """All numbers of one surface."""
+    found = {name: one.value for name, one in parameters(surface).items()}
+    heights = {name: found[name] for name in HEIGHTS} | {"Sz": found["Spm"] + found["Svm"]}
+    return Numbers(
+        heights=heights, slope=rms_slope(surface), decay=found["Sal"], aspect=found["Str"], skewness=found["Ssk"]
+    )

@@ -1,0 +1,1 @@
+"""Where a rough gap needs the Stokes or the Navier-Stokes equations."""

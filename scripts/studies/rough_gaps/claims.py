@@ -1,0 +1,225 @@
+"""What the report on rough gaps finds, in sentences, and the claim of the source that it can judge."""
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from scripts.studies.claims import Claim
+from scripts.studies.rough_gaps.data import best
+from scripts.studies.rough_gaps.map import serves
+from scripts.studies.rough_gaps.range_of_validity import Reach
+from scripts.studies.rough_gaps.scenes import MILLED
+from scripts.studies.rough_gaps.study import (
+    STEEP,
+    Study,
+    bounds_hold,
+    mesh_meets_exact,
+    theory_meets_mesh,
+)
+from scripts.studies.rough_gaps.waves import MARKED, bare_coefficient
+
+FEW = 0.05
+"""Parts of the flow: the claim's few per cent."""
+
+
+def judge(study: Study) -> list[Claim]:
+    """Claim 19, as far as Stokes flow can judge what both of its sides leave out."""
+    measured = [one for one in study.reach if one.measured]
+    if not measured:
+        return []
+    far = [one for one in measured if max(off.error for off in one.found) > FEW]
+    resolved = "; ".join(f"{_error(best(one, 'A11'))} at {one.name}" for one in study.milled if one.resolved)
+    told = ", ".join(f"{one.name} {_share(max(off.error for off in one.found))} (g′ = {one.slope:.2g})" for one in far)
+    rest = [max(off.error for off in one.found) for one in measured if one not in far]
+    return [
+        Claim(
+            number=19,
+            text="HNS equals DNS in leakage within a few per cent for measured surfaces",
+            verdict="true" if not far else "partly" if rest else "false",
+            evidence="both sides of it solve Reynolds' equation. Against Stokes flow on the same heights that equation "
+            + (f"lets through, over {MILLED} in three dimensions, {resolved}; by slope correction " if resolved else "")
+            + f"it is within {_share(max(rest, default=math.nan))} at every mean gap for {len(rest)} of "
+            + f"{len(measured)} measured surfaces"
+            + (f"; too much on steep ones: {told}" if far else ""),
+        )
+    ]
+
+
+def _error(found: tuple[float, float]) -> str:
+    ratio, bar = found
+    return f"{100 * (1 / ratio - 1):.2f} ± {100 * bar / ratio**2:.2f} % too much along x"
+
+
+def _share(part: float) -> str:
+    return f"{100 * part:.0f} %" if part >= 1 else f"{100 * part:.2g} %"
+
+
+def words(study: Study) -> dict[str, str]:
+    """A plain sentence or two for each section."""
+    return {
+        "waves": _waves(study),
+        "along": _along(study),
+        "random": _surfaces(study, study_random=True),
+        "milled": _surfaces(study, study_random=False),
+        "inertia": _inertia(study),
+        "reach": _reach(study.reach, study.factors),
+        "map": _map(study),
+    }
+
+
+def _waves(study: Study) -> str:
+    marked = [wave for length in MARKED if (wave := study.wave(0.3, length)) is not None]
+    exact = ", ".join(f"{wave.exact['A11']:.4f}" for wave in marked if "A11" in wave.exact)
+    told = [
+        f"Waves of 0.3 of the gap, {', '.join(f'{w.length:g}' for w in marked)} gaps long, let through {exact} of"
+        " what Reynolds' equation says across their crests."
+        if marked
+        else ""
+    ]
+    mesh = mesh_meets_exact(study.waves.resolved)
+    if mesh.count:
+        told.append(
+            f"OpenFOAM meets the exact flow within {_share(mesh.worst)}, and within its error bars in {mesh.within} of "
+            f"{mesh.count} coefficients."
+        )
+    drawn = [wave for wave in study.waves.drawn if "A11" in wave.exact]
+    good = _up_to({wave.slope: wave.found.theory["A11"].corrected / wave.exact["A11"] - 1 for wave in drawn})
+    bare = _up_to({w.slope: (1 - bare_coefficient(w.amplitude) * w.slope**2) / w.exact["A11"] - 1 for w in drawn})
+    if good and bare:
+        told.append(
+            f"The slope correction is within 1 % of it up to an rms slope of {good:.2g} for all of these waves, the "
+            f"bare law 1 − c⟨h′²⟩ up to {bare:.2g}."
+        )
+    return " ".join(filter(None, told))
+
+
+def _up_to(errors: Mapping[float, float]) -> float:
+    """The largest slope up to which all errors are within 1 %; 0 if there is none."""
+    bad = min((slope for slope, error in errors.items() if abs(error) > 0.01), default=math.inf)
+    return max((slope for slope in errors if slope < bad), default=0.0)
+
+
+def _along(study: Study) -> str:
+    wave = study.wave(0.3, 5.0)
+    if wave is None or not wave.exact:
+        return ""
+    exact = wave.exact
+    return (
+        f"At a = 0.3, L = 5 the flow along the crests is {exact['A22']:.4f} of Reynolds', what sliding drags along "
+        f"{exact['B1']:.4f}, and friction {exact['friction']:.4f}: slope harms pressure flow most, friction least."
+    )
+
+
+def _surfaces(study: Study, *, study_random: bool) -> str:
+    gaps = study.random if study_random else study.milled
+    if not gaps:
+        return ""
+    meeting, bounds = theory_meets_mesh(gaps), bounds_hold(gaps)
+    ratios = [best(one, name)[0] for one in gaps for name in ("A11", "A22")]
+    slopes = list(dict.fromkeys(f"{slope:.2g}" for slope in sorted(one.slope for one in gaps)))
+    steepness = f"rms slopes of {slopes[0]} to {slopes[-1]}" if len(slopes) > 1 else f"an rms slope of {slopes[0]}"
+    told = f"In {len(gaps)} gaps over {steepness} Stokes flow is {max(ratios):.3f} to {min(ratios):.3f} of Reynolds'."
+    if not meeting.count:
+        return told
+    gentle = theory_meets_mesh([one for one in gaps if one.slope < STEEP])
+    where = (
+        f"{_share(gentle.worst)} where the rms slope is below {STEEP:g} and within {_share(meeting.worst)} everywhere"
+        if meeting.worst > gentle.worst
+        else _share(meeting.worst)
+    )
+    return (
+        f"{told} The slope correction, without a mesh, meets it within {where}; {meeting.within} of {meeting.count} "
+        f"within the error bars of both. {bounds.within} of {bounds.count} lie between the bounds."
+    )
+
+
+def _inertia(study: Study) -> str:
+    if not study.inertia.laws:
+        return ""
+    fitted = "; ".join(
+        f"over {one.group} c = {one.coefficient:.2g} and b = {one.saturation:.2g}, within a factor of {one.spread:.2g} "
+        f"(one standard deviation of {one.count} flows; {one.worst:.2g} at worst)"
+        for one in study.inertia.laws
+    )
+    return (
+        f"Inertia holds back c (Re* g′)² / (1 + b Re* h̄/λ) of the flow, up to a tenth of it: {fitted}.{_crossed(study)}"
+    )
+
+
+def _crossed(study: Study) -> str:
+    told = []
+    for level in (0.01, 0.05):
+        places = [x for _, x in study.inertia.crossings(level).values()]
+        if places:
+            told.append(f"{100 * level:.0f} % at Re* g′ = {min(places):.2g} to {max(places):.2g}")
+    return f" Gap by gap, {' and '.join(told)}." if told else ""
+
+
+def _reach(reach: Sequence[Reach], factors: Sequence[float]) -> str:
+    if not factors:
+        return ""
+    middle = float(np.median(factors))
+    slopes = [math.sqrt(level / max(factors)) for level in (0.01, 0.05)]
+    measured = [one for one in reach if one.measured]
+    group = measured or list(reach)
+    counts = [sum(_within(one, level) for one in group) for level in (0.01, 0.05)]
+    return (
+        f"Reynolds' equation lets too much through by about {middle:.2g} g′² ({min(factors):.2g} to "
+        f"{max(factors):.2g}), g′ being the rms slope, at nearly every mean gap: a thicker film helps little. It is "
+        f"within 1 % where g′ is below {slopes[0]:.2g} ({math.degrees(math.atan(slopes[0])):.0f}°) and within 5 % "
+        f"below {slopes[1]:.2g} ({math.degrees(math.atan(slopes[1])):.0f}°). Of {len(group)} "
+        f"{'measured' if measured else 'made'} surfaces {counts[0]} are within 1 % and {counts[1]} within 5 % at every "
+        "mean gap that keeps the walls apart."
+    )
+
+
+def _within(one: Reach, level: float) -> bool:
+    return max(off.error + off.bar for off in one.found) <= level
+
+
+def _map(study: Study) -> str:
+    if not study.map:
+        return ""
+    told = []
+    for level in (0.01, 0.05):
+        plain, corrected = (serves(study.map, name, level) for name in ("homogenized", "slope_corrected"))
+        told.append(
+            f"within {100 * level:.0f} % Reynolds' equation serves waves of every length up to an rms slope of "
+            f"{plain:.2g}, the slope correction up to {corrected:.2g}"
+        )
+    text = "; ".join(told)
+    return f"{text[0].upper()}{text[1:]}. Beyond it takes a mesh, or waves that are long or short enough."
+
+
+def cards(study: Study) -> list[dict[str, str]]:
+    """The numbers to take away, for the head of the page."""
+    told = []
+    wave = study.wave(0.3, 5.0)
+    if wave is not None and wave.exact:
+        told.append(
+            {
+                "value": f"{wave.exact['A11']:.3f}",
+                "words": "Stokes over Reynolds across waves of 0.3 of the gap, 5 gaps long",
+            }
+        )
+    if study.factors:
+        told.append(
+            {
+                "value": f"{np.median(study.factors):.2g} g′²",
+                "words": "of the flow is what Reynolds lets through too much over real surfaces",
+            }
+        )
+        slopes = [math.sqrt(level / max(study.factors)) for level in (0.01, 0.05)]
+        told.append(
+            {
+                "value": f"g′ < {slopes[0]:.2g} and {slopes[1]:.2g}",
+                "words": "are the rms slopes at which it is within 1 % and 5 %",
+            }
+        )
+    first = study.inertia.earliest(0.01)
+    if first:
+        told.append(
+            {"value": f"Re* g′ = {first:.2g}", "words": "is the least at which inertia holds 1 % of a flow back"}
+        )
+    return told

@@ -1,0 +1,151 @@
+"""One rough gap by every means there is: resolved on ever finer meshes, corrected, perturbed, all over Reynolds'."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughfilm.rom.rough_gap.flow.corrected import SlopeCorrected, slope_corrected
+from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors
+from roughfilm.rom.rough_gap.flow.waves import nearly_smooth_flow
+from roughfilm.rom.rough_gap.scene import RoughGap
+from roughfilm.rom.rough_gap.walls import Walls
+from roughfilm.rom.studies.convergence import Convergence, converge
+from scripts.studies.rough_gaps.runs import Answers, Asked
+from scripts.studies.rough_gaps.scenes import MILLED
+
+NAMES = ("A11", "A22", "B1", "friction")
+
+ORDER = 2
+"""Of the meshes."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Theory:
+    """One coefficient by thin-film theory, over a smooth gap's, and others over that.
+
+    Attributes
+    ----------
+    reynolds : thin-film theory over a smooth gap as thick as the mean one.
+    corrected, bar : with the slope's next order, and its error bar.
+    bound : how far at most from thin-film theory, by the dissipation of its flow.
+    perturbed : what Stokes flow adds to thin-film theory to second order in height, whatever the wavelengths.
+    """
+
+    reynolds: float
+    corrected: float
+    bar: float
+    bound: float
+    perturbed: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Compared:
+    """A gap, and its coefficients over those of Reynolds' theory on the same heights.
+
+    Attributes
+    ----------
+    name, group : for people.
+    slope, roughness, wavelength : g', Sq/h̄ and λ/h̄ with λ = 2π Sq/g'.
+    smallest : the least gap, over the mean one.
+    theory : by coefficient.
+    resolved : Stokes flow in OpenFOAM by coefficient; empty where that was not run.
+    """
+
+    name: str
+    group: str
+    slope: float
+    roughness: float
+    wavelength: float
+    smallest: float
+    theory: Mapping[str, Theory]
+    resolved: Mapping[str, Convergence]
+
+    @property
+    def measured(self) -> bool:
+        """Whether the surface was measured."""
+        return self.group == MILLED
+
+
+def values_of(factors: RoughGapFactors) -> dict[str, float]:
+    """Coefficients over those of a smooth gap, by the names of the ladder's quantities."""
+    one = factors.relative
+    a = one.pressure
+    return {"A11": float(a[0, 0]), "A22": float(a[1, 1]), "B1": float(one.shear[0]), "friction": float(one.friction)}
+
+
+def theory_of(walls: Walls, found: SlopeCorrected | None = None) -> dict[str, Theory]:
+    """All theories of a gap; of walls that both are rough, those of A alone."""
+    found = slope_corrected(walls) if found is None else found
+    thin, corrected, bar, bound = (
+        values_of(one) for one in (found.thin, found.corrected, found.uncertainty, found.bound)
+    )
+    wavy, flat = (values_of(nearly_smooth_flow(walls, stokes=stokes)) for stokes in (True, False))
+    return {
+        name: Theory(
+            reynolds=thin[name],
+            corrected=corrected[name] / thin[name],
+            bar=bar[name] / thin[name],
+            bound=bound[name] / thin[name],
+            perturbed=1 + wavy[name] - flat[name],
+        )
+        for name in NAMES
+        if math.isfinite(thin[name]) and thin[name] > 0
+    }
+
+
+def asked_of(scene: RoughGap, grids: Sequence[int]) -> list[Asked]:
+    """The runs that :func:`compare` looks for."""
+    return [Asked(scene=scene, model="stokes", resolution=grid) for grid in grids]
+
+
+def compare(name: str, group: str, scene: RoughGap, grids: Sequence[int], answers: Answers) -> Compared:
+    """A gap by theory on its own points, and by its meshes over Reynolds' theory on the nodes of each mesh."""
+    walls = scene.walls(max(scene.surface().shape))
+    return Compared(
+        name=name,
+        group=group,
+        slope=scene.rms_slope,
+        roughness=scene.rms_height / scene.mean_gap,
+        wavelength=1 / scene.gap_over_wavelength,
+        smallest=float(walls.gap.min()) / walls.mean_gap,
+        theory=theory_of(walls),
+        resolved=resolved(scene, grids, answers),
+    )
+
+
+def resolved(scene: RoughGap, grids: Sequence[int], answers: Answers) -> dict[str, Convergence]:
+    """Each coefficient over Reynolds' on the same nodes, extrapolated; empty with fewer than two meshes."""
+    found = [(one.resolution, answers[one.key]) for one in asked_of(scene, grids) if one.key in answers]
+    if len(found) < 2:
+        return {}
+    thin = [values_of(slope_corrected(scene.walls(grid)).thin) for grid, _ in found]
+    return {
+        name: converge(
+            [grid for grid, _ in found],
+            [answer.quantities[name].value / flat[name] for (_, answer), flat in zip(found, thin, strict=True)],
+            formal_order=ORDER,
+            noise=max(abs(answer.numerics.residual) for _, answer in found),
+        )
+        for name in NAMES
+        if all(name in answer.quantities for _, answer in found)
+    }
+
+
+def best(one: Compared, name: str) -> tuple[float, float]:
+    """Stokes over Reynolds and its error bar: resolved where that was run, else corrected."""
+    if name in one.resolved:
+        return one.resolved[name].value, one.resolved[name].uncertainty
+    return one.theory[name].corrected, one.theory[name].bar
+
+
+def plain(value: object) -> object:
+    """Entries that JSON can hold: lists for arrays, null for what is no number."""
+    if isinstance(value, Mapping):
+        return {str(name): plain(one) for name, one in value.items()}
+    if isinstance(value, np.ndarray | np.generic):
+        return plain(value.tolist())
+    if isinstance(value, list | tuple):
+        return [plain(one) for one in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value

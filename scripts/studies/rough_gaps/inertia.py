@@ -1,0 +1,236 @@
+"""What inertia holds back: Navier–Stokes over Stokes on the same mesh, over the Reynolds number."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from roughfilm.rom.pocket.gap import Array
+from roughfilm.rom.rough_gap.scene import RoughGap
+from roughfilm.rom.studies.convergence import converge
+from scripts.studies.rough_gaps.data import ORDER
+from scripts.studies.rough_gaps.runs import Answers, Asked
+from scripts.studies.rough_gaps.scenes import CREEPING, over_random, over_waves
+
+REYNOLDS = (3.0, 10.0, 30.0, 100.0, 300.0)
+WAVES = ((0.1, 5.0), (0.3, 20.0), (0.3, 5.0), (0.3, 2.5), (0.5, 5.0))
+"""Amplitude and length over the mean gap."""
+
+Random = Mapping[tuple[float, float], tuple[float, ...]]
+
+RANDOM: Random = {
+    (0.1, 2.5): (10.0, 30.0, 100.0),
+    (0.1, 5.0): (10.0, 30.0, 100.0),
+    (0.1, 10.0): (30.0, 100.0),
+    (0.2, 5.0): (3.0, 10.0, 30.0, 100.0),
+    (0.2, 10.0): (10.0, 30.0, 100.0),
+}
+"""Reynolds numbers of random surfaces by Sq and λ over the mean gap."""
+
+GRIDS, RANDOM_GRIDS = (48, 64), (32, 48, 64)
+"""Columns of the waves and of random surfaces."""
+
+LARGEST, FEWEST = 0.1, 4
+"""Part of the flow up to which what is held back is fitted, and how many flows that takes."""
+
+RIDGES, SURFACES = "waves", "random surfaces"
+
+NOISE = 1e-4
+"""Part of the flow that the solver's tolerance may hold back."""
+
+KNOWN = 0.4
+"""Error bar, over what is held back, up to which it is fitted."""
+
+LEVELS = (0.01, 0.05)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Held:
+    """One flow along x.
+
+    Attributes
+    ----------
+    reynolds_number : Re of a smooth gap under the same gradient.
+    flow_reynolds_number : Re* = ρq/η with the flow q of Stokes.
+    lost, bar : 1 - A₁₁(Navier–Stokes)/A₁₁(Stokes) on the same mesh, extrapolated from two or three, and its error bar.
+    meshes : the same on each mesh.
+    """
+
+    name: str
+    group: str
+    slope: float
+    roughness: float
+    wavelength: float
+    reynolds_number: float
+    flow_reynolds_number: float
+    lost: float
+    bar: float
+    meshes: tuple[float, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Law:
+    """What inertia holds back, 1 - NS/Stokes = c (Re* g')² / (1 + b Re* h̄/λ), fitted to gaps of one group.
+
+    A square at first, as nothing odd in Re can be, then near linear in Re.
+
+    Attributes
+    ----------
+    coefficient, saturation : c and b.
+    spread : the factor by which flows scatter about it, one standard deviation of its logarithm.
+    worst : that of the flow that is farthest from it.
+    count : flows that were fitted.
+    """
+
+    group: str
+    coefficient: float
+    saturation: float
+    spread: float
+    worst: float
+    count: int
+
+    def lost(self, one: Held) -> float:
+        """Part of the flow that is held back."""
+        square = (one.flow_reynolds_number * one.slope) ** 2
+        return self.coefficient * square / (1 + self.saturation * one.flow_reynolds_number / one.wavelength)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Inertia:
+    """All flows, and the law of each group of gaps."""
+
+    flows: tuple[Held, ...]
+    laws: tuple[Law, ...]
+
+    def earliest(self, part: float) -> float | None:
+        """The least Re* g' at which a gap loses so much; None where none does."""
+        return min((place for _, place in self.crossings(part).values()), default=None)
+
+    def crossings(self, part: float) -> dict[str, tuple[float, float]]:
+        """Re and Re* g′ at which so much is held back, by the name of the gap, between the flows; where that is."""
+        found = {}
+        for name in dict.fromkeys(one.name for one in self.flows):
+            own = [one for one in self.flows if one.name == name and one.lost > 0]
+            lost = [one.lost for one in own]
+            if not min(lost, default=1.0) <= part <= max(lost, default=0.0):
+                continue
+            place = float(np.exp(np.interp(np.log(part), np.log(lost), np.log([one.reynolds_number for one in own]))))
+            found[name] = (place, place * own[0].flow_reynolds_number / own[0].reynolds_number * own[0].slope)
+        return found
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Flow:
+    """A gap at one Reynolds number, and what to ask for it: Stokes and Navier–Stokes on each mesh."""
+
+    group: str
+    name: str
+    scene: RoughGap
+    asked: tuple[tuple[Asked, Asked], ...]
+
+
+def _flow(
+    group: str, name: str, make: Callable[[float], RoughGap], reynolds_number: float, grids: Sequence[int]
+) -> _Flow:
+    scene, creeping = make(reynolds_number), make(CREEPING)
+    return _Flow(
+        group=group,
+        name=name,
+        scene=scene,
+        asked=tuple(
+            (
+                Asked(scene=creeping, model="stokes", resolution=grid),
+                Asked(scene=scene, model="navier_stokes", resolution=grid),
+            )
+            for grid in grids
+        ),
+    )
+
+
+def _over(shape: tuple[float, float]) -> Callable[[float], RoughGap]:
+    return lambda reynolds_number: over_waves(*shape, reynolds_number)
+
+
+def _over_random(shape: tuple[float, float]) -> Callable[[float], RoughGap]:
+    return lambda reynolds_number: over_random(*shape, reynolds_number=reynolds_number)
+
+
+def _flows(shapes: Sequence[tuple[float, float]], reynolds: Sequence[float], random: Random) -> list[_Flow]:
+    """Of sinusoids, and of random surfaces."""
+    return [
+        *(
+            _flow(RIDGES, f"a = {shape[0]:g}, L = {shape[1]:g}", _over(shape), one, GRIDS)
+            for shape in shapes
+            for one in reynolds
+        ),
+        *(
+            _flow(SURFACES, f"random, Sq = {shape[0]:g}, λ = {shape[1]:g}", _over_random(shape), one, RANDOM_GRIDS)
+            for shape, own in random.items()
+            for one in own
+        ),
+    ]
+
+
+def asked(
+    shapes: Sequence[tuple[float, float]] = WAVES, reynolds: Sequence[float] = REYNOLDS, random: Random = RANDOM
+) -> list[Asked]:
+    """The runs of OpenFOAM that :func:`inertia` looks for."""
+    return [one for flow in _flows(shapes, reynolds, random) for pair in flow.asked for one in pair]
+
+
+def inertia(
+    answers: Answers,
+    shapes: Sequence[tuple[float, float]] = WAVES,
+    reynolds: Sequence[float] = REYNOLDS,
+    random: Random = RANDOM,
+) -> Inertia:
+    """All flows that were solved on every mesh, and fits over them."""
+    found = [
+        _held(flow, answers)
+        for flow in _flows(shapes, reynolds, random)
+        if all(one.key in answers for pair in flow.asked for one in pair)
+    ]
+    laws = (_fit(group, found) for group in (RIDGES, SURFACES))
+    return Inertia(flows=tuple(found), laws=tuple(law for law in laws if law))
+
+
+def _held(flow: _Flow, answers: Answers) -> Held:
+    passed = [[answers[one.key].quantities["A11"].value for one in pair] for pair in flow.asked]
+    lost = [1 - inert / creeping for creeping, inert in passed]
+    grids = [stokes.resolution for stokes, _ in flow.asked]
+    found = converge(grids, lost, formal_order=ORDER, noise=NOISE)
+    return Held(
+        name=flow.name,
+        group=flow.group,
+        slope=flow.scene.rms_slope,
+        roughness=flow.scene.rms_height / flow.scene.mean_gap,
+        wavelength=1 / flow.scene.gap_over_wavelength,
+        reynolds_number=flow.scene.reynolds_number,
+        flow_reynolds_number=flow.scene.reynolds_number * passed[-1][0],
+        lost=found.value,
+        bar=found.uncertainty,
+        meshes=tuple(lost),
+    )
+
+
+def _fit(group: str, found: Sequence[Held]) -> Law | None:
+    own = [one for one in found if one.group == group and 0 < one.lost < LARGEST and one.bar < KNOWN * one.lost]
+    if len(own) < FEWEST:
+        return None
+    reynolds = np.array([one.flow_reynolds_number for one in own])
+    squares = np.log((reynolds * np.array([one.slope for one in own])) ** 2)
+    ratios, lost = reynolds / np.array([one.wavelength for one in own]), np.log([one.lost for one in own])
+
+    def missed(law: Array) -> Array:
+        return np.asarray(law[0] + squares - np.log1p(law[1] * ratios) - lost)
+
+    best = least_squares(missed, [-7.0, 0.1], bounds=([-np.inf, 0.0], np.inf), xtol=1e-12, ftol=1e-12)
+    return Law(
+        group=group,
+        coefficient=float(np.exp(best.x[0])),
+        saturation=float(best.x[1]),
+        spread=float(np.exp(best.fun.std())),
+        worst=float(np.exp(np.abs(best.fun).max())),
+        count=len(own),
+    )

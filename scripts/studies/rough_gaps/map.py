@@ -1,0 +1,75 @@
+"""The cheapest rung that is good enough for a sinusoid of one slope and wavelength."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from scripts.studies.rough_gaps.data import theory_of
+from scripts.studies.rough_gaps.scenes import over_waves
+from scripts.studies.rough_gaps.waves import exact_ratios, thin_ratios
+
+RUNGS = ("smooth_gap", "homogenized", "slope_corrected", "stokes")
+"""From the cheapest; the last is always good enough, without inertia."""
+
+SLOPES = tuple(float(slope) for slope in np.geomspace(0.02, 1, 14))
+LENGTHS = tuple(float(length) for length in np.geomspace(2, 60, 12))
+"""g', and λ/h̄."""
+
+HIGHEST = 0.8
+"""Amplitude over the mean gap."""
+
+SURE = 1e-3
+"""Error bar of the slope correction below which it stands for the exact flow, too."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Errors:
+    """Of the cheaper rungs, in the flow across or along a wave, the worse; infinite where the exact is not known."""
+
+    slope: float
+    length: float
+    smooth_gap: float
+    homogenized: float
+    slope_corrected: float
+
+    def cheapest(self, level: float) -> str:
+        """The first rung whose error is within ``level``."""
+        for name in RUNGS[:-1]:
+            if getattr(self, name) <= level:
+                return name
+        return RUNGS[-1]
+
+
+def errors(folder: Path, slopes: Sequence[float] = SLOPES, lengths: Sequence[float] = LENGTHS) -> tuple[Errors, ...]:
+    """All that fit into the gap."""
+    return tuple(one for length in lengths for slope in slopes if (one := _errors(slope, length, folder)) is not None)
+
+
+def _errors(slope: float, length: float, folder: Path) -> Errors | None:
+    amplitude = float(slope * np.sqrt(2) * length / (2 * np.pi))
+    if amplitude > HIGHEST:
+        return None
+    scene = over_waves(amplitude, length)
+    theory, thin = theory_of(scene.walls(max(scene.surface().shape))), thin_ratios(amplitude)
+    names = ("A11", "A22")
+    sure = max(theory[name].bar for name in names) < SURE
+    exact = {name: theory[name].corrected for name in names} if sure else exact_ratios(amplitude, length, folder)
+    worst = [
+        max(abs(row[name] / exact[name] - 1) for name in names) if exact else np.inf
+        for row in (
+            {name: 1 / thin[name] for name in names},
+            dict.fromkeys(names, 1.0),
+            {name: theory[name].corrected for name in names},
+        )
+    ]
+    if sure:
+        worst[2] = max(theory[name].bar for name in names)
+    return Errors(slope=slope, length=length, smooth_gap=worst[0], homogenized=worst[1], slope_corrected=worst[2])
+
+
+def serves(found: Sequence[Errors], name: str, level: float) -> float:
+    """The largest slope up to which a rung is within ``level`` for waves of every length; 0 if for none."""
+    bad = min((one.slope for one in found if getattr(one, name) > level), default=np.inf)
+    return max((one.slope for one in found if one.slope < bad), default=0.0)

@@ -1,0 +1,234 @@
+"""For which real surfaces Reynolds' theory is near Stokes flow: by slope correction and bounds, at many mean gaps."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.inputs import Inputs
+from roughfilm.contact.mechanics.moments import wave_power
+from roughfilm.contact.surfaces.files import read_surface
+from roughfilm.contact.surfaces.periodicity import periodicity_mismatch
+from roughfilm.contact.surfaces.surface import Surface
+from roughfilm.contact.synthetic.description import make, read_description
+from roughfilm.rom.homogenization.richardson import off as grid_doubt
+from roughfilm.rom.parts.restriction import restricted
+from roughfilm.rom.pocket.gap import Array
+from roughfilm.rom.rough_gap.flow.corrected import SlopeCorrected, slope_corrected
+from roughfilm.rom.rough_gap.walls import Walls
+from scripts.studies.rough_gaps.runs import kept
+from scripts.studies.rough_gaps.scenes import peak_over_rms, window_of
+
+MADE = Path(__file__).parents[2] / "examples" / "surfaces"
+NOT_SURFACES = ("recipe",)
+"""Files there that describe none."""
+
+POINTS = 256
+"""Nodes along each side, and pixels that a window of a measured surface has at least, if there are a third more."""
+
+BELOW = 0.75
+"""Of the sides of a measurement: windows are looked for that are at most so large."""
+
+JUST_ABOVE = 1.05
+"""Of the highest point: the smallest mean gap."""
+
+THICKNESSES = (3.5, 5.0, 7.0, 10.0, 15.0, 20.0, 30.0)
+"""h̄/Sq; those at which the walls would touch are left out."""
+
+FEWEST = 8
+"""Nodes along a side of a grid that tells how far a finer one is off."""
+
+COARSER = (1, 2, 4, 8)
+AT = 2.0
+"""Mean gap over the highest point at which grids are compared."""
+
+LEVELS = (0.01, 0.05)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Off:
+    """What Reynolds' theory lets too much through at one mean gap, in the worse direction, over Stokes flow.
+
+    Attributes
+    ----------
+    thickness : h̄/Sq.
+    wavelength : λ/h̄.
+    error, bar : best estimate, by the slope correction.
+    bound : no more than this.
+    direction : 0 for flow along x, 1 along y.
+    """
+
+    thickness: float
+    wavelength: float
+    error: float
+    bar: float
+    bound: float
+    direction: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class Coarse:
+    """A surface on a coarser grid: pixel, m, rms slope, and the error at ``AT`` times the highest point."""
+
+    pixel: float
+    slope: float
+    error: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reach:
+    """One surface over its mean gaps; ``measured`` or made. ``shape`` is that of its nodes, ``spacing`` in m."""
+
+    name: str
+    measured: bool
+    shape: tuple[int, int]
+    spacing: tuple[float, float]
+    rms_height: float
+    slope: float
+    peak: float
+    mismatch: float
+    found: tuple[Off, ...]
+    coarser: tuple[Coarse, ...]
+
+    def within(self, level: float) -> float | None:
+        """h̄/Sq from which on Reynolds is surely within so much at every larger gap looked at; None if nowhere."""
+        good = None
+        for one in sorted(self.found, key=lambda off: -off.thickness):
+            if one.error + one.bar > level:
+                break
+            good = one.thickness
+        return good
+
+
+def made_surfaces(folder: Path = MADE, points: int = POINTS) -> dict[str, Surface]:
+    """The described surfaces of a folder, by name, restricted to ``points`` nodes a side."""
+    found = {}
+    for file in sorted(folder.glob("*.toml")):
+        if file.stem not in NOT_SURFACES:
+            found[file.stem.replace("_", " ")] = coarse(make(read_description(file)), points)
+    return found
+
+
+def measured_surfaces(folder: Path | None, points: int = POINTS) -> dict[str, Surface]:
+    """A window of every instrument file of a folder, about ``points`` pixels a side as measured, prepared."""
+    found: dict[str, Surface] = {}
+    for file in [] if folder is None else sorted(folder.iterdir()):
+        try:
+            whole = read_surface(file)
+        except InputError:
+            continue  # no instrument file
+        pixels = [min(points, int(BELOW * count)) for count in whole.shape]
+        size = [count * step for count, step in zip(pixels, whole.spacing, strict=True)]
+        found[file.name] = window_of(whole, size, [2 ** round(np.log2(count)) for count in pixels])
+    return found
+
+
+def coarse(surface: Surface, points: int) -> Surface:
+    """The same surface on at most so many nodes along the longer side, less the waves that these cannot hold."""
+    part = points / max(surface.shape)
+    if part >= 1:
+        return surface
+    shape = (round(surface.shape[0] * part), round(surface.shape[1] * part))
+    spacing = (surface.size[0] / shape[0], surface.size[1] / shape[1])
+    return Surface(heights=restricted(surface.heights, shape), spacing=spacing, periodic=True, source=surface.source)
+
+
+def reach(
+    surfaces: Mapping[str, Surface],
+    *,
+    measured: bool,
+    folder: Path,
+    thicknesses: Sequence[float] = THICKNESSES,
+    coarser: Sequence[int] = COARSER,
+    advance: Callable[[str], None] = lambda _words: None,
+) -> tuple[Reach, ...]:
+    """Each surface over its mean gaps and pixels; kept in the folder."""
+    found = []
+    for name, surface in surfaces.items():
+        advance(name)
+        settings = {"thicknesses": [*thicknesses], "coarser": [*coarser], "just_above": JUST_ABOVE}
+        digest = Inputs(heights=surface.heights, spacing=surface.spacing, settings=settings).digest
+
+        def make_it(name: str = name, surface: Surface = surface) -> dict[str, Any]:
+            return asdict(_reach(name, surface, measured, thicknesses, coarser))
+
+        entries = kept(folder / f"reach-{name.replace(' ', '_')}.json", {"digest": digest}, make_it)
+        found.append(_whole(entries))
+    return tuple(found)
+
+
+def _whole(entries: dict[str, Any]) -> Reach:
+    lists = {"found": tuple(Off(**one) for one in entries["found"])}
+    pixels = {"coarser": tuple(Coarse(**one) for one in entries["coarser"])}
+    pairs = {name: tuple(entries[name]) for name in ("shape", "spacing")}
+    return Reach(**{**entries, **lists, **pixels, **pairs})
+
+
+def _reach(name: str, surface: Surface, measured: bool, thicknesses: Sequence[float], coarser: Sequence[int]) -> Reach:
+    peak, rms = peak_over_rms(surface), float(surface.heights.std())
+    nearest = JUST_ABOVE * peak
+    mismatch = periodicity_mismatch(surface)
+    return Reach(
+        name=name,
+        measured=measured,
+        shape=surface.shape,
+        spacing=surface.spacing,
+        rms_height=rms,
+        slope=slope_of(surface),
+        peak=peak,
+        mismatch=mismatch,
+        found=tuple(off(surface, one) for one in (nearest, *(t for t in thicknesses if t > 1.02 * nearest))),
+        coarser=tuple(_coarse(surface, part, AT * peak * rms) for part in coarser),
+    )
+
+
+def _coarse(surface: Surface, part: int, mean_gap: float) -> Coarse:
+    less = coarse(surface, max(surface.shape) // part)
+    return Coarse(
+        pixel=float(np.sqrt(np.prod(less.spacing))),
+        slope=slope_of(less),
+        error=off(less, mean_gap / float(less.heights.std())).error,
+    )
+
+
+def slope_of(surface: Surface) -> float:
+    """g', by all waves that the grid holds."""
+    return wave_power(surface.heights, surface.spacing).moments.rms_slope
+
+
+def off(surface: Surface, thickness: float) -> Off:
+    """How far Reynolds' theory is off at a mean gap of so many rms heights, under a flat wall.
+
+    The error bar is of the ratio alone: what slope correction leaves out, and what the ratio changes by on every second
+    and every fourth node.
+    """
+    heights = surface.heights - surface.heights.mean()
+    rms = float(heights.std())
+    gap = thickness * rms
+    grids = [
+        _on_nodes(heights, gap, surface.spacing, every)
+        for every in (4, 2, 1)
+        if every == 1 or all(count % every == 0 and count >= FEWEST * every for count in surface.shape)
+    ]
+    doubts = grid_doubt([grid.excess for grid in grids])
+    found = grids[-1]
+    worse = int(np.argmax(found.excess))
+    error, bound = found.excess[worse], found.greatest_excess[worse]
+    left_out = found.left_out[worse]
+    return Off(
+        thickness=thickness,
+        wavelength=2 * np.pi * rms / slope_of(surface) / gap,
+        error=float(error),
+        bar=float(min(left_out * (1 + error), max(error, bound - error)) + doubts[worse]),
+        bound=float(bound),
+        direction=worse,
+    )
+
+
+def _on_nodes(heights: Array, gap: float, spacing: tuple[float, float], every: int) -> SlopeCorrected:
+    lower = heights[::every, ::every]
+    steps = (spacing[0] * every, spacing[1] * every)
+    return slope_corrected(Walls(lower=lower, upper=np.full(lower.shape, gap), spacing=steps))

@@ -1,0 +1,124 @@
+"""What the report on rough gaps asks of the ladder: each answer solved once, in parallel, and stored as it comes."""
+
+import hashlib
+import json
+import os
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor
+from contextlib import AbstractContextManager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from rich.markup import escape
+
+from roughfilm.batch.directory import alone
+from roughfilm.batch.execute import Solved, run
+from roughfilm.batch.executors import local
+from roughfilm.batch.jobs import Failure, Job, store, stored
+from roughfilm.contact.foundation.files import replacing
+from roughfilm.rom.ladder.model import find, of_kind
+from roughfilm.rom.ladder.provenance import code, versions
+from roughfilm.rom.ladder.result import Result
+from roughfilm.rom.ladder.scene import scene_entries
+from roughfilm.rom.ladder.setting import Setting
+from roughfilm.rom.rough_gap.scene import RoughGap
+from roughfilm.terminal.console import messages, models, progress_bar
+
+FOUND = "found"
+"""The folder beside the page where answers are kept."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Asked:
+    """A gap, a rung, and nodes along the longer side."""
+
+    scene: RoughGap
+    model: str
+    resolution: int
+
+    @property
+    def key(self) -> str:
+        """The same for the same question."""
+        digest = hashlib.sha256(json.dumps(scene_entries(self.scene), sort_keys=True).encode()).hexdigest()
+        return f"{digest[:16]}-{self.model}-{self.resolution}"
+
+
+Answers = Mapping[str, Result]
+"""Results without their fields by :attr:`Asked.key`; what failed is not there."""
+
+Place = Callable[[int, Path], AbstractContextManager[Executor]]
+
+
+def answers(asked: Sequence[Asked], folder: Path, place: Place = local) -> tuple[Answers, dict[str, str]]:
+    """What is stored, and what is not yet, solved; and of each failure why, likewise by key.
+
+    A rung that is not on this machine fails in all that is asked of it.
+    """
+    ladder = of_kind(models(), "rough_gap")
+    failed: dict[str, str] = {}
+    found: dict[str, Result] = {}
+    missing: dict[Path, tuple[str, Job]] = {}
+    for one in {each.key: each for each in asked}.values():
+        model = find(ladder, one.model)
+        available = model.available()
+        if not available.available:
+            failed[one.key] = available.detail
+            continue
+        setting = Setting(model=model, resolution=one.resolution)
+        job = Job(scene=one.scene, setting=setting, path=folder / f"{one.key}.h5")
+        answer = stored(job, with_fields=False)
+        if isinstance(answer, Result):
+            found[one.key] = answer
+        elif isinstance(answer, Failure):
+            failed[one.key] = answer.message
+        else:
+            missing[job.path] = (one.key, job)
+    if missing:
+        _solve(missing, folder, place, found, failed)
+    return found, failed
+
+
+def _solve(
+    missing: Mapping[Path, tuple[str, Job]],
+    folder: Path,
+    place: Place,
+    found: dict[str, Result],
+    failed: dict[str, str],
+) -> None:
+    costs = {path: job.setting.cost(job.scene) for path, (_, job) in missing.items()}
+    done = 0.0
+    processes = len(os.sched_getaffinity(0))
+    try:
+        with alone(folder) as scratch, progress_bar(sum(costs.values())) as bar:
+            bar(0.0, f"starting {len(missing)} runs")
+            with place(processes, scratch) as executor:
+                for number, (job, answer) in enumerate(run([job for _, job in missing.values()], executor), 1):
+                    key, _ = missing[job.path]
+                    store(job, answer.file if isinstance(answer, Solved) else answer)
+                    if isinstance(answer, Solved):
+                        found[key] = answer.result
+                    else:
+                        failed[key] = answer.message
+                        told = f"[yellow]left out:[/] {job.setting.name}: {escape(answer.message)}"
+                        messages.print(told, soft_wrap=True)
+                    done += costs[job.path]
+                    bar(done, f"{number} of {len(missing)} runs")
+    except (KeyboardInterrupt, SystemExit):
+        messages.print("stopped; the same command goes on", soft_wrap=True)
+        raise
+
+
+def kept(path: Path, inputs: Mapping[str, Any], make: Callable[[], Any]) -> Any:
+    """What ``make`` gives, entries that JSON can hold, read from the file if that was made from the same inputs."""
+    identity = json.loads(json.dumps({"inputs": inputs, "code": code(), "versions": versions()}))
+    try:
+        told = json.loads(path.read_text(encoding="utf-8"))
+        if told["identity"] == identity:
+            return told["found"]
+    except (OSError, ValueError, LookupError, TypeError):
+        pass  # is made again and replaced
+    found = make()
+    with replacing(path) as scratch:
+        scratch.write_text(json.dumps({"identity": identity, "found": found}) + "\n", encoding="utf-8")
+    return json.loads(path.read_text(encoding="utf-8"))["found"]

@@ -1,0 +1,112 @@
+"""All that the report on rough gaps shows, and the numbers that sum it up."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from scripts.studies.rough_gaps.data import Compared
+from scripts.studies.rough_gaps.inertia import Inertia
+from scripts.studies.rough_gaps.map import Errors
+from scripts.studies.rough_gaps.range_of_validity import Reach
+from scripts.studies.rough_gaps.waves import Wave, Waves
+
+STEEP = 0.35
+"""g' from which on no law in g'² is fitted."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Meeting:
+    """How a cheap answer meets a dear one, over some coefficients of some gaps.
+
+    Attributes
+    ----------
+    worst : the largest difference, over the dear one.
+    within : how many lie within both error bars, of ``count``.
+    """
+
+    worst: float
+    within: int
+    count: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class Study:
+    """All that is told.
+
+    Attributes
+    ----------
+    surfaces : random ones, and the milled window at several mean gaps if it is there.
+    reach : measured and made surfaces by theory alone.
+    runs, cpu_s : of OpenFOAM.
+    failed : why, of what failed.
+    """
+
+    waves: Waves
+    surfaces: tuple[Compared, ...]
+    inertia: Inertia
+    reach: tuple[Reach, ...]
+    map: tuple[Errors, ...]
+    runs: int
+    cpu_s: float
+    failed: Mapping[str, str]
+
+    @property
+    def random(self) -> list[Compared]:
+        """Made random surfaces."""
+        return [one for one in self.surfaces if not one.measured]
+
+    @property
+    def milled(self) -> list[Compared]:
+        """The measured window over its mean gaps."""
+        return [one for one in self.surfaces if one.measured]
+
+    def wave(self, amplitude: float, length: float) -> Wave | None:
+        """One of those that were resolved."""
+        found = [one for one in self.waves.resolved if (one.amplitude, one.length) == (amplitude, length)]
+        return found[0] if found else None
+
+    @property
+    def factors(self) -> list[float]:
+        """What Reynolds is off by over g'², for every surface that is not steep, at each of its mean gaps."""
+        return [off.error / one.slope**2 for one in self.reach if one.slope < STEEP for off in one.found]
+
+
+def mesh_meets_exact(waves: Sequence[Wave]) -> Meeting:
+    """OpenFOAM beside exact flow."""
+    pairs = [
+        (found.value, exact, found.uncertainty)
+        for wave in waves
+        for name, exact in wave.exact.items()
+        if (found := wave.found.resolved.get(name)) is not None
+    ]
+    return _meeting(pairs)
+
+
+def theory_meets_mesh(gaps: Sequence[Compared], names: Sequence[str] = ("A11", "A22")) -> Meeting:
+    """Slope correction beside OpenFOAM."""
+    pairs = [
+        (one.theory[name].corrected, found.value, one.theory[name].bar + found.uncertainty)
+        for one in gaps
+        for name in names
+        if (found := one.resolved.get(name)) is not None
+    ]
+    return _meeting(pairs)
+
+
+def bounds_hold(gaps: Sequence[Compared], names: Sequence[str] = ("A11", "A22")) -> Meeting:
+    """How many resolved factors lie between both bounds, but for their error bars; ``worst``: how far one is beyond."""
+    past, count, within = 0.0, 0, 0
+    for one in gaps:
+        for name in names:
+            if (found := one.resolved.get(name)) is None:
+                continue
+            outside = max(one.theory[name].bound - found.value, found.value - 1.0)
+            count, within, past = count + 1, within + (outside <= found.uncertainty), max(past, outside)
+    return Meeting(worst=past, within=within, count=count)
+
+
+def _meeting(pairs: Sequence[tuple[float, float, float]]) -> Meeting:
+    differences = [abs(one / other - 1) for one, other, _ in pairs]
+    within = sum(abs(one - other) <= bar for one, other, bar in pairs)
+    return Meeting(worst=float(np.max(differences, initial=0.0)), within=within, count=len(pairs))

@@ -1,0 +1,1 @@
+"""Down to which wavelength roughness may be averaged."""

@@ -1,1 +1,0 @@
-"""One file, one kind of scene as its pages show it; each ends with ``VIEW``."""

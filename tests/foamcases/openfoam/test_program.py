@@ -1,0 +1,118 @@
+"""Programs end with us, and each is charged with its own CPU time alone."""
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+
+from roughfilm.contact.foundation.child_processes import leash
+from roughfilm.contact.foundation.errors import ConvergenceError
+from roughfilm.foamcases.openfoam.program import execute, succeed
+
+SOLVE = """
+from roughfilm.foamcases.pocket.models.navier_stokes import MODEL
+from roughfilm.rom.ladder.scene import load_scene
+MODEL.solve(load_scene({scene!r}), resolution=600, processes={processes})
+"""
+
+
+def burn(seconds):
+    return [sys.executable, "-c", f"import time\nwhile time.process_time() < {seconds}: pass"]
+
+
+def test_runs_in_parallel_threads_are_charged_apart(tmp_path):
+    with ThreadPoolExecutor() as pool:
+        done = list(pool.map(lambda s: execute(tmp_path, burn(s), f"log.{s}").cpu_s, (0.2, 0.8)))
+    assert done == pytest.approx([0.2, 0.8], abs=0.15)
+
+
+def test_a_program_can_be_stopped_by_who_watches_it(tmp_path):
+    ended = execute(tmp_path, ["sleep", "60"], "log", lambda: True)
+    assert ended.code == -signal.SIGTERM
+
+
+def test_a_signal_that_comes_while_a_program_is_started_ends_it_too(tmp_path, monkeypatch):
+    start, started = subprocess.Popen, []
+
+    def interrupted(*arguments, **options):
+        started.append(start(*arguments, **options))
+        signal.raise_signal(signal.SIGINT)
+        return started[-1]
+
+    monkeypatch.setattr(subprocess, "Popen", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        execute(tmp_path, ["sleep", "60"], "log")
+    assert started[0].poll() is not None
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def test_a_program_that_stops_in_error_is_one_of_our_errors_with_its_last_words(tmp_path):
+    with pytest.raises(ConvergenceError, match="sh stopped with code 7") as caught:
+        succeed(tmp_path, ["sh", "-c", "echo last words; exit 7"], "log")
+    assert caught.value.__notes__ == ["last words"]
+
+
+def test_without_setpriv_programs_run_all_the_same(tmp_path, monkeypatch):
+    monkeypatch.setattr(shutil, "which", lambda _: None)
+    leash.cache_clear()
+    try:
+        assert leash() == ()
+        assert execute(tmp_path, ["true"], "log").code == 0
+    finally:
+        leash.cache_clear()
+
+
+def descendants(process_id: int) -> list[int]:
+    parents = {}
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            parents[int(stat.parent.name)] = int(stat.read_text().rpartition(")")[2].split()[1])
+        except OSError:
+            continue
+    found = [process_id]
+    for ancestor in found:
+        found += [child for child, parent in parents.items() if parent == ancestor]
+    return found[1:]
+
+
+def name_and_state(process_id: int) -> tuple[str, str]:
+    try:
+        name, _, rest = (Path("/proc") / str(process_id) / "stat").read_text().partition("(")[2].rpartition(")")
+    except OSError:
+        return "", "X"
+    return name, rest.split()[0]
+
+
+@pytest.mark.openfoam
+@pytest.mark.slow
+@pytest.mark.skipif(not leash(), reason="no setpriv (util-linux) on this machine")
+@pytest.mark.parametrize("processes", [1, 2])
+def test_a_killed_parent_leaves_no_solver(pocket_file, tmp_path, processes):
+    parent = subprocess.Popen(
+        [sys.executable, "-c", SOLVE.format(scene=str(pocket_file), processes=processes)],
+        env={**os.environ, "TMPDIR": str(tmp_path)},
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
+    deadline = time.monotonic() + 120
+    solvers = []
+    while len(solvers) < processes and time.monotonic() < deadline:
+        time.sleep(0.2)
+        solvers = [one for one in descendants(parent.pid) if name_and_state(one)[0] == "simpleFoam"]
+    children = descendants(parent.pid)
+    parent.kill()
+    parent.wait()
+    assert len(solvers) == processes
+    deadline = time.monotonic() + 30
+    while any(name_and_state(one)[1] not in "XZ" for one in children) and time.monotonic() < deadline:
+        time.sleep(0.2)
+    left = [one for one in children if name_and_state(one)[1] not in "XZ"]
+    for one in left:
+        os.kill(one, signal.SIGKILL)
+    assert left == []

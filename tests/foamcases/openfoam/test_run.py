@@ -1,0 +1,129 @@
+"""A run is believed only when it is whole: every way it can fail is one of our errors, with the log's end."""
+
+import numpy as np
+import pytest
+from foamlib import FoamCase, FoamFile
+
+from roughfilm.contact.foundation.errors import ConvergenceError, Outcome, UnavailableError
+from roughfilm.foamcases.openfoam import installation as openfoam
+from roughfilm.foamcases.openfoam import run
+from roughfilm.foamcases.openfoam.run import run_case
+from roughfilm.foamcases.pocket.case import write_case
+from roughfilm.foamcases.pocket.fields import read_channel
+from roughfilm.rom.ladder.model import Availability
+
+pytestmark = pytest.mark.openfoam
+
+
+@pytest.fixture
+def case(make_scene, tmp_path):
+    write_case(
+        make_scene(0.3, 0.25, 40), tmp_path, reynolds_number=40.0, resolution=30, tolerance=1e-5, scheme="linear_upwind"
+    )
+    return tmp_path
+
+
+def test_a_good_run(case):
+    seen = []
+    done = run_case(case, progress=lambda part, words: seen.append((part, words)))
+    assert 0 < done.residual <= 2e-5
+    assert [(one.recipe, one.outcome) for one in done.tries] == [("", Outcome.CONVERGED)]
+    assert done.tries[0].iterations > 20
+    assert "v" in done.version
+    assert done.warnings == ()
+
+
+def test_a_run_that_stops_at_its_last_iteration_is_no_success(case):
+    with FoamFile(case / "system" / "controlDict") as control:
+        control["endTime"] = 5
+    with pytest.raises(ConvergenceError, match="unfinished after 5 iterations") as caught:
+        run_case(case)
+    assert caught.value.outcome is Outcome.UNFINISHED
+    assert "End" in caught.value.__notes__[0]
+
+
+def test_a_broken_mesh_is_no_success(case):
+    points = FoamFile(case / "constant" / "polyMesh" / "points")
+    turned = np.array(points[None])
+    turned[:, 1] *= np.where(turned[:, 0] > 3, -1, 1)
+    points[None] = turned
+    with pytest.raises(ConvergenceError, match=r"mesh check|checkMesh stopped") as caught:
+        run_case(case)
+    assert caught.value.__notes__
+
+
+def test_a_broken_dictionary_is_no_success(case):
+    (case / "system" / "fvSolution").write_text("nonsense {")
+    with pytest.raises(ConvergenceError, match="stopped with code") as caught:
+        run_case(case)
+    assert "FATAL" in caught.value.__notes__[0]
+
+
+def test_fields_on_disk_that_do_not_satisfy_the_equations_are_no_success(case, monkeypatch):
+    succeed = run.succeed
+
+    def spoil_before_verifying(directory, command, log_name):
+        if log_name == "log.verify":
+            velocity = FoamCase(directory)[-1]["U"]
+            velocity.internal_field = np.array(velocity.internal_field) * 1.01
+        return succeed(directory, command, log_name)
+
+    monkeypatch.setattr(run, "succeed", spoil_before_verifying)
+    with pytest.raises(ConvergenceError, match="fields on disk leave a residual"):
+        run_case(case)
+
+
+def test_fields_that_are_not_finite_are_refused(case):
+    run_case(case)
+    pressure = FoamCase(case)[-1]["p"]
+    values = np.array(pressure.internal_field)
+    values[7] = np.nan
+    pressure.internal_field = values
+    with pytest.raises(ConvergenceError, match="not finite"):
+        read_channel(case)
+
+
+def test_a_case_that_was_not_run_is_refused(case):
+    with pytest.raises(ConvergenceError, match="run the case first"):
+        read_channel(case)
+
+
+def test_no_openfoam_is_said_in_one_line(case, monkeypatch):
+    monkeypatch.setattr(run, "availability", lambda: Availability(available=False, detail="no simpleFoam; install it"))
+    with pytest.raises(UnavailableError, match="no simpleFoam; install it"):
+        run_case(case)
+
+
+def test_no_mpirun_is_said_in_one_line(make_scene, tmp_path, monkeypatch):
+    write_case(
+        make_scene(0.3, 0.25, 40),
+        tmp_path,
+        reynolds_number=40.0,
+        resolution=30,
+        tolerance=None,
+        scheme="linear_upwind",
+        processes=2,
+    )
+    monkeypatch.setattr(run.shutil, "which", lambda _: None)
+    with pytest.raises(UnavailableError, match="no mpirun on the PATH; leave --processes out, or"):
+        run_case(tmp_path)
+
+
+def test_a_sourced_distribution_is_respected(monkeypatch):
+    monkeypatch.setenv("WM_PROJECT_DIR", "/opt/other")
+    openfoam.environment.cache_clear()
+    try:
+        assert openfoam.environment()["WM_PROJECT_DIR"] == "/opt/other"
+    finally:
+        openfoam.environment.cache_clear()
+
+
+def test_without_programs_the_remedy_is_named(monkeypatch):
+    monkeypatch.setenv("PATH", "")
+    openfoam.availability.cache_clear()
+    try:
+        found = openfoam.availability()
+        assert not found.available
+        assert "apt-get install openfoam" in found.detail
+    finally:
+        openfoam.availability.cache_clear()

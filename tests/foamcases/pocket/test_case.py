@@ -1,0 +1,97 @@
+"""A case holds numbers and names of ours: nothing that a scene spells gets into it."""
+
+import os
+import re
+import stat
+
+import pytest
+from foamlib import FoamFile
+
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.foamcases.pocket.case import Card, read_card, write_case
+from roughfilm.rom.ladder.scene import read_scene, scene_entries
+
+HOSTILE = [
+    '#calc "system(\\"touch /tmp/owned\\")"',
+    '#codeStream { code #{ system("touch /tmp/owned"); #}; }',
+    "$include; }",
+    '#includeEtc "controlDict"',
+    "a; nu 1e9;",
+]
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_a_hostile_name_never_reaches_the_case(make_scene, tmp_path, name):
+    scene = read_scene({**scene_entries(make_scene(0.3, 0.25, 160)), "name": name})
+    write_case(scene, tmp_path / "case", reynolds_number=160.0, resolution=20, tolerance=None, scheme="linear_upwind")
+    files = [path for path in (tmp_path / "case").rglob("*") if path.is_file()]
+    assert len(files) > 10
+    for path in files:
+        content = path.read_bytes()
+        assert name.encode() not in content, path
+        if path.parent.name != "polyMesh" and path.name not in {"Allrun", "README", "case.json"}:
+            assert not re.search(rb"[#$]", content), path
+
+
+@pytest.mark.parametrize("text", ["1 m/s; #calc", "#calc", "1 $pi", '1 "m/s"'])
+@pytest.mark.parametrize("place", [("motion", "speed"), ("geometry", "depth"), ("geometry", "profile")])
+def test_hostile_values_are_refused_before_a_case_is_made(make_scene, place, text):
+    entries = scene_entries(make_scene(0.3, 0.25, 160))
+    entries["motion"] = {"speed": "1 m/s"}
+    entries[place[0]][place[1]] = text
+    with pytest.raises(InputError, match=r"scene\.\w+\.\w+: got"):
+        read_scene(entries)
+
+
+def test_the_case_says_what_it_is(make_scene, tmp_path):
+    scene = make_scene(0.3, 0.25, 160)
+    write_case(scene, tmp_path, reynolds_number=160.0, resolution=60, tolerance=1e-6, scheme="linear_upwind")
+    card = read_card(tmp_path, Card)
+    assert (card.reynolds_number, card.resolution, card.tolerance) == (160.0, 60, 1e-6)
+    assert FoamFile(tmp_path / "constant" / "transportProperties")["nu"] == pytest.approx(1 / 160)
+    assert FoamFile(tmp_path / "system" / "controlDict")["writeFormat"] == "binary"
+    assert os.stat(tmp_path / "Allrun").st_mode & stat.S_IXUSR
+    factor = float(re.search(r"p \[Pa\]\s+= p \* (\S+)", (tmp_path / "README").read_text())[1])
+    assert factor == pytest.approx(1000 * scene.speed**2)
+
+
+@pytest.mark.parametrize(
+    ("resolution", "tolerance", "words"),
+    [(3, None, "--resolution: got 3"), (10**8, None, "--resolution: got"), (None, 0.5, "--tolerance: got 0.5")],
+)
+def test_options_out_of_range(make_scene, tmp_path, resolution, tolerance, words):
+    with pytest.raises(InputError, match=words):
+        write_case(
+            make_scene(0.3, 0.25, 1),
+            tmp_path / "c",
+            reynolds_number=1.0,
+            resolution=resolution,
+            tolerance=tolerance,
+            scheme="linear_upwind",
+        )
+    assert not (tmp_path / "c").exists()
+
+
+def test_a_case_is_never_written_over_another(make_scene, tmp_path):
+    scene = make_scene(0.3, 0.25, 1)
+    write_case(scene, tmp_path, reynolds_number=1.0, resolution=20, tolerance=None, scheme="linear_upwind")
+    with pytest.raises(InputError, match="is not an empty directory"):
+        write_case(scene, tmp_path, reynolds_number=1.0, resolution=20, tolerance=None, scheme="linear_upwind")
+
+
+def test_a_directory_without_a_card_is_refused(tmp_path):
+    with pytest.raises(InputError, match=r"case\.json"):
+        read_card(tmp_path, Card)
+
+
+def test_a_path_with_a_blank_is_refused_before_openfoam_stumbles_over_it(make_scene, tmp_path):
+    with pytest.raises(InputError, match="takes no blanks in a path"):
+        write_case(
+            make_scene(0.3, 0.25, 1),
+            tmp_path / "my case",
+            reynolds_number=1.0,
+            resolution=20,
+            tolerance=None,
+            scheme="linear_upwind",
+        )
+    assert not (tmp_path / "my case").exists()

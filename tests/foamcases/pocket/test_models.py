@@ -1,0 +1,137 @@
+"""OpenFOAM against an independent solver good to 1e-4, exact limits, symmetry and its own order."""
+
+import numpy as np
+import pytest
+
+from roughfilm import foamcases, rom
+from roughfilm.rom.ladder.model import find, ladder, of_kind
+
+pytestmark = pytest.mark.openfoam
+
+MODELS = of_kind(ladder(rom, foamcases), "pocket")
+STOKES, NAVIER_STOKES = find(MODELS, "stokes"), find(MODELS, "navier_stokes")
+PLUS = ("load_plus", "friction_plus", "pressure_max_plus", "pressure_min_plus")
+
+REFERENCE = [
+    (0.30, 0.25, 160, (3.303, 2.922, 18.33, -5.93)),
+    (0.30, 0.75, 160, (4.179, 2.903, 24.76, -7.41)),
+    (0.50, 0.25, 40, (1.629, 2.850, 11.77, -8.70)),
+]
+
+
+def plus(result):
+    return np.array([result.quantities[name].value for name in PLUS])
+
+
+@pytest.mark.parametrize(("width", "depth", "reynolds_number", "expected"), REFERENCE)
+def test_navier_stokes_is_within_one_percent(make_scene, width, depth, reynolds_number, expected):
+    got = plus(NAVIER_STOKES.solve(make_scene(width, depth, reynolds_number)))
+    assert got == pytest.approx(np.array(expected), rel=1e-2)
+
+
+def test_stokes_is_within_one_percent_antisymmetric_and_carries_no_load(make_scene):
+    result = STOKES.solve(make_scene(0.30, 0.25, 160))
+    load, friction, highest, lowest = plus(result)
+    assert np.array([friction, highest, lowest]) == pytest.approx(np.array([2.917, 6.98, -6.98]), rel=1e-2)
+    assert abs(load) < 1e-6 * highest
+    pressure = result.fields["pressure"].values
+    assert np.abs(pressure + pressure[::-1]).max() < 1e-6 * np.abs(pressure).max()
+
+
+def test_stokes_does_not_depend_on_the_parity_of_the_grid(make_scene):
+    scene = make_scene(0.30, 0.25, 160)
+    even, odd = (plus(STOKES.solve(scene, resolution=n)) for n in (80, 81))
+    assert even[1:] == pytest.approx(odd[1:], rel=5e-3)
+    assert abs(odd[0]) < 1e-6 * odd[2]
+
+
+def test_a_hardly_grooved_wall_is_smooth(make_scene):
+    load, friction, highest, _lowest = plus(NAVIER_STOKES.solve(make_scene(0.3, 1e-4, 160), resolution=60))
+    assert friction == pytest.approx(3.0, abs=1e-3)
+    assert max(abs(load), highest) < 0.02
+
+
+def test_stokes_becomes_reynolds_as_the_slope_vanishes(make_scene):
+    """A groove four times as wide cuts the slope effect on pressure; wide and shallow must agree to 1 %."""
+    reynolds = find(MODELS, "reynolds")
+    gaps = []
+    for width, depth in ((0.15, 0.5), (0.6, 0.5)):
+        scene = make_scene(width, depth, 1)
+        thin, thick = plus(reynolds.solve(scene)), plus(STOKES.solve(scene))
+        gaps.append(abs(thick[2] / thin[2] - 1))
+    assert gaps[1] < gaps[0] / 3
+    assert gaps[1] < 0.01
+
+
+def test_weighted_inertia_is_nearer_to_navier_stokes_at_small_reynolds_numbers_than_averaged_would_be(make_scene):
+    """At Re = 4 the exact first-order load is within the slope effect of Navier-Stokes; 10-15 % less would not be."""
+    scene = make_scene(0.5, 0.25, 4)
+    film = plus(find(MODELS, "inertial_reynolds").solve(scene))[0]
+    full = plus(NAVIER_STOKES.solve(scene))[0]
+    assert film == pytest.approx(full, rel=0.05)
+
+
+def test_load_and_friction_converge_at_second_order(make_scene):
+    """Load of a flow with inertia, friction of one without (with it, two errors nearly cancel in friction)."""
+    cases = [(NAVIER_STOKES, make_scene(0.5, 0.25, 40), 0), (STOKES, make_scene(0.3, 0.75, 1), 1)]
+    for model, scene, which in cases:
+        coarse, middle, fine = (plus(model.solve(scene, resolution=n))[which] for n in (48, 96, 192))
+        assert np.log2((middle - coarse) / (fine - middle)) == pytest.approx(2, abs=0.4)
+
+
+def test_back_flow_begins_with_depth(make_scene):
+    shallow = NAVIER_STOKES.solve(make_scene(0.3, 0.25, 160), resolution=120).quantities["backflow"].value
+    deep = NAVIER_STOKES.solve(make_scene(0.3, 0.75, 160), resolution=120).quantities["backflow"].value
+    assert shallow == 0
+    assert deep == pytest.approx(0.021, abs=0.002)
+
+
+def test_flow_rate_is_the_same_through_every_column(make_scene):
+    result = NAVIER_STOKES.solve(make_scene(0.3, 0.75, 160), resolution=120)
+    velocity, vertices = result.fields["cell_velocity"].values, result.fields["vertices"].values
+    layers = np.diff(vertices[:, :, 1], axis=1)
+    flow = (velocity[..., 0] * (layers[1:] + layers[:-1]) / 2).sum(axis=1)
+    assert np.ptp(flow) < 1e-2 * flow.mean()
+
+
+def test_walls_drag_each_other_equally(make_scene):
+    """Steady and periodic: what the sliding wall loses in friction, the grooved wall takes up as shear and pressure."""
+    result = NAVIER_STOKES.solve(make_scene(0.3, 0.75, 160))
+    vertices = result.fields["vertices"].values
+    pressure = result.fields["cell_pressure"].values
+    velocity = result.fields["cell_velocity"].values
+    viscosity, length = 0.01, 1e-3
+    lower, first = vertices[:, 0], vertices[:, 1]
+    run, rise = np.diff(lower, axis=0).T
+    thickness = (first - lower)[:, 1]
+    layer = (thickness[1:] + thickness[:-1]) / 2
+    tangent_run = run / np.hypot(run, rise)
+    normal_distance = layer * tangent_run / 2
+    along = velocity[:, 0, 0] * tangent_run + velocity[:, 0, 1] * rise / np.hypot(run, rise)
+    wall_pressure = 1.5 * pressure[:, 0] - 0.5 * pressure[:, 1]
+    drag = (viscosity * along / normal_distance * run).sum() + (wall_pressure * rise).sum()
+    assert drag / length == pytest.approx(result.quantities["friction_per_area"].value, rel=5e-3)
+
+
+def test_upwind_is_of_first_order_and_carries_too_much_load(make_scene):
+    """4.179 is the load of an independent solver; at 240 columns numerical diffusion adds 6 to 7 % to it."""
+    scene = make_scene(0.3, 0.75, 160)
+    runs = [NAVIER_STOKES.solve(scene, resolution=n, scheme="upwind") for n in (60, 120, 240)]
+    coarse, middle, fine = (plus(run)[0] for run in runs)
+    assert np.log2((coarse - middle) / (middle - fine)) == pytest.approx(1, abs=0.2)
+    assert 0.06 < fine / 4.179 - 1 < 0.07
+    assert [run.numerics.scheme for run in runs] == ["upwind"] * 3
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("model", [STOKES, NAVIER_STOKES])
+def test_several_processes_find_what_one_finds(make_scene, model):
+    scene = make_scene(0.3, 0.75, 160)
+    alone, together = (model.solve(scene, resolution=60, processes=n) for n in (1, 3))
+    assert plus(together) == pytest.approx(plus(alone), rel=1e-6, abs=1e-6)
+    shape = alone.fields["cell_velocity"].values.shape
+    assert together.fields["cell_velocity"].values.shape == shape
+    difference = together.fields["cell_velocity"].values - alone.fields["cell_velocity"].values
+    assert np.abs(difference).max() < 1e-6 * scene.speed
+    assert together.provenance["processes"] == 3
+    assert together.numerics.cpu_s > 0

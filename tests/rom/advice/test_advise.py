@@ -1,0 +1,379 @@
+"""Which rung is enough: the laws, the two estimates, and what is decided where they disagree."""
+
+from dataclasses import replace
+
+import pytest
+
+from roughfilm import foamcases, rom
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.advice.advise import Verdict, advise, wanted
+from roughfilm.rom.advice.estimates import near
+from roughfilm.rom.advice.laws import RESOLVING, Grid, Law, Step, Table, read_table, table
+from roughfilm.rom.ladder.kind import Omission, kinds
+from roughfilm.rom.ladder.model import Applicability, Availability, Effect, Model, best, ladder, of_kind
+from roughfilm.rom.ladder.result import Numerics, Result
+
+ALL = ladder(rom, foamcases)
+
+
+def law(error, **powers):
+    return Law(coefficient=error, powers=powers)
+
+
+class Fakes:
+    """Three rungs of a pocket whose loads and errors are given; what was run is kept."""
+
+    LOADS = {"reynolds": 1.20, "film": 1.04, "navier_stokes": 1.00}  # noqa: RUF012
+    COSTS = {"reynolds": 1e-4, "film": 1e-2, "navier_stokes": 3.0}  # noqa: RUF012
+
+    def __init__(self, told, loads=None, costs=None, available=True):
+        self.loads, self.costs = {**self.LOADS, **(loads or {})}, {**self.COSTS, **(costs or {})}
+        self.ran = []
+        keeps = {"reynolds": set(), "film": {Effect.INERTIA}, "navier_stokes": {Effect.INERTIA, Effect.SLOPE}}
+        self.models = [self.model(name, frozenset(keeps[name]), available) for name in keeps]
+        towards = {"reynolds": "film", "film": "navier_stokes"}
+        steps = [
+            Step(
+                kind="pocket",
+                model=name,
+                towards=above,
+                adds="something",
+                tells="",
+                left_out={"load_plus": law(told[name])} if told.get(name) is not None else {},
+            )
+            for name, above in towards.items()
+        ]
+        self.table = Table(steps=steps, grids=[], provenance={})
+
+    def model(self, name, keeps, available):
+        return Model(
+            name=name,
+            kind="pocket",
+            summary=name,
+            keeps=keeps,
+            sources=(),
+            resolution=8,
+            resolutions=(8,),
+            resolution_meaning="",
+            residual_meaning="",
+            order=None,
+            cost=lambda _scene, _resolution: self.costs[name],
+            applies=lambda _scene: Applicability(applies=True, reason=""),
+            solve=self.solve(name),
+            write=(lambda _scene, _directory, **_options: None) if name == "navier_stokes" else None,
+            available=lambda: Availability(available=available or name != "navier_stokes", detail="install it"),
+        )
+
+    def solve(self, name):
+        def solved(scene, **_options):
+            self.ran.append(name)
+            if self.loads[name] is None:
+                raise ConvergenceError("no")
+            load = Quantity(value=self.loads[name], unit="1")
+            numerics = Numerics(
+                residual=0.0,
+                iterations=1,
+                cpu_s=self.costs[name],
+                wall_s=0.0,
+                degrees_of_freedom=1,
+                resolution=8,
+                tolerance=0.0,
+                scheme="",
+            )
+            quantities = {"load_plus": load, "pressure_max_plus": load, "pressure_min_plus": load}
+            return Result(
+                model=name,
+                quantities=quantities,
+                fields={},
+                numerics=numerics,
+                provenance={"scene": {"kind": scene.kind}},
+            )
+
+        return solved
+
+    def advise(self, scene, within):
+        return advise(scene, self.models, quantity="load_plus", within=within, laws=self.table)
+
+
+@pytest.fixture
+def scene(make_scene):
+    return make_scene(0.3, 0.25, 20)
+
+
+def test_a_law_is_a_product_of_powers_and_says_where_it_was_not_fitted():
+    found = Law(coefficient=0.5, powers={"a": 2.0, "b": -1.0}, reach={"a": (0.1, 1.0), "b": (1.0, 10.0)})
+    assert found.error({"a": 0.2, "b": 4.0}) == pytest.approx(0.5 * 0.04 / 4)
+    assert found.beyond({"a": 0.01, "b": 4.0}) is None, "where effects vanish it may be left"
+    assert found.beyond({"a": 2.0, "b": 4.0}) == "a"
+    assert found.beyond({"a": 0.5, "b": 0.1}) == "b"
+    assert found.error({"a": 1.0, "b": 0.0}) == float("inf")
+
+
+def test_beyond_the_sweep_an_error_shrinks_with_the_number_that_it_follows_alone():
+    found = Law(coefficient=0.5, powers={"a": 2.0, "b": -1.0}, reach={"a": (0.1, 1.0), "b": (1.0, 10.0)})
+    least = found.error({"a": 0.1, "b": 10.0})
+    assert found.error({"a": 0.01, "b": 1000.0}) == least
+    assert found.error({"a": 0.01, "b": 10.0}, ("a",)) == pytest.approx(least / 100)
+    assert found.error({"a": 0.1, "b": 1000.0}, "b") == pytest.approx(least / 100)
+    assert found.beyond({"a": 0.5, "b": 1000.0}) == "b", "nothing was swept there, whatever its power"
+    assert found.beyond({"a": 0.5, "b": 1000.0}, "b") is None
+
+
+@pytest.mark.parametrize("number", [-1e-3, float("nan"), 1e200])
+def test_a_number_without_meaning_promises_nothing(number):
+    assert not Law(coefficient=0.5, powers={"a": 2.0, "b": -0.25}).error({"a": 1e200, "b": number}) < float("inf")
+    assert not Law(coefficient=0.5, powers={"a": 2.0}).error({"a": number}) < 1e3
+
+
+def test_both_estimates_agree_that_the_cheapest_will_do(scene):
+    fakes = Fakes({"reynolds": 0.02, "film": 0.01}, {"reynolds": 1.01, "film": 1.0})
+    found = fakes.advise(scene, 0.05)
+    assert (found.chosen.model, fakes.ran) == ("reynolds", ["reynolds", "film"])
+    assert found.chosen.a_priori.error == pytest.approx((0.02**2 + 0.01**2) ** 0.5)
+    assert found.chosen.a_posteriori.error == pytest.approx(0.01 + 0.01)
+    assert found.result.model == "reynolds"
+    assert found.spent_cpu_s == pytest.approx(1e-4 + 1e-2)
+
+
+def test_a_rung_that_is_hopeless_by_its_numbers_is_not_run(scene):
+    fakes = Fakes({"reynolds": 0.5, "film": 0.01})
+    found = fakes.advise(scene, 0.05)
+    assert found.chosen.model == "film"
+    assert "reynolds" not in fakes.ran
+    assert found.considered[0].verdict is Verdict.NOT_ENOUGH
+    assert "may change the load by up to 50 %; reynolds would miss it" in found.considered[0].reason
+
+
+def test_the_next_rung_contradicts_the_numbers_and_one_more_rung_decides(scene):
+    cheap = {"navier_stokes": 2e-4, "film": 1.5e-4}
+    wrong = Fakes({"reynolds": 0.01, "film": 0.01}, {"reynolds": 1.2, "film": 1.0, "navier_stokes": 1.0}, cheap)
+    found = wrong.advise(scene, 0.05)
+    assert found.chosen.model == "film", "the third rung says the same as the second: the first is 20 % off"
+    assert wrong.ran[:3] == ["reynolds", "film", "navier_stokes"]
+    odd = Fakes({"reynolds": 0.01, "film": 0.01}, {"reynolds": 1.0, "film": 1.2, "navier_stokes": 1.0}, cheap)
+    assert odd.advise(scene, 0.05).chosen.model == "reynolds", "the third rung says that the second is the odd one"
+
+
+def test_a_dear_best_rung_is_not_run_to_check_another(scene):
+    fakes = Fakes({"reynolds": 0.5, "film": 0.01})
+    found = fakes.advise(scene, 0.05)
+    assert (found.chosen.model, fakes.ran) == ("film", ["film"])
+    assert found.chosen.a_posteriori is None
+
+
+def test_beyond_the_tolerance_the_best_rung_is_left(scene):
+    fakes = Fakes({"reynolds": 0.5, "film": 0.2})
+    found = fakes.advise(scene, 0.01)
+    assert found.chosen.model == "navier_stokes"
+    assert found.result is None, "it is not run to advise it"
+    assert found.chosen.cpu_s == 3.0
+
+
+def test_it_says_when_no_rung_will_do_and_which_comes_nearest(scene):
+    fakes = Fakes({"reynolds": 0.5, "film": 0.2}, available=False)
+    found = fakes.advise(scene, 0.05)
+    assert found.chosen is None
+    assert found.nearest.model == "film"
+    assert found.considered[-1].verdict is Verdict.NOT_HERE
+
+
+def test_a_rung_without_a_law_is_not_trusted_unless_a_cheap_one_tells(scene):
+    unknown = Fakes({"reynolds": None, "film": 0.01}, {"reynolds": 1.01, "film": 1.0})
+    assert unknown.advise(scene, 0.05).chosen.model == "reynolds"
+    blind = Fakes({"reynolds": 0.5, "film": None})
+    assert blind.advise(scene, 0.05).chosen.model == "navier_stokes"
+
+
+def test_what_has_failed_is_not_run_again(scene):
+    cheap = {"navier_stokes": 2e-4, "film": 1.5e-4}
+    fakes = Fakes({"reynolds": 0.01, "film": 0.01}, {"navier_stokes": None}, cheap)
+    assert fakes.advise(scene, 0.05).chosen.model == "film"
+    assert fakes.ran.count("navier_stokes") == 1, "to settle a disagreement, and to check film"
+
+
+def test_a_rung_of_which_no_tolerance_is_left_is_not_called_not_needed(scene, monkeypatch):
+    told = Omission(part=0.3, reason="heat, which no rung keeps")
+    kind = replace(kinds()["pocket"], omitted=lambda _scene, _quantity: told)
+    monkeypatch.setattr("roughfilm.rom.advice.advise.kinds", lambda: {"pocket": kind})
+    found = Fakes({"reynolds": None, "film": 0.0}).advise(scene, 0.05)
+    assert {one.verdict for one in found.considered} == {Verdict.NOT_ENOUGH}
+
+
+def test_a_step_seen_from_another_rung_counts_the_steps_above_too(scene):
+    fakes = Fakes({"reynolds": 0.04, "film": 0.03}, costs={"film": 100.0, "navier_stokes": 200.0})
+    first, second = fakes.table.steps
+    seen = replace(first, seen_from="film", seen={"load_plus": law(0.01)})
+    fakes.table = replace(fakes.table, steps=[seen, second])
+    found = fakes.advise(scene, 0.1).considered[0]
+    assert found.a_posteriori.error == pytest.approx((0.01**2 + 0.03**2) ** 0.5)
+    assert "within 3.2 %; something may change the load by up to 3 %; film would miss it" in found.reason
+
+
+def test_a_law_without_powers_needs_no_numbers(scene, monkeypatch):
+    kind = replace(kinds()["pocket"], numbers=lambda _scene: {})
+    monkeypatch.setattr("roughfilm.rom.advice.advise.kinds", lambda: {"pocket": kind})
+    fakes = Fakes({"reynolds": 0.02, "film": 0.01}, {"reynolds": 1.0, "film": 1.0})
+    fakes.table = replace(fakes.table, steps=[replace(step, tells="slope") for step in fakes.table.steps])
+    assert fakes.advise(scene, 0.05).chosen.model == "reynolds"
+
+
+def test_a_grid_beyond_those_that_were_swept_is_not_trusted(scene):
+    fakes = Fakes({"reynolds": 0.5, "film": 0.5})
+    fakes.models = [replace(model, order=2) for model in fakes.models]
+    powers, reach = (
+        {"resolution": -2.0, "reynolds_number": 0.1},
+        {"resolution": (4.0, 16.0), "reynolds_number": (0.5, 9)},
+    )
+    laws = {"load_plus": Law(coefficient=1e-3, powers=powers, reach=reach)}
+    fakes.table = replace(fakes.table, grids=[Grid(kind="pocket", model="navier_stokes", laws=laws)])
+    found = fakes.advise(scene, 0.05)
+    assert found.chosen is None
+    assert "Re = 20 lies beyond the 0.5 to 9 that were swept" in found.considered[-1].reason
+
+
+@pytest.mark.parametrize(("part", "told"), [(0.05, "within 5 %"), (4.0, "off by more than 300 %")])
+def test_how_near_a_rung_is_in_words(part, told):
+    assert near(part) == told
+
+
+def test_a_grid_of_which_nothing_is_known_is_not_trusted(scene):
+    fakes = Fakes({"reynolds": 0.5, "film": 0.5})
+    fakes.models = [replace(model, order=2) for model in fakes.models]
+    found = fakes.advise(scene, 0.05)
+    assert found.chosen is None
+    assert found.nearest is None
+    assert "not known here" in found.considered[-1].reason
+
+
+def test_a_check_that_does_not_converge_decides_nothing(scene):
+    cheap = {"navier_stokes": 2e-4, "film": 1.5e-4}
+    fakes = Fakes({"reynolds": 0.02, "film": 0.01}, {"film": None}, cheap)
+    found = fakes.advise(scene, 0.05)
+    assert found.chosen.model == "reynolds", "by its numbers, as nothing can be run beside it"
+    assert found.result.model == "reynolds"
+
+
+def test_a_rung_that_was_tried_in_vain_is_not_advised(scene):
+    fakes = Fakes({"reynolds": 0.02, "film": 0.01}, {"reynolds": None})
+    found = fakes.advise(scene, 0.05)
+    assert found.chosen.model == "film"
+    assert (found.considered[0].verdict, found.considered[0].reason) == (Verdict.IN_VAIN, "no")
+    top = Fakes({"reynolds": 0.5, "film": 0.2}, {"navier_stokes": None})
+    top.models = [replace(one, write=None) for one in top.models]
+    found = top.advise(scene, 0.01)
+    assert found.considered[-1].verdict is Verdict.IN_VAIN
+    assert (found.chosen, found.nearest.model) == (None, "film")
+
+
+def test_a_law_that_is_left_does_not_count_as_an_estimate(scene):
+    fakes = Fakes({"reynolds": 0.5, "film": None})
+    narrow = Law(coefficient=1e-9, powers={"reynolds_number": 1.0}, reach={"reynolds_number": (1e-3, 1e-2)})
+    first, second = fakes.table.steps
+    fakes.table = replace(fakes.table, steps=[first, replace(second, left_out={"load_plus": narrow})])
+    assert fakes.advise(scene, 0.05).chosen.model == "navier_stokes"
+
+
+def test_what_every_rung_leaves_out_counts_too(scene, monkeypatch):
+    told = Omission(part=0.03, reason="heat, which no rung keeps")
+    kind = replace(kinds()["pocket"], omitted=lambda _scene, _quantity: told)
+    monkeypatch.setattr("roughfilm.rom.advice.advise.kinds", lambda: {"pocket": kind})
+    fakes = Fakes({"reynolds": 0.01, "film": 0.0}, {"reynolds": 1.0, "film": 1.0})
+    assert fakes.advise(scene, 0.05).chosen.model == "reynolds"
+    found = fakes.advise(scene, 0.02)
+    assert (found.chosen, found.omitted) == (None, told)
+    assert fakes.ran == ["reynolds", "film"], "nothing more is run where nothing is left of the tolerance"
+    assert fakes.advise(scene, 0.035).chosen.model == "film", "reynolds is within 1 %, of which a half is left"
+
+
+@pytest.mark.parametrize("within", [0.0, 1.0, -0.1, float("nan")])
+def test_a_tolerance_out_of_range_is_refused(scene, within):
+    with pytest.raises(InputError, match="--within"):
+        Fakes({}).advise(scene, within)
+
+
+def test_a_quantity_is_known_by_its_name_and_its_title(scene):
+    assert wanted(scene, None) == wanted(scene, "load") == wanted(scene, "load_plus") == "load_plus"
+    assert wanted(scene, "friction") == "friction_plus"
+    with pytest.raises(InputError, match="'load', 'friction'"):
+        wanted(scene, "lift")
+
+
+def test_the_table_names_rungs_quantities_and_numbers_that_exist():
+    found = table()
+    assert found.provenance["certainty"] == 0.95
+    for step in found.steps:
+        kind, models = kinds()[step.kind], {model.name for model in of_kind(ALL, step.kind)}
+        assert {step.model, step.towards, step.seen_from or step.model} <= models
+        assert step.tells in kind.symbols
+        assert set(step.left_out) == set(kind.compared)
+    for grid in found.grids:
+        assert grid.model in {model.name for model in of_kind(ALL, grid.kind)}
+    laws = [(one.kind, law) for one in found.steps for law in (*one.left_out.values(), *one.seen.values())]
+    laws += [(one.kind, law) for one in found.grids for law in one.laws.values()]
+    for kind, one in laws:
+        assert set(one.powers) <= {*kinds()[kind].symbols, *RESOLVING, "correction"}
+        assert one.coefficient > 0
+
+
+def test_every_rung_has_a_way_to_the_best_one():
+    for name in kinds():
+        models = of_kind(ALL, name)
+        for model in models:
+            for applying in ([one.name for one in models], [one.name for one in models if one.name != "mixed"]):
+                seen = [model.name]
+                while step := table().step(name, seen[-1], applying):
+                    assert step.towards not in seen, "in a circle"
+                    seen.append(step.towards)
+                top = best([one for one in models if one.name in applying or one is model])
+                assert seen[-1] in (top.name, "direct"), "waves are followed where walls do not touch, beside mixed"
+
+
+def test_a_table_is_read_from_its_text():
+    text = """
+    provenance = { certainty = 0.95 }
+    [[step]]
+    kind = "pocket"
+    model = "film"
+    towards = "navier_stokes"
+    adds = "slope"
+    tells = "slope"
+    left_out.load_plus = { coefficient = 0.1, powers = { slope = 1.5 }, reach = { slope = [0.1, 1.0] } }
+    [[grid]]
+    kind = "pocket"
+    model = "film"
+    laws.load_plus = { coefficient = 9.0, powers = { resolution = -2.0 }, reach = {} }
+    """
+    found = read_table(text)
+    assert found.step("pocket", "film", ["navier_stokes"]).left_out["load_plus"].error({"slope": 0.25}) == 0.1 * 0.125
+    assert found.step("pocket", "film", ["film"]) is None
+    assert found.grid("pocket", "film", "load_plus").error({"resolution": 30.0}) == pytest.approx(0.01)
+    assert found.grid("pocket", "film", "friction_plus") is None
+
+
+def test_steep_fast_grooves_need_more_than_shallow_slow_ones(make_scene):
+    models = of_kind(ALL, "pocket")
+    shallow = advise(make_scene(0.4, 0.25, 2), models, quantity="load_plus", within=0.1)
+    assert shallow.chosen.model in ("inertial_reynolds", "film", "film_slope")
+    assert {one.model: one for one in shallow.considered}["reynolds"].verdict is Verdict.NOT_ENOUGH
+    steep = advise(make_scene(0.15, 1.25, 160), models, quantity="load_plus", within=0.02)
+    assert steep.chosen is None or steep.chosen.cpu_s > shallow.chosen.cpu_s
+
+
+def test_inertia_that_no_rung_of_a_bearing_keeps_is_that_of_a_wide_wedge_to_first_order():
+    """Half the density, half the part: to first order; without a density nothing is said."""
+    entries = {
+        "name": "wedge",
+        "kind": "bearing",
+        "geometry": {"shape": "linear", "length": "20 mm", "film": "40 um", "rise": "40 um"},
+        "lubricant": {"viscosity": "0.01 Pa*s", "density": "800 kg/m^3"},
+        "motion": {"speed": "10 m/s"},
+    }
+    kind = kinds()["bearing"]
+    whole = kind.omitted(kind.read(entries), "load_per_width")
+    half = kind.read({**entries, "lubricant": {"viscosity": "0.01 Pa*s", "density": "400 kg/m^3"}})
+    assert whole.part == pytest.approx(2 * kind.omitted(half, "load_per_width").part, rel=1e-9)
+    assert whole.reason.startswith(
+        "Re·h/L = 0.064: inertia, which no rung of a bearing keeps, changes the load by about "
+    )
+    assert kind.omitted(kind.read({**entries, "lubricant": {"viscosity": "0.01 Pa*s"}}), "load_per_width") is None

@@ -1,0 +1,213 @@
+"""One table of a surface from thick films to crushed asperities: what asperities carry, and what flows between them."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.inputs import Inputs
+from roughfilm.contact.mechanics.exact.westergaard import Westergaard
+from roughfilm.contact.mechanics.press import Press
+from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
+from roughfilm.rom.bearing.mixed.patir_cheng_table import patir_cheng_table
+from roughfilm.rom.bearing.mixed.tabulate import tabulate_pressed
+from roughfilm.rom.homogenization.flow_factors import flow_factors
+from roughfilm.rom.homogenization.table_store import load_table, save_table
+
+MODULUS, HARDNESS = 200e9, 4e9
+RANDOM = np.random.default_rng(53)
+SIDE = 48
+SPACING = (2e-6, 1.5e-6)
+
+
+def rough() -> np.ndarray:
+    """Waves of eight nodes and more, Sq 0.5 µm, with ridges that lie rather along y."""
+    waves = np.fft.rfftfreq(SIDE) * SIDE
+    qx, qy = np.meshgrid(np.fft.fftfreq(SIDE) * SIDE, waves, indexing="ij")
+    size = np.where((np.hypot(qx, 2 * qy) <= 6) & (np.hypot(qx, qy) > 0), 1.0, 0.0)
+    heights = np.fft.irfft2(size * np.exp(2j * np.pi * RANDOM.random(qx.shape)), s=(SIDE, SIDE))
+    return 0.5e-6 * heights / heights.std()
+
+
+HEIGHTS = rough()
+
+
+def zoom(heights: np.ndarray, times: int) -> np.ndarray:
+    """The same waves on more nodes."""
+    waves = np.fft.fftshift(np.fft.fft2(heights))
+    more = SIDE * (times - 1) // 2
+    return np.fft.ifft2(np.fft.ifftshift(np.pad(waves, more))).real * times**2
+
+
+@pytest.fixture(scope="module")
+def table():
+    return tabulate_pressed(HEIGHTS, SPACING, MODULUS, hardness=HARDNESS, tolerance=0.02)
+
+
+@pytest.fixture(scope="module")
+def elastic():
+    return tabulate_pressed(HEIGHTS, SPACING, MODULUS, loads=[1e7, 1e8, 1e9], tolerance=0.05)
+
+
+def test_all_is_continuous_through_the_first_touch(table):
+    step = 1e-9 * table.touching
+    above, below = (table(np.array([table.touching + way * step])) for way in (1, -1))
+    for name in ("along", "across", "drag", "couette", "shear_couette"):
+        assert getattr(below, name) == pytest.approx(getattr(above, name), rel=1e-6)
+    assert table.contact_pressure(np.array([table.touching, 2 * table.touching])).tolist() == [0, 0]
+    assert 0 < table.contact_pressure(np.array([table.touching - step]))[0] < 1e-6 * table.largest_pressure
+    assert table.mean_gap(np.array([table.touching - step])) == pytest.approx(table.touching, rel=1e-6)
+
+
+def test_contact_pressure_rises_strictly_as_the_bodies_approach(table):
+    alpha = np.linspace(table.closest, table.touching, 4001)
+    assert (np.diff(table.contact_pressure(alpha)) < 0).all()
+    assert (np.diff(table.area_fraction(alpha)) < 0).all()
+    assert (np.diff(table.mean_gap(alpha)) > 0).all()
+    assert table.contact_pressure(alpha[:1]) == pytest.approx(table.largest_pressure, rel=1e-9)
+
+
+def test_flow_across_the_ridges_falls_with_load_until_it_is_sealed(table):
+    pressed = sorted((point for point in table.factors.points if point.load), key=lambda point: point.load)
+    across = np.array([point.factors.pressure[0, 0] for point in pressed])
+    assert (np.diff(across) <= 0).all()
+    assert across[-1] == 0
+    assert pressed[-1].factors.sealed[0]
+
+
+def test_between_its_loads_it_says_what_the_contact_and_its_cell_say(table):
+    press = Press(HEIGHTS, SPACING, MODULUS, hardness=HARDNESS)
+    peak = HEIGHTS.max() - HEIGHTS.mean()
+    for load in (3.3e6, 4.7e7, 6.1e8):
+        contact = press.at(load, tolerance=1e-10)
+        alpha = np.array([peak - contact.approach])
+        assert table.contact_pressure(alpha) == pytest.approx(load, rel=float(table.pressure_doubt(alpha)[0]))
+        assert table.separation_at(load) == pytest.approx(alpha[0], abs=0.04 * HEIGHTS.std())
+        assert table.mean_gap(alpha) == pytest.approx(contact.mean_gap, rel=0.01)
+        assert table.area_fraction(alpha) == pytest.approx(contact.area_fraction, rel=0.1, abs=2 / SIDE**2)
+        own, told = flow_factors(contact.gap, SPACING).factors, table(alpha)
+        size = own.mean_gap**3
+        assert told.along[0] / size == pytest.approx(own.pressure[0, 0] / size, abs=0.03)
+        assert told.across[0] / size == pytest.approx(own.pressure[1, 1] / size, rel=0.03)
+        assert told.cross[0] / size == pytest.approx(own.pressure[0, 1] / size, abs=0.03)
+        assert told.drag[0] == pytest.approx(own.shear[0], rel=0.03)
+
+
+def test_the_doubt_of_the_pressure_covers_what_a_finer_grid_says():
+    fine = zoom(HEIGHTS, 4)
+    press = Press(fine, (SPACING[0] / 4, SPACING[1] / 4), MODULUS, hardness=HARDNESS)
+    table = tabulate_pressed(HEIGHTS, SPACING, MODULUS, hardness=HARDNESS, loads=[2e7, 2e8, 1e9], tolerance=0.05)
+    for load in (2.7e7, 9e7, 5e8):
+        alpha = np.array([fine.max() - fine.mean() - press.at(load, tolerance=1e-6).approach])
+        off = abs(table.contact_pressure(alpha)[0] / load - 1)
+        assert off < table.pressure_doubt(alpha)[0] < 1
+
+
+def test_the_separation_at_a_pressure_is_the_inverse(table):
+    for load in np.geomspace(1e-3 * table.factors.points[0].load, table.largest_pressure, 9):
+        assert table.contact_pressure(np.array([table.separation_at(load)])) == pytest.approx(load, rel=1e-9)
+
+
+def test_the_mean_gap_is_the_separation_where_nothing_is_plastic(elastic):
+    alpha = np.linspace(elastic.closest, 2 * elastic.touching, 60)
+    assert elastic.mean_gap(alpha) == pytest.approx(alpha, rel=1e-6)
+
+
+def test_plastic_asperities_leave_a_mean_gap_above_the_separation(table):
+    alpha = np.array([table.closest])
+    sunk = Press(HEIGHTS, SPACING, MODULUS, hardness=HARDNESS).at(table.largest_pressure).plastic_displacement.mean()
+    assert table.mean_gap(alpha) - alpha == pytest.approx(sunk, rel=1e-3)
+
+
+def test_a_single_wave_carries_what_westergaard_says():
+    place = np.arange(64) / 64
+    heights = np.tile(1e-6 * np.cos(2 * np.pi * place)[:, None], (1, 8))
+    spacing = (100e-6 / 64, 100e-6 / 8)
+    table = tabulate_pressed(heights, spacing, MODULUS, loads=np.geomspace(0.02, 0.6, 5) * 2e9 * np.pi, tolerance=0.02)
+    pressure = 0.2 * 2e9 * np.pi
+    found = table.area_fraction(np.array([table.separation_at(pressure)]))
+    exact = Westergaard(amplitude=1e-6, wavelength=100e-6, composite_modulus=MODULUS, load=pressure).area_fraction
+    assert found == pytest.approx(exact, abs=2 / 64)
+
+
+@pytest.mark.parametrize("ask", ["__call__", "contact_pressure", "mean_gap", "area_fraction", "pressure_doubt"])
+def test_nothing_is_said_closer_than_the_greatest_load(elastic, ask):
+    with pytest.raises(InputError, match=r"closer than the table reaches, .* under 1e\+09 Pa"):
+        getattr(elastic, ask)(np.array([0.9 * elastic.closest]))
+
+
+def test_no_separation_is_told_for_pressures_that_it_does_not_know(elastic):
+    for pressure in (0.0, -1.0, 1.1e9, np.nan):
+        with pytest.raises(InputError, match="make one that reaches further"):
+            elastic.separation_at(pressure)
+
+
+def test_a_table_is_extended_and_nothing_known_is_solved_again(elastic):
+    solved = []
+    further = tabulate_pressed(
+        HEIGHTS,
+        SPACING,
+        MODULUS,
+        loads=[1e7, 1e8, 1e9],
+        reach=2e9,
+        tolerance=0.05,
+        known=elastic.factors.points,
+        keep=solved.append,
+    )
+    assert further.largest_pressure == 2e9
+    assert solved
+    assert all(1e9 < point.load <= 2e9 for point in solved)
+
+
+def test_two_threads_make_the_same_table(elastic):
+    both = tabulate_pressed(HEIGHTS, SPACING, MODULUS, loads=[1e7, 1e8, 1e9], tolerance=0.05, threads=2)
+    alpha = np.linspace(elastic.closest, 3 * elastic.touching, 50)
+    assert np.array_equal(both.contact_pressure(alpha), elastic.contact_pressure(alpha))
+    assert np.array_equal(both(alpha).across, elastic(alpha).across)
+
+
+def test_a_file_gives_it_back(elastic, tmp_path):
+    inputs = Inputs(heights=HEIGHTS, spacing=SPACING, settings={"rule": "linear"})
+    save_table(tmp_path / "T.h5", inputs, elastic.factors)
+    again = AsperityTable(factors=load_table(tmp_path / "T.h5"))
+    alpha = np.linspace(elastic.closest, 3 * elastic.touching, 50)
+    assert np.array_equal(again.contact_pressure(alpha), elastic.contact_pressure(alpha))
+    assert np.array_equal(again(alpha).along, elastic(alpha).along)
+    assert np.array_equal(again.pressure_doubt(alpha), elastic.pressure_doubt(alpha))
+
+
+def test_a_table_without_loads_cannot_say_what_asperities_carry(elastic):
+    points = [point for point in elastic.factors.points if not point.load]
+    with pytest.raises(InputError, match="has 0 points under load"):
+        AsperityTable(factors=dataclasses.replace(elastic.factors, points=points))
+
+
+@pytest.mark.parametrize(
+    ("how", "words"),
+    [
+        ({"loads": [1e6]}, "two or more"),
+        ({"loads": [1e6, -1e6]}, "two or more"),
+        ({"loads": [1e6, np.nan]}, "two or more"),
+        ({"loads": [1e6, 5e9], "hardness": HARDNESS}, "above the hardness of 4e\\+09 Pa"),
+        ({"reach": 5e9, "hardness": HARDNESS}, "above the hardness"),
+        ({"loads": [1e6, 1e13]}, "closes the gap everywhere"),
+    ],
+)
+def test_loads_out_of_range_are_refused(how, words):
+    with pytest.raises(InputError, match=words):
+        tabulate_pressed(HEIGHTS, SPACING, MODULUS, tolerance=0.5, **how)
+
+
+def test_patir_and_cheng_agree_on_ridges_along_the_sliding_and_know_no_oblique_flow(table):
+    ridges = np.tile(0.5e-6 * np.sin(2 * np.pi * np.arange(32) / 32), (8, 1))
+    straight = tabulate_pressed(ridges, SPACING, MODULUS, loads=[1e8, 1e9], tolerance=0.05)
+    same = patir_cheng_table(straight, Press(ridges, SPACING, MODULUS))
+    alpha = np.linspace(straight.closest, 3 * straight.touching, 40)
+    for name in ("along", "across", "drag"):
+        assert getattr(same(alpha), name) == pytest.approx(getattr(straight(alpha), name), rel=1e-6, abs=1e-30)
+    oblique = patir_cheng_table(table, Press(HEIGHTS, SPACING, MODULUS, hardness=HARDNESS))
+    open_film = np.array([2 * table.touching])
+    assert abs(table(open_film).cross[0]) > 0
+    assert oblique(open_film).cross[0] == 0
+    assert np.array_equal(oblique.contact_pressure(open_film / 3), table.contact_pressure(open_film / 3))

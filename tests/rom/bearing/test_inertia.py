@@ -1,0 +1,243 @@
+"""First-order inertia of a bearing's film: pockets judged elsewhere, ridges at any angle, symmetry of the two axes."""
+
+from dataclasses import replace
+from typing import Any, cast
+
+import numpy as np
+import pytest
+from places import SCENES
+
+from roughfilm import foamcases, rom
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.bearing.effects.ablation import Composed, Composition, at_film
+from roughfilm.rom.bearing.effects.inertia import inertia_added, judged, one_pocket, under_its_load
+from roughfilm.rom.bearing.effects.under_load import under_load
+from roughfilm.rom.bearing.inertia import Inertia, inertia
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.cavitation.discretise import Ends
+from roughfilm.rom.cavitation.problem import Problem
+from roughfilm.rom.cavitation.solve import Solution, solve
+from roughfilm.rom.ladder.model import find, ladder, of_kind
+from roughfilm.rom.ladder.scene import load_scene, read_scene
+from roughfilm.rom.pocket.closed_form import inertia_pressure
+from roughfilm.rom.pocket.gap import Array
+
+VISCOSITY, DENSITY, FILM, LENGTH, WIDTH = 0.01, 1000.0, 30e-6, 1e-3, 0.3e-3
+PAD = SCENES / "pad.toml"
+POCKET_MODELS = of_kind(ladder(rom, foamcases), "pocket")
+
+
+def bearing(speed: float, **tables: Any) -> Bearing:
+    """A parallel slider, one groove in its middle, of a liquid that bears any tension."""
+    groove = {"length": f"{WIDTH} m", "depth": f"{0.25 * FILM} m", "start": f"{(LENGTH - WIDTH) / 2} m"}
+    geometry = {"shape": "parallel", "length": f"{LENGTH} m", "film": f"{FILM} m", "texture": groove}
+    lubricant = {
+        "viscosity": f"{VISCOSITY} Pa*s",
+        "density": f"{DENSITY} kg/m^3",
+        "cavitation_pressure": "-1000 MPa",
+    }
+    found = read_scene(
+        {
+            "name": "slider",
+            "kind": "bearing",
+            "geometry": geometry | tables.get("geometry", {}),
+            "lubricant": lubricant | tables.get("lubricant", {}),
+            "motion": {"speed": f"{speed} m/s"},
+        }
+    )
+    assert isinstance(found, Bearing)
+    return found
+
+
+def judged_film(scene: Bearing, cells: int, **changes: Any) -> tuple[Solution, Inertia]:
+    """The film with something else in its problem, and what inertia adds to it."""
+    found = solve(replace(scene.problem(), **changes), (cells, cells), ruptures=False)
+    return found, inertia(scene, found)
+
+
+def speed_of(reynolds_number: float) -> float:
+    """The sliding speed, m/s."""
+    return reynolds_number * VISCOSITY / (DENSITY * FILM)
+
+
+def pocket(speed: float) -> Any:
+    """One period of the slider, repeated."""
+    return read_scene(
+        {
+            "name": "pocket",
+            "kind": "pocket",
+            "geometry": {
+                "length": f"{LENGTH} m",
+                "film": f"{FILM} m",
+                "profile": "cylindrical",
+                "width": f"{WIDTH} m",
+                "depth": f"{0.25 * FILM} m",
+            },
+            "lubricant": {"viscosity": f"{VISCOSITY} Pa*s", "density": f"{DENSITY} kg/m^3"},
+            "motion": {"speed": f"{speed} m/s"},
+        }
+    )
+
+
+def test_a_groove_carries_what_an_independent_solution_of_a_pocket_says() -> None:
+    """F+ = 0.890 at Re = 40 to first order, with which ends at ambient pressure agree: the flow is that of a period."""
+    speed = speed_of(40)
+    _, found = judged_film(bearing(speed), 2048)
+    plus = 100 * found.load / LENGTH * FILM**2 / (VISCOSITY * speed * LENGTH)
+    assert plus == pytest.approx(0.890, abs=1e-3)
+    assert found.friction == pytest.approx(0.0, abs=1e-9 * VISCOSITY * speed / FILM * LENGTH)
+    assert found.inlet_flow == pytest.approx(0.0, abs=1e-9 * speed * FILM)
+
+
+def test_it_is_of_second_order_in_the_cells() -> None:
+    loads = [judged_film(bearing(2.0), cells)[1].load for cells in (64, 128, 256)]
+    assert (loads[1] - loads[0]) / (loads[2] - loads[1]) == pytest.approx(4.0, abs=1.0)
+
+
+@pytest.mark.openfoam
+def test_slow_flow_over_a_groove_is_that_of_the_mesh() -> None:
+    """Navier–Stokes at Re = 5, less Stokes: 0.7 % below first order, as slope and the rest of inertia have it."""
+    speed = speed_of(5)
+    _, found = judged_film(bearing(speed), 1024)
+    loads = [
+        find(POCKET_MODELS, name).solve(pocket(speed), resolution=80).quantities["load_per_area"].value
+        for name in ("navier_stokes", "stokes")
+    ]
+    assert found.load / LENGTH == pytest.approx(loads[0] - loads[1], rel=0.01)
+
+
+@pytest.mark.parametrize("degrees", [0.0, 30.0, 60.0])
+def test_ridges_at_an_angle_are_those_of_a_line_at_the_speed_across_them(degrees: float) -> None:
+    """Sliding along ridges brings no momentum anywhere: p₁ is that of the speed u cos β, but for a constant."""
+    speed, wave, amplitude, cells = 2.0, 1e-3, 10e-6, 128
+    across, along = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    pad = bearing(speed, geometry={"length": "6 mm", "width": "6 mm", "texture": None})
+
+    def ridges(x: Array, y: Array) -> Array:
+        return np.asarray(FILM + amplitude * np.cos(2 * np.pi * (across * x + along * y) / wave))
+
+    found, added = judged_film(pad, cells, shape=replace(pad.problem().shape, thickness=ridges))
+    line = 1 + amplitude / FILM * np.cos(2 * np.pi * np.linspace(0, 1, 4000, endpoint=False))
+    flow = (line**-2).mean() / (2 * (line**-3).mean())
+    number = DENSITY * speed * across * FILM / VISCOSITY
+    truth = VISCOSITY * speed * across / FILM * number * inertia_pressure(found.faces.thickness / FILM, flow)
+    x, y = np.meshgrid(found.grid.x, found.grid.y, indexing="ij")
+    middle = (abs(x - 3e-3) < wave) & (abs(y - 3e-3) < wave)
+    got, told = added.pressure[middle], truth[middle]
+    got, told = got - got.mean(), told - told.mean()
+    assert (got * told).sum() / (told**2).sum() == pytest.approx(1.0, abs=0.03)
+    assert np.sqrt(((got - told) ** 2).mean()) < 0.06 * told.std()
+
+
+def test_pressed_flow_knows_no_axis_by_name() -> None:
+    """Without sliding, a film turned over its diagonal has its inertia turned over it."""
+    pad = bearing(0.0, geometry={"length": "2 mm", "width": "2 mm", "texture": None})
+    low = pad.lubricant.cavitation_pressure
+
+    def film(turned: bool) -> Problem:
+        def hill(x: Array, y: Array) -> Array:
+            x, y = (y, x) if turned else (x, y)
+            return np.asarray(FILM * (1 - 0.3 * np.sin(4e3 * x) * np.cos(2.5e3 * y + 1e3 * x)))
+
+        ends = (
+            Ends(inlet=8e4 - low, outlet=1e4 - low, sides=(3e4 - low, -low)),
+            Ends(inlet=3e4 - low, outlet=-low, sides=(8e4 - low, 1e4 - low)),
+        )
+        return replace(pad.problem(), shape=replace(pad.problem().shape, thickness=hill), ends=ends[turned])
+
+    one, other = (inertia(pad, solve(film(turned), (64, 64), ruptures=False)).pressure for turned in (False, True))
+    inner = (slice(8, -8), slice(8, -8))
+    assert np.abs(one).max() > 1.0
+    assert np.abs(one[inner] - other.T[inner]).max() < 0.02 * np.abs(one[inner]).max()
+
+
+def test_a_wedge_rubs_as_the_momentum_of_its_own_velocity_has_it() -> None:
+    """τ = ηU/h + h/2 ∂p/∂x + ρ ∫ Y (u ∂u/∂x + w ∂u/∂z) dz, the integral by brute force from u and its continuity."""
+    speed, length, low, rise = 4.0, 1e-3, 20e-6, 25e-6
+    wedge = {"shape": "linear", "length": f"{length} m", "film": f"{low} m", "rise": f"{rise} m", "texture": None}
+    found, added = judged_film(bearing(speed, geometry=wedge), 512)
+    flow = float((found.network.couette[0] - found.network.east[0] * np.diff(found.state.pressure, axis=0)[0])[0])
+
+    def velocity(x: float, z: Array) -> Array:
+        h = low + rise * (1 - x / length)
+        part = z / h
+        return speed * part + 6 * (flow / h - speed / 2) * part * (1 - part)
+
+    def momentum(x: float) -> float:
+        h, step = low + rise * (1 - x / length), 1e-6 * length
+        z = np.linspace(0, h, 2001)
+        u = velocity(x, z)
+        along = (velocity(x + step, z) - velocity(x - step, z)) / (2 * step)
+        above = -np.concatenate([[0.0], np.cumsum((along[1:] + along[:-1]) / 2) * (z[1] - z[0])])
+        return float(np.trapezoid(z / h * (u * along + above * np.gradient(u, z)), z))
+
+    places = (found.grid.x[1:] + found.grid.x[:-1]) / 2
+    felt = DENSITY * sum(momentum(float(x)) for x in places) * length / places.size
+    pressed = float((np.diff(added.pressure[:, 0]) * (low + rise * (1 - places / length)) / 2).sum())
+    assert abs(felt) > 1e-3 * abs(pressed)
+    assert added.friction == pytest.approx(felt + pressed, rel=1e-3)
+
+
+def test_a_pad_without_flow_through_its_sides_is_a_line_of_it() -> None:
+    line = judged_film(bearing(2.0), 64)[1]
+    pad = bearing(2.0, geometry={"width": "1 mm"})
+    found = judged_film(pad, 64, ends=replace(pad.problem().ends, sides=None))[1]
+    assert found.load / 1e-3 == pytest.approx(line.load, rel=1e-9)
+
+
+def test_sides_let_its_pressure_out() -> None:
+    line = judged_film(bearing(2.0), 64)[1]
+    found = judged_film(bearing(2.0, geometry={"width": "1 mm"}), 64)[1]
+    assert 0.2 * line.load < found.load / 1e-3 < 0.95 * line.load
+
+
+def test_it_grows_with_density_alone() -> None:
+    once = judged_film(bearing(2.0), 64)[1]
+    thrice = judged_film(bearing(2.0, lubricant={"density": "3000 kg/m^3"}), 64)[1]
+    assert thrice.load == pytest.approx(3 * once.load, rel=1e-12)
+
+
+def test_a_torn_film_has_none_where_it_is_torn() -> None:
+    torn = bearing(20.0, geometry={"width": "1 mm"}, lubricant={"cavitation_pressure": "-1 kPa"})
+    found = solve(torn.problem(), (64, 64))
+    added = inertia(torn, found)
+    assert (found.state.fill < 1).any()
+    assert (added.pressure[found.state.fill < 1] == 0).all()
+
+
+def test_its_error_covers_the_models_that_keep_all_of_inertia() -> None:
+    scene = bearing(speed_of(60))
+    told = inertia_added(Composition(scene=scene, ruptures=False), 512, POCKET_MODELS)
+    truth = find(POCKET_MODELS, "film_slope").solve(pocket(speed_of(60))).quantities["load_per_area"].value * LENGTH
+    assert told.pocket is not None
+    assert told.pocket.model == "film_slope"
+    assert told.untextured_load == pytest.approx(0.0, abs=1e-9 * told.amounts["load"].value)
+    assert abs(told.amounts["load"].value - truth) <= told.amounts["load"].uncertainty < 0.1 * truth
+
+
+def test_under_its_load_inertia_lifts_a_wedge_by_what_it_carries_less() -> None:
+    wedge = {"shape": "linear", "length": "10 mm", "film": "40 um", "rise": "40 um", "texture": None}
+    taken = Composition(scene=bearing(20.0, geometry=wedge))
+    whole: Composed = under_load(taken, 5e5, 512)
+    added, thicker = under_its_load(taken, whole, 5e5, 512, POCKET_MODELS)
+    film, gained = whole.values["film"], thicker.value
+    assert added.amounts["load"].value * gained > 0
+    geometry = taken.scene.geometry.at_film(film + gained)
+    lifted = Composition(scene=taken.scene.model_copy(update={"geometry": geometry}))
+    missing = 5e5 * 10e-3 - at_film(lifted, 512).values["load_per_width"]
+    assert missing == pytest.approx(added.amounts["load"].value, rel=1e-2)
+
+
+def test_what_cannot_be_judged_is_refused_and_said() -> None:
+    light = bearing(2.0)
+    light = light.model_copy(update={"lubricant": light.lubricant.model_copy(update={"density": None})})
+    assert judged(bearing(2.0)) is None
+    assert judged(bearing(0.0)) == "nothing slides"
+    with pytest.raises(InputError, match="density: is missing"):
+        judged_film(light, 16)
+
+
+@pytest.mark.parametrize("odd", ["geometry.texture.depth=1.5mm", "lubricant.density=1e20 kg/m^3"])
+def test_pockets_that_are_no_scene_of_their_own_are_not_judged(odd: str) -> None:
+    assert one_pocket(cast(Bearing, load_scene(PAD, [])), POCKET_MODELS) is not None
+    assert one_pocket(cast(Bearing, load_scene(PAD, [odd])), POCKET_MODELS) is None

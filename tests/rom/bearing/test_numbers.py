@@ -1,0 +1,127 @@
+"""Dimensionless numbers of bearings, against those that a page of paper gives."""
+
+import math
+from typing import Any
+
+import pytest
+
+from roughfilm.rom.bearing.kind import columns
+from roughfilm.rom.bearing.numbers import bearing_numbers
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.ladder.scene import read_scene
+
+PAD: dict[str, Any] = {
+    "name": "pad",
+    "kind": "bearing",
+    "geometry": {"shape": "linear", "length": "20 mm", "width": "30 mm", "film": "5 um", "rise": "10 um"},
+    "lubricant": {"viscosity": "0.01 Pa*s", "cavitation_pressure": "-0.1 MPa"},
+    "motion": {"speed": "-2 m/s"},
+}
+POCKETS = {
+    "length": "1 mm",
+    "width": "2 mm",
+    "depth": "4 um",
+    "start": "2 mm",
+    "pitch": "4 mm",
+    "columns": 3,
+    "pitch_across": "5 mm",
+    "rows": 2,
+}
+RIDGES = {"kind": "sinusoid", "amplitude": "2 um", "wavelength": "0.5 mm"}
+MADE = 6 * 0.01 * 2 * 20e-3 / 5e-6**2
+
+
+def scene(**tables: Any) -> Bearing:
+    """The pad, with more in its tables."""
+    entries = {name: dict(table) if isinstance(table, dict) else table for name, table in PAD.items()}
+    for name, table in tables.items():
+        entries[name] = {**entries.get(name, {}), **table}
+    found = read_scene(entries)
+    assert isinstance(found, Bearing)
+    return found
+
+
+def test_a_smooth_pad_has_the_numbers_of_its_film_and_no_others() -> None:
+    assert bearing_numbers(scene()) == pytest.approx(
+        {
+            "convergence": 2.0,
+            "thickness_ratio": 3.0,
+            "divergence": 2.0,
+            "finest": 1.0,
+            "slenderness": 1.5,
+            "starvation": 1.0,
+            "cavitation_number": 1e5 / MADE,
+            "compression": 0.0,
+            "piezoviscous": 0.0,
+            "pressure_dependence": 0.0,
+        }
+    )
+
+
+def test_a_wedge_that_slides_towards_its_thin_end_widens_nowhere() -> None:
+    assert bearing_numbers(scene(motion={"speed": "2 m/s"}))["divergence"] == pytest.approx(0.0)
+
+
+def test_each_table_adds_its_own_numbers() -> None:
+    law = {"law": "barus", "pressure_coefficient": "20 GPa^-1"}
+    stiff = {"law": "constant_bulk_modulus", "bulk_modulus": "1e6 GPa"}
+    numbers = bearing_numbers(
+        scene(
+            geometry={"texture": POCKETS},
+            lubricant={"density": "900 kg/m^3", "piezoviscosity": law, "compressibility": stiff},
+            boundary={"inlet": {"theta": 0.7}},
+            roughness=RIDGES,
+        )
+    )
+    expected = {
+        "convergence": 2.0,
+        "finest": 0.05,
+        "starvation": 0.7,
+        "compression": MADE / 1e15,
+        "piezoviscous": 20e-9 * MADE,
+        "roughness_ratio": 2 / math.sqrt(2) / 5,
+        "peak_ratio": 0.4,
+        "roughness_period": 0.025,
+        "texture_density": 6 * 1 * 2 / (20 * 30),
+        "pocket_depth_ratio": 0.8,
+        "pocket_length_ratio": 0.05,
+        "reynolds_number": 900 * 2 * 5e-6 / 0.01,
+        "reduced_reynolds_number": 900 * 2 * 5e-6 / 0.01 * 5e-6 / 1e-3,
+    }
+    assert {name: numbers[name] for name in expected} == pytest.approx(expected, rel=1e-6)
+
+
+@pytest.mark.parametrize(("pressure", "number"), [("-1 bar", math.inf), ("0 Pa", 0.0)])
+def test_at_rest_sliding_makes_no_pressure(pressure: str, number: float) -> None:
+    at_rest = scene(motion={"speed": "0 m/s"}, lubricant={"cavitation_pressure": pressure})
+    assert bearing_numbers(at_rest)["cavitation_number"] == number
+
+
+def test_a_ring_counts_along_its_mean_radius_and_joined_pads_have_no_inlet() -> None:
+    washer = {
+        "shape": "washer",
+        "inner_radius": "30 mm",
+        "outer_radius": "50 mm",
+        "pockets": 12,
+        "film": "10 um",
+        "pocket": {"depth": "0.1 mm", "share": 0.25, "extent": "20 mm"},
+    }
+    entries = {**PAD, "geometry": washer, "boundary": {"sides": {"low": "0.2 MPa"}}}
+    entries["lubricant"] = {"viscosity": "0.01 Pa*s", "density": "1000 kg/m^3"}
+    found = read_scene(entries)
+    assert isinstance(found, Bearing)
+    numbers = bearing_numbers(found)
+    pocket = 0.25 * 2 * math.pi / 12 * 40e-3
+    assert numbers["convergence"] == pytest.approx(0.0)
+    assert numbers["texture_density"] == pytest.approx(0.25)
+    assert numbers["reduced_reynolds_number"] == pytest.approx(1000 * 2 * 10e-6 / 0.01 * 10e-6 / pocket)
+    assert "starvation" not in numbers
+
+
+def test_the_table_of_many_cases_tells_the_same_numbers() -> None:
+    rough = scene(roughness=RIDGES)
+    numbers, told = bearing_numbers(rough), columns(rough)
+    assert not isinstance(told["width_ratio"], str)
+    assert not isinstance(told["roughness_ratio"], str)
+    assert told["width_ratio"].value == pytest.approx(numbers["slenderness"])
+    assert told["roughness_ratio"].value == pytest.approx(numbers["roughness_ratio"])

@@ -1,0 +1,185 @@
+"""Scenes of bearings: what is in them, what is refused, and in which words."""
+
+import numpy as np
+import pytest
+from places import SCENES
+
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.ladder.scene import load_entries, load_scene, read_scene, scene_entries
+
+SLIDER = SCENES / "parabolic_slider.toml"
+
+
+def film_of(scene, x, y=0.0):
+    places = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
+    return scene.geometry.film_shape().thickness(*places)
+
+
+def changed(**geometry):
+    entries = load_entries(SLIDER)
+    entries["geometry"] = {"length": "10 mm", "film": "10 um", **geometry}
+    return read_scene(entries)
+
+
+@pytest.mark.parametrize("name", ["parabolic_slider", "journal", "textured_slider"])
+def test_a_scene_is_read_back_from_its_entries(name):
+    scene = load_scene(SCENES / f"{name}.toml")
+    assert isinstance(scene, Bearing)
+    assert read_scene(scene_entries(scene)) == scene
+
+
+@pytest.mark.parametrize(
+    ("geometry", "places", "expected"),
+    [
+        ({"shape": "parallel"}, [0, 5, 10], [10, 10, 10]),
+        ({"shape": "linear", "rise": "4 um"}, [0, 5, 10], [14, 12, 10]),
+        ({"shape": "step", "rise": "4 um", "step": "7 mm"}, [0, 6.99, 7.01, 10], [14, 14, 10, 10]),
+        ({"shape": "parabolic", "rise": "4 um"}, [0, 2.5, 5, 10], [14, 11, 10, 14]),
+        ({"shape": "parabolic", "rise": "4 um", "count": 2}, [0, 2.5, 5, 7.5, 10], [14, 10, 14, 10, 14]),
+        (
+            {"shape": "sinusoidal_inlet", "amplitude": "4 um", "wavelength": "1 mm"},
+            [0, 0.25, 0.75, 4.25, 5.25, 10],
+            [10, 14, 6, 14, 10, 10],
+        ),
+        (
+            {"shape": "squared_cosine_inlet", "amplitude": "4 um", "wavelength": "1 mm", "extent": "3 mm"},
+            [0, 0.25, 0.5, 2, 3.01],
+            [14, 12, 10, 14, 10],
+        ),
+    ],
+)
+def test_shapes(geometry, places, expected):
+    assert film_of(changed(**geometry), np.array(places) * 1e-3) == pytest.approx(np.array(expected) * 1e-6)
+
+
+def test_a_journal_is_widest_where_it_begins():
+    scene = load_scene(SCENES / "journal.toml")
+    assert film_of(scene, [0, np.pi * 25e-3 / 2, np.pi * 25e-3]) == pytest.approx([35e-6, 25e-6, 15e-6])
+    assert scene.geometry.length == pytest.approx(np.pi * 50e-3)
+
+
+def test_a_sector_falls_along_the_angle():
+    numbers = {"inner_radius": "40 mm", "outer_radius": "80 mm", "angle": "40 deg", "rise": "20 um", "taper": 0.75}
+    entries = load_entries(SLIDER)
+    entries["geometry"] = {"shape": "sector", "film": "10 um", **numbers}
+    scene = read_scene(entries)
+    angles = np.radians([0, 15, 30, 40])
+    assert film_of(scene, angles, 0.05) == pytest.approx([30e-6, 20e-6, 10e-6, 10e-6])
+    assert scene.problem().speed == pytest.approx(4.57 / 0.06)
+
+
+def test_pockets_lie_where_they_are_put():
+    pockets = {"profile": "ellipsoidal", "length": "1 mm", "width": "2 mm", "depth": "5 um", "start": "2 mm"}
+    texture = pockets | {"pitch": "2 mm", "columns": 3, "pitch_across": "3 mm", "rows": 2}
+    scene = changed(shape="parallel", width="8 mm", texture=texture)
+    # rows are centred: middles at y = 2.5 and 5.5 mm; columns at x = 2.5, 4.5 and 6.5 mm
+    found = film_of(scene, np.array([2.5, 2.5, 2.5, 4.5, 6.5, 6.75, 8.5, 3.5]) * 1e-3, np.array([2.5, 4, 5.5, 5.5, 5.5, 5.5, 5.5, 5.5]) * 1e-3)  # fmt: skip  # noqa: E501
+    assert found == pytest.approx(np.array([15, 10, 15, 15, 15, 13.75, 10, 10]) * 1e-6)
+    assert scene.geometry.film_shape().breaks == pytest.approx(np.array([0, 2, 3, 4, 5, 6, 7, 10]) * 1e-3)
+
+
+@pytest.mark.parametrize(
+    ("override", "words"),
+    [
+        ("geometry.shape=oval", "scene.geometry.shape: got 'oval'; it must be 'parallel'"),
+        ("geometry.rises=3 um", "scene.geometry.rises: unknown key; did you mean 'rise'"),
+        ("geometry.film=1 m", "scene.geometry.film: got 1.0 m, thicker than the bearing is long"),
+        ("geometry.count=0", "scene.geometry.count: got 0; input should be greater than or equal to 1"),
+        ("lubricant.viscosity=0", "scene.lubricant.viscosity: got 0, a number without a unit"),
+        ("lubricant.compressibility.law=stiff", "law: got 'stiff'; it must be one of 'incompressible'"),
+        ("lubricant.compressibility.law=dowson", "must be one of"),
+        (
+            "lubricant.compressibility.c1=1 GPa",
+            "scene.lubricant.compressibility.c1: unknown key; known here: law",
+        ),
+        ("lubricant.compressibility.bulk_modulus=-1 GPa", "must be above zero"),
+        ("boundary.inlet.theta=-1", "must be above zero"),
+        ("boundary.inlet.thetta=1", "scene.boundary.inlet.thetta: unknown key; did you mean 'theta'"),
+        (
+            "boundary.inlet.pressure=-1 MPa",
+            "scene.boundary.inlet.pressure: got -1000000.0 Pa, below",
+        ),
+        ("boundary.outlet.pressure=-1 MPa", "scene.boundary.outlet.pressure: got -1000000.0 Pa, below"),
+        ("lubricant.cavitation_pressure=1 MPa", "below the pressure of cavitation"),
+        ("motion.speed=nan m/s", "write a number and a unit"),
+        ("geometry.shape=[1]", "scene.geometry.shape: got [1]; it must be"),
+        ("geometry.shape={}", "scene.geometry.shape: got {}; it must be"),
+        ("geometry.rise=1 m", "scene.geometry.rise: got 1.0 m, higher than the bearing is long"),
+        ("geometry.width=1 nm", "scene.geometry.width: got 1e-09 m, less than the film is thick"),
+        ('boundary.sides={"low": "1 bar"}', "boundary.sides: got pressures for an infinitely wide bearing"),
+        ('geometry.texture={"length": "1 mm", "depth": "1 um", "columns": 3}', "geometry.texture.pitch: is missing"),
+        (
+            'geometry.texture={"length": "1 mm", "depth": "1 um", "start": "76 mm"}',
+            "geometry.texture: reaches from",
+        ),
+    ],
+)
+def test_faults_are_told_in_one_line(override, words):
+    with pytest.raises(InputError) as caught:
+        load_scene(SLIDER, [override])
+    assert words in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_an_incompressible_lubricant_cannot_be_pressurised_by_its_density():
+    with pytest.raises(InputError, match=r"boundary\.inlet\.theta: got 1\.1 for an incompressible"):
+        load_scene(SLIDER, ["lubricant.compressibility.law=incompressible", "boundary.inlet.theta=1.1"])
+
+
+def test_a_law_takes_the_numbers_of_another_away():
+    scene = load_scene(SLIDER, ["lubricant.compressibility.law=dowson_higginson", "lubricant.compressibility.c2=1.66"])
+    assert scene.lubricant.compressibility.c2 == 1.66
+    other = load_scene(SLIDER, ["boundary.inlet.pressure=2 bar"])
+    assert other.ends.inlet == pytest.approx(2e5)
+
+
+def test_density_and_pressure_at_the_inlet_are_the_same_thing():
+    scene = load_scene(SLIDER, ["boundary.inlet.theta=1.001"])
+    assert scene.ends.inlet == pytest.approx(0.069e9 * np.log(1.001))
+    starved = load_scene(SLIDER, ["boundary.inlet.theta=0.55"])
+    assert (starved.ends.inlet, starved.ends.theta) == (None, 0.55)
+
+
+def test_pressures_count_from_ambient():
+    scene = load_scene(SLIDER, ["lubricant.cavitation_pressure=-0.5 bar", "boundary.inlet.pressure=1 bar"])
+    assert (scene.ends.inlet, scene.ends.outlet) == (pytest.approx(1.5e5), pytest.approx(0.5e5))
+
+
+def sector(**more):
+    entries = load_entries(SLIDER)
+    numbers = {"inner_radius": "40 mm", "outer_radius": "80 mm", "angle": "40 deg", "rise": "20 um", "taper": 0.75}
+    entries["geometry"] = {"shape": "sector", "film": "10 um", "joined": True, **numbers}
+    entries["boundary"] = {"sides": {"low": "1 bar"}, **more}
+    return read_scene(entries)
+
+
+def test_a_ring_of_pads_that_nothing_feeds_is_refused():
+    assert sector().geometry.joined
+    with pytest.raises(InputError, match=r"boundary\.sides: got no pressure above that of cavitation, 0\.0 Pa"):
+        sector(sides={})
+    for ends in ({"inlet": {"theta": 0.5}}, {"inlet": {"pressure": "1 bar"}}, {"outlet": {"pressure": "1 bar"}}):
+        with pytest.raises(InputError, match="boundary: got an inlet or outlet for joined pads"):
+            sector(**ends)
+
+
+def test_joined_pads_follow_one_another_without_a_gap():
+    assert film_of(sector(), np.radians([-1, 39, 41, 1]), 0.05) == pytest.approx([10e-6, 10e-6, 30e-6 - 20e-6 / 30, 30e-6 - 20e-6 / 30])  # fmt: skip  # noqa: E501
+
+
+def test_a_tabulated_lubricant_may_be_starved():
+    entries = load_entries(SLIDER)
+    entries["lubricant"]["compressibility"] = {"law": "tabulated", "table": [[0, 850], [1e7, 860], [2e7, 869]]}
+    entries["boundary"]["inlet"] = {"theta": 0.55}
+    assert read_scene(entries).ends.theta == 0.55
+
+
+def test_liquids_that_roelands_law_would_thin_are_refused():
+    law = ["lubricant.piezoviscosity.law=roelands", "lubricant.piezoviscosity.index=0.6"]
+    with pytest.raises(InputError, match="got roelands for 1e-05 Pa s"):
+        load_scene(SLIDER, [*law, "lubricant.viscosity=1e-5 Pa*s"])
+
+
+def test_inlet_and_outlet_of_a_journal_are_one_groove():
+    scene = load_scene(SCENES / "journal.toml", ["boundary.inlet.pressure=1 bar"])
+    assert (scene.ends.inlet, scene.ends.outlet) == (1e5, 1e5)

@@ -1,0 +1,307 @@
+"""The rungs of a bearing: published numbers, closed forms, limits in which they agree, and the contract."""
+
+import math
+
+import numpy as np
+import pytest
+from places import SCENES
+
+from roughfilm import rom
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.ladder.kind import kinds
+from roughfilm.rom.ladder.model import Effect, best, find, ladder, of_kind, one_effect_away
+from roughfilm.rom.ladder.scene import load_scene, read_scene, scene_entries
+
+MODELS = of_kind(ladder(rom), "bearing")
+CAVITATING = find(MODELS, "reynolds_cavitating")
+
+
+ROUGH = [
+    'roughness={"kind": "sinusoid", "amplitude": "2 um", "wavelength": "50 mm", "direction": "30 deg"}',
+]
+
+
+def solve(name, *overrides, model="reynolds_cavitating", **options):
+    return find(MODELS, model).solve(load_scene(SCENES / f"{name}.toml", overrides), **options)
+
+
+def values(result):
+    return {name: quantity.value for name, quantity in result.quantities.items()}
+
+
+def test_the_lattice():
+    assert [model.name for model in MODELS] == [
+        "reynolds",
+        "infinitely_wide",
+        "reynolds_incompressible",
+        "reynolds_cavitating",
+        "homogenized",
+        "direct",
+        "mixed",
+    ]
+    steps = {(a.name, b.name): effect for a in MODELS for b, effect in one_effect_away(a, MODELS)}
+    assert steps == {
+        ("reynolds", "reynolds_incompressible"): Effect.CAVITATION,
+        ("reynolds_incompressible", "reynolds_cavitating"): Effect.PRESSURE_DEPENDENCE,
+        ("infinitely_wide", "reynolds_cavitating"): Effect.SIDE_FLOW,
+        ("reynolds_cavitating", "homogenized"): Effect.ROUGHNESS,
+        ("homogenized", "direct"): Effect.FINITE_WAVES,
+    }
+    assert best(MODELS).name == "mixed"
+
+
+@pytest.mark.parametrize("model", MODELS, ids=lambda model: model.name)
+def test_contract(model, tips):
+    scene = load_scene(SCENES / "journal.toml", ROUGH if Effect.ROUGHNESS in model.keeps else [])
+    if Effect.DEFORMATION in model.keeps:
+        scene = tips.scene(scene_entries(scene)["geometry"] | {"eccentricity": 0.95})
+    seen = []
+    result = model.solve(scene, resolution=32, progress=lambda done, words: seen.append((done, words)))
+    assert result.model == model.name
+    assert set(kinds()["bearing"].compared) <= set(result.quantities)
+    assert {"x", "y", "film_thickness", "pressure", "density_ratio"} <= set(result.fields)
+    assert len({field.values.shape for field in result.fields.values()}) == 1
+    assert result.numerics.residual <= 1e-9
+    assert result.provenance["keeps"] == sorted(model.keeps)
+    assert result.provenance["uncertainty"]["load_per_width"] > 0
+    assert all(0 <= done <= 1 for done, _ in seen)
+    assert model.applies(scene).reason
+    assert model.cost(scene, 64) > 0
+    for options, words in (
+        ({"resolution": 7}, "--resolution: got 7"),
+        ({"tolerance": 2.0}, "--tolerance: got 2.0"),
+        ({"scheme": "upwind"}, "offers no choice"),
+        ({"processes": 2}, "--processes: got 2"),
+    ):
+        with pytest.raises(InputError, match=words):
+            model.solve(scene, **options)
+
+
+@pytest.mark.parametrize(
+    ("overrides", "expected"),
+    [
+        ((), {"film_start": 0, "rupture": 0.70277, "load_per_width": 108785.05, "pressure_max": 3715098.3}),
+        (
+            ("boundary.inlet.theta=0.55",),
+            {"film_start": 0.15624, "rupture": 0.65811, "load_per_width": 41640.25, "pressure_max": 1942332.4},
+        ),
+        (
+            ("lubricant.compressibility.bulk_modulus=10 GPa",),
+            {"film_start": 0, "rupture": 0.67909, "load_per_width": 101403.97, "pressure_max": 3592809.4},
+        ),
+    ],
+)
+def test_the_parabolic_slider_of_vijayaraghavan_and_keith(overrides, expected):
+    found = values(solve("parabolic_slider", *overrides, resolution=100_000))
+    for name, value in expected.items():
+        assert found[name] == pytest.approx(value, rel=1e-6 if "film" not in name else 1e-5, abs=1e-5)
+
+
+@pytest.mark.parametrize("modulus", ["0.05 GPa", "1 GPa", "100 GPa"])
+@pytest.mark.parametrize("theta", [0.52, 0.6, 0.9])
+def test_a_starved_film_ruptures_where_it_is_as_thin_as_what_came_in(modulus, theta):
+    law = f"lubricant.compressibility.bulk_modulus={modulus}"
+    found = values(solve("parabolic_slider", law, f"boundary.inlet.theta={theta}", resolution=4000))
+    # h(x2) = θ h(0): 1 + (2x - 1)² = 2 θ; a film that reaches the inlet turns away what it cannot take
+    if found["film_start"] > 0:
+        assert found["rupture"] == pytest.approx((1 + math.sqrt(2 * theta - 1)) / 2, abs=2e-6)
+        assert found["inlet_flow_per_width"] == pytest.approx(4.57 / 2 * theta * 50.8e-6, rel=1e-12)
+    else:
+        assert found["inlet_flow_per_width"] < 4.57 / 2 * theta * 50.8e-6
+
+
+@pytest.mark.parametrize(("eccentricity", "sommerfeld", "angle"), [(0.1, 1.330, 79.5), (0.2, 0.632, 73.9), (0.4, 0.260, 62.6)])  # fmt: skip  # noqa: E501
+def test_the_journal_bearing_of_raimondi_and_boyd(eccentricity, sommerfeld, angle):
+    found = values(solve("journal", f"geometry.eccentricity={eccentricity}", resolution=128))
+    assert found["sommerfeld_number"] == pytest.approx(sommerfeld, rel=0.015)
+    assert found["attitude_angle"] == pytest.approx(angle, rel=0.015)
+
+
+def test_a_full_journal_without_cavitation_is_sommerfelds():
+    found = values(solve("journal", "geometry.width=1 km", model="reynolds", resolution=64))
+    wide = load_scene(SCENES / "journal.toml")
+    entries = scene_entries(wide)
+    del entries["geometry"]["width"]
+    line = values(find(MODELS, "reynolds").solve(read_scene(entries)))
+    e = 0.4  # W = 12 π η u (R/c)² ε / ((2 + ε²) √(1 - ε²)), at right angles to the narrowest place
+    load = 12 * math.pi * 0.02 * 2 * 1e3**2 * e / ((2 + e**2) * math.sqrt(1 - e**2))
+    assert line["load_per_width"] == pytest.approx(load, rel=1e-6)
+    assert line["attitude_angle"] == pytest.approx(90, abs=1e-6)
+    torque = 4 * math.pi * 0.02 * 2 * 1e3 * (1 + 2 * e**2) / ((2 + e**2) * math.sqrt(1 - e**2))
+    assert line["friction_per_width"] == pytest.approx(torque, rel=1e-6)
+    assert found["load_per_width"] == pytest.approx(load, rel=0.03)  # its last cells at the sides see the bath
+
+
+def test_sliding_backwards_gives_the_mirrored_film():
+    forth = solve("parabolic_slider", "boundary.inlet.theta=0.55", resolution=501)
+    back = solve("parabolic_slider", "boundary.inlet.theta=0.55", "motion.speed=-4.57 m/s", resolution=501)
+    assert back.fields["pressure"].values[::-1] == pytest.approx(forth.fields["pressure"].values, rel=1e-9, abs=1e-3)
+    assert back.fields["x"].values == pytest.approx(forth.fields["x"].values, rel=1e-12)
+    for name, quantity in forth.quantities.items():
+        assert back.quantities[name].value == pytest.approx(quantity.value, rel=1e-9, abs=1e-12)
+
+
+def test_without_sliding_pressure_falls_as_the_film_resists():
+    found = solve("parabolic_slider", "motion.speed=0 m/s", "boundary.inlet.pressure=1 bar", resolution=2000)
+    # incompressible: q = Δp / (12 η ∫h⁻³ dx), ∫ (1 + s²)⁻³ ds = 1/2 + 3π/16 over (-1, 1)
+    integral = 76.2e-3 / 2 / 25.4e-6**3 * (0.5 + 3 * math.pi / 16)
+    flow = values(found)["inlet_flow_per_width"]
+    assert flow == pytest.approx(1e5 / (12 * 0.039 * integral), rel=1e-3)  # compression: p / 2β = 7e-4
+    assert values(found)["cavitated_fraction"] == 0
+
+
+def test_pressure_that_compresses_nothing_changes_nothing():
+    stiff = values(solve("parabolic_slider", "lubricant.compressibility.bulk_modulus=1e9 GPa", resolution=1000))
+    plain = values(solve("parabolic_slider", model="reynolds_incompressible", resolution=1000))
+    for name, value in plain.items():
+        assert stiff[name] == pytest.approx(value, rel=1e-6, abs=1e-9)
+
+
+def test_a_film_that_only_narrows_needs_no_cavitation():
+    linear = {"shape": "linear", "length": "20 mm", "width": "30 mm", "film": "10 um", "rise": "12 um"}
+    entries = scene_entries(load_scene(SCENES / "parabolic_slider.toml")) | {"geometry": linear}
+    scene = read_scene(entries)
+    plain, cavitating = (
+        values(find(MODELS, name).solve(scene, resolution=64)) for name in ("reynolds", "reynolds_incompressible")
+    )
+    assert cavitating["cavitated_fraction"] == 0
+    for name, value in plain.items():
+        assert cavitating[name] == pytest.approx(value, rel=1e-7, abs=1e-12)
+
+
+def test_what_leaves_a_bearing_at_its_sides_was_brought():
+    # full at the inlet, torn at the outlet: what does not leave through the sides is what the torn film carries away
+    result = solve("journal", resolution=256)
+    theta, h, pressure = (result.fields[name].values for name in ("density_ratio", "film_thickness", "pressure"))
+    carried = 2.0 / 2 * (theta * h)[-3, 1:-1].mean() * 50e-3
+    assert pressure[-4:].max() == 0
+    found = values(result)
+    assert found["inlet_flow_per_width"] * 50e-3 - found["side_leakage"] == pytest.approx(carried, rel=0.01)
+    assert found["side_leakage"] > 0.01 * carried
+
+
+def test_the_infinitely_wide_line_stands_for_a_wide_bearing():
+    wide = values(solve("journal", "geometry.width=5 m", model="infinitely_wide"))
+    plane = values(solve("journal", "geometry.width=5 m", resolution=128))
+    assert wide["load_per_width"] == pytest.approx(plane["load_per_width"], rel=0.03)
+    assert not find(MODELS, "infinitely_wide").applies(load_scene(SCENES / "parabolic_slider.toml")).applies
+
+
+def test_a_starved_inlet_is_nothing_for_the_plain_equation():
+    scene = load_scene(SCENES / "parabolic_slider.toml", ["boundary.inlet.theta=0.9"])
+    assert not find(MODELS, "reynolds").applies(scene).applies
+    with pytest.raises(InputError, match="--model: got 'reynolds'; the inlet is starved"):
+        find(MODELS, "reynolds").solve(scene)
+
+
+def test_an_inlet_that_brings_too_little_makes_no_film_and_says_so():
+    found = solve("parabolic_slider", "boundary.inlet.theta=0.3")
+    assert values(found)["load_per_width"] == 0
+    assert values(found)["pressure_max"] == 0
+    assert (values(found)["film_start"], values(found)["rupture"]) == (1, 1)
+    assert values(found)["cavitated_fraction"] > 0.999
+    assert "no film forms" in found.provenance["warnings"][0]
+
+
+def test_loads_count_from_ambient():
+    pumped = ["lubricant.cavitation_pressure=-1 bar", "motion.speed=0 m/s"]
+    found = values(solve("parabolic_slider", *pumped, "boundary.inlet.pressure=0 bar"))
+    assert found["load_per_width"] == pytest.approx(0, abs=1e-6)
+    assert found["cavitated_fraction"] == 0
+
+
+def test_grids_tell_how_far_off_a_result_is():
+    coarse, fine = (solve("parabolic_slider", resolution=n) for n in (250, 16_000))
+    for name in ("load_per_width", "friction_per_width", "pressure_max"):
+        error = abs(coarse.quantities[name].value - fine.quantities[name].value)
+        assert error <= coarse.provenance["uncertainty"][name]
+
+
+def test_loads_converge_at_second_order_in_the_plane():
+    loads = [values(solve("journal", resolution=n))["load"] for n in (64, 128, 256, 512)]
+    steps = np.diff(loads)
+    assert np.log2(np.abs(steps[:-1] / steps[1:])) == pytest.approx([2, 2], abs=0.15)
+
+
+def joined(cells, **changes):
+    numbers = {"inner_radius": "40 mm", "outer_radius": "80 mm", "angle": "45 deg", "rise": "20 um", "taper": 0.7}
+    entries = scene_entries(load_scene(SCENES / "parabolic_slider.toml"))
+    entries["geometry"] = {"shape": "sector", "film": "10 um", "joined": True, **numbers}
+    entries["boundary"] = {"sides": {"low": "1 bar", "high": "1 bar"}}
+    return CAVITATING.solve(read_scene(entries | changes), resolution=cells)
+
+
+def test_joined_pads_meet_where_they_are_joined():
+    loads = [values(joined(cells))["load"] for cells in (48, 96, 192)]
+    assert abs(loads[2] - loads[1]) < 0.4 * abs(loads[1] - loads[0])
+    pressure = joined(48).fields["pressure"].values
+    assert abs(pressure[0] - pressure[-1]).max() < 0.2 * pressure.max()
+    assert values(joined(48, motion={"speed": "-4.57 m/s"}))["load"] != pytest.approx(loads[0], rel=1e-3)
+
+
+def test_the_line_of_the_greatest_pressure_lies_in_the_film():
+    entries = scene_entries(load_scene(SCENES / "parabolic_slider.toml"))
+    entries["geometry"]["width"] = "0.1 m"
+    entries["boundary"]["sides"] = {"low": "10 MPa"}
+    found = values(CAVITATING.solve(read_scene(entries), resolution=48))
+    assert found["film_start"] < 0.1
+
+
+def test_only_a_film_that_is_nowhere_whole_is_none():
+    still = solve("journal", "geometry.eccentricity=0", resolution=32)
+    assert still.provenance["warnings"] == []
+    below = ["lubricant.cavitation_pressure=-1 bar", "boundary.outlet.pressure=-1 bar"]
+    empty = solve("parabolic_slider", "boundary.inlet.theta=0.3", *below)
+    assert "no film forms" in empty.provenance["warnings"][0]
+
+
+def test_a_starved_inlet_that_does_not_slide_is_told():
+    found = solve("parabolic_slider", "boundary.inlet.theta=0.5", "motion.speed=0 m/s", resolution=64)
+    assert "is taken as full" in found.provenance["warnings"][0]
+
+
+def test_what_is_not_known_is_not_called_nothing():
+    fine = solve("parabolic_slider", resolution=16_000)
+    for options in ({"resolution": 256}, {"resolution": 1024}, {"tolerance": 1e-3}):
+        found = solve("parabolic_slider", **options)
+        for name in ("load_per_width", "friction_per_width", "rupture", "cavitated_fraction", "pressure_max"):
+            error = abs(found.quantities[name].value - fine.quantities[name].value)
+            assert error <= found.provenance["uncertainty"][name], (name, options)
+    assert "there is no coarser grid" in solve("parabolic_slider", resolution=12).provenance["warnings"][0]
+    same = solve("parabolic_slider", "geometry.count=1000", resolution=500)  # one cell for each, on every grid
+    assert same.provenance["uncertainty"] == {}
+    assert any("has 1 cells" in told for told in same.provenance["warnings"])
+
+
+@pytest.mark.parametrize("modulus", ["1 Pa", "1 GPa"])
+def test_what_is_left_out_is_told_whatever_the_film(modulus):
+    law = ["lubricant.piezoviscosity.law=barus", "lubricant.piezoviscosity.pressure_coefficient=20 GPa^-1"]
+    bulk = f"lubricant.compressibility.bulk_modulus={modulus}"
+    rough = 'roughness={"kind": "sinusoid", "amplitude": "0.05 um", "wavelength": "1 mm"}'
+    for more in ([], [rough]):
+        scene = load_scene(SCENES / "parabolic_slider.toml", [*law, bulk, "geometry.film=0.1 um", *more])
+        assert all(model.applies(scene).reason for model in MODELS)
+
+
+def test_one_line_does_not_stand_for_pockets_or_rings():
+    entries = scene_entries(load_scene(SCENES / "journal.toml"))
+    entries["geometry"]["texture"] = {"length": "5 mm", "width": "5 mm", "depth": "5 um", "start": "10 mm"}
+    assert not find(MODELS, "infinitely_wide").applies(read_scene(entries)).applies
+
+
+def test_a_grid_too_coarse_for_the_wall_says_so():
+    coarse = solve("textured_slider", resolution=40)
+    assert any("has 4 cells; take at least 2 times" in told for told in coarse.provenance["warnings"])
+    fine, enough = solve("textured_slider"), solve("textured_slider", resolution=80)
+    assert fine.provenance["warnings"] == enough.provenance["warnings"] == []
+    assert values(enough)["load_per_width"] == pytest.approx(values(fine)["load_per_width"], rel=0.05)
+
+
+def test_a_law_beyond_its_pressures_says_so():
+    rows = [[0, 870], [1e6, 870.5], [2e6, 871]]
+    entries = scene_entries(load_scene(SCENES / "parabolic_slider.toml"))
+    entries["lubricant"]["compressibility"] = {"law": "tabulated", "table": rows}
+    told = CAVITATING.solve(read_scene(entries), resolution=256).provenance["warnings"]
+    assert len(told) == 1
+    assert "the law tabulated is meant for up to 2e+06 Pa" in told[0]
+    assert solve("parabolic_slider", resolution=256).provenance["warnings"] == []

@@ -1,0 +1,178 @@
+"""Rungs of a dry contact: closed forms, limits in which they agree, and the contract that all of them keep."""
+
+import math
+
+import numpy as np
+import pytest
+
+from roughfilm import rom
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.ladder.model import find, ladder, of_kind
+from roughfilm.rom.ladder.store import as_bytes, load
+
+RUNGS = of_kind(ladder(rom), "dry_contact")
+KNOWN = {
+    "area_fraction",
+    "area_fraction_pixel",
+    "plastic_fraction",
+    "mean_gap",
+    "approach",
+    "pressure_max",
+    "mean_contact_pressure",
+    "rms_height",
+}
+
+
+def solved(name, scene, **options):
+    return find(RUNGS, name).solve(scene, **options)
+
+
+def value(result, quantity):
+    return result.quantities[quantity].value
+
+
+def wave(points=256, amplitude=1e-7):
+    return {
+        "kind": "sinusoid",
+        "size": ["100 um", "100 um"],
+        "points": [points, 8],
+        "amplitude": f"{amplitude!r} m",
+        "wavelength_x": "100 um",
+    }
+
+
+def binned(result):
+    """Part of the nominal area with pressures in the bins, and the load they carry, Pa."""
+    edges, density = (result.fields[name].values for name in ("bin_edges", "pressure_density"))
+    parts = density * np.diff(edges)
+    return parts.sum(), (parts * (edges[1:] + edges[:-1]) / 2).sum()
+
+
+@pytest.mark.parametrize("model", RUNGS, ids=lambda model: model.name)
+def test_contract(model, make_contact, tmp_path):
+    scene = make_contact(hardness=3e9)
+    seen = []
+    resolution = model.resolutions_of(scene)[1]
+    result = model.solve(scene, resolution=resolution, progress=lambda done, words: seen.append((done, words)))
+    assert set(result.quantities) <= KNOWN
+    assert {"area_fraction", "plastic_fraction", "mean_contact_pressure", "rms_height"} <= set(result.quantities)
+    assert {"bin_edges", "pressure_density"} <= set(result.fields)
+    numbers = result.numerics
+    assert 0 <= numbers.residual <= numbers.tolerance
+    assert min(numbers.wall_s, numbers.degrees_of_freedom, numbers.iterations) > 0
+    assert numbers.resolution == resolution
+    assert result.provenance["keeps"] == sorted(model.keeps)
+    assert result.provenance["sources"] == list(model.sources)
+    assert result.provenance["heights"]["used"] == [resolution, resolution]
+    assert all(0 <= done <= 1 for done, _ in seen)
+    assert model.applies(scene).reason
+    assert model.cost(scene, resolution) > 0
+    assert value(result, "mean_contact_pressure") * value(result, "area_fraction") == pytest.approx(1e8)
+    for bad, words in (({"scheme": "upwind"}, "--scheme"), ({"processes": 2}, "--processes: got 2")):
+        with pytest.raises(InputError, match=words):
+            model.solve(scene, **bad)
+    for size in (4, 65):
+        with pytest.raises(InputError, match=f"--resolution: got {size}; the surface has 64 points .* take 8 to 64"):
+            model.solve(scene, resolution=size)
+    with pytest.raises(InputError, match="--tolerance: got 2"):
+        model.solve(scene, tolerance=2)
+    (tmp_path / "r.h5").write_bytes(as_bytes(result))
+    assert load(tmp_path / "r.h5").quantities == result.quantities
+
+
+def test_a_wave_under_load_is_that_of_westergaard(make_contact):
+    """sin²(πa/L) = P/p*, p* = π E* D/L for h = D cos(2πx/L); A/A0 = 2a/L."""
+    full = math.pi * 1e11 * 1e-7 / 1e-4
+    result = solved("elastic", make_contact(wave(), pressure=0.3 * full))
+    half = math.asin(math.sqrt(0.3))
+    assert value(result, "area_fraction_pixel") == pytest.approx(2 * half / math.pi, abs=2 / 256)
+    angle = half
+    gap = 2e-7 * (math.cos(angle) ** 2 / 2 + math.sin(angle) ** 2 * math.log(math.sin(angle)))
+    assert value(result, "mean_gap") == pytest.approx(gap, rel=2e-3)
+
+
+def test_a_soft_surface_is_its_bearing_area(make_contact):
+    scene = make_contact(pressure=3e6, hardness=1e7)
+    exact, truncated = (solved(name, scene) for name in ("elastic_plastic", "bearing_area"))
+    assert value(truncated, "area_fraction") == pytest.approx(0.3)
+    assert value(exact, "area_fraction_pixel") == pytest.approx(0.3, rel=0.01)
+    assert value(exact, "mean_gap") == pytest.approx(value(truncated, "mean_gap"), rel=0.01)
+
+
+def test_the_hardness_is_what_parts_elastic_from_elastic_plastic(make_contact):
+    elastic, both = (solved(name, make_contact()) for name in ("elastic", "elastic_plastic"))
+    assert elastic.quantities == both.quantities
+    scene = make_contact(hardness=3e9)
+    elastic, both = (solved(name, scene) for name in ("elastic", "elastic_plastic"))
+    assert value(elastic, "pressure_max") > 3e9 == value(both, "pressure_max")
+    assert value(both, "area_fraction") > value(elastic, "area_fraction")
+    assert value(elastic, "plastic_fraction") == 0 < value(both, "plastic_fraction")
+
+
+@pytest.mark.parametrize("hardness", [None, 3e9])
+@pytest.mark.parametrize("model", RUNGS, ids=lambda model: model.name)
+def test_pressures_add_up_to_area_and_load(model, hardness, make_contact):
+    scene = make_contact(hardness=hardness, pressure=2e8)
+    if not model.applies(scene).applies:
+        assert (model.name, hardness) == ("bearing_area", None)
+        return
+    result = model.solve(scene)
+    area, load = binned(result)
+    plastic = value(result, "plastic_fraction")
+    whole = result.quantities.get("area_fraction_pixel", result.quantities["area_fraction"]).value
+    assert area + plastic == pytest.approx(whole, rel=1e-3)
+    assert load + plastic * (hardness or 0) == pytest.approx(2e8, rel=0.01)
+
+
+def test_bins_are_those_of_the_scene_for_all(make_contact):
+    scene = make_contact(hardness=3e9)
+    edges = {result.fields["bin_edges"].values.tobytes() for result in (model.solve(scene) for model in RUNGS)}
+    assert len(edges) == 1
+
+
+def test_persson_is_the_error_function_of_the_load(make_contact):
+    """A/A0 = erf(√2 P/(E* g')) for an elastic solid."""
+    result = solved("persson", make_contact(pressure=2e9))
+    assert value(result, "area_fraction") == pytest.approx(math.erf(math.sqrt(2) * 0.2), rel=1e-9)
+    assert "mean_gap" in result.quantities
+
+
+def test_coarser_grids_of_a_smooth_surface_say_the_same(make_contact):
+    """Its waves are 8 points long and more: half the points hold them all."""
+    scene = make_contact(wave(512), pressure=1e7)
+    fine, coarse = (solved("elastic", scene, resolution=n) for n in (512, 128))
+    assert coarse.provenance["heights"] == {**fine.provenance["heights"], "used": [128, 2]}
+    assert value(coarse, "mean_gap") == pytest.approx(value(fine, "mean_gap"), rel=1e-3)
+    assert value(coarse, "rms_height") == pytest.approx(1e-7 / math.sqrt(2))
+
+
+def test_a_flat_surface_is_all_contact(make_contact, tmp_path):
+    np.save(tmp_path / "flat.npy", np.zeros((16, 16)))
+    scene = make_contact(tmp_path / "flat.npy", spacing="1 um", hardness=1e9)
+    for name in ("elastic", "elastic_plastic"):
+        result = solved(name, scene)
+        assert (value(result, "area_fraction"), value(result, "mean_gap")) == (1, 0)
+        assert any("one period" in warning for warning in result.provenance["warnings"])
+    for name in ("persson", "greenwood_williamson"):
+        fits = find(RUNGS, name).applies(scene)
+        assert not fits.applies
+        assert "flat surface" in fits.reason
+
+
+def test_rungs_say_where_they_leave_their_range(make_contact):
+    heavy = solved("greenwood_williamson", make_contact(pressure=2e9))
+    assert any("out of its range" in warning for warning in heavy.provenance["warnings"])
+    assert "out of its range" in find(RUNGS, "greenwood_williamson").applies(make_contact(pressure=2e9)).reason
+    assert "P/H = 0.05" in find(RUNGS, "elastic").applies(make_contact(hardness=2e9)).reason
+    assert "plasticity index E* g'/H = 5" in find(RUNGS, "elastic").applies(make_contact(hardness=2e9)).reason
+    assert "give a finite one" in find(RUNGS, "bearing_area").applies(make_contact()).reason
+
+
+@pytest.mark.parametrize("name", ["persson", "elastic"])
+def test_pressures_that_are_all_alike_fall_into_bins(name, make_contact):
+    """Full contact at forty times what the roughness adds: nearly all pressures would lie within one bin from 0."""
+    scene = make_contact(wave(64, 1e-10) | {"points": [64, 64]}, pressure=2e7)
+    assert scene.load.pressure > 20 * scene.pressure_unit
+    area, load = binned(solved(name, scene))
+    assert area == pytest.approx(1, abs=1e-4)  # four deviations lie within the bins
+    assert load == pytest.approx(2e7, rel=1e-3)

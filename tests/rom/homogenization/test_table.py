@@ -1,0 +1,250 @@
+"""Tables of flow factors: between, beyond and below their points, and in their files."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.inputs import Inputs
+from roughfilm.rom.homogenization.flow_factors import flow_factors
+from roughfilm.rom.homogenization.separation import Separations
+from roughfilm.rom.homogenization.table import told_rows
+from roughfilm.rom.homogenization.table_store import known_points, load_table, save_table
+from roughfilm.rom.homogenization.tabulate import tabulate
+
+SPACING = (1e-6, 2e-6)
+RANDOM = np.random.default_rng(20071)
+
+
+def surface(shape=(48, 32), seed=29):
+    random = np.random.default_rng(seed)
+    q = np.hypot(shape[0] * np.fft.fftfreq(shape[0])[:, None], shape[1] * np.fft.rfftfreq(shape[1]))
+    spectrum = np.where((q > 0) & (q < min(shape) / 4), np.maximum(q, 3.0) ** -1.8, 0)
+    height = np.fft.irfft2(np.fft.rfft2(random.normal(size=shape)) * spectrum, s=shape)
+    return 1e-6 * height / height.std()
+
+
+HEIGHTS = surface()
+
+
+@pytest.fixture(scope="module")
+def table():
+    return tabulate(HEIGHTS, SPACING, tolerance=0.005)
+
+
+@pytest.fixture
+def inputs():
+    return Inputs(heights=HEIGHTS, spacing=SPACING, settings={"rule": "linear", "code": "1"})
+
+
+def cell(mean_gap):
+    body = Separations(heights=HEIGHTS)
+    return flow_factors(body.gap(body.at_mean_gap(mean_gap)), SPACING, tolerance=1e-9)
+
+
+def test_the_mean_gap_and_the_separation_belong_together():
+    body = Separations(heights=HEIGHTS)
+    for mean_gap in (1e-9, 1e-7, 1e-6, 2.5e-6, 4e-5):
+        assert body.gap(body.at_mean_gap(mean_gap)).mean() == pytest.approx(mean_gap, rel=1e-9)
+    assert body.at_mean_gap(1e-4) == pytest.approx(1e-4, rel=1e-9)  # without contact they are one
+    with pytest.raises(InputError, match="give 1e-15"):
+        body.at_mean_gap(0.0)
+
+
+def test_sealing_separations_are_the_last_heights_without_a_path():
+    body = Separations(heights=HEIGHTS)
+    above = np.unique(HEIGHTS - HEIGHTS.mean())
+    for direction, separation in enumerate(body.sealing()):
+        rank = np.searchsorted(above, separation)
+        assert above[rank] == separation
+        for height, shut in ((separation, True), (above[rank + 1], False)):
+            assert flow_factors(body.gap(height), SPACING).factors.sealed[direction] is shut
+
+
+def test_between_points_it_is_as_near_as_it_says(table):
+    assert table.interpolation_error <= 0.005
+    for mean_gap in np.exp(RANDOM.uniform(np.log(table.narrowest), np.log(4 * table.widest), 30)):
+        one = cell(float(mean_gap))
+        own, doubt = one.factors.relative, one.uncertainty
+        row = told_rows(table, np.array([mean_gap]))[0]
+        off = np.abs(row[:4] - [own.pressure[0, 0], own.pressure[1, 1], own.pressure[0, 1], own.shear[0]])
+        a = doubt.pressure / mean_gap**3
+        allowed = 0.0075 * np.array([own.pressure[0, 0], own.pressure[1, 1], own.pressure[0, 0], own.shear[0]]) + 2e-4
+        unsure = np.array([a[0, 0], a[1, 1], a[0, 1], doubt.shear[0] / mean_gap])
+        assert (off <= allowed + unsure).all()
+
+
+def test_flow_falls_as_the_gap_closes_and_ends_where_it_is_sealed(table):
+    gaps = np.geomspace(0.5 * table.narrowest, 3 * table.widest, 400)
+    told = table(gaps)
+    assert (np.diff(told.along) >= 0).all()
+    assert (np.diff(told.across) >= 0).all()
+    below = gaps < table.narrowest
+    assert not told.along[below].any()
+    assert not told.across[below].any()
+    assert not told.drag[below].any()
+    assert (told.along * told.across - told.cross**2 >= -1e-12 * told.along * told.across).all()
+
+
+def test_thick_films_lose_roughness_with_the_square_of_the_gap(table):
+    row = told_rows(table, 1e-6 * np.array([1e3, 2e3]))
+    assert (1 - row[0, 0]) / (1 - row[1, 0]) == pytest.approx(4, rel=1e-6)
+    one = cell(3e-4).factors.relative
+    assert 1 - told_rows(table, np.array([3e-4]))[0, 0] == pytest.approx(1 - one.pressure[0, 0], rel=0.05)
+
+
+def test_the_surface_with_its_heights_multiplied(table):
+    twice = table.scaled(2.0)
+    gaps = np.array([1.1e-6, 3e-6])
+    assert np.allclose(told_rows(twice, 2 * gaps), told_rows(table, gaps), rtol=1e-12)
+    assert twice(2 * gaps).along == pytest.approx(8 * table(gaps).along)
+    assert twice(np.array([1e-5])).least == pytest.approx(1e-5 - 2 * (HEIGHTS.max() - HEIGHTS.mean()))
+
+
+def test_below_a_table_that_is_open_nothing_is_guessed(table):
+    cut = dataclasses.replace(table, points=table.points[len(table.points) // 2 :])
+    with pytest.raises(InputError, match="reaches further"):
+        cut(np.array([0.5 * cut.narrowest]))
+
+
+def test_smaller_tolerances_only_add_points(table):
+    finer = tabulate(HEIGHTS, SPACING, tolerance=0.0015, known=table.points)
+    before = {point.separation for point in table.points}
+    assert len(finer.points) > len(before)
+    assert len(before & {point.separation for point in finer.points}) >= 0.9 * len(before)
+
+
+def test_a_smooth_wall_and_a_senseless_tolerance_are_refused():
+    with pytest.raises(InputError, match="all the same"):
+        tabulate(np.ones((8, 8)), SPACING)
+    with pytest.raises(InputError, match="--tolerance"):
+        tabulate(HEIGHTS, SPACING, tolerance=0.0)
+    with pytest.raises(InputError, match="nan"):
+        tabulate(np.where(np.arange(HEIGHTS.size).reshape(HEIGHTS.shape) == 7, np.nan, HEIGHTS), SPACING)
+
+
+def test_a_file_gives_the_table_back(table, inputs, tmp_path):
+    path = tmp_path / "F.h5"
+    save_table(path, inputs, table)
+    gaps = np.geomspace(table.narrowest, 2 * table.widest, 50)
+    assert np.array_equal(told_rows(load_table(path), gaps), told_rows(table, gaps))
+    known = known_points(path, inputs)
+    assert len(known) == len(table.points)
+    pairs = zip(known, table.points, strict=True)
+    assert all(one.uncertainty.shear[1] == other.uncertainty.shear[1] for one, other in pairs)
+
+
+def test_points_already_known_are_not_solved_again(table, inputs, tmp_path):
+    save_table(tmp_path / "F.h5", inputs, table)
+    solved = []
+    again = tabulate(
+        HEIGHTS, SPACING, tolerance=0.005, known=known_points(tmp_path / "F.h5", inputs), keep=solved.append
+    )
+    assert not solved
+    assert len(again.points) == len(table.points)
+
+
+def test_files_of_others_and_damaged_ones_are_told(table, inputs, tmp_path):
+    path = tmp_path / "F.h5"
+    assert not known_points(path, inputs)
+    path.touch()
+    assert not known_points(path, inputs)
+    save_table(path, inputs, table)
+    with pytest.raises(InputError, match="another surface"):
+        known_points(path, dataclasses.replace(inputs, heights=2 * HEIGHTS))
+    with pytest.raises(InputError, match="with rule linear, not harmonic"):
+        known_points(path, dataclasses.replace(inputs, settings={"rule": "harmonic", "code": "1"}))
+    with pytest.raises(InputError, match="another version"):
+        known_points(path, dataclasses.replace(inputs, settings={"rule": "linear", "code": "2"}))
+    data = bytearray(path.read_bytes())
+    data[len(data) // 2] ^= 1
+    path.write_bytes(data)
+    with pytest.raises(InputError, match="was damaged"):
+        known_points(path, inputs)
+    path.write_bytes(b"something else")
+    with pytest.raises(InputError, match="is no table"):
+        load_table(path)
+    for missing in (tmp_path / "none.h5", tmp_path):
+        with pytest.raises(InputError, match="cannot be read"):
+            load_table(missing)
+
+
+def made(kind):
+    place = np.arange(24) / 24
+    random = np.random.default_rng(31).normal(size=(24, 24))
+    return (
+        1e-6
+        * {
+            "plateau": np.minimum(random, 0),
+            "pit": -1.0 * (np.arange(576).reshape(24, 24) == 100),
+            "spike": 1.0 * (np.arange(576).reshape(24, 24) == 100),
+            "two levels": 1.0 * (random > 0),
+            "lines": np.tile(np.sin(2 * np.pi * place)[:, None], (1, 24)),
+            "crossed": np.add.outer(np.sin(2 * np.pi * place), np.sin(4 * np.pi * place)),
+            "one deep pit": random - 1e5 * (np.arange(576).reshape(24, 24) == 100),
+        }[kind]
+    )
+
+
+@pytest.mark.parametrize("kind", ["plateau", "pit", "spike", "two levels", "lines", "crossed", "one deep pit"])
+def test_awkward_surfaces_have_tables_that_say_how_far_off_they_are(kind):
+    heights = made(kind)
+    table = tabulate(heights, (1e-6, 1e-6), tolerance=0.02)
+    assert len(table.points) <= 401
+    assert np.isfinite(table.interpolation_error)
+    assert table.doubt >= table.interpolation_error
+    body = Separations(heights=heights)
+    gaps = np.exp(RANDOM.uniform(np.log(2 * table.narrowest), np.log(table.widest), 12))
+    for mean_gap in gaps:
+        one = flow_factors(body.gap(body.at_mean_gap(float(mean_gap))), (1e-6, 1e-6), tolerance=1e-9)
+        own, doubt = one.factors.relative, one.uncertainty
+        row = told_rows(table, np.array([mean_gap]))[0]
+        for index, value, unsure in (
+            (0, own.pressure[0, 0], doubt.pressure[0, 0]),
+            (1, own.pressure[1, 1], doubt.pressure[1, 1]),
+        ):
+            room = 3 * max(table.interpolation_error, 0.02) * (value + 1e-4) + unsure / mean_gap**3
+            assert abs(row[index] - value) <= room
+
+
+def test_slanting_grooves_leak_nothing_across_between_their_points():
+    place = 2 * np.pi * np.arange(32) / 32
+    table = tabulate(1e-6 * np.sin(np.add.outer(place, place)), (1e-6, 1e-6))
+    gaps = np.geomspace(table.narrowest, 1e-7, 60)[1:]
+    told = table(gaps)
+    across = (told.along + told.across + 2 * told.cross) / 2  # of grooves along (1, -1) what flows along (1, 1)
+    assert (np.abs(across) <= 0.01 * told.along).all()
+
+
+def test_a_film_that_is_too_thin_to_count_is_open_and_unsure():
+    gap = np.full((32, 32), 1e-8)
+    gap[8:16, 8:16] = 1e-3
+    found = flow_factors(gap, (1e-6, 1e-6))
+    assert found.factors.sealed == (False, False)
+    truth = (
+        flow_factors(1e5 * np.minimum(gap, 1e-6), (1e-6, 1e-6)).factors.pressure[0, 0] / 1e15
+    )  # a shallower pit: less
+    assert found.factors.pressure[0, 0] == 0
+    assert truth < 2e-24 < found.uncertainty.pressure[0, 0]
+
+
+@pytest.mark.parametrize(
+    ("gap", "options", "words"),
+    [
+        (np.full((8, 8), 1e150), {}, "look at the unit"),
+        (np.full((8, 8), 1e-120), {}, "look at the unit"),
+        (np.ones((8, 8)), {"tolerance": 0.0}, "tolerance"),
+        (np.ones((8, 8)), {"tolerance": np.nan}, "tolerance"),
+        (np.ma.masked_array(np.ones((8, 8)), mask=np.eye(8)), {}, "masked"),
+    ],
+)
+def test_numbers_that_make_no_sense_are_refused(gap, options, words):
+    with pytest.raises(InputError, match=words):
+        flow_factors(gap, (1.0, 1.0), **options)
+
+
+@pytest.mark.parametrize("spacing", [1.0, (1.0, 1e9), (1.0,)])
+def test_spacings_that_make_no_sense_are_refused(spacing):
+    with pytest.raises(InputError, match="spacing"):
+        flow_factors(np.ones((8, 8)), spacing)

@@ -1,0 +1,113 @@
+"""The contract that every rung keeps, and the lattice they form."""
+
+import numpy as np
+import pytest
+
+from roughfilm import foamcases, rom
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.ladder.kind import kinds
+from roughfilm.rom.ladder.model import Effect, best, find, ladder, of_kind, one_effect_away
+
+ALL = ladder(rom, foamcases)
+MODELS = of_kind(ALL, "pocket")
+CONTACTS = of_kind(ALL, "dry_contact")
+NEEDS_OPENFOAM = [pytest.param(m, marks=pytest.mark.openfoam) if m.write else m for m in MODELS]
+
+
+def test_the_rungs_are_found_in_order():
+    assert [model.name for model in MODELS] == [
+        "reynolds",
+        "inertial_reynolds",
+        "film",
+        "stokes",
+        "film_slope",
+        "navier_stokes",
+    ]
+
+
+def test_the_lattice():
+    names = {(model.name, other.name): effect for model in MODELS for other, effect in one_effect_away(model, MODELS)}
+    assert names == {
+        ("reynolds", "film"): Effect.INERTIA,
+        ("reynolds", "stokes"): Effect.SLOPE,
+        ("film", "navier_stokes"): Effect.SLOPE,
+        ("stokes", "navier_stokes"): Effect.INERTIA,
+    }
+    assert best(MODELS).name == "navier_stokes"
+
+
+def test_the_lattice_of_contacts():
+    assert [model.name for model in CONTACTS] == [
+        "greenwood_williamson",
+        "elastic",
+        "bearing_area",
+        "persson",
+        "elastic_plastic",
+    ]
+    steps = {(a.name, b.name): effect for a in CONTACTS for b, effect in one_effect_away(a, CONTACTS)}
+    assert steps == {
+        ("elastic", "elastic_plastic"): Effect.PLASTICITY,
+        ("bearing_area", "elastic_plastic"): Effect.DEFORMATION,
+    }
+    assert best(CONTACTS).name == "elastic_plastic"
+
+
+def test_every_model_solves_a_kind_of_scene_and_has_a_name_of_its_own():
+    assert {model.kind for model in ALL} == set(kinds())
+    assert len({(model.kind, model.name) for model in ALL}) == len(ALL)
+
+
+def test_an_unknown_name_is_refused_with_the_known_ones():
+    with pytest.raises(InputError, match="one of reynolds, inertial_reynolds, film, stokes, film_slope, navier_stokes"):
+        find(MODELS, "raynolds")
+
+
+@pytest.mark.parametrize("model", NEEDS_OPENFOAM)
+def test_contract(model, make_scene):
+    scene = make_scene(0.3, 0.25, 20)
+    seen = []
+    result = model.solve(
+        scene, resolution=model.resolutions[1], progress=lambda done, words: seen.append((done, words))
+    )
+    assert result.model == model.name
+    assert set(result.quantities) == {
+        "load_plus",
+        "friction_plus",
+        "pressure_max_plus",
+        "pressure_min_plus",
+        "load_per_area",
+        "friction_per_area",
+        "backflow",
+    }
+    assert {"position", "film_thickness", "pressure", "shear_stress"} <= set(result.fields)
+    sizes = {result.fields[name].values.shape for name in ("position", "film_thickness", "pressure", "shear_stress")}
+    assert len(sizes) == 1
+    numbers = result.numerics
+    assert np.isfinite(numbers.residual)
+    assert min(numbers.cpu_s, numbers.wall_s, numbers.degrees_of_freedom, numbers.iterations) > 0
+    assert numbers.resolution == model.resolutions[1]
+    assert numbers.scheme == (model.schemes[0] if model.schemes else "")
+    assert result.provenance["keeps"] == sorted(model.keeps)
+    assert result.provenance["sources"] == list(model.sources)
+    assert all(0 <= done <= 1 for done, _ in seen)
+    assert model.applies(scene).applies
+    assert model.applies(scene).reason
+    assert model.cost(scene, model.resolution) > 0
+    ratio = result.quantities["load_per_area"].value / scene.pressure_unit * scene.plus_factor
+    assert ratio == pytest.approx(result.quantities["load_plus"].value)
+
+
+@pytest.mark.parametrize("model", NEEDS_OPENFOAM)
+def test_choices_that_a_model_does_not_offer_are_refused(model, make_scene):
+    offered = "one of " + ", ".join(model.schemes) if model.schemes else "it offers no choice"
+    with pytest.raises(InputError, match=f"--scheme: got 'hybrid' for {model.name}; .*{offered}"):
+        model.solve(make_scene(0.3, 0.25, 20), scheme="hybrid")
+    if model.write is None:
+        with pytest.raises(InputError, match=f"--processes: got 2; {model.name}"):
+            model.solve(make_scene(0.3, 0.25, 20), processes=2)
+
+
+def test_resolutions_are_sorted_and_hold_the_default():
+    for model in MODELS:
+        assert list(model.resolutions) == sorted(set(model.resolutions))
+        assert model.resolution in model.resolutions

@@ -1,0 +1,123 @@
+"""A scene file is read completely, and every fault in it is one line that names the key."""
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.ladder.scene import load_scene, read_scene, scene_entries
+
+
+def test_the_example(pocket_file):
+    scene = load_scene(pocket_file)
+    assert scene.geometry.film == 3e-5
+    assert scene.grooves[0].width == 3e-4
+    assert scene.reynolds_number == pytest.approx(160, rel=1e-5)
+    assert scene.pressure_unit == pytest.approx(0.01 * 53.333 / 3e-5)
+
+
+def test_reynolds_number_gives_the_speed(pocket_file):
+    scene = load_scene(pocket_file, ["motion.reynolds_number=40"])
+    assert scene.speed == pytest.approx(40 * 0.01 / (1000 * 3e-5))
+
+
+def test_entries_are_complete_and_read_back_unchanged(pocket_file):
+    scene = load_scene(pocket_file)
+    assert read_scene(scene_entries(scene)) == scene
+
+
+@pytest.mark.parametrize(
+    ("override", "words"),
+    [
+        ("geometry.depht=1 um", r"scene\.geometry\.depht: unknown key; did you mean 'depth'\?"),
+        ("geometrie.depth=1 um", r"scene\.geometrie: unknown key; did you mean 'geometry'\?"),
+        ("width=1 mm", r"scene\.width: unknown key; known here: name, kind"),
+        ("zzz=1", r"scene\.zzz: unknown key; known here: name, kind"),
+        ("geometry.depth=7.5", r"scene\.geometry\.depth: got 7\.5, a number without a unit"),
+        ("geometry.depth=7.5 Pa", r"scene\.geometry\.depth: .* wrong dimension"),
+        ("geometry.depth=7.5 parsecz", r"scene\.geometry\.depth: .* not known"),
+        ("geometry.depth=-1 um", r"scene\.geometry\.depth: got -1e-06; it must be above zero"),
+        ("geometry.depth=0 um", r"scene\.geometry\.depth: got 0\.0; it must be above zero"),
+        ("geometry.depth=0.2 mm", r"scene\.geometry\.depth: .* half circle"),
+        ("geometry.width=1 mm", r"scene\.geometry\.width: .* below length"),
+        ("geometry.width=0.1 um", r"scene\.geometry"),
+        (
+            "geometry.profile=square",
+            r"scene\.geometry\.profile: got 'square'; it must be one of 'cylindrical', 'splined'",
+        ),
+        ("kind=gearbox", r"scene\.kind: got 'gearbox'; it must be .*'pocket'"),
+        ("name=7", r"scene\.name: got 7"),
+        ("geometry=7", r"scene\.geometry: got 7"),
+        ("lubricant.viscosity=-0.01 Pa*s", r"scene\.lubricant\.viscosity: .* above zero"),
+        ("lubricant.viscosity=0.01 m^2/s", r"scene\.lubricant\.viscosity: .* wrong dimension"),
+        ("motion.reynolds_number=NaN", r"scene\.motion\.reynolds_number: got 'NaN'"),
+        ("motion.reynolds_number=1e999", r"scene\.motion\.reynolds_number: got inf"),
+        ("motion.reynolds_number=-4", r"scene\.motion\.reynolds_number: .* above zero"),
+        ("motion.reynolds_number=4 m", r"scene\.motion\.reynolds_number: got '4 m'; write a plain number"),
+        ("motion.reynolds_number=1e13", r"scene\.motion: got Reynolds number"),
+        ("motion.reynolds_number=1" + "0" * 400, r"scene\.motion\.reynolds_number: got a number beyond"),
+        ("geometry.film=1 fm", r"scene\.geometry\.length: .* film thicknesses"),
+        ("geometry", r"--set geometry: got no key=value"),
+        ("=5", r"--set =5: got no key=value"),
+        ("name.x=5", r"'name' is not a table"),
+    ],
+)
+def test_every_fault_is_one_line_that_names_the_key(pocket_file, override, words):
+    with pytest.raises(InputError, match=words) as caught:
+        load_scene(pocket_file, [override])
+    assert "\n" not in str(caught.value)
+
+
+def test_missing_keys_and_neither_motion(pocket_file):
+    entries = scene_entries(load_scene(pocket_file))
+    del entries["geometry"]["width"]
+    with pytest.raises(InputError, match=r"scene\.geometry\.width: missing"):
+        read_scene(entries)
+    entries = scene_entries(load_scene(pocket_file))
+    entries["motion"] = {}
+    with pytest.raises(InputError, match=r"scene\.motion: got neither"):
+        read_scene(entries)
+    entries["motion"] = {"speed": "1 m/s", "reynolds_number": 4}
+    with pytest.raises(InputError, match=r"scene\.motion: got both"):
+        read_scene(entries)
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"name = ", "is not TOML"),
+        (b"\xff\xfe", "not UTF-8"),
+        (b"", r"scene\.name: missing"),
+        (b"x = " + b"[" * 5000, "is not TOML"),
+        (b"#" * 1_000_001, "larger than"),
+    ],
+)
+def test_unreadable_files(tmp_path, content, words):
+    path = tmp_path / "scene.toml"
+    path.write_bytes(content)
+    with pytest.raises(InputError, match=words) as caught:
+        load_scene(path)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("name", "words"), [("absent.toml", "no such file"), (".", "is no file"), ("x" * 5000, "cannot be read")]
+)
+def test_no_file(tmp_path, name, words):
+    with pytest.raises(InputError, match=words):
+        load_scene(tmp_path / name)
+
+
+json_values = st.recursive(
+    st.none() | st.booleans() | st.floats() | st.integers() | st.text(max_size=20),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=8), inner, max_size=3),
+    max_leaves=8,
+)
+keys = st.sampled_from(["name", "kind", "geometry", "lubricant", "motion", "x"])
+
+
+@settings(suppress_health_check=[HealthCheck.too_slow], deadline=None)
+@given(st.dictionaries(keys, json_values, max_size=6))
+def test_no_entries_raise_anything_but_input_error(entries):
+    with pytest.raises(InputError):
+        read_scene(entries)

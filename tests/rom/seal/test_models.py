@@ -1,0 +1,260 @@
+"""Seals: the rungs against closed forms and each other, and what leaks exactly nothing."""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy.special import ndtr
+
+from roughfilm import rom
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.mechanics.moments import wave_power
+from roughfilm.contact.synthetic.self_affine import self_affine
+from roughfilm.rom.ladder.model import Effect, best, find, ladder, of_kind, one_effect_away
+from roughfilm.rom.ladder.scene import read_scene, scene_entries
+from roughfilm.rom.ladder.store import load, save
+from roughfilm.rom.seal.leakage.effective_medium import THRESHOLD, effective_medium
+from roughfilm.rom.seal.leakage.passage import dimensionless, mass_flow
+
+RUNGS = of_kind(ladder(rom), "seal")
+ROUGH = {
+    "kind": "self_affine",
+    "size": ["40 um", "40 um"],
+    "points": [64, 64],
+    "seed": 20071,
+    "hurst": 0.8,
+    "roll_off": "10 um",
+    "cut_off": "5 um",
+    "rms_height": "0.1 um",
+}
+
+
+def seal(surface=ROUGH, *, pressure="50 kPa", direction="x", hardness=None, **geometry):
+    solid = {"modulus": "10 MPa", "poisson": 0.5}
+    return read_scene(
+        {
+            "name": "test",
+            "kind": "seal",
+            "geometry": {"surface": surface, **geometry},
+            "solid": solid if hardness is None else solid | {"hardness": hardness},
+            "load": {"pressure": pressure},
+            "liquid": {"density": "1000 kg/m^3", "viscosity": "1 mPa*s"},
+            "flow": {"pressure_drop": "1 MPa", "length": "1 mm", "direction": direction},
+        }
+    )
+
+
+def values(name, scene, **options):
+    found = find(RUNGS, name).solve(scene, **options)
+    return {quantity: entry.value for quantity, entry in found.quantities.items()}
+
+
+def test_the_lattice_of_seals():
+    assert [model.name for model in RUNGS] == ["effective_medium", "homogenized_leakage", "direct_leakage"]
+    assert {(a.name, b.name): e for a in RUNGS for b, e in one_effect_away(a, RUNGS)} == {
+        ("homogenized_leakage", "direct_leakage"): Effect.FINITE_WAVES
+    }
+    assert best(RUNGS).name == "direct_leakage"
+
+
+@pytest.mark.parametrize("model", RUNGS, ids=lambda model: model.name)
+def test_contract(model, tmp_path):
+    scene = seal()
+    seen = []
+    resolution = model.resolutions_of(scene)[1]
+    result = model.solve(scene, resolution=resolution, progress=lambda done, words: seen.append((done, words)))
+    assert set(result.quantities) == {
+        "leakage_per_width",
+        "sealed",
+        "permeability",
+        "area_fraction",
+        "smooth_leakage",
+        "dimensionless_leakage",
+        "mean_gap",
+        "rms_height",
+    }
+    assert all(math.isfinite(quantity.value) for quantity in result.quantities.values())
+    numbers = result.numerics
+    assert 0 <= numbers.residual < 1e-3
+    assert min(numbers.cpu_s, numbers.wall_s, numbers.iterations) > 0
+    assert (numbers.resolution, numbers.degrees_of_freedom) == (resolution, resolution**2)
+    assert result.provenance["keeps"] == sorted(model.keeps)
+    assert result.provenance["sources"] == list(model.sources)
+    assert model.applies(scene).applies
+    assert model.applies(scene).reason
+    assert model.cost(scene, 64) > 0
+    assert all(0 <= done <= 1 for done, _ in seen)
+    save(result, tmp_path / "r.h5")
+    assert load(tmp_path / "r.h5").quantities == result.quantities
+    with pytest.raises(InputError, match="--scheme"):
+        model.solve(scene, scheme="upwind")
+    with pytest.raises(InputError, match="--processes"):
+        model.solve(scene, processes=2)
+
+
+def test_a_smooth_gap_leaks_as_a_slit_does():
+    """ρ h³ Δp/(12ηL): water through 1 µm by 1 MPa over 1 mm is 0.3 kg/h for each metre."""
+    leak = mass_flow(1e-18, density=1e3, viscosity=1e-3, pressure_drop=1e6, length=1e-3)
+    assert leak * 3600 == pytest.approx(0.3, rel=1e-12)
+    assert dimensionless(8e-18, 1e-6) == pytest.approx(8.0, rel=1e-12)
+
+
+def test_units_are_those_of_the_scene():
+    told = values("direct_leakage", seal())
+    assert told["leakage_per_width"] == pytest.approx(1e3 * told["permeability"] * 1e6 / (12 * 1e-3 * 1e-3), rel=1e-12)
+    assert told["dimensionless_leakage"] == pytest.approx(told["permeability"] / told["rms_height"] ** 3, rel=1e-12)
+    assert told["smooth_leakage"] * told["dimensionless_leakage"] == pytest.approx(told["leakage_per_width"])
+
+
+def test_the_longer_a_seal_the_nearer_is_averaging():
+    """Its ends take the same off the resistance of any number of periods: (1 − A/K) n is what it is of one."""
+
+    def ends(count):
+        drive = seal().flow.model_copy(update={"length": count * 40e-6})
+        scene = seal().model_copy(update={"flow": drive})
+        direct, averaged = (values(name, scene)["permeability"] for name in ("direct_leakage", "homogenized_leakage"))
+        return count * (1 - averaged / direct)
+
+    one, two, ten = (ends(count) for count in (1, 2, 10))
+    assert one > 0.1
+    assert two == pytest.approx(one, rel=0.05)
+    assert ten == pytest.approx(one, rel=0.05)
+
+
+def test_the_cost_of_a_direct_solution_grows_with_the_length():
+    direct, averaged = (find(RUNGS, name) for name in ("direct_leakage", "homogenized_leakage"))
+    assert direct.cost(seal(), 64) == pytest.approx(25 * averaged.cost(seal(), 64))
+
+
+def test_directions_are_those_of_the_surface(tmp_path):
+    ridges = 1e-7 * np.repeat(np.cos(2 * np.pi * np.arange(32) / 16)[:, None], 32, axis=1)
+    path = tmp_path / "ridges.npy"
+    np.save(path, ridges)
+    scenes = {axis: seal(str(path), spacing="1 um", direction=axis, pressure="10 kPa") for axis in "xy"}
+    for name in ("direct_leakage", "homogenized_leakage"):
+        assert values(name, scenes["x"])["sealed"] == 1
+        assert values(name, scenes["x"])["leakage_per_width"] == 0
+        assert values(name, scenes["y"])["sealed"] == 0
+    along = [values(name, scenes["y"])["permeability"] for name in ("direct_leakage", "homogenized_leakage")]
+    assert along[0] == pytest.approx(along[1], rel=1e-6)
+
+
+def test_full_contact_is_sealed_and_told_as_a_number():
+    for name in ("direct_leakage", "homogenized_leakage"):
+        told = values(name, seal(pressure="100 MPa"))
+        assert told["sealed"] == 1.0
+        assert told["leakage_per_width"] == told["permeability"] == told["mean_gap"] == 0.0
+    assert values("effective_medium", seal(pressure="100 MPa"))["sealed"] == 1.0
+
+
+def test_a_flat_surface_is_sealed(tmp_path):
+    np.save(tmp_path / "flat.npy", np.zeros((16, 16)))
+    scene = seal(str(tmp_path / "flat.npy"), spacing="1 um")
+    assert values("direct_leakage", scene)["sealed"] == 1
+    medium = find(RUNGS, "effective_medium")
+    assert not medium.applies(scene).applies
+    with pytest.raises(InputError, match="flat"):
+        medium.solve(scene)
+
+
+def test_a_softer_limit_of_pressure_seals_sooner():
+    soft, elastic = (values("direct_leakage", seal(hardness=hardness)) for hardness in ("150 kPa", None))
+    assert soft["area_fraction"] > elastic["area_fraction"]
+    assert soft["permeability"] < elastic["permeability"]
+
+
+def test_a_scene_is_read_back_as_it_was_written():
+    scene = seal(hardness="1 MPa", direction="y")
+    assert read_scene(scene_entries(scene)) == scene
+
+
+@pytest.mark.parametrize(
+    ("entries", "words"),
+    [
+        ({"direction": "z"}, "scene.flow.direction"),
+        ({"length": "0 m"}, "scene.flow.length"),
+        ({"pressure_drop": "-1 Pa"}, "scene.flow.pressure_drop"),
+        ({"lenght": "1 mm"}, "did you mean 'length'"),
+    ],
+)
+def test_bad_keys_are_named(entries, words):
+    scene = scene_entries(seal())
+    scene["flow"] |= entries
+    with pytest.raises(InputError, match=words):
+        read_scene(scene)
+
+
+def test_a_bad_joint_is_warned_of(tmp_path):
+    x = np.arange(64) / 64
+    heights = 1e-6 * (np.cos(2 * np.pi * 7.5 * x)[:, None] + 0.2 * np.cos(2 * np.pi * 5 * x)[None, :])
+    heights[-4:] = 2e-6
+    np.save(tmp_path / "stepped.npy", heights)
+    result = find(RUNGS, "direct_leakage").solve(
+        seal(str(tmp_path / "stepped.npy"), spacing="1 um", pressure="200 kPa")
+    )
+    assert any("meets itself badly" in warning for warning in result.provenance["warnings"])
+    assert not find(RUNGS, "direct_leakage").solve(seal()).provenance["warnings"]
+
+
+@pytest.fixture(scope="module")
+def spectrum():
+    heights = self_affine(
+        size=(4e-5, 4e-5), points=(128, 128), seed=307, hurst=0.8, roll_off=1e-5, cut_off=2.5e-6, rms_height=1e-7
+    ).heights
+    return wave_power(heights, (4e-5 / 128,) * 2)
+
+
+def test_the_gaps_of_the_medium_and_its_contact_fill_the_area(spectrum):
+    for pressure in (1e3, 3e4, 3e5):
+        found = effective_medium(spectrum, composite_modulus=1.3e7, load=pressure)
+        assert found.shares.sum() + found.area_fraction == pytest.approx(1.0, abs=1e-9)
+        mean = (found.gaps * found.shares).sum()
+        assert found.mean_gap * (1 - 1e-9) <= mean <= found.mean_gap + math.sqrt(2 / math.pi) * 1e-7
+
+
+def test_the_gaps_of_a_medium_hardly_pressed_are_gaussian_as_its_heights_are(spectrum):
+    found = effective_medium(spectrum, composite_modulus=1.3e7, load=100.0)
+    order = np.argsort(found.gaps)
+    below, gaps = np.cumsum(found.shares[order]), found.gaps[order]
+    assert np.abs(below - ndtr((gaps - found.mean_gap) / 1e-7)).max() < 0.02
+
+
+def test_the_medium_leaks_less_the_harder_it_is_pressed_and_seals_at_its_threshold(spectrum):
+    loads = np.geomspace(1e3, 2e6, 30)
+    found = [effective_medium(spectrum, composite_modulus=1.3e7, load=float(pressure)) for pressure in loads]
+    leaks = [one.permeability for one in found]
+    assert all(a > b or a == b == 0 for a, b in pairwise(leaks))
+    assert [one.sealed for one in found] == [one.area_fraction >= THRESHOLD for one in found]
+    assert all(one.residual < 1e-9 for one in found)
+    assert found[-1].sealed
+
+
+def test_a_medium_of_one_gap_is_a_smooth_gap():
+    """Under a load that hardly touches, roughness of vanishing height leaves a gap that is the same everywhere."""
+    wave = np.cos(2 * np.pi * np.arange(32) / 32)
+    power = wave_power(1e-7 * np.add.outer(wave, wave), (1e-6, 1e-6))
+    found = effective_medium(power, composite_modulus=1e7, load=1e-25)
+    assert found.mean_gap > 15 * 1e-7
+    assert found.permeability == pytest.approx(found.mean_gap**3, rel=0.03)
+
+
+def test_a_direction_that_is_sealed_has_nothing_left_to_solve(tmp_path):
+    """Ridges across seal; what the solver leaves open along them is no residual of that."""
+    path = tmp_path / "ridges.npy"
+    noise = np.random.default_rng(20071).standard_normal((16, 16))
+    np.save(path, 1e-7 * np.where((np.arange(16) % 8 < 2)[:, None], 9.0, noise))
+    across, along = (seal(str(path), spacing="1 um", direction=direction, pressure="0.5 MPa") for direction in "xy")
+    model = find(RUNGS, "homogenized_leakage")
+    sealed, open_ = model.solve(across), model.solve(along)
+    assert (sealed.quantities["sealed"].value, open_.quantities["sealed"].value) == (1, 0)
+    assert sealed.numerics.residual <= sealed.numerics.tolerance
+
+
+@pytest.mark.parametrize("name", ["homogenized_leakage", "direct_leakage"])
+def test_an_answer_without_error_bar_says_so(name, tmp_path):
+    path = tmp_path / "odd.npy"
+    np.save(path, 1e-7 * np.random.default_rng(20071).standard_normal((6, 6)))
+    found = find(RUNGS, name).solve(seal(str(path), spacing="1 um", pressure="1 kPa"))
+    assert "uncertainty" not in found.provenance
+    assert any("no coarser grid" in warning for warning in found.provenance["warnings"])

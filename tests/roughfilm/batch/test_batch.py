@@ -1,0 +1,465 @@
+"""Batches: what they leave behind, and that they survive being killed in every way."""
+
+import csv
+import importlib.util
+import json
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from functools import partial
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+from places import STUDIES
+from typer.testing import CliRunner
+
+from roughfilm.cli.main import app
+from roughfilm.rom.ladder.scene import load_scene, scene_entries
+from roughfilm.rom.ladder.store import load
+from roughfilm.rom.studies.table import read_table
+
+MOODY = Path(__file__).parent / "moody" / "cli.py"
+POCKET = STUDIES / "pocket.toml"
+
+STUDY = """
+name = "tried"
+kind = "pocket"
+[geometry]
+length = "1 mm"
+film = "30 um"
+width = "0.3 length"
+depth = {depths}
+[lubricant]
+viscosity = "0.01 Pa*s"
+density = "1000 kg/m^3"
+[motion]
+reynolds_number = {numbers}
+[study]
+models = {models}
+"""
+
+
+def write_study(path, *, depths=("0.25 film",), numbers=(40,), models=("reynolds",), more=""):
+    text = STUDY.format(depths=json.dumps(depths), numbers=json.dumps(numbers), models=json.dumps(models))
+    path.write_text(text + more)
+    return path
+
+
+class Batch:
+    """``roughfilm batch`` in a session of its own, found again by a mark that its children inherit."""
+
+    def __init__(self, study, out, tmp_path, *arguments, seconds=0.0, megabytes=0.0):
+        self.mark = f"ROUGHFILM_TRIED={tmp_path}-{out}"
+        name, value = self.mark.split("=", 1)
+        notes = {
+            "MOODY_NOTES": str(tmp_path / "notes"),
+            "MOODY_SECONDS": str(seconds),
+            "MOODY_MEGABYTES": str(megabytes),
+        }
+        self.process = subprocess.Popen(
+            [sys.executable, str(MOODY), "batch", str(study), "--out", str(out), *map(str, arguments)],
+            env={**os.environ, **notes, name: value},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+        )
+
+    def end(self):
+        out, err = self.process.communicate(timeout=300)
+        return self.process.returncode, out, err
+
+    def runs(self):
+        return self.process.poll() is None
+
+    def family(self):
+        """The processes that are left of it, itself not counted."""
+        found = []
+        for place in Path("/proc").iterdir():
+            try:
+                marked = place.name.isdigit() and self.mark.encode() in (place / "environ").read_bytes()
+                if (
+                    marked
+                    and int(place.name) != self.process.pid
+                    and "\nState:\tZ" not in (place / "status").read_text()
+                ):
+                    found.append(int(place.name))
+            except OSError:
+                continue
+        return found
+
+    def workers(self):
+        """Those that lead a process group of their own."""
+        return [pid for pid in self.family() if group(pid) == pid]
+
+
+def group(pid):
+    try:
+        return os.getpgid(pid)
+    except OSError:
+        return None
+
+
+def wait_for(condition, seconds=60.0):
+    deadline = time.monotonic() + seconds
+    while time.monotonic() < deadline:
+        if found := condition():
+            return found
+        time.sleep(0.001)
+    raise AssertionError("it did not happen")
+
+
+def results(out):
+    return sorted((out / "cases").glob("*/[!.]*.h5"))
+
+
+def attempts(tmp_path):
+    notes = tmp_path / "notes"
+    return notes.read_text().split() if notes.exists() else []
+
+
+def test_a_table_of_all_cases_by_all_models(tmp_path):
+    out = tmp_path / "out"
+    code, told, error = Batch(POCKET, out, tmp_path, "--json").end()
+    assert code == 0, error
+    assert json.loads(told)["cases"] == 12
+    table = read_table(out / "table.h5")
+    assert {len(column) for column in table.values()} == {24}
+    assert set(table["outcome"]) == {"solved"}
+    assert set(zip(table["width_plus"], table["depth_plus"], strict=True)) == {
+        (w, d) for w in (0.15, 0.3) for d in (0.25, 0.75, 1.25)
+    }
+    reynolds, inertial = (table["model"] == name for name in ("reynolds", "inertial_reynolds"))
+    assert np.abs(table["load_plus"][reynolds]).max() < 1e-10 * table["pressure_max_plus"].max()
+    slow, fast = (table["load_plus"][inertial & (table["reynolds_number"] == number)] for number in (40, 160))
+    assert fast == pytest.approx(4 * slow, rel=1e-9)  # first-order inertia
+    assert table["friction_plus"][inertial] == pytest.approx(table["friction_plus"][reynolds], rel=1e-12)
+
+
+def test_the_two_tables_say_the_same_and_name_their_units(tmp_path):
+    out = tmp_path / "out"
+    assert Batch(POCKET, out, tmp_path).end()[0] == 0
+    table = read_table(out / "table.h5")
+    with (out / "table.csv").open(newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert [name.partition(" (")[0] for name in rows[0]] == list(table)
+    assert {"width (m)", "load_per_area (Pa)", "cpu_s (s)", "load_plus", "model"} <= set(rows[0])
+    assert [float(row["load_per_area (Pa)"]) for row in rows] == table["load_per_area"].tolist()
+    assert [row["case"] for row in rows] == table["case"].tolist()
+    with h5py.File(out / "table.h5") as file:
+        assert file["load_per_area"].attrs["unit"] == "Pa"
+
+
+def test_a_case_holds_its_scene_and_whole_results(tmp_path):
+    out = tmp_path / "out"
+    study = write_study(tmp_path / "s.toml", depths=["0.25 film", "22.5 um"])
+    assert Batch(study, out, tmp_path).end()[0] == 0
+    depths = set()
+    for place in (out / "cases").iterdir():
+        scene = load_scene(place / "scene.toml")
+        result = load(place / "reynolds.h5")
+        assert result.provenance["scene"] == scene_entries(scene)
+        assert result.fields["film_thickness"].values.max() == pytest.approx(30e-6 + scene.grooves[0].depth, rel=1e-2)
+        depths.add(scene.grooves[0].depth)
+    assert depths == {7.5e-6, 22.5e-6}
+
+
+def test_finished_jobs_are_skipped_also_when_the_study_grows(tmp_path):
+    out, study = tmp_path / "out", tmp_path / "s.toml"
+    write_study(study, models=["moody"], numbers=[1, 2])
+    assert Batch(study, out, tmp_path).end()[0] == 0
+    stamps = {path: path.stat().st_mtime_ns for path in results(out)}
+    assert len(stamps) == 2
+    write_study(study, models=["moody"], numbers=[1, 2, 3], depths=["0.25 film", "0.5 film"])
+    code, told, _ = Batch(study, out, tmp_path, "--dry-run", "--json").end()
+    assert code == 0
+    assert json.loads(told)["jobs"]["moody"] == {"finished": 2, "solved": 0, "failed": 0, "left out": 0, "to do": 4}
+    assert Batch(study, out, tmp_path).end()[0] == 0
+    assert sorted(attempts(tmp_path)) == ["1", "1", "2", "2", "3", "3"]
+    assert {path: path.stat().st_mtime_ns for path in stamps} == stamps
+    assert len(read_table(out / "table.h5")["case"]) == 6
+
+
+def test_a_dry_run_makes_nothing(tmp_path):
+    code, told, _ = Batch(POCKET, tmp_path / "out", tmp_path, "--dry-run").end()
+    assert code == 0
+    assert "12 cases" in told
+    assert not (tmp_path / "out").exists()
+
+
+def test_one_failure_stops_nothing(tmp_path):
+    """One that diverges has answered and is not asked again; one that breaks, stops or kills its worker is."""
+    out, study = tmp_path / "out", tmp_path / "s.toml"
+    write_study(study, models=["moody", "reynolds"], numbers=[5, 6, 7, 8, 9, 9.5])
+    code, told, error = Batch(study, out, tmp_path, "--json").end()
+    assert code == 3
+    failures = json.loads(told)["failures"]
+    kinds = {failure["kind"]: failure for failure in failures if failure["outcome"] != "failed"}
+    assert set(kinds) == {"ConvergenceError", "WorkerDied", "ZeroDivisionError"}
+    assert kinds["ConvergenceError"]["message"] == "moody: the residual grows; lower the Reynolds number"
+    assert any("in solve" in line for line in kinds["ZeroDivisionError"]["notes"])
+    assert len([line for line in error.splitlines() if line.startswith("failed: ")]) == len(failures) == 4
+    table = read_table(out / "table.h5")
+    assert sum(table["outcome"] == "solved") == 8
+    failed = (table["model"] == "moody") & (table["reynolds_number"] == 7)
+    assert table["outcome"][failed] == ["ConvergenceError: moody: the residual grows; lower the Reynolds number"]
+    assert np.isnan(table["load_plus"][failed]).all()
+
+    before = attempts(tmp_path)
+    assert Batch(study, out, tmp_path).end()[0] == 3
+    assert set(attempts(tmp_path)[len(before) :]) == {"8", "9", "9.5"}
+
+
+def same_later(stamps, out):
+    """Every result that was there is there untouched, and all that are there are whole."""
+    now = {path: path.stat().st_mtime_ns for path in results(out)}
+    for path in now:
+        load(path)
+    assert stamps.items() <= now.items()
+    return now
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("everyone", [True, False], ids=["group", "parent"])
+def test_killed_at_any_moment_it_goes_on_where_it_was(tmp_path, everyone):
+    out = tmp_path / "out"
+    moments = random.Random(20051 + everyone)
+    study = write_study(
+        tmp_path / "s.toml",
+        depths=[f"{0.25 + 0.1 * i:.2f} film" for i in range(10)],
+        numbers=list(range(10, 20)),
+        models=["moody", "inertial_reynolds"],
+    )
+    stamps = {}
+    for _ in range(4):
+        batch = Batch(study, out, tmp_path, "--jobs", 2, seconds=0.02)
+        wait_for(partial(lambda count, batch: len(results(out)) > count or not batch.runs(), len(stamps), batch))
+        time.sleep(moments.uniform(0, 0.2))
+        if everyone:
+            os.killpg(batch.process.pid, signal.SIGKILL)
+        else:
+            batch.process.kill()
+        batch.end()
+        wait_for(partial(lambda batch: not batch.family(), batch))
+        stamps = same_later(stamps, out)
+    stored = sum(path.name == "moody.h5" for path in stamps)
+    assert 0 < len(stamps) < 200
+    (results(out)[0].parent / ".reynolds-half.h5").write_bytes(b"half")
+    (out / ".scratch").mkdir(exist_ok=True)
+    (out / ".scratch" / "half").write_bytes(b"half")
+
+    before = len(attempts(tmp_path))
+    code, _, error = Batch(study, out, tmp_path, "--jobs", 2).end()
+    assert code == 0, error
+    assert len(attempts(tmp_path)) - before == 100 - stored
+    same_later(stamps, out)
+    assert not list((out / "cases").glob("*/.*"))
+    assert not (out / ".scratch").exists()
+    table = read_table(out / "table.h5")
+    assert len(table["case"]) == 200
+    assert set(table["outcome"]) == {"solved"}
+
+
+@pytest.mark.slow
+def test_killed_while_it_writes_it_leaves_no_part_of_a_result(tmp_path):
+    out, torn = tmp_path / "out", 0
+    study = write_study(tmp_path / "s.toml", models=["moody"])
+    for _ in range(3):
+        batch = Batch(study, out, tmp_path, megabytes=60)
+        wait_for(partial(lambda batch: [*out.glob("cases/*/*moody*")] or not batch.runs(), batch))
+        batch.process.kill()
+        batch.end()
+        torn += len([*out.glob("cases/*/.moody*")])
+        assert results(out) == []
+    assert torn
+    assert Batch(study, out, tmp_path, megabytes=60).end()[0] == 0
+    assert load(results(out)[0]).fields["noise"].values.nbytes == 60_000_000
+    assert [*out.glob("cases/*/.*")] == []
+
+
+def test_killed_alone_it_takes_its_workers_with_it(tmp_path):
+    study = write_study(tmp_path / "s.toml", models=["moody"], numbers=[10, 11])
+    batch = Batch(study, tmp_path / "out", tmp_path, "--jobs", 2, seconds=300)
+    wait_for(lambda: len(attempts(tmp_path)) == 2)
+    batch.process.kill()
+    batch.process.wait()
+    wait_for(lambda: not batch.family(), 20)
+    batch.end()
+
+
+@pytest.mark.parametrize(
+    ("send", "number"),
+    [(os.kill, signal.SIGTERM), (os.killpg, signal.SIGTERM), (os.killpg, signal.SIGINT)],
+    ids=["terminate", "terminate-group", "ctrl-c"],
+)
+def test_stopped_it_ends_at_once_with_one_line_and_no_children(tmp_path, send, number):
+    out = tmp_path / "out"
+    study = write_study(tmp_path / "s.toml", models=["moody"], numbers=list(range(10, 30)))
+    batch = Batch(study, out, tmp_path, "--jobs", 2, seconds=0.5)
+    wait_for(lambda: results(out))
+    send(batch.process.pid, number)
+    code, _, error = batch.end()
+    assert code == 128 + number
+    (line,) = error.splitlines()
+    assert line.startswith("stopped: ")
+    assert "of 20 jobs" in line
+    wait_for(lambda: not batch.family(), 5)
+    assert not (out / ".scratch").exists()
+    stamps = same_later({}, out)
+    assert Batch(study, out, tmp_path, "--jobs", 4).end()[0] == 0
+    same_later(stamps, out)
+
+
+def test_two_batches_do_not_share_a_directory(tmp_path):
+    out = tmp_path / "out"
+    study = write_study(tmp_path / "s.toml", models=["moody"], numbers=list(range(10, 14)))
+    first = Batch(study, out, tmp_path, "--jobs", 1, seconds=1.0)
+    wait_for(first.workers)
+    code, _, error = Batch(study, out, tmp_path).end()
+    assert code == 2
+    (line,) = error.splitlines()
+    assert f"another batch works here (process {first.process.pid})" in line
+    assert first.end()[0] == 0
+    assert len(attempts(tmp_path)) == 4
+
+
+def test_a_worker_that_is_killed_costs_nothing_but_time(tmp_path):
+    out = tmp_path / "out"
+    study = write_study(tmp_path / "s.toml", models=["moody"], numbers=list(range(10, 20)))
+    batch = Batch(study, out, tmp_path, "--jobs", 2, seconds=0.6)
+    wait_for(lambda: results(out))
+    os.kill(wait_for(batch.workers)[0], signal.SIGKILL)
+    code, _, error = batch.end()
+    assert code == 0, error
+    assert set(read_table(out / "table.h5")["outcome"]) == {"solved"}
+    assert len(attempts(tmp_path)) <= 11
+
+
+@pytest.mark.openfoam
+@pytest.mark.slow
+def test_a_killed_batch_of_openfoam_runs_goes_on(tmp_path):
+    out = tmp_path / "out"
+    study = write_study(
+        tmp_path / "s.toml",
+        models=["navier_stokes"],
+        numbers=[20, 40, 60, 80, 100, 120, 140, 160],
+        more="resolution.navier_stokes = 30\n",
+    )
+    batch = Batch(study, out, tmp_path, "--jobs", 2)
+    wait_for(lambda: results(out) and list((out / ".scratch").glob("roughfilm-*")))
+    batch.process.kill()
+    batch.end()
+    wait_for(lambda: not batch.family(), 20)
+    stamps = same_later({}, out)
+    assert Batch(study, out, tmp_path, "--jobs", 2).end()[0] == 0
+    same_later(stamps, out)
+    assert not (out / ".scratch").exists()
+    table = read_table(out / "table.h5")
+    assert (np.diff(table["load_plus"]) > 0).all()  # load grows with Re
+
+
+@pytest.mark.parametrize(
+    ("more", "arguments", "words"),
+    [
+        ("", ["--jobs", "0"], "--jobs: got 0"),
+        ("", ["--executor", "dask"], "--scheduler: got None"),
+        ("", ["--scheduler", "tcp://127.0.0.1:1"], "local takes none"),
+        ("colour = 1\n", [], "study.colour: unknown key"),
+    ],
+)
+def test_bad_input_is_one_line_and_code_2(tmp_path, more, arguments, words):
+    study = write_study(tmp_path / "s.toml", more=more)
+    code, told, error = Batch(study, tmp_path / "out", tmp_path, *arguments).end()
+    assert code == 2
+    (line,) = error.splitlines()
+    assert words in line
+    assert told == ""
+    assert not (tmp_path / "out").exists()
+
+
+needs_dask = pytest.mark.skipif(importlib.util.find_spec("distributed") is None, reason="distributed is not installed")
+
+
+@pytest.fixture
+def cluster(tmp_path):
+    """A scheduler and two workers of one thread, as processes, with the address."""
+    running = []
+
+    def start(program, *arguments):
+        command = [sys.executable, "-m", f"distributed.cli.{program}", *map(str, arguments), "--no-dashboard"]
+        environment = {**os.environ, "MOODY_NOTES": str(tmp_path / "notes"), "MOODY_SECONDS": "0.2"}
+        with (tmp_path / f"log-{len(running)}").open("w") as log:
+            running.append(subprocess.Popen(command, env=environment, stdout=log, stderr=log))
+        return running[-1]
+
+    told, preload = tmp_path / "scheduler.json", tmp_path / "preload.py"
+    preload.write_text(
+        f"from roughfilm.rom.pocket import models\nmodels.__path__.append({str(MOODY.parent / 'models')!r})\n"
+    )
+    scheduler = start("dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--scheduler-file", told)
+    wait_for(lambda: told.exists() and told.read_text())
+    address = json.loads(told.read_text())["address"]
+    workers = [start("dask_worker", address, "--nthreads", 1, "--no-nanny", "--preload", preload) for _ in range(2)]
+    for number in (1, 2):
+        wait_for(lambda: "Registered to" in (tmp_path / f"log-{number}").read_text())  # noqa: B023
+    yield address, scheduler, workers
+    for process in reversed(running):
+        process.kill()
+        process.wait()
+
+
+@needs_dask
+@pytest.mark.slow
+def test_a_cluster_that_loses_a_worker_answers_as_this_machine_does(tmp_path, cluster):
+    address, _, workers = cluster
+    study = write_study(tmp_path / "s.toml", models=["moody", "inertial_reynolds"], numbers=[7, *range(10, 25)])
+    there, here = tmp_path / "there", tmp_path / "here"
+    batch = Batch(study, there, tmp_path, "--executor", "dask", "--scheduler", address)
+    wait_for(lambda: len(results(there)) >= 2)
+    workers[0].kill()
+    code, _, error = batch.end()
+    assert code == 3, error
+    assert len(error.splitlines()) == 1
+    assert Batch(study, here, tmp_path).end()[0] == 3
+    far, near = read_table(there / "table.h5"), read_table(here / "table.h5")
+    assert sum(far["outcome"] == "solved") == 31
+    for name in set(near) - {"cpu_s"}:
+        assert np.array_equal(far[name], near[name], equal_nan=far[name].dtype.kind == "f"), name
+    same_later({}, there)
+
+
+@needs_dask
+@pytest.mark.parametrize("address", ["tcp://127.0.0.1:9", "nowhere"])
+def test_a_scheduler_that_does_not_answer_is_one_line_and_code_4(tmp_path, address):
+    batch = Batch(POCKET, tmp_path / "out", tmp_path, "--executor", "dask", "--scheduler", address)
+    code, told, error = batch.end()
+    assert code == 4
+    (line,) = error.splitlines()
+    assert line.startswith(f"error: --scheduler {address}: is no dask scheduler")
+    assert told == ""
+
+
+@needs_dask
+def test_a_scheduler_that_goes_ends_the_batch_in_one_line(tmp_path, cluster):
+    address, scheduler, _ = cluster
+    study = write_study(tmp_path / "s.toml", models=["moody"], numbers=list(range(10, 60)))
+    batch = Batch(study, tmp_path / "out", tmp_path, "--executor", "dask", "--scheduler", address)
+    wait_for(lambda: results(tmp_path / "out"))
+    scheduler.kill()
+    code, _, error = batch.end()
+    assert code == 4
+    assert error.splitlines() == ["error: the scheduler is gone; what is stored stays, start again"]
+    same_later({}, tmp_path / "out")
+
+
+def test_without_dask_it_says_how_to_get_it(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    arguments = ["batch", POCKET, "--out", tmp_path / "out", "--executor", "dask", "--scheduler", "tcp://127.0.0.1:9"]
+    result = CliRunner().invoke(app, [str(argument) for argument in arguments])
+    assert result.exit_code == 4
+    assert "pip install 'roughfilm[cluster]'" in result.stderr

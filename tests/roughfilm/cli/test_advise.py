@@ -1,0 +1,113 @@
+"""roughfilm advise and solve --within: what they print, and what they refuse."""
+
+import json
+
+import numpy as np
+import pytest
+from places import SCENES
+from typer.testing import CliRunner
+
+from roughfilm.cli.main import app
+from roughfilm.rom.ladder.store import load
+from roughfilm.terminal.console import BAD_INPUT, NOT_CONVERGED
+
+
+@pytest.fixture
+def run():
+    return lambda *arguments: CliRunner().invoke(app, [str(argument) for argument in arguments])
+
+
+@pytest.fixture
+def groove(pocket_file):
+    return [pocket_file, "--set", "motion.reynolds_number=5", "--set", "geometry.width=0.4mm"]
+
+
+def test_advice_as_json(run, groove):
+    found = run("advise", *groove, "--want", "load", "--within", "10%", "--json")
+    assert found.exit_code == 0
+    told = json.loads(found.stdout)
+    assert told["model"] in ("inertial_reynolds", "film", "film_slope")
+    assert 0 < told["expected_error"] <= 0.10
+    assert 0 < told["expected_cpu_s"] < 1
+    assert told["enough"]
+    assert any("Re·h/w = " in reason and "inertia may change the load" in reason for reason in told["reasons"])
+    chosen = next(one for one in told["considered"] if one["verdict"] == "chosen")
+    assert chosen["a_priori"]["error"] > 0
+    assert chosen["a_posteriori"]["reasons"], "the two sources are kept apart"
+    assert told["numbers"]["reynolds_number"] == 5
+
+
+def test_advice_for_people(run, groove):
+    found = run("advise", *groove, "--within", "10%")
+    assert found.exit_code == 0
+    assert "load within 10 % by" in found.stdout
+    assert "reynolds would miss it" in found.stdout.replace("\n", " ")
+    assert "h/L = 0.03" in found.stdout
+
+
+def test_solve_takes_what_is_advised_and_keeps_why(run, groove, tmp_path):
+    file = tmp_path / "result.h5"
+    advised = json.loads(run("advise", *groove, "--within", "10%", "--json").stdout)
+    found = run("solve", *groove, "--within", "10%", "--json", "--out", file)
+    assert found.exit_code == 0
+    told = json.loads(found.stdout)
+    assert told["model"] == advised["model"]
+    assert told["numerics"]["resolution"] == advised["resolution"]
+    assert load(file).provenance["advice"]["within"] == 0.1
+
+
+@pytest.mark.parametrize(
+    ("scene", "wants"),
+    [("dry_contact", ("contact area", "mean gap")), ("seal", ("leakage", "contact area"))],
+)
+def test_a_flat_surface_has_no_numbers_and_is_judged_all_the_same(run, tmp_path, scene, wants):
+    np.save(tmp_path / "flat.npy", np.zeros((16, 16)))
+    flat = ["--set", f"geometry.surface={tmp_path / 'flat.npy'}", "--set", "geometry.spacing=1um"]
+    for want in wants:
+        found = run("advise", f"{SCENES}/{scene}.toml", *flat, "--within", "5%", "--want", want, "--json")
+        assert found.exit_code == 0, found.stderr
+        told = json.loads(found.stdout)
+        assert told["numbers"] == {}
+        assert told["expected_error"] <= 0.05
+    assert "numbers of the scene" not in run("advise", f"{SCENES}/{scene}.toml", *flat, "--within", "5%").stdout
+
+
+def test_a_lubricant_that_boils_above_ambient_is_judged(run):
+    pressures = {"lubricant.cavitation_pressure": "10kPa", "boundary.inlet.pressure": "1MPa"}
+    sets = [text for key, value in pressures.items() for text in ("--set", f"{key}={value}")]
+    boiling = [f"{SCENES}/parabolic_slider.toml", *sets, "--set", "boundary.outlet.pressure=1MPa"]
+    told = json.loads(run("advise", *boiling, "--within", "5%", "--json").stdout)
+    assert told["numbers"]["cavitation_number"] < 0
+    assert told["model"] == "reynolds_cavitating"
+
+
+def test_it_says_when_none_will_do(run):
+    asked = [f"{SCENES}/parabolic_slider.toml", "--within", "1e-13"]
+    found = run("advise", *asked, "--json")
+    assert found.exit_code == NOT_CONVERGED
+    told = json.loads(found.stdout)
+    assert (told["enough"], told["model"]) == (False, None)
+    assert told["nearest"]
+    found = run("solve", *asked)
+    assert found.exit_code == NOT_CONVERGED
+    assert "no rung here is known to give the load within" in found.stderr.replace("\n", " ")
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (["--within", "much"], "--within: got 'much'"),
+        (["--within", "-5%"], "--within: got -0.05"),
+        (["--within", "5%", "--model", "film"], "--model: --within chooses"),
+        (["--within", "5%", "--resolution", "50"], "--resolution: --within chooses"),
+        (["--within", "5%", "--want", "lift"], "--want: got 'lift'"),
+        (["--within", "5%", "--processes", "2"], "--processes: --within chooses"),
+        (["--want", "load", "--model", "film"], "--want: says of which quantity"),
+        ([], "--model: is missing"),
+    ],
+)
+def test_what_cannot_be_asked_is_refused(run, pocket_file, options, told):
+    found = run("solve", pocket_file, *options)
+    assert found.exit_code == BAD_INPUT
+    assert told in found.stderr.replace("\n", " ")
+    assert found.stderr.count("error:") == 1

@@ -1,0 +1,141 @@
+"""roughfilm effects as people call it."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import Result
+from places import SCENES
+from typer.testing import CliRunner
+
+from roughfilm.cli.main import app
+from roughfilm.rom.bearing.effects.ablation import EFFECTS
+from roughfilm.rom.ladder.scene import load_scene, read_scene
+
+COARSE = ("--set", "roughness.surface.points=[32, 32]", "--set", "roughness.surface.correlation_length=60um")
+
+
+def run(scene: str, *arguments: object) -> Result:
+    return CliRunner().invoke(app, ["effects", str(SCENES / scene), *map(str, arguments)], catch_exceptions=False)
+
+
+@pytest.fixture(scope="module")
+def pad(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, Any]]:
+    """The directory of the example, coarse, and what ``--json`` told."""
+    out = tmp_path_factory.mktemp("effects")
+    done = run("pad.toml", *COARSE, "--resolution", 32, "--out", out, "--json")
+    assert done.exit_code == 0, done.stderr
+    return out, json.loads(done.stdout)
+
+
+def test_the_example_has_every_effect_and_the_steps_lead_to_all_of_it(pad: tuple[Path, dict[str, Any]]) -> None:
+    told = pad[1]
+    assert told["left_out"] == []
+    for view, names in (("at_film", ("load", "friction", "side_leakage")), ("under_load", ("film", "friction"))):
+        found = told[view]
+        assert [one["name"] for one in found["contributions"]] == [effect.name for effect in EFFECTS]
+        for name in names:
+            steps = sum(one["on"][name]["value"] for one in found["contributions"])
+            assert found["plain"][name]["value"] + steps == pytest.approx(found["full"][name]["value"], rel=1e-9)
+            for one in found["contributions"]:
+                without = one["off"][name]["value"] + one["alone"][name]["value"]
+                assert without == pytest.approx(found["full"][name]["value"], rel=1e-9)
+    assert told["quantities"]["load"] == told["at_film"]["full"]["load"]
+
+
+def test_under_the_load_everything_carries_it(pad: tuple[Path, dict[str, Any]]) -> None:
+    found = pad[1]["under_load"]
+    carried = 2e6 * 20e-3 * 20e-3
+    for one in found["contributions"]:
+        assert one["after"]["load"]["value"] == pytest.approx(carried, rel=1e-5)
+        assert one["off"]["load"]["value"] == pytest.approx(carried, rel=1e-5)
+    assert pad[1]["numerics"]["balance"] < 1e-6
+
+
+def test_inertia_is_told_beside_and_not_within(pad: tuple[Path, dict[str, Any]]) -> None:
+    told = pad[1]
+    added = told["inertia"]["amounts"]["load"]
+    assert 0 < abs(added["value"]) + added["uncertainty"] < 0.01 * told["quantities"]["load"]["value"]
+    assert told["inertia"]["pocket"]["model"] in ("inertial_reynolds", "film", "film_slope"), "by the advice on pockets"
+    assert told["inertia"]["pocket"]["within"] <= 0.05
+    assert told["inertia_under_load"]["thicker"]["unit"] == "m"
+    assert [one["effect"] for one in told["treatments"]][-1] == "inertia"
+
+
+def test_the_page_is_whole(pad: tuple[Path, dict[str, Any]]) -> None:
+    out, told = pad
+    page = (out / "report.html").read_text(encoding="utf-8")
+    assert page.count("<svg") == 2
+    for one in told["treatments"]:
+        assert one["why"].split(",")[0] in page
+    for words in (
+        "Each added to all the others",
+        "inertia, not counted",
+        "Under 2 MPa",
+        told["inertia"]["pocket"]["model"],
+    ):
+        assert words in page
+    assert {path.name for path in out.iterdir()} == {
+        "report.html",
+        "effects.json",
+        "effects_at_film.svg",
+        "effects_under_load.svg",
+    }
+    assert json.loads((out / "effects.json").read_text(encoding="utf-8"))["at_film"] == told["at_film"]
+
+
+def test_what_a_scene_lacks_is_left_out_and_said(tmp_path: Path) -> None:
+    done = run("parabolic_slider.toml", "--resolution", 128, "--out", tmp_path)
+    assert done.exit_code == 0, done.stderr
+    told = json.loads((tmp_path / "effects.json").read_text(encoding="utf-8"))
+    assert told["left_out"] == ["side flow", "texture", "roughness", "asperities"]
+    assert told["under_load"] is None
+    assert told["inertia"] is None
+    said = " ".join(done.stdout.split())
+    assert "left out, as the scene has none of it: side flow, texture, roughness, asperities" in said
+    assert "the scene does not say how dense the lubricant is" in said
+
+
+def test_a_load_of_the_command_takes_the_place_of_the_scenes(tmp_path: Path) -> None:
+    done = run("rough_pad.toml", "--resolution", 32, "--load", "0.2MPa", "--out", tmp_path, "--json")
+    assert done.exit_code == 0, done.stderr
+    told = json.loads(done.stdout)
+    assert told["provenance"]["scene"]["load"]["pressure"].split()[0] == "200000.0"
+    assert set(told["under_load"]["untold"]) == {"the plain film", "with side flow", "without cavitation"}
+    (roughness,) = [one for one in told["under_load"]["contributions"] if one["name"] == "roughness"]
+    assert roughness["on"]["film"]["value"] > 0
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "No numbers the plain film" not in page
+    assert "Without numbers: the plain film" in page
+
+
+@pytest.mark.parametrize(
+    ("scene", "arguments", "words"),
+    [
+        ("pocket.toml", (), "effects are those of a bearing"),
+        ("rough_pad.toml", ("--load", "2mm"), "load.pressure"),
+        ("rough_pad.toml", ("--load", "-2MPa"), "must be above"),
+        ("rough_pad.toml", ("--resolution", "4"), "it must be 16 to 1024 cells"),
+        ("textured_slider.toml", ("--load", "1GPa", "--resolution", "128"), "carry at most"),
+    ],
+)
+def test_what_makes_no_sense_costs_one_line(scene: str, arguments: tuple[str, ...], words: str, tmp_path: Path) -> None:
+    done = run(scene, *arguments, "--out", tmp_path / "out")
+    assert done.exit_code == 2
+    assert words in done.stderr
+    assert len(done.stderr.strip().splitlines()) == 1
+    assert not (tmp_path / "out" / "report.html").exists()
+
+
+def test_a_rung_says_that_a_given_film_does_not_carry_the_load() -> None:
+    from roughfilm.rom.bearing.models.reynolds_cavitating import MODEL
+
+    scene = load_scene(SCENES / "parabolic_slider.toml", ["load.pressure=1 MPa"])
+    assert read_scene(scene.model_dump(mode="json", exclude_none=True)) == scene
+    found = MODEL.solve(scene, resolution=128)
+    mean = found.quantities["load_per_width"].value / 76.2e-3
+    (warning,) = [told for told in found.provenance["warnings"] if "taken as given" in told]
+    assert f"{mean:.4g} Pa" in warning
+    near = load_scene(SCENES / "parabolic_slider.toml", [f"load.pressure={mean!r} Pa"])
+    assert not any("taken as given" in told for told in MODEL.solve(near, resolution=128).provenance["warnings"])

@@ -1,0 +1,239 @@
+"""roughfilm leakage: from the first touch to where it is sealed, kept load by load."""
+
+import csv
+import itertools
+import json
+import math
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from roughfilm.cli.main import app
+from roughfilm.rom.ladder.model import Availability
+from roughfilm.rom.seal.leakage import curve as leakage_run
+from roughfilm.rom.seal.leakage.series import load_series
+from roughfilm.rom.studies.table import read_table
+
+ABSENT = Availability(available=False, detail="left out in a test")
+SURFACE = """
+kind = "self_affine"
+size = ["40 um", "40 um"]
+points = [32, 32]
+seed = 20071
+hurst = 0.8
+roll_off = "20 um"
+cut_off = "10 um"
+rms_height = "0.1 um"
+"""
+SCENE = """
+name = "small seal"
+kind = "seal"
+[geometry]
+surface = "rough.toml"
+[solid]
+modulus = "10 MPa"
+poisson = 0.5
+[load]
+pressure = "10 kPa"
+[liquid]
+density = "1000 kg/m^3"
+viscosity = "1 mPa*s"
+[flow]
+pressure_drop = "1 MPa"
+length = "1 mm"
+direction = "y"
+"""
+NAMES = ("direct_x", "direct_y", "homogenized_x", "homogenized_y")
+
+
+def run(*arguments):
+    return CliRunner().invoke(app, [str(argument) for argument in arguments])
+
+
+def asked(*arguments):
+    done = run(*arguments, "--json")
+    assert done.exit_code == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("seal")
+    (folder / "rough.toml").write_text(SURFACE, encoding="utf-8")
+    (folder / "seal.toml").write_text(SCENE, encoding="utf-8")
+    return folder
+
+
+@pytest.fixture(autouse=True)
+def _without_pages(monkeypatch):
+    """Figures take most of the time; one test looks at a page."""
+    monkeypatch.setattr("roughfilm.pages.leakage.write_page", lambda *_: None)
+
+
+@pytest.fixture(scope="module")
+def told(place):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("roughfilm.figures.contact_view.draw_views_apart", lambda *_: ABSENT)
+        return asked("leakage", place / "seal.toml", "--out", place / "out")
+
+
+def test_loads_reach_from_the_first_touch_to_beyond_where_it_seals(told):
+    series = told["series"]
+    assert 25 <= len(series) <= 27
+    loads, areas = ([row[name] for row in series] for name in ("load", "area_fraction"))
+    assert loads == sorted(loads)
+    assert areas[0] < 0.02
+    assert all(series[-1][f"{name}_sealed"] == 1 for name in NAMES)
+    assert not any(series[0][f"{name}_sealed"] for name in NAMES)
+
+
+def test_leakage_falls_and_is_nothing_where_sealed(told):
+    for name in NAMES:
+        column = [row[name] for row in told["series"]]
+        assert all(a > b or a == b == 0 for a, b in itertools.pairwise(column))
+        assert [value == 0 for value in column] == [row[f"{name}_sealed"] == 1 for row in told["series"]]
+    for row in told["series"]:
+        assert row["direct_x"] >= row["homogenized_x"] * (1 - 1e-6)
+        assert row["direct_y"] >= row["homogenized_y"] * (1 - 1e-6)
+
+
+def test_thresholds_part_the_series(told):
+    for name in NAMES:
+        side = told["thresholds"][name]
+        assert told["quantities"][f"seals_{name}"]["value"] == 1
+        assert side["open"]["load"] < told["quantities"][f"sealing_load_{name}"]["value"] < side["sealed"]["load"]
+        assert side["sealed"]["load"] <= 1.0101 * side["open"]["load"]
+        for row in told["series"]:
+            if row["load"] <= side["open"]["load"]:
+                assert row[f"{name}_sealed"] == 0
+            if row["load"] >= side["sealed"]["load"]:
+                assert row[f"{name}_sealed"] == 1
+
+
+def test_tables_and_page_hold_the_series(told, place):
+    table = read_table(place / "out" / "table.h5")
+    assert table["load"].tolist() == [row["load"] for row in told["series"]]
+    leak = table["leakage_direct_y"]
+    assert leak == pytest.approx(1e3 * table["direct_y"] * 1e6 / (12e-3 * 1e-3), rel=1e-12)
+    with (place / "out" / "table.csv").open(encoding="utf-8") as file:
+        lines = list(csv.reader(file))
+    assert len(lines) == 1 + len(told["series"])
+    assert "leakage_direct_x (kg/(m*s))" in lines[0]
+    page = (place / "out" / "report.html").read_text(encoding="utf-8")
+    assert page.count("<svg") >= 4
+    assert "seals it in x" in page
+    assert "No picture: left out in a test" in page
+    assert "http://www.w3.org" in page
+    assert "<script" not in page
+
+
+def test_the_same_command_solves_nothing_again(told, place):
+    again = asked("leakage", place / "seal.toml", "--out", place / "out")
+    assert again["numerics"]["loads_found"] == len(told["series"])
+    assert again["series"] == told["series"]
+
+
+def test_another_liquid_takes_the_same_contacts_and_another_solid_does_not(told, place):
+    thick = asked("leakage", place / "seal.toml", "--out", place / "out", "--set", "liquid.viscosity=2 mPa*s")
+    assert thick["numerics"]["loads_found"] == len(told["series"])
+    assert thick["series"][0]["leakage_direct_x"] == pytest.approx(told["series"][0]["leakage_direct_x"] / 2)
+    refused = run("leakage", place / "seal.toml", "--out", place / "out", "--set", "solid.modulus=11 MPa")
+    assert refused.exit_code == 2
+    assert "holds another series" in refused.stderr
+
+
+def test_what_was_finished_is_kept_when_it_ends_half_way(place, monkeypatch):
+    flow, done = leakage_run.direct_leakage, []
+
+    def fails(gap, spacing):
+        if len(done) == 3:
+            raise KeyboardInterrupt
+        done.append(1)
+        return flow(gap, spacing)
+
+    arguments = ("leakage", place / "seal.toml", "--out", place / "half", "--loads", "1kPa..50kPa:6", "--threads", 1)
+    monkeypatch.setattr(leakage_run, "direct_leakage", fails)
+    stopped = run(*arguments)
+    assert stopped.exit_code != 0
+    assert "the same command goes on" in stopped.stderr
+    monkeypatch.setattr(leakage_run, "direct_leakage", flow)
+    kept = load_series(place / "half" / "leakage.h5")
+    assert len(kept.rows) == 3
+    assert set(kept.thresholds) == set(NAMES)
+    whole = asked(*arguments)
+    assert whole["numerics"]["loads_found"] == 3
+    assert len(whole["series"]) == 6
+
+
+def test_loads_may_come_in_any_order_but_not_below_zero(place):
+    told = asked("leakage", place / "seal.toml", "--out", place / "few", "--loads", "20kPa,5kPa")
+    assert [row["load"] for row in told["series"]] == [5e3, 2e4]
+    refused = run("leakage", place / "seal.toml", "--out", place / "few", "--loads=-5kPa")
+    assert refused.exit_code == 2
+    assert "a load must be above 0" in refused.stderr
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--set", "solid.hardness=30 kPa", "--loads", "1kPa..50kPa:3"], "above the hardness"),
+        (["--set", "kind=dry_contact"], "liquid"),
+        (["--threads", "0"], "it must be 1 to 256"),
+        (["--set", "load.pressure=0 Pa"], "load.pressure"),
+    ],
+)
+def test_what_makes_no_sense_is_refused_in_a_line(place, arguments, words):
+    done = run("leakage", place / "seal.toml", "--out", place / "bad", *arguments)
+    assert done.exit_code == 2
+    assert words in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_scenes_of_other_kinds_are_refused(place):
+    entries = SCENE.replace('"seal"', '"dry_contact"').split("[liquid]")[0]
+    (place / "dry.toml").write_text(entries, encoding="utf-8")
+    done = run("leakage", place / "dry.toml", "--out", place / "bad")
+    assert done.exit_code == 2
+    assert "takes scenes of kind 'seal'" in done.stderr
+
+
+def test_a_flat_surface_is_sealed_under_the_loads_that_are_asked(place, monkeypatch):
+    monkeypatch.undo()
+    monkeypatch.setattr("roughfilm.figures.contact_view.draw_views_apart", lambda *_: ABSENT)
+    np.save(place / "flat.npy", np.zeros((16, 16)))
+    flat = ["--set", f"geometry.surface={place / 'flat.npy'}", "--set", "geometry.spacing=1 um"]
+    refused = run("leakage", place / "seal.toml", "--out", place / "flat", *flat)
+    assert refused.exit_code == 2
+    assert "is flat" in refused.stderr
+    told = asked("leakage", place / "seal.toml", "--out", place / "flat", *flat, "--loads", "1kPa,1MPa")
+    assert all(row[name] == 0 and row[f"{name}_sealed"] == 1 for row in told["series"] for name in NAMES)
+    assert all(row["valley_depth"] is None for row in told["series"])
+    assert "Nothing leaks at any of these loads" in (place / "flat" / "report.html").read_text(encoding="utf-8")
+
+
+def test_grooves_that_never_close_are_told_with_the_largest_load(place):
+    """Full contact of ridges needs P = πE*D/λ: more than E* of deep ones."""
+    ridges = 8e-6 * np.repeat(np.cos(2 * np.pi * np.arange(32) / 32)[:, None], 8, axis=1)
+    np.save(place / "deep.npy", ridges)
+    assert math.pi * 8e-6 / (32 * 0.5e-6) > 1
+    deep = ["--set", f"geometry.surface={place / 'deep.npy'}", "--set", "geometry.spacing=0.5 um"]
+    told = asked("leakage", place / "seal.toml", "--out", place / "deep", *deep)
+    assert told["quantities"]["seals_direct_y"]["value"] == 0
+    assert told["quantities"]["seals_direct_x"]["value"] == 1
+    warnings = " ".join(told["provenance"]["warnings"])
+    assert "between ends, y: stays open up to 13.33 MPa" in warnings
+    assert "between ends, x: is sealed under any load" in warnings
+    assert told["series"][-1]["load"] <= 1e7 / 0.75 * (1 + 1e-9)
+
+
+def test_joints_that_seal_are_warned_of(place):
+    x = np.arange(64) / 64
+    heights = 1e-7 * (np.cos(2 * np.pi * 4 * x)[:, None] + np.cos(2 * np.pi * 4 * x)[None, :])
+    heights[-2:] += 6e-7
+    np.save(place / "joint.npy", heights)
+    bad = ["--set", f"geometry.surface={place / 'joint.npy'}", "--set", "geometry.spacing=0.5 um"]
+    told = asked("leakage", place / "seal.toml", "--out", place / "joint", *bad)
+    warnings = " ".join(told["provenance"]["warnings"])
+    assert "meets itself badly at its joints" in warnings
+    assert "seal it first in x" in warnings

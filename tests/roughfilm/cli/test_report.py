@@ -1,0 +1,80 @@
+"""The page of a sweep: errors by case, what orders them, and refusals in one line."""
+
+import json
+import re
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from roughfilm.cli.main import app
+from roughfilm.rom.studies.sweep import loaded, read_sweep, relative_error
+from roughfilm.rom.studies.table import read_table
+
+STUDY = """
+name = "small"
+kind = "pocket"
+[geometry]
+length = "1 mm"
+film = "30 um"
+width = ["0.2 length", "0.3 length", "0.5 length"]
+depth = ["0.25 film", "0.75 film"]
+[lubricant]
+viscosity = "0.01 Pa*s"
+density = "1000 kg/m^3"
+[motion]
+reynolds_number = [20, 60, 160]
+[[variants]]
+geometry.profile = "cylindrical"
+[[variants]]
+geometry.profile = "splined"
+geometry.shift = "0.2 width"
+[study]
+models = ["reynolds", "inertial_reynolds", "film", "film_slope"]
+resolution = { film = 100, film_slope = 100 }
+"""
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    place = tmp_path_factory.mktemp("sweep")
+    (place / "study.toml").write_text(STUDY)
+    run = CliRunner().invoke(app, ["batch", str(place / "study.toml"), "--out", str(place / "done")])
+    assert run.exit_code == 0, run.output
+    return place / "done"
+
+
+def test_a_sweep_is_read_side_by_side(finished):
+    sweep = read_sweep(read_table(finished / "table.h5"), "pocket")
+    assert len(sweep.names) == 36
+    assert set(sweep.found) == {"reynolds", "inertial_reynolds", "film-100", "film_slope-100"}
+    assert np.unique(sweep.given["width_plus"]) == pytest.approx([0.2, 0.3, 0.5])
+    features = sweep.features()
+    splined = sweep.given["profile"] == "splined"
+    expected = sweep.given["depth_plus"] * 0.03 / sweep.given["width_plus"]
+    assert features["slope"][~splined] == pytest.approx(2 * expected[~splined])
+    assert features["slope"][splined] == pytest.approx(expected[splined] / 0.3)
+
+
+def test_the_report_orders_the_errors_of_every_model(finished):
+    run = CliRunner().invoke(app, ["report", str(finished), "--json"])
+    assert run.exit_code == 0, run.output
+    told = json.loads(run.stdout)
+    assert told["reference"] == "film_slope-100"
+    assert told["cases"] == 36
+    rows = {row["setting"]: row for row in told["settings"]}
+    sweep = read_sweep(read_table(finished / "table.h5"), "pocket")
+    error = relative_error(sweep, "film-100", "film_slope-100", "load_plus")[loaded(sweep, "film_slope-100")]
+    assert rows["film-100"]["error"]["load_plus"]["worst"] == pytest.approx(error.max())
+    law = rows["inertial_reynolds"]["ordered_by"]["friction_plus"]
+    assert 0.5 < law["rank"] <= 1
+    page = (finished / "report.html").read_text(encoding="utf-8")
+    assert "36 cases by 4 settings" in page
+    assert not re.findall(r"(?:src|href)=\"http", page)
+
+
+def test_a_directory_without_a_table_is_one_line(tmp_path):
+    run = CliRunner().invoke(app, ["report", str(tmp_path)])
+    assert run.exit_code == 2
+    assert "is not a table of roughfilm" in run.stderr
+    assert len(run.stderr.strip().splitlines()) == 1

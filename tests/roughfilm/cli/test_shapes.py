@@ -1,0 +1,80 @@
+"""Report and pictures speak of every groove of a scene, whatever its shape."""
+
+import html
+import re
+
+import numpy as np
+import pytest
+
+from roughfilm.cli import compare
+from roughfilm.figures.streamlines import shown
+from roughfilm.figures.views.pocket import pressure
+from roughfilm.foamcases.openfoam.block_mesh import layered
+from roughfilm.rom.ladder.model import find, of_kind
+from roughfilm.rom.ladder.scene import load_scene
+from roughfilm.terminal.console import models
+
+ONE = ["geometry.profile=points", "geometry.points=[[-1e-4,0],[0,1e-5],[2e-4,0]]"]
+FIVE = "geometry.grooves=[{}]".format(
+    ", ".join(f'{{"width": "{40 + n} um", "depth": "3 um", "position": "{100 * n} um"}}' for n in range(5))
+)
+
+
+@pytest.fixture
+def film_only(monkeypatch):
+    film = tuple(model for model in models() if model.write is None)
+    monkeypatch.setattr(compare, "models", lambda: film)
+
+
+@pytest.mark.usefixtures("film_only")
+@pytest.mark.parametrize(
+    ("name", "overrides", "words"),
+    [
+        ("pocket", [], "in the still wall a cylindrical groove 300 µm wide and 7.5 µm deep."),
+        (
+            "splined",
+            [],
+            "in the still wall a splined groove 500 µm wide and 7.5 µm deep, lowest 150 µm behind its middle.",
+        ),
+        ("splined", ["geometry.shift=1 um"], "deep, lowest 1 µm ahead of its middle."),
+        ("splined", ["geometry.shift=0 m"], "a splined groove 500 µm wide and 7.5 µm deep."),
+        ("pocket", ONE, "in the still wall a groove through 3 points 300 µm wide and 10 µm deep."),
+        ("pocket", ["geometry.position=-20 um"], "a cylindrical groove 300 µm wide and 7.5 µm deep, at -20 µm."),
+        (
+            "two_grooves",
+            [],
+            "in the still wall a cylindrical groove 300 µm wide and 7.5 µm deep, at -250 µm; a splined groove 400 µm "
+            "wide and 15 µm deep, lowest 100 µm behind its middle, at 200 µm.",
+        ),
+        ("two_grooves", [FIVE], "in the still wall 5 grooves, at most 44 µm wide and 3 µm deep."),
+    ],
+)
+def test_the_page_says_what_the_wall_looks_like(pocket_file, tmp_path, name, overrides, words):
+    compare.command(pocket_file.parent / f"{name}.toml", out=tmp_path, set_=overrides)
+    page = html.unescape((tmp_path / "report.html").read_text())
+    assert words in re.sub(r"\s+", " ", page)
+
+
+def test_the_pressure_plot_marks_the_edges_of_every_groove_and_nothing_else(pocket_file):
+    edges = []
+    for name, overrides in (("pocket", []), ("pocket", ONE), ("two_grooves", [])):
+        scene = load_scene(pocket_file.parent / f"{name}.toml", overrides)
+        svg = pressure(scene, {"reynolds": find(of_kind(models(), "pocket"), "reynolds").solve(scene)})
+        edges.append(svg.count("stroke-dasharray: 3.2,2.4"))
+    assert edges == [2, 2, 4]
+
+
+@pytest.mark.parametrize(("name", "left", "right"), [("two_grooves", -0.5, 0.5), ("splined", -0.425, 0.425)])
+def test_a_picture_shows_all_grooves_with_a_margin(pocket_file, name, left, right):
+    scene = load_scene(pocket_file.parent / f"{name}.toml")
+    vertices = layered(scene.gap(), 240)[:, :, 0, :2] * scene.geometry.film
+    x = vertices[shown(vertices), 0, 0]
+    assert (x[0], x[-1]) == pytest.approx((left * 1e-3, right * 1e-3), abs=3e-5)
+
+
+def test_a_picture_of_a_tiny_film_or_groove_shows_it_too(pocket_file):
+    scene = load_scene(pocket_file, ["geometry.depth=1 pm"])
+    vertices = layered(scene.gap(), 240)[:, :, 0, :2] * scene.geometry.film
+    for scale in (1.0, 1e-4):
+        window = shown(vertices * scale)
+        assert np.ptp(vertices[window, 0, 0]) == pytest.approx(1.7 * 0.3e-3, rel=0.05)

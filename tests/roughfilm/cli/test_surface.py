@@ -1,0 +1,165 @@
+"""``roughfilm surface``: what it prints, what it writes, and how it fails."""
+
+import json
+import os
+import re
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from roughfilm.cli.main import app
+from roughfilm.contact.surfaces.files import read_surface
+from roughfilm.contact.surfaces.store import save_surface
+from roughfilm.contact.surfaces.surface import Surface
+
+PARAMETERS = ["Sa", "Sq", "Sp", "Sv", "Sz", "Ssk", "Sku", "Sk", "Spk", "Svk", "Smr1", "Smr2"]
+PARAMETERS += ["Sal", "Str", "Std", "St", "Spm", "Svm"]
+
+
+@pytest.fixture
+def run():
+    def call(*arguments):
+        return CliRunner().invoke(app, ["surface", *map(str, arguments)])
+
+    return call
+
+
+@pytest.fixture
+def csv(tmp_path):
+    """A tilted, rough surface of 80 x 60 points with one that is missing."""
+    rng = np.random.default_rng(851)
+    smooth = np.fft.irfft2(np.fft.rfft2(rng.normal(size=(128, 128)))[:, :14] * 1, s=(128, 128))[:80, :60]
+    heights = smooth / smooth.std() + 0.1 * np.arange(80)[:, None]
+    lines = [",".join(f"{value:.6f}" for value in row) for row in heights.T]
+    lines[30] = lines[30].replace(lines[30].split(",")[7], "", 1)
+    path = tmp_path / "measured.csv"
+    path.write_text("# spacing: 2 um, 3 um; heights: um\n" + "\n".join(lines) + "\n")
+    return path
+
+
+def test_json_is_one_object_with_parameters_before_and_after(run, csv, tmp_path):
+    done = run(csv, "--json", "--out", tmp_path / "s.h5", "--set", "smoothing=1")
+    assert done.exit_code == 0
+    told = json.loads(done.stdout)
+    assert set(told) == {"quantities", "numerics", "provenance"}
+    names = {*PARAMETERS, *(f"raw_{name}" for name in PARAMETERS)}
+    assert names | {"invalid_fraction", "periodicity_mismatch", "raw_periodicity_mismatch"} == set(told["quantities"])
+    assert told["quantities"]["invalid_fraction"]["value"] == pytest.approx(1 / 4800)
+    assert told["quantities"]["raw_Sq"] == {"value": pytest.approx(1e-6, rel=0.3), "unit": "m"}
+    assert told["numerics"]["residual"] <= 1e-9
+    assert told["provenance"]["recipe"]["smoothing"] == 1
+    assert told["provenance"]["surface"]["file"] == "measured.csv"
+    stored = read_surface(tmp_path / "s.h5")
+    assert stored.shape == (128, 64)
+    assert stored.heights.std() == pytest.approx(told["quantities"]["Sq"]["value"], rel=1e-12)
+    assert stored.source["recipe"] == told["provenance"]["recipe"]
+
+
+def test_the_recipe_file_decides(run, csv, tmp_path):
+    (tmp_path / "r.toml").write_text('form = "tilt"\n[grid]\npoints = "kept"\n[edges]\ndirection = "none"\n')
+    done = run(csv, "--json", "--prepare", tmp_path / "r.toml", "--set", "smoothing=5")
+    record = json.loads(done.stdout)["provenance"]["record"]
+    assert record["grid"]["points"] == [80, 60]
+    assert record["edges"]["direction"] == "none"
+
+
+def test_a_prepared_surface_read_again_stays_as_it_is(run, csv, tmp_path):
+    run(csv, "--out", tmp_path / "s.h5")
+    done = run(tmp_path / "s.h5", "--out", tmp_path / "t.h5", "--json")
+    assert json.loads(done.stdout)["provenance"]["record"]["edges"]["direction"] == "none"
+    assert np.array_equal(read_surface(tmp_path / "t.h5").heights, read_surface(tmp_path / "s.h5").heights)
+
+
+def test_overrides_of_a_prepared_surface_change_nothing_else(run, csv, tmp_path):
+    run(csv, "--out", tmp_path / "s.h5")
+    done = run(tmp_path / "s.h5", "--json", "--set", "smoothing=3")
+    recipe = json.loads(done.stdout)["provenance"]["recipe"]
+    assert (recipe["form"], recipe["edges"]["direction"], recipe["smoothing"]) == ("none", "none", 3)
+
+
+def test_one_output_that_cannot_be_written_leaves_none(run, csv, tmp_path):
+    done = run(csv, "--out", tmp_path / "s.h5", "--report", "/proc/nowhere/page.html")
+    assert done.exit_code == 2
+    assert not (tmp_path / "s.h5").exists()
+    assert [path.name for path in tmp_path.iterdir()] == ["measured.csv"]
+
+
+def test_a_name_of_odd_bytes_does_no_harm(run, csv, tmp_path):
+    odd = tmp_path / os.fsdecode(b"odd \xff [bold].csv")
+    odd.write_bytes(csv.read_bytes())
+    assert run(odd, "--report", tmp_path / "page.html", "--json").exit_code == 0
+    assert "[bold]" in (tmp_path / "page.html").read_text()
+
+
+def test_people_get_a_table_and_the_warnings(run, csv):
+    done = run(csv, "--set", "edges.direction=none")
+    assert done.exit_code == 0
+    assert re.search(r"Sa\b.*µm", done.output)
+    assert "filled: 1 invalid points" in done.output
+    assert "warning: periodicity mismatch" in done.output
+
+
+def test_the_page_holds_its_pictures_and_nothing_from_elsewhere(run, csv, tmp_path):
+    done = run(csv, "--report", tmp_path / "page.html")
+    assert done.exit_code == 0
+    page = (tmp_path / "page.html").read_text()
+    assert page.count("<svg") == 5
+    for title in ("Heights", "Joints", "Bearing curve", "Power spectrum", "Parameters", "Recipe"):
+        assert f"<h2>{title}</h2>" in page
+    assert "measured.csv" in page
+    assert not re.search(r'(src|href)="http', page)
+
+
+def test_a_synthetic_surface_is_made_from_its_description(run, tmp_path):
+    (tmp_path / "s.toml").write_text(
+        'kind = "self_affine"\nsize = ["1 mm", "1 mm"]\npoints = [64, 64]\nseed = 852\nhurst = 0.8\n'
+        'roll_off = "0.25 mm"\ncut_off = "62.5 um"\nrms_height = "2 um"\n'
+    )
+    done = run(tmp_path / "s.toml", "--json", "--out", tmp_path / "s.h5")
+    assert done.exit_code == 0
+    told = json.loads(done.stdout)
+    assert told["quantities"]["Sq"]["value"] == pytest.approx(2e-6, rel=1e-9)
+    assert read_surface(tmp_path / "s.h5").source["prepared_from"]["synthetic"]["seed"] == 852
+
+
+HEAD = "# spacing: 1 um, 1 um; heights: um\n"
+BAD = [
+    ("invalid.csv", HEAD + "nan,nan\nnan,nan\n", "every pixel is invalid"),
+    ("constant.csv", HEAD + "3,3,3,3\n" * 4, "there is no roughness to prepare"),
+    ("row.csv", HEAD + "1,2,3,4\n", "a surface has at least 2 x 2"),
+    ("infinite.csv", HEAD + "1,2\n3,-inf\n", "is infinite"),
+    ("letter.csv", "Dear colleague\n", "write numbers with commas between"),
+    ("units.csv", "# spacing: 1 um, 1 kg; heights: um\n1,2\n3,4\n", "wrong dimension"),
+    ("bare.csv", "1,2\n3,5\n", "tells no spacing"),
+    ("few.csv", HEAD + "1,2\n3,5\n", "choose a simpler one"),
+    ("description.toml", 'kind = "self_afine"\n', "self_affine"),
+]
+
+
+@pytest.mark.parametrize(("name", "text", "message"), BAD)
+def test_a_bad_surface_is_one_line_and_exit_code_2(run, tmp_path, name, text, message):
+    (tmp_path / name).write_text(text)
+    done = run(tmp_path / name, "--json", "--out", tmp_path / "out.h5", "--report", tmp_path / "out.html")
+    assert done.exit_code == 2
+    assert done.stdout == ""
+    assert len(done.stderr.strip().splitlines()) == 1
+    assert re.search(message, done.stderr)
+    assert not (tmp_path / "out.h5").exists()
+    assert not (tmp_path / "out.html").exists()
+
+
+@pytest.mark.parametrize("option", ["--out", "--report"])
+def test_an_output_never_replaces_its_input(run, tmp_path, option):
+    save_surface(Surface(heights=np.eye(9), spacing=(1.0, 1.0)), tmp_path / "s.h5")
+    before = (tmp_path / "s.h5").read_bytes()
+    done = run(tmp_path / "s.h5", option, tmp_path / "s.h5")
+    assert done.exit_code == 2
+    assert "is the same file as FILE" in done.stderr
+    assert (tmp_path / "s.h5").read_bytes() == before
+
+
+def test_both_outputs_in_one_file_are_refused(run, csv, tmp_path):
+    done = run(csv, "--out", tmp_path / "x", "--report", tmp_path / "x")
+    assert done.exit_code == 2
+    assert "is the same file as --out" in done.stderr

@@ -1,0 +1,283 @@
+"""The map of where models converge: what it tells of each run, and that finished runs are used again."""
+
+import csv
+import json
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from roughfilm.batch.answers import SECOND
+from roughfilm.batch.jobs import failure_of
+from roughfilm.cli import stability
+from roughfilm.cli.main import app
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome, UnavailableError
+from roughfilm.pages.render import TEMPLATES
+from roughfilm.rom.ladder.model import find
+from roughfilm.rom.ladder.setting import Setting
+from roughfilm.stability import form as stability_form
+from roughfilm.stability import laws as stability_laws
+from roughfilm.stability import pocket as stability_pocket
+from roughfilm.stability.form import MEANING, Judged, Map, Spot, tried
+from roughfilm.stability.pocket import in_words, spot_of
+from roughfilm.terminal.console import models
+
+NAVIER_STOKES = find(models(), "navier_stokes")
+SETTING = Setting(model=NAVIER_STOKES, scheme="linear_upwind")
+HERE = partial(Spot, group="g", row="r", column="c")
+
+
+def run(*arguments):
+    return CliRunner().invoke(app, ["stability", *map(str, arguments)])
+
+
+@pytest.fixture
+def small(monkeypatch, pocket_file):
+    """A usual groove, and one so shallow that OpenFOAM at 30 columns needs its second try."""
+
+    def family(names, reynolds_numbers=(2000.0,), depths_plus=(0.25, 1e-6)):
+        chosen = tuple(model for model in models() if model.name in names)
+        monkeypatch.setattr(stability_pocket, "models", lambda: chosen)
+        made = stability_pocket.PocketFamily(
+            scene=pocket_file, reynolds_numbers=reynolds_numbers, depths_plus=depths_plus
+        )
+        monkeypatch.setitem(stability.FAMILIES, "pocket", made)
+
+    return family
+
+
+@pytest.mark.parametrize(
+    ("error", "outcome", "why"),
+    [
+        (ConvergenceError("no word how"), "stalled", "failed"),
+        (ConvergenceError("it swings", outcome=Outcome.UNSTEADY, iterations=613), "stalled", "unsteady"),
+        (ConvergenceError("it stands", outcome=Outcome.STALLED), "stalled", ""),
+        (ConvergenceError("nan", outcome=Outcome.DIVERGED), "stalled", "diverged"),
+        (ConvergenceError("OpenFOAM: the mesh check found faults; change it"), "stalled", "no mesh"),
+        (UnavailableError("no OpenFOAM"), "stalled", ""),
+        (InputError("width: got 1; it must be 2"), "refused", ""),
+        (MemoryError(), "wrong", "fault"),
+    ],
+)
+def test_every_way_to_fail_has_an_outcome(error, outcome, why):
+    spot = spot_of(SETTING, 160.0, 0.75, failure_of(error))
+    assert (spot.row, spot.column, spot.outcome, spot.why) == ("d+ 0.75", "Re 160", outcome, why)
+    assert spot.iterations == getattr(error, "iterations", None)
+
+
+def judge(right, iterations=3):
+    return lambda _answer: Judged(iterations=iterations, right=right, error=1e-3, message="" if right else "off")
+
+
+def raises(error):
+    def ask():
+        raise error
+
+    return ask
+
+
+@pytest.mark.parametrize(
+    ("ask", "judged", "refused", "outcome"),
+    [
+        (lambda: 1, judge(True), False, "converged"),
+        (lambda: 1, judge(True, 101), False, "slow"),
+        (lambda: 1, judge(False), False, "wrong"),
+        (lambda: 1, judge(True), True, "wrong"),
+        (raises(InputError("x: got y")), judge(True), True, "refused"),
+        (raises(InputError("x: got y")), judge(True), False, "wrong"),
+        (raises(InputError("x:\n got y")), judge(True), True, "wrong"),
+        (raises(ConvergenceError("gave up")), judge(True), False, "stalled"),
+        (raises(ZeroDivisionError("oh")), judge(True), True, "wrong"),
+    ],
+)
+def test_questions_come_to_what_they_must(ask, judged, refused, outcome):
+    assert tried(HERE, ask, judged, refused=refused).outcome == outcome
+
+
+def test_every_outcome_has_a_meaning_and_a_colour():
+    assert set(MEANING) == set(stability_form.Outcome)
+    css = (TEMPLATES / "map.css").read_text()
+    assert all(f".{outcome} {{" in css for outcome in stability_form.Outcome)
+
+
+def places(states, loads=None):
+    spots = []
+    for number, (reynolds_number, depth) in enumerate(states):
+        outcome, _, why = states[reynolds_number, depth].partition(": ")
+        spots.append(
+            Spot(
+                group="a model",
+                row=f"d+ {depth:g}",
+                column=f"Re {reynolds_number:g}",
+                outcome=stability_form.Outcome(outcome),
+                why=why,
+                numbers={"load_plus": loads[number] if loads else None},
+            )
+        )
+    return spots
+
+
+def test_words_say_where_what_happened():
+    own = places(
+        {
+            (40.0, 1.0): "converged",
+            (40.0, 3.0): "stalled: unsteady",
+            (160.0, 1.0): f"slow: {SECOND}",
+            (160.0, 3.0): "stalled: unsteady",
+        }
+    )
+    assert in_words("a model", own, own) == [
+        "a model: converges at 1 of 4 places.",
+        "a model: unsteady at 2: d+ 3 at Re 40, 160.",
+        f"a model: {SECOND} at 1: Re 160 at d+ 1.",
+    ]
+
+
+def test_words_compare_a_scheme_with_the_first_one():
+    where = {(40.0, 1.0): "converged", (160.0, 1.0): "converged"}
+    first = [replace(spot, group="film, linear_upwind") for spot in places(where, [4.0, 4.0])]
+    second = [replace(spot, group="film, upwind") for spot in places(where, [5.0, 5.0])]
+    assert in_words("film, upwind", second, [*first, *second])[1:] == [
+        "film, upwind: at half of them its load is 25 % or more from that of linear_upwind."
+    ]
+
+
+def test_the_scenes_of_a_family_are_where_they_say():
+    family = stability.FAMILIES["pocket"]
+    assert len(family.places) == len(set(family.places)) == 36
+    scene = family.at(5000.0, 3.0)
+    assert scene.reynolds_number == 5000.0
+    along = np.linspace(-0.5e-3, 0.5e-3, 101)
+    assert scene.gap().thickness(along).max() == pytest.approx(4 * 30e-6)
+
+
+def test_a_map_is_a_page_a_table_and_json_and_is_not_made_twice(small, tmp_path):
+    small({"reynolds", "inertial_reynolds"})
+    result = run("pocket", "--out", tmp_path, "--jobs", 1, "--json")
+    assert result.exit_code == 0, result.stderr
+    told = json.loads(result.stdout)
+    assert told == json.loads((tmp_path / "stability.json").read_text())
+    assert told["provenance"]["machine"]["cores"]
+    assert told["counts"] == dict.fromkeys(stability_form.Outcome, 0) | {"converged": 4}
+    with (tmp_path / "stability.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 4
+    assert {"family", "group", "row", "column", "outcome", "why", "depth_plus", "cpu_time (s)"} <= set(rows[0])
+    page = (tmp_path / "report.html").read_text()
+    assert "converges at all of 2 places." in page
+    assert "src=" not in page
+    stamps = {path: path.stat().st_mtime_ns for path in (tmp_path / "runs").rglob("*.h5")}
+    assert len(stamps) == 4
+    assert run("pocket", "--out", tmp_path, "--jobs", 1).exit_code == 0
+    assert {path: path.stat().st_mtime_ns for path in stamps} == stamps
+
+
+class Counted:
+    """A family of one question, that counts how often it is asked; stopped once if it is to be."""
+
+    resolution = 7
+    resolution_meaning = "nothing"
+
+    def __init__(self, name, outcome="converged", stops=False):
+        self.name, self.outcome, self.stops, self.asked = name, outcome, stops, 0
+
+    def make(self, *, resolution, **_):
+        self.asked += 1
+        if self.stops:
+            self.stops = False
+            raise KeyboardInterrupt
+        spot = HERE(outcome=stability_form.Outcome(self.outcome), message="what went wrong" * (self.outcome == "wrong"))
+        return Map(
+            family=self.name,
+            title=f"The map of {self.name}",
+            axes="One question.",
+            judge="Nobody.",
+            resolution=resolution,
+            resolution_meaning=self.resolution_meaning,
+            spots=[spot],
+            told=[f"told of {self.name}"],
+            figures={"drawn": "<svg></svg>"} if self.name == "one" else {},
+        )
+
+
+def test_all_maps_stand_in_one_place_and_a_run_that_was_stopped_goes_on(monkeypatch, tmp_path):
+    one, two, three = Counted("one"), Counted("two", "wrong"), Counted("three", stops=True)
+    monkeypatch.setattr(stability, "FAMILIES", {each.name: each for each in (one, two, three)})
+    assert run("all", "--out", tmp_path).exit_code != 0
+    assert (one.asked, two.asked, three.asked) == (1, 1, 1)
+    assert not (tmp_path / "report.html").exists()
+    result = run("all", "--out", tmp_path, "--json")
+    assert result.exit_code == 0, result.stderr
+    assert (one.asked, two.asked, three.asked) == (1, 1, 2)
+    told = json.loads(result.stdout)
+    assert told == json.loads((tmp_path / "stability.json").read_text())
+    assert [(each["family"], each["counts"]["wrong"]) for each in told["maps"]] == [
+        ("one", 0),
+        ("two", 1),
+        ("three", 0),
+    ]
+    page = (tmp_path / "report.html").read_text()
+    assert all(words in page for words in ("The map of three", "told of two", "what went wrong", "<svg></svg>"))
+    with (tmp_path / "stability.csv").open() as file:
+        assert [row["family"] for row in csv.DictReader(file)] == ["one", "two", "three"]
+    monkeypatch.setattr(stability, "code", lambda: "another")
+    assert run("all", "--out", tmp_path).exit_code == 0
+    assert (one.asked, two.asked, three.asked) == (2, 2, 3)
+
+
+def test_maps_by_laws_alone_are_drawn_and_what_breaks_a_law_is_wrong(monkeypatch, tmp_path):
+    monkeypatch.setattr(stability_laws, "LOADS", (0.01, 0.1, 0.6))
+    result = run("seal", "--out", tmp_path, "--resolution", 32, "--json")
+    assert result.exit_code == 0, result.stderr
+    counts = json.loads(result.stdout)["counts"]
+    assert (counts["wrong"], counts["stalled"], counts["refused"]) == (0, 0, 12)
+    probe = next(iter(stability_laws.seals(32)))
+    spot, lighter = stability_laws.put(probe, None)
+    assert spot.outcome in stability_form.GOOD
+    less = {name: replace(found, value=found.value / 2) for name, found in lighter.quantities.items()}
+    grown, _ = stability_laws.put(probe, replace(lighter, quantities=less, provenance={}))
+    assert (grown.outcome, "permeability grows from" in grown.message) == ("wrong", True)
+    monkeypatch.setattr(stability_laws, "broken", lambda *_: ["a law is broken"])
+    assert stability_laws.put(probe, None)[0].message == "a law is broken"
+
+
+def test_mixed_films_near_and_far_keep_the_laws(monkeypatch):
+    monkeypatch.setattr(stability_laws, "SEPARATIONS", (5.0, 1.0, 0.0))
+    monkeypatch.setattr(stability_laws, "SPEEDS", (0.0, 0.1))
+    asked = [probe for probe in stability_laws.films(32) if "Hurst" in probe.group]
+    outcomes = [stability_laws.put(probe, None)[0].outcome for probe in asked]
+    assert outcomes == ["converged", "converged", "refused"] * 6
+
+
+@pytest.mark.openfoam
+@pytest.mark.slow
+def test_a_second_try_and_a_failure_are_told_from_what_simply_converges(small, tmp_path):
+    small({"stokes", "navier_stokes"}, depths_plus=(1e-9, 1e-6, 0.25))
+    assert run("pocket", "--out", tmp_path, "--resolution", 30).exit_code == 0
+    runs = json.loads((tmp_path / "stability.json").read_text())["runs"]
+    told = {
+        group: [(one["outcome"], one["why"]) for one in runs if one["group"] == group]
+        for group in ("navier_stokes, linear_upwind", "stokes")
+    }
+    assert told["navier_stokes, linear_upwind"] == [("converged", ""), ("slow", SECOND), ("stalled", "")]
+    assert told["stokes"] == [("converged", ""), ("converged", ""), ("stalled", "")]
+    assert all(one["iterations"] > 100 and one["cpu_s"] > 0 for one in runs)
+    assert (tmp_path / "report.html").read_text().count('td class="stalled"') == 3
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["pockets"], "FAMILY: got 'pockets'; it must be one of pocket"),
+        (["pocket", "--jobs", "0"], "--jobs: got 0; it must be 1 or more"),
+        (["all", "--resolution", "30"], "--resolution: got 30 for all; every map counts it in its own way"),
+        (["seal", "--resolution", "8"], "--resolution: got 8; the surfaces take 32 to 256 points along a side"),
+    ],
+)
+def test_bad_input_is_one_line_and_code_2(tmp_path, arguments, words):
+    result = run(*arguments, "--out", tmp_path)
+    assert result.exit_code == 2
+    assert words in result.stderr
+    assert [path for path in tmp_path.iterdir() if path.name != ".lock"] == []
