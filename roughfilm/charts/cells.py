@@ -122,7 +122,7 @@ def by_reynoldsflow(nodes: int) -> Measured:
         for name in ("east", "north", "drag"):
             np.save(Path(place) / f"{name}.npy", getattr(parts, name))
         np.save(Path(place) / "gap.npy", h)
-        found = CELLS.run("cells.py", "reynoldsflow_:petsc-cg.hypre", Path(place), asked=asked)
+        found = CELLS.run("cells.py", "run_reynoldsflow:petsc-cg.hypre", Path(place), asked=asked)
     return Measured(
         value=float(found["pressure"][0][0]),
         cpu_s=found["cpu_s"],

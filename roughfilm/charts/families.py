@@ -176,7 +176,7 @@ def dry_contact(models: Sequence[Model]) -> Family:
         ),
         truth_cost=6.0,
         resolution_meaning="points along a side",
-        peers=contact_peers(charted, {"aspher_": fast, "tamaas_": slow, "contact_mechanics_": slow}),
+        peers=contact_peers(charted, {"run_aspher": fast, "run_tamaas": slow, "run_contact_mechanics": slow}),
     )
 
 

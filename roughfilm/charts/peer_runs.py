@@ -1,4 +1,4 @@
-"""Other people's solvers, each in a Python of its own beside this one, by the programs in ``scripts/peers``."""
+"""Other people's solvers, each in a Python of its own beside this one, by the programs in ``roughfilm/charts/peers``."""
 
 import json
 import os
@@ -27,9 +27,9 @@ VIOLATION = 1e-8
 """By how much a contact may break its conditions, over the rms height: as this project's own solver asks of itself."""
 
 TOLERANCES = {
-    "aspher_": (1e-9, 3e-10, 1e-10, 3e-11, 1e-11, 1e-12),
-    "tamaas_": (1e-8, 3e-9, 1e-9, 1e-10, 1e-11, 1e-12),
-    "contact_mechanics_": (1e-8, 5e-9, 2e-9, 1e-9, 1e-10),
+    "run_aspher": (1e-9, 3e-10, 1e-10, 3e-11, 1e-11, 1e-12),
+    "run_tamaas": (1e-8, 3e-9, 1e-9, 1e-10, 1e-11, 1e-12),
+    "run_contact_mechanics": (1e-8, 5e-9, 2e-9, 1e-9, 1e-10),
 }
 """Each contact solver's own, the loosest first: the first that brings the violation down to what is asked is timed."""
 
@@ -44,7 +44,7 @@ class Environment:
     def absent(self) -> str | None:
         """Why nothing can be run there, with the remedy; None where it can."""
         directory = os.environ.get(self.variable)
-        make = f"{PROGRAMS / self.setup} DIR makes it, {self.variable}=DIR names it"
+        make = f"roughfilm/charts/peers/{self.setup} DIR makes it, {self.variable}=DIR names it"
         if directory is None:
             return f"{self.variable} is not set: {make}"
         if not (Path(directory) / "bin" / "python").is_file():
@@ -107,7 +107,7 @@ def peer(
 
 def contact_peers(scene: DryContact, costs: Mapping[str, Mapping[int, float]]) -> tuple[Peer, ...]:
     """Who presses the very heights of an elastic contact; ``costs`` by solver."""
-    names = {"aspher_": "ASPHER", "tamaas_": "Tamaas", "contact_mechanics_": "ContactMechanics"}
+    names = {"run_aspher": "ASPHER", "run_tamaas": "Tamaas", "run_contact_mechanics": "ContactMechanics"}
     settings = (
         f"one thread, the loosest of its tolerances that breaks the conditions of contact by {VIOLATION:g} of the rms "
         "height at most, as this project's"
@@ -172,7 +172,7 @@ def _load(scene: Bearing, cells: int) -> Measured:
         "steady": 1e-4,
         "cells": cells,
     }
-    found = GAPFLOW.run("gapflow_.py", asked=asked)
+    found = GAPFLOW.run("run_gapflow.py", asked=asked)
     if not found["settled"]:
         raise ConvergenceError(f"GaPFlow: the load still changes after {found['steps']} steps")
     return Measured(

@@ -24,7 +24,6 @@ from roughfilm.terminal.console import (
     output,
     print_json,
     progress_bar,
-    run_alone,
 )
 
 Want = Annotated[str | None, typer.Option(help="The quantity that counts, such as load; by default the kind's first.")]
@@ -165,7 +164,3 @@ def _estimate(estimate: Estimate | None) -> dict[str, Any] | None:
 
 def _finite(value: float) -> float | None:
     return value if abs(value) < float("inf") else None
-
-
-if __name__ == "__main__":
-    run_alone(command)

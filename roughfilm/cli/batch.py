@@ -33,7 +33,6 @@ from roughfilm.terminal.console import (
     output,
     print_json,
     progress_bar,
-    run_alone,
 )
 
 SHOWN = 5
@@ -210,7 +209,3 @@ def _duration(seconds: float) -> str:
         if seconds >= 2 * size:
             return f"{seconds / size:.2g} {unit}"
     return f"{seconds:.2g} s"
-
-
-if __name__ == "__main__":
-    run_alone(command)

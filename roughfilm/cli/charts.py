@@ -26,7 +26,6 @@ from roughfilm.terminal.console import (
     output,
     print_json,
     progress_bar,
-    run_alone,
 )
 
 
@@ -123,7 +122,3 @@ def _table(chart: Chart) -> Table:
     for point in chart.front:
         table.add_row(point.model, str(point.resolution), f"{point.cpu_s:.3g}", f"{chart.error(point):.2g}")
     return table
-
-
-if __name__ == "__main__":
-    run_alone(command)

@@ -37,7 +37,6 @@ from roughfilm.terminal.console import (
     models,
     output,
     print_json,
-    run_alone,
 )
 
 RESULTS = "results"
@@ -204,7 +203,3 @@ def _pictures(results: Mapping[str, Result], drawing: str, out: Path) -> tuple[P
     resolved = [name for name, result in results.items() if "vertices" in result.fields]
     with ThreadPoolExecutor() as pool:
         return tuple(pool.map(picture, reversed(resolved)))
-
-
-if __name__ == "__main__":
-    run_alone(command)

@@ -24,7 +24,7 @@ from roughfilm.contact.mechanics.solid import Solid, composite_modulus
 from roughfilm.contact.mechanics.store import UNITS, Row
 from roughfilm.contact.read import Rough, read_rough, spacing_of
 from roughfilm.rom.ladder.provenance import circumstances, code
-from roughfilm.terminal.console import AsJson, in_one_line, messages, output, print_json, progress_bar, run_alone
+from roughfilm.terminal.console import AsJson, in_one_line, messages, output, print_json, progress_bar
 from roughfilm.terminal.load_range import loads_of
 from roughfilm.terminal.output_file import alone, refuse_unwritable
 from roughfilm.terminal.threads import chosen_threads
@@ -260,7 +260,3 @@ def _cells(row: Row) -> tuple[str, ...]:
 def digits(value: float) -> str:
     """Four digits, and no power of ten below a million."""
     return f"{value:.0f}" if 1e4 <= abs(value) < 1e6 else f"{value:.4g}"
-
-
-if __name__ == "__main__":
-    run_alone(command)

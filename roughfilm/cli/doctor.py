@@ -12,7 +12,7 @@ from roughfilm.figures.rendering import probe
 from roughfilm.foamcases.openfoam.installation import availability
 from roughfilm.rom.ladder.model import Availability
 from roughfilm.rom.ladder.provenance import versions
-from roughfilm.terminal.console import AsJson, in_one_line, output, print_json, run_alone
+from roughfilm.terminal.console import AsJson, in_one_line, output, print_json
 
 
 def _python() -> Availability:
@@ -58,7 +58,3 @@ def command(as_json: AsJson = False) -> None:
     for name, it in found.items():
         table.add_row(name, "[green]yes[/]" if it.available else "[red]no[/]", it.detail)
     output.print(table)
-
-
-if __name__ == "__main__":
-    run_alone(command)

@@ -38,7 +38,6 @@ from roughfilm.terminal.console import (
     output,
     print_json,
     progress_bar,
-    run_alone,
 )
 from roughfilm.terminal.output_file import refuse_unwritable
 
@@ -286,7 +285,3 @@ def _say(told: Told, out: Path) -> None:
     output.print(f"report: {escape(str(out / 'report.html'))}", soft_wrap=True)
     for warning in dict.fromkeys((*told.at_film.warnings, *(told.under_load.warnings if told.under_load else ()))):
         messages.print(f"[yellow]warning:[/] {escape(warning)}", soft_wrap=True)
-
-
-if __name__ == "__main__":
-    run_alone(command)

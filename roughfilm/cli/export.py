@@ -23,7 +23,7 @@ from roughfilm.rom.meshes.result_mesh import PLACES, labelled, result_mesh
 from roughfilm.rom.meshes.walls_mesh import Part, gap_mesh, wall_mesh
 from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.rough_gap.walls import Walls
-from roughfilm.terminal.console import AsJson, Overrides, in_one_line, messages, output, print_json, run_alone
+from roughfilm.terminal.console import AsJson, Overrides, in_one_line, messages, output, print_json
 
 RESOLUTION, LAYERS = 64, 8
 MOST_CELLS = 20_000_000
@@ -137,7 +137,3 @@ def _told(walls: Walls) -> dict[str, Any]:
 
 def _data(mesh: Mesh) -> list[str]:
     return sorted({*mesh.point_data, *mesh.cell_data})
-
-
-if __name__ == "__main__":
-    run_alone(command)

@@ -31,7 +31,7 @@ from roughfilm.rom.homogenization.table import FactorTable, Point
 from roughfilm.rom.homogenization.tabulate import TOLERANCE, tabulate
 from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.ladder.provenance import circumstances, code
-from roughfilm.terminal.console import AsJson, in_one_line, messages, output, print_json, progress_bar, run_alone
+from roughfilm.terminal.console import AsJson, in_one_line, messages, output, print_json, progress_bar
 from roughfilm.terminal.output_file import alone, refuse_unwritable
 from roughfilm.terminal.threads import Threads, chosen_threads
 
@@ -353,7 +353,3 @@ def _shown(entry: dict[str, float | None]) -> str:
         return f"{value:.3g} ± ?"
     digits = max(0, min(5, math.ceil(-math.log10(doubt)))) if doubt else 5
     return f"{value:.{digits}f}"
-
-
-if __name__ == "__main__":
-    run_alone(command)

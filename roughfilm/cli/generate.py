@@ -23,7 +23,6 @@ from roughfilm.terminal.console import (
     models,
     output,
     print_json,
-    run_alone,
 )
 
 
@@ -64,7 +63,3 @@ def command(
     else:
         for case in cases:
             output.print(f"{case['model']}: {escape(case['directory'])}/Allrun", soft_wrap=True)
-
-
-if __name__ == "__main__":
-    run_alone(command)

@@ -35,7 +35,6 @@ from roughfilm.terminal.console import (
     output,
     print_json,
     progress_bar,
-    run_alone,
 )
 from roughfilm.terminal.load_range import loads_of
 from roughfilm.terminal.output_file import alone, refuse_unwritable
@@ -254,7 +253,3 @@ def _table_of(scene: Seal, rows: dict[float, Row]) -> Table:
 def leaks(scene: Seal, row: Row, name: str) -> str:
     """Leakage in kg/h for each metre of width, or that there is none."""
     return "sealed" if getattr(row, f"{name}_sealed") else f"{3600 * leakage_of(scene, getattr(row, name)):.3g}"
-
-
-if __name__ == "__main__":
-    run_alone(command)

@@ -3,7 +3,7 @@
 from rich.table import Column, Table
 
 from roughfilm.rom.ladder.kind import kinds
-from roughfilm.terminal.console import AsJson, in_one_line, models, output, print_json, run_alone
+from roughfilm.terminal.console import AsJson, in_one_line, models, output, print_json
 
 
 @in_one_line
@@ -44,7 +44,3 @@ def command(as_json: AsJson = False) -> None:
                     ("[green]yes[/]: " if found.available else "[red]no[/]: ") + found.detail,
                 )
         output.print(table)
-
-
-if __name__ == "__main__":
-    run_alone(command)

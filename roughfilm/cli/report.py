@@ -21,7 +21,7 @@ from roughfilm.rom.pocket.gap import Array
 from roughfilm.rom.studies.ordering import Ordering, fitted_powers, ordering
 from roughfilm.rom.studies.sweep import Sweep, loaded, read_sweep, relative_error, sweeping
 from roughfilm.rom.studies.table import read_table
-from roughfilm.terminal.console import AsJson, in_one_line, make_directory, models, output, print_json, run_alone
+from roughfilm.terminal.console import AsJson, in_one_line, make_directory, models, output, print_json
 
 TOLERANCES = (0.01, 0.02, 0.05, 0.10)
 
@@ -185,7 +185,3 @@ def _write_page(
         view=view,
         machine=machine(),
     )
-
-
-if __name__ == "__main__":
-    run_alone(command)

@@ -29,7 +29,6 @@ from roughfilm.terminal.console import (
     output,
     print_json,
     progress_bar,
-    run_alone,
 )
 
 
@@ -103,7 +102,3 @@ def table_of(result: Result) -> Table:
         told = [f"{known[name]:.1e}" if name in known else ""] if known else []
         table.add_row(name, f"{quantity.value:.5g}", *told, "" if quantity.unit == "1" else quantity.unit)
     return table
-
-
-if __name__ == "__main__":
-    run_alone(command)

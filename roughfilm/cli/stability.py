@@ -22,7 +22,7 @@ from roughfilm.stability.form import BAD, MEANING, Family, Outcome, columns_of, 
 from roughfilm.stability.gap import GAP
 from roughfilm.stability.laws import MIXED, SEAL
 from roughfilm.stability.pocket import POCKET
-from roughfilm.terminal.console import AsJson, in_one_line, make_directory, messages, output, print_json, run_alone
+from roughfilm.terminal.console import AsJson, in_one_line, make_directory, messages, output, print_json
 
 FAMILIES: dict[str, Family] = {
     "pocket": POCKET,
@@ -148,7 +148,3 @@ def _as_table(name: str, runs: Sequence[Entries]) -> dict[str, Any]:
     shared = len(rows) == 1 or any(sum(column in cells for cells in rows.values()) > 1 for column in columns)
     few = len(columns) <= max(map(len, rows.values())) + 2
     return {"name": name, "rows": rows, "columns": columns if shared and few else []}
-
-
-if __name__ == "__main__":
-    run_alone(command)

@@ -33,7 +33,6 @@ from roughfilm.terminal.console import (
     output,
     print_json,
     progress_bar,
-    run_alone,
 )
 from roughfilm.terminal.load_range import loads_of, speeds_of
 from roughfilm.terminal.output_file import alone, refuse_unwritable
@@ -214,7 +213,3 @@ def scale_of(scene: Bearing) -> tuple[str, float]:
     """How speeds are told: the unit, and how many of it are 1 m/s."""
     radius = turning_radius(scene)
     return ("m/s", 1.0) if radius is None else ("rpm", 60 / (2 * math.pi * radius))
-
-
-if __name__ == "__main__":
-    run_alone(command)

@@ -23,7 +23,7 @@ from roughfilm.contact.surfaces.store import save_surface
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.description import make, read_description
 from roughfilm.rom.ladder.provenance import circumstances
-from roughfilm.terminal.console import AsJson, in_one_line, messages, output, print_json, progress_bar, run_alone
+from roughfilm.terminal.console import AsJson, in_one_line, messages, output, print_json, progress_bar
 
 SOURCES = ("ISO 25178-2:2021", "F. Sahlin, Luleå University of Technology 2008:26, sections E.3.1 and F.3")
 
@@ -170,7 +170,3 @@ def told(prepared: Prepared) -> list[str]:
         f"smoothing: {recipe['smoothing']} points": recipe["smoothing"] > 1,
     }
     return [line for line, changed in steps.items() if changed]
-
-
-if __name__ == "__main__":
-    run_alone(command)

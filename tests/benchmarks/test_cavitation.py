@@ -1,6 +1,6 @@
 """Our film with cavitation beside GaPFlow on sliders of known load: the errors of both, and times as ratios, as JSON.
 
-ROUGHFILM_GAPFLOW names the environment of GaPFlow, which ``scripts/peers/setup_gapflow`` makes. The slider is that
+ROUGHFILM_GAPFLOW names the environment of GaPFlow, which ``roughfilm/charts/peers/setup_gapflow`` makes. The slider is that
 of Vijayaraghavan and Keith (1989) in a liquid of constant bulk modulus, flooded at the cavitation pressure at both
 ends; the wedge is as long and as thin, and nowhere below that pressure. What is exact comes from neither of the two.
 
@@ -37,7 +37,7 @@ from roughfilm.rom.cavitation.solve import solve
 from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.rom.lubricants.compressibility import ConstantBulkModulus
 
-PROGRAM = PROGRAMS / "gapflow_.py"
+PROGRAM = PROGRAMS / "run_gapflow.py"
 RESULTS = BENCHMARKS / "cavitation.json"
 STEADY = 1e-4
 NODES = tuple(int(n) for n in np.unique(np.round(np.geomspace(5, 5121, 60))))
@@ -219,7 +219,9 @@ def write(rows):
 
 def python():
     if "ROUGHFILM_GAPFLOW" not in os.environ:
-        pytest.skip("GaPFlow is not here: make it by scripts/peers/setup_gapflow, name it in ROUGHFILM_GAPFLOW")
+        pytest.skip(
+            "GaPFlow is not here: make it by roughfilm/charts/peers/setup_gapflow, name it in ROUGHFILM_GAPFLOW"
+        )
     return Path(os.environ["ROUGHFILM_GAPFLOW"]) / "bin" / "python"
 
 

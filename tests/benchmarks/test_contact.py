@@ -1,6 +1,6 @@
 """Our contact solver beside its peers on the very same arrays: agreement, and times as ratios, as JSON.
 
-ROUGHFILM_PEERS names the environment of the peers, which ``scripts/peers/setup`` makes; without it ours runs alone.
+ROUGHFILM_PEERS names the environment of the peers, which ``roughfilm/charts/peers/setup`` makes; without it ours runs alone.
 Minutes of a peer are marked: ``-m "benchmark and not slow"`` leaves them out, ``-k`` chooses a case or a peer.
 """
 
@@ -46,7 +46,7 @@ CASES = [
         name="512, 10 %",
         points=512,
         loads=(0.00466,),
-        peers=("aspher_", "tamaas_", "contact_mechanics_"),
+        peers=("run_aspher", "run_tamaas", "run_contact_mechanics"),
         repeats=3,
     ),
     Case(
@@ -54,48 +54,48 @@ CASES = [
         points=512,
         loads=(0.01225,),
         hardness=0.05,
-        peers=("contact_mechanics_",),
-        slow_peers=("tamaas_",),
+        peers=("run_contact_mechanics",),
+        slow_peers=("run_tamaas",),
         repeats=3,
     ),
     Case(
         name="512, 20 loads",
         points=512,
         loads=tuple(np.geomspace(0.00041, 0.0355, 20)),
-        peers=("aspher_",),
-        slow_peers=("tamaas_", "contact_mechanics_"),
+        peers=("run_aspher",),
+        slow_peers=("run_tamaas", "run_contact_mechanics"),
     ),
     Case(
         name="1024, 10 %",
         points=1024,
         loads=(0.00477,),
-        peers=("aspher_",),
-        slow_peers=("tamaas_", "contact_mechanics_"),
+        peers=("run_aspher",),
+        slow_peers=("run_tamaas", "run_contact_mechanics"),
         repeats=9,
     ),
-    Case(name="1024, 10 %, 2 threads", points=1024, loads=(0.00477,), peers=("aspher_",), threads=2, repeats=9),
+    Case(name="1024, 10 %, 2 threads", points=1024, loads=(0.00477,), peers=("run_aspher",), threads=2, repeats=9),
     Case(
         name="1024, 60 %",
         points=1024,
         loads=(0.0361,),
-        peers=("aspher_",),
-        slow_peers=("tamaas_", "contact_mechanics_"),
+        peers=("run_aspher",),
+        slow_peers=("run_tamaas", "run_contact_mechanics"),
     ),
     Case(
         name="2048, 10 %",
         points=2048,
         loads=(0.00488,),
-        peers=("aspher_",),
-        slow_peers=("tamaas_", "contact_mechanics_"),
+        peers=("run_aspher",),
+        slow_peers=("run_tamaas", "run_contact_mechanics"),
     ),
-    Case(name="4096, 10 %", points=4096, loads=(0.00498,), slow_peers=("aspher_",)),
+    Case(name="4096, 10 %", points=4096, loads=(0.00498,), slow_peers=("run_aspher",)),
 ]
 PAIRS = [
     pytest.param(
         case, solver, id=f"{case.name}-{solver}", marks=[pytest.mark.slow] if solver in case.slow_peers else []
     )
     for case in CASES
-    for solver in ("roughfilm_", *case.peers, *case.slow_peers)
+    for solver in ("run_roughfilm", *case.peers, *case.slow_peers)
 ]
 """Ours and its peers one after the other, so that what else the machine does slows all of them."""
 
@@ -148,10 +148,10 @@ def solved(tmp_path_factory):
 
 def python(solver):
     """Of the project, or of the peers' environment."""
-    if solver == "roughfilm_":
+    if solver == "run_roughfilm":
         return sys.executable
     if "ROUGHFILM_PEERS" not in os.environ:
-        pytest.skip("the peers are not here: make them by scripts/peers/setup, name them in ROUGHFILM_PEERS")
+        pytest.skip("the peers are not here: make them by roughfilm/charts/peers/setup, name them in ROUGHFILM_PEERS")
     return Path(os.environ["ROUGHFILM_PEERS"]) / "bin" / "python"
 
 
@@ -164,7 +164,7 @@ def one_library(threads):
 def table(case, rows):
     """A case with all its solvers, and the peers' times over ours."""
     found = {solver: row for (name, solver), row in rows.items() if name == case.name}
-    ours = found.get("roughfilm_")
+    ours = found.get("run_roughfilm")
     for solver, row in found.items():
         if ours and "failed" not in row:
             row["cpu_over_ours"] = row["cpu_s"] / ours["cpu_s"]
@@ -188,9 +188,9 @@ def apart(ours, theirs):
 @pytest.mark.benchmark
 @pytest.mark.parametrize(("case", "solver"), PAIRS)
 def test_a_solver_keeps_the_conditions_of_contact_and_agrees_with_ours(solved, case, solver):
-    found, ours = solved(case, solver), solved(case, "roughfilm_")
+    found, ours = solved(case, solver), solved(case, "run_roughfilm")
     assert "failed" not in found
-    if solver == "roughfilm_":
+    if solver == "run_roughfilm":
         assert found["violation"] <= VIOLATION
         for solution in found["solutions"]:
             assert solution["load_error"] < 1e-10

@@ -1,6 +1,6 @@
 """Our cell problems beside direct and iterative solvers on the very same arrays: agreement, times as ratios, as JSON.
 
-ROUGHFILM_CELL_PEERS names the environment of the peers, which ``scripts/peers/setup_homogenization`` makes; without
+ROUGHFILM_CELL_PEERS names the environment of the peers, which ``roughfilm/charts/peers/setup_homogenization`` makes; without
 it ours runs alone. What takes long is marked: ``-m "benchmark and not slow"`` leaves it out, ``-k`` chooses a case or
 a peer.
 
@@ -50,21 +50,21 @@ GRIDS = tuple(range(256, 1537, 32))
 CONSTANT = 1.1
 """The most memory a node, over the least, from 512² to 4096²."""
 
-DEFAULT = "cell_:factors"
-OURS = (DEFAULT, "cell_:factors 1e-8", "cell_:cell")
-DIRECT = ("superlu_:MMD_AT_PLUS_A", "superlu_:COLAMD", "pardiso_:", "cholmod_:amd", "cholmod_:metis")
-ITERATIVE = ("pyamg_:ruge_stuben", "pyamg_:aggregation")
-BEST = "reynoldsflow_:petsc-cg.hypre"
+DEFAULT = "run_cell:factors"
+OURS = (DEFAULT, "run_cell:factors 1e-8", "run_cell:cell")
+DIRECT = ("run_superlu:MMD_AT_PLUS_A", "run_superlu:COLAMD", "run_pardiso:", "run_cholmod:amd", "run_cholmod:metis")
+ITERATIVE = ("run_pyamg:ruge_stuben", "run_pyamg:aggregation")
+BEST = "run_reynoldsflow:petsc-cg.hypre"
 REYNOLDSFLOW = (
     BEST,
-    *(f"reynoldsflow_:{way}" for way in ("petsc-cg.gamg", "cholesky", "pardiso", "scipy.amg-rs")),
-    "reynoldsflow_:scipy.amg-smooth_aggregation",
+    *(f"run_reynoldsflow:{way}" for way in ("petsc-cg.gamg", "cholesky", "pardiso", "scipy.amg-rs")),
+    "run_reynoldsflow:scipy.amg-smooth_aggregation",
 )
 CASES = {
     (512, 8): OURS,
     (1024, 8): (*OURS, *DIRECT, *ITERATIVE, *REYNOLDSFLOW),
     (1024, 2): (*OURS, *DIRECT, *ITERATIVE, *REYNOLDSFLOW),
-    (2048, 8): (*OURS, "cholmod_:amd", BEST),
+    (2048, 8): (*OURS, "run_cholmod:amd", BEST),
     (4096, 8): (DEFAULT,),
 }
 """Nodes along a side and in the shortest wave, and who solves it."""
@@ -156,7 +156,7 @@ def python(solver):
         return sys.executable
     if "ROUGHFILM_CELL_PEERS" not in os.environ:
         pytest.skip(
-            "the peers are not here: make them by scripts/peers/setup_homogenization, name them in ROUGHFILM_CELL_PEERS"
+            "the peers are not here: make them by roughfilm/charts/peers/setup_homogenization, name them in ROUGHFILM_CELL_PEERS"
         )
     return Path(os.environ["ROUGHFILM_CELL_PEERS"]) / "bin" / "python"
 
@@ -189,7 +189,7 @@ def test_at_an_equal_error_of_a_ours_needs_fewer_nodes(solved):
     ours = solved(fewest[FaceRule.LINEAR], SHORTEST, DEFAULT, right, EQUAL)
     found = {
         name: solved(fewest[FaceRule.HARMONIC], SHORTEST, name, right, EQUAL)
-        for name in (BEST, "reynoldsflow_:cholesky")
+        for name in (BEST, "run_reynoldsflow:cholesky")
     }
     least = min(row["cpu_s"] for row in found.values())
     note({"equal_error": {"error": EQUAL, "points": fewest, "cpu_over_ours": least / ours["cpu_s"]}})

@@ -45,11 +45,18 @@ def test_a_signal_that_comes_while_a_program_is_started_ends_it_too(tmp_path, mo
         signal.raise_signal(signal.SIGINT)
         return started[-1]
 
-    monkeypatch.setattr(subprocess, "Popen", interrupted)
-    with pytest.raises(KeyboardInterrupt):
-        execute(tmp_path, ["sleep", "60"], "log")
-    assert started[0].poll() is not None
-    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    def stop(_number, _frame):
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGINT, stop)  # a shell may have left it ignored
+    try:
+        monkeypatch.setattr(subprocess, "Popen", interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            execute(tmp_path, ["sleep", "60"], "log")
+        assert started[0].poll() is not None
+        assert signal.getsignal(signal.SIGINT) is stop
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def test_a_program_that_stops_in_error_is_one_of_our_errors_with_its_last_words(tmp_path):

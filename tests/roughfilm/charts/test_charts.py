@@ -27,7 +27,7 @@ from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.terminal.console import models
 
 GAPFLOW_ABSENT = (
-    "ROUGHFILM_GAPFLOW is not set: scripts/peers/setup_gapflow DIR makes it, ROUGHFILM_GAPFLOW=DIR names it"
+    "ROUGHFILM_GAPFLOW is not set: roughfilm/charts/peers/setup_gapflow DIR makes it, ROUGHFILM_GAPFLOW=DIR names it"
 )
 SLIDER_LOAD = 108785.05
 """N/m, of the parabolic slider in a liquid of 0.069 GPa: by two integrations that share nothing."""
@@ -248,7 +248,7 @@ def test_an_environment_that_is_absent_says_how_it_is_made(monkeypatch, tmp_path
     monkeypatch.delenv("ROUGHFILM_GAPFLOW", raising=False)
     assert charts_peers.GAPFLOW.absent() == GAPFLOW_ABSENT
     with pytest.raises(UnavailableError, match="setup_gapflow"):
-        charts_peers.GAPFLOW.run("gapflow_.py", asked={})
+        charts_peers.GAPFLOW.run("run_gapflow.py", asked={})
     monkeypatch.setenv("ROUGHFILM_GAPFLOW", str(tmp_path))
     assert "is no environment of Python" in charts_peers.GAPFLOW.absent()
 
@@ -259,8 +259,8 @@ def test_a_contact_peer_solves_the_very_heights_of_the_scene(monkeypatch):
     family = FAMILIES["dry contact"](ladder)
     scene = family.peers[0].measure.args[0]
     monkeypatch.setenv("ROUGHFILM_PEERS", sys.prefix)
-    monkeypatch.setitem(charts_peers.TOLERANCES, "roughfilm_", (1e-8,))
-    found = charts_peers._mean_gap(scene, "roughfilm_", 64)
+    monkeypatch.setitem(charts_peers.TOLERANCES, "run_roughfilm", (1e-8,))
+    found = charts_peers._mean_gap(scene, "run_roughfilm", 64)
     ours = find(ladder, "elastic").solve(scene, resolution=64)
     assert found.value == pytest.approx(ours.quantities["mean_gap"].value, rel=1e-7)
     monkeypatch.setitem(charts_peers.TOLERANCES, "nobody_", (1e-8,))

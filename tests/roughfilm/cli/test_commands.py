@@ -10,7 +10,6 @@ from pathlib import Path
 
 import h5py
 import pytest
-from places import ROOT
 from typer.testing import CliRunner
 
 from roughfilm.cli import compare, generate, solve
@@ -273,22 +272,6 @@ def test_doctor():
     assert list(found) == ["Python", "OpenFOAM", "MPI", "rendering", "instrument files"]
     assert all(part["detail"] for part in found.values())
     assert found["Python"]["available"]
-
-
-@pytest.mark.parametrize("name", ["models", "solve", "compare", "batch", "stability", "generate", "doctor"])
-def test_scripts_run_as_files_too(name):
-    done = subprocess.run(
-        [sys.executable, str(ROOT / "scripts" / f"{name}.py"), "--help"], capture_output=True, text=True, timeout=120
-    )
-    assert done.returncode == 0, done.stderr
-    assert "Usage" in done.stdout
-
-
-def test_a_script_alone_fails_in_one_line_too():
-    script = ROOT / "scripts" / "solve.py"
-    done = subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=120)
-    assert done.returncode == 2
-    assert "see --help" in one_line(done.stderr)
 
 
 def test_the_command_is_installed():

@@ -157,7 +157,7 @@ def test_two_series_into_one_file_are_kept_apart(rough, tmp_path):
     out = tmp_path / "c.h5"
     with locked(tmp_path / ".c.h5.lock", "held"):
         holder = subprocess.Popen(
-            [sys.executable, "-m", "roughfilm.cli.contact", rough, *PLASTIC, "--loads", "1GPa", "--out", out],
+            [sys.executable, "-m", "roughfilm.cli.main", "contact", rough, *PLASTIC, "--loads", "1GPa", "--out", out],
             stderr=subprocess.PIPE,
             text=True,
         )

@@ -50,7 +50,7 @@ def scene(tmp_path):
 
 def test_every_kind_has_a_view_that_names_its_quantities_and_models():
     assert set(views()) == set(kinds())
-    assert {path.parent.name for path in Path(rom.__path__[0]).glob("*/kind.py")} == set(kinds())
+    assert {path.parent.name for path in Path(rom.__path__[0]).glob("*/models")} == set(kinds())
     for name, kind in kinds().items():
         view = views()[name]
         assert kind.name == name

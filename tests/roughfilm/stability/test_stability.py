@@ -34,15 +34,13 @@ def run(*arguments):
 
 
 @pytest.fixture
-def small(monkeypatch, pocket_file):
+def small(monkeypatch):
     """A usual groove, and one so shallow that OpenFOAM at 30 columns needs its second try."""
 
     def family(names, reynolds_numbers=(2000.0,), depths_plus=(0.25, 1e-6)):
         chosen = tuple(model for model in models() if model.name in names)
         monkeypatch.setattr(stability_pocket, "models", lambda: chosen)
-        made = stability_pocket.PocketFamily(
-            scene=pocket_file, reynolds_numbers=reynolds_numbers, depths_plus=depths_plus
-        )
+        made = stability_pocket.PocketFamily(reynolds_numbers=reynolds_numbers, depths_plus=depths_plus)
         monkeypatch.setitem(stability.FAMILIES, "pocket", made)
 
     return family

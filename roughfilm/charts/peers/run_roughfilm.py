@@ -2,9 +2,8 @@
 
 import math
 
-from contact.errors import ConvergenceError
-
-from contact.mechanics.press import Press
+from roughfilm.contact.foundation.errors import ConvergenceError
+from roughfilm.contact.mechanics.press import Press
 
 NAME = "roughfilm"
 MODULUS = 2.0**37

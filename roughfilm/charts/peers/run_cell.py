@@ -1,9 +1,8 @@
 """The project's own: ``cell`` on the gap's grid alone, ``factors`` with error bars from coarser ones; both with e."""
 
-from contact.errors import ConvergenceError
-
-from rom.homogenization.cell import solve_cell
-from rom.homogenization.flow_factors import flow_factors
+from roughfilm.contact.foundation.errors import ConvergenceError
+from roughfilm.rom.homogenization.cell import solve_cell
+from roughfilm.rom.homogenization.flow_factors import flow_factors
 
 NAME, TOLERANCES = "roughfilm", (0.0,)
 

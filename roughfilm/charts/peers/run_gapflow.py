@@ -1,6 +1,6 @@
 """GaPFlow: explicit MacCormack steps of the gap-averaged balances of mass and momentum, until the load settles.
 
-A program for its own Python: gapflow_.py PROBLEM.json RESULT.json. Its release has no other way to a steady state.
+A program for its own Python: run_gapflow.py PROBLEM.json RESULT.json. Its release has no other way to a steady state.
 """
 
 import contextlib
