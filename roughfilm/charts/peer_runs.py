@@ -1,4 +1,4 @@
-"""Other people's solvers, each in a Python of its own beside this one, by the programs in ``roughfilm/charts/peers``."""
+"""Solvers of other projects, each run in a Python of its own by the programs in ``charts/peers``."""
 
 import json
 import os

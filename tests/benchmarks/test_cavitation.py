@@ -1,6 +1,6 @@
 """Our film with cavitation beside GaPFlow on sliders of known load: the errors of both, and times as ratios, as JSON.
 
-ROUGHFILM_GAPFLOW names the environment of GaPFlow, which ``roughfilm/charts/peers/setup_gapflow`` makes. The slider is that
+ROUGHFILM_GAPFLOW names the environment of GaPFlow, which ``charts/peers/setup_gapflow`` makes. The slider is that
 of Vijayaraghavan and Keith (1989) in a liquid of constant bulk modulus, flooded at the cavitation pressure at both
 ends; the wedge is as long and as thin, and nowhere below that pressure. What is exact comes from neither of the two.
 
@@ -220,7 +220,7 @@ def write(rows):
 def python():
     if "ROUGHFILM_GAPFLOW" not in os.environ:
         pytest.skip(
-            "GaPFlow is not here: make it by roughfilm/charts/peers/setup_gapflow, name it in ROUGHFILM_GAPFLOW"
+            "GaPFlow is absent: run roughfilm/charts/peers/setup_gapflow and set ROUGHFILM_GAPFLOW"
         )
     return Path(os.environ["ROUGHFILM_GAPFLOW"]) / "bin" / "python"
 

@@ -1,6 +1,6 @@
 """Our contact solver beside its peers on the very same arrays: agreement, and times as ratios, as JSON.
 
-ROUGHFILM_PEERS names the environment of the peers, which ``roughfilm/charts/peers/setup`` makes; without it ours runs alone.
+ROUGHFILM_PEERS names the environment of the peers, which ``charts/peers/setup`` makes; without it ours runs alone.
 Minutes of a peer are marked: ``-m "benchmark and not slow"`` leaves them out, ``-k`` chooses a case or a peer.
 """
 

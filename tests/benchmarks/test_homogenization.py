@@ -1,6 +1,6 @@
 """Our cell problems beside direct and iterative solvers on the very same arrays: agreement, times as ratios, as JSON.
 
-ROUGHFILM_CELL_PEERS names the environment of the peers, which ``roughfilm/charts/peers/setup_homogenization`` makes; without
+ROUGHFILM_CELL_PEERS names the environment of the peers, which ``charts/peers/setup_homogenization`` makes; without
 it ours runs alone. What takes long is marked: ``-m "benchmark and not slow"`` leaves it out, ``-k`` chooses a case or
 a peer.
 
@@ -156,7 +156,7 @@ def python(solver):
         return sys.executable
     if "ROUGHFILM_CELL_PEERS" not in os.environ:
         pytest.skip(
-            "the peers are not here: make them by roughfilm/charts/peers/setup_homogenization, name them in ROUGHFILM_CELL_PEERS"
+            "the peers are absent: run roughfilm/charts/peers/setup_homogenization and set ROUGHFILM_CELL_PEERS"
         )
     return Path(os.environ["ROUGHFILM_CELL_PEERS"]) / "bin" / "python"
 
