@@ -219,9 +219,7 @@ def write(rows):
 
 def python():
     if "ROUGHFILM_GAPFLOW" not in os.environ:
-        pytest.skip(
-            "GaPFlow is absent: run roughfilm/charts/peers/setup_gapflow and set ROUGHFILM_GAPFLOW"
-        )
+        pytest.skip("GaPFlow is absent: run roughfilm/charts/peers/setup_gapflow and set ROUGHFILM_GAPFLOW")
     return Path(os.environ["ROUGHFILM_GAPFLOW"]) / "bin" / "python"
 
 
