@@ -73,13 +73,13 @@ def inertia(scene: Bearing, found: Solution) -> Inertia:
     rise = speed * np.diff(h, axis=0) / dx
     mean = _means(through_xy, 0)
     x_force = np.diff(through_x, axis=0) / dx + _slope(mean, 1, grid.y) + rise * _means(speed / 60 + a / 70, 0)
-    drive = -density * _means(h**2 / (2 * viscosity), 0) * x_force * grid.share_y * _both(wet, 0)
+    drive = -density * _means(h**2 / (2 * viscosity), 0) * x_force * grid.volume_y * _both(wet, 0)
     drive_y = np.zeros((h.shape[0], h.shape[1] - 1))
     if h.shape[1] > 1:
         climb = speed * _slope(h, 0, grid.x)
         y_force = _slope(_means(through_xy, 1), 0, grid.x) + np.diff(through_y, axis=1) / dy
         y_force += _means(climb * b / 70, 1)
-        drive_y = -density * _means(h**2 / (2 * viscosity), 1) * y_force * grid.share_x[:, None] * _both(wet, 1)
+        drive_y = -density * _means(h**2 / (2 * viscosity), 1) * y_force * grid.volume_x[:, None] * _both(wet, 1)
     pressure = _balanced(found.kind == FILM, east[:-1], north[:, :-1], drive, drive_y)
 
     flow = drive - east[:-1] * np.diff(pressure, axis=0)
@@ -92,7 +92,7 @@ def inertia(scene: Bearing, found: Solution) -> Inertia:
     return Inertia(
         pressure=pressure,
         load=carried(scene, x, force + grid.areas * pressure) - carried(scene, x, force),
-        friction=float((felt * dx * grid.share_y).sum()),
+        friction=float((felt * dx * grid.volume_y).sum()),
         inlet_flow=float(flow[0].sum()),
     )
 
@@ -100,11 +100,11 @@ def inertia(scene: Bearing, found: Solution) -> Inertia:
 def _excess(found: Solution, east: Array, north: Array) -> tuple[Array, Array]:
     """The a and b of the nodes, m/s: flow over thickness, as the faces beside them let through, less that of shear."""
     grid, h, pressure = found.grid, found.faces.thickness, found.state.pressure
-    along = (found.network.couette[:-1] - east[:-1] * np.diff(pressure, axis=0)) / grid.share_y
+    along = (found.network.couette[:-1] - east[:-1] * np.diff(pressure, axis=0)) / grid.volume_y
     a = np.vstack([along[:1], _means(along, 0), along[-1:]]) / h - found.problem.speed / 2
     if h.shape[1] == 1:
         return a, np.zeros_like(a)
-    across = -north[:, :-1] * np.diff(pressure, axis=1) / grid.share_x[:, None]
+    across = -north[:, :-1] * np.diff(pressure, axis=1) / grid.volume_x[:, None]
     ends = [0 * across[:, :1]] * 2 if found.problem.ends.sides is None else [across[:, :1], across[:, -1:]]
     return a, np.hstack([ends[0], _means(across, 1), ends[1]]) / h
 

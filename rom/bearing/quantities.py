@@ -97,16 +97,16 @@ def friction(found: Solution) -> float:
         shear = np.where(mean > 0, problem.viscosity * speed * rub, 0.0)
     shear = shear * (1 / fluidity + np.roll(1 / fluidity, -1, axis=0)) / 2
     rise = np.roll(found.state.pressure, -1, axis=0) - found.state.pressure
-    along = float((grid.share_y * (shear * stretch + mean / 2 * rise)).sum())
+    along = float((grid.volume_y * (shear * stretch + mean / 2 * rise)).sum())
     if rough is None or grid.shape[1] == 1:
         return along
     climb = found.state.pressure[:, 1:] - found.state.pressure[:, :-1]
-    return along + float((grid.share_x[:, None] * _towards(grid) * rough.drag_across[:, :-1] / 2 * climb).sum())
+    return along + float((grid.volume_x[:, None] * _towards(grid) * rough.drag_across[:, :-1] / 2 * climb).sum())
 
 
 def _rub(rough: Averaged, fill: Array) -> Array:
     """Friction over ηu of averaged roughness, 1/m: d + 3e in a film, that of streamers where no tip is wet."""
-    return np.asarray(fill * rough.streaming + wetness(fill, rough.torn) * (rough.wet - rough.streaming))
+    return np.asarray(fill * rough.streaming + wetness(fill, rough.threshold) * (rough.wet - rough.streaming))
 
 
 def _towards(grid: Grid) -> Array:
@@ -140,7 +140,7 @@ def inlet_flow(found: Solution) -> float:
     """
     entering = flow_along(found)[0]
     if found.problem.ends.sides is not None:
-        share = found.grid.share_y * found.grid.radius
+        share = found.grid.volume_y * found.grid.radius
         entering[[0, -1]] = entering[[1, -2]] * share[[0, -1]] / share[[1, -2]]
     return float(entering.sum())
 

@@ -16,7 +16,7 @@ from roughfilm.rom.cavitation.balance import CAVITY, FILM
 from roughfilm.rom.cavitation.discretise import Ends
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.shape import Shape
-from roughfilm.rom.cavitation.solve import TOLERANCE, Solution
+from roughfilm.rom.cavitation.solve import RESIDUAL_TOLERANCE, Solution
 from roughfilm.rom.cavitation.solve import solve as balance
 from roughfilm.rom.ladder.model import (
     Applicability,
@@ -111,7 +111,7 @@ def solve(
     """
     scheme = chosen_scheme(model, (), scheme)
     one_process(model, processes)
-    tolerance = chosen_tolerance(tolerance, TOLERANCE)
+    tolerance = chosen_tolerance(tolerance, RESIDUAL_TOLERANCE)
     fits = applies(scene)
     if not fits.applies:
         raise InputError(f"--model: got {model!r}; {fits.reason}")

@@ -1,1 +1,1 @@
-"""The Reynolds equation where the film may rupture: mass-conserving, for any compressibility."""
+"""The Reynolds equation with mass-conserving cavitation, for any compressibility."""

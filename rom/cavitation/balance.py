@@ -1,16 +1,16 @@
-"""What flows into every node of a film, and how that changes: the loops of Newton's method."""
+"""Mass balances of the nodes of a film and their derivatives: the loops of Newton's method."""
 
 import numpy as np
 
 from roughfilm.contact.foundation.compiled import compiled, inlined
 
 FILM, CAVITY, FIXED, FLOODED = 0, 1, 2, 3
-"""What is unknown at a node: its pressure; its filled part; nothing; nothing, as more than enough is brought."""
+"""Kinds of nodes by their unknown: the pressure; the filling fraction; none (given); none (oversupplied bank)."""
 
 
 @inlined
 def mean(first, second):  # type: ignore[no-untyped-def]
-    """The logarithmic mean (a - b)/ln(a/b) of two mobilities: exact between them where φ is exponential in p."""
+    """The logarithmic mean (a - b)/ln(a/b) of two mobilities, exact where φ is exponential in p."""
     total, difference = first + second, first - second
     if abs(difference) < 1e-3 * total:
         part = difference / total
@@ -20,7 +20,7 @@ def mean(first, second):  # type: ignore[no-untyped-def]
 
 @inlined
 def slope_of_mean(first, second, between):  # type: ignore[no-untyped-def]
-    """What their mean, ``between``, grows by as the first of them does."""
+    """The derivative of the logarithmic mean ``between`` by its first argument."""
     total, difference = first + second, first - second
     if abs(difference) < 1e-3 * total:
         return 0.5 - difference / total / 3.0
@@ -29,7 +29,7 @@ def slope_of_mean(first, second, between):  # type: ignore[no-untyped-def]
 
 @compiled
 def linearise(couette, upstream, east, north, storage, stored, supply, periodic_x, periodic_y, kind, pressure, fill, excess, excess_slope, mobility, mobility_slope, balance, centre, to_west, to_east, to_south, to_north):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
-    """Outflow less inflow of every node, and its derivatives by the unknowns of the node and its four neighbours.
+    """Compute outflow minus inflow of every node, and its derivatives by the unknowns of the node and its neighbours.
 
     Rows of nodes without an unknown become 1 · change = 0. Returns the largest flow through a face.
     """
@@ -98,7 +98,7 @@ def linearise(couette, upstream, east, north, storage, stored, supply, periodic_
 
 @compiled
 def conduct(east, north, mobility, periodic_x, periodic_y, to_east, to_north):  # type: ignore[no-untyped-def]
-    """What the faces towards i + 1 and j + 1 let through for a difference of pressure, K φ."""
+    """Compute the conductances K φ of the faces towards i + 1 and j + 1."""
     nx, ny = east.shape
     for i in range(nx):
         k = i + 1 if i + 1 < nx else 0
@@ -110,7 +110,7 @@ def conduct(east, north, mobility, periodic_x, periodic_y, to_east, to_north):  
 
 @compiled
 def advance(kind, pressure, fill, change):  # type: ignore[no-untyped-def]
-    """Add the change to the unknowns; where p < 0 the film ruptures, where ξ > 1 it begins. Returns how many did."""
+    """Add the change to the unknowns; nodes with p < 0 become cavity, with ξ > 1 film. Returns how many changed."""
     changed = 0
     for node in range(kind.size):
         if kind[node] == FILM:
@@ -130,7 +130,7 @@ def advance(kind, pressure, fill, change):  # type: ignore[no-untyped-def]
 
 @compiled
 def settle_bank(kind, balance):  # type: ignore[no-untyped-def]
-    """Flood the nodes of a bank that are full, let those dry that would need more than is brought. Returns how many."""
+    """Flood the full nodes of a bank, and turn those into cavity whose supply is too small. Returns how many."""
     changed = 0
     for j in range(kind.size):
         if kind[j] == FILM:

@@ -1,6 +1,6 @@
-"""Stabilised bi-conjugate gradients, for systems that are not symmetric but nearly inverted by a preconditioner.
+"""Stabilised bi-conjugate gradients for unsymmetric systems with a good preconditioner.
 
-The loops are ours, as libraries share each scalar product among threads, which cost more than they save.
+The loops are compiled here because the scalar products of NumPy start threads, which cost more than they save.
 """
 
 import math
@@ -21,12 +21,12 @@ def bicgstab(product: Operator, inverse: Operator, right_hand_side: Array, *, to
 
     Parameters
     ----------
-    product, inverse : x ↦ A x, and nearly its inverse; arrays of the shape of b, (nx, ny), new ones each time.
+    product, inverse : x ↦ A x, and an approximation of x ↦ A⁻¹ x; each returns a new array of the shape of b, (nx, ny).
 
     Raises
     ------
     ConvergenceError
-        If ``limit`` iterations do not reach it, or the method breaks down.
+        If ``limit`` iterations do not reach the tolerance, or the method breaks down.
 
     Source: van der Vorst 1992, doi:10.1137/0913035.
     """
@@ -66,14 +66,14 @@ def bicgstab(product: Operator, inverse: Operator, right_hand_side: Array, *, to
 
 @compiled
 def turn(residual, direction, image, length, part):  # type: ignore[no-untyped-def]
-    """D = r + length (d - part A d)."""
+    """Compute d = r + length (d - part A d) in place."""
     for place in range(residual.size):
         direction[place] = residual[place] + length * (direction[place] - part * image[place])
 
 
 @compiled
 def follow(values, step, length):  # type: ignore[no-untyped-def]
-    """Values -= length step; their squared norm then."""
+    """Compute values -= length · step in place; return the squared norm of the values."""
     total = 0.0
     for place in range(values.size):
         value = values[place] - length * step[place]

@@ -1,4 +1,4 @@
-"""From a film to its network: what every face lets through, from the film thickness inside it."""
+"""The network of a film: the conductance of every face, integrated over the film thickness inside it."""
 
 from dataclasses import dataclass
 from math import sqrt
@@ -15,24 +15,24 @@ from roughfilm.rom.cavitation.shape import Shape
 from roughfilm.rom.pocket.gap import Array
 
 GAUSS = (-0.5 / sqrt(3), 0.5 / sqrt(3))
-"""Two points, in spacings from the middle: the integrals of h⁻² and h⁻³ over a face are exact to fourth order."""
+"""Gauss points in spacings from the middle of a face: the integrals of h⁻² and h⁻³ are fourth-order accurate."""
 
 QUARTERS = (0.25, 0.75)
-"""Of a control volume, where a face is sampled across the flow, so that a step at a node counts on both its sides."""
+"""Positions across a control volume at which a face is sampled, so that a step at a node counts on both sides."""
 
-BOTH_WAYS = (-0.25, 0.25)
-"""Of the spacings before and behind a node, where its faces across the flow are sampled."""
+AROUND = (-0.25, 0.25)
+"""Positions along the flow at which faces across it are sampled, in spacings before and behind a node."""
 
 BESIDE = (-1e-9, 1e-9)
-"""Of a spacing, where the film at a node is sampled: the mean of both sides of a step."""
+"""Positions, in spacings, at which the film at a node is sampled: the mean over both sides of a step."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Ends:
-    """What holds at the ends in x and y: pressures above that of cavitation, Pa, and how full the inlet is.
+    """Boundary conditions: pressures above cavitation pressure, Pa, and the filling of the inlet.
 
-    ``inlet`` is None where θ = ``theta`` <= 1 is brought instead of a pressure; ``sides`` is None where nothing flows
-    through them.
+    ``inlet`` is None for a starved inlet, where θ = ``theta`` <= 1 holds instead of a pressure; ``sides`` is None for
+    sides without flow.
     """
 
     inlet: float | None = None
@@ -43,11 +43,11 @@ class Ends:
 
 @dataclass(frozen=True, kw_only=True)
 class Faces:
-    """The film between neighbouring nodes, shape (nx, ny): what does not change with speed, ends or pressure.
+    """Film thickness integrated over the faces, shape (nx, ny), independent of speed, ends and pressure.
 
-    ``thickness`` of the nodes, m; ``mean`` = <h⁻²>/<h⁻³> between (i, j) and (i+1, j), which drives as much flow through
-    the face as the film does; ``east`` and ``north``: <h⁻³>⁻¹, m³, towards i+1 and j+1. Where roughness is averaged,
-    1/A₁₁ and 1/A₂₂ stand for h⁻³, B₁/A₁₁ for h⁻², and ``averaged`` is what else there is of it.
+    ``thickness`` is that of the nodes, m; ``mean`` = <h⁻²>/<h⁻³> between (i, j) and (i+1, j) is the thickness of a
+    uniform film with the same Couette flow; ``east`` and ``north`` are <h⁻³>⁻¹, m³, towards i+1 and j+1. With averaged
+    roughness 1/A₁₁ and 1/A₂₂ replace h⁻³, B₁/A₁₁ replaces h⁻², and ``averaged`` holds the remaining coefficients.
     """
 
     thickness: Array
@@ -58,12 +58,12 @@ class Faces:
 
 
 def faces(shape: Shape, grid: Grid) -> Faces:
-    """Sample the film thickness; the flow that follows is exact to fourth order where h is smooth along it."""
+    """The film sampled on a grid; flows are fourth-order accurate where h is smooth along them."""
     nx, ny = grid.shape
     mean, east, north, thickness = (np.zeros((nx, ny)) for _ in range(4))
     x, y = grid.x[:, None], grid.y
     begins = y - np.append(grid.spacing_y[-1], grid.spacing_y[:-1]) / 2
-    strips = [y] if ny == 1 else [begins + part * grid.share_y for part in QUARTERS]
+    strips = [y] if ny == 1 else [begins + part * grid.volume_y for part in QUARTERS]
     for part in BESIDE:
         thickness += shape.thickness(*np.broadcast_arrays(x + _towards(grid, part), y)) / len(BESIDE)
     last = nx if grid.spacing_x[-1] else nx - 1
@@ -79,18 +79,18 @@ def faces(shape: Shape, grid: Grid) -> Faces:
     if ny > 1:
         last = ny if grid.spacing_y[-1] else ny - 1
         dy, y = grid.spacing_y[:last], grid.y[:last]
-        for part in BOTH_WAYS:
+        for part in AROUND:
             cubed = np.zeros((nx, last))
             for point in GAUSS:
                 place = np.broadcast_arrays(grid.x[:, None] + _towards(grid, part), y + (0.5 + point) * dy)
                 cubed += _resistance_across(shape, *place)
-            north[:, :last] += len(GAUSS) / cubed / len(BOTH_WAYS)
+            north[:, :last] += len(GAUSS) / cubed / len(AROUND)
     rough = None if shape.roughness is None else averaged(shape, shape.roughness, grid)
     return Faces(thickness=thickness, mean=mean, east=east, north=north, averaged=rough)
 
 
 def _resistance(shape: Shape, x: Array, y: Array) -> tuple[Array, Array]:
-    """h⁻² and h⁻³ at places, or B₁/A₁₁ and 1/A₁₁."""
+    """h⁻² and h⁻³ at positions, or B₁/A₁₁ and 1/A₁₁ with averaged roughness."""
     h = shape.thickness(x, y)
     if shape.roughness is None:
         inverse = 1 / h
@@ -101,13 +101,13 @@ def _resistance(shape: Shape, x: Array, y: Array) -> tuple[Array, Array]:
 
 
 def _resistance_across(shape: Shape, x: Array, y: Array) -> Array:
-    """h⁻³ at places, or 1/A₂₂."""
+    """h⁻³ at positions, or 1/A₂₂ with averaged roughness."""
     h = shape.thickness(x, y)
     return np.asarray(h**-3 if shape.roughness is None else 1 / shape.roughness(h).across)
 
 
 def _towards(grid: Grid, part: float) -> Array:
-    """From the nodes towards a quarter of their volumes, but never out of the film, shape (nx, 1)."""
+    """Offsets from the nodes along x, zero where they would leave the film, shape (nx, 1)."""
     if part > 0:
         return part * grid.spacing_x[:, None]
     before = np.append(grid.spacing_x[-1], grid.spacing_x[:-1])
@@ -129,21 +129,24 @@ def network(
 
     Parameters
     ----------
-    speed : of the sliding wall towards growing x, >= 0, m/s; rad/s where x is an angle.
-    viscosity : at the pressure of cavitation, Pa s.
-    compressibility : dθ/dp at the pressure of cavitation, 1/Pa.
-    storage : of transient flow: the time step, s, and θh of the step before, m, shape (nx, ny).
-    ruptures : whether the film ruptures at the pressure of cavitation.
+    speed : speed of the sliding wall towards increasing x, >= 0, m/s; rad/s where x is an angle.
+    viscosity : viscosity at the cavitation pressure, Pa s.
+    compressibility : dθ/dp at the cavitation pressure, 1/Pa.
+    storage : in transient flow, the time step, s, and θh of the step before, m, shape (nx, ny).
+    ruptures : whether the film cavitates.
 
-    Raises InputError for a film joined in y whose roughness is averaged.
+    Raises
+    ------
+    InputError
+        If the roughness is averaged with an oblique lay and the film is periodic in y.
     """
     nx, ny = grid.shape
-    across = grid.share_y * grid.radius
+    across = grid.volume_y * grid.radius
     couette = 0.5 * speed * across * faces.mean
     with np.errstate(divide="ignore", invalid="ignore"):
-        east = faces.east * grid.share_y / (12 * viscosity * grid.radius * grid.spacing_x[:, None])
+        east = faces.east * grid.volume_y / (12 * viscosity * grid.radius * grid.spacing_x[:, None])
         towards = (grid.radius + np.roll(grid.radius, -1)) / 2
-        north = faces.north * grid.share_x[:, None] * towards / (12 * viscosity * grid.spacing_y)
+        north = faces.north * grid.volume_x[:, None] * towards / (12 * viscosity * grid.spacing_y)
         east[faces.east == 0] = north[faces.north == 0] = 0
         upstream = np.maximum(0.5, 1 - east / (couette * compressibility))
     upstream[couette * compressibility == 0] = 0.5
@@ -197,14 +200,16 @@ def _oblique(
     *,
     supplied: bool,
 ) -> Oblique | None:
-    """What a slanting lay adds in the plane, if there is one; nothing drifts along a line that an inlet feeds."""
+    """The flows that an oblique lay adds in the plane, None without one; there is no drift along a starved inlet."""
     rough = faces.averaged
     if rough is None or grid.shape[1] == 1 or not (rough.cross.any() or rough.drag_across.any()):
         return None
     if grid.spacing_y[-1]:
-        raise InputError("roughness: got a film joined across the sliding; averaged roughness needs one with two sides")
+        raise InputError(
+            "roughness: got a film periodic across the sliding; an averaged oblique lay needs a film with two sides"
+        )
     towards = (grid.radius + np.roll(grid.radius, -1)) / 2
-    drift = 0.5 * speed * grid.share_x[:, None] * towards * towards * rough.drag_across
+    drift = 0.5 * speed * grid.volume_x[:, None] * towards * towards * rough.drag_across
     if supplied:
         drift[0] = 0
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -214,7 +219,7 @@ def _oblique(
         cross=rough.cross / (12 * viscosity),
         drift=drift,
         upstream=upstream,
-        torn=rough.torn_across,
+        threshold=rough.threshold_across,
         fixed=fixed,
         periodic=bool(grid.spacing_x[-1]),
     )

@@ -1,4 +1,4 @@
-"""What the solvers ask of a lubricant."""
+"""The interface of a lubricant that the solvers use."""
 
 from typing import Protocol
 
@@ -6,7 +6,7 @@ from roughfilm.rom.pocket.gap import Array
 
 
 class Fluid(Protocol):
-    """What pressure does to a lubricant; arrays have the shape of ``pressure``, Pa above that of cavitation."""
+    """Density and viscosity over pressure; arrays have the shape of ``pressure``, Pa above cavitation pressure."""
 
     def compression(self, pressure: Array) -> tuple[Array, Array]:
         """ϑ = θ - 1 and dθ/dp, 1/Pa."""

@@ -1,4 +1,4 @@
-"""Nodes over the plane of a film, at every break of its thickness, and the control volumes round them."""
+"""Nodes over the plane of a film, one at every break of its thickness, and their control volumes."""
 
 from dataclasses import dataclass
 from itertools import pairwise
@@ -11,19 +11,19 @@ from roughfilm.rom.pocket.gap import Array
 
 @dataclass(frozen=True, kw_only=True)
 class Grid:
-    """Nodes at ``x`` (nx,) and ``y`` (ny,); a periodic direction lacks its last node, which is the first again.
+    """Nodes at ``x`` (nx,) and ``y`` (ny,); a periodic direction omits its last node, which equals the first.
 
-    ``spacing_x`` (nx,) and ``spacing_y`` (ny,) lead to the next node; their last entry counts only if periodic, and is
-    zero otherwise. ``share_x`` and ``share_y`` are the lengths of the control volumes. ``radius`` (ny,) is what turns
-    dx into a length: r where x is an angle, else 1.
+    ``spacing_x`` (nx,) and ``spacing_y`` (ny,) are the distances to the next node; the last entry is zero unless the
+    direction is periodic. ``volume_x`` and ``volume_y`` are the lengths of the control volumes. ``radius`` (ny,)
+    converts dx into a length: r where x is an angle, else 1.
     """
 
     x: Array
     y: Array
     spacing_x: Array
     spacing_y: Array
-    share_x: Array
-    share_y: Array
+    volume_x: Array
+    volume_y: Array
     radius: Array
 
     @property
@@ -33,29 +33,32 @@ class Grid:
 
     @property
     def areas(self) -> Array:
-        """Of the control volumes, m² (m for an infinitely wide film), shape (nx, ny)."""
-        return self.share_x[:, None] * (self.share_y * self.radius)
+        """Areas of the control volumes, m² (m for an infinitely wide film), shape (nx, ny)."""
+        return self.volume_x[:, None] * (self.volume_y * self.radius)
 
 
 def grid(shape: Shape, cells: tuple[int, int]) -> Grid:
-    """About ``cells`` equal cells in x and y; between neighbouring breaks at least one, and in y one node if wide."""
+    """A grid of about ``cells`` equal cells in x and y, with at least one cell between neighbouring breaks.
+
+    An infinitely wide film has one node in y.
+    """
     x = _along(shape.breaks, cells[0])
     y = np.array([np.mean(shape.across)]) if shape.wide else np.linspace(*shape.across, cells[1] + 1)
-    x, spacing_x, share_x = _volumes(x, periodic=shape.joined[0])
-    y, spacing_y, share_y = _volumes(y, periodic=shape.joined[1]) if not shape.wide else (y, np.zeros(1), np.ones(1))
+    x, spacing_x, volume_x = _volumes(x, periodic=shape.joined[0])
+    y, spacing_y, volume_y = _volumes(y, periodic=shape.joined[1]) if not shape.wide else (y, np.zeros(1), np.ones(1))
     return Grid(
         x=x,
         y=y,
         spacing_x=spacing_x,
         spacing_y=spacing_y,
-        share_x=share_x,
-        share_y=share_y,
+        volume_x=volume_x,
+        volume_y=volume_y,
         radius=y if shape.polar else np.ones_like(y),
     )
 
 
 def _along(breaks: tuple[float, ...], cells: int) -> Array:
-    """Equal cells in every piece, as nearly as may be the same in all."""
+    """Node positions with equal cells between neighbouring breaks, of nearly one size everywhere."""
     size = (breaks[-1] - breaks[0]) / cells
     pieces = [np.linspace(a, b, max(1, round((b - a) / size)), endpoint=False) for a, b in pairwise(breaks)]
     return np.append(np.concatenate(pieces), breaks[-1])

@@ -1,4 +1,4 @@
-"""A state carried from one grid to another."""
+"""Interpolation of a state from one grid to another."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,13 +9,13 @@ from roughfilm.rom.pocket.gap import Array
 
 
 def carried(state: State, coarse: Grid, fine: Grid, joined: tuple[bool, bool]) -> State:
-    """Linear in pressure and filled part; a node is film where its pressure then is above zero."""
+    """The state on the fine grid, linear in pressure and filling fraction; nodes with pressure above zero are film."""
     pressure, fill = (interpolated(values, coarse, fine, joined) for values in (state.pressure, state.fill))
     return State(pressure=pressure, fill=np.where(pressure > 0, 1.0, fill))
 
 
 def interpolated(values: Array, known: Grid, wanted: Grid, joined: tuple[bool, bool]) -> Array:
-    """Values of the nodes of one grid at those of another, linear in x and y; shape of the latter."""
+    """Values interpolated linearly in x and y from the nodes of one grid to those of another."""
     x = _between(known.x, known.spacing_x, wanted.x, joined=joined[0])
     y = _between(known.y, known.spacing_y, wanted.y, joined=joined[1])
     return np.ascontiguousarray(_spread(_spread(values, *x).T, *y).T)
@@ -24,7 +24,7 @@ def interpolated(values: Array, known: Grid, wanted: Grid, joined: tuple[bool, b
 def _between(
     known: Array, spacing: Array, wanted: Array, *, joined: bool
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
-    """The neighbours of every wanted place, and how far it is from the first to the second."""
+    """The two neighbours of every wanted position, and its relative distance from the first to the second."""
     if known.size == 1:
         nothing = np.zeros(wanted.size, dtype=np.intp)
         return nothing, nothing, np.zeros(wanted.size)

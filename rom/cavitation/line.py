@@ -1,4 +1,4 @@
-"""A step of Newton's method for an infinitely wide film: a tridiagonal system."""
+"""The Newton step of an infinitely wide film: a tridiagonal system."""
 
 import numpy as np
 
@@ -9,14 +9,13 @@ from roughfilm.rom.pocket.gap import Array
 
 
 def line_step(network: Network, linear: Linear, accuracy: float) -> Array:  # noqa: ARG001
-    """The change of every unknown, shape (nx, 1)."""
+    """The change of every unknown, shape (nx, 1); corners of a periodic film by the Sherman-Morrison formula."""
     lower, centre, upper = (part[:, 0].copy() for part in (linear.west, linear.centre, linear.east))
     change = -linear.balance[:, 0]
     scratch = np.empty_like(change)
     if not network.periodic[0]:
         along(lower, centre, upper, change, scratch)
         return change[:, None]
-    # Sherman and Morrison: the two corners are a product of vectors
     first, last = lower[0], upper[-1]
     shift = -centre[0]
     centre[0] -= shift

@@ -1,4 +1,4 @@
-"""The film as a network: nodes that hold lubricant, faces through which it flows."""
+"""The discretised film: nodes that hold lubricant, and faces through which it flows."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -18,29 +18,29 @@ Values = TypeVar("Values", bound=NDArray[Any])
 class Network:
     """Nodes (i, j), sliding towards growing i, each with a control volume; all arrays of shape (nx, ny).
 
-    With p the pressure above that of cavitation, θ = ξ + ϑ(p), ξ <= 1 the filled part (1 where p > 0) and ϑ the
-    compression, what flows through the face from (i, j) to (i+1, j) is
+    The unknowns are p, the pressure above cavitation pressure, and ξ <= 1, the filling fraction (1 where p > 0);
+    θ = ξ + ϑ(p), where ϑ is the compression. The flow through the face from (i, j) to (i+1, j) is
 
         F = C (ξ_i + ω ϑ_i + (1 - ω) ϑ_(i+1)) - K φ (p_(i+1) - p_i),
 
-    φ the logarithmic mean of (1 + ϑ) η0/η of the two nodes,
-
-    in m³/s at the density of the cavitation pressure; towards (i, j+1) it is the second part alone. The liquid that
-    fills a node comes from upstream, its compression from both sides: F is continuous where a film begins or ends, and
-    of second order inside it. A slanting lay adds what :class:`roughfilm.rom.cavitation.oblique.Oblique` says.
+    in m³/s at the density of the cavitation pressure, where φ is the logarithmic mean of (1 + ϑ) η0/η of the two nodes.
+    The flow towards (i, j+1) has only the second term. The filling fraction is taken upstream, the compression from
+    both sides: F is continuous where a film begins or ends, and second-order accurate inside it. An oblique lay adds
+    the flows of :class:`roughfilm.rom.cavitation.oblique.Oblique`.
 
     Attributes
     ----------
-    couette : C of the face towards i+1, m³/s; of the last i only if periodic.
-    upstream : ω, 1/2 but where cells are so coarse that compression travels faster than pressure.
-    east, north : K of the faces towards i+1 and j+1, m³/(Pa s); of the last i or j only if periodic.
-    supply : what the inlet brings to the nodes i = 0, m³/s, shape (ny,); None if these are fixed, or x is periodic.
-    fixed : where ``pressure``, Pa, is given.
-    storage : volume over time step, m³/s; zero in steady flow. ``stored``: the same of the step before, times its θ.
-    periodic : in i, in j.
-    oblique : what a slanting lay adds; None without one.
-    spills : whether the sides j = 0 and j = -1 are at the pressure of cavitation and give away what they get beyond
-        what fills them, but get nothing themselves.
+    couette : C of the face towards i+1, m³/s; for the last i only if periodic.
+    upstream : ω, 1/2 except on cells so coarse that advection of compression dominates the pressure flow.
+    east, north : K of the faces towards i+1 and j+1, m³/(Pa s); for the last i or j only if periodic.
+    supply : flow from the inlet into the nodes i = 0, m³/s, shape (ny,); None if these are fixed, or x is periodic.
+    fixed : nodes whose ``pressure``, Pa, is given.
+    storage : volume over time step, m³/s; zero in steady flow.
+    stored : volume times θ of the step before, over the time step, m³/s.
+    periodic : whether i is periodic, and j.
+    oblique : flows that an oblique lay adds; None without one.
+    spills : whether the sides j = 0 and j = -1 are at the cavitation pressure; they then discharge what exceeds their
+        filling, and receive nothing from outside.
     """
 
     couette: Array
@@ -63,17 +63,17 @@ class Network:
 
     @property
     def supplied(self) -> Array:
-        """``supply``, empty where there is none."""
+        """``supply``, an empty array where there is none."""
         return np.zeros(0) if self.supply is None else self.supply
 
     @property
     def drifting(self) -> tuple[Array, Array]:
-        """``drift`` and ``torn`` of the slanting lay, empty where there is none."""
+        """``drift`` and ``threshold`` of the oblique lay, empty arrays where there is none."""
         nothing = np.zeros((0, 0))
-        return (nothing, nothing) if self.oblique is None else (self.oblique.drift, self.oblique.torn)
+        return (nothing, nothing) if self.oblique is None else (self.oblique.drift, self.oblique.threshold)
 
     def banks(self, values: Values) -> tuple[Values, ...]:
-        """Views of values at nodes that are flooded or partly full, never under pressure: inlet and spilling sides."""
+        """Views of the values at the inlet and the spilling sides, whose nodes are never under pressure."""
         views = [] if self.supply is None else [values[0]]
         views += [values[:, j] for j, spills in zip((0, -1), self.spills, strict=True) if spills]
         return tuple(views)
@@ -81,7 +81,7 @@ class Network:
     def linearise(
         self, kind: NDArray[np.int8], pressure: Array, fill: Array, laws: Sequence[Array], parts: Sequence[Array]
     ) -> float:
-        """Fill ``parts`` with the balances and their derivatives, as :func:`rom.cavitation.balance.linearise` says.
+        """Write the balances and their derivatives into ``parts``; see ``linearise`` in ``balance``.
 
         ``laws`` are ϑ, dθ/dp, φ and dφ/dp at the pressure. Returns the largest flow through a face, m³/s.
         """
@@ -101,7 +101,7 @@ class Network:
 
 @dataclass(frozen=True, kw_only=True)
 class State:
-    """Pressure above that of cavitation, Pa, and filled part ξ of every node, shape (nx, ny)."""
+    """Pressure above cavitation pressure, Pa, and filling fraction ξ of every node, shape (nx, ny)."""
 
     pressure: Array
     fill: Array

@@ -1,4 +1,4 @@
-"""Newton's method on an active set: which nodes are film, what their pressure is, how full the others are."""
+"""Newton's method on an active set: film nodes with their pressure, cavity nodes with their filling fraction."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -13,20 +13,22 @@ from roughfilm.rom.cavitation.network import Network, State
 from roughfilm.rom.cavitation.relaxation import relaxed
 from roughfilm.rom.pocket.gap import Array
 
-STEPS = 25
-"""Of Newton's method in the first round, at most; from a good start it takes 1 to 6."""
+FIRST_ROUND_STEPS = 25
+"""Largest number of Newton steps in the first round; from a good start 1 to 6 suffice. It doubles every round."""
 
-ROUNDS, MORE = 5, 4
-"""Where a round fails, so many times as many sweeps of relaxation go before the next one, of twice as many steps."""
+ROUNDS = 5
+"""Largest number of rounds of relaxation and Newton's method."""
 
+SWEEPS_RATIO = 4
+"""Ratio of the relaxation sweeps of two successive rounds."""
 
-ROUNDING = 8 * float(np.finfo(float).eps)
-"""Of what pressure drives out of a node: nodes are not known to balance better."""
+BALANCE_ROUNDOFF = 8 * float(np.finfo(float).eps)
+"""Round-off of a node's balance relative to the flow that its pressure drives out."""
 
 
 @dataclass(frozen=True)
 class Linear:
-    """A step of Newton's method: derivatives of every node's balance by its own unknown and those of its neighbours."""
+    """The linear system of a Newton step: every balance and its derivatives by the unknowns around it."""
 
     kind: NDArray[np.int8]
     mobility: Array
@@ -40,9 +42,10 @@ class Linear:
 
 @dataclass(frozen=True, kw_only=True)
 class Settled:
-    """A state that balances: ``residual`` is the largest net flow into a node over the largest through a face.
+    """A converged state; ``residual`` is the largest net flow into a node over the largest flow through a face.
 
-    It is above the tolerance where pressures have no digits left to balance better, as at rest over deep pockets.
+    The residual exceeds the tolerance where round-off of the pressures prevents a better balance, for example at rest
+    over deep pockets.
     """
 
     state: State
@@ -65,33 +68,35 @@ def settle(
     tolerance: float,
     ruptures: bool = True,
 ) -> Settled:
-    """Find the state in which every node lets out what flows in, beginning from ``start``.
+    """The state in which inflow equals outflow at every node, from a start ``start``.
 
-    Where p > 0 the unknown is p, where ξ < 1 it is ξ; a node changes over where its unknown leaves its range. Some
-    sweeps of relaxation go first, and more of them where Newton's method runs in circles. Without ``ruptures`` the film
-    bears any tension.
+    The unknown is p where p > 0, and ξ where ξ < 1; a node changes its kind when its unknown leaves that range.
+    Relaxation sweeps come first, and more of them if Newton's method does not converge. Without ``ruptures`` the
+    pressure may be negative.
 
     Raises
     ------
     UnsettledError
-        If the residual stays above the tolerance; it holds the relaxed state.
+        If the residual stays above the tolerance; the error holds the relaxed state.
     """
     state, rounds, iterations = start, ROUNDS if ruptures else 1, 0
     failed = ConvergenceError("")
     for number in range(rounds):
         if ruptures:
-            state = relaxed(network, fluid, state, sweeps * MORE**number)
+            state = relaxed(network, fluid, state, sweeps * SWEEPS_RATIO**number)
         try:
-            found = newton(network, fluid, state, step, tolerance=tolerance, limit=STEPS * 2**number, ruptures=ruptures)
+            settled = newton(
+                network, fluid, state, step, tolerance=tolerance, limit=FIRST_ROUND_STEPS * 2**number, ruptures=ruptures
+            )
         except ConvergenceError as error:
             iterations, failed = iterations + (error.iterations or 0), error
         else:
-            return replace(found, iterations=iterations + found.iterations)
+            return replace(settled, iterations=iterations + settled.iterations)
     raise UnsettledError(str(failed), outcome=failed.outcome, state=state, iterations=iterations)
 
 
 class UnsettledError(ConvergenceError):
-    """No state balances that could be found; ``state`` is as near as relaxation comes."""
+    """No converged state was found; ``state`` is the result of relaxation."""
 
     def __init__(self, message: str, *, outcome: Outcome, state: State, iterations: int) -> None:
         super().__init__(message, outcome=outcome, iterations=iterations)
@@ -101,7 +106,7 @@ class UnsettledError(ConvergenceError):
 def newton(
     network: Network, fluid: Fluid, start: State, step: Step, *, tolerance: float, limit: int, ruptures: bool
 ) -> Settled:
-    """One round of Newton's method; raises ConvergenceError after ``limit`` steps, or where numbers overflow."""
+    """The state after one round of Newton's method; ConvergenceError after ``limit`` steps or on overflow."""
     pressure, fill, kind = _begun(network, start)
     parts = [np.empty(network.shape) for _ in range(6)]
     balance = parts[0]
@@ -124,23 +129,23 @@ def newton(
         else:
             pressure = pressure + change
     finite = np.isfinite(residual)
-    told = (
+    reason = (
         f"the residual of {residual:.1e} misses the tolerance of {tolerance:.1e}, {changed} nodes still change between "
         "film and cavity; take more cells"
         if finite
-        else "pressures grow beyond all bounds: no film of such a lubricant may exist; take a law that bears them"
+        else "the pressures diverge, and this lubricant may have no solution; take another viscosity or density law"
     )
     outcome = Outcome.UNFINISHED if finite else Outcome.DIVERGED
-    raise ConvergenceError(f"cavitation: {told}", outcome=outcome, iterations=iteration)
+    raise ConvergenceError(f"cavitation: {reason}", outcome=outcome, iterations=iteration)
 
 
 def _rounded(balance: Array, driven: Array, least: float) -> bool:
-    """Whether every node balances as well as the digits of its pressure let it, or to ``least``."""
-    return not (np.abs(balance) > np.maximum(least, ROUNDING * np.abs(driven))).any()
+    """Whether every node balances to ``least`` or to the round-off of its pressure."""
+    return not (np.abs(balance) > np.maximum(least, BALANCE_ROUNDOFF * np.abs(driven))).any()
 
 
 def _begun(network: Network, start: State) -> tuple[Array, Array, NDArray[np.int8]]:
-    """Pressure, filled part and kind of every node, as ``start`` has them."""
+    """Pressure, filling fraction and kind of every node at the start."""
     kind = np.where(start.fill < 1, np.int8(CAVITY), np.int8(FILM))
     for bank, fill in zip(network.banks(kind), network.banks(start.fill), strict=True):
         bank[:] = np.where(fill < 1, CAVITY, FLOODED)

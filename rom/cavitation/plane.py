@@ -1,13 +1,13 @@
-"""A step of Newton's method in the plane: filled parts eliminated along the flow, pressures by a Krylov method.
+"""The Newton step in the plane: filling fractions eliminated along the flow, pressures by a Krylov method.
 
-With cavities (c) and film (f) apart, a step solves
+With the unknowns of cavities (c) and film (f) separated, a step solves
 
     A_ff δp + A_fc δξ = r_f,    A_cf δp + A_cc δξ = r_c.
 
-A_cc is bidiagonal along the flow, so a sweep applies its inverse; what is left, (A_ff − A_fc A_cc⁻¹ A_cf) δp, goes to
-BiCGSTAB. It is near a symmetric operator: the pressure flow inside the film, with p = 0 where the film ends, but
-no condition where it begins, as there a cavity brings what it brings whatever the pressure. Multigrid inverts it.
-What a slanting lay drives across is in the operator, but not in the one that multigrid inverts.
+A_cc is bidiagonal along the flow, so one sweep applies its inverse; BiCGSTAB solves the Schur complement
+(A_ff − A_fc A_cc⁻¹ A_cf) δp. Its preconditioner is multigrid on a similar symmetric operator: the pressure flow inside
+the film, with p = 0 where the film ends and no flow condition where it begins, since the flow out of a cavity does not
+depend on the pressure. The flows of an oblique lay are in the operator, but not in its preconditioner.
 """
 
 import numpy as np
@@ -21,11 +21,11 @@ from roughfilm.rom.multigrid.gradients import dot
 from roughfilm.rom.multigrid.multigrid import Multigrid
 from roughfilm.rom.pocket.gap import Array
 
-REDUCTION = 1e-4
-"""Of the residual in a step: as the film's ends still move, more would be in vain."""
+STEP_REDUCTION = 1e-4
+"""Reduction of the linear residual in a Newton step; the film boundary still moves, so more accuracy has no use."""
 
-LIMIT = 200
-"""Iterations of BiCGSTAB."""
+KRYLOV_ITERATIONS = 200
+"""Largest number of BiCGSTAB iterations."""
 
 
 def plane_step(network: Network, linear: Linear, accuracy: float) -> Array:
@@ -53,15 +53,15 @@ def plane_step(network: Network, linear: Linear, accuracy: float) -> Array:
     film_image(*parts, values, image)
     wanted = np.where(linear.kind == FILM, source - image, 0.0)
     inverse = Multigrid(*conductances(network, linear), periodic=network.periodic)
-    tolerance = max(REDUCTION * float(np.sqrt(dot(wanted, wanted))), accuracy / 10)
-    values = bicgstab(product, inverse.cycle, wanted, tolerance=tolerance, limit=LIMIT)
+    tolerance = max(STEP_REDUCTION * float(np.sqrt(dot(wanted, wanted))), accuracy / 10)
+    values = bicgstab(product, inverse.cycle, wanted, tolerance=tolerance, limit=KRYLOV_ITERATIONS)
     values[linear.kind != FILM] = 0.0
     carry(*parts, *ways, source - driven(values), values)
     return values
 
 
 def conductances(network: Network, linear: Linear) -> tuple[Array, Array, Array]:
-    """The symmetric operator inside the film: centre, and couplings towards i+1 and j+1, shape (nx, ny)."""
+    """The symmetric operator inside the film: centre, and couplings towards i+1 and j+1, each of shape (nx, ny)."""
     centre, east, north = (np.zeros(network.shape) for _ in range(3))
     to_east, to_north = network.conductance(linear.mobility)
     slopes = (linear.centre, linear.south, linear.north)
@@ -71,10 +71,10 @@ def conductances(network: Network, linear: Linear) -> tuple[Array, Array, Array]
 
 @compiled
 def couple(kind, east, north, periodic_x, periodic_y, by_self, by_south, by_north, centre, to_east, to_north):  # type: ignore[no-untyped-def]  # fmt: skip
-    """Fill in what joins nodes of the film; nodes that are none stand alone.
+    """Compute the couplings of film nodes; all other nodes are decoupled.
 
-    ``by_self``, ``by_south`` and ``by_north`` are derivatives of the balances: of what a film lets into a cavity beside
-    it, that part is no loss which drifts back.
+    ``by_self``, ``by_south`` and ``by_north`` are derivatives of the balances; they account for liquid that drifts back
+    from a cavity beside the film.
     """
     nx, ny = kind.shape
     feeds = np.zeros(kind.shape, dtype=np.bool_)
@@ -113,9 +113,9 @@ def couple(kind, east, north, periodic_x, periodic_y, by_self, by_south, by_nort
 
 @compiled
 def carry(kind, centre, west, east, south, north, periodic_x, drifts, source, values):  # type: ignore[no-untyped-def]
-    """Set the filled parts that balance the cavities, given the pressures beside them.
+    """Compute the filling fractions that balance the cavities at given pressures beside them.
 
-    What ``drifts`` across, a row upwards and downwards again finds, as it goes from node to node without turning round.
+    With drift across the sliding (``drifts``) every row is swept upwards and then downwards.
     """
     nx, ny = kind.shape
     for _ in range(2 if periodic_x else 1):
@@ -134,16 +134,16 @@ def carry(kind, centre, west, east, south, north, periodic_x, drifts, source, va
 
 @compiled
 def film_image(kind, centre, west, east, south, north, values, image):  # type: ignore[no-untyped-def]
-    """The balance that values of all unknowns bring to the nodes of the film; zero elsewhere."""
+    """Compute the matrix product A x at the film nodes; zero elsewhere."""
     nx, ny = kind.shape
     for i in range(nx):
         before = i - 1 if i > 0 else nx - 1
         after = i + 1 if i + 1 < nx else 0
         for j in range(ny):
-            found = 0.0
+            total = 0.0
             if kind[i, j] == FILM:
                 below = j - 1 if j > 0 else ny - 1
                 above = j + 1 if j + 1 < ny else 0
-                found = centre[i, j] * values[i, j] + west[i, j] * values[before, j] + east[i, j] * values[after, j]
-                found += south[i, j] * values[i, below] + north[i, j] * values[i, above]
-            image[i, j] = found
+                total = centre[i, j] * values[i, j] + west[i, j] * values[before, j] + east[i, j] * values[after, j]
+                total += south[i, j] * values[i, below] + north[i, j] * values[i, above]
+            image[i, j] = total

@@ -1,4 +1,4 @@
-"""A film to be solved: where it is, what slides, what is in it, what holds at its ends."""
+"""A film to be solved: its shape, sliding speed, lubricant and boundary conditions."""
 
 from dataclasses import dataclass, field, replace
 
@@ -19,10 +19,10 @@ class Problem:
     Attributes
     ----------
     shape : the film.
-    ends : what holds at its ends; the inlet is where sliding brings lubricant from.
-    speed : of the sliding wall, m/s, or rad/s where x is an angle; below zero it slides towards falling x.
-    viscosity : η0, at the pressure of cavitation, Pa s.
-    compressibility, piezoviscosity : what pressure does to density and viscosity.
+    ends : boundary conditions; the inlet is the end from which the sliding wall carries lubricant in.
+    speed : speed of the sliding wall, m/s, or rad/s where x is an angle; negative towards decreasing x.
+    viscosity : η0, viscosity at the cavitation pressure, Pa s.
+    compressibility, piezoviscosity : density and viscosity over pressure.
     """
 
     shape: Shape
@@ -44,10 +44,10 @@ class Problem:
 
     @property
     def initial_compressibility(self) -> float:
-        """dθ/dp at the pressure of cavitation, 1/Pa."""
+        """dθ/dp at the cavitation pressure, 1/Pa."""
         return float(self.compressibility.compression(np.zeros(1))[1][0])
 
 
 def unchanging(problem: Problem) -> Problem:
-    """The same film, of a lubricant that pressure does nothing to."""
+    """The same film with a lubricant of constant density and viscosity."""
     return replace(problem, compressibility=Incompressible(), piezoviscosity=ConstantViscosity())

@@ -1,4 +1,4 @@
-"""Node after node brought into balance: slow, but it comes near from any start, as the balances are an M-function."""
+"""Nonlinear Gauss-Seidel relaxation: slow, but convergent from any start, since the balances are an M-function."""
 
 import numpy as np
 
@@ -10,12 +10,12 @@ from roughfilm.rom.cavitation.oblique import wet
 
 
 @inlined
-def held(source, out, across, torn):  # type: ignore[no-untyped-def]
-    """The filled part that lets out as much as comes in: out ξ + across g(ξ) = source, halved down to."""
+def held(source, out, across, threshold):  # type: ignore[no-untyped-def]
+    """The filling fraction ξ with out ξ + across g(ξ) = source, by bisection."""
     low, high = 0.0, 1.0
     for _ in range(30):
         middle = 0.5 * (low + high)
-        if out * middle + across * wet(middle, torn)[0] > source:
+        if out * middle + across * wet(middle, threshold)[0] > source:
             high = middle
         else:
             low = middle
@@ -23,10 +23,10 @@ def held(source, out, across, torn):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def relax(couette, upstream, east, north, storage, stored, supply, periodic_x, periodic_y, drift, torn, fixed, banks, kind, pressure, fill, excess, excess_slope, sweeps):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
-    """Nonlinear Gauss–Seidel, along the flow, with ``east`` and ``north`` Kφ and ϑ linear in p. ``excess`` follows.
+def relax(couette, upstream, east, north, storage, stored, supply, periodic_x, periodic_y, drift, threshold, fixed, banks, kind, pressure, fill, excess, excess_slope, sweeps):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
+    """Relax along the flow, with ``east`` and ``north`` the conductances Kφ, and ϑ (``excess``) linear in p.
 
-    Every node takes the pressure that balances it or, if that is negative, the filled part that does: p >= 0, ξ <= 1.
+    Every node takes the pressure that balances it or, if that is negative, the filling fraction: p >= 0, ξ <= 1.
     Source: Elrod and Adams 1975 for the two cases; Ortega and Rheinboldt 1970, theorem 13.5.9, for convergence.
     """
     nx, ny = couette.shape
@@ -75,10 +75,10 @@ def relax(couette, upstream, east, north, storage, stored, supply, periodic_x, p
                     k = face + 1 - side
                     d = drift[i, face] if side == 0 else -drift[i, face]
                     if d > 0.0 and not fixed[i, k]:
-                        source += d * wet(fill[i, k], torn[i, face])[0]
+                        source += d * wet(fill[i, k], threshold[i, face])[0]
                     else:
                         across -= d
-                        edge = torn[i, face]
+                        edge = threshold[i, face]
                 left = source - out - across
                 film = 0.0
                 if left > 0.0 and not (banks[i, j]):
@@ -98,7 +98,7 @@ def relax(couette, upstream, east, north, storage, stored, supply, periodic_x, p
 
 
 def relaxed(network: Network, fluid: Fluid, state: State, sweeps: int) -> State:
-    """A state after some sweeps, through which what pressure drives across a slanting lay stays as it is."""
+    """The state after some sweeps, during which the cross flow of an oblique lay is kept constant."""
     pressure = np.where(network.fixed, network.pressure, state.pressure)
     fill = state.fill.copy()
     kind = np.where(network.fixed, np.int8(FIXED), np.where(fill < 1, np.int8(CAVITY), np.int8(FILM)))

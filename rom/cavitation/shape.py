@@ -1,4 +1,4 @@
-"""Where the film is: its thickness over the plane that both walls share, cartesian or polar."""
+"""The film thickness over a plane with Cartesian or polar coordinates."""
 
 import math
 from collections.abc import Callable
@@ -12,19 +12,19 @@ Thickness = Callable[[Array, Array], Array]
 
 @dataclass(frozen=True, kw_only=True)
 class Shape:
-    """A film of thickness h(x, y), m, over a rectangle of the plane, or of (angle, radius).
+    """A film of thickness h(x, y), m, over a rectangle in (x, y) or in (angle, radius).
 
     Attributes
     ----------
     thickness : thickness(x, y), vectorised; x in m, or rad where ``polar``; y in m.
-    breaks : where h or its slope jumps in x, from one end to the other, increasing; a node stands at each.
-    across : the range of y, m; for an infinitely wide film any range, over which nothing is cut.
-    wide : infinitely wide: h(x) alone counts, and flow is per width.
+    breaks : increasing positions x of the two ends and of every jump of h or its slope; each gets a node.
+    across : range of y, m; it has no effect on an infinitely wide film.
+    wide : whether the film is infinitely wide: h depends on x alone, and flow is per width.
     polar : x is an angle, rad, and y the radius, m.
-    joined : whether the ends in x are the same place, and those in y.
-    finest : the shortest feature of the wall along x and y, in their units; infinite where there is none.
-    roughness : of a film whose roughness is averaged, the flow factors where its mean gap is ``thickness``; x is the
-        sliding direction everywhere, so that where ``polar`` the lay turns with it. None of a film that is all told.
+    joined : whether the film is periodic in x, and in y.
+    finest : length of the shortest feature of the wall along x and y, in their units; infinite where there is none.
+    roughness : flow factors over the mean gap ``thickness``, if roughness is averaged; None if ``thickness`` includes
+        all roughness. The lay is fixed to the sliding direction x, so in polar coordinates it turns with the angle.
     """
 
     thickness: Thickness
@@ -38,5 +38,5 @@ class Shape:
 
     @property
     def length(self) -> float:
-        """Extent in x, m or rad."""
+        """Length in x, m or rad."""
         return self.breaks[-1] - self.breaks[0]

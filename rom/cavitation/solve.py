@@ -1,4 +1,4 @@
-"""Steady films: solved on grid after finer grid, each the start of the next."""
+"""Steady films, solved on successively finer grids, each of which starts the next."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -18,24 +18,27 @@ from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.homogenization.gap_factors import mirrored_factors
 from roughfilm.rom.pocket.gap import Array
 
-COARSEST = 16
-"""Cells along each side where it begins, from a film everywhere at the pressure of cavitation."""
+COARSEST_CELLS = 16
+"""Largest number of cells along a side of the coarsest grid, which starts from a full film at cavitation pressure."""
 
-COLD, WARM = 400, 6
-"""Sweeps of relaxation before Newton's method, on the coarsest grid and on all others."""
+COLD_SWEEPS = 400
+"""Relaxation sweeps before Newton's method without a start."""
 
-TOLERANCE = 1e-9
-"""Of the residual, by default."""
+WARM_SWEEPS = 6
+"""Relaxation sweeps before Newton's method from the solution of a coarser grid or of a time step."""
 
-EMPTY = 1e-6
-"""A part by which a gap may be emptier than empty, by rounding."""
+RESIDUAL_TOLERANCE = 1e-9
+"""Residual at which the solver stops by default."""
+
+NEGATIVE_FILL_TOLERANCE = 1e-6
+"""Tolerated negative filling fraction (round-off)."""
 
 Progress = Callable[[float, str], None]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Level:
-    """What one grid gave: nodes, steps of Newton's method, and the integral of p over the film, N (N/m if wide)."""
+    """One grid of a solution: nodes, Newton steps, and the integral of p, N (N/m if infinitely wide)."""
 
     shape: tuple[int, int]
     iterations: int
@@ -44,11 +47,11 @@ class Level:
 
 @dataclass(frozen=True, kw_only=True)
 class Solution:
-    """A film in balance, on its grid; pressures are above that of cavitation, x grows with sliding.
+    """A converged film on its grid; pressures are above cavitation pressure, x increases with sliding.
 
-    ``turned`` says that the wall slid towards falling x: ``problem`` is then the mirrored one.
-    ``residual`` is the largest net flow into a node over the largest through a face, recomputed at the end.
-    ``coarser`` is the solution on the grid before, which has one of its own, and no more.
+    ``turned`` is true if the wall slides towards decreasing x; ``problem`` is then the mirrored one.
+    ``residual`` is the largest net flow into a node over the largest flow through a face, recomputed at the end.
+    ``coarser`` is the solution on the next coarser grid; at most two coarser solutions are kept.
     """
 
     problem: Problem
@@ -67,29 +70,28 @@ def solve(
     problem: Problem,
     cells: tuple[int, int],
     *,
-    tolerance: float = TOLERANCE,
+    tolerance: float = RESIDUAL_TOLERANCE,
     start: State | None = None,
     ruptures: bool = True,
     storage: tuple[float, Array] | None = None,
     progress: Progress = lambda _fraction, _words: None,
 ) -> Solution:
-    """Solve (u/2) ∂(θh)/∂x - ∇·(θh³/12η ∇p) = 0 where p > 0, and its first part alone with p = 0 where θ < 1.
+    """Solve (u/2) ∂(θh)/∂x - ∇·(θh³/12η ∇p) = 0 with p > 0 in the film, and p = 0 with θ < 1 in cavities.
 
-    Load and pressure are of second order in the cells. Sliding towards falling x is solved mirrored.
+    Load and pressure are second-order accurate in the cell size. Sliding towards decreasing x is solved mirrored.
 
     Parameters
     ----------
-    cells : in x and in y; the latter do not count where the film is infinitely wide.
-    start : of another solution, to begin from on the grid asked for; without one, or if it leads nowhere, coarser grids
-        give it.
-    ruptures : whether the film ruptures; without, it bears any tension, and the inlet is full.
-    storage : of a step in time: its length, s, and θh before it at the nodes of the finest grid, m.
+    cells : number of cells in x and in y; the latter has no effect on an infinitely wide film.
+    start : state on the finest grid from which to start; without one, or if it does not converge, coarser grids provide
+        the start.
+    ruptures : whether the film cavitates; without cavitation pressures may be negative, and the inlet is full.
+    storage : in transient flow, the time step, s, and θh of the step before at the nodes of the finest grid, m.
 
     Raises
     ------
     ConvergenceError
-        If the residual does not meet the tolerance: no result leaves that does not balance. Or if it does, but with a
-        part of the gap filled less than not at all.
+        If the residual does not meet the tolerance, or if a filling fraction is negative.
 
     Sources: Jakobsson and Floberg 1957; Elrod 1981, doi:10.1115/1.3251669; Sahlin et al. 2007,
     doi:10.1016/j.triboint.2007.02.021.
@@ -98,7 +100,7 @@ def solve(
     if turned:
         problem = mirrored(problem)
     if problem.speed == 0 and storage is None:
-        ruptures = False  # no film widens, and pressure lies between those of the ends
+        ruptures = False  # without sliding the pressure lies between those of the ends
     if not ruptures:
         problem = replace(problem, ends=replace(problem.ends, inlet=problem.ends.inlet or 0.0))
     wide = problem.shape.wide
@@ -116,7 +118,7 @@ def solve(
                 problem,
                 nodes,
                 start=start,
-                sweeps=COLD if cold else WARM,
+                sweeps=COLD_SWEEPS if cold else WARM_SWEEPS,
                 tolerance=tolerance,
                 ruptures=ruptures,
                 storage=storage and (storage[0], interpolated(storage[1], finest, nodes, problem.shape.joined)),
@@ -142,19 +144,19 @@ def solve(
         if nodes is not finest:
             start = carried(found.state, nodes, grid(problem.shape, sizes[number + 1]), problem.shape.joined)
     assert found is not None
-    _not_emptier_than_empty(found)
+    _check_fill(found)
     return found
 
 
-def _not_emptier_than_empty(found: Solution) -> None:
-    """ConvergenceError where a slanting lay takes more out of a node that is not full than there is in it."""
-    least = float(found.state.fill.min())
-    if least < -EMPTY:
+def _check_fill(solution: Solution) -> None:
+    """Raise ConvergenceError if an oblique lay drains more from a cavity node than flows in."""
+    least = float(solution.state.fill.min())
+    if least < -NEGATIVE_FILL_TOLERANCE:
         raise ConvergenceError(
-            f"cavitation: the balance wants a node filled to {least:.3g}, as pressures beside it drive more along the "
-            "lay than flows in; take more cells, or direct, which follows every wave",
+            f"cavitation: a filling fraction is {least:.3g}, because the pressures beside a cavity drive more liquid "
+            "along the lay than flows in; take more cells, or the model direct",
             outcome=Outcome.STALLED,
-            iterations=sum(level.iterations for level in found.levels),
+            iterations=sum(level.iterations for level in solution.levels),
         )
 
 
@@ -168,9 +170,9 @@ def on_grid(
     ruptures: bool = True,
     storage: tuple[float, Array] | None = None,
 ) -> Solution:
-    """Solve on one grid, after some sweeps of relaxation from ``start``, or from a film at the pressure of cavitation.
+    """The solution on one grid, after relaxation sweeps from ``start`` or from a full film at cavitation pressure.
 
-    ``storage``: of transient flow, as :func:`roughfilm.rom.cavitation.discretise.network` takes it.
+    ``storage`` is that of transient flow, as in ``network``.
     """
     sampled = faces(problem.shape, nodes)
     net = network(
@@ -185,7 +187,7 @@ def on_grid(
     )
     state = start or State(pressure=np.zeros(net.shape), fill=np.ones(net.shape))
     step = line_step if problem.shape.wide else plane_step
-    with np.errstate(over="ignore", invalid="ignore"):  # numbers that overflow are told as a residual that is none
+    with np.errstate(over="ignore", invalid="ignore"):  # an overflow gives a residual that is not finite
         settled = settle(net, problem, state, step, sweeps=sweeps, tolerance=tolerance, ruptures=ruptures)
     load = float((nodes.areas * settled.state.pressure).sum())
     return Solution(
@@ -203,16 +205,16 @@ def on_grid(
 
 
 def _coarsening(cells: tuple[int, int], *, wide: bool) -> list[tuple[int, int]]:
-    """From the coarsest grid to the one that is asked for, each side about doubled at a time."""
+    """Cells of the grids from the coarsest to the finest, each side about doubled at a time."""
     sizes = [cells]
-    while max(sizes[-1][:1] if wide else sizes[-1]) > COARSEST:
+    while max(sizes[-1][:1] if wide else sizes[-1]) > COARSEST_CELLS:
         nx, ny = sizes[-1]
-        sizes.append((max(-(-nx // 2), min(nx, COARSEST)), max(-(-ny // 2), min(ny, COARSEST))))
+        sizes.append((max(-(-nx // 2), min(nx, COARSEST_CELLS)), max(-(-ny // 2), min(ny, COARSEST_CELLS))))
     return sizes[::-1]
 
 
 def mirrored(problem: Problem) -> Problem:
-    """The same film with x turned round; it slides the other way."""
+    """The same film mirrored in x, with the opposite sliding direction."""
     shape = problem.shape
     low, high = shape.breaks[0], shape.breaks[-1]
     breaks = tuple(low + high - place for place in reversed(shape.breaks))

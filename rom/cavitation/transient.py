@@ -1,4 +1,4 @@
-"""Films that change with time: squeezed, started, or passing by."""
+"""Transient films, for example squeezed or accelerated ones."""
 
 from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
@@ -10,7 +10,7 @@ from roughfilm.rom.cavitation.discretise import faces
 from roughfilm.rom.cavitation.grid import grid
 from roughfilm.rom.cavitation.network import State
 from roughfilm.rom.cavitation.problem import Problem
-from roughfilm.rom.cavitation.solve import TOLERANCE, WARM, Solution, on_grid, solve
+from roughfilm.rom.cavitation.solve import RESIDUAL_TOLERANCE, WARM_SWEEPS, Solution, on_grid, solve
 from roughfilm.rom.pocket.gap import Array
 
 
@@ -20,30 +20,30 @@ def march(
     times: Sequence[float],
     *,
     start: State | None = None,
-    tolerance: float = TOLERANCE,
+    tolerance: float = RESIDUAL_TOLERANCE,
 ) -> Iterator[tuple[float, Solution]]:
-    """Solve ∂(θh)/∂t + (u/2) ∂(θh)/∂x - ∇·(θh³/12η ∇p) = 0 from time to time, by backward Euler steps.
+    """Solve ∂(θh)/∂t + (u/2) ∂(θh)/∂x - ∇·(θh³/12η ∇p) = 0 at successive times by backward Euler steps.
 
-    Of first order in the steps, of second in the cells where the film is whole; mass is kept to the tolerance, and no
-    step is too long for stability.
+    The method is first-order accurate in time and second-order in space where the film is full; mass is conserved to
+    the tolerance, and steps of any length are stable.
 
     Parameters
     ----------
-    film : film(t): the film at a time; its breaks, ends in space and sign of speed do not change.
-    cells : in x and in y.
-    times : increasing, s; the first is that of ``start``, and nothing is solved there.
-    start : what the film holds at first; by default it is full, at the pressure of cavitation.
+    film : film(t), the film at a time; its breaks, ends and sign of speed are constant.
+    cells : number of cells in x and in y.
+    times : increasing times, s; the first is that of ``start``, at which nothing is solved.
+    start : initial state; by default a full film at the cavitation pressure.
 
     Yields
     ------
-    Each later time with the film then.
+    Each later time and the film at it.
 
     Raises
     ------
     InputError
-        If the times do not increase, or the wall slides towards falling x (turn the film round).
+        If the times do not increase, or the wall slides towards decreasing x (mirror the film).
     ConvergenceError
-        If a step does not come into balance.
+        If a step does not converge.
 
     Source: Elrod 1981, doi:10.1115/1.3251669.
     """
@@ -57,19 +57,20 @@ def march(
     for before, now in pairwise(times):
         problem, storage = _ahead(film(now)), (now - before, held)
         try:
-            found = on_grid(problem, nodes, start=state, sweeps=WARM, tolerance=tolerance, storage=storage)
-        except ConvergenceError:  # a film that tears all at once
-            found = solve(problem, cells, tolerance=tolerance, storage=storage)
-        state, held = found.state, _held(found.problem, found.state, found.faces.thickness)
-        yield now, found
+            solution = on_grid(problem, nodes, start=state, sweeps=WARM_SWEEPS, tolerance=tolerance, storage=storage)
+        except ConvergenceError:  # the film ruptures everywhere in one step
+            solution = solve(problem, cells, tolerance=tolerance, storage=storage)
+        state = solution.state
+        held = _held(solution.problem, state, solution.faces.thickness)
+        yield now, solution
 
 
 def _ahead(problem: Problem) -> Problem:
     if problem.speed < 0:
-        raise InputError(f"speed: got {problem.speed!r}; turn the film round, so that it slides towards growing x")
+        raise InputError(f"speed: got {problem.speed!r}; mirror the film, so that it slides towards increasing x")
     return problem
 
 
 def _held(problem: Problem, state: State, thickness: Array) -> Array:
-    """θh of the nodes, m, of the film at that time."""
+    """θh at the nodes, m."""
     return np.asarray((state.fill + problem.compression(state.pressure)[0]) * thickness)

@@ -19,7 +19,7 @@ from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.solve import load_loops
 from roughfilm.rom.cavitation.grid import Grid, grid
 from roughfilm.rom.cavitation.network import State
-from roughfilm.rom.cavitation.solve import COARSEST, Solution, solve
+from roughfilm.rom.cavitation.solve import COARSEST_CELLS, Solution, solve
 from roughfilm.rom.ladder.model import Progress, silent
 
 THINNEST = 30.0
@@ -147,7 +147,7 @@ def under_load(taken: Composition, pressure: float, cells: int, progress: Progre
     load_loops(taken.scene.wide)
     cpu, guess, speed = time.process_time(), taken.scene.geometry.film, taken.scene.motion.speed
     found: list[Carrying] = []
-    sizes = [size for size in (cells // 4, cells // 2, cells) if size >= COARSEST or size == cells]
+    sizes = [size for size in (cells // 4, cells // 2, cells) if size >= COARSEST_CELLS or size == cells]
     for count, size in enumerate(sizes):
         progress(count / len(sizes), f"{size} cells along a side")
         film = ComposedFilm(taken=taken, cells=size)

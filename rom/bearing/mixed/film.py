@@ -15,7 +15,7 @@ from roughfilm.rom.cavitation.balance import CAVITY
 from roughfilm.rom.cavitation.grid import Grid, grid
 from roughfilm.rom.cavitation.network import State
 from roughfilm.rom.cavitation.problem import Problem
-from roughfilm.rom.cavitation.solve import TOLERANCE, Solution, solve
+from roughfilm.rom.cavitation.solve import RESIDUAL_TOLERANCE, Solution, solve
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap, GapFactors
 from roughfilm.rom.pocket.gap import Array
 
@@ -107,7 +107,7 @@ class MixedFilm:
     @property
     def residual(self) -> float:
         """That the film may have."""
-        return min(max(SPARE * self.accuracy / self.cells, LEAST_RESIDUAL), TOLERANCE)
+        return min(max(SPARE * self.accuracy / self.cells, LEAST_RESIDUAL), RESIDUAL_TOLERANCE)
 
     @property
     def widest(self) -> float:

@@ -51,7 +51,7 @@ def touching(shape: Shape, grid: Grid, asperities: Asperities) -> Touching:
 def quarters(shape: Shape, grid: Grid) -> Iterator[tuple[Array, Array]]:
     """The separation in the middle of each quarter of the control volumes, m, and its area; halves of a wide film."""
     for x, share_x in _halves(grid.x, grid.spacing_x):
-        for y, share_y in [(grid.y, grid.share_y)] if shape.wide else _halves(grid.y, grid.spacing_y):
+        for y, share_y in [(grid.y, grid.volume_y)] if shape.wide else _halves(grid.y, grid.spacing_y):
             area = share_x[:, None] * share_y * (y if shape.polar else 1.0)
             yield shape.thickness(*np.broadcast_arrays(x[:, None], y)), np.broadcast_to(area, grid.shape)
 

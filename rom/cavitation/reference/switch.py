@@ -39,7 +39,7 @@ class Switched:
     @property
     def load(self) -> float:
         """∫ p dx, N/m."""
-        return float((self.grid.share_x * self.pressure).sum())
+        return float((self.grid.volume_x * self.pressure).sum())
 
 
 def switched(problem: Problem, cells: int, *, limit: int = LIMIT) -> Switched:

@@ -380,7 +380,7 @@ def test_tips_stay_wet_behind_a_film_as_is_said(ratio, within):
         assert wet == pytest.approx(rub, abs=within)
 
 
-def test_a_gap_that_the_balance_wants_emptier_than_empty_is_no_answer():
+def test_a_negative_filling_fraction_is_an_error():
     """Ridges that all but touch, on a grid too coarse for what they drive along their lay into a cavity."""
     entries = {
         "name": "all but touching",
@@ -396,5 +396,5 @@ def test_a_gap_that_the_balance_wants_emptier_than_empty_is_no_answer():
             "direction": "45 deg",
         },
     }
-    with pytest.raises(ConvergenceError, match="wants a node filled to -"):
+    with pytest.raises(ConvergenceError, match="a filling fraction is -"):
         HOMOGENIZED.solve(read_scene(entries), resolution=32)

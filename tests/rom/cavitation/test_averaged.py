@@ -181,5 +181,5 @@ def test_mass_is_kept_where_a_film_with_slanting_ridges_ruptures(theta, angle):
 def test_a_film_joined_across_is_refused():
     problem = pad(sinusoidal_ridges(0.5 * FILM, 0.5), thickness=lambda x, y: film(x, 0 * y))
     shape = replace(problem.shape, joined=(False, True))
-    with pytest.raises(InputError, match="joined across the sliding"):
+    with pytest.raises(InputError, match="periodic across the sliding"):
         solve(replace(problem, shape=shape, ends=replace(problem.ends, sides=None)), (16, 16))

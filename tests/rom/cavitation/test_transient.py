@@ -121,5 +121,5 @@ def test_times_must_increase_and_the_wall_slide_ahead():
     with pytest.raises(InputError, match="two or more, finite and increasing"):
         list(march(plates, (20, 1), [0.0, 0.2, 0.1]))
     shape = Shape(thickness=lambda x, y: 1 + 0 * x + 0 * y, breaks=(0.0, 1.0))
-    with pytest.raises(InputError, match="turn the film round"):
+    with pytest.raises(InputError, match="mirror the film"):
         list(march(lambda _t: Problem(shape=shape, ends=Ends(), speed=-1.0, viscosity=1.0), (20, 1), [0.0, 1.0]))
