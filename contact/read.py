@@ -8,12 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import to_si
 from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.periodicity import THRESHOLD, periodicity_mismatch
 from roughfilm.contact.surfaces.store import is_surface
-from roughfilm.contact.surfaces.surface import Array, Surface
+from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.description import make, read_description
 
 

@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 import scipy.fft
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.contact.foundation.thread_team import Team
 from roughfilm.contact.mechanics.contact import Contact
@@ -13,7 +14,7 @@ from roughfilm.contact.mechanics.half_space import Boundary, HalfSpace
 from roughfilm.contact.mechanics.loop_ranges import Pieces
 from roughfilm.contact.mechanics.projected_gradients import minimise, plane_of, violation_of
 from roughfilm.contact.mechanics.starts import refined, shifted, signed
-from roughfilm.contact.surfaces.surface import LARGEST_LENGTH, LEAST_SPACING, MOST_POINTS, Array
+from roughfilm.contact.surfaces.surface import LARGEST_LENGTH, LEAST_SPACING, MOST_POINTS
 
 TOLERANCE = 1e-8
 """Of the complementarity, over the rms height."""

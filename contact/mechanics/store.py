@@ -16,12 +16,12 @@ from typing import Any
 import h5py
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.checked_hdf5 import BLOCK, block, digest_of, marked, reading_guarded, refuse_damaged
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.mechanics.contact import Contact
-from roughfilm.contact.surfaces.surface import Array
 
 SCHEMA = 1
 MARK = b"roughfilm contact, HDF5 behind 512 bytes, sha256 "

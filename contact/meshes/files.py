@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.meshes.mesh import Mesh, Sort, boundary, in_triangles
-from roughfilm.contact.surfaces.surface import Array
 
 FORMATS = {".vtu": "vtu", ".stl": "stl", ".msh": "gmsh22"}
 """What meshio calls the format of each suffix. Gmsh's is 2.2, which every version of Gmsh and most others read."""

@@ -8,7 +8,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from roughfilm.contact.surfaces.surface import Array, Mask
+from roughfilm.contact.foundation.arrays import Array, Mask
 
 Indices = NDArray[np.int64]
 

@@ -5,8 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.surfaces.surface import LARGEST_LENGTH, Array, Surface
+from roughfilm.contact.surfaces.surface import LARGEST_LENGTH, Surface
 
 ROUNDING = 32 * np.finfo(np.float64).eps
 """Of the largest height: heights that differ by less are the same number, rounded."""

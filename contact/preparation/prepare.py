@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Mask
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.parameters.autocorrelation import autocorrelation, decay_lengths
 from roughfilm.contact.parameters.spectrum import power_spectrum, texture_direction
@@ -19,7 +20,7 @@ from roughfilm.contact.preparation.recipe import Edges, Grid, Recipe, Sampling, 
 from roughfilm.contact.preparation.smoothing import smooth
 from roughfilm.contact.preparation.window import Window, best_window, cut_window
 from roughfilm.contact.surfaces.periodicity import THRESHOLD, periodicity_mismatch
-from roughfilm.contact.surfaces.surface import MOST_POINTS, Mask, Surface
+from roughfilm.contact.surfaces.surface import MOST_POINTS, Surface
 
 WIDTH = 1 / 2
 """Standard deviation of the edges' filter over Sal, where the recipe does not tell it."""

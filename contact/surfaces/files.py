@@ -7,11 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.units import to_si
 from roughfilm.contact.surfaces import store as surface_store
 from roughfilm.contact.surfaces.instruments import Measurement, read_instrument
-from roughfilm.contact.surfaces.surface import MOST_POINTS, Array, Surface
+from roughfilm.contact.surfaces.surface import MOST_POINTS, Surface
 
 LARGEST_TEXT = 2_000_000_000
 """Bytes; a longer CSV is refused unread."""

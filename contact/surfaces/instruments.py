@@ -14,9 +14,10 @@ from pathlib import Path
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.child_processes import leash
 from roughfilm.contact.foundation.errors import InputError, UnavailableError
-from roughfilm.contact.surfaces.surface import MOST_POINTS, Array
+from roughfilm.contact.surfaces.surface import MOST_POINTS
 
 POINTS_PER_BYTE = 50
 """No format packs more points into a byte of a file that holds a measurement."""

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from roughfilm.contact.surfaces.surface import Array, Surface
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.surfaces.surface import Surface
 
 THRESHOLD = 0.1
 """Above it a joint is worth a warning: of random surfaces, some 4 in 100 that are truly periodic lie above it, and

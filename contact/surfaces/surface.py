@@ -5,12 +5,9 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
+from roughfilm.contact.foundation.arrays import Array, Mask
 from roughfilm.contact.foundation.errors import InputError
-
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 LARGEST_LENGTH = 1e6
 """m; what lies beyond is a wrong unit, and its powers overflow."""

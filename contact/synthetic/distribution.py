@@ -7,8 +7,9 @@ import scipy.fft
 import scipy.special
 from numpy.typing import NDArray
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.surfaces.surface import LARGEST_LENGTH, Array, Surface
+from roughfilm.contact.surfaces.surface import LARGEST_LENGTH, Surface
 from roughfilm.contact.synthetic.checks import number_between, whole_between
 
 LARGEST_SKEWNESS = 4.0

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.meshes.mesh import Mesh, in_triangles
 from roughfilm.rom.meshes.walls_mesh import Part, wall_mesh
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.rom.rough_gap.walls import Walls
 
 MARGIN = 0.25

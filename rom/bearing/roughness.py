@@ -10,6 +10,7 @@ import numpy as np
 from pydantic import Field, model_validator
 from scipy.ndimage import map_coordinates
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import InUnit, Length, Part, PositiveNumber
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap
@@ -18,7 +19,6 @@ from roughfilm.rom.homogenization.table import FactorTable
 from roughfilm.rom.homogenization.table_store import load_table
 from roughfilm.rom.homogenization.tabulate import tabulate
 from roughfilm.rom.parts.surface_geometry import SurfaceGeometry
-from roughfilm.rom.pocket.gap import Array
 
 LEVEL = 1e-12
 """A wave vector has no part along a direction whose cosine is below this."""

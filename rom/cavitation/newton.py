@@ -6,12 +6,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED, FLOODED, advance, settle_bank
 from roughfilm.rom.cavitation.fluid import Fluid
 from roughfilm.rom.cavitation.network import Network, State
 from roughfilm.rom.cavitation.relaxation import relaxed
-from roughfilm.rom.pocket.gap import Array
 
 STEPS = 25
 """Of Newton's method in the first round, at most; from a good start it takes 1 to 6."""

@@ -12,6 +12,7 @@ What a slanting lay drives across is in the operator, but not in the one that mu
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.compiled import compiled
 from roughfilm.rom.cavitation.balance import CAVITY, FILM
 from roughfilm.rom.cavitation.bicgstab import bicgstab
@@ -19,7 +20,6 @@ from roughfilm.rom.cavitation.network import Network
 from roughfilm.rom.cavitation.newton import Linear
 from roughfilm.rom.multigrid.gradients import dot
 from roughfilm.rom.multigrid.multigrid import Multigrid
-from roughfilm.rom.pocket.gap import Array
 
 REDUCTION = 1e-4
 """Of the residual in a step: as the film's ends still move, more would be in vain."""

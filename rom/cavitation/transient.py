@@ -5,13 +5,13 @@ from itertools import pairwise
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.cavitation.discretise import faces
 from roughfilm.rom.cavitation.grid import grid
 from roughfilm.rom.cavitation.network import State
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.solve import TOLERANCE, WARM, Solution, on_grid, solve
-from roughfilm.rom.pocket.gap import Array
 
 
 def march(

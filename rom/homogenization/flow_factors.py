@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.surfaces.surface import LARGEST_LENGTH, LEAST_SPACING
 from roughfilm.rom.homogenization.cell import Cell, solve_cell
@@ -15,7 +16,6 @@ from roughfilm.rom.homogenization.grids import coarser_grids
 from roughfilm.rom.homogenization.richardson import sufficient, uncertainty_of
 from roughfilm.rom.homogenization.solvers import SOLVERS
 from roughfilm.rom.ladder.model import Progress, silent
-from roughfilm.rom.pocket.gap import Array
 
 LONGEST = 1e4
 """Of a pixel, over its width."""

@@ -5,10 +5,10 @@ from functools import cached_property
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.surfaces.surface import LARGEST_LENGTH, LEAST_SPACING
 from roughfilm.rom.homogenization.paths import sealed
-from roughfilm.rom.pocket.gap import Array
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,12 +9,12 @@ from typing import Any
 import h5py
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.checked_hdf5 import marked, reading_guarded, write_guarded
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.rom.homogenization.factors import FlowFactors
 from roughfilm.rom.homogenization.table import FactorTable, Point
-from roughfilm.rom.pocket.gap import Array
 
 SCHEMA = 3
 MARK = b"roughfilm factors, HDF5 behind 512 bytes, sha256 "

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.meshes.mesh import Mesh, grid
 from roughfilm.rom.ladder.kind import Scene
@@ -11,7 +12,6 @@ from roughfilm.rom.ladder.result import Field, Result
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.rom.meshes.walls_mesh import periodic
 from roughfilm.rom.parts.pressed_surface import RoughContact
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.rom.rough_gap.scene import RoughGap
 
 PLACES = {"vertices", "kept", "x", "y"}

@@ -4,8 +4,8 @@ from enum import StrEnum
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.meshes.mesh import Mesh, grid
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.rom.rough_gap.walls import Walls
 
 

@@ -6,12 +6,12 @@ from typing import Any, Self
 import numpy as np
 from pydantic import model_validator
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import Length
 from roughfilm.contact.surfaces.periodicity import THRESHOLD, periodicity_mismatch
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.sinusoids import sinusoid
 from roughfilm.rom.parts.surface_geometry import SurfaceGeometry
-from roughfilm.rom.pocket.gap import Array
 
 SINUSOID = "sinusoid"
 

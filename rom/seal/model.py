@@ -7,9 +7,9 @@ from functools import partial
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.mechanics.contact import Contact
-from roughfilm.contact.surfaces.surface import Array
 from roughfilm.rom.dry_contact.model import Answer, Task, contact_model, one
 from roughfilm.rom.dry_contact.pressed import TOLERANCE, prepare
 from roughfilm.rom.ladder.model import Applicability, Effect, Model

@@ -14,13 +14,14 @@ from rich.markup import escape
 from rich.table import Table
 
 from roughfilm.cli.surface import refuse_same
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.units import to_si
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.store import is_series, load_contact, load_series
 from roughfilm.contact.read import Rough, joint_warnings, read_rough, spacing_of
-from roughfilm.contact.surfaces.surface import LARGEST_LENGTH, LEAST_SPACING, Array, Surface
+from roughfilm.contact.surfaces.surface import LARGEST_LENGTH, LEAST_SPACING, Surface
 from roughfilm.rom.bearing.mixed.resume import Work, kept_table
 from roughfilm.rom.bearing.mixed.tabulate import gap_of, tabulate_pressed
 from roughfilm.rom.homogenization.conductance import FaceRule
