@@ -11,7 +11,7 @@ from pydantic import Field, model_validator
 from scipy.ndimage import map_coordinates
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.entries import InUnit, Length, Part, PositiveNumber
+from roughfilm.contact.foundation.entries import Angle, Length, Part, PositiveNumber
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap
 from roughfilm.rom.homogenization.ridges import sinusoidal_ridges
@@ -28,13 +28,6 @@ TOLERANCE, BELOW = 5e-4, 0.999
 
 SHORTEST = 4
 """Pixels: the shortest wave of a surface that a grid is asked to follow, each cell then half a pixel."""
-
-
-def _any(value: float) -> float:
-    return value
-
-
-Angle = Annotated[float, InUnit("rad", _any)]
 
 
 class Sinusoid(Part):
