@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.child_processes import leash
+from roughfilm.contact.foundation.child_processes import terminate_with_parent
 from roughfilm.contact.foundation.errors import InputError, UnavailableError
 from roughfilm.contact.surfaces.surface import MOST_POINTS
 
@@ -62,7 +62,7 @@ def read_instrument(path: Path, channel: str | None = None) -> Measurement:
     places = os.pathsep.join([str(Path(__file__).resolve().parents[2]), *filter(None, sys.path)])
     try:
         child = subprocess.run(
-            [*leash(), sys.executable, "-m", "roughfilm.contact.surfaces.instrument_reader", request],
+            [*terminate_with_parent(), sys.executable, "-m", "roughfilm.contact.surfaces.instrument_reader", request],
             capture_output=True,
             stdin=subprocess.DEVNULL,
             env={**os.environ, "PYTHONPATH": places, "OPENBLAS_NUM_THREADS": "1"},
