@@ -14,7 +14,7 @@ from roughfilm.contact.mechanics.half_space import Boundary, HalfSpace
 from roughfilm.contact.mechanics.loop_ranges import Pieces
 from roughfilm.contact.mechanics.projected_gradients import minimise, plane_of, violation_of
 from roughfilm.contact.mechanics.starts import refined, shifted, signed
-from roughfilm.contact.surfaces.surface import LARGEST_LENGTH, LEAST_SPACING, MOST_POINTS
+from roughfilm.contact.surfaces.surface import MAX_LENGTH, MAX_POINTS, MIN_SPACING
 
 TOLERANCE = 1e-8
 """Of the complementarity, over the rms height."""
@@ -227,18 +227,18 @@ def _checked_heights(heights: Array) -> Array:
     array = np.array(heights, dtype=np.float64)
     if array.ndim != 2 or array.size < 2:
         raise InputError(f"contact: got heights of shape {array.shape}; give (nx, ny), one of them 1 in line contact")
-    if array.size > MOST_POINTS:
-        raise InputError(f"contact: got {array.size} heights; at most {MOST_POINTS} can be pressed")
+    if array.size > MAX_POINTS:
+        raise InputError(f"contact: got {array.size} heights; at most {MAX_POINTS} can be pressed")
     if not np.isfinite(array).all():
         raise InputError("contact: got heights that are not finite; fill them first")
-    if np.abs(array).max() > LARGEST_LENGTH:
+    if np.abs(array).max() > MAX_LENGTH:
         raise InputError(f"contact: got a height of {np.abs(array).max():.3g} m; look at the unit")
     array.flags.writeable = False
     return array
 
 
 def _checked_spacing(spacing: tuple[float, float]) -> tuple[float, float]:
-    if len(spacing) != 2 or not all(LEAST_SPACING <= length < LARGEST_LENGTH for length in spacing):
+    if len(spacing) != 2 or not all(MIN_SPACING <= length < MAX_LENGTH for length in spacing):
         raise InputError(f"contact: got spacing {spacing!r}; give two lengths in m, 1e-15 or more")
     dx, dy = spacing
     return float(dx), float(dy)

@@ -20,7 +20,7 @@ from roughfilm.contact.preparation.recipe import Edges, Grid, Recipe, Sampling, 
 from roughfilm.contact.preparation.smoothing import smooth
 from roughfilm.contact.preparation.window import Window, best_window, cut_window
 from roughfilm.contact.surfaces.periodicity import THRESHOLD, periodicity_mismatch
-from roughfilm.contact.surfaces.surface import MOST_POINTS, Surface
+from roughfilm.contact.surfaces.surface import MAX_POINTS, Surface
 
 WIDTH = 1 / 2
 """Standard deviation of the edges' filter over Sal, where the recipe does not tell it."""
@@ -160,8 +160,8 @@ def _points(shape: tuple[int, int], grid: Grid) -> tuple[int, int]:
             nx, ny = next_power_of_two(shape[0]), next_power_of_two(shape[1])
         case points:
             nx, ny = points
-    if nx * ny > MOST_POINTS:
-        raise InputError(f"grid: got {nx} x {ny} points; at most {MOST_POINTS} are made, say fewer in grid.points")
+    if nx * ny > MAX_POINTS:
+        raise InputError(f"grid: got {nx} x {ny} points; at most {MAX_POINTS} are made, say fewer in grid.points")
     return nx, ny
 
 

@@ -17,7 +17,7 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.child_processes import terminate_with_parent
 from roughfilm.contact.foundation.errors import InputError, UnavailableError
-from roughfilm.contact.surfaces.surface import MOST_POINTS
+from roughfilm.contact.surfaces.surface import MAX_POINTS
 
 POINTS_PER_BYTE = 50
 """No format packs more points into a byte of a file that holds a measurement."""
@@ -57,7 +57,7 @@ def read_instrument(path: Path, channel: str | None = None) -> Measurement:
         )
     length = path.stat().st_size
     memory, seconds = (int(least + each * length) for least, each in (MEMORY, SECONDS))
-    asked = {"path": str(path.resolve()), "channel": channel, "most": min(MOST_POINTS, POINTS_PER_BYTE * length)}
+    asked = {"path": str(path.resolve()), "channel": channel, "most": min(MAX_POINTS, POINTS_PER_BYTE * length)}
     request = json.dumps({**asked, "memory": memory, "seconds": seconds})
     places = os.pathsep.join([str(Path(__file__).resolve().parents[2]), *filter(None, sys.path)])
     try:

@@ -8,7 +8,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.checked_hdf5 import has_mark, open_checked, write_checked
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.surfaces.surface import MOST_POINTS, Surface
+from roughfilm.contact.surfaces.surface import MAX_POINTS, Surface
 
 SCHEMA = 1
 MARK = b"roughfilm surface, HDF5 behind 512 bytes, sha256 "
@@ -42,8 +42,8 @@ def load_surface(path: Path) -> Surface:
     """Read a surface back as it was; InputError if the file was damaged or changed, or is of another version."""
     with open_checked(path, MARK, SCHEMA, "make it again") as file:
         shape = file["heights"].shape
-        if shape[0] * shape[1] > MOST_POINTS:
-            raise InputError(f"{path}: holds {shape[0]} x {shape[1]} points; at most {MOST_POINTS} are read")
+        if shape[0] * shape[1] > MAX_POINTS:
+            raise InputError(f"{path}: holds {shape[0]} x {shape[1]} points; at most {MAX_POINTS} are read")
         return Surface(
             heights=file["heights"][()],
             spacing=tuple(file.attrs["spacing"]),

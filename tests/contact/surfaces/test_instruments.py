@@ -38,7 +38,7 @@ FILES = {
 def child(path, channel=None):
     """What the child would send, without starting one: (told, heights or None)."""
     out = io.BytesIO()
-    instrument_reader.main({"path": str(path), "channel": channel, "most": instruments.MOST_POINTS}, out)
+    instrument_reader.main({"path": str(path), "channel": channel, "most": instruments.MAX_POINTS}, out)
     head, _, rest = out.getvalue().partition(b"\n")
     told = json.loads(head)
     return told, None if "shape" not in told else np.frombuffer(rest).reshape(told["shape"])
