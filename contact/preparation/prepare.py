@@ -19,7 +19,7 @@ from roughfilm.contact.preparation.outliers import cut_outliers
 from roughfilm.contact.preparation.recipe import Edges, Grid, Recipe, Sampling, recipe_entries
 from roughfilm.contact.preparation.smoothing import smooth
 from roughfilm.contact.preparation.window import Window, best_window, cut_window
-from roughfilm.contact.surfaces.periodicity import THRESHOLD, periodicity_mismatch
+from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
 from roughfilm.contact.surfaces.surface import MAX_POINTS, Surface
 
 WIDTH = 1 / 2
@@ -203,9 +203,9 @@ def _warnings(record: Mapping[str, Any]) -> list[str]:
             f"{100 * cut / points:.1f} % of the points were cut as outliers; take fewer: outliers.bins=100, or "
             "outliers.points=0 to cut none"
         )
-    if mismatch > THRESHOLD:
+    if mismatch > MISMATCH_THRESHOLD:
         told.append(
-            f"periodicity mismatch {mismatch:.2f}, above {THRESHOLD}: ridges or steps end at the joint, which "
+            f"periodicity mismatch {mismatch:.2f}, above {MISMATCH_THRESHOLD}: ridges or steps end at the joint, which "
             "throttles flow; choose another window (or let one be found: window.size without start), or a larger "
             "edges.width"
         )
