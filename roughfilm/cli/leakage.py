@@ -15,7 +15,7 @@ from rich.table import Table
 from roughfilm.cli.contact import digits
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
-from roughfilm.contact.mechanics.press import TOLERANCE, Press
+from roughfilm.contact.mechanics.press import COMPLEMENTARITY_TOLERANCE, Press
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
 from roughfilm.rom.ladder.provenance import circumstances, code
 from roughfilm.rom.ladder.scene import load_scene, scene_entries
@@ -110,7 +110,7 @@ def _ready(scene: Seal, out: Path) -> Ready:
         "counter_poisson": scene.counter and scene.counter.poisson,
         "composite_modulus": scene.composite_modulus,
         "boundary": "periodic",
-        "tolerance": TOLERANCE,
+        "tolerance": COMPLEMENTARITY_TOLERANCE,
         "code": code(),
     }
     press = Press(surface.heights, surface.spacing, scene.composite_modulus, hardness=scene.hardness)
