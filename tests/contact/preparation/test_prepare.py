@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.parameters.parameters import parameters
+from roughfilm.contact.parameters.roughness_parameters import parameters
 from roughfilm.contact.preparation.prepare import prepare
 from roughfilm.contact.preparation.recipe import Recipe, read_recipe, recipe_entries
 from roughfilm.contact.surfaces.files import read_surface
