@@ -8,12 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import to_si
 from roughfilm.contact.surfaces.files import read_surface
-from roughfilm.contact.surfaces.periodicity import THRESHOLD, periodicity_mismatch
+from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
 from roughfilm.contact.surfaces.store import is_surface
-from roughfilm.contact.surfaces.surface import Array, Surface
+from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.description import make, read_description
 
 
@@ -130,7 +131,7 @@ def joint_warnings(file: Path, surface: Surface, otherwise: str = "", *, measure
         return ()
     mismatch = periodicity_mismatch(surface)
     remedy = f"roughfilm surface {file} --out S.h5 prepares it{otherwise}"
-    if mismatch > THRESHOLD:
+    if mismatch > MISMATCH_THRESHOLD:
         return (f"{file}: is not periodic (mismatch {mismatch:.2g}), so that its edges meet in steps; {remedy}",)
     if measured:
         return (f"{file}: is taken as it was measured, with its form and without preparation; {remedy}",)

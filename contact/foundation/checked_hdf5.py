@@ -15,26 +15,26 @@ import h5py
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
 
-BLOCK = 512
-PIECE = 1 << 22
+HEADER_BYTES = 512
+CHUNK_BYTES = 1 << 22
 
 
-def block(mark: bytes, digest: str) -> bytes:
+def header_block(mark: bytes, digest: str) -> bytes:
     """The first bytes of a file that has the digest."""
-    return (mark + digest.encode() + b"\n").ljust(BLOCK, b"\0")
+    return (mark + digest.encode() + b"\n").ljust(HEADER_BYTES, b"\0")
 
 
-def digest_of(path: Path) -> str:
+def content_digest(path: Path) -> str:
     """Of all that follows the block."""
     digest = hashlib.sha256()
     with path.open("rb") as file:
-        file.seek(BLOCK)
-        while piece := file.read(PIECE):
+        file.seek(HEADER_BYTES)
+        while piece := file.read(CHUNK_BYTES):
             digest.update(piece)
     return digest.hexdigest()
 
 
-def marked(path: Path, mark: bytes) -> bool:
+def has_mark(path: Path, mark: bytes) -> bool:
     """Whether a file begins with a mark, whatever its name; OSError if it cannot be read."""
     with path.open("rb") as file:
         return file.read(len(mark)) == mark
@@ -43,11 +43,11 @@ def marked(path: Path, mark: bytes) -> bool:
 def refuse_damaged(path: Path, mark: bytes, remedy: str) -> None:
     """InputError if a file does not begin with the mark and the digest of what follows."""
     with path.open("rb") as file:
-        if file.read(BLOCK) != block(mark, digest_of(path)):
+        if file.read(HEADER_BYTES) != header_block(mark, content_digest(path)):
             raise InputError(f"{path}: was damaged or changed since it was written; {remedy}")
 
 
-def write_guarded(path: Path, mark: bytes, fill: Callable[[h5py.File], None]) -> None:
+def write_checked(path: Path, mark: bytes, fill: Callable[[h5py.File], None]) -> None:
     """Write a file whole or not at all, the same contents always as the same bytes.
 
     Raises
@@ -56,15 +56,15 @@ def write_guarded(path: Path, mark: bytes, fill: Callable[[h5py.File], None]) ->
         If ``path`` cannot be written.
     """
     memory = io.BytesIO()
-    with h5py.File(memory, "w", userblock_size=BLOCK) as file:
+    with h5py.File(memory, "w", userblock_size=HEADER_BYTES) as file:
         fill(file)
-    data = memory.getvalue()[BLOCK:]
+    data = memory.getvalue()[HEADER_BYTES:]
     with replacing(path) as scratch:
-        scratch.write_bytes(block(mark, hashlib.sha256(data).hexdigest()) + data)
+        scratch.write_bytes(header_block(mark, hashlib.sha256(data).hexdigest()) + data)
 
 
 @contextmanager
-def reading_guarded(path: Path, mark: bytes, schema: int, remedy: str) -> Iterator[h5py.File]:
+def open_checked(path: Path, mark: bytes, schema: int, remedy: str) -> Iterator[h5py.File]:
     """Open a file whose digest is right and whose attribute ``schema`` is this.
 
     Raises

@@ -6,7 +6,7 @@ from functools import cache
 
 
 @cache
-def leash() -> tuple[str, ...]:
+def terminate_with_parent() -> tuple[str, ...]:
     """What stands before a command so that Linux ends it when the thread that started it ends; nothing elsewhere.
 
     That thread waits for it, so it ends first only if this process is killed. (Python's own ``preexec_fn`` is not safe

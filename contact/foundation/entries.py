@@ -22,7 +22,8 @@ def _positive(value: float) -> float:
     return value
 
 
-def _any(value: float) -> float:
+def any_number(value: float) -> float:
+    """The value itself: the check of a number that may have any sign."""
     return value
 
 
@@ -52,5 +53,6 @@ class InUnit:
 
 
 Length = Annotated[float, InUnit("m")]
-Coordinate = Annotated[float, InUnit("m", _any)]
+Coordinate = Annotated[float, InUnit("m", any_number)]
+Angle = Annotated[float, InUnit("rad", any_number)]
 PositiveNumber = Annotated[float, BeforeValidator(plain_number), AfterValidator(_positive)]

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughfilm.contact.surfaces.surface import Array, Mask
+from roughfilm.contact.foundation.arrays import Array, Mask
 
 CORNERS = (math.pi - 1 + math.log(2)) / 24
 """By which part of its perimeter, in pixels, an area counted in pixels is too large on average."""

@@ -8,12 +8,12 @@ from pathlib import Path
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.contact.mechanics.estimates.estimate import Estimate
 from roughfilm.contact.mechanics.store import Row, add, finished, load_contact, row_of
-from roughfilm.contact.surfaces.surface import Array
 from roughfilm.figures.contact_view import View, view_of
 from roughfilm.terminal.console import messages
 

@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.thread_team import Team
 from roughfilm.contact.mechanics.kernels import WORD
-from roughfilm.contact.surfaces.surface import Array
 
 NUMBERS = 6
 """At most so many numbers a loop returns."""

@@ -3,7 +3,7 @@
 import numpy as np
 import scipy.fft
 
-from roughfilm.contact.surfaces.surface import Array
+from roughfilm.contact.foundation.arrays import Array
 
 
 def influence(shape: tuple[int, int], spacing: tuple[float, float]) -> Array:

@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy import fft
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.mechanics.checks import positive
 from roughfilm.contact.parameters.heights import deviations
-from roughfilm.contact.surfaces.surface import Array
 
 SUMMIT_SPREAD = 0.8968
 """By how much, over α, the variance of summit heights is below that of all heights, relatively (McCool)."""

@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 import scipy.fft
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.contact.foundation.thread_team import Team
 from roughfilm.contact.mechanics.contact import Contact
@@ -13,23 +14,23 @@ from roughfilm.contact.mechanics.half_space import Boundary, HalfSpace
 from roughfilm.contact.mechanics.loop_ranges import Pieces
 from roughfilm.contact.mechanics.projected_gradients import minimise, plane_of, violation_of
 from roughfilm.contact.mechanics.starts import refined, shifted, signed
-from roughfilm.contact.surfaces.surface import LARGEST_LENGTH, LEAST_SPACING, MOST_POINTS, Array
+from roughfilm.contact.surfaces.surface import MAX_LENGTH, MAX_POINTS, MIN_SPACING
 
-TOLERANCE = 1e-8
+COMPLEMENTARITY_TOLERANCE = 1e-8
 """Of the complementarity, over the rms height."""
 
-MARGIN = 0.9
+SEARCH_TOLERANCE_FRACTION = 0.9
 """The search goes to this part of the tolerance, as what it finds is rounded to the load and judged afresh."""
 
-MOST_ITERATIONS = 2000
+MAX_ITERATIONS = 2000
 
-COARSEST = 128
+COARSEST_GRID_POINTS = 128
 """Points along the shorter side of the coarsest grid that a search begins on."""
 
-SHARE = 1 << 18
+NODES_PER_THREAD = 1 << 18
 """Nodes for each thread, at least: with fewer, waiting for each other costs more than is shared."""
 
-ROUGH = 0.03
+COARSE_GRID_TOLERANCE = 0.03
 """Tolerance of the coarser grids."""
 
 
@@ -89,12 +90,12 @@ class Press:
         self._part = tuple(slice(n) for n in shape)
         self._length = max(n * d for n, d in zip(shape, self.spacing, strict=True))
         self._down = self.heights.mean() - self.heights
-        self._team = Team(min(threads, max(1, math.prod(self._grid) // SHARE)))
+        self._team = Team(min(threads, max(1, math.prod(self._grid) // NODES_PER_THREAD)))
         self._threads = threads
         dx, dy = self.spacing
         self._half_space = HalfSpace(self._grid, (dx / self._length, dy / self._length), boundary, self._team)
 
-    def at(self, load: float, *, tolerance: float = TOLERANCE, start: Contact | None = None) -> Contact:
+    def at(self, load: float, *, tolerance: float = COMPLEMENTARITY_TOLERANCE, start: Contact | None = None) -> Contact:
         """The contact under a mean pressure over the nominal area.
 
         Parameters
@@ -149,8 +150,8 @@ class Press:
             self._spread(self._down / unit, math.inf),
             self._spread((self._begin(load) if start is None else self._moved(start, load)) / pressure_unit, 0.0),
             hardness,
-            tolerance=MARGIN * tolerance,
-            most_iterations=MOST_ITERATIONS,
+            tolerance=SEARCH_TOLERANCE_FRACTION * tolerance,
+            most_iterations=MAX_ITERATIONS,
             pieces=Pieces(math.prod(self._grid), self._team),
         )
         found = found.reshape(self._grid)[self._part]
@@ -168,7 +169,7 @@ class Press:
     def _begin(self, load: float) -> Array:
         """Pressure to begin from: that of a grid twice as coarse, which costs a fourth; the load, on a small one."""
         everywhere = np.full(self.heights.shape, load)
-        if min(self.heights.shape) < 2 * COARSEST or any(n % 2 for n in self.heights.shape):
+        if min(self.heights.shape) < 2 * COARSEST_GRID_POINTS or any(n % 2 for n in self.heights.shape):
             return everywhere
         dx, dy = self.spacing
         coarser = Press(
@@ -180,7 +181,7 @@ class Press:
             threads=self._threads,
         )
         try:
-            found = coarser.at(load, tolerance=ROUGH)
+            found = coarser.at(load, tolerance=COARSE_GRID_TOLERANCE)
         except ConvergenceError:
             return everywhere
         return shifted(refined(signed(found, self.composite_modulus)), load, self.hardness)
@@ -226,18 +227,18 @@ def _checked_heights(heights: Array) -> Array:
     array = np.array(heights, dtype=np.float64)
     if array.ndim != 2 or array.size < 2:
         raise InputError(f"contact: got heights of shape {array.shape}; give (nx, ny), one of them 1 in line contact")
-    if array.size > MOST_POINTS:
-        raise InputError(f"contact: got {array.size} heights; at most {MOST_POINTS} can be pressed")
+    if array.size > MAX_POINTS:
+        raise InputError(f"contact: got {array.size} heights; at most {MAX_POINTS} can be pressed")
     if not np.isfinite(array).all():
         raise InputError("contact: got heights that are not finite; fill them first")
-    if np.abs(array).max() > LARGEST_LENGTH:
+    if np.abs(array).max() > MAX_LENGTH:
         raise InputError(f"contact: got a height of {np.abs(array).max():.3g} m; look at the unit")
     array.flags.writeable = False
     return array
 
 
 def _checked_spacing(spacing: tuple[float, float]) -> tuple[float, float]:
-    if len(spacing) != 2 or not all(LEAST_SPACING <= length < LARGEST_LENGTH for length in spacing):
+    if len(spacing) != 2 or not all(MIN_SPACING <= length < MAX_LENGTH for length in spacing):
         raise InputError(f"contact: got spacing {spacing!r}; give two lengths in m, 1e-15 or more")
     dx, dy = spacing
     return float(dx), float(dy)

@@ -18,11 +18,11 @@ import math
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.contact.mechanics import kernels
 from roughfilm.contact.mechanics.half_space import HalfSpace
 from roughfilm.contact.mechanics.loop_ranges import Pieces
-from roughfilm.contact.surfaces.surface import Array
 
 REFRESH = 1e-4
 """The gap is computed afresh each time its violation has fallen by this factor."""

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.mechanics.contact import Contact
-from roughfilm.contact.surfaces.surface import Array
 
 TURN = 0.3
 """A gap of one spacing counts as the pressure −0.3 E*."""

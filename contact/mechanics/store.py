@@ -16,12 +16,19 @@ from typing import Any
 import h5py
 import numpy as np
 
-from roughfilm.contact.foundation.checked_hdf5 import BLOCK, block, digest_of, marked, reading_guarded, refuse_damaged
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.checked_hdf5 import (
+    HEADER_BYTES,
+    content_digest,
+    has_mark,
+    header_block,
+    open_checked,
+    refuse_damaged,
+)
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.mechanics.contact import Contact
-from roughfilm.contact.surfaces.surface import Array
 
 SCHEMA = 1
 MARK = b"roughfilm contact, HDF5 behind 512 bytes, sha256 "
@@ -88,7 +95,11 @@ def add(path: Path, inputs: Inputs, found: Sequence[tuple[Row, Contact | None]])
     with replacing(path) as scratch:
         if before:
             shutil.copyfile(path, scratch)
-        mode = {"name": scratch, "mode": "r+"} if before else {"name": scratch, "mode": "w", "userblock_size": BLOCK}
+        mode = (
+            {"name": scratch, "mode": "r+"}
+            if before
+            else {"name": scratch, "mode": "w", "userblock_size": HEADER_BYTES}
+        )
         with h5py.File(**mode) as file:
             if not before:
                 _begin(file, inputs)
@@ -96,7 +107,7 @@ def add(path: Path, inputs: Inputs, found: Sequence[tuple[Row, Contact | None]])
                 _put(file, row, contact)
             _tabulate(file, before | {row.load: row for row, _ in found})
         with scratch.open("r+b") as raw:
-            raw.write(block(MARK, digest_of(scratch)))
+            raw.write(header_block(MARK, content_digest(scratch)))
             os.fsync(raw.fileno())
 
 
@@ -144,7 +155,7 @@ def finished(path: Path, inputs: Inputs) -> dict[float, Row]:
 
 def is_series(path: Path) -> bool:
     """Whether a file holds a series of contacts, whatever its name."""
-    return marked(path, MARK)
+    return has_mark(path, MARK)
 
 
 def load_series(path: Path) -> tuple[Inputs, tuple[float, ...]]:
@@ -157,7 +168,7 @@ def load_series(path: Path) -> tuple[Inputs, tuple[float, ...]]:
     """
     if not is_series(path):
         raise InputError(f"{path}: is no series of contacts; {REMEDY}")
-    with reading_guarded(path, MARK, SCHEMA, REMEDY) as file:
+    with open_checked(path, MARK, SCHEMA, REMEDY) as file:
         dx_dy = file.attrs["spacing"]
         inputs = Inputs(
             heights=file["heights"][()],

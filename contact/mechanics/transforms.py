@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 import pyfftw
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.thread_team import Team
 from roughfilm.contact.mechanics import kernels
-from roughfilm.contact.surfaces.surface import Array
 
 SLAB = 1 << 19
 """Bytes of the columns that are taken forth, multiplied and taken back at a time, while the cache holds them."""

@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
-from roughfilm.contact.meshes.mesh import Mesh, Sort, boundary, in_triangles
-from roughfilm.contact.surfaces.surface import Array
+from roughfilm.contact.meshes.mesh import CellType, Mesh, boundary, in_triangles
 
 FORMATS = {".vtu": "vtu", ".stl": "stl", ".msh": "gmsh22"}
 """What meshio calls the format of each suffix. Gmsh's is 2.2, which every version of Gmsh and most others read."""
@@ -48,7 +48,7 @@ def write_mesh(mesh: Mesh, path: Path) -> Mesh:
         cell_data = {key: [values.astype(object)] for key, (values,) in cell_data.items()}
         tags = np.ones(len(mesh.cells), dtype=np.int32)
         cell_data |= {"gmsh:physical": [tags], "gmsh:geometrical": [tags]}
-    written = meshio.Mesh(mesh.points, [(mesh.sort.value, mesh.cells)], point_data, cell_data)
+    written = meshio.Mesh(mesh.points, [(mesh.cell_type.value, mesh.cells)], point_data, cell_data)
     options: dict[str, bool] = {"vtu": {}, "stl": {"binary": True}, "gmsh22": {"binary": False}}[name]
     with replacing(path) as scratch:
         meshio.write(scratch, written, file_format=name, **options)
@@ -56,10 +56,10 @@ def write_mesh(mesh: Mesh, path: Path) -> Mesh:
 
 
 def _for_stl(mesh: Mesh, path: Path) -> Mesh:
-    if mesh.sort is Sort.LINE:
+    if mesh.cell_type is CellType.LINE:
         raise InputError(f"{path}: STL holds triangles and this is a line; write .vtu or .msh")
-    surface = boundary(mesh) if mesh.sort is Sort.HEXAHEDRON else in_triangles(mesh)
-    surface = Mesh(points=surface.points, sort=surface.sort, cells=surface.cells)
+    surface = boundary(mesh) if mesh.cell_type is CellType.HEXAHEDRON else in_triangles(mesh)
+    surface = Mesh(points=surface.points, cell_type=surface.cell_type, cells=surface.cells)
     return surface.kept(_area(surface) > 0)
 
 

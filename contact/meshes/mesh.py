@@ -8,7 +8,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from roughfilm.contact.surfaces.surface import Array, Mask
+from roughfilm.contact.foundation.arrays import Array, Mask
 
 Indices = NDArray[np.int64]
 
@@ -16,7 +16,7 @@ _FACES = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), 
 """Corners of the faces of a hexahedron, turning so that each normal points out of it."""
 
 
-class Sort(StrEnum):
+class CellType(StrEnum):
     """What the cells are, by VTK's order of their corners."""
 
     LINE = "line"
@@ -37,7 +37,7 @@ class Mesh:
     """
 
     points: Array
-    sort: Sort
+    cell_type: CellType
     cells: Indices
     point_data: Mapping[str, Array] = field(default_factory=dict)
     cell_data: Mapping[str, Array] = field(default_factory=dict)
@@ -45,11 +45,11 @@ class Mesh:
     @property
     def content(self) -> float:
         """Length, area or volume of all cells, m, m² or m³; hexahedra as their boundary in triangles holds it."""
-        if self.sort is Sort.HEXAHEDRON:
+        if self.cell_type is CellType.HEXAHEDRON:
             first, second, third = np.moveaxis(_corners(boundary(self)), 1, 0)
             origin = self.points.mean(axis=0)
             return float(np.einsum("ni,ni->", first - origin, np.cross(second - origin, third - origin))) / 6
-        if self.sort is Sort.LINE:
+        if self.cell_type is CellType.LINE:
             start, end = np.moveaxis(_corners(self), 1, 0)
             return float(np.linalg.norm(end - start, axis=1).sum())
         first, second, third = np.moveaxis(_corners(in_triangles(self)), 1, 0)
@@ -81,17 +81,17 @@ def grid(points: Array) -> Mesh:
     corners = [
         number[tuple(slice(n, n + size - 1) for n, size in zip(step, shape, strict=True))].ravel() for step in steps
     ]
-    sort = (Sort.LINE, Sort.QUAD, Sort.HEXAHEDRON)[len(shape) - 1]
-    return Mesh(points=points.reshape(-1, 3), sort=sort, cells=np.column_stack(corners))
+    cell_type = (CellType.LINE, CellType.QUAD, CellType.HEXAHEDRON)[len(shape) - 1]
+    return Mesh(points=points.reshape(-1, 3), cell_type=cell_type, cells=np.column_stack(corners))
 
 
 def in_triangles(mesh: Mesh) -> Mesh:
     """Quads cut from their first corner to their third, each half with the data of the whole; triangles as they are."""
-    if mesh.sort is Sort.TRIANGLE:
+    if mesh.cell_type is CellType.TRIANGLE:
         return mesh
     halves = np.stack([mesh.cells[:, [0, 1, 2]], mesh.cells[:, [0, 2, 3]]], axis=1).reshape(-1, 3)
     data = {name: np.repeat(values, 2, axis=0) for name, values in mesh.cell_data.items()}
-    return replace(mesh, sort=Sort.TRIANGLE, cells=halves, cell_data=data)
+    return replace(mesh, cell_type=CellType.TRIANGLE, cells=halves, cell_data=data)
 
 
 def boundary(mesh: Mesh) -> Mesh:
@@ -107,7 +107,7 @@ def boundary(mesh: Mesh) -> Mesh:
     different = (cells[:, 0] != cells[:, 1]) & (cells[:, 1] != cells[:, 2]) & (cells[:, 2] != cells[:, 0])
     cells = cells[different]
     cells = cells[_occurs_once(cells)]
-    return Mesh(points=points, sort=Sort.TRIANGLE, cells=cells).kept(np.ones(len(cells), dtype=bool))
+    return Mesh(points=points, cell_type=CellType.TRIANGLE, cells=cells).kept(np.ones(len(cells), dtype=bool))
 
 
 def _occurs_once(cells: Indices) -> Mask:

@@ -5,8 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import fft, ndimage
 
+from roughfilm.contact.foundation.arrays import Array, Mask
 from roughfilm.contact.parameters.heights import surface_deviations
-from roughfilm.contact.surfaces.surface import Array, Mask, Surface
+from roughfilm.contact.surfaces.surface import Surface
 
 DECAYED = 0.2
 """Autocorrelation at which heights count as no longer alike (ISO 25178-3)."""

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.parameters.heights import checked
-from roughfilm.contact.surfaces.surface import Array
 
 CORE_WINDOW = 0.4
 """Material ratio over which the curve is taken as straight (ISO 25178-2, ISO 13565-2)."""

@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import ndtr, ndtri
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.parameters.autocorrelation import DECAYED
 from roughfilm.contact.parameters.bearing_curve import CORE_WINDOW, Core
 from roughfilm.contact.parameters.heights import HeightStatistics
-from roughfilm.contact.surfaces.surface import Array
 
 
 def gaussian_average(rms: float) -> float:

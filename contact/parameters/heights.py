@@ -5,8 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.surfaces.surface import LARGEST_LENGTH, Array, Surface
+from roughfilm.contact.surfaces.surface import MAX_LENGTH, Surface
 
 ROUNDING = 32 * np.finfo(np.float64).eps
 """Of the largest height: heights that differ by less are the same number, rounded."""
@@ -55,7 +56,7 @@ def checked(heights: ArrayLike) -> Array:
     z = np.asarray(heights, dtype=np.float64)
     low, high = (z.min(), z.max()) if z.size else (0.0, 0.0)
     largest = max(-low, high)
-    if not largest <= LARGEST_LENGTH:
+    if not largest <= MAX_LENGTH:
         raise InputError(f"heights: got {largest:.3g} m; leave out what was not measured and look at the unit")
     if high - low <= max(ROUNDING * largest, SMALLEST_DIFFERENCE):
         raise InputError(f"heights: got {z.size} of {high:.3g} m, all the same; roughness needs at least two heights")

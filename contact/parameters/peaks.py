@@ -3,9 +3,10 @@
 import numpy as np
 from scipy import ndimage
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.parameters.heights import surface_deviations
-from roughfilm.contact.surfaces.surface import Array, Surface
+from roughfilm.contact.surfaces.surface import Surface
 
 COUNT = 5
 

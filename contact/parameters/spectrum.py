@@ -6,9 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft, special
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.parameters.heights import ROUNDING, surface_deviations
-from roughfilm.contact.surfaces.surface import Array, Surface
+from roughfilm.contact.surfaces.surface import Surface
 
 LAY_WIDTH = 3.0
 """degrees: directions this close (standard deviation) count together as one lay."""

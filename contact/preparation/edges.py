@@ -5,8 +5,9 @@ from typing import Literal
 import numpy as np
 from scipy.ndimage import correlate1d
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.surfaces.surface import Array, Surface
+from roughfilm.contact.surfaces.surface import Surface
 
 Direction = Literal["x", "y", "both", "none"]
 

@@ -5,8 +5,9 @@ from scipy.ndimage import distance_transform_edt
 from scipy.sparse import coo_array, csr_array
 from scipy.sparse.linalg import LinearOperator, cg
 
+from roughfilm.contact.foundation.arrays import Array, Mask
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
-from roughfilm.contact.surfaces.surface import Array, Mask, Surface
+from roughfilm.contact.surfaces.surface import Surface
 
 TOLERANCE = 1e-9
 """Of the true residual, relative to the right-hand side."""

@@ -5,8 +5,9 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.polynomial import legendre
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.surfaces.surface import Array, Surface
+from roughfilm.contact.surfaces.surface import Surface
 
 Form = Literal["none", "mean", "tilt", "quadratic"]
 

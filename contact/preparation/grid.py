@@ -5,8 +5,9 @@ from typing import Literal
 import numpy as np
 import scipy.fft
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.surfaces.surface import Array, Surface
+from roughfilm.contact.surfaces.surface import Surface
 
 Method = Literal["linear", "band-limited"]
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Mask
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.parameters.autocorrelation import autocorrelation, decay_lengths
 from roughfilm.contact.parameters.spectrum import power_spectrum, texture_direction
@@ -18,8 +19,8 @@ from roughfilm.contact.preparation.outliers import cut_outliers
 from roughfilm.contact.preparation.recipe import Edges, Grid, Recipe, Sampling, recipe_entries
 from roughfilm.contact.preparation.smoothing import smooth
 from roughfilm.contact.preparation.window import Window, best_window, cut_window
-from roughfilm.contact.surfaces.periodicity import THRESHOLD, periodicity_mismatch
-from roughfilm.contact.surfaces.surface import MOST_POINTS, Mask, Surface
+from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
+from roughfilm.contact.surfaces.surface import MAX_POINTS, Surface
 
 WIDTH = 1 / 2
 """Standard deviation of the edges' filter over Sal, where the recipe does not tell it."""
@@ -159,8 +160,8 @@ def _points(shape: tuple[int, int], grid: Grid) -> tuple[int, int]:
             nx, ny = next_power_of_two(shape[0]), next_power_of_two(shape[1])
         case points:
             nx, ny = points
-    if nx * ny > MOST_POINTS:
-        raise InputError(f"grid: got {nx} x {ny} points; at most {MOST_POINTS} are made, say fewer in grid.points")
+    if nx * ny > MAX_POINTS:
+        raise InputError(f"grid: got {nx} x {ny} points; at most {MAX_POINTS} are made, say fewer in grid.points")
     return nx, ny
 
 
@@ -202,9 +203,9 @@ def _warnings(record: Mapping[str, Any]) -> list[str]:
             f"{100 * cut / points:.1f} % of the points were cut as outliers; take fewer: outliers.bins=100, or "
             "outliers.points=0 to cut none"
         )
-    if mismatch > THRESHOLD:
+    if mismatch > MISMATCH_THRESHOLD:
         told.append(
-            f"periodicity mismatch {mismatch:.2f}, above {THRESHOLD}: ridges or steps end at the joint, which "
+            f"periodicity mismatch {mismatch:.2f}, above {MISMATCH_THRESHOLD}: ridges or steps end at the joint, which "
             "throttles flow; choose another window (or let one be found: window.size without start), or a larger "
             "edges.width"
         )

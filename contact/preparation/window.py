@@ -5,8 +5,9 @@ from itertools import product
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array, Mask
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.surfaces.surface import Array, Mask, Surface
+from roughfilm.contact.surfaces.surface import Surface
 
 COARSE = 48
 """Positions along each direction in the first search."""

@@ -7,11 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.units import to_si
 from roughfilm.contact.surfaces import store as surface_store
 from roughfilm.contact.surfaces.instruments import Measurement, read_instrument
-from roughfilm.contact.surfaces.surface import MOST_POINTS, Array, Surface
+from roughfilm.contact.surfaces.surface import MAX_POINTS, Surface
 
 LARGEST_TEXT = 2_000_000_000
 """Bytes; a longer CSV is refused unread."""
@@ -173,5 +174,5 @@ def _numbers(path: Path, lines: list[tuple[int, str]]) -> Array:
 
 
 def _count(path: Path, shape: tuple[Any, ...]) -> None:
-    if shape[0] * shape[1] > MOST_POINTS:
-        raise InputError(f"{path}: claims {shape[0]} x {shape[1]} points; at most {MOST_POINTS} are read")
+    if shape[0] * shape[1] > MAX_POINTS:
+        raise InputError(f"{path}: claims {shape[0]} x {shape[1]} points; at most {MAX_POINTS} are read")

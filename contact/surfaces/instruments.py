@@ -14,9 +14,10 @@ from pathlib import Path
 
 import numpy as np
 
-from roughfilm.contact.foundation.child_processes import leash
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.child_processes import terminate_with_parent
 from roughfilm.contact.foundation.errors import InputError, UnavailableError
-from roughfilm.contact.surfaces.surface import MOST_POINTS, Array
+from roughfilm.contact.surfaces.surface import MAX_POINTS
 
 POINTS_PER_BYTE = 50
 """No format packs more points into a byte of a file that holds a measurement."""
@@ -56,12 +57,12 @@ def read_instrument(path: Path, channel: str | None = None) -> Measurement:
         )
     length = path.stat().st_size
     memory, seconds = (int(least + each * length) for least, each in (MEMORY, SECONDS))
-    asked = {"path": str(path.resolve()), "channel": channel, "most": min(MOST_POINTS, POINTS_PER_BYTE * length)}
+    asked = {"path": str(path.resolve()), "channel": channel, "most": min(MAX_POINTS, POINTS_PER_BYTE * length)}
     request = json.dumps({**asked, "memory": memory, "seconds": seconds})
     places = os.pathsep.join([str(Path(__file__).resolve().parents[2]), *filter(None, sys.path)])
     try:
         child = subprocess.run(
-            [*leash(), sys.executable, "-m", "roughfilm.contact.surfaces.instrument_reader", request],
+            [*terminate_with_parent(), sys.executable, "-m", "roughfilm.contact.surfaces.instrument_reader", request],
             capture_output=True,
             stdin=subprocess.DEVNULL,
             env={**os.environ, "PYTHONPATH": places, "OPENBLAS_NUM_THREADS": "1"},

@@ -2,16 +2,17 @@
 
 import numpy as np
 
-from roughfilm.contact.surfaces.surface import Array, Surface
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.surfaces.surface import Surface
 
-THRESHOLD = 0.1
+MISMATCH_THRESHOLD = 0.1
 """Above it a joint is worth a warning: of random surfaces, some 4 in 100 that are truly periodic lie above it, and
 all raw windows of them."""
 
-ORDINARY = 0.98
+INTERIOR_QUANTILE = 0.98
 """Part of the places inside that are no worse than the one the joint is held against: scratches do not count."""
 
-LONGEST = 16
+LAG_DIVISOR = 16
 """The longest lag is this part of the surface: a longer one has too few other places to be compared with."""
 
 
@@ -35,7 +36,7 @@ def periodicity_mismatch(surface: Surface) -> float:
     excesses = [
         _excess(lines, 2**power)
         for lines in (centred, centred.T)
-        for power in range(max(1, lines.shape[0] // LONGEST).bit_length())
+        for power in range(max(1, lines.shape[0] // LAG_DIVISOR).bit_length())
     ]
     return max(0.0, *excesses) / (2 * variance)
 
@@ -46,4 +47,4 @@ def _excess(lines: Array, lag: int) -> float:
     sums = np.concatenate([[0.0], np.cumsum(squares)])
     inside = (sums[lag : count - lag + 1] - sums[: count - 2 * lag + 1]) / lag
     joint = (sums[count] - sums[count - lag]) / lag
-    return float(joint - np.quantile(inside, ORDINARY))
+    return float(joint - np.quantile(inside, INTERIOR_QUANTILE))

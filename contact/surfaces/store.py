@@ -6,9 +6,9 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from roughfilm.contact.foundation.checked_hdf5 import marked, reading_guarded, write_guarded
+from roughfilm.contact.foundation.checked_hdf5 import has_mark, open_checked, write_checked
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.surfaces.surface import MOST_POINTS, Surface
+from roughfilm.contact.surfaces.surface import MAX_POINTS, Surface
 
 SCHEMA = 1
 MARK = b"roughfilm surface, HDF5 behind 512 bytes, sha256 "
@@ -30,20 +30,20 @@ def save_surface(surface: Surface, path: Path) -> None:
         if surface.invalid.any():
             file.create_dataset("invalid", data=surface.invalid, compression="gzip")
 
-    write_guarded(path, MARK, fill)
+    write_checked(path, MARK, fill)
 
 
 def is_surface(path: Path) -> bool:
     """Whether a file begins as our surfaces do, whatever its name."""
-    return marked(path, MARK)
+    return has_mark(path, MARK)
 
 
 def load_surface(path: Path) -> Surface:
     """Read a surface back as it was; InputError if the file was damaged or changed, or is of another version."""
-    with reading_guarded(path, MARK, SCHEMA, "make it again") as file:
+    with open_checked(path, MARK, SCHEMA, "make it again") as file:
         shape = file["heights"].shape
-        if shape[0] * shape[1] > MOST_POINTS:
-            raise InputError(f"{path}: holds {shape[0]} x {shape[1]} points; at most {MOST_POINTS} are read")
+        if shape[0] * shape[1] > MAX_POINTS:
+            raise InputError(f"{path}: holds {shape[0]} x {shape[1]} points; at most {MAX_POINTS} are read")
         return Surface(
             heights=file["heights"][()],
             spacing=tuple(file.attrs["spacing"]),

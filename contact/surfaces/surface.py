@@ -5,20 +5,17 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
+from roughfilm.contact.foundation.arrays import Array, Mask
 from roughfilm.contact.foundation.errors import InputError
 
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
-
-LARGEST_LENGTH = 1e6
+MAX_LENGTH = 1e6
 """m; what lies beyond is a wrong unit, and its powers overflow."""
 
-LEAST_SPACING = 1e-15
+MIN_SPACING = 1e-15
 """m; likewise."""
 
-MOST_POINTS = 100_000_000
+MAX_POINTS = 100_000_000
 """No file or grid with more points is read or made."""
 
 
@@ -61,10 +58,10 @@ class Surface:
         heights[invalid] = 0.0
         if not np.isfinite(heights).all():
             raise InputError("surface: a height is not finite; mark such pixels as invalid")
-        if np.abs(heights).max() > LARGEST_LENGTH:
+        if np.abs(heights).max() > MAX_LENGTH:
             raise InputError(f"surface: got a height of {np.abs(heights).max():.3g} m; look at the unit")
         spacing = tuple(float(length) for length in self.spacing)
-        if len(spacing) != 2 or not all(LEAST_SPACING <= length < LARGEST_LENGTH for length in spacing):
+        if len(spacing) != 2 or not all(MIN_SPACING <= length < MAX_LENGTH for length in spacing):
             raise InputError(f"surface: got spacing {self.spacing!r}; give two lengths in m, 1e-15 or more")
         heights.flags.writeable = invalid.flags.writeable = False
         object.__setattr__(self, "heights", heights)

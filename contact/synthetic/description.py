@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, Field, TypeAdapter, ValidationError
 
-from roughfilm.contact.foundation.entries import Coordinate, InUnit, Length, Part, PositiveNumber, plain_number
+from roughfilm.contact.foundation.entries import Angle, Coordinate, Length, Part, PositiveNumber, plain_number
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.toml import Location, in_one_line, read_toml, unknown_key
 from roughfilm.contact.surfaces.surface import Surface
@@ -27,13 +27,8 @@ def _whole(value: object) -> object:
     return value
 
 
-def _any(value: float) -> float:
-    return value
-
-
 Whole = Annotated[int, BeforeValidator(_whole)]
 Number = Annotated[float, BeforeValidator(plain_number)]
-Angle = Annotated[float, InUnit("rad", _any)]
 
 
 class HeightDistribution(Part):

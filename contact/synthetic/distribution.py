@@ -7,8 +7,9 @@ import scipy.fft
 import scipy.special
 from numpy.typing import NDArray
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.surfaces.surface import LARGEST_LENGTH, Array, Surface
+from roughfilm.contact.surfaces.surface import MAX_LENGTH, Surface
 from roughfilm.contact.synthetic.checks import number_between, whole_between
 
 LARGEST_SKEWNESS = 4.0
@@ -56,7 +57,7 @@ def with_heights_of(surface: Surface, quantile: Callable[[Array], Array], *, ite
     whole_between("distribution.iterations", iterations, 0, 10_000)
     count = surface.heights.size
     wanted = np.asarray(quantile((np.arange(count) + 0.5) / count), dtype=float)
-    if wanted.shape != (count,) or not (np.abs(wanted) <= LARGEST_LENGTH).all() or (np.diff(wanted) < 0).any():
+    if wanted.shape != (count,) or not (np.abs(wanted) <= MAX_LENGTH).all() or (np.diff(wanted) < 0).any():
         raise InputError("distribution: got quantiles that are not finite or decrease; give a growing function")
     if wanted[0] == wanted[-1] or not wanted.std() > 0:
         raise InputError("distribution: got quantiles that are all equal; give a growing function")

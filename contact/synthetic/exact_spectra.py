@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.surfaces.surface import Array
 
 
 def self_affine_moment(order: int, *, hurst: float, roll_off: float, cut_off: float) -> float:

@@ -8,8 +8,8 @@ from numpy.polynomial import chebyshev
 from scipy.optimize import minimize
 from scipy.special import ndtri
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.surfaces.surface import Array
 from roughfilm.contact.synthetic.checks import length, number_between, whole_between
 
 ORDER = 6

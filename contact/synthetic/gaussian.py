@@ -5,8 +5,9 @@ from typing import Literal
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.surfaces.surface import Array, Surface
+from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.checks import length, number_between, whole_between
 from roughfilm.contact.synthetic.grid import Grid, metres, radians
 from roughfilm.contact.synthetic.waves import LARGEST_SEED, Amplitudes, random_waves

@@ -6,9 +6,10 @@ from typing import Any
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import with_unit
-from roughfilm.contact.surfaces.surface import Array, Surface
+from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.checks import length, whole_between
 
 MOST_POINTS = 100_000_000

@@ -5,7 +5,8 @@ import math
 import numpy as np
 import scipy.special
 
-from roughfilm.contact.surfaces.surface import Array, Surface
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.checks import length, number_between, whole_between
 from roughfilm.contact.synthetic.gaussian import correlation_lengths, spectrum
 from roughfilm.contact.synthetic.grid import Grid, metres, radians

@@ -4,8 +4,8 @@ import numpy as np
 import scipy.fft
 from numpy.typing import NDArray
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.surfaces.surface import Array
 from roughfilm.contact.synthetic.checks import length as checked_length
 from roughfilm.contact.synthetic.checks import number_between, whole_between
 from roughfilm.contact.synthetic.four_moments import FEWEST, MOST, FourMoments, heights_with

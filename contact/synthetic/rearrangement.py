@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.surfaces.surface import Array
 from roughfilm.contact.synthetic.checks import whole_between
 from roughfilm.contact.synthetic.waves import LARGEST_SEED
 

@@ -9,14 +9,14 @@ import numpy as np
 from foamlib import FoamFile
 from numpy.typing import NDArray
 
+from roughfilm.contact.foundation.arrays import Array, Mask
 from roughfilm.rom.pocket.columns import columns
-from roughfilm.rom.pocket.gap import Array, Gap
+from roughfilm.rom.pocket.gap import Gap
 
 LAYERS_PER_COLUMN = 1 / 5
 """Cells across the film for each cell along it."""
 
 Labels = NDArray[np.int64]
-Mask = NDArray[np.bool_]
 
 ALONG, AGAINST = (0, 1, 2, 3), (0, 3, 2, 1)
 """In which order the corners of a face make its normal point along its axis, and against it."""

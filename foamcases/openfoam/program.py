@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from roughfilm.contact.foundation.child_processes import leash
+from roughfilm.contact.foundation.child_processes import terminate_with_parent
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.foamcases.openfoam.installation import environment
 
@@ -42,7 +42,7 @@ def execute(directory: Path, command: Sequence[str], log_name: str, watch: Watch
     try:
         with log.open("wb") as output, uninterrupted():
             process = subprocess.Popen(
-                [*leash(), *command],
+                [*terminate_with_parent(), *command],
                 cwd=directory,
                 env=environment(),
                 stdin=subprocess.DEVNULL,

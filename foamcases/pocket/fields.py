@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 from foamlib import FoamCase, FoamFile
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.foamcases.pocket.case import Card, read_card
-from roughfilm.rom.pocket.gap import Array
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -2,10 +2,9 @@
 
 import numpy as np
 
-from roughfilm.foamcases.openfoam.block_mesh import Mask
+from roughfilm.contact.foundation.arrays import Array, Mask
 from roughfilm.foamcases.rough_gap.dictionaries import Drive
 from roughfilm.foamcases.rough_gap.fields import GapFlow
-from roughfilm.rom.pocket.gap import Array
 
 
 def held(flow: GapFlow, speed: float) -> Array:

@@ -6,11 +6,11 @@ from typing import Any
 
 from foamlib import DimensionSet
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.foamcases.openfoam.block_mesh import Patch
 from roughfilm.foamcases.openfoam.dictionaries import Dictionary, control, liquid, schemes, solution
 from roughfilm.foamcases.openfoam.iterate import STOP
 from roughfilm.foamcases.openfoam.residuals import FIELDS
-from roughfilm.rom.pocket.gap import Array
 
 ITERATIONS, STRAIGHT_ITERATIONS = 3000, 200
 """At most, and of a creeping straight flow, which has settled after 50: no residual ends it, most are round-off."""

@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 from foamlib import FoamCase
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.foamcases.rough_gap.case import GapCard
 from roughfilm.foamcases.rough_gap.mesh import Columns
-from roughfilm.rom.pocket.gap import Array
 
 
 @dataclass(frozen=True, kw_only=True)

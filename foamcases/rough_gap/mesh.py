@@ -4,9 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughfilm.foamcases.openfoam.block_mesh import Mask
+from roughfilm.contact.foundation.arrays import Array, Mask
 from roughfilm.rom.homogenization.paths import leads_round
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.rom.rough_gap.walls import Walls
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.foamcases.openfoam.iterate import Settled
 from roughfilm.foamcases.openfoam.residuals import Judged, Residuals
 from roughfilm.foamcases.openfoam.run import Checked, check_mesh, converge, ready, remarks
@@ -13,7 +14,6 @@ from roughfilm.foamcases.pocket.case import read_card
 from roughfilm.foamcases.rough_gap.case import GapCard
 from roughfilm.foamcases.rough_gap.dictionaries import MEAN_VELOCITY
 from roughfilm.rom.ladder.model import Progress, silent
-from roughfilm.rom.pocket.gap import Array
 
 MAIN = {"Ux": 0, "Uy": 1}
 

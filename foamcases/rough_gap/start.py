@@ -2,10 +2,10 @@
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.foamcases.rough_gap.dictionaries import Drive
 from roughfilm.foamcases.rough_gap.mesh import Columns
 from roughfilm.rom.homogenization.cell import solve_cell
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.rom.rough_gap.walls import Walls
 
 TOLERANCE = 1e-6

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.homogenization.cell import solve_cell
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.rom.rough_gap.flow.corrected import slope_corrected
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors, of_thin_film
 from roughfilm.rom.rough_gap.scene import RoughGap

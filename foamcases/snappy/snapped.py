@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from foamlib import FoamCase, FoamFile
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
 from roughfilm.contact.meshes.files import write_mesh
 from roughfilm.foamcases.openfoam.block_mesh import Patch, write_block
@@ -24,7 +25,6 @@ from roughfilm.foamcases.rough_gap.run import mean_velocity, settled_within, uns
 from roughfilm.foamcases.snappy.dictionary import SURFACE, snappy_dictionary
 from roughfilm.foamcases.snappy.solid import Carved
 from roughfilm.rom.ladder.model import Progress, silent
-from roughfilm.rom.pocket.gap import Array
 
 PROGRAM = "snappyHexMesh"
 STILL: Any = [0.0, 0.0, 0.0]

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.meshes.mesh import Mesh, in_triangles
 from roughfilm.rom.meshes.walls_mesh import Part, wall_mesh
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.rom.rough_gap.walls import Walls
 
 MARGIN = 0.25
@@ -61,7 +61,7 @@ def repeated(solid: Mesh, size: tuple[float, float]) -> Mesh:
     points = np.concatenate([surface.points + shift for shift in shifts])
     count = len(surface.points)
     cells = np.concatenate([surface.cells + n * count for n in range(len(shifts))])
-    whole = Mesh(points=points, sort=surface.sort, cells=cells)
+    whole = Mesh(points=points, cell_type=surface.cell_type, cells=cells)
     near = np.ones(len(points), dtype=bool)
     for axis, length in enumerate(size):
         near &= (points[:, axis] >= -MARGIN * length) & (points[:, axis] <= (1 + MARGIN) * length)
@@ -108,10 +108,10 @@ def _together(meshes: list[Mesh]) -> Mesh:
     starts = np.cumsum([0, *(len(mesh.points) for mesh in meshes)])
     return Mesh(
         points=np.concatenate([mesh.points for mesh in meshes]),
-        sort=meshes[0].sort,
+        cell_type=meshes[0].cell_type,
         cells=np.concatenate([mesh.cells + start for mesh, start in zip(meshes, starts[:-1], strict=True)]),
     )
 
 
 def _scaled(mesh: Mesh, factor: float) -> Mesh:
-    return Mesh(points=mesh.points * factor, sort=mesh.sort, cells=mesh.cells)
+    return Mesh(points=mesh.points * factor, cell_type=mesh.cell_type, cells=mesh.cells)

@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import Field, model_validator
 from scipy.ndimage import map_coordinates
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import Length
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.surfaces.files import read_surface
@@ -15,7 +16,6 @@ from roughfilm.rom.bearing.pad import Pad
 from roughfilm.rom.bearing.texture import pocketed
 from roughfilm.rom.cavitation.shape import Shape
 from roughfilm.rom.parts.surface_geometry import PLAIN, digest_of
-from roughfilm.rom.pocket.gap import Array
 
 FEWEST = 8
 """Cells to the shortest feature; here each point of the file is to have one."""

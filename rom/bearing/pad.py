@@ -5,10 +5,10 @@ from typing import Self
 
 from pydantic import model_validator
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import Length, Part
 from roughfilm.rom.bearing.texture import Texture, pocketed
 from roughfilm.rom.cavitation.shape import Shape
-from roughfilm.rom.pocket.gap import Array
 
 
 class Pad(Part):

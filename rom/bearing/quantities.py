@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shapes import Journal
@@ -12,7 +13,6 @@ from roughfilm.rom.cavitation.balance import CAVITY, FILM
 from roughfilm.rom.cavitation.grid import Grid
 from roughfilm.rom.cavitation.oblique import wetness
 from roughfilm.rom.cavitation.solve import Solution
-from roughfilm.rom.pocket.gap import Array
 
 LEAST_LOAD = 1e-6
 """Of the greatest pressure over the whole film; by less, friction is not divided."""

@@ -6,9 +6,9 @@ from typing import Annotated, Literal, Self
 import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import InUnit, Length, Part, plain_number
 from roughfilm.rom.cavitation.shape import Shape
-from roughfilm.rom.pocket.gap import Array
 
 Angle = Annotated[float, InUnit("rad")]
 

@@ -10,7 +10,8 @@ import numpy as np
 from pydantic import Field, model_validator
 from scipy.ndimage import map_coordinates
 
-from roughfilm.contact.foundation.entries import InUnit, Length, Part, PositiveNumber
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.entries import Angle, Length, Part, PositiveNumber
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap
 from roughfilm.rom.homogenization.ridges import sinusoidal_ridges
@@ -18,7 +19,6 @@ from roughfilm.rom.homogenization.table import FactorTable
 from roughfilm.rom.homogenization.table_store import load_table
 from roughfilm.rom.homogenization.tabulate import tabulate
 from roughfilm.rom.parts.surface_geometry import SurfaceGeometry
-from roughfilm.rom.pocket.gap import Array
 
 LEVEL = 1e-12
 """A wave vector has no part along a direction whose cosine is below this."""
@@ -28,13 +28,6 @@ TOLERANCE, BELOW = 5e-4, 0.999
 
 SHORTEST = 4
 """Pixels: the shortest wave of a surface that a grid is asked to follow, each cell then half a pixel."""
-
-
-def _any(value: float) -> float:
-    return value
-
-
-Angle = Annotated[float, InUnit("rad", _any)]
 
 
 class Sinusoid(Part):

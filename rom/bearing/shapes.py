@@ -6,13 +6,13 @@ from typing import Annotated, Literal, Self
 import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import Length, Part, plain_number
 from roughfilm.rom.bearing.given import Given
 from roughfilm.rom.bearing.pad import Pad
 from roughfilm.rom.bearing.ring import Sector, Washer
 from roughfilm.rom.bearing.texture import Texture, pocketed
 from roughfilm.rom.cavitation.shape import Shape
-from roughfilm.rom.pocket.gap import Array
 
 
 def _below_one(value: object) -> float:

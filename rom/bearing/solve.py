@@ -8,6 +8,7 @@ from functools import cache, partial
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.quantities import bearing_quantities, density_ratio, nominal_area
@@ -30,7 +31,6 @@ from roughfilm.rom.ladder.model import (
 )
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.result import Field, Numerics, Result
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.rom.pocket.validity import NOTHING_COARSER
 
 RESOLUTION_MEANING = "cells along the sliding, and as many across where the bearing has a width"

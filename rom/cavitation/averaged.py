@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.cavitation.grid import Grid
 from roughfilm.rom.cavitation.shape import Shape
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap, GapFactors
-from roughfilm.rom.pocket.gap import Array
 
 BESIDE = (-0.25, 0.25)
 """Positions, in spacings before and behind a node, at which its coefficients are sampled."""

@@ -8,10 +8,10 @@ from collections.abc import Callable
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.compiled import compiled
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.rom.multigrid.gradients import dot
-from roughfilm.rom.pocket.gap import Array
 
 Operator = Callable[[Array], Array]
 

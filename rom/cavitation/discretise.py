@@ -6,13 +6,13 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.cavitation.averaged import Averaged, averaged
 from roughfilm.rom.cavitation.grid import Grid
 from roughfilm.rom.cavitation.network import Network
 from roughfilm.rom.cavitation.oblique import Oblique
 from roughfilm.rom.cavitation.shape import Shape
-from roughfilm.rom.pocket.gap import Array
 
 GAUSS = (-0.5 / sqrt(3), 0.5 / sqrt(3))
 """Gauss points in spacings from the middle of a face: the integrals of h⁻² and h⁻³ are fourth-order accurate."""

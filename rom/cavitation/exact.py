@@ -8,9 +8,9 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq, minimize_scalar
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.rom.cavitation.problem import Problem
-from roughfilm.rom.pocket.gap import Array
 
 RELATIVE, ABSOLUTE = 1e-13, 1e-16
 """Tolerances of the integration, over the unit of pressure."""

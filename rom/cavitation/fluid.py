@@ -2,7 +2,7 @@
 
 from typing import Protocol
 
-from roughfilm.rom.pocket.gap import Array
+from roughfilm.contact.foundation.arrays import Array
 
 
 class Fluid(Protocol):

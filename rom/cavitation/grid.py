@@ -5,8 +5,8 @@ from itertools import pairwise
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.cavitation.shape import Shape
-from roughfilm.rom.pocket.gap import Array
 
 
 @dataclass(frozen=True, kw_only=True)

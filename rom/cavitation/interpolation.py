@@ -3,9 +3,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.cavitation.grid import Grid
 from roughfilm.rom.cavitation.network import State
-from roughfilm.rom.pocket.gap import Array
 
 
 def carried(state: State, coarse: Grid, fine: Grid, joined: tuple[bool, bool]) -> State:

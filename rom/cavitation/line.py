@@ -2,10 +2,10 @@
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.cavitation.balance import along
 from roughfilm.rom.cavitation.network import Network
 from roughfilm.rom.cavitation.newton import Linear
-from roughfilm.rom.pocket.gap import Array
 
 
 def line_step(network: Network, linear: Linear, accuracy: float) -> Array:  # noqa: ARG001

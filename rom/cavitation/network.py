@@ -7,9 +7,9 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.cavitation.balance import conduct, linearise
 from roughfilm.rom.cavitation.oblique import Oblique
-from roughfilm.rom.pocket.gap import Array
 
 Values = TypeVar("Values", bound=NDArray[Any])
 

@@ -6,12 +6,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED, FLOODED, advance, settle_bank
 from roughfilm.rom.cavitation.fluid import Fluid
 from roughfilm.rom.cavitation.network import Network, State
 from roughfilm.rom.cavitation.relaxation import relaxed
-from roughfilm.rom.pocket.gap import Array
 
 FIRST_ROUND_STEPS = 25
 """Largest number of Newton steps in the first round; from a good start 1 to 6 suffice. It doubles every round."""

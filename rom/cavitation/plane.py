@@ -12,6 +12,7 @@ depend on the pressure. The flows of an oblique lay are in the operator, but not
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.compiled import compiled
 from roughfilm.rom.cavitation.balance import CAVITY, FILM
 from roughfilm.rom.cavitation.bicgstab import bicgstab
@@ -19,7 +20,6 @@ from roughfilm.rom.cavitation.network import Network
 from roughfilm.rom.cavitation.newton import Linear
 from roughfilm.rom.multigrid.gradients import dot
 from roughfilm.rom.multigrid.multigrid import Multigrid
-from roughfilm.rom.pocket.gap import Array
 
 STEP_REDUCTION = 1e-4
 """Reduction of the linear residual in a Newton step; the film boundary still moves, so more accuracy has no use."""

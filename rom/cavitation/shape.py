@@ -4,8 +4,8 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap
-from roughfilm.rom.pocket.gap import Array
 
 Thickness = Callable[[Array, Array], Array]
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.rom.cavitation.discretise import Faces, faces, network
 from roughfilm.rom.cavitation.grid import Grid, grid
@@ -16,7 +17,6 @@ from roughfilm.rom.cavitation.newton import UnsettledError, settle
 from roughfilm.rom.cavitation.plane import plane_step
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.homogenization.gap_factors import mirrored_factors
-from roughfilm.rom.pocket.gap import Array
 
 COARSEST_CELLS = 16
 """Largest number of cells along a side of the coarsest grid, which starts from a full film at cavitation pressure."""

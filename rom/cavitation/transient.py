@@ -5,6 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.cavitation.discretise import faces
 from roughfilm.rom.cavitation.grid import grid

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.contact.surfaces.surface import Array
 from roughfilm.rom.ladder.model import (
     Applicability,
     Effect,

@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.contact.mechanics.estimates.estimate import Estimate
-from roughfilm.contact.surfaces.surface import Array
 from roughfilm.rom.parts.pressed_surface import RoughContact
 
 BINS = 40

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.compiled import compiled
 from roughfilm.rom.homogenization.conductance import FaceRule, faces, without_traces
 from roughfilm.rom.homogenization.factors import FlowFactors
@@ -12,7 +13,6 @@ from roughfilm.rom.homogenization.grids import refined
 from roughfilm.rom.homogenization.paths import sealed
 from roughfilm.rom.homogenization.solvers import SOLVERS, Matrix, Solver, Source, first_to_converge
 from roughfilm.rom.multigrid.multigrid import Solved
-from roughfilm.rom.pocket.gap import Array
 
 TOLERANCE = 1e-8
 """Of A; far below what any grid is good for."""

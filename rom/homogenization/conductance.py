@@ -6,8 +6,8 @@ from math import log
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.compiled import compiled, inlined
-from roughfilm.rom.pocket.gap import Array
 
 CLOSED = 1e-14
 """Of the largest h³: a node with less is contact, as rounding on coarse grids would hide what it lets through."""

@@ -2,10 +2,10 @@
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.homogenization.factors import FlowFactors
 from roughfilm.rom.homogenization.gap_factors import flow_factors_at
 from roughfilm.rom.homogenization.ridges import sinusoidal_ridges
-from roughfilm.rom.pocket.gap import Array
 
 
 def sinusoid(amplitude: float, *, mean_gap: float = 1.0, direction: float = 0.0) -> FlowFactors:

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 from typing import Self
 
-from roughfilm.rom.pocket.gap import Array
+from roughfilm.contact.foundation.arrays import Array
 
 
 @dataclass(frozen=True, kw_only=True)

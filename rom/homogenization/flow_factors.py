@@ -6,8 +6,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.surfaces.surface import LARGEST_LENGTH, LEAST_SPACING
+from roughfilm.contact.surfaces.surface import MAX_LENGTH, MIN_SPACING
 from roughfilm.rom.homogenization.cell import Cell, solve_cell
 from roughfilm.rom.homogenization.conductance import CLOSED, FaceRule, without_traces
 from roughfilm.rom.homogenization.factors import FlowFactors
@@ -15,7 +16,6 @@ from roughfilm.rom.homogenization.grids import coarser_grids
 from roughfilm.rom.homogenization.richardson import sufficient, uncertainty_of
 from roughfilm.rom.homogenization.solvers import SOLVERS
 from roughfilm.rom.ladder.model import Progress, silent
-from roughfilm.rom.pocket.gap import Array
 
 LONGEST = 1e4
 """Of a pixel, over its width."""
@@ -129,10 +129,8 @@ def checked_gap(gap: ArrayLike, spacing: tuple[float, float]) -> Array:
         raise InputError(f"gap: got {h[i, j]:.6g} m at [{i}, {j}]; walls cannot overlap, set contact to 0")
     if not h.any():
         raise InputError("gap: is closed everywhere; there is no film, raise the separation")
-    if not LEAST_SPACING <= h.max() <= LARGEST_LENGTH:
-        raise InputError(
-            f"gap: got up to {h.max():.3g} m; give {LEAST_SPACING:g} to {LARGEST_LENGTH:g} m, look at the unit"
-        )
+    if not MIN_SPACING <= h.max() <= MAX_LENGTH:
+        raise InputError(f"gap: got up to {h.max():.3g} m; give {MIN_SPACING:g} to {MAX_LENGTH:g} m, look at the unit")
     steps = np.asarray(spacing, dtype=object)
     if steps.shape != (2,) or not all(np.isfinite(step) and step > 0 for step in spacing):
         raise InputError(f"spacing: got {spacing!r}; give two lengths above 0, in m")

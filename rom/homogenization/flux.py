@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.homogenization.conductance import FaceRule, faces, without_traces
-from roughfilm.rom.pocket.gap import Array
 
 
 def flux(

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.compiled import compiled
-from roughfilm.rom.pocket.gap import Array
 
 FEWEST = 8
 """Nodes in a direction that is coarsened."""

@@ -7,8 +7,8 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 from scipy.special import digamma, hyp2f1
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.rom.pocket.gap import Array
 
 NEAR_ONE, LARGEST = 12.0, 700.0
 """Of ln(m/(1 − m)): above the one two terms of the series about m = 1 are enough, beyond the other exp overflows."""

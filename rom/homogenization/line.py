@@ -5,13 +5,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.homogenization.conductance import faces, straight_inverse
 from roughfilm.rom.homogenization.factors import FlowFactors
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap, GapFactors, flow_factors_at
 from roughfilm.rom.homogenization.grids import coarser_grids
 from roughfilm.rom.homogenization.richardson import uncertainty_of
-from roughfilm.rom.pocket.gap import Array
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,11 +6,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.linalg import solveh_banded
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.homogenization.factors import FlowFactors
 from roughfilm.rom.homogenization.grids import sampled
 from roughfilm.rom.homogenization.line import LineFactors, checked_profile
-from roughfilm.rom.pocket.gap import Array
 
 MOST = 2**24
 

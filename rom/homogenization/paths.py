@@ -8,7 +8,7 @@ from scipy import ndimage
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import breadth_first_order, connected_components
 
-from roughfilm.rom.pocket.gap import Array
+from roughfilm.contact.foundation.arrays import Array
 
 FOUR = np.array([[0, 1, 0], [1, 1, 1], [0, 1, 0]])
 """Flow goes through faces, not through corners."""

@@ -6,13 +6,13 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.homogenization.box import Box, Flow
 from roughfilm.rom.homogenization.cell import TOLERANCE
 from roughfilm.rom.homogenization.conductance import FaceRule, faces, without_traces
 from roughfilm.rom.homogenization.flow_factors import checked_gap
 from roughfilm.rom.homogenization.paths import sealed_between_ends
 from roughfilm.rom.multigrid.multigrid import Multigrid, Solved
-from roughfilm.rom.pocket.gap import Array
 
 
 @dataclass(frozen=True, kw_only=True)

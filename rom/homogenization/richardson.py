@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.homogenization.factors import FlowFactors
-from roughfilm.rom.pocket.gap import Array
 
 SAFETY = 1.5
 """Of an error estimated from three grids.

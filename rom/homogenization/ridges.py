@@ -4,9 +4,9 @@ from math import cos, sin
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap, GapFactors
-from roughfilm.rom.pocket.gap import Array
 
 LEVEL = 1e-12
 """Ridges whose wave vector has a smaller part along the sliding lie along it: streamers do not cross them."""

@@ -5,10 +5,10 @@ from functools import cached_property
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.surfaces.surface import LARGEST_LENGTH, LEAST_SPACING
+from roughfilm.contact.surfaces.surface import MAX_LENGTH, MIN_SPACING
 from roughfilm.rom.homogenization.paths import sealed
-from roughfilm.rom.pocket.gap import Array
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,8 +58,8 @@ class Separations:
         InputError
             For a mean gap that is not between 1e-15 m and 1000 km.
         """
-        if not LEAST_SPACING <= mean_gap <= LARGEST_LENGTH:
-            raise InputError(f"mean gap: got {mean_gap!r} m; give {LEAST_SPACING:g} to {LARGEST_LENGTH:g} m")
+        if not MIN_SPACING <= mean_gap <= MAX_LENGTH:
+            raise InputError(f"mean gap: got {mean_gap!r} m; give {MIN_SPACING:g} to {MAX_LENGTH:g} m")
         z, means = self._sorted
         below = int(np.searchsorted(means, mean_gap, side="right"))
         return float(z[below - 1] + (mean_gap - means[below - 1]) * z.size / below)

@@ -10,11 +10,11 @@ from scipy.sparse import csc_array
 from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import splu
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.rom.multigrid.gradients import apply
 from roughfilm.rom.multigrid.multigrid import Multigrid, Solved
 from roughfilm.rom.multigrid.pieces import ROUNDING
-from roughfilm.rom.pocket.gap import Array
 
 MOST_ELIMINATED = 1_100_000
 """Nodes; factors of larger matrices take more than 3 GB."""

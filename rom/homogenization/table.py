@@ -8,10 +8,10 @@ from typing import Self
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.homogenization.factors import FlowFactors
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap, GapFactors
-from roughfilm.rom.pocket.gap import Array
 
 SMOOTH = np.array([1.0, 1, 0, 1, 0, 1, 0])
 """What :func:`relative_row` tells of a smooth film."""

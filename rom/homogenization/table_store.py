@@ -9,12 +9,12 @@ from typing import Any
 import h5py
 import numpy as np
 
-from roughfilm.contact.foundation.checked_hdf5 import marked, reading_guarded, write_guarded
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.checked_hdf5 import has_mark, open_checked, write_checked
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.rom.homogenization.factors import FlowFactors
 from roughfilm.rom.homogenization.table import FactorTable, Point
-from roughfilm.rom.pocket.gap import Array
 
 SCHEMA = 3
 MARK = b"roughfilm factors, HDF5 behind 512 bytes, sha256 "
@@ -61,7 +61,7 @@ def save_table(path: Path, inputs: Inputs, table: FactorTable) -> None:
                 _write(file, f"{'points' if group == 'factors' else group}/{name}", values, unit)
         _write(file, "points/sealed", np.array([point.factors.sealed for point in points]), "1")
 
-    write_guarded(path, MARK, fill)
+    write_checked(path, MARK, fill)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -87,7 +87,7 @@ def load_table_and_source(path: Path) -> tuple[FactorTable, Source]:
     """Read a table back, and what it was computed from; InputError as :func:`load_table` raises it."""
     try:
         _refuse_others(path)
-        with reading_guarded(path, MARK, SCHEMA, REMEDY) as file:
+        with open_checked(path, MARK, SCHEMA, REMEDY) as file:
             dx, dy = map(float, file.attrs["spacing"])
             return _table(file), Source(spacing=(dx, dy), settings=json.loads(file.attrs["settings"]))
     except OSError as error:
@@ -106,7 +106,7 @@ def known_points(path: Path, inputs: Inputs) -> Sequence[Point]:
         if path.stat().st_size == 0:
             return ()
         _refuse_others(path)
-        with reading_guarded(path, MARK, SCHEMA, REMEDY) as file:
+        with open_checked(path, MARK, SCHEMA, REMEDY) as file:
             if file.attrs["digest"] != inputs.digest:
                 raise InputError(f"{path}: holds another table, {inputs.difference(file.attrs['settings'])}; {REMEDY}")
             return _table(file).points
@@ -117,7 +117,7 @@ def known_points(path: Path, inputs: Inputs) -> Sequence[Point]:
 
 
 def _refuse_others(path: Path) -> None:
-    if not marked(path, MARK):
+    if not has_mark(path, MARK):
         raise InputError(f"{path}: is no table of flow factors; {REMEDY}")
 
 

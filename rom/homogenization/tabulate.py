@@ -6,6 +6,7 @@ from threading import Lock
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.threads import workers
 from roughfilm.rom.homogenization.bisection import bisected
@@ -14,7 +15,6 @@ from roughfilm.rom.homogenization.flow_factors import checked_gap, flow_factors
 from roughfilm.rom.homogenization.separation import Separations
 from roughfilm.rom.homogenization.table import FactorTable, Point, relative_row, told_rows
 from roughfilm.rom.ladder.model import Progress, silent
-from roughfilm.rom.pocket.gap import Array
 
 TOLERANCE = 0.005
 """Of the factors that the cells give."""

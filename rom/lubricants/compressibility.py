@@ -5,10 +5,10 @@ from typing import Annotated, Literal, Self
 import numpy as np
 from pydantic import model_validator
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import InUnit, PositiveNumber
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.lubricants.law import Law
-from roughfilm.rom.pocket.gap import Array
 
 Pressure = Annotated[float, InUnit("Pa")]
 

@@ -9,13 +9,13 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import BeforeValidator, PlainSerializer, model_validator
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import plain_number
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.rom.lubricants.compressibility import DowsonHigginson
 from roughfilm.rom.lubricants.law import Law
 from roughfilm.rom.parts.columns_file import MOST, read_rows
-from roughfilm.rom.pocket.gap import Array
 
 FEWEST = 3
 COLUMNS = {"pressure": "Pa", "density": "kg/m^3"}

@@ -4,9 +4,9 @@ from typing import Annotated, Literal
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import InUnit, PositiveNumber
 from roughfilm.rom.lubricants.law import Law
-from roughfilm.rom.pocket.gap import Array
 
 PressureCoefficient = Annotated[float, InUnit("Pa^-1")]
 LOG_VISCOSITY, ROELANDS_PRESSURE = 9.67, 1 / 5.1e-9

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.meshes.mesh import Mesh, grid
 from roughfilm.rom.ladder.kind import Scene
@@ -11,7 +12,6 @@ from roughfilm.rom.ladder.result import Field, Result
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.rom.meshes.walls_mesh import periodic
 from roughfilm.rom.parts.pressed_surface import RoughContact
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.rom.rough_gap.scene import RoughGap
 
 PLACES = {"vertices", "kept", "x", "y"}
@@ -56,7 +56,7 @@ def _cells(fields: Mapping[str, Field]) -> Mesh:
     mesh = grid(_in_space(vertices))
     shape = tuple(size - 1 for size in vertices.shape[:-1])
     data = _data(fields, shape)
-    mesh = Mesh(points=mesh.points, sort=mesh.sort, cells=mesh.cells, cell_data=data)
+    mesh = Mesh(points=mesh.points, cell_type=mesh.cell_type, cells=mesh.cells, cell_data=data)
     if "kept" not in fields:
         return mesh
     kept = fields["kept"].values > 0
@@ -68,7 +68,7 @@ def _plane(fields: Mapping[str, Field]) -> Mesh:
     places = np.stack([y * np.cos(x), y * np.sin(x)] if fields["x"].unit == "rad" else [x, y], axis=-1)
     points = _in_space(places[:, 0] if x.shape[1] == 1 else places)
     mesh = grid(points)
-    return Mesh(points=mesh.points, sort=mesh.sort, cells=mesh.cells, point_data=_data(fields, x.shape))
+    return Mesh(points=mesh.points, cell_type=mesh.cell_type, cells=mesh.cells, point_data=_data(fields, x.shape))
 
 
 def _period(fields: Mapping[str, Field], size: tuple[float, float]) -> Mesh:
@@ -81,7 +81,7 @@ def _period(fields: Mapping[str, Field], size: tuple[float, float]) -> Mesh:
         if field.values.shape == shape
     }
     nodes = (shape[0] + 1, shape[1] + 1)
-    return Mesh(points=mesh.points, sort=mesh.sort, cells=mesh.cells, point_data=_data(whole, nodes))
+    return Mesh(points=mesh.points, cell_type=mesh.cell_type, cells=mesh.cells, point_data=_data(whole, nodes))
 
 
 def _data(fields: Mapping[str, Field], shape: tuple[int, ...]) -> dict[str, Array]:

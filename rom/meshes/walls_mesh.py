@@ -4,8 +4,8 @@ from enum import StrEnum
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.meshes.mesh import Mesh, grid
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.rom.rough_gap.walls import Walls
 
 
@@ -64,4 +64,4 @@ def _places(walls: Walls) -> tuple[Array, Array]:
 
 
 def _with_gap(mesh: Mesh, gap: Array) -> Mesh:
-    return Mesh(points=mesh.points, sort=mesh.sort, cells=mesh.cells, point_data={"gap (m)": gap.ravel()})
+    return Mesh(points=mesh.points, cell_type=mesh.cell_type, cells=mesh.cells, point_data={"gap (m)": gap.ravel()})

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.rom.multigrid import gradients, kernels, pieces
 from roughfilm.rom.multigrid.rows import Rows
-from roughfilm.rom.pocket.gap import Array
 
 TURNED = 2.0
 """Couplings along rows so many times those across them make columns the better rows."""

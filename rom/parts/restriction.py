@@ -3,7 +3,7 @@
 import numpy as np
 from scipy import fft
 
-from roughfilm.contact.surfaces.surface import Array
+from roughfilm.contact.foundation.arrays import Array
 
 
 def restricted(heights: Array, shape: tuple[int, int]) -> Array:

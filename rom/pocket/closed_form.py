@@ -11,7 +11,7 @@ Source: Reynolds 1886, doi:10.1098/rstl.1886.0005.
 
 import numpy as np
 
-from roughfilm.rom.pocket.gap import Array
+from roughfilm.contact.foundation.arrays import Array
 
 
 def excess_flow(h: Array, q: float) -> Array:

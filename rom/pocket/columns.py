@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from roughfilm.rom.pocket.gap import Array, Gap
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.rom.pocket.gap import Gap
 
 CORNER_DENSITY = 10.0
 """How many times denser the columns stand at a corner of the gap than far from one."""

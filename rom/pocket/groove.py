@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughfilm.rom.pocket.gap import Array, Gap
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.rom.pocket.gap import Gap
 
 SAME_PLACE = 1e-9
 """Places nearer than this part of the period are one."""

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from roughfilm.rom.pocket.gap import Array
+from roughfilm.contact.foundation.arrays import Array
 
 
 def solve(blocks: Array, right: Array) -> Array:

@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.polynomial import legendre
 
-from roughfilm.rom.pocket.gap import Array
+from roughfilm.contact.foundation.arrays import Array
 
 
 @dataclass(frozen=True, kw_only=True)

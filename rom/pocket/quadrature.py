@@ -7,13 +7,14 @@ from functools import partial
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.ladder.model import Applicability, Effect, Model, Progress, chosen_scheme, one_process, silent
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.result import Field, Numerics, Result
 from roughfilm.rom.pocket import closed_form as film_flow
 from roughfilm.rom.pocket.error_law import ErrorLaw
-from roughfilm.rom.pocket.gap import Array, Gap
+from roughfilm.rom.pocket.gap import Gap
 from roughfilm.rom.pocket.piecewise import Rule, extrema, gauss_rule
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
 from roughfilm.rom.pocket.validity import cautions

@@ -16,9 +16,9 @@ which changes nothing of second order where the wall is smooth.
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.pocket import periodic_solve as ring
 from roughfilm.rom.pocket.basis import Basis
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.rom.pocket.thin_film import Flow, Strip, all_amplitudes, stream_function, velocity
 
 REACH = 1 / np.pi

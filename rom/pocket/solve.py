@@ -6,6 +6,7 @@ from functools import partial
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.rom.ladder.model import Applicability, Effect, Model, Progress, chosen_scheme, one_process, silent
 from roughfilm.rom.ladder.provenance import provenance
@@ -13,7 +14,6 @@ from roughfilm.rom.ladder.result import Field, Numerics, Result
 from roughfilm.rom.pocket import slope, thin_film
 from roughfilm.rom.pocket.basis import Basis, even_basis, gauss_basis, sliding_wall_slope
 from roughfilm.rom.pocket.error_law import ErrorLaw
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
 from roughfilm.rom.pocket.thin_film import Flow, Strip
 from roughfilm.rom.pocket.validity import cautions

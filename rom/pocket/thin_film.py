@@ -15,10 +15,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.pocket import periodic_solve as ring
 from roughfilm.rom.pocket.basis import STIFFNESS, Basis
 from roughfilm.rom.pocket.columns import columns
-from roughfilm.rom.pocket.gap import Array, Gap
+from roughfilm.rom.pocket.gap import Gap
 
 OFFSETS = (-2, -1, 0, 1)
 """The cells from which the values at a face are made, counted from the cell on its right."""

@@ -6,12 +6,12 @@ from typing import Any, Self
 import numpy as np
 from pydantic import model_validator
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import Length
-from roughfilm.contact.surfaces.periodicity import THRESHOLD, periodicity_mismatch
+from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.sinusoids import sinusoid
 from roughfilm.rom.parts.surface_geometry import SurfaceGeometry
-from roughfilm.rom.pocket.gap import Array
 
 SINUSOID = "sinusoid"
 
@@ -52,10 +52,10 @@ class Rough(SurfaceGeometry):
     def _repeats_itself(self) -> Self:
         if not self.described and not self.read().periodic:
             mismatch = _mismatch(self.model_dump_json(include={"surface", "spacing", "digest"}, exclude_none=True))
-            if mismatch > THRESHOLD:
+            if mismatch > MISMATCH_THRESHOLD:
                 raise ValueError(
                     f"surface: does not repeat itself (its edges meet with a mismatch of {mismatch:.2g}, at most "
-                    f"{THRESHOLD:g} is taken); prepare it with: roughfilm surface"
+                    f"{MISMATCH_THRESHOLD:g} is taken); prepare it with: roughfilm surface"
                 )
         return self
 

@@ -6,10 +6,10 @@ from functools import partial
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.dry_contact.model import Answer, Task, contact_model
 from roughfilm.rom.ladder.model import Applicability, Effect, Model
 from roughfilm.rom.ladder.result import Field
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.rom.pocket.validity import NOTHING_COARSER
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors
 from roughfilm.rom.rough_gap.flow.range_of_validity import part_of_lost_waves

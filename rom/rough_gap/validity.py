@@ -1,6 +1,6 @@
 """Where results of rough gaps leave what may be assumed: cautions, in words."""
 
-from roughfilm.contact.surfaces.periodicity import THRESHOLD, periodicity_mismatch
+from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
 from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.rough_gap.walls import Walls
 
@@ -24,7 +24,7 @@ def cautions(scene: RoughGap, walls: Walls) -> tuple[str, ...]:
     rough = [scene.geometry, *([scene.geometry.upper] if scene.geometry.upper else [])]
     for wall in rough:
         mismatch = 0.0 if wall.described else periodicity_mismatch(wall.read())
-        if mismatch > THRESHOLD:
+        if mismatch > MISMATCH_THRESHOLD:
             told.append(
                 f"{wall.name} meets itself badly at its joints (mismatch {mismatch:.2g}), which may throttle the flow"
             )

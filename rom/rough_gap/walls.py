@@ -5,7 +5,7 @@ from typing import Self
 
 import numpy as np
 
-from roughfilm.rom.pocket.gap import Array
+from roughfilm.contact.foundation.arrays import Array
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,9 +7,9 @@ from functools import partial
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.mechanics.contact import Contact
-from roughfilm.contact.surfaces.surface import Array
 from roughfilm.rom.dry_contact.model import Answer, Task, contact_model, one
 from roughfilm.rom.dry_contact.pressed import TOLERANCE, prepare
 from roughfilm.rom.ladder.model import Applicability, Effect, Model
@@ -105,12 +105,15 @@ def quantities(
 
 
 def _warnings(scene: Seal, found: Contact) -> tuple[str, ...]:
-    from roughfilm.contact.surfaces.periodicity import THRESHOLD, periodicity_mismatch  # scipy is slow to import
+    from roughfilm.contact.surfaces.periodicity import (  # scipy is slow to import
+        MISMATCH_THRESHOLD,
+        periodicity_mismatch,
+    )
     from roughfilm.rom.seal.leakage.joint import joint_seals
 
     surface = scene.surface()
     mismatch = 0.0 if scene.geometry.described else periodicity_mismatch(surface)
-    if not mismatch > THRESHOLD:
+    if not mismatch > MISMATCH_THRESHOLD:
         return ()
     seals = joint_seals(found.gap)[scene.axis]
     told = "is sealed there, and open but for it" if seals else "may be throttled there"

@@ -6,11 +6,11 @@ from enum import StrEnum
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.ladder.kind import kind_of
 from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.result import Result
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.rom.studies.comparison import scale
 
 GRIDS = 3

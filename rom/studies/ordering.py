@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughfilm.rom.pocket.gap import Array
+from roughfilm.contact.foundation.arrays import Array
 
 CERTAINTY = 0.95
 """The part of the cases below a threshold that keep its tolerance."""

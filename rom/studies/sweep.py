@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.ladder.kind import Kind, kinds
 from roughfilm.rom.ladder.sweeping import Sweeping
-from roughfilm.rom.pocket.gap import Array
 
 SOLVED = "solved"
 """The outcome of a row that holds numbers; any other says why it does not."""

@@ -10,8 +10,8 @@ import numpy as np
 
 from roughfilm.charts.family import ENOUGH_S, Ask, Family, Measured, Truth, fastest
 from roughfilm.charts.peer_runs import CELLS, peer
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures.view import Style
-from roughfilm.rom.pocket.gap import Array
 
 NODES = (32, 64, 128, 256, 512, 1024)
 """Along a side of the period."""

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from roughfilm.charts.family import Measured, Peer
-from roughfilm.contact.foundation.child_processes import leash
+from roughfilm.contact.foundation.child_processes import terminate_with_parent
 from roughfilm.contact.foundation.errors import ConvergenceError, UnavailableError
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shapes import Parabolic
@@ -68,7 +68,7 @@ class Environment:
             request.write_text(json.dumps(asked), encoding="utf-8")
             python = Path(os.environ[self.variable]) / "bin" / "python"
             ended = subprocess.run(
-                [*leash(), python, PROGRAMS / program, *arguments, request, result],
+                [*terminate_with_parent(), python, PROGRAMS / program, *arguments, request, result],
                 env=os.environ | one_thread(),
                 capture_output=True,
                 text=True,

@@ -18,7 +18,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.units import to_si
 from roughfilm.contact.mechanics.load_series import Series, Solver, estimated, solved
-from roughfilm.contact.mechanics.press import TOLERANCE, Press
+from roughfilm.contact.mechanics.press import COMPLEMENTARITY_TOLERANCE, Press
 from roughfilm.contact.mechanics.reference.stanley_kato import stanley_kato
 from roughfilm.contact.mechanics.solid import Solid, composite_modulus
 from roughfilm.contact.mechanics.store import UNITS, Row
@@ -63,7 +63,9 @@ def command(
     ] = None,
     model: Annotated[Model | None, typer.Option(help="The rung; by default the best that --hardness allows.")] = None,
     boundary: Annotated[Boundary, typer.Option(help="Repeated without end, or alone.")] = Boundary.PERIODIC,
-    tolerance: Annotated[float, typer.Option(help="Of the conditions of contact, over the rms height.")] = TOLERANCE,
+    tolerance: Annotated[
+        float, typer.Option(help="Of the conditions of contact, over the rms height.")
+    ] = COMPLEMENTARITY_TOLERANCE,
     threads: Annotated[int, typer.Option(help="Threads that share the work.")] = 1,
     out: Annotated[
         Path | None, typer.Option(help="Write the series here (HDF5); loads that it holds are not solved again.")

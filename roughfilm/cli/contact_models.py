@@ -8,6 +8,7 @@ from functools import partial
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.mechanics.estimates.estimate import Estimate
 from roughfilm.contact.mechanics.estimates.greenwood_williamson import greenwood_williamson
@@ -15,7 +16,6 @@ from roughfilm.contact.mechanics.estimates.persson import persson
 from roughfilm.contact.mechanics.estimates.truncation import bearing_area
 from roughfilm.contact.mechanics.moments import wave_power
 from roughfilm.contact.mechanics.store import Row
-from roughfilm.contact.surfaces.surface import Array
 
 
 class Model(StrEnum):

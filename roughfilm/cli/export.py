@@ -11,7 +11,7 @@ from roughfilm.cli.surface import refuse_same
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import Quantity, to_si
 from roughfilm.contact.meshes.files import mesh_format, write_mesh
-from roughfilm.contact.meshes.mesh import Mesh, Sort
+from roughfilm.contact.meshes.mesh import CellType, Mesh
 from roughfilm.contact.meshes.surface import surface_mesh
 from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.store import is_surface
@@ -27,7 +27,7 @@ from roughfilm.terminal.console import AsJson, Overrides, in_one_line, messages,
 
 RESOLUTION, LAYERS = 64, 8
 MOST_CELLS = 20_000_000
-CONTENT = {Sort.LINE: ("length", "m"), Sort.HEXAHEDRON: ("volume", "m^3")}
+CONTENT = {CellType.LINE: ("length", "m"), CellType.HEXAHEDRON: ("volume", "m^3")}
 
 
 @in_one_line
@@ -50,20 +50,25 @@ def command(
     mesh_format(out)
     mesh, told = _mesh(file, what, resolution, layers, _metres(spacing), set_)
     written = write_mesh(mesh, out)
-    name, unit = CONTENT.get(written.sort, ("area", "m^2"))
+    name, unit = CONTENT.get(written.cell_type, ("area", "m^2"))
     size = Quantity(value=written.content, unit=unit)
     told["left_out"] = sorted({*told["left_out"], *_data(mesh)} - set(_data(written)))
     if as_json:
         print_json(
             {
                 "quantities": {name: asdict(size)},
-                "numerics": {"cells": len(written.cells), "points": len(written.points), "sort": str(written.sort)},
+                "numerics": {
+                    "cells": len(written.cells),
+                    "points": len(written.points),
+                    "sort": str(written.cell_type),
+                },
                 "provenance": {"file": str(file), "out": str(out), "data": _data(written), **told, **circumstances()},
             }
         )
         return
     output.print(
-        f"written: {escape(str(out))}: {len(written.cells)} cells ({written.sort}), {name} {size.value:.6g} {unit}",
+        f"written: {escape(str(out))}: {len(written.cells)} cells ({written.cell_type}), "
+        f"{name} {size.value:.6g} {unit}",
         soft_wrap=True,
     )
     for known in _data(written):

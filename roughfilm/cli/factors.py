@@ -14,13 +14,14 @@ from rich.markup import escape
 from rich.table import Table
 
 from roughfilm.cli.surface import refuse_same
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.units import to_si
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.store import is_series, load_contact, load_series
 from roughfilm.contact.read import Rough, joint_warnings, read_rough, spacing_of
-from roughfilm.contact.surfaces.surface import LARGEST_LENGTH, LEAST_SPACING, Array, Surface
+from roughfilm.contact.surfaces.surface import MAX_LENGTH, MIN_SPACING, Surface
 from roughfilm.rom.bearing.mixed.resume import Work, kept_table
 from roughfilm.rom.bearing.mixed.tabulate import gap_of, tabulate_pressed
 from roughfilm.rom.homogenization.conductance import FaceRule
@@ -126,15 +127,15 @@ def command(
     _tell(surface.name, told, [path for path in (out, report) if path is not None], as_json)
 
 
-def _length(option: str, text: str | None, least: float = LEAST_SPACING) -> float | None:
+def _length(option: str, text: str | None, least: float = MIN_SPACING) -> float | None:
     if text is None:
         return None
     try:
         length = to_si(text.strip(), "m")
     except ValueError as error:
         raise InputError(f"{option} {text}: {error}") from None
-    if not least <= length <= LARGEST_LENGTH:
-        raise InputError(f"{option} {text}: give a length above 0, of {LARGEST_LENGTH:g} m at most")
+    if not least <= length <= MAX_LENGTH:
+        raise InputError(f"{option} {text}: give a length above 0, of {MAX_LENGTH:g} m at most")
     return length
 
 

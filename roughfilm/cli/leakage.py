@@ -15,8 +15,8 @@ from rich.table import Table
 from roughfilm.cli.contact import digits
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
-from roughfilm.contact.mechanics.press import TOLERANCE, Press
-from roughfilm.contact.surfaces.periodicity import THRESHOLD, periodicity_mismatch
+from roughfilm.contact.mechanics.press import COMPLEMENTARITY_TOLERANCE, Press
+from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
 from roughfilm.rom.ladder.provenance import circumstances, code
 from roughfilm.rom.ladder.scene import load_scene, scene_entries
 from roughfilm.rom.seal.leakage.curve import Ready, chosen_loads, ready, sealing, solved
@@ -110,7 +110,7 @@ def _ready(scene: Seal, out: Path) -> Ready:
         "counter_poisson": scene.counter and scene.counter.poisson,
         "composite_modulus": scene.composite_modulus,
         "boundary": "periodic",
-        "tolerance": TOLERANCE,
+        "tolerance": COMPLEMENTARITY_TOLERANCE,
         "code": code(),
     }
     press = Press(surface.heights, surface.spacing, scene.composite_modulus, hardness=scene.hardness)
@@ -197,7 +197,7 @@ def _of_joints(body: Ready, rows: dict[float, Row]) -> list[str]:
         if shut is not None and joint_seals(load_contact(body.contacts, shut).gap)[number]:
             where.append(axis)
     sealing_first = f"it is these that seal it first in {' and '.join(where)}" if where else ""
-    if mismatch > THRESHOLD:
+    if mismatch > MISMATCH_THRESHOLD:
         done = sealing_first or "they may throttle it"
         return [f"the surface meets itself badly at its joints (mismatch {mismatch:.2g}); {done}: prepare it better"]
     told = (

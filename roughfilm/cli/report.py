@@ -10,6 +10,7 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.figures.view import views
@@ -17,7 +18,6 @@ from roughfilm.pages.render import render
 from roughfilm.rom.ladder.kind import kinds
 from roughfilm.rom.ladder.model import best, of_kind
 from roughfilm.rom.ladder.provenance import machine
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.rom.studies.ordering import Ordering, fitted_powers, ordering
 from roughfilm.rom.studies.sweep import Sweep, loaded, read_sweep, relative_error, sweeping
 from roughfilm.rom.studies.table import read_table

@@ -15,7 +15,7 @@ from rich.table import Table
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.contact.parameters.parameters import bearing_parameters, parameters
+from roughfilm.contact.parameters.roughness_parameters import bearing_parameters, parameters
 from roughfilm.contact.preparation.prepare import Prepared, prepare
 from roughfilm.contact.preparation.recipe import AS_IT_IS, Reading, Recipe, load_recipe, recipe_entries
 from roughfilm.contact.surfaces.files import read_surface

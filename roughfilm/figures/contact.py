@@ -9,10 +9,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.contact.mechanics.load_series import MOST_BINS, Spread
 from roughfilm.contact.mechanics.store import Row
-from roughfilm.contact.surfaces.surface import Array
 from roughfilm.figures.base import svg
 
 MOST_PIXELS = 640

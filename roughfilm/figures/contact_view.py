@@ -8,9 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.mechanics.contact import Contact
-from roughfilm.contact.surfaces.surface import Array
 from roughfilm.figures.rendering import draw_apart
 from roughfilm.pages.render import embedded
 from roughfilm.rom.ladder.model import Availability

@@ -5,11 +5,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures.base import svg
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.homogenization.flux import flux
 from roughfilm.rom.homogenization.table import FactorTable, relative_row, told_rows
-from roughfilm.rom.pocket.gap import Array
 
 COLOURS = ("#2166ac", "#b2182b", "#e08214")
 GAPS = mpl.colormaps["cividis"].with_extremes(bad="#b2182b")

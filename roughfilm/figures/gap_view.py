@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.store import load
-from roughfilm.rom.pocket.gap import Array
 
 if TYPE_CHECKING:
     import pyvista

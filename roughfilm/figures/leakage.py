@@ -10,8 +10,8 @@ from matplotlib.colors import ListedColormap, LogNorm
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.mechanics.contact import Contact
-from roughfilm.contact.surfaces.surface import Array
 from roughfilm.figures.base import svg
 from roughfilm.rom.homogenization.flux import flux
 from roughfilm.rom.seal.leakage.direct import direct_flow

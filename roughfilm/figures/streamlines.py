@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.store import load
-from roughfilm.rom.pocket.gap import Array
 
 MARGIN = 0.35
 """How much of the film is shown on each side of the grooves, in parts of the length they take."""

@@ -8,9 +8,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve, StribeckPoint
-from roughfilm.rom.pocket.gap import Array
 
 COLOURS = ("#2166ac", "#1a7f37", "#b2182b", "#b07d2b", "#6a51a3", "#444444")
 BETWEEN = 400

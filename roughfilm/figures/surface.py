@@ -9,10 +9,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.parameters.bearing_curve import bearing_curve
 from roughfilm.contact.parameters.spectrum import power_spectrum, radial_power
 from roughfilm.contact.preparation.prepare import Prepared
-from roughfilm.contact.surfaces.surface import Array, Surface
+from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.figures.base import svg
 
 MOST_PIXELS = 640

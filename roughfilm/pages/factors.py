@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.read import Rough
 from roughfilm.figures import factors as factors_figures
 from roughfilm.pages.error_bars import with_error
@@ -12,7 +13,6 @@ from roughfilm.pages.render import render
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.homogenization.flow_factors import Estimated
 from roughfilm.rom.homogenization.table import FactorTable
-from roughfilm.rom.pocket.gap import Array
 
 COLUMNS = ("A11", "A12", "A22", "B1", "B2", "d", "e")
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from roughfilm.cli.stribeck import lift_off, scale_of
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures import stribeck as stribeck_figures
 from roughfilm.figures.base import svg
 from roughfilm.figures.stribeck import Drawn, Scale
@@ -17,7 +18,6 @@ from roughfilm.rom.bearing.mixed.film import MixedFilm
 from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve, StribeckPoint
 from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.pocket.gap import Array
 
 MIXED = 0.3
 """The first film drawn is the one whose asperities carry nearest to this part of the load."""

@@ -7,7 +7,7 @@ from typing import Any
 from roughfilm.cli import surface
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.preparation.prepare import Prepared
-from roughfilm.contact.surfaces.periodicity import THRESHOLD
+from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD
 from roughfilm.figures import surface as surface_figures
 from roughfilm.pages.render import render
 
@@ -53,7 +53,7 @@ def write_page(
         rows=rows,
         steps=[line.partition(": ") for line in surface.told(prepared)],
         mismatch=prepared.record["periodicity_mismatch"],
-        threshold=THRESHOLD,
+        threshold=MISMATCH_THRESHOLD,
         maps=surface_figures.height_maps(prepared),
         joints=surface_figures.joints(prepared),
         edges=surface_figures.edge_profiles(prepared),

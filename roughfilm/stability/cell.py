@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.stability.form import BAD, GOOD, Judged, Map, Outcome, Spot, count, named, summed, tried
 from roughfilm.stability.questions.cell import REFUSED, Probe, probes
 from roughfilm.terminal.console import progress_bar

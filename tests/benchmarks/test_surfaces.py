@@ -9,7 +9,7 @@ import pytest
 from places import BENCHMARKS
 
 from roughfilm.contact.foundation.files import replacing
-from roughfilm.contact.parameters.parameters import parameters
+from roughfilm.contact.parameters.roughness_parameters import parameters
 from roughfilm.contact.preparation.prepare import prepare
 from roughfilm.contact.preparation.recipe import Recipe
 from roughfilm.contact.surfaces.surface import Surface

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from roughfilm.contact.surfaces.surface import Array
+from roughfilm.contact.foundation.arrays import Array
 
 
 @dataclass(frozen=True, kw_only=True)

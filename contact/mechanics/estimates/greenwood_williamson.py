@@ -7,11 +7,11 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 from scipy.special import gamma, ndtr, pbdv
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.mechanics.checks import positive
 from roughfilm.contact.mechanics.estimates.estimate import Estimate
 from roughfilm.contact.mechanics.moments import SpectralMoments
-from roughfilm.contact.surfaces.surface import Array
 
 FARTHEST, NEAREST = 36.0, -30.0
 """Separations, in standard deviations of the summits, between which the load is looked for."""

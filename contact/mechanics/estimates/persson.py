@@ -7,12 +7,12 @@ import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 from scipy.special import erf, exp1
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.mechanics.checks import positive
 from roughfilm.contact.mechanics.estimates.estimate import Estimate
 from roughfilm.contact.mechanics.estimates.pressure_diffusion import PressureDiffusion
 from roughfilm.contact.mechanics.moments import WavePower
-from roughfilm.contact.surfaces.surface import Array
 
 SOFTNESS = 0.45
 """γ of Yang and Persson: at light load the elastic energy is this part of what the same area of full contact holds."""

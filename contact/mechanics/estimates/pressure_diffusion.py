@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import erfc
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.mechanics.checks import finite
-from roughfilm.contact.surfaces.surface import Array
 
 REACH = 9.0
 """Standard deviations beyond which a Gaussian is 0 to rounding; also where a mode of the series is."""

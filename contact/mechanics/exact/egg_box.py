@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.mechanics.checks import finite, positive
-from roughfilm.contact.surfaces.surface import Array
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -5,8 +5,8 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.mechanics.checks import finite, positive
-from roughfilm.contact.surfaces.surface import Array
 
 BUSH_GIBSON_THOMAS = math.sqrt(2 * math.pi)
 """κ of asperities that do not feel each other, in the limit of far separation."""

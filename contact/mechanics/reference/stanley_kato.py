@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.contact.mechanics.checks import positive
 from roughfilm.contact.mechanics.contact import Contact
@@ -11,7 +12,6 @@ from roughfilm.contact.mechanics.half_space import HalfSpace
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.projected_gradients import plane_of, violation_of
 from roughfilm.contact.mechanics.starts import shifted
-from roughfilm.contact.surfaces.surface import Array
 
 TOLERANCE = 1e-6
 """Of the plane, over the rms height."""

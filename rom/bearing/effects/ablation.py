@@ -7,6 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.film import averaged_film
 from roughfilm.rom.bearing.mixed.film import Seeping, mixed_problem
 from roughfilm.rom.bearing.mixed.reading import mixed_doubt, mixed_quantities
@@ -23,7 +24,6 @@ from roughfilm.rom.homogenization.gap_factors import GapFactors
 from roughfilm.rom.ladder.model import Progress, silent
 from roughfilm.rom.lubricants.compressibility import Incompressible
 from roughfilm.rom.lubricants.viscosity import ConstantViscosity
-from roughfilm.rom.pocket.gap import Array
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -2,8 +2,8 @@
 
 from typing import Protocol
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.homogenization.gap_factors import GapFactors
-from roughfilm.rom.pocket.gap import Array
 
 
 class Asperities(Protocol):

@@ -9,10 +9,10 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 from scipy.optimize import brentq
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.homogenization.gap_factors import GapFactors
 from roughfilm.rom.homogenization.table import FactorTable, Point
-from roughfilm.rom.pocket.gap import Array
 
 TIP = 1.5
 """The power of the approach with which the load on a first touching tip grows: Hertz's."""

@@ -11,7 +11,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.inputs import Inputs
-from roughfilm.contact.surfaces.periodicity import THRESHOLD, periodicity_mismatch
+from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.bearing.mixed.curves_store import known_points, save_points
 from roughfilm.rom.bearing.mixed.film import MixedFilm
@@ -78,7 +78,7 @@ def wall_of(scene: Bearing, largest: float, table: Path | None, out: Path, progr
     told: list[str] = []
     if surface is not None and not surface.read().periodic:
         mismatch = periodicity_mismatch(surface.read())
-        if mismatch > THRESHOLD:
+        if mismatch > MISMATCH_THRESHOLD:
             told.append(
                 f"{surface.name} is not periodic (mismatch {mismatch:.2g}): its edges meet in steps, which throttle "
                 "the flow; prepare it by roughfilm surface"

@@ -8,7 +8,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from roughfilm.contact.foundation.checked_hdf5 import marked, reading_guarded, write_guarded
+from roughfilm.contact.foundation.checked_hdf5 import has_mark, open_checked, write_checked
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.inputs import Inputs
@@ -64,7 +64,7 @@ def save_points(
             _write(file, "lift_off/speed", [curve.lift_off.speed for curve in curves], "m/s")
             _write(file, "lift_off/uncertainty", [curve.lift_off.uncertainty for curve in curves], "m/s")
 
-    write_guarded(path, MARK, fill)
+    write_checked(path, MARK, fill)
 
 
 def known_points(path: Path, inputs: Inputs) -> tuple[StribeckPoint, ...]:
@@ -78,9 +78,9 @@ def known_points(path: Path, inputs: Inputs) -> tuple[StribeckPoint, ...]:
     try:
         if path.stat().st_size == 0:
             return ()
-        if not marked(path, MARK):
+        if not has_mark(path, MARK):
             raise InputError(f"{path}: holds no Stribeck curves; {REMEDY}")
-        with reading_guarded(path, MARK, SCHEMA, REMEDY) as file:
+        with open_checked(path, MARK, SCHEMA, REMEDY) as file:
             if file.attrs["digest"] != inputs.digest:
                 told = inputs.difference(file.attrs["settings"])
                 raise InputError(f"{path}: holds other curves, {told}; {REMEDY}")

@@ -8,6 +8,7 @@ from scipy.interpolate import RegularGridInterpolator
 from scipy.ndimage import map_coordinates
 from scipy.sparse.linalg import LinearOperator, gmres
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.contact.mechanics.half_space import HalfSpace
 from roughfilm.rom.bearing.mixed.balance import Speed, balanced
@@ -20,7 +21,6 @@ from roughfilm.rom.cavitation.network import State
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.shape import Shape
 from roughfilm.rom.cavitation.solve import Solution, solve
-from roughfilm.rom.pocket.gap import Array
 
 STEPS, HALVINGS, ENOUGH = 40, 12, 1e-4
 """Of Newton's method, and of one of its steps, at most; and by which part a whole step makes the residual smaller."""

@@ -6,6 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.touching import Touching, quarters, touching
 from roughfilm.rom.bearing.quantities import carried, friction, nominal_area
@@ -17,7 +18,6 @@ from roughfilm.rom.cavitation.network import State
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.solve import RESIDUAL_TOLERANCE, Solution, solve
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap, GapFactors
-from roughfilm.rom.pocket.gap import Array
 
 SEEPING = 1e-6
 """Of a smooth film's flow factors, at the least: it keeps the pressure of sealed places defined, by hardly a drop."""

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.film import averages
 from roughfilm.rom.bearing.mixed.film import mixed_problem
@@ -14,7 +15,6 @@ from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.ladder.model import Applicability
-from roughfilm.rom.pocket.gap import Array
 
 
 def mixed_quantities(scene: Bearing, found: Solution) -> dict[str, Quantity]:

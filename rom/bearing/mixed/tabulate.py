@@ -7,6 +7,7 @@ from threading import Lock
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.threads import workers
 from roughfilm.contact.mechanics.contact import Contact
@@ -19,7 +20,6 @@ from roughfilm.rom.homogenization.separation import Separations
 from roughfilm.rom.homogenization.table import Point
 from roughfilm.rom.homogenization.tabulate import TOLERANCE, beyond, point_of, tabulate
 from roughfilm.rom.ladder.model import Progress, silent
-from roughfilm.rom.pocket.gap import Array
 
 COMPLEMENTARITY = 1e-6
 """Of contacts, over the rms height."""

@@ -4,12 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.compiled import compiled
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED, along
 from roughfilm.rom.cavitation.fluid import Fluid
 from roughfilm.rom.cavitation.network import Network, State
-from roughfilm.rom.pocket.gap import Array
 
 LIMIT = 500
 """Steps of Newton's method, at most."""

@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solve_banded
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.rom.cavitation.grid import Grid, grid
 from roughfilm.rom.cavitation.problem import Problem
-from roughfilm.rom.pocket.gap import Array
 
 LIMIT = 3000
 """Fixed-point steps, at most."""

@@ -4,10 +4,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.homogenization.flow_factors import flow_factors
 from roughfilm.rom.homogenization.grids import FEWEST
 from roughfilm.rom.homogenization.richardson import off
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors, of_thin_film
 from roughfilm.rom.rough_gap.flow.range_of_validity import REACH
 from roughfilm.rom.rough_gap.flow.slope import local_fluxes, slope_dissipation

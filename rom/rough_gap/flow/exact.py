@@ -8,8 +8,8 @@ from numpy.typing import ArrayLike
 from scipy.linalg import lstsq
 from scipy.special import eval_jacobi, roots_legendre
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
-from roughfilm.rom.pocket.gap import Array
 
 TOLERANCE = 1e-8
 """Of each factor, over itself."""

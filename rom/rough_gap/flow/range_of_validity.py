@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.rom.rough_gap.flow.waves import nearly_smooth_flow
 from roughfilm.rom.rough_gap.walls import Walls
 

@@ -20,8 +20,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.fft import rfft2
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.homogenization.flux import flux, sliding_flux
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.rom.rough_gap.flow.gradients import (
     CURVED,
     EVEN,

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from roughfilm.rom.pocket.gap import Array
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors
 from roughfilm.rom.rough_gap.walls import Walls
 

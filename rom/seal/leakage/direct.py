@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.rom.homogenization.box import Box
 from roughfilm.rom.homogenization.conductance import CLOSED, FaceRule, faces, without_traces
@@ -15,7 +16,6 @@ from roughfilm.rom.homogenization.paths import sealed_between_ends
 from roughfilm.rom.homogenization.richardson import off, sufficient
 from roughfilm.rom.homogenization.solvers import SOLVERS, Solver, Source, first_to_converge
 from roughfilm.rom.multigrid.multigrid import Solved
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.rom.seal.leakage.passage import Leakage, Passage, shut
 
 

@@ -7,9 +7,9 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.special import erf, ndtri
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.mechanics.estimates.persson import elastic_mean_gap
 from roughfilm.contact.mechanics.moments import WavePower
-from roughfilm.contact.surfaces.surface import Array
 
 SCALES = 48
 """At which roughness is cut off, from the longest wave to the shortest."""

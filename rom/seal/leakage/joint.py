@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.homogenization.paths import sealed_between_ends
-from roughfilm.rom.pocket.gap import Array
 
 MARGIN = 16
 """Of a side, one part in so many is left out at each of its ends."""

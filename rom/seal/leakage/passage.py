@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughfilm.rom.pocket.gap import Array
+from roughfilm.contact.foundation.arrays import Array
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.rom.homogenization.paths import sealed, sealed_between_ends
 from roughfilm.rom.ladder.model import Progress, silent
-from roughfilm.rom.pocket.gap import Array
 
 STEP = 1.4
 """From load to load while a bracket is sought."""

@@ -9,8 +9,8 @@ from scipy import ndimage
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.homogenization.paths import FOUR, sealed_between_ends
-from roughfilm.rom.pocket.gap import Array
 
 
 class Pool(IntEnum):

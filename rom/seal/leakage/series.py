@@ -9,7 +9,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from roughfilm.contact.foundation.checked_hdf5 import marked, reading_guarded, write_guarded
+from roughfilm.contact.foundation.checked_hdf5 import has_mark, open_checked, write_checked
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.rom.seal.leakage.percolation import Side, Threshold
@@ -97,7 +97,7 @@ def save_series(path: Path, inputs: Inputs, kept: Kept) -> None:
                 group.attrs[f"{end}_load"] = math.nan if side is None else side.load
                 group.attrs[f"{end}_area_fraction"] = math.nan if side is None else side.area_fraction
 
-    write_guarded(path, MARK, fill)
+    write_checked(path, MARK, fill)
 
 
 def kept_series(path: Path, inputs: Inputs) -> Kept:
@@ -111,9 +111,9 @@ def kept_series(path: Path, inputs: Inputs) -> Kept:
     try:
         if path.stat().st_size == 0:
             return Kept(rows={}, thresholds={})
-        if not marked(path, MARK):
+        if not has_mark(path, MARK):
             raise InputError(f"{path}: is no series of leakage; {REMEDY}")
-        with reading_guarded(path, MARK, SCHEMA, REMEDY) as file:
+        with open_checked(path, MARK, SCHEMA, REMEDY) as file:
             if file.attrs["digest"] != inputs.digest:
                 raise InputError(f"{path}: holds another series, {inputs.difference(file.attrs['settings'])}; {REMEDY}")
             return Kept(rows={row.load: row for row in _rows(file)}, thresholds=_thresholds(file))
@@ -126,9 +126,9 @@ def kept_series(path: Path, inputs: Inputs) -> Kept:
 def load_series(path: Path) -> Kept:
     """A series of whatever inputs; InputError as :func:`kept_series` raises it, and if there is none."""
     try:
-        if not marked(path, MARK):
+        if not has_mark(path, MARK):
             raise InputError(f"{path}: is no series of leakage; name a leakage.h5 of roughfilm leakage")
-        with reading_guarded(path, MARK, SCHEMA, REMEDY) as file:
+        with open_checked(path, MARK, SCHEMA, REMEDY) as file:
             return Kept(rows={row.load: row for row in _rows(file)}, thresholds=_thresholds(file))
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror or error}); name a leakage.h5") from error

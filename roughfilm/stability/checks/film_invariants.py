@@ -4,11 +4,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shapes import Journal
 from roughfilm.rom.ladder.result import Result
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.rom.pocket.scene import Pocket
 
 ROUNDING = 1e-9

@@ -7,11 +7,11 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.dry_contact.scene import DryContact
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.parts.pressed_surface import RoughContact
 from roughfilm.rom.parts.restriction import restricted
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.seal.scene import Seal
 from roughfilm.stability.checks.contact import broken_conditions

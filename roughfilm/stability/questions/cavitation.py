@@ -6,6 +6,7 @@ from functools import partial
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.closed_forms import barus_pressure, linear_slider, rayleigh_step
 from roughfilm.rom.bearing.ring import Sector
 from roughfilm.rom.bearing.shapes import Journal, Parabolic, Parallel, Step
@@ -16,7 +17,6 @@ from roughfilm.rom.cavitation.shape import Shape
 from roughfilm.rom.cavitation.solve import solve
 from roughfilm.rom.lubricants.compressibility import DowsonHigginson
 from roughfilm.rom.lubricants.viscosity import Barus, Roelands
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.stability.questions.films import (
     BALANCED,
     CELLS,

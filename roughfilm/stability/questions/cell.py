@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.synthetic.gaussian import gaussian
 from roughfilm.contact.synthetic.self_affine import self_affine
 from roughfilm.rom.homogenization.paths import sealed
-from roughfilm.rom.pocket.gap import Array
 from scripts.studies.lay.joint import cut_grooves, joined
 
 SIDE, ROUGHNESS = 1e-3, 1e-6

@@ -14,6 +14,7 @@ import typer
 from rich.table import Table
 
 from roughfilm.batch.directory import alone
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.toml import toml_value
@@ -21,7 +22,6 @@ from roughfilm.rom.advice import laws
 from roughfilm.rom.advice.laws import Grid, Law, Numbers, Step, on_grid
 from roughfilm.rom.ladder.kind import Kind, Scene, kinds
 from roughfilm.rom.ladder.model import Model, best, of_kind
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.rom.studies.convergence import Kind as Way
 from roughfilm.rom.studies.convergence import converge
 from roughfilm.rom.studies.ordering import CERTAINTY

@@ -6,6 +6,7 @@ from math import atan2
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.gaussian import gaussian
@@ -13,7 +14,6 @@ from roughfilm.rom.homogenization.factors import FlowFactors
 from roughfilm.rom.homogenization.flow_factors import flow_factors
 from roughfilm.rom.homogenization.lay import box_factors, turned
 from roughfilm.rom.homogenization.patir_cheng import PatirCheng, patir_cheng
-from roughfilm.rom.pocket.gap import Array
 
 POINTS, SIDE, ROUGHNESS = 256, 1e-3, 1e-6
 """Nodes a side, its length, m, and Sq, m, of the made surfaces."""

@@ -6,6 +6,7 @@ from math import atan
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.preparation.prepare import Prepared, prepare
 from roughfilm.contact.preparation.recipe import read_recipe
@@ -14,7 +15,6 @@ from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.gaussian import gaussian
 from roughfilm.rom.homogenization.flow_factors import flow_factors
 from roughfilm.rom.homogenization.lay import turned
-from roughfilm.rom.pocket.gap import Array
 from scripts.studies.lay.data import ROUGHNESS, SIDE, THICKNESSES, gap_at, grooves_exactly
 from scripts.studies.lay.measured import STRIATED, along, lay_of
 

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.parameters.spectrum import power_spectrum, texture_direction
 from roughfilm.contact.preparation.prepare import Prepared, prepare
 from roughfilm.contact.preparation.recipe import read_recipe
 from roughfilm.contact.surfaces.files import read_surface
-from roughfilm.rom.pocket.gap import Array
 from scripts.studies.lay.data import POINTS, Compared, box_of, compare, gap_at
 
 OBLIQUE, STRIATED = "oblique_grooves.x3p", "ground_striated.x3p"

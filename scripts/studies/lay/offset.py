@@ -5,13 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.preparation.prepare import Prepared
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.self_affine import self_affine
 from roughfilm.rom.homogenization.factors import FlowFactors
 from roughfilm.rom.homogenization.flow_factors import flow_factors
-from roughfilm.rom.pocket.gap import Array
 from scripts.studies.lay.data import POINTS, SIDE, gap_at
 
 OFFSET = 1e-8

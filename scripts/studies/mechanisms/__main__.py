@@ -16,6 +16,7 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.pages.render import render, write_figures
@@ -23,7 +24,6 @@ from roughfilm.rom.ladder.model import find, of_kind
 from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import read_scene
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.terminal.console import (
     AsJson,
     in_one_line,

@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.store import load
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.rom.studies.sweep import Sweep
 
 Shape = tuple[str, float]

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.quantities import density_ratio, film_ends
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.solve import solve
 from roughfilm.rom.ladder.scene import load_entries, read_scene
-from roughfilm.rom.pocket.gap import Array
 
 SCENES = Path(__file__).parent / "scenes"
 CELLS = 16384

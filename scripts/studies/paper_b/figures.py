@@ -4,8 +4,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.lubricants.compressibility import ConstantBulkModulus, DowsonHigginson
-from roughfilm.rom.pocket.gap import Array
 from scripts.studies.paper_b.data import (
     CASES,
     CONSTANT,

@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from roughfilm.contact.surfaces.surface import Array
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.homogenization.line_rules import Rule
 from scripts.studies.claims import Claim
 from scripts.studies.paper_c.data import ALPHAS, BESIDE, POINTS, RANGE, TABLE, WAYS, Paper

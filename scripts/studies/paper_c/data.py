@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughfilm.contact.surfaces.surface import Array
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.synthetic.four_moments import FourMoments
 from roughfilm.contact.synthetic.profile import ground_profile
 from roughfilm.contact.synthetic.rearrangement import rearranged

@@ -9,8 +9,8 @@ from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.parameters.bearing_curve import bearing_curve
-from roughfilm.contact.surfaces.surface import Array
 from roughfilm.rom.homogenization.line_rules import Rule
 from scripts.studies.paper_c.data import ALPHAS, BESIDE, RANGE, WAYS, Paper
 from scripts.studies.paper_c.films import LOADS, SMOOTH

@@ -8,7 +8,7 @@ from numpy.polynomial import Chebyshev
 from numpy.typing import ArrayLike
 from scipy.interpolate import PchipInterpolator
 
-from roughfilm.contact.surfaces.surface import Array
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.cavitation.discretise import Ends
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.shape import Shape

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from roughfilm.contact.surfaces.surface import Array
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.synthetic.profile import STEEL_PROFILES
 from scripts.studies.claims import Claim
 from scripts.studies.paper_d.data import LENGTH, SPECTRA, STEEL, Paper

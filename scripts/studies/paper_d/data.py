@@ -6,11 +6,11 @@ from itertools import product
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.solid import Solid, composite_modulus
 from roughfilm.contact.parameters.heights import height_statistics
-from roughfilm.contact.surfaces.surface import Array
 from roughfilm.contact.synthetic.profile import STEEL_PROFILES, ground_profile
 
 STEEL = Solid(modulus=210e9, poisson=0.3, hardness=4e9)

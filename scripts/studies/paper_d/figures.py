@@ -7,9 +7,9 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.contact.parameters.bearing_curve import bearing_curve
-from roughfilm.contact.surfaces.surface import Array
 from scripts.studies.paper_d.data import LENGTH, SPECTRA, Paper
 
 COLOURS = {"A": "#b2182b", "B": "#2166ac", "C": "#5aae61", "D": "#762a83"}

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughfilm.contact.surfaces.surface import Array, Surface
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.distribution import with_heights_of
 from roughfilm.contact.synthetic.four_moments import heights_within
 from roughfilm.contact.synthetic.gaussian import gaussian

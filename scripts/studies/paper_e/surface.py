@@ -5,10 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.solid import Solid, composite_modulus
-from roughfilm.contact.surfaces.surface import Array
 
 STEEL = Solid(modulus=210e9, poisson=0.3, hardness=5e9)
 LENGTH = 1e-3

@@ -9,6 +9,7 @@ from typing import Any, Self
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.inputs import Inputs
@@ -18,7 +19,6 @@ from roughfilm.contact.mechanics.solid import Solid, composite_modulus
 from roughfilm.contact.parameters.peaks import lowest_valleys
 from roughfilm.rom.homogenization.flow_factors import flow_factors
 from roughfilm.rom.ladder.provenance import code
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.rom.seal.leakage.direct import direct_leakage
 from roughfilm.rom.seal.leakage.percolation import thresholds
 from scripts.studies.paper_f.surfaces import Made, Numbers, numbers_of

@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter
 from scipy.special import erf
 
-from roughfilm.rom.pocket.gap import Array
+from roughfilm.contact.foundation.arrays import Array
 from scripts.studies.paper_f.claims import LEAKAGE, RANGE, SEALING, above_the_cell, subtracted
 from scripts.studies.paper_f.data import MODULUS
 from scripts.studies.paper_f.fits import SLOPE, LeakageLaw, scale_of

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.synthetic.distribution import rms_slope
 from roughfilm.contact.synthetic.gaussian import gaussian
 from roughfilm.rom.ladder.provenance import code
-from roughfilm.rom.pocket.gap import Array
 from scripts.studies.paper_f.data import MODULUS, NEAR, Series, sealed_contacts
 from scripts.studies.paper_f.surfaces import SIDE
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from roughfilm.contact.parameters.heights import height_statistics
-from roughfilm.contact.parameters.parameters import parameters
+from roughfilm.contact.parameters.roughness_parameters import parameters
 from roughfilm.contact.preparation.prepare import prepare
 from roughfilm.contact.preparation.recipe import read_recipe
 from roughfilm.contact.surfaces.files import read_surface

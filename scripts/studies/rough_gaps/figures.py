@@ -13,8 +13,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures.views.rough_gap import STYLES
-from roughfilm.rom.pocket.gap import Array
 from scripts.studies.rough_gaps.data import NAMES, Compared, best
 from scripts.studies.rough_gaps.inertia import LEVELS, RIDGES, Held
 from scripts.studies.rough_gaps.map import RUNGS

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import least_squares
 
-from roughfilm.rom.pocket.gap import Array
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.studies.convergence import converge
 from scripts.studies.rough_gaps.data import ORDER

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.mechanics.moments import wave_power
@@ -16,7 +17,6 @@ from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.description import make, read_description
 from roughfilm.rom.homogenization.richardson import off as grid_doubt
 from roughfilm.rom.parts.restriction import restricted
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.rom.rough_gap.flow.corrected import SlopeCorrected, slope_corrected
 from roughfilm.rom.rough_gap.walls import Walls
 from scripts.studies.rough_gaps.runs import kept

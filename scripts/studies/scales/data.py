@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.preparation.prepare import prepare
 from roughfilm.contact.preparation.recipe import Grid, Recipe
 from roughfilm.contact.surfaces.files import read_surface
@@ -14,7 +15,6 @@ from roughfilm.contact.surfaces.store import save_surface
 from roughfilm.rom.ladder.model import find, of_kind
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import load_scene, read_scene, scene_entries
-from roughfilm.rom.pocket.gap import Array
 from roughfilm.terminal.console import models
 
 SCENES = Path(__file__).parents[2] / "examples" / "scenes"

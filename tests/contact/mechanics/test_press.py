@@ -198,7 +198,7 @@ def test_what_was_solved_before_leaves_nothing_behind():
 
 
 def test_threads_change_nothing_but_the_time(monkeypatch):
-    monkeypatch.setattr("roughfilm.contact.mechanics.press.SHARE", 1)
+    monkeypatch.setattr("roughfilm.contact.mechanics.press.NODES_PER_THREAD", 1)
     one, two = (Press(rough(64), (SIDE / 64,) * 2, MODULUS, threads=threads).at(0.01 * MODULUS) for threads in (1, 2))
     assert two.mean_gap == pytest.approx(one.mean_gap, abs=1e-7 * one.heights.std())
     assert (two.in_contact == one.in_contact).mean() > 0.9999
@@ -207,7 +207,7 @@ def test_threads_change_nothing_but_the_time(monkeypatch):
 @pytest.mark.parametrize("shape", [(64, 1), (1, 64), (3, 64), (64, 3), (5, 7)])
 @pytest.mark.parametrize("boundary", ["periodic", "free"])
 def test_more_threads_than_rows_or_columns_share_too(shape, boundary, monkeypatch):
-    monkeypatch.setattr("roughfilm.contact.mechanics.press.SHARE", 1)
+    monkeypatch.setattr("roughfilm.contact.mechanics.press.NODES_PER_THREAD", 1)
     heights = np.random.default_rng(20072).standard_normal(shape) * 1e-3
     one, many = (Press(heights, (1.0, 1.0), 1.0, boundary=boundary, threads=threads).at(1e-4) for threads in (1, 16))
     assert many.pressure == pytest.approx(one.pressure, abs=1e-6 * one.pressure.max())

@@ -71,7 +71,7 @@ def test_coarser_grids_change_nothing_but_the_work(hardness, monkeypatch):
     shape = (256, 300)
     press = Press(rough(shape), (1e-3 / shape[0], 1e-3 / shape[1]), MODULUS, hardness=hardness)
     nested = press.at(0.008 * MODULUS)
-    monkeypatch.setattr("roughfilm.contact.mechanics.press.COARSEST", 10**6)
+    monkeypatch.setattr("roughfilm.contact.mechanics.press.COARSEST_GRID_POINTS", 10**6)
     alone = press.at(0.008 * MODULUS)
     assert nested.mean_gap == pytest.approx(alone.mean_gap, abs=1e-7 * press.heights.std())
     assert (nested.in_contact == alone.in_contact).mean() > 0.9999

@@ -134,7 +134,7 @@ def test_a_load_it_does_not_hold_is_refused(file):
         load_contact(file, 5e7)
 
 
-@pytest.mark.parametrize("dies", ["_tabulate", "digest_of"])
+@pytest.mark.parametrize("dies", ["_tabulate", "content_digest"])
 def test_a_writer_that_dies_leaves_the_loads_before(file, inputs, contacts, monkeypatch, dies):
     before = file.read_bytes()
 

@@ -7,7 +7,7 @@ import pytest
 
 from roughfilm.contact.parameters.autocorrelation import autocorrelation, decay_lengths
 from roughfilm.contact.parameters.bearing_curve import bearing_core, descending
-from roughfilm.contact.parameters.parameters import bearing_parameters, parameters
+from roughfilm.contact.parameters.roughness_parameters import bearing_parameters, parameters
 from roughfilm.contact.parameters.spectrum import power_spectrum, texture_direction
 from roughfilm.contact.preparation.filling import fill_invalid
 from roughfilm.contact.surfaces.surface import Surface

@@ -5,7 +5,7 @@ import pytest
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.preparation.edges import make_periodic, widest
-from roughfilm.contact.surfaces.periodicity import THRESHOLD, periodicity_mismatch
+from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
 from roughfilm.contact.surfaces.surface import Surface
 
 
@@ -39,7 +39,7 @@ def test_edges_meet_as_closely_as_neighbours_inside_do():
         assert before > 3 * steps
         assert after < steps
     assert periodicity_mismatch(given) > 0.5
-    assert periodicity_mismatch(joined) < THRESHOLD
+    assert periodicity_mismatch(joined) < MISMATCH_THRESHOLD
 
 
 def test_a_periodic_wave_hardly_changes():

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.parameters.parameters import parameters
+from roughfilm.contact.parameters.roughness_parameters import parameters
 from roughfilm.contact.preparation.prepare import prepare
 from roughfilm.contact.preparation.recipe import Recipe, read_recipe, recipe_entries
 from roughfilm.contact.surfaces.files import read_surface
-from roughfilm.contact.surfaces.periodicity import THRESHOLD
+from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD
 from roughfilm.contact.surfaces.store import load_surface, save_surface
 from roughfilm.contact.surfaces.surface import Surface
 
@@ -57,7 +57,7 @@ def test_every_step_leaves_its_mark():
     assert prepared.surface.size == pytest.approx(given.size)
     assert prepared.surface.periodic
     assert record["periodicity_mismatch"]["before"] > 0.5
-    assert record["periodicity_mismatch"]["after"] < THRESHOLD
+    assert record["periodicity_mismatch"]["after"] < MISMATCH_THRESHOLD
     assert not prepared.warnings
 
 

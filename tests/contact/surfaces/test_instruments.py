@@ -15,7 +15,7 @@ import h5py
 import numpy as np
 import pytest
 
-from roughfilm.contact.foundation.child_processes import leash
+from roughfilm.contact.foundation.child_processes import terminate_with_parent
 from roughfilm.contact.foundation.errors import InputError, UnavailableError
 from roughfilm.contact.surfaces import instrument_reader, instruments
 from roughfilm.contact.surfaces.files import read_surface
@@ -38,7 +38,7 @@ FILES = {
 def child(path, channel=None):
     """What the child would send, without starting one: (told, heights or None)."""
     out = io.BytesIO()
-    instrument_reader.main({"path": str(path), "channel": channel, "most": instruments.MOST_POINTS}, out)
+    instrument_reader.main({"path": str(path), "channel": channel, "most": instruments.MAX_POINTS}, out)
     head, _, rest = out.getvalue().partition(b"\n")
     told = json.loads(head)
     return told, None if "shape" not in told else np.frombuffer(rest).reshape(told["shape"])
@@ -188,7 +188,7 @@ def test_a_reader_that_never_ends_is_stopped(tmp_path, monkeypatch):
         read_surface(tmp_path / "s.opd")
 
 
-@pytest.mark.skipif(not leash(), reason="no setpriv (util-linux) on this machine")
+@pytest.mark.skipif(not terminate_with_parent(), reason="no setpriv (util-linux) on this machine")
 def test_a_killed_parent_leaves_no_reader(tmp_path):
     """The reader is a stand-in that tells its number and then sleeps."""
     (tmp_path / "python").write_text(

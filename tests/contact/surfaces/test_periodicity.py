@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from roughfilm.contact.surfaces.periodicity import THRESHOLD, periodicity_mismatch
+from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.self_affine import self_affine
 
@@ -21,8 +21,8 @@ def test_truly_periodic_surfaces_pass_and_windows_of_them_fail():
         whole.append(periodicity_mismatch(surface))
         window = surface.with_heights(surface.heights[:192, :192], invalid=np.zeros((192, 192), bool))
         part.append(periodicity_mismatch(window))
-    assert np.mean(np.array(whole) > THRESHOLD) <= 0.05
-    assert min(part) > THRESHOLD
+    assert np.mean(np.array(whole) > MISMATCH_THRESHOLD) <= 0.05
+    assert min(part) > MISMATCH_THRESHOLD
     assert np.median(part) > 0.5
 
 
@@ -32,7 +32,7 @@ def test_a_scratch_hides_no_joint():
     plain = periodicity_mismatch(Surface(heights=window, spacing=(1.0, 1.0)))
     window[50] -= 6e-6
     window[:, 70] -= 6e-6
-    assert periodicity_mismatch(Surface(heights=window, spacing=(1.0, 1.0))) > 0.4 * plain > 2 * THRESHOLD
+    assert periodicity_mismatch(Surface(heights=window, spacing=(1.0, 1.0))) > 0.4 * plain > 2 * MISMATCH_THRESHOLD
 
 
 def test_a_ridge_that_does_not_go_on_is_found_through_a_smooth_joint():
@@ -42,7 +42,7 @@ def test_a_ridge_that_does_not_go_on_is_found_through_a_smooth_joint():
     distance = np.minimum(np.arange(256), np.arange(256)[::-1])
     faded = ridges * np.minimum(1, distance / 3)[None, :]
     assert np.abs(faded[:, 0] - faded[:, -1]).max() == 0
-    assert periodicity_mismatch(Surface(heights=faded, spacing=(1.0, 1.0))) > 3 * THRESHOLD
+    assert periodicity_mismatch(Surface(heights=faded, spacing=(1.0, 1.0))) > 3 * MISMATCH_THRESHOLD
     whole = np.sin(2 * np.pi * (x / 32 + y / 256))
     assert periodicity_mismatch(Surface(heights=whole, spacing=(1.0, 1.0))) == pytest.approx(0, abs=1e-12)
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.parameters.parameters import profile_parameters
+from roughfilm.contact.parameters.roughness_parameters import profile_parameters
 from roughfilm.contact.synthetic.profile import STEEL_PROFILES, ground_profile
 
 GIVEN = {"length": 0.42e-3, "points": 512, "roll_off": 60e-6}

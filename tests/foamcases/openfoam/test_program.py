@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from roughfilm.contact.foundation.child_processes import leash
+from roughfilm.contact.foundation.child_processes import terminate_with_parent
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.foamcases.openfoam.program import execute, succeed
 
@@ -67,12 +67,12 @@ def test_a_program_that_stops_in_error_is_one_of_our_errors_with_its_last_words(
 
 def test_without_setpriv_programs_run_all_the_same(tmp_path, monkeypatch):
     monkeypatch.setattr(shutil, "which", lambda _: None)
-    leash.cache_clear()
+    terminate_with_parent.cache_clear()
     try:
-        assert leash() == ()
+        assert terminate_with_parent() == ()
         assert execute(tmp_path, ["true"], "log").code == 0
     finally:
-        leash.cache_clear()
+        terminate_with_parent.cache_clear()
 
 
 def descendants(process_id: int) -> list[int]:
@@ -98,7 +98,7 @@ def name_and_state(process_id: int) -> tuple[str, str]:
 
 @pytest.mark.openfoam
 @pytest.mark.slow
-@pytest.mark.skipif(not leash(), reason="no setpriv (util-linux) on this machine")
+@pytest.mark.skipif(not terminate_with_parent(), reason="no setpriv (util-linux) on this machine")
 @pytest.mark.parametrize("processes", [1, 2])
 def test_a_killed_parent_leaves_no_solver(pocket_file, tmp_path, processes):
     parent = subprocess.Popen(

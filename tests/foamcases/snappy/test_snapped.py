@@ -9,7 +9,7 @@ import pytest
 import pyvista
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
-from roughfilm.contact.meshes.mesh import Mesh, Sort
+from roughfilm.contact.meshes.mesh import CellType, Mesh
 from roughfilm.foamcases.openfoam.block_mesh import Patch
 from roughfilm.foamcases.openfoam.residuals import Judged
 from roughfilm.foamcases.rough_gap.dictionaries import DRIVES, SIDES
@@ -28,7 +28,9 @@ MIRRORS = (*SIDES[:4], *(Patch(name=name, entries={"type": "symmetryPlane"}) for
 
 def ball(radius: float, middle: float) -> Mesh:
     found = pyvista.Icosphere(radius=radius, center=(middle,) * 3, nsub=4)
-    return Mesh(points=np.array(found.points, float), sort=Sort.TRIANGLE, cells=found.faces.reshape(-1, 4)[:, 1:])
+    return Mesh(
+        points=np.array(found.points, float), cell_type=CellType.TRIANGLE, cells=found.faces.reshape(-1, 4)[:, 1:]
+    )
 
 
 def flow_through(given: Carved, *judged: Judged, **options):
@@ -80,7 +82,7 @@ def test_a_solid_goes_on_beyond_its_period():
         for y in (0.0, 3.0):
             assert (np.linalg.norm(whole.points - [x, y, 0.0], axis=1) < 0.2 * (1 + 1e-6)).sum() == len(lone.points)
     assert len(whole.cells) == 4 * len(lone.cells)
-    middle = Mesh(points=lone.points + np.array([1.0, 1.5, 0.0]), sort=lone.sort, cells=lone.cells)
+    middle = Mesh(points=lone.points + np.array([1.0, 1.5, 0.0]), cell_type=lone.cell_type, cells=lone.cells)
     assert len(repeated(middle, (2.0, 3.0)).cells) == len(lone.cells)
 
 

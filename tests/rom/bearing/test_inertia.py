@@ -8,6 +8,7 @@ import pytest
 from places import SCENES
 
 from roughfilm import foamcases, rom
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.bearing.effects.ablation import Composed, Composition, at_film
 from roughfilm.rom.bearing.effects.inertia import inertia_added, judged, one_pocket, under_its_load
@@ -20,7 +21,6 @@ from roughfilm.rom.cavitation.solve import Solution, solve
 from roughfilm.rom.ladder.model import find, ladder, of_kind
 from roughfilm.rom.ladder.scene import load_scene, read_scene
 from roughfilm.rom.pocket.closed_form import inertia_pressure
-from roughfilm.rom.pocket.gap import Array
 
 VISCOSITY, DENSITY, FILM, LENGTH, WIDTH = 0.01, 1000.0, 30e-6, 1e-3, 0.3e-3
 PAD = SCENES / "pad.toml"

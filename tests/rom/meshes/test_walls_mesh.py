@@ -9,7 +9,7 @@ import pyvista
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.meshes.files import write_mesh
-from roughfilm.contact.meshes.mesh import Mesh, Sort, boundary, grid, in_triangles
+from roughfilm.contact.meshes.mesh import CellType, Mesh, boundary, grid, in_triangles
 from roughfilm.contact.meshes.surface import surface_mesh
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.foamcases.openfoam.program import succeed
@@ -86,7 +86,7 @@ def test_volumes_read_back_are_the_same(touching, tmp_path, suffix):
     write_mesh(mesh, tmp_path / f"gap{suffix}")
     volume = touching.gap.sum() * np.prod(touching.spacing)
     found = meshio.read(tmp_path / f"gap{suffix}")
-    read = Mesh(points=found.points, sort=Sort.HEXAHEDRON, cells=found.cells_dict["hexahedron"])
+    read = Mesh(points=found.points, cell_type=CellType.HEXAHEDRON, cells=found.cells_dict["hexahedron"])
     assert volume_inside(boundary(read)) == pytest.approx(volume, rel=1e-10)
     assert np.array_equal(np.ravel(found.point_data["gap (m)"]), mesh.point_data["gap (m)"])
     seen = pyvista.read(tmp_path / f"gap{suffix}") if suffix == ".vtu" else pyvista.from_meshio(found)
@@ -96,13 +96,13 @@ def test_volumes_read_back_are_the_same(touching, tmp_path, suffix):
 
 def test_an_stl_of_the_gap_is_closed_and_outward(walls, tmp_path):
     written = write_mesh(gap_mesh(walls, 2), tmp_path / "gap.stl")
-    assert written.sort is Sort.TRIANGLE
+    assert written.cell_type is CellType.TRIANGLE
     seen = pyvista.read(tmp_path / "gap.stl")
     assert seen.is_manifold
     assert seen.n_open_edges == 0
     assert seen.volume == pytest.approx(50e-6 * 30e-6 * MEAN, rel=1e-5)
     found = meshio.read(tmp_path / "gap.stl")
-    read = Mesh(points=found.points, sort=Sort.TRIANGLE, cells=found.cells_dict["triangle"])
+    read = Mesh(points=found.points, cell_type=CellType.TRIANGLE, cells=found.cells_dict["triangle"])
     assert volume_inside(read) == pytest.approx(50e-6 * 30e-6 * MEAN, rel=1e-5)
 
 

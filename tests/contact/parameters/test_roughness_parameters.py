@@ -11,7 +11,7 @@ from hypothesis.extra.numpy import arrays
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.parameters import exact
-from roughfilm.contact.parameters.parameters import parameters, profile_parameters
+from roughfilm.contact.parameters.roughness_parameters import parameters, profile_parameters
 from roughfilm.contact.surfaces.surface import Surface
 
 HEIGHTS = ("Sa", "Sq", "Sp", "Sv", "Sz", "Sk", "Spk", "Svk", "St", "Spm", "Svm")
