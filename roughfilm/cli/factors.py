@@ -26,9 +26,9 @@ from roughfilm.rom.bearing.mixed.tabulate import gap_of, tabulate_pressed
 from roughfilm.rom.homogenization.conductance import FaceRule
 from roughfilm.rom.homogenization.factors import FlowFactors
 from roughfilm.rom.homogenization.flow_factors import Estimated, flow_factors
-from roughfilm.rom.homogenization.separation import Separations
-from roughfilm.rom.homogenization.table import FactorTable, Point
-from roughfilm.rom.homogenization.tabulate import TOLERANCE, tabulate
+from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
+from roughfilm.rom.homogenization.table.separation import Separations
+from roughfilm.rom.homogenization.table.tabulate import TOLERANCE, tabulate
 from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.ladder.provenance import circumstances, code
 from roughfilm.terminal.console import AsJson, in_one_line, messages, output, print_json, progress_bar

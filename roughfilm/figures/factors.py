@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from roughfilm.figures.base import svg
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.homogenization.flux import flux
-from roughfilm.rom.homogenization.table import FactorTable, relative_row, told_rows
+from roughfilm.rom.homogenization.table.factor_table import FactorTable, relative_row, told_rows
 from roughfilm.rom.pocket.gap import Array
 
 COLOURS = ("#2166ac", "#b2182b", "#e08214")

@@ -11,7 +11,7 @@ from roughfilm.pages.error_bars import with_error
 from roughfilm.pages.render import render
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.homogenization.flow_factors import Estimated
-from roughfilm.rom.homogenization.table import FactorTable
+from roughfilm.rom.homogenization.table.factor_table import FactorTable
 from roughfilm.rom.pocket.gap import Array
 
 COLUMNS = ("A11", "A12", "A22", "B1", "B2", "d", "e")

@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.homogenization.gap_factors import GapFactors
-from roughfilm.rom.homogenization.table import FactorTable, Point
+from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
 from roughfilm.rom.pocket.gap import Array
 
 TIP = 1.5

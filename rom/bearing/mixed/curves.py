@@ -22,8 +22,8 @@ from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.roughness import RoughSurface
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.homogenization.conductance import FaceRule
-from roughfilm.rom.homogenization.table import FactorTable, Point
-from roughfilm.rom.homogenization.table_store import load_table_and_source
+from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
+from roughfilm.rom.homogenization.table.store import load_table_and_source
 from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.ladder.provenance import code
 from roughfilm.rom.ladder.scene import scene_entries

@@ -6,9 +6,9 @@ from pathlib import Path
 
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.foundation.inputs import Inputs
-from roughfilm.rom.homogenization.separation import Separations
-from roughfilm.rom.homogenization.table import FactorTable, Point
-from roughfilm.rom.homogenization.table_store import known_points, save_table
+from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
+from roughfilm.rom.homogenization.table.separation import Separations
+from roughfilm.rom.homogenization.table.store import known_points, save_table
 from roughfilm.terminal.console import messages
 
 EVERY_S = 2.0

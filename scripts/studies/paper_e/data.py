@@ -21,7 +21,7 @@ from roughfilm.rom.bearing.mixed.patir_cheng_table import patir_cheng_table
 from roughfilm.rom.bearing.mixed.resume import kept_table
 from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.homogenization.table import FactorTable, Point
+from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
 from roughfilm.rom.ladder.provenance import code
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.terminal.console import make_directory

@@ -13,7 +13,7 @@ from roughfilm.contact.foundation.checked_hdf5 import marked, reading_guarded, w
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.rom.homogenization.factors import FlowFactors
-from roughfilm.rom.homogenization.table import FactorTable, Point
+from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
 from roughfilm.rom.pocket.gap import Array
 
 SCHEMA = 3
