@@ -7,7 +7,8 @@ import numpy as np
 from foamlib import FoamCase, FoamFile
 
 from roughfilm.contact.foundation.errors import ConvergenceError
-from roughfilm.foamcases.pocket.case import Card, read_card
+from roughfilm.foamcases.openfoam.case_directory import read_card
+from roughfilm.foamcases.pocket.case import Card
 from roughfilm.rom.pocket.gap import Array
 
 

@@ -58,9 +58,9 @@ def tabulate_pressed(
 ) -> AsperityTable:
     """Flow factors and contact pressures over the separation of a surface and a flat one.
 
-    Open, the surface is as :func:`rom.homogenization.table.tabulate.tabulate` takes it, from its first touch on; pressed,
-    it deforms elastically and plastically. Half-way between two loads it is pressed again: where the table is off by more
-    than the tolerance, and than what is unsure, that is done on both sides of it, to within 5 % in load.
+    Open, the surface is as :func:`rom.homogenization.table.tabulate.tabulate` takes it, from its first touch on;
+    pressed, it deforms elastically and plastically. Half-way between two loads it is pressed again: where the table is
+    off by more than the tolerance, and than what is unsure, that is done on both sides of it, to within 5 % in load.
 
     Parameters
     ----------
