@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from roughfilm.contact.surfaces.surface import Array
+from roughfilm.contact.foundation.arrays import Array
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,7 +6,7 @@ from typing import Literal
 import numpy as np
 import pyfftw
 
-from roughfilm.contact.foundation.thread_team import Team
+from roughfilm.contact.foundation.threads import Team
 from roughfilm.contact.mechanics.love import influence
 from roughfilm.contact.mechanics.transforms import Filter
 from roughfilm.contact.surfaces.surface import Array

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from roughfilm.contact.foundation.thread_team import Team
+from roughfilm.contact.foundation.threads import Team
 from roughfilm.contact.mechanics.kernels import WORD
 from roughfilm.contact.surfaces.surface import Array
 

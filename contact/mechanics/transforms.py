@@ -14,7 +14,7 @@ import pyfftw
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
-from roughfilm.contact.foundation.thread_team import Team
+from roughfilm.contact.foundation.threads import Team
 from roughfilm.contact.mechanics import kernels
 from roughfilm.contact.surfaces.surface import Array
 

@@ -15,6 +15,7 @@ from rich.table import Table
 from roughfilm.cli.contact import digits
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
+from roughfilm.contact.foundation.threads import checked_threads
 from roughfilm.contact.mechanics.press import TOLERANCE, Press
 from roughfilm.contact.surfaces.periodicity import THRESHOLD, periodicity_mismatch
 from roughfilm.rom.ladder.provenance import circumstances, code
@@ -29,6 +30,7 @@ from roughfilm.terminal.console import (
     AsJson,
     Overrides,
     ScenePath,
+    Threads,
     in_one_line,
     make_directory,
     messages,
@@ -38,7 +40,6 @@ from roughfilm.terminal.console import (
 )
 from roughfilm.terminal.load_range import loads_of
 from roughfilm.terminal.output_file import alone, refuse_unwritable
-from roughfilm.terminal.threads import Threads, chosen_threads
 
 SOURCES = ("Sahlin 2008, Paper F", "10.1016/S0043-1648(99)00113-1", "10.1016/j.triboint.2006.02.069")
 WORDS = {
@@ -76,7 +77,7 @@ def command(
             f"--loads: up to {asked[-1] / 1e6:.10g} MPa, above the hardness of {read.hardness / 1e6:.10g} MPa, which "
             "is all that the whole area can bear; lower them"
         )
-    sharing = chosen_threads(threads)
+    sharing = checked_threads(threads)
     make_directory(out)
     refuse_unwritable(out / "report.html")
     with (

@@ -46,8 +46,8 @@ def write_page(name: str, told: Mapping[str, Any], series: Series, path: Path) -
     hardness = settings["hardness"] or math.inf
     shown = [column for column in COLUMNS if any(getattr(row, column[2]) is not None for row in series.rows)]
     line = last is not None and 1 in last.heights.shape
-    count = 0 if line else min(PICTURED, len(series.views))
-    views = [series.views[round(place)] for place in np.linspace(0, len(series.views) - 1, count)]
+    count = 0 if line else min(PICTURED, len(series.gap_maps))
+    views = [series.gap_maps[round(place)] for place in np.linspace(0, len(series.gap_maps) - 1, count)]
     picture, missing = view_picture(views) if views else (None, "")
     render(
         "contact.html.j2",

@@ -1,6 +1,5 @@
 """Self-contained HTML pages that a person would rather look at than read, from templates."""
 
-import base64
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -46,11 +45,6 @@ def write_figures(plots: Mapping[str, str], directory: Path) -> None:
     for name, text in plots.items():
         with replacing(directory / f"{name}.svg") as scratch:
             scratch.write_text('<?xml version="1.0" encoding="utf-8"?>\n' + text, encoding="utf-8")
-
-
-def embedded(path: Path) -> str:
-    """A PNG file as the text of an image's address."""
-    return "data:image/png;base64," + base64.b64encode(path.read_bytes()).decode("ascii")
 
 
 def _share(part: float) -> str:
