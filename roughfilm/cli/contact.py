@@ -28,6 +28,7 @@ from roughfilm.rom.ladder.provenance import circumstances, code
 from roughfilm.terminal.console import AsJson, in_one_line, messages, output, print_json, progress_bar
 from roughfilm.terminal.load_range import loads_of
 from roughfilm.terminal.output_file import alone, refuse_unwritable
+from roughfilm.words.numbers import digits
 
 SHOWN = 5
 """Loads whose pressures are drawn."""
@@ -255,8 +256,3 @@ def _cells(row: Row) -> tuple[str, ...]:
         (row.iterations, 1),
     )
     return tuple("-" if value is None else digits(value * factor) for value, factor in told)
-
-
-def digits(value: float) -> str:
-    """Four digits, and no power of ten below a million."""
-    return f"{value:.0f}" if 1e4 <= abs(value) < 1e6 else f"{value:.4g}"

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from roughfilm.cli.contact import digits
 from roughfilm.contact.mechanics.load_series import Series
 from roughfilm.figures import contact as contact_figures
 from roughfilm.figures.contact_view import view_picture
 from roughfilm.pages.render import render
+from roughfilm.words.numbers import digits
 
 MODELS = {
     "bearing_area": "What stands above a plane is cut off and bears the hardness; nothing else moves.",

@@ -6,8 +6,6 @@ from typing import Any
 
 import numpy as np
 
-from roughfilm.cli.contact import digits
-from roughfilm.cli.leakage import WORDS, in_words, leaks
 from roughfilm.contact.mechanics.gap_map import gap_map
 from roughfilm.contact.mechanics.store import load_contact
 from roughfilm.contact.parameters.autocorrelation import autocorrelation, decay_lengths
@@ -20,6 +18,8 @@ from roughfilm.rom.seal.leakage.effective_medium import effective_medium
 from roughfilm.rom.seal.leakage.percolation import Threshold
 from roughfilm.rom.seal.leakage.series import SOUGHT, Row
 from roughfilm.rom.seal.scene import Seal
+from roughfilm.words.leakage import WORDS, in_words, leaks
+from roughfilm.words.numbers import digits
 
 
 def write_page(

@@ -8,6 +8,7 @@ import jinja2
 
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.units import Quantity
+from roughfilm.words.numbers import percent
 
 TEMPLATES = Path(__file__).parent / "templates"
 
@@ -51,14 +52,6 @@ def _share(part: float) -> str:
     """A part without sign, in per cent."""
     percent = 100 * part
     return f"{percent:.0f} %" if percent >= 99.5 else f"{percent:.2g} %"
-
-
-def percent(part: float) -> str:
-    """A part with its sign, in per cent."""
-    percent = 100 * part
-    if abs(percent) < 1e-3:
-        return "0 %"
-    return f"{percent:+.0f} %" if abs(percent) >= 99.5 else f"{percent:+.2g} %"
 
 
 def _seconds(value: float) -> str:

@@ -21,10 +21,10 @@ from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.solid import composite_modulus
 from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.figures.contact_view import view_picture
-from roughfilm.pages.error_bars import with_error
 from roughfilm.pages.render import render, write_figures
 from roughfilm.rom.ladder.provenance import circumstances, code
 from roughfilm.terminal.console import AsJson, in_one_line, make_directory, progress_bar, run_alone
+from roughfilm.words.numbers import with_error
 from scripts.studies.claims import Claim, Surfaces, tell, write_numbers
 from scripts.studies.paper_e import data as paper_e_data
 from scripts.studies.paper_e import windows as paper_e_windows

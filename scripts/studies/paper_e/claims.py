@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughfilm.pages.error_bars import with_error
 from roughfilm.rom.pocket.gap import Array
+from roughfilm.words.numbers import with_error
 from scripts.studies.claims import Claim
 from scripts.studies.paper_e.data import LOADS, SEEDS, Washer
 from scripts.studies.paper_e.windows import LOAD, PARTS, Leak
