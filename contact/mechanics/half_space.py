@@ -7,7 +7,7 @@ import numpy as np
 import pyfftw
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.thread_team import Team
+from roughfilm.contact.foundation.threads import Team
 from roughfilm.contact.mechanics.love import influence
 from roughfilm.contact.mechanics.transforms import Filter
 

@@ -13,9 +13,8 @@ from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.contact.mechanics.estimates.estimate import Estimate
+from roughfilm.contact.mechanics.gap_map import GapMap, gap_map
 from roughfilm.contact.mechanics.store import Row, add, finished, load_contact, row_of
-from roughfilm.figures.contact_view import View, view_of
-from roughfilm.terminal.console import messages
 
 FEWEST_POINTS, MOST_BINS = 25, 60
 """Of a histogram of pressures."""
@@ -46,7 +45,7 @@ class Series:
     found: int
     spreads: tuple[Spread, ...]
     last: Contact | None
-    views: tuple[View, ...] = ()
+    gap_maps: tuple[GapMap, ...] = ()
     untrusted: tuple[float, ...] = ()
 
 
@@ -76,7 +75,7 @@ def solved(
     stored = {} if out is None else finished(out, inputs)
     rows: list[Row] = []
     spreads: list[Spread] = []
-    views: list[View] = []
+    gap_maps: list[GapMap] = []
     before: Contact | None = None
     found = sum(load in stored for load in loads)
     try:
@@ -97,12 +96,12 @@ def solved(
             rows.append(row)
             if load in shown and before is not None:
                 spreads += _spread(before)
-                views.append(view_of(before))
-    except (KeyboardInterrupt, SystemExit):
+                gap_maps.append(gap_map(before))
+    except (KeyboardInterrupt, SystemExit) as stop:
         kept = "; the same command goes on" if out is not None else ", none kept without --out"
-        messages.print(f"stopped: {len(rows)} of {len(loads)} loads{kept}", soft_wrap=True)
+        stop.add_note(f"stopped: {len(rows)} of {len(loads)} loads{kept}")
         raise
-    return Series(rows=tuple(rows), found=found, spreads=tuple(spreads), last=before, views=tuple(views))
+    return Series(rows=tuple(rows), found=found, spreads=tuple(spreads), last=before, gap_maps=tuple(gap_maps))
 
 
 def _at(at: Solver, load: float, start: Contact | None) -> Contact:

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.thread_team import Team
+from roughfilm.contact.foundation.threads import Team
 from roughfilm.contact.mechanics.kernels import WORD
 
 NUMBERS = 6

@@ -8,7 +8,7 @@ import scipy.fft
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
-from roughfilm.contact.foundation.thread_team import Team
+from roughfilm.contact.foundation.threads import Team
 from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.contact.mechanics.half_space import Boundary, HalfSpace
 from roughfilm.contact.mechanics.loop_ranges import Pieces

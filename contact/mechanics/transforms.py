@@ -15,7 +15,7 @@ import pyfftw
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
-from roughfilm.contact.foundation.thread_team import Team
+from roughfilm.contact.foundation.threads import Team
 from roughfilm.contact.mechanics import kernels
 
 SLAB = 1 << 19

@@ -2,7 +2,6 @@
 
 import math
 import shutil
-import time
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,8 +12,7 @@ from roughfilm.foamcases.openfoam.installation import availability
 from roughfilm.foamcases.openfoam.iterate import Asked, Settled, Try, iterate
 from roughfilm.foamcases.openfoam.program import Ended, failure, succeed
 from roughfilm.foamcases.openfoam.residuals import Judged, Residuals
-from roughfilm.foamcases.pocket.case import Card, read_card
-from roughfilm.rom.ladder.model import Progress, silent
+from roughfilm.rom.ladder.model import Progress
 
 REMEDIES = {
     Outcome.DIVERGED: "lower the Reynolds number or change the resolution",
@@ -22,47 +20,6 @@ REMEDIES = {
     Outcome.STALLED: "loosen --tolerance, or take a model without slope where the wall is nearly flat",
     Outcome.UNFINISHED: "loosen --tolerance or change the resolution",
 }
-
-
-@dataclass(frozen=True, kw_only=True)
-class Run:
-    """What a successful run says of itself.
-
-    ``residual`` is the largest initial residual of velocity and pressure that a new process finds in the fields on
-    disk; ``warnings`` are the mesh check's remarks; the last of the ``tries`` converged.
-    """
-
-    residual: float
-    cpu_s: float
-    wall_s: float
-    version: str
-    tries: tuple[Try, ...]
-    warnings: tuple[str, ...]
-
-
-def run_case(directory: Path, *, progress: Progress = silent) -> Run:
-    """Check the mesh, run simpleFoam as :func:`foamcases.openfoam.iterate.iterate` does, and verify the fields it left.
-
-    Raises
-    ------
-    UnavailableError
-        If OpenFOAM is not here, or mpirun where the case asks for several processes.
-    ConvergenceError
-        If the mesh check fails, simpleFoam stops in error or without convergence, or the fields on disk do not
-        satisfy the equations; with its outcome and the last lines of the log.
-    """
-    version = ready(read_card(directory, Card).processes)
-    wall = time.perf_counter()
-    mesh = check_mesh(directory)
-    checked = converge(directory, read_card(directory, Card), Judged(), progress)
-    return Run(
-        residual=checked.residual,
-        cpu_s=mesh.cpu_s + checked.cpu_s,
-        wall_s=time.perf_counter() - wall,
-        version=version,
-        tries=checked.tries,
-        warnings=remarks(mesh),
-    )
 
 
 def ready(processes: int) -> str:
@@ -104,7 +61,7 @@ class Checked:
 def converge(
     directory: Path, asked: Asked, judged: Judged, progress: Progress, settled: Settled | None = None
 ) -> Checked:
-    """Iterate a flow and verify the fields it left; ConvergenceError as :func:`run_case` raises it."""
+    """Iterate a flow and verify the fields it left; ConvergenceError that says how, with the last lines of the log."""
     tries = iterate(directory, asked, judged, progress, settled)
     last = tries[-1]
     if last.outcome is not Outcome.CONVERGED:

@@ -1,45 +1,17 @@
 """A case directory for a pocket scene: mesh, dictionaries, and what a person needs to run it by hand."""
 
-import json
-import tempfile
-from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.foamcases.openfoam import block_mesh as mesh
+from roughfilm.foamcases.openfoam.case_directory import SHELL, check_tolerance, commands, write_papers, write_whole
 from roughfilm.foamcases.openfoam.dictionaries import SIDES, write_dictionaries
-from roughfilm.foamcases.openfoam.installation import OPEN_MPI
 from roughfilm.rom.pocket.scene import Pocket
 
-if TYPE_CHECKING:
-    from _typeshed import DataclassInstance
-
-CARD = "case.json"
 COARSEST, FINEST = 12, 4000
 RESOLUTION = 240
 TOLERANCE = 1e-7
-
-SomeCard = TypeVar("SomeCard")
-
-SERIAL = "simpleFoam > log.simpleFoam 2>&1"
-PARALLEL = (
-    "decomposePar > log.decomposePar 2>&1 &&\n"
-    "    env {environment} \\\n"
-    "    mpirun -np {processes} simpleFoam -parallel > log.simpleFoam 2>&1 &&\n"
-    "    reconstructPar -latestTime > log.reconstructPar 2>&1"
-)
-
-SHELL = """\
-#!/bin/sh
-# Checks the mesh and runs the case. The mesh is already in constant/polyMesh: no blockMesh is needed.
-cd "$(dirname "$0")" || exit 1
-if [ -z "$WM_PROJECT_DIR" ]; then
-    WM_PROJECT_DIR=$(dpkg -L openfoam | sed -n 's|/etc/controlDict$||p' | head -n 1)
-    export WM_PROJECT_DIR
-fi
-"""
 
 ALLRUN = """\
 checkMesh > log.checkMesh 2>&1 &&
@@ -117,49 +89,3 @@ def write_case(
         write_papers(place, readme=readme, allrun=SHELL + ALLRUN.format(commands=commands(processes)), card=card)
 
     write_whole(directory, fill)
-
-
-def check_tolerance(tolerance: float) -> None:
-    """InputError for residuals that are out of reach, or of no use."""
-    if not 1e-10 <= tolerance <= 1e-2:
-        raise InputError(f"--tolerance: got {tolerance}; it must be 1e-10 to 1e-2")
-
-
-def commands(processes: int) -> str:
-    """What a shell is to do to run simpleFoam in a case directory."""
-    settings = " ".join(f"{name}={value}" for name, value in OPEN_MPI.items())
-    return SERIAL if processes == 1 else PARALLEL.format(processes=processes, environment=settings)
-
-
-def write_whole(directory: Path, fill: Callable[[Path], None]) -> None:
-    """Make a case directory that is there whole or not at all; InputError if it cannot be, or holds something."""
-    if any(map(str.isspace, str(directory.absolute()))):
-        told = f"{str(directory.absolute())!r}: OpenFOAM takes no blanks in a path"
-        raise InputError(f"{told}; name another place, or another for what is temporary by TMPDIR")
-    try:
-        if directory.exists() and (not directory.is_dir() or any(directory.iterdir())):
-            raise InputError(f"{directory}: is not an empty directory; name another")
-        directory.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(prefix=f".{directory.name}-", dir=directory.parent) as place:
-            scratch = Path(place) / directory.name
-            scratch.mkdir()
-            fill(scratch)
-            scratch.replace(directory)
-    except OSError as error:
-        raise InputError(f"{directory}: cannot be written ({error.strerror}); choose another place") from error
-
-
-def write_papers(directory: Path, *, readme: str, allrun: str, card: "DataclassInstance") -> None:
-    """Write what goes with a case: for a person, for a shell, and for reading it back."""
-    (directory / "README").write_text(readme, encoding="utf-8")
-    (directory / "Allrun").write_text(allrun, encoding="utf-8")
-    (directory / "Allrun").chmod(0o755)
-    (directory / CARD).write_text(json.dumps(asdict(card), indent=1) + "\n", encoding="utf-8")
-
-
-def read_card(directory: Path, kind: type[SomeCard]) -> SomeCard:
-    """The card of a case; InputError if there is none of this kind."""
-    try:
-        return kind(**json.loads((directory / CARD).read_text(encoding="utf-8")))
-    except (OSError, ValueError, TypeError) as error:
-        raise InputError(f"{directory}: holds no {CARD} of this version; generate the case again") from error

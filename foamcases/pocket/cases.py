@@ -2,11 +2,12 @@
 
 from pathlib import Path
 
+from roughfilm.foamcases.openfoam.case_directory import read_card
 from roughfilm.foamcases.openfoam.dictionaries import VELOCITY_RELAXATION
 from roughfilm.foamcases.openfoam.model import Cases
-from roughfilm.foamcases.openfoam.run import Run, run_case
-from roughfilm.foamcases.pocket.case import RESOLUTION, Card, read_card, write_case
+from roughfilm.foamcases.pocket.case import RESOLUTION, Card, write_case
 from roughfilm.foamcases.pocket.fields import read_channel
+from roughfilm.foamcases.pocket.run import Run, run_case
 from roughfilm.rom.ladder.model import Effect
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.result import Field, Numerics, Result

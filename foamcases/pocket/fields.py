@@ -8,7 +8,8 @@ from foamlib import FoamCase, FoamFile
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError
-from roughfilm.foamcases.pocket.case import Card, read_card
+from roughfilm.foamcases.openfoam.case_directory import read_card
+from roughfilm.foamcases.pocket.case import Card
 
 
 @dataclass(frozen=True, kw_only=True)

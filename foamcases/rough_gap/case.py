@@ -9,10 +9,10 @@ import numpy as np
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.foamcases.openfoam.block_mesh import write_block
+from roughfilm.foamcases.openfoam.case_directory import SHELL, check_tolerance, commands, write_papers, write_whole
 from roughfilm.foamcases.openfoam.dictionaries import write_files
 from roughfilm.foamcases.openfoam.memory import check_memory
 from roughfilm.foamcases.openfoam.residuals import Judged
-from roughfilm.foamcases.pocket.case import SHELL, check_tolerance, commands, write_papers, write_whole
 from roughfilm.foamcases.rough_gap.dictionaries import (
     CONTACT,
     DRIVES,

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from roughfilm.contact.foundation.units import Quantity
+from roughfilm.foamcases.openfoam.case_directory import read_card
 from roughfilm.foamcases.openfoam.model import Cases
-from roughfilm.foamcases.pocket.case import read_card
 from roughfilm.foamcases.rough_gap.balance import imbalance
 from roughfilm.foamcases.rough_gap.case import GapCard, layers_of, mesh_of, write_gap_case
 from roughfilm.foamcases.rough_gap.dictionaries import DRIVES, SLIDING_SPEED

@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.foamcases.openfoam.case_directory import read_card
 from roughfilm.foamcases.openfoam.iterate import Settled
 from roughfilm.foamcases.openfoam.residuals import Judged, Residuals
 from roughfilm.foamcases.openfoam.run import Checked, check_mesh, converge, ready, remarks
-from roughfilm.foamcases.pocket.case import read_card
 from roughfilm.foamcases.rough_gap.case import GapCard
 from roughfilm.foamcases.rough_gap.dictionaries import MEAN_VELOCITY
 from roughfilm.rom.ladder.model import Progress, silent
@@ -53,7 +53,7 @@ class GapRun:
 
 
 def run_gap(directory: Path, *, progress: Progress = silent) -> GapRun:
-    """Check the mesh and run each drive; errors as :func:`roughfilm.foamcases.openfoam.run.run_case` raises them."""
+    """Check the mesh and run each drive; errors as :func:`roughfilm.foamcases.pocket.run.run_case` raises them."""
     card = read_card(directory, GapCard)
     version = ready(card.processes)
     wall = time.perf_counter()

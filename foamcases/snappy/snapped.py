@@ -13,12 +13,19 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
 from roughfilm.contact.meshes.files import write_mesh
 from roughfilm.foamcases.openfoam.block_mesh import Patch, write_block
+from roughfilm.foamcases.openfoam.case_directory import (
+    SHELL,
+    check_tolerance,
+    commands,
+    read_card,
+    write_papers,
+    write_whole,
+)
 from roughfilm.foamcases.openfoam.dictionaries import write_files
 from roughfilm.foamcases.openfoam.installation import REMEDY
 from roughfilm.foamcases.openfoam.program import succeed
 from roughfilm.foamcases.openfoam.residuals import FIELDS, Judged
 from roughfilm.foamcases.openfoam.run import check_mesh, converge, ready, remarks
-from roughfilm.foamcases.pocket.case import SHELL, check_tolerance, commands, read_card, write_papers, write_whole
 from roughfilm.foamcases.rough_gap.case import TOLERANCE
 from roughfilm.foamcases.rough_gap.dictionaries import CONTACT, SIDES, Drive, gap_dictionaries, relaxation
 from roughfilm.foamcases.rough_gap.run import mean_velocity, settled_within, unsettled
@@ -72,7 +79,7 @@ class SnappedFlow:
     flow_per_width : ∫ u dV over the area of the box, in units of h and h²G/(12η), shape (3,); a column of A/h³.
     volume : of the liquid over the area of the box, in h: the mean gap.
     cells : of the mesh.
-    residual : as of :class:`roughfilm.foamcases.openfoam.run.Run`.
+    residual : as of :class:`roughfilm.foamcases.pocket.run.Run`.
     unsettled : by what part of itself the largest of the flows would still change, by its trend.
     cpu_s : of mesh, flow and checks; mesh_cpu_s of the mesh alone.
     warnings : remarks of the mesh check.

@@ -15,9 +15,9 @@ from roughfilm.contact.foundation.entries import Angle, Length, Part, PositiveNu
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap
 from roughfilm.rom.homogenization.ridges import sinusoidal_ridges
-from roughfilm.rom.homogenization.table import FactorTable
-from roughfilm.rom.homogenization.table_store import load_table
-from roughfilm.rom.homogenization.tabulate import tabulate
+from roughfilm.rom.homogenization.table.factor_table import FactorTable
+from roughfilm.rom.homogenization.table.store import load_table
+from roughfilm.rom.homogenization.table.tabulate import tabulate
 from roughfilm.rom.parts.surface_geometry import SurfaceGeometry
 
 LEVEL = 1e-12

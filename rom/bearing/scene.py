@@ -182,6 +182,11 @@ class Bearing(Scene):
         return self.geometry.width is None
 
     @property
+    def turning_radius(self) -> float | None:
+        """Radius at which the speed of a turning wall is given, m; None if nothing turns."""
+        return self.geometry.radius if isinstance(self.geometry, Journal | Ring) else None
+
+    @property
     def ends(self) -> Ends:
         """What holds at the ends, above the pressure of cavitation."""
         lowest, boundary = self.lubricant.cavitation_pressure, self.boundary

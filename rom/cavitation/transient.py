@@ -12,7 +12,6 @@ from roughfilm.rom.cavitation.grid import grid
 from roughfilm.rom.cavitation.network import State
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.solve import RESIDUAL_TOLERANCE, WARM_SWEEPS, Solution, on_grid, solve
-from roughfilm.rom.pocket.gap import Array
 
 
 def march(

@@ -10,7 +10,7 @@ from roughfilm.batch.jobs import Failure, Job, store, stored
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
 from roughfilm.rom.ladder.result import Result
 from roughfilm.stability.form import Outcome, Spot
-from roughfilm.terminal.console import messages, progress_bar
+from roughfilm.terminal.console import progress_bar
 
 SECOND = "second try"
 """Why a run that converged is slow."""
@@ -38,8 +38,8 @@ def answers_to(jobs: Sequence[Job], processes: int, scratch: Path) -> dict[Path,
                     answers[job.path] = answer.result if isinstance(answer, Solved) else answer
                     spent += expected_cost(job)
                     advance(spent, f"{len(answers)} of {len(jobs)} runs")
-    except (KeyboardInterrupt, SystemExit):
-        messages.print(f"stopped at {len(answers)} of {len(jobs)} runs; the same command goes on", soft_wrap=True)
+    except (KeyboardInterrupt, SystemExit) as stop:
+        stop.add_note(f"stopped at {len(answers)} of {len(jobs)} runs; the same command goes on")
         raise
     return answers
 

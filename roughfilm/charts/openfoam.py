@@ -15,10 +15,11 @@ from roughfilm.charts.family import Measured, Peer
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.foamcases.openfoam.block_mesh import write_block
+from roughfilm.foamcases.openfoam.case_directory import CARD, read_card
 from roughfilm.foamcases.openfoam.dictionaries import SIDES, Dictionary, control, write_files
 from roughfilm.foamcases.openfoam.installation import availability
 from roughfilm.foamcases.openfoam.program import Ended, succeed
-from roughfilm.foamcases.pocket.case import CARD, Card, read_card, write_case
+from roughfilm.foamcases.pocket.case import Card, write_case
 from roughfilm.foamcases.pocket.fields import read_channel
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
 

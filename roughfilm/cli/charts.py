@@ -14,7 +14,8 @@ from roughfilm.charts.judgement import WITHIN, Chart, columns_of, entries_of, ju
 from roughfilm.charts.store import answers
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
 from roughfilm.contact.foundation.files import replacing
-from roughfilm.pages.render import embedded, render, write_figures
+from roughfilm.figures.rendering import embedded
+from roughfilm.pages.render import render, write_figures
 from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.rom.studies.table import write_csv
 from roughfilm.terminal.console import (

@@ -16,6 +16,7 @@ from roughfilm.cli.contact_models import SOLVED, SOURCES, WITHOUT_HARDNESS, Mode
 from roughfilm.cli.surface import refuse_same
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
+from roughfilm.contact.foundation.threads import checked_threads
 from roughfilm.contact.foundation.units import to_si
 from roughfilm.contact.mechanics.load_series import Series, Solver, estimated, solved
 from roughfilm.contact.mechanics.press import COMPLEMENTARITY_TOLERANCE, Press
@@ -27,7 +28,7 @@ from roughfilm.rom.ladder.provenance import circumstances, code
 from roughfilm.terminal.console import AsJson, in_one_line, messages, output, print_json, progress_bar
 from roughfilm.terminal.load_range import loads_of
 from roughfilm.terminal.output_file import alone, refuse_unwritable
-from roughfilm.terminal.threads import chosen_threads
+from roughfilm.words.numbers import digits
 
 SHOWN = 5
 """Loads whose pressures are drawn."""
@@ -82,7 +83,7 @@ def command(
     rung = chosen(model, body.hardness)
     bound = math.inf if rung in WITHOUT_HARDNESS else body.hardness
     _refuse(rung, boundary, asked, bound)
-    chosen_threads(threads)
+    checked_threads(threads)
     if not LEAST_TOLERANCE <= tolerance < 1:
         raise InputError(f"--tolerance: got a tolerance of {tolerance:g}; it must be {LEAST_TOLERANCE:g} to 1")
     stiffness = composite_modulus(body, counter)
@@ -257,8 +258,3 @@ def _cells(row: Row) -> tuple[str, ...]:
         (row.iterations, 1),
     )
     return tuple("-" if value is None else digits(value * factor) for value, factor in told)
-
-
-def digits(value: float) -> str:
-    """Four digits, and no power of ten below a million."""
-    return f"{value:.0f}" if 1e4 <= abs(value) < 1e6 else f"{value:.4g}"

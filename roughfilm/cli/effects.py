@@ -4,8 +4,7 @@ import json
 import math
 import os
 import time
-from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -15,14 +14,9 @@ from rich.table import Table
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
-from roughfilm.pages.error_bars import with_error
-from roughfilm.pages.render import percent
-from roughfilm.rom.bearing.effects.ablation import EFFECTS, Amount, Composition, at_film, effects_of
-from roughfilm.rom.bearing.effects.contributions import Study, study
-from roughfilm.rom.bearing.effects.explanation import Treatment, treatments
-from roughfilm.rom.bearing.effects.inertia import InertiaAdded, inertia_added, judged, under_its_load
-from roughfilm.rom.bearing.effects.under_load import under_load
-from roughfilm.rom.bearing.mixed.wall import asperities_of
+from roughfilm.rom.bearing.effects.analysis import EffectAnalysis, analyse_effects
+from roughfilm.rom.bearing.effects.contributions import Study
+from roughfilm.rom.bearing.effects.inertia import InertiaAdded
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.provenance import circumstances
@@ -40,14 +34,13 @@ from roughfilm.terminal.console import (
     progress_bar,
 )
 from roughfilm.terminal.output_file import refuse_unwritable
+from roughfilm.words.effects import AT_FILM, UNDER_LOAD, cell, sentences, shown
 
 CELLS = {True: 1024, False: 128}
 """Along the sliding, and as many across; by default, of infinitely wide bearings and of others."""
 
 COARSEST, FINEST = 16, {True: 65_536, False: 1024}
 
-NOTHING = 1e-9
-"""In the units of the tables: rounding."""
 
 SOURCES = (
     "10.1098/rstl.1886.0005",
@@ -57,47 +50,6 @@ SOURCES = (
     "10.1115/1.1828067",
     "Sahlin 2008, Paper E",
 )
-
-
-@dataclass(frozen=True, kw_only=True)
-class Shown:
-    """A quantity of the tables: its name in words, its unit there, and how many of it are one of SI."""
-
-    title: str
-    unit: str
-    factor: float = 1.0
-
-
-SHOWN: Mapping[str, Shown] = {
-    "film": Shown(title="film thickness", unit="µm", factor=1e6),
-    "load": Shown(title="load", unit="N"),
-    "load_per_width": Shown(title="load", unit="N/m"),
-    "friction": Shown(title="friction", unit="N"),
-    "friction_per_width": Shown(title="friction", unit="N/m"),
-    "friction_coefficient": Shown(title="friction coefficient", unit="10⁻³", factor=1e3),
-    "inlet_flow_per_width": Shown(title="inlet flow", unit="mm²/s", factor=1e6),
-    "side_leakage": Shown(title="side leakage", unit="mm³/s", factor=1e9),
-    "contact_share": Shown(title="carried by contact", unit="%", factor=100),
-}
-AT_FILM = ("load", "friction", "inlet_flow_per_width", "side_leakage")
-UNDER_LOAD = ("film", "friction_coefficient", "inlet_flow_per_width", "side_leakage")
-
-
-@dataclass(frozen=True, kw_only=True)
-class Told:
-    """All that is told of one scene.
-
-    ``inertia`` is at the film of the scene, ``loaded_inertia`` at that under the load, which it would make ``thicker``
-    by so much, m; None where they are not judged.
-    """
-
-    scene: Bearing
-    treated: tuple[Treatment, ...]
-    at_film: Study
-    inertia: InertiaAdded | None
-    under_load: Study | None = None
-    loaded_inertia: InertiaAdded | None = None
-    thicker: Amount | None = None
 
 
 @in_one_line
@@ -127,7 +79,7 @@ def command(
     make_directory(out)
     refuse_unwritable(out / "report.html")
     with progress_bar(1.0) as advance:
-        found = tell(read, cells, advance)
+        found = analyse_effects(read, cells, models(), advance)
     entries = entries_of(found) | {
         "numerics": {
             "resolution": cells,
@@ -148,42 +100,7 @@ def command(
     _say(found, out)
 
 
-def tell(scene: Bearing, cells: int, advance: Any) -> Told:
-    """All that the page tells of a scene."""
-    if scene.asperities is not None:
-        asperities_of(scene, lambda done, words: advance(0.4 * done, f"asperities: {words}"))
-    share = 0.6 if scene.load is None else 0.3
-    at = study(
-        scene,
-        lambda taken, progress: at_film(taken, cells, progress),
-        lambda done, words: advance(0.4 + share * done, words),
-    )
-    whole, heavy = Composition(scene=scene), judged(scene) is None
-    told = Told(
-        scene=scene,
-        treated=treatments(scene),
-        at_film=at,
-        inertia=inertia_added(whole, cells, models()) if heavy else None,
-    )
-    if scene.load is None:
-        return told
-    pressure = scene.load.pressure
-    loaded = study(
-        scene,
-        lambda taken, progress: under_load(taken, pressure, cells, progress),
-        lambda done, words: advance(0.7 + share * done, f"under load, {words}"),
-    )
-    there, thicker = under_its_load(whole, loaded.whole, pressure, cells, models()) if heavy else (None, None)
-    return replace(told, under_load=loaded, loaded_inertia=there, thicker=thicker)
-
-
-def left_out(scene: Bearing) -> list[str]:
-    """The effects that a scene does not have."""
-    present = effects_of(scene)
-    return [effect.name for effect in EFFECTS if effect not in present]
-
-
-def entries_of(told: Told) -> dict[str, Any]:
+def entries_of(told: EffectAnalysis) -> dict[str, Any]:
     """The object of ``--json``, but for what it cost."""
     found = [one for one in (told.at_film, told.under_load) if one is not None]
     under = {} if told.under_load is None else told.under_load.full
@@ -192,7 +109,7 @@ def entries_of(told: Told) -> dict[str, Any]:
         | {f"{name} under load": asdict(one) for name, one in under.items()},
         "numbers": {name: _number(value) for name, value in bearing_numbers(told.scene).items()},
         "treatments": [asdict(one) for one in told.treated],
-        "left_out": left_out(told.scene),
+        "left_out": told.left_out,
         "at_film": _study(told.at_film),
         "under_load": None if told.under_load is None else _study(told.under_load),
         "inertia": _inertia(told.inertia),
@@ -224,44 +141,7 @@ def _number(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
-def shown(told: Study, names: Sequence[str]) -> dict[str, Shown]:
-    """Those of the quantities that a study tells, by width where there is none of the whole."""
-    names = [name if name in told.full else f"{name}_per_width" for name in names]
-    return {name: SHOWN[name] for name in names if name in told.full and name in SHOWN}
-
-
-def cell(one: Amount | None, how: Shown, *, sign: bool = False) -> str:
-    """A number with its error in the unit of its table; with its sign where it is added to another."""
-    if one is None:
-        return "–"
-    if max(abs(one.value), one.uncertainty) * how.factor < NOTHING:
-        return "0"
-    told = with_error(how.factor * one.value, how.factor * one.uncertainty)
-    return f"+{told}" if sign and one.value > 0 and not told.startswith("(") else told.replace("-", "−")
-
-
-def sentences(study_told: Study, name: str, inertia: Amount | None) -> list[str]:
-    """What each effect adds to one quantity, in words, as parts of all of it."""
-    how, full = SHOWN[name], study_told.full[name]
-    told = []
-    for one in study_told.contributions:
-        on, alone = one.on.get(name), one.alone.get(name)
-        if on is None and alone is None:
-            continue
-        parts = [_adds(on, how, full.value)] if on else []
-        parts += [f"to all the others {_adds(alone, how, full.value)}"] if alone else []
-        told.append(f"{one.name}: {', '.join(parts)}")
-    if inertia is not None:
-        told.append(f"inertia, not counted above: {_adds(inertia, how, full.value)}")
-    return told
-
-
-def _adds(one: Amount, how: Shown, full: float) -> str:
-    part = f" ({percent(one.value / abs(full))})".replace("-", "−") if full else ""
-    return f"{cell(one, how, sign=True)} {how.unit}{part}"
-
-
-def _say(told: Told, out: Path) -> None:
+def _say(told: EffectAnalysis, out: Path) -> None:
     views = [("at the film of the scene", told.at_film, AT_FILM)]
     if told.under_load is not None and told.scene.load is not None:
         views.append((f"under {told.scene.load.pressure / 1e6:.4g} MPa", told.under_load, UNDER_LOAD))
@@ -280,7 +160,7 @@ def _say(told: Told, out: Path) -> None:
         output.print(f"load, {escape(sentence)}", soft_wrap=True)
     for treated in told.treated:
         output.print(f"{treated.effect} by {treated.model}: {escape(treated.why)}", soft_wrap=True)
-    if missing := left_out(told.scene):
+    if missing := told.left_out:
         output.print(f"left out, as the scene has none of it: {', '.join(missing)}", soft_wrap=True)
     output.print(f"report: {escape(str(out / 'report.html'))}", soft_wrap=True)
     for warning in dict.fromkeys((*told.at_film.warnings, *(told.under_load.warnings if told.under_load else ()))):

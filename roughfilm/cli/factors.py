@@ -17,6 +17,7 @@ from roughfilm.cli.surface import refuse_same
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
+from roughfilm.contact.foundation.threads import checked_threads
 from roughfilm.contact.foundation.units import to_si
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.store import is_series, load_contact, load_series
@@ -27,14 +28,13 @@ from roughfilm.rom.bearing.mixed.tabulate import gap_of, tabulate_pressed
 from roughfilm.rom.homogenization.conductance import FaceRule
 from roughfilm.rom.homogenization.factors import FlowFactors
 from roughfilm.rom.homogenization.flow_factors import Estimated, flow_factors
-from roughfilm.rom.homogenization.separation import Separations
-from roughfilm.rom.homogenization.table import FactorTable, Point
-from roughfilm.rom.homogenization.tabulate import TOLERANCE, tabulate
+from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
+from roughfilm.rom.homogenization.table.separation import Separations
+from roughfilm.rom.homogenization.table.tabulate import TOLERANCE, tabulate
 from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.ladder.provenance import circumstances, code
-from roughfilm.terminal.console import AsJson, in_one_line, messages, output, print_json, progress_bar
+from roughfilm.terminal.console import AsJson, Threads, in_one_line, messages, output, print_json, progress_bar
 from roughfilm.terminal.output_file import alone, refuse_unwritable
-from roughfilm.terminal.threads import Threads, chosen_threads
 
 SOURCES = ("10.1016/j.triboint.2007.02.021", "10.1016/j.triboint.2006.02.069", "Sahlin 2008, Papers C and E")
 SHOWN = ("A11", "A12", "A22", "B1", "B2")
@@ -86,7 +86,7 @@ def command(
         raise InputError("--offset: got one for a table, in which contact is closed; give --gap, or leave it out")
     if mean_gap is not None and tolerance is not None:
         raise InputError("--tolerance: is of a table; leave it or --gap out")
-    asked, sharing = TOLERANCE if tolerance is None else tolerance, chosen_threads(threads)
+    asked, sharing = TOLERANCE if tolerance is None else tolerance, checked_threads(threads)
     for path in filter(None, (out, report)):
         refuse_unwritable(path)
     with alone(out, "table"), progress_bar(1.0) as advance:

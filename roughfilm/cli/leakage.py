@@ -12,9 +12,9 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
-from roughfilm.cli.contact import digits
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
+from roughfilm.contact.foundation.threads import checked_threads
 from roughfilm.contact.mechanics.press import COMPLEMENTARITY_TOLERANCE, Press
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
 from roughfilm.rom.ladder.provenance import circumstances, code
@@ -29,6 +29,7 @@ from roughfilm.terminal.console import (
     AsJson,
     Overrides,
     ScenePath,
+    Threads,
     in_one_line,
     make_directory,
     messages,
@@ -38,15 +39,11 @@ from roughfilm.terminal.console import (
 )
 from roughfilm.terminal.load_range import loads_of
 from roughfilm.terminal.output_file import alone, refuse_unwritable
-from roughfilm.terminal.threads import Threads, chosen_threads
+from roughfilm.words.leakage import WORDS, in_words, leaks
+from roughfilm.words.numbers import digits
 
 SOURCES = ("Sahlin 2008, Paper F", "10.1016/S0043-1648(99)00113-1", "10.1016/j.triboint.2006.02.069")
-WORDS = {
-    "direct_x": "between ends, x",
-    "direct_y": "between ends, y",
-    "homogenized_x": "on and on, x",
-    "homogenized_y": "on and on, y",
-}
+
 
 HEADS = ("x, direct", "y, direct", "x, averaged", "y, averaged")
 
@@ -76,7 +73,7 @@ def command(
             f"--loads: up to {asked[-1] / 1e6:.10g} MPa, above the hardness of {read.hardness / 1e6:.10g} MPa, which "
             "is all that the whole area can bear; lower them"
         )
-    sharing = chosen_threads(threads)
+    sharing = checked_threads(threads)
     make_directory(out)
     refuse_unwritable(out / "report.html")
     with (
@@ -228,16 +225,6 @@ def _tell(
         messages.print(f"[yellow]warning:[/] {escape(warning)}", soft_wrap=True)
 
 
-def in_words(threshold: Threshold) -> str:
-    """Where a direction seals, with the bracket of its contact area."""
-    if threshold.sealed is None:
-        return "never seals"
-    if threshold.open is None:
-        return "sealed under any load"
-    low, high = 100 * threshold.open.area_fraction, 100 * threshold.sealed.area_fraction
-    return f"seals at {threshold.load / 1e6:.4g} MPa, {low:.2f} to {high:.2f} % of contact"
-
-
 def _table_of(scene: Seal, rows: dict[float, Row]) -> Table:
     """The series as people read it."""
     heads = ("load, MPa", "area, %", "mean gap, µm", *HEADS)
@@ -248,8 +235,3 @@ def _table_of(scene: Seal, rows: dict[float, Row]) -> Table:
         told = (row.load * 1e-6, row.area_fraction * 100, row.mean_gap * 1e6)
         table.add_row(*(digits(value) for value in told), *(leaks(scene, row, name) for name in SOUGHT))
     return table
-
-
-def leaks(scene: Seal, row: Row, name: str) -> str:
-    """Leakage in kg/h for each metre of width, or that there is none."""
-    return "sealed" if getattr(row, f"{name}_sealed") else f"{3600 * leakage_of(scene, getattr(row, name)):.3g}"

@@ -14,13 +14,10 @@ from rich.table import Table
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
-from roughfilm.pages.error_bars import with_error
 from roughfilm.rom.bearing.mixed.curves import Wall, swept, wall_of
 from roughfilm.rom.bearing.mixed.curves_store import NUMBERS, UNITS, write_csv
 from roughfilm.rom.bearing.mixed.stribeck import COARSEST, FINEST, RESOLUTION, StribeckCurve, StribeckPoint
-from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.shapes import Journal
 from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.rom.ladder.scene import load_scene, scene_entries
 from roughfilm.terminal.console import (
@@ -36,6 +33,7 @@ from roughfilm.terminal.console import (
 )
 from roughfilm.terminal.load_range import loads_of, speeds_of
 from roughfilm.terminal.output_file import alone, refuse_unwritable
+from roughfilm.words.stribeck import lift_off, speed_scale
 
 SOURCES = (
     "Sahlin 2008, Paper E",
@@ -81,7 +79,7 @@ def command(
             f"{scene}: asperities: are missing; add [roughness] with a surface, and [asperities] with the solids "
             "(scripts/examples/scenes/rough_washer.toml)"
         )
-    radius = turning_radius(read)
+    radius = read.turning_radius
     asked = loads_of(loads)
     over = speeds_of(speeds or (SLIDING if radius is None else TURNING), radius)
     if not COARSEST <= resolution <= FINEST:
@@ -106,11 +104,6 @@ def command(
         advance(0.95, "drawing the page")
         write_page(read, told, curves, wall.asperities, resolution, out / "report.html")
     _say(read, told, curves, known, out, as_json)
-
-
-def turning_radius(scene: Bearing) -> float | None:
-    """Where the speed counts of what turns, m; None if nothing does."""
-    return scene.geometry.radius if isinstance(scene.geometry, Journal | Ring) else None
 
 
 def _part(advance: Any, first: float, last: float) -> Any:
@@ -182,17 +175,17 @@ def _say(
     if as_json:
         print_json({**told, "report": str(out / "report.html")})
     else:
-        scale = scale_of(scene)
-        table = Table("load, MPa", f"lift-off, {scale[0]}", "least μ", f"at, {scale[0]}", "μ at the slowest")
+        scale = speed_scale(scene)
+        table = Table("load, MPa", f"lift-off, {scale.unit}", "least μ", f"at, {scale.unit}", "μ at the slowest")
         for column in table.columns:
             column.justify = "right"
         for curve in curves:
             least = min(curve.points, key=lambda point: point.friction_coefficient)
             table.add_row(
                 f"{curve.pressure / 1e6:.4g}",
-                lift_off(curve, scale[1]),
+                lift_off(curve, scale, named=False),
                 f"{least.friction_coefficient:.4f}",
-                f"{scale[1] * least.speed:.4g}",
+                f"{scale.factor * least.speed:.4g}",
                 f"{curve.points[0].friction_coefficient:.4f}",
             )
         output.print(table)
@@ -201,15 +194,3 @@ def _say(
         messages.print(f"found: {known} of {told['numerics']['points']} points, not solved again", soft_wrap=True)
     for warning in told["provenance"]["warnings"]:
         messages.print(f"[yellow]warning:[/] {escape(warning)}", soft_wrap=True)
-
-
-def lift_off(curve: StribeckCurve, factor: float, unit: str = "") -> str:
-    """The speed from which on the film carries all, times a factor, with its error and perhaps a unit."""
-    speed, unsure = factor * curve.lift_off.speed, factor * curve.lift_off.uncertainty
-    return "none found" if math.isnan(speed) else f"{with_error(speed, unsure)} {unit}".strip()
-
-
-def scale_of(scene: Bearing) -> tuple[str, float]:
-    """How speeds are told: the unit, and how many of it are 1 m/s."""
-    radius = turning_radius(scene)
-    return ("m/s", 1.0) if radius is None else ("rpm", 60 / (2 * math.pi * radius))

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from contextlib import ExitStack
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 from rich.markup import escape
@@ -24,6 +24,8 @@ from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.description import make, read_description
 from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.terminal.console import AsJson, in_one_line, messages, output, print_json, progress_bar
+from roughfilm.words.numbers import in_unit
+from roughfilm.words.surface import preparation_steps
 
 SOURCES = ("ISO 25178-2:2021", "F. Sahlin, Luleå University of Technology 2008:26, sections E.3.1 and F.3")
 
@@ -86,7 +88,7 @@ def command(
         print_json({"quantities": entries, "numerics": numerics, "provenance": provenance})
     else:
         output.print(table_of(file.name, quantities))
-        for line in told(prepared):
+        for line in preparation_steps(prepared):
             output.print(escape(line), soft_wrap=True)
         for path in filter(None, (out, report)):
             output.print(f"written: {escape(str(path))}", soft_wrap=True)
@@ -142,31 +144,3 @@ def table_of(name: str, quantities: dict[str, Quantity]) -> Table:
             raw = quantities.get(f"raw_{key}")
             table.add_row(key, "" if raw is None else in_unit(raw)[0], *in_unit(quantity))
     return table
-
-
-def in_unit(quantity: Quantity) -> tuple[str, str]:
-    """A quantity as people read it: its number, and its unit."""
-    if quantity.unit == "m":
-        return f"{quantity.value * 1e6:.4g}", "µm"
-    return f"{quantity.value:.4g}", "" if quantity.unit == "1" else quantity.unit
-
-
-def told(prepared: Prepared) -> list[str]:
-    """A line for each step that changed something."""
-    record: Any = prepared.record
-    recipe = prepared.surface.source["recipe"]
-    window, grid, cut, edges = record["window"], record["grid"], record["outliers"], record["edges"]
-    size, width = (
-        " x ".join(f"{length * 1e6:.4g}" for length in pair) for pair in (prepared.surface.size, edges["width"])
-    )
-    joined = "in both directions" if edges["direction"] == "both" else f"along {edges['direction']}"
-    steps = {
-        f"form: {recipe['form']}": recipe["form"] != "none",
-        f"filled: {record['invalid']['points']} invalid points": record["invalid"]["points"],
-        f"cut: {cut['above']} points above, {cut['below']} below": recipe["outliers"]["points"],
-        f"window: {window['pixels'][0]} x {window['pixels'][1]} pixels from {window['start']}, {size} µm": True,
-        f"grid: {grid['points'][0]} x {grid['points'][1]} points": True,
-        f"edges: joined {joined} ({edges['reason']}), filter {width} µm wide": edges["direction"] != "none",
-        f"smoothing: {recipe['smoothing']} points": recipe["smoothing"] > 1,
-    }
-    return [line for line, changed in steps.items() if changed]

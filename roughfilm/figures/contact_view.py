@@ -3,20 +3,14 @@
 import sys
 import tempfile
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.files import replacing
-from roughfilm.contact.mechanics.contact import Contact
-from roughfilm.figures.rendering import draw_apart
-from roughfilm.pages.render import embedded
+from roughfilm.contact.mechanics.gap_map import GapMap
+from roughfilm.figures.rendering import draw_apart, embedded
 from roughfilm.rom.ladder.model import Availability
-
-MOST_POINTS = 256
-"""Along a side; finer surfaces are drawn by every second, third ... point."""
 
 PANEL = (760, 560)
 """Pixels."""
@@ -27,37 +21,7 @@ RELIEF = 0.2
 CONTACT = "#d7301f"
 
 
-@dataclass(frozen=True, kw_only=True)
-class View:
-    """What is drawn of a contact.
-
-    Attributes
-    ----------
-    gap : shape (nx, ny), m.
-    spacing : (dx, dy) of these points, m.
-    relief : from the lowest to the highest point of the undeformed surface, m.
-    title : over it.
-    """
-
-    gap: Array
-    spacing: tuple[float, float]
-    relief: float
-    title: str
-
-
-def view_of(contact: Contact) -> View:
-    """A contact with no more points than are drawn."""
-    step = max(1, -(-max(contact.gap.shape) // MOST_POINTS))
-    dx, dy = contact.spacing
-    return View(
-        gap=contact.gap[::step, ::step].copy(),
-        spacing=(step * dx, step * dy),
-        relief=float(np.ptp(contact.heights)) or 1.0,
-        title=f"{contact.load / 1e6:.4g} MPa, {100 * contact.area_fraction:.3g} % contact",
-    )
-
-
-def draw_views_apart(views: Sequence[View], picture: Path) -> Availability:
+def draw_views_apart(views: Sequence[GapMap], picture: Path) -> Availability:
     """Draw one PNG, in a process of its own; says why where it fails."""
     first = views[0]
     with tempfile.TemporaryDirectory() as folder:
@@ -65,14 +29,14 @@ def draw_views_apart(views: Sequence[View], picture: Path) -> Availability:
         np.savez(
             file,
             gaps=np.array([view.gap for view in views]),
-            titles=np.array([view.title for view in views]),
+            titles=np.array([f"{view.load / 1e6:.4g} MPa, {100 * view.area_fraction:.3g} % contact" for view in views]),
             spacing=np.array(first.spacing),
             relief=first.relief,
         )
         return draw_apart("roughfilm.figures.contact_view", file, picture)
 
 
-def view_picture(views: Sequence[View]) -> tuple[str | None, str]:
+def view_picture(views: Sequence[GapMap]) -> tuple[str | None, str]:
     """The picture as the text of an image's address, or why there is none."""
     with tempfile.TemporaryDirectory() as scratch:
         path = Path(scratch) / "contacts.png"

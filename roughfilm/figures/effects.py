@@ -7,10 +7,10 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from roughfilm.cli.effects import Shown
 from roughfilm.figures.base import svg
 from roughfilm.rom.bearing.effects.ablation import Amount
 from roughfilm.rom.bearing.effects.contributions import Study
+from roughfilm.words.effects import Shown
 
 MORE, LESS, WHOLE, BESIDE = "#2166ac", "#b2182b", "#5b6675", "#b07d2b"
 HIGH, LOW = 0.34, 0.18

@@ -9,7 +9,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures.base import svg
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.homogenization.flux import flux
-from roughfilm.rom.homogenization.table import FactorTable, relative_row, told_rows
+from roughfilm.rom.homogenization.table.factor_table import FactorTable, relative_row, told_rows
 
 COLOURS = ("#2166ac", "#b2182b", "#e08214")
 GAPS = mpl.colormaps["cividis"].with_extremes(bad="#b2182b")

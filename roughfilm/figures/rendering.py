@@ -1,5 +1,6 @@
 """Pictures drawn by VTK in a process of their own, because missing graphics libraries make it crash."""
 
+import base64
 import subprocess
 import sys
 from pathlib import Path
@@ -16,6 +17,11 @@ plotter.add_mesh(pyvista.Sphere())
 plotter.screenshot()
 print(pyvista.vtk_version_info)
 """
+
+
+def embedded(picture: Path) -> str:
+    """The address of an image that holds a PNG file itself."""
+    return "data:image/png;base64," + base64.b64encode(picture.read_bytes()).decode("ascii")
 
 
 def draw_apart(module: str, file: Path, picture: Path) -> Availability:

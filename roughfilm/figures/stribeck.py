@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve, StribeckPoint
+from roughfilm.words.stribeck import SpeedScale
 
 COLOURS = ("#2166ac", "#1a7f37", "#b2182b", "#b07d2b", "#6a51a3", "#444444")
 BETWEEN = 400
@@ -40,15 +41,7 @@ class Drawn:
     contact: Array
 
 
-@dataclass(frozen=True, kw_only=True)
-class Scale:
-    """How speeds are told: a unit, and how many of it are 1 m/s."""
-
-    unit: str
-    factor: float
-
-
-def curves(found: Sequence[StribeckCurve], scale: Scale, touching: float) -> Figure:
+def curves(found: Sequence[StribeckCurve], scale: SpeedScale, touching: float) -> Figure:
     """Friction, least separation over the first touch, and the contact's share, over speed."""
     figure = Figure(figsize=(11.4, 4.0), layout="constrained")
     friction, gap, share = figure.subplots(1, 3)

@@ -4,8 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from roughfilm.figures.rendering import embedded
 from roughfilm.figures.view import View
-from roughfilm.pages.render import embedded, render
+from roughfilm.pages.render import render
 from roughfilm.rom.ladder.kind import Kind, Scene
 from roughfilm.rom.ladder.model import Model, best
 from roughfilm.rom.ladder.result import Result

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from roughfilm.cli.contact import digits
 from roughfilm.contact.mechanics.load_series import Series
 from roughfilm.figures import contact as contact_figures
 from roughfilm.figures.contact_view import view_picture
 from roughfilm.pages.render import render
+from roughfilm.words.numbers import digits
 
 MODELS = {
     "bearing_area": "What stands above a plane is cut off and bears the hardness; nothing else moves.",
@@ -46,8 +46,8 @@ def write_page(name: str, told: Mapping[str, Any], series: Series, path: Path) -
     hardness = settings["hardness"] or math.inf
     shown = [column for column in COLUMNS if any(getattr(row, column[2]) is not None for row in series.rows)]
     line = last is not None and 1 in last.heights.shape
-    count = 0 if line else min(PICTURED, len(series.views))
-    views = [series.views[round(place)] for place in np.linspace(0, len(series.views) - 1, count)]
+    count = 0 if line else min(PICTURED, len(series.gap_maps))
+    views = [series.gap_maps[round(place)] for place in np.linspace(0, len(series.gap_maps) - 1, count)]
     picture, missing = view_picture(views) if views else (None, "")
     render(
         "contact.html.j2",

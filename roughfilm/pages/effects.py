@@ -5,12 +5,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from roughfilm.cli.effects import AT_FILM, SHOWN, UNDER_LOAD, Shown, Told, cell, left_out, sentences, shown
 from roughfilm.figures import effects as effects_figures
-from roughfilm.pages.render import percent, render, write_figures
+from roughfilm.pages.render import render, write_figures
 from roughfilm.rom.bearing.effects.ablation import Amount
+from roughfilm.rom.bearing.effects.analysis import EffectAnalysis
 from roughfilm.rom.bearing.effects.contributions import Study
 from roughfilm.rom.ladder.kind import kinds
+from roughfilm.words.effects import AT_FILM, SHOWN, UNDER_LOAD, Shown, cell, sentences, shown
+from roughfilm.words.numbers import percent
 
 MORE = "contact_share"
 """A column of the page's tables beside those that are drawn."""
@@ -28,7 +30,7 @@ class View:
     untold: Mapping[str, str]
 
 
-def write_page(told: Told, entries: Mapping[str, Any], out: Path) -> None:
+def write_page(told: EffectAnalysis, entries: Mapping[str, Any], out: Path) -> None:
     """Write the page and its figures; InputError if a file cannot be written."""
     film = told.scene.geometry.film
     views = [_view(f"At the film of the scene, {film * 1e6:.4g} µm", told.at_film, AT_FILM, _beside(told))]
@@ -46,7 +48,7 @@ def write_page(told: Told, entries: Mapping[str, Any], out: Path) -> None:
         told=entries,
         views=views,
         treated=told.treated,
-        left_out=left_out(told.scene),
+        left_out=told.left_out,
         numbers=[(kind.symbols[name], f"{value:.3g}") for name, value in kind.numbers(told.scene).items()],
         inertia=told.inertia,
         loaded=told.loaded_inertia,
@@ -61,7 +63,7 @@ def _share(added: Amount, found: Study) -> str:
     return f"{cell(added, SHOWN[name], sign=True)} {SHOWN[name].unit} ({part} of the load)"
 
 
-def _beside(told: Told) -> dict[str, Amount]:
+def _beside(told: EffectAnalysis) -> dict[str, Amount]:
     """What inertia adds, by the names of the quantities that it is added to."""
     if told.inertia is None:
         return {}

@@ -8,11 +8,11 @@ from typing import Any
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.read import Rough
 from roughfilm.figures import factors as factors_figures
-from roughfilm.pages.error_bars import with_error
 from roughfilm.pages.render import render
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.homogenization.flow_factors import Estimated
-from roughfilm.rom.homogenization.table import FactorTable
+from roughfilm.rom.homogenization.table.factor_table import FactorTable
+from roughfilm.words.numbers import with_error
 
 COLUMNS = ("A11", "A12", "A22", "B1", "B2", "d", "e")
 

@@ -6,19 +6,20 @@ from typing import Any
 
 import numpy as np
 
-from roughfilm.cli.contact import digits
-from roughfilm.cli.leakage import WORDS, in_words, leaks
+from roughfilm.contact.mechanics.gap_map import gap_map
 from roughfilm.contact.mechanics.store import load_contact
 from roughfilm.contact.parameters.autocorrelation import autocorrelation, decay_lengths
 from roughfilm.contact.parameters.peaks import lowest_valleys
 from roughfilm.figures import leakage as leakage_figures
-from roughfilm.figures.contact_view import view_of, view_picture
+from roughfilm.figures.contact_view import view_picture
 from roughfilm.pages.render import render
 from roughfilm.rom.seal.leakage.curve import Ready
 from roughfilm.rom.seal.leakage.effective_medium import effective_medium
 from roughfilm.rom.seal.leakage.percolation import Threshold
 from roughfilm.rom.seal.leakage.series import SOUGHT, Row
 from roughfilm.rom.seal.scene import Seal
+from roughfilm.words.leakage import WORDS, in_words, leaks
+from roughfilm.words.numbers import digits
 
 
 def write_page(
@@ -43,7 +44,7 @@ def write_page(
     )
     shown = _shown(ordered, scene.axis)
     contacts = [load_contact(body.contacts, load) for load in shown]
-    picture, why = view_picture([view_of(contact) for contact in contacts])
+    picture, why = view_picture([gap_map(contact) for contact in contacts])
     render(
         "leakage.html.j2",
         directory / "report.html",

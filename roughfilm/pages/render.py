@@ -1,6 +1,5 @@
 """Self-contained HTML pages that a person would rather look at than read, from templates."""
 
-import base64
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -9,6 +8,7 @@ import jinja2
 
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.units import Quantity
+from roughfilm.words.numbers import percent
 
 TEMPLATES = Path(__file__).parent / "templates"
 
@@ -48,23 +48,10 @@ def write_figures(plots: Mapping[str, str], directory: Path) -> None:
             scratch.write_text('<?xml version="1.0" encoding="utf-8"?>\n' + text, encoding="utf-8")
 
 
-def embedded(path: Path) -> str:
-    """A PNG file as the text of an image's address."""
-    return "data:image/png;base64," + base64.b64encode(path.read_bytes()).decode("ascii")
-
-
 def _share(part: float) -> str:
     """A part without sign, in per cent."""
     percent = 100 * part
     return f"{percent:.0f} %" if percent >= 99.5 else f"{percent:.2g} %"
-
-
-def percent(part: float) -> str:
-    """A part with its sign, in per cent."""
-    percent = 100 * part
-    if abs(percent) < 1e-3:
-        return "0 %"
-    return f"{percent:+.0f} %" if abs(percent) >= 99.5 else f"{percent:+.2g} %"
 
 
 def _seconds(value: float) -> str:

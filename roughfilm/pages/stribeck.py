@@ -6,18 +6,18 @@ from typing import Any
 
 import numpy as np
 
-from roughfilm.cli.stribeck import lift_off, scale_of
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures import stribeck as stribeck_figures
 from roughfilm.figures.base import svg
-from roughfilm.figures.stribeck import Drawn, Scale
-from roughfilm.pages.error_bars import with_error
+from roughfilm.figures.stribeck import Drawn
 from roughfilm.pages.render import render
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.film import MixedFilm
 from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve, StribeckPoint
 from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.words.numbers import with_error
+from roughfilm.words.stribeck import lift_off, speed_scale
 
 MIXED = 0.3
 """The first film drawn is the one whose asperities carry nearest to this part of the load."""
@@ -35,7 +35,8 @@ def write_page(
     path: Path,
 ) -> None:
     """Write the page of curves and of what ``--json`` told; InputError if the file cannot be written."""
-    unit, factor = scale_of(scene)
+    scale = speed_scale(scene)
+    unit, factor = scale.unit, scale.factor
     middle = curves[len(curves) // 2]
     film = MixedFilm(scene=scene, asperities=asperities, cells=resolution)
     drawn = [drawn_film(film, point, f"{factor * point.speed:.3g} {unit}") for point in shown_points(middle)]
@@ -48,10 +49,10 @@ def write_page(
         factor=factor,
         friction=scene.asperities.friction if scene.asperities is not None else 0.0,
         pressures=[curve.pressure for curve in curves],
-        lifts=[(curve, lift_off(curve, factor, unit)) for curve in curves],
+        lifts=[(curve, lift_off(curve, scale)) for curve in curves],
         shown=f"{middle.pressure / 1e6:.4g} MPa",
         rows=[_row(point, factor) for curve in curves for point in _few(curve.points)],
-        curves=svg(stribeck_figures.curves(curves, Scale(unit=unit, factor=factor), asperities.touching)),
+        curves=svg(stribeck_figures.curves(curves, scale, asperities.touching)),
         films=svg(stribeck_figures.films(drawn)),
         table=svg(stribeck_figures.asperity_table(asperities)),
         touching=asperities.touching,

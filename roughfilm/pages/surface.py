@@ -4,12 +4,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from roughfilm.cli import surface
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.preparation.prepare import Prepared
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD
 from roughfilm.figures import surface as surface_figures
 from roughfilm.pages.render import render
+from roughfilm.words.numbers import in_unit
+from roughfilm.words.surface import preparation_steps
 
 MEANINGS = {
     "Sa": "mean distance from the mean plane",
@@ -38,7 +39,7 @@ def write_page(
 ) -> None:
     """Write the page; InputError if the file cannot be written."""
     rows = [
-        (name, meaning, *surface.in_unit(quantities[f"raw_{name}"]), surface.in_unit(quantities[name])[0])
+        (name, meaning, *in_unit(quantities[f"raw_{name}"]), in_unit(quantities[name])[0])
         for name, meaning in MEANINGS.items()
     ]
     source = provenance["surface"]
@@ -51,7 +52,7 @@ def write_page(
         source=source,
         prepared=prepared,
         rows=rows,
-        steps=[line.partition(": ") for line in surface.told(prepared)],
+        steps=[line.partition(": ") for line in preparation_steps(prepared)],
         mismatch=prepared.record["periodicity_mismatch"],
         threshold=MISMATCH_THRESHOLD,
         maps=surface_figures.height_maps(prepared),

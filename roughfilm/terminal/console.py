@@ -33,6 +33,7 @@ AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object on s
 Resolution = Annotated[int | None, typer.Option(help="Nodes or mesh columns; see 'roughfilm models'.")]
 Scheme = Annotated[str | None, typer.Option(help="Advection scheme; see 'roughfilm models'.")]
 Processes = Annotated[int, typer.Option(help="Processes of one OpenFOAM run (MPI).")]
+Threads = Annotated[int | None, typer.Option(help="Gaps whose flow is solved at once; two where there are two cores.")]
 Tolerance = Annotated[float | None, typer.Option(help="Residual at which a solver stops.")]
 
 messages = Console(stderr=True, highlight=False)
@@ -47,13 +48,18 @@ def models() -> tuple[Model, ...]:
 def fail(error: Exception, code: int) -> typer.Exit:
     """Say one line (and the log's last lines, where there are some) and return the exit."""
     messages.print(f"[bold red]error:[/] {escape(str(error))}", soft_wrap=True)
-    for note in getattr(error, "__notes__", []):
-        messages.print(escape(note), style="dim", soft_wrap=True)
+    print_notes(error, style="dim")
     return typer.Exit(code)
 
 
+def print_notes(error: BaseException, style: str | None = None) -> None:
+    """Print the lines that the library added to an exception."""
+    for note in getattr(error, "__notes__", []):
+        messages.print(escape(note), style=style, soft_wrap=True)
+
+
 def in_one_line(command: Callable[..., None]) -> Callable[..., None]:
-    """Turn our errors into one line on standard error and the exit code 2, 3 or 4."""
+    """Turn our errors into one line on standard error and the exit code 2, 3 or 4, and print the notes of a stop."""
 
     @functools.wraps(command)
     def wrapped(*arguments: Any, **options: Any) -> None:
@@ -65,6 +71,9 @@ def in_one_line(command: Callable[..., None]) -> Callable[..., None]:
             raise fail(error, NOT_CONVERGED) from None
         except UnavailableError as error:
             raise fail(error, MISSING) from None
+        except (KeyboardInterrupt, SystemExit) as stop:
+            print_notes(stop)
+            raise
         except BrokenPipeError:
             raise
         except OSError as error:

@@ -29,7 +29,7 @@ from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.synthetic.self_affine import self_affine
 from roughfilm.rom.homogenization.cell import solve_cell
 from roughfilm.rom.homogenization.conductance import FaceRule, faces
-from roughfilm.rom.homogenization.tabulate import tabulate
+from roughfilm.rom.homogenization.table.tabulate import tabulate
 from roughfilm.rom.ladder.provenance import circumstances
 
 PROGRAM = PROGRAMS / "cells.py"

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from roughfilm.foamcases.pocket.case import CARD, read_card
+from roughfilm.foamcases.openfoam.case_directory import CARD, read_card
 from roughfilm.foamcases.rough_gap.case import GapCard, mesh_of, write_gap_case
 from roughfilm.foamcases.rough_gap.cases import factors_of
 from roughfilm.foamcases.rough_gap.fields import read_gap_flow

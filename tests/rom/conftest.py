@@ -12,8 +12,8 @@ from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.dry_contact.scene import DryContact
 from roughfilm.rom.homogenization.factors import FlowFactors
-from roughfilm.rom.homogenization.table import FactorTable, Point
-from roughfilm.rom.homogenization.table_store import save_table
+from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
+from roughfilm.rom.homogenization.table.store import save_table
 from roughfilm.rom.ladder.scene import read_scene
 
 ROUGH = {

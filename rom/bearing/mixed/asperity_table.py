@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.homogenization.gap_factors import GapFactors
-from roughfilm.rom.homogenization.table import FactorTable, Point
+from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
 
 TIP = 1.5
 """The power of the approach with which the load on a first touching tip grows: Hertz's."""

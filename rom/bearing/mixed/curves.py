@@ -11,6 +11,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.inputs import Inputs
+from roughfilm.contact.foundation.threads import checked_threads
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.bearing.mixed.curves_store import known_points, save_points
@@ -22,14 +23,12 @@ from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.roughness import RoughSurface
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.homogenization.conductance import FaceRule
-from roughfilm.rom.homogenization.table import FactorTable, Point
-from roughfilm.rom.homogenization.table_store import load_table_and_source
+from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
+from roughfilm.rom.homogenization.table.store import load_table_and_source
 from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.ladder.provenance import code
 from roughfilm.rom.ladder.scene import scene_entries
 from roughfilm.rom.parts.solids import composite_modulus, hardness
-from roughfilm.terminal.console import messages
-from roughfilm.terminal.threads import chosen_threads
 
 SAME = 1e-9
 """How near what is told of a table's surface and solids has to be to those of the scene, as a part of it."""
@@ -132,7 +131,7 @@ def _tabulated(
             reach=reach,
             known=known,
             keep=keep,
-            threads=chosen_threads(None),
+            threads=checked_threads(None),
             progress=progress,
         )
 
@@ -253,9 +252,9 @@ def swept(
     except ConvergenceError:
         save_points(out, inputs, tuple(found.values()))
         raise
-    except (KeyboardInterrupt, SystemExit):
+    except (KeyboardInterrupt, SystemExit) as stop:
         save_points(out, inputs, tuple(found.values()))
-        messages.print(f"stopped: {len(found)} points; the same command goes on", soft_wrap=True)
+        stop.add_note(f"stopped: {len(found)} points; the same command goes on")
         raise
     save_points(out, inputs, tuple(found.values()), curves)
     asked = {(point.pressure, point.speed) for curve in curves for point in curve.points}

@@ -9,7 +9,7 @@ from roughfilm.contact.mechanics.press import Press
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.bearing.mixed.tabulate import gap_of
 from roughfilm.rom.homogenization.patir_cheng import patir_cheng
-from roughfilm.rom.homogenization.table import Point
+from roughfilm.rom.homogenization.table.factor_table import Point
 from roughfilm.rom.ladder.model import Progress, silent
 
 

@@ -6,10 +6,9 @@ from pathlib import Path
 
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.foundation.inputs import Inputs
-from roughfilm.rom.homogenization.separation import Separations
-from roughfilm.rom.homogenization.table import FactorTable, Point
-from roughfilm.rom.homogenization.table_store import known_points, save_table
-from roughfilm.terminal.console import messages
+from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
+from roughfilm.rom.homogenization.table.separation import Separations
+from roughfilm.rom.homogenization.table.store import known_points, save_table
 
 EVERY_S = 2.0
 """Between two writings."""
@@ -52,10 +51,10 @@ def kept_table(out: Path | None, inputs: Inputs, work: Work) -> tuple[FactorTabl
     except ConvergenceError:
         save()
         raise
-    except (KeyboardInterrupt, SystemExit):
+    except (KeyboardInterrupt, SystemExit) as stop:
         save()
         end = "; the same command goes on" if out is not None else ", none kept without --out"
-        messages.print(f"stopped: {len(found)} points{end}", soft_wrap=True)
+        stop.add_note(f"stopped: {len(found)} points{end}")
         raise
     found |= {_key(point): point for point in table.points}
     save()

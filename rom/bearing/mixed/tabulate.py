@@ -14,11 +14,11 @@ from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.contact.mechanics.moments import wave_power
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
-from roughfilm.rom.homogenization.bisection import bisected
 from roughfilm.rom.homogenization.conductance import FaceRule
-from roughfilm.rom.homogenization.separation import Separations
-from roughfilm.rom.homogenization.table import Point
-from roughfilm.rom.homogenization.tabulate import TOLERANCE, beyond, point_of, tabulate
+from roughfilm.rom.homogenization.table.bisection import bisected
+from roughfilm.rom.homogenization.table.factor_table import Point
+from roughfilm.rom.homogenization.table.separation import Separations
+from roughfilm.rom.homogenization.table.tabulate import TOLERANCE, beyond, point_of, tabulate
 from roughfilm.rom.ladder.model import Progress, silent
 
 COMPLEMENTARITY = 1e-6
@@ -58,9 +58,9 @@ def tabulate_pressed(
 ) -> AsperityTable:
     """Flow factors and contact pressures over the separation of a surface and a flat one.
 
-    Open, the surface is as :func:`rom.homogenization.tabulate.tabulate` takes it, from its first touch on; pressed, it
-    deforms elastically and plastically. Half-way between two loads it is pressed again: where the table is off by more
-    than the tolerance, and than what is unsure, that is done on both sides of it, to within 5 % in load.
+    Open, the surface is as :func:`rom.homogenization.table.tabulate.tabulate` takes it, from its first touch on;
+    pressed, it deforms elastically and plastically. Half-way between two loads it is pressed again: where the table is
+    off by more than the tolerance, and than what is unsure, that is done on both sides of it, to within 5 % in load.
 
     Parameters
     ----------
@@ -71,7 +71,8 @@ def tabulate_pressed(
     loads : two or more, Pa, that the table has at least; by default from about one pixel in contact to where both
         directions are sealed, 0.9 H, or 90 % contact.
     reach : a load that it reaches in any case, Pa.
-    tolerance : as :func:`rom.homogenization.tabulate.tabulate` takes it, and of the separation over the rms height.
+    tolerance : as :func:`rom.homogenization.table.tabulate.tabulate` takes it, and of the separation over the rms
+        height.
     known : points that need not be solved again.
     keep : called with every new point.
     stored : gives the contact at a load where there is one already.

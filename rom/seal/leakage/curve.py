@@ -24,7 +24,6 @@ from roughfilm.rom.seal.leakage.direct import direct_leakage
 from roughfilm.rom.seal.leakage.homogenized import homogenized_leakage
 from roughfilm.rom.seal.leakage.percolation import Threshold, thresholds
 from roughfilm.rom.seal.leakage.series import SOUGHT, Kept, Row, kept_series, save_series
-from roughfilm.terminal.console import messages
 
 COUNT = 25
 """Loads, where nobody says which."""
@@ -174,9 +173,9 @@ def solved(body: Ready, loads: tuple[float, ...], threads: int, advance: Advance
                 collect(threads)
                 pending[pool.submit(flow, before)] = load
             collect(0)
-    except (KeyboardInterrupt, SystemExit):
+    except (KeyboardInterrupt, SystemExit) as stop:
         done = sum(load in rows for load in loads)
-        messages.print(f"stopped: {done} of {len(loads)} loads; the same command goes on", soft_wrap=True)
+        stop.add_note(f"stopped: {done} of {len(loads)} loads; the same command goes on")
         raise
     finally:
         rows |= {load: future.result() for future, load in pending.items() if _succeeded(future)}

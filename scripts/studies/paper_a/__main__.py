@@ -14,8 +14,8 @@ import numpy as np
 import typer
 
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.figures.rendering import draw_apart
-from roughfilm.pages.render import embedded, render, write_figures
+from roughfilm.figures.rendering import draw_apart, embedded
+from roughfilm.pages.render import render, write_figures
 from roughfilm.rom.studies.sweep import read_sweep, relative_error
 from roughfilm.rom.studies.table import read_table
 from roughfilm.terminal.console import AsJson, in_one_line, make_directory, progress_bar, run_alone

@@ -16,14 +16,15 @@ import typer
 
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.mechanics.contact import Contact
+from roughfilm.contact.mechanics.gap_map import gap_map
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.solid import composite_modulus
 from roughfilm.contact.surfaces.files import read_surface
-from roughfilm.figures.contact_view import view_of, view_picture
-from roughfilm.pages.error_bars import with_error
+from roughfilm.figures.contact_view import view_picture
 from roughfilm.pages.render import render, write_figures
 from roughfilm.rom.ladder.provenance import circumstances, code
 from roughfilm.terminal.console import AsJson, in_one_line, make_directory, progress_bar, run_alone
+from roughfilm.words.numbers import with_error
 from scripts.studies.claims import Claim, Surfaces, tell, write_numbers
 from scripts.studies.paper_e import data as paper_e_data
 from scripts.studies.paper_e import windows as paper_e_windows
@@ -65,7 +66,7 @@ def command(
         milled=MILLED,
         load=LOAD,
         studies=studies(paper.windows) if paper.windows else [],
-        contact=view_picture([view_of(contact) for contact in pressed()])[0],
+        contact=view_picture([gap_map(contact) for contact in pressed()])[0],
     )
     tell(claims, told, out / "paper_e.html", as_json=as_json)
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.pages.error_bars import with_error
+from roughfilm.words.numbers import with_error
 from scripts.studies.claims import Claim
 from scripts.studies.paper_e.data import LOADS, SEEDS, Washer
 from scripts.studies.paper_e.windows import LOAD, PARTS, Leak

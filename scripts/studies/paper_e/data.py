@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 
-from roughfilm.cli.stribeck import turning_radius
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.solid import composite_modulus
@@ -21,7 +20,7 @@ from roughfilm.rom.bearing.mixed.patir_cheng_table import patir_cheng_table
 from roughfilm.rom.bearing.mixed.resume import kept_table
 from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.homogenization.table import FactorTable, Point
+from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
 from roughfilm.rom.ladder.provenance import code
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.terminal.console import make_directory
@@ -88,7 +87,7 @@ class Washer:
 
 def speed_of(scene: Bearing, turns: float) -> float:
     """m/s at the mean radius."""
-    radius = turning_radius(scene)
+    radius = scene.turning_radius
     assert radius is not None
     return turns * 2 * np.pi / 60 * radius
 

@@ -6,10 +6,10 @@ from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.foamcases.openfoam import iterate as tries
 from roughfilm.foamcases.openfoam.dictionaries import strengthen
 from roughfilm.foamcases.openfoam.residuals import PATIENCE, Judged, Residuals
-from roughfilm.foamcases.openfoam.run import run_case
 from roughfilm.foamcases.pocket.case import write_case
 from roughfilm.foamcases.pocket.fields import read_channel
 from roughfilm.foamcases.pocket.models import navier_stokes, stokes
+from roughfilm.foamcases.pocket.run import run_case
 
 
 def logged(values):

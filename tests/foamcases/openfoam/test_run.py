@@ -7,9 +7,9 @@ from foamlib import FoamCase, FoamFile
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome, UnavailableError
 from roughfilm.foamcases.openfoam import installation as openfoam
 from roughfilm.foamcases.openfoam import run
-from roughfilm.foamcases.openfoam.run import run_case
 from roughfilm.foamcases.pocket.case import write_case
 from roughfilm.foamcases.pocket.fields import read_channel
+from roughfilm.foamcases.pocket.run import run_case
 from roughfilm.rom.ladder.model import Availability
 
 pytestmark = pytest.mark.openfoam

@@ -8,7 +8,8 @@ import pytest
 from foamlib import FoamFile
 
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.foamcases.pocket.case import Card, read_card, write_case
+from roughfilm.foamcases.openfoam.case_directory import read_card
+from roughfilm.foamcases.pocket.case import Card, write_case
 from roughfilm.rom.ladder.scene import read_scene, scene_entries
 
 HOSTILE = [

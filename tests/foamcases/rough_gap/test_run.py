@@ -10,10 +10,10 @@ from foamlib import FoamFile
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.foamcases.openfoam import memory
+from roughfilm.foamcases.openfoam.case_directory import read_card
 from roughfilm.foamcases.openfoam.memory import memory_available, memory_estimate
 from roughfilm.foamcases.openfoam.residuals import Judged, Residuals
 from roughfilm.foamcases.openfoam.run import check_mesh
-from roughfilm.foamcases.pocket.case import read_card
 from roughfilm.foamcases.rough_gap import case as gap_case
 from roughfilm.foamcases.rough_gap.case import GapCard, judged_of, write_gap_case
 from roughfilm.foamcases.rough_gap.dictionaries import DRIVES

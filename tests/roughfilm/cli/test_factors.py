@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 from roughfilm.cli.main import app
 from roughfilm.contact.mechanics.store import load_contact
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
-from roughfilm.rom.homogenization.table_store import load_table
+from roughfilm.rom.homogenization.table.store import load_table
 
 SURFACE = """
 kind = "self_affine"

@@ -7,7 +7,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.rom.bearing.mixed.curves import wall_of
 from roughfilm.rom.bearing.mixed.tabulate import tabulate_pressed
-from roughfilm.rom.homogenization.table_store import load_table, save_table
+from roughfilm.rom.homogenization.table.store import load_table, save_table
 from roughfilm.rom.ladder.model import silent
 from roughfilm.rom.ladder.scene import load_scene
 

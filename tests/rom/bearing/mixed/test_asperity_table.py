@@ -13,7 +13,7 @@ from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.bearing.mixed.patir_cheng_table import patir_cheng_table
 from roughfilm.rom.bearing.mixed.tabulate import tabulate_pressed
 from roughfilm.rom.homogenization.flow_factors import flow_factors
-from roughfilm.rom.homogenization.table_store import load_table, save_table
+from roughfilm.rom.homogenization.table.store import load_table, save_table
 
 MODULUS, HARDNESS = 200e9, 4e9
 RANDOM = np.random.default_rng(53)

@@ -31,8 +31,8 @@ class Point:
     area_fraction, plastic_fraction : of a pressed surface, as :class:`contact.mechanics.contact.Contact` has them.
     separation_uncertainty : by how much the grid may have the separation at the load off, m.
     missed, separation_missed : what interpolation was off by here, or next to here, before the point was there: of the
-        factors, in the measure of the tolerance of :func:`rom.homogenization.tabulate.tabulate`, and of the separation
-        at the load, over the rms height.
+        factors, in the measure of the tolerance of :func:`rom.homogenization.table.tabulate.tabulate`, and of the
+        separation at the load, over the rms height.
     """
 
     separation: float

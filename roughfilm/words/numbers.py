@@ -1,6 +1,8 @@
-"""A number and how far off it may be, as people write them: 98 ± 13, 0.0214 ± 0.0003."""
+"""Numbers as people write them: with an error, such as 98 ± 13 and 0.0214 ± 0.0003, in per cent, in a unit."""
 
 import math
+
+from roughfilm.contact.foundation.units import Quantity
 
 PLAIN, FINEST = 3, 1e-6
 """Digits of a value without an error; errors below this part of the value are left out."""
@@ -40,3 +42,23 @@ def with_error(value: float, error: float | None) -> str:
 def _rounded(value: float, last: int) -> str:
     """To the digit of 10 to the ``last``."""
     return f"{round(value, -last):.{max(-last, 0)}f}"
+
+
+def digits(value: float) -> str:
+    """Four digits, and no power of ten below a million."""
+    return f"{value:.0f}" if 1e4 <= abs(value) < 1e6 else f"{value:.4g}"
+
+
+def percent(part: float) -> str:
+    """A part with its sign, in per cent."""
+    percent = 100 * part
+    if abs(percent) < 1e-3:
+        return "0 %"
+    return f"{percent:+.0f} %" if abs(percent) >= 99.5 else f"{percent:+.2g} %"
+
+
+def in_unit(quantity: Quantity) -> tuple[str, str]:
+    """A quantity as people read it: its number, and its unit."""
+    if quantity.unit == "m":
+        return f"{quantity.value * 1e6:.4g}", "µm"
+    return f"{quantity.value:.4g}", "" if quantity.unit == "1" else quantity.unit

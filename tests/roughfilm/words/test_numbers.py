@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from roughfilm.pages.error_bars import with_error
+from roughfilm.words.numbers import with_error
 
 
 @pytest.mark.parametrize(

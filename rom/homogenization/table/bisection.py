@@ -6,7 +6,7 @@ from itertools import pairwise, zip_longest
 from typing import TypeVar
 
 from roughfilm.contact.foundation.threads import workers
-from roughfilm.rom.homogenization.table import Point
+from roughfilm.rom.homogenization.table.factor_table import Point
 from roughfilm.rom.ladder.model import Progress
 
 Table = TypeVar("Table")

@@ -9,11 +9,11 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.threads import workers
-from roughfilm.rom.homogenization.bisection import bisected
 from roughfilm.rom.homogenization.conductance import FaceRule
 from roughfilm.rom.homogenization.flow_factors import checked_gap, flow_factors
-from roughfilm.rom.homogenization.separation import Separations
-from roughfilm.rom.homogenization.table import FactorTable, Point, relative_row, told_rows
+from roughfilm.rom.homogenization.table.bisection import bisected
+from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point, relative_row, told_rows
+from roughfilm.rom.homogenization.table.separation import Separations
 from roughfilm.rom.ladder.model import Progress, silent
 
 TOLERANCE = 0.005

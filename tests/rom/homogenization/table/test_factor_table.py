@@ -8,10 +8,10 @@ import pytest
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.rom.homogenization.flow_factors import flow_factors
-from roughfilm.rom.homogenization.separation import Separations
-from roughfilm.rom.homogenization.table import told_rows
-from roughfilm.rom.homogenization.table_store import known_points, load_table, save_table
-from roughfilm.rom.homogenization.tabulate import tabulate
+from roughfilm.rom.homogenization.table.factor_table import told_rows
+from roughfilm.rom.homogenization.table.separation import Separations
+from roughfilm.rom.homogenization.table.store import known_points, load_table, save_table
+from roughfilm.rom.homogenization.table.tabulate import tabulate
 
 SPACING = (1e-6, 2e-6)
 RANDOM = np.random.default_rng(20071)

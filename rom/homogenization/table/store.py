@@ -14,7 +14,7 @@ from roughfilm.contact.foundation.checked_hdf5 import has_mark, open_checked, wr
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.rom.homogenization.factors import FlowFactors
-from roughfilm.rom.homogenization.table import FactorTable, Point
+from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
 
 SCHEMA = 3
 MARK = b"roughfilm factors, HDF5 behind 512 bytes, sha256 "

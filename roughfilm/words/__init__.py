@@ -1,0 +1,1 @@
+"""Labels, units and number formats that commands, pages and figures share."""

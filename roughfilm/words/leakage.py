@@ -1,0 +1,28 @@
+"""Words and numbers of the leakage of a seal."""
+
+from roughfilm.rom.seal.leakage.percolation import Threshold
+from roughfilm.rom.seal.leakage.series import Row
+from roughfilm.rom.seal.model import leakage_of
+from roughfilm.rom.seal.scene import Seal
+
+WORDS = {
+    "direct_x": "between ends, x",
+    "direct_y": "between ends, y",
+    "homogenized_x": "on and on, x",
+    "homogenized_y": "on and on, y",
+}
+
+
+def in_words(threshold: Threshold) -> str:
+    """Where a direction seals, with the bracket of its contact area."""
+    if threshold.sealed is None:
+        return "never seals"
+    if threshold.open is None:
+        return "sealed under any load"
+    low, high = 100 * threshold.open.area_fraction, 100 * threshold.sealed.area_fraction
+    return f"seals at {threshold.load / 1e6:.4g} MPa, {low:.2f} to {high:.2f} % of contact"
+
+
+def leaks(scene: Seal, row: Row, name: str) -> str:
+    """Leakage in kg/h for each metre of width, or that there is none."""
+    return "sealed" if getattr(row, f"{name}_sealed") else f"{3600 * leakage_of(scene, getattr(row, name)):.3g}"

@@ -1,0 +1,32 @@
+"""Speeds of Stribeck curves, in turns a minute where something turns."""
+
+import math
+from dataclasses import dataclass
+
+from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.words.numbers import with_error
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpeedScale:
+    """The unit in which speeds are shown, and how many of it are 1 m/s."""
+
+    unit: str
+    factor: float
+
+
+def speed_scale(scene: Bearing) -> SpeedScale:
+    """Turns a minute where something turns, else m/s."""
+    radius = scene.turning_radius
+    if radius is None:
+        return SpeedScale(unit="m/s", factor=1.0)
+    return SpeedScale(unit="rpm", factor=60 / (2 * math.pi * radius))
+
+
+def lift_off(curve: StribeckCurve, scale: SpeedScale, *, named: bool = True) -> str:
+    """The speed from which on the film carries the whole load, with its error and, if ``named``, its unit."""
+    speed, error = scale.factor * curve.lift_off.speed, scale.factor * curve.lift_off.uncertainty
+    if math.isnan(speed):
+        return "none found"
+    return f"{with_error(speed, error)} {scale.unit}" if named else with_error(speed, error)
