@@ -13,10 +13,15 @@ _UNIT = re.compile(r"(?:[A-Za-zµμ°·/* ()]|(?:\^|\*\*)-?\d(?!\d)){1,40}")
 
 @dataclass(frozen=True, kw_only=True)
 class Quantity:
-    """A number with its unit ("1" for none)."""
+    """A number with its unit ("1" for none).
+
+    ``uncertainty`` is the half width of the interval that covers the truth in 95 of 100 cases, in the same unit; None
+    where it is unknown.
+    """
 
     value: float
     unit: str
+    uncertainty: float | None = None
 
 
 @cache

@@ -10,7 +10,7 @@ from roughfilm.foamcases.pocket.fields import read_channel
 from roughfilm.foamcases.pocket.run import Run, run_case
 from roughfilm.rom.ladder.model import Effect
 from roughfilm.rom.ladder.provenance import provenance
-from roughfilm.rom.ladder.result import Field, Numerics, Result
+from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
 from roughfilm.rom.pocket.validity import cautions
 
@@ -56,18 +56,12 @@ def read(scene: Pocket, directory: Path, run: Run, *, model: str, keeps: frozens
             resolution=card.resolution,
             tolerance=card.tolerance,
             scheme=card.scheme,
-        ),
-        provenance=provenance(
-            scene,
-            keeps=tuple(keeps),
-            sources=SOURCES,
-            openfoam=run.version,
-            velocity_relaxation=VELOCITY_RELAXATION,
-            reynolds_number_run=card.reynolds_number,
             processes=card.processes,
-            tries=[{"recipe": t.recipe, "outcome": str(t.outcome), "iterations": t.iterations} for t in run.tries],
-            warnings=[*cautions(scene), *run.warnings],
+            runs=tuple(SolverRun(outcome=str(t.outcome), iterations=t.iterations, recipe=t.recipe) for t in run.tries),
+            details={"velocity_relaxation": VELOCITY_RELAXATION, "reynolds_number": card.reynolds_number},
         ),
+        provenance=provenance(scene, keeps=tuple(keeps), sources=SOURCES, openfoam=run.version),
+        warnings=(*cautions(scene), *run.warnings),
     )
 
 

@@ -18,7 +18,7 @@ from roughfilm.foamcases.rough_gap.run import GapRun, run_gap
 from roughfilm.foamcases.rough_gap.uncertainty import error_bars
 from roughfilm.rom.ladder.model import Effect
 from roughfilm.rom.ladder.provenance import provenance
-from roughfilm.rom.ladder.result import Field, Numerics, Result
+from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun, with_uncertainties
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors
 from roughfilm.rom.rough_gap.quantities import coefficients, gap_quantities
 from roughfilm.rom.rough_gap.scene import RoughGap
@@ -142,7 +142,9 @@ def read(scene: RoughGap, directory: Path, run: GapRun, *, model: str, keeps: fr
         warnings += [f"{name}: {again}" for again in map(str, checked.tries[1:])]
     return Result(
         model=model,
-        quantities=gap_quantities(scene, walls, found) | reynolds,
+        quantities=with_uncertainties(
+            gap_quantities(scene, walls, found) | reynolds, {} if blind else coefficients(bars)
+        ),
         fields={
             "gap": Field(values=walls.gap, unit="m"),
             "flow": Field(
@@ -162,27 +164,29 @@ def read(scene: RoughGap, directory: Path, run: GapRun, *, model: str, keeps: fr
             resolution=card.resolution,
             tolerance=card.tolerance,
             scheme=card.scheme,
-        ),
-        provenance=provenance(
-            scene,
-            keeps=tuple(keeps),
-            sources=SOURCES,
-            openfoam=run.version,
-            velocity_relaxation=card.relaxation,
-            reynolds_number_run=card.reynolds_number,
             processes=card.processes,
-            layers=card.layers,
-            closed_in=columns.closed_in,
-            reciprocal=pulled,
-            equations={name: flow.residual for name, flow in run.flows.items()},
-            imbalance=missed,
-            runs={
-                name: [{"recipe": t.recipe, "outcome": str(t.outcome), "iterations": t.iterations} for t in flow.tries]
+            runs=tuple(
+                SolverRun(
+                    name=name,
+                    outcome=str(t.outcome),
+                    iterations=t.iterations,
+                    recipe=t.recipe,
+                    residual=flow.residual if t is flow.tries[-1] else None,
+                    imbalance=missed[name] if t is flow.tries[-1] else None,
+                )
                 for name, flow in run.flows.items()
+                for t in flow.tries
+            ),
+            details={
+                **{f"velocity_relaxation_{name}": value for name, value in card.relaxation.items()},
+                "reynolds_number": card.reynolds_number,
+                "layers": card.layers,
+                "closed_in": columns.closed_in,
+                **{f"reciprocal_{name}": value for name, value in pulled.items()},
             },
-            warnings=warnings,
-            **({} if blind else {"uncertainty": coefficients(bars)}),
         ),
+        provenance=provenance(scene, keeps=tuple(keeps), sources=SOURCES, openfoam=run.version),
+        warnings=tuple(warnings),
     )
 
 

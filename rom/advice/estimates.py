@@ -103,8 +103,7 @@ class Question:
 
     def told(self, result: Result) -> float | None:
         """By how much a result may be off by its own word, over its size; None if it does not say."""
-        bar: Mapping[str, float] = result.provenance.get("uncertainty", {})
-        found = bar.get(self.quantity)
+        found = result[self.quantity].uncertainty
         return None if found is None else over(found, self.kind.scale_of(result, self.quantity))
 
 

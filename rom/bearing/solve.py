@@ -30,7 +30,7 @@ from roughfilm.rom.ladder.model import (
     silent,
 )
 from roughfilm.rom.ladder.provenance import provenance
-from roughfilm.rom.ladder.result import Field, Numerics, Result
+from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun, with_uncertainties
 from roughfilm.rom.pocket.validity import NOTHING_COARSER
 
 RESOLUTION_MEANING = "cells along the sliding, and as many across where the bearing has a width"
@@ -132,7 +132,7 @@ def solve(
         warnings.append(f"{', '.join(unknown)}: {NOTHING_COARSER}, as the roughness has too few points")
     return Result(
         model=model,
-        quantities=quantities,
+        quantities=with_uncertainties(quantities, uncertainty),
         fields=_fields(scene, found, reading.fields(scene, found)),
         numerics=Numerics(
             residual=found.residual,
@@ -143,15 +143,12 @@ def solve(
             resolution=cells,
             tolerance=tolerance,
             scheme=scheme,
+            runs=tuple(
+                SolverRun(name=" x ".join(map(str, level.shape)), iterations=level.iterations) for level in found.levels
+            ),
         ),
-        provenance=provenance(
-            scene,
-            keeps=tuple(keeps),
-            sources=sources,
-            warnings=warnings,
-            uncertainty={name: bar for name, bar in uncertainty.items() if math.isfinite(bar)},
-            grids=[{"nodes": list(level.shape), "iterations": level.iterations} for level in found.levels],
-        ),
+        provenance=provenance(scene, keeps=tuple(keeps), sources=sources),
+        warnings=tuple(warnings),
     )
 
 

@@ -3,7 +3,7 @@
 import math
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -41,17 +41,13 @@ class Task:
 
 @dataclass(frozen=True, kw_only=True)
 class Answer:
-    """What a rung found: quantities and fields, residual, iterations, and what must be known of it.
-
-    ``uncertainty`` is of quantities, in their units.
-    """
+    """What a rung found: quantities and fields, residual, iterations, and what must be known of it."""
 
     quantities: Mapping[str, Quantity]
     fields: Mapping[str, Field]
     residual: float
     iterations: int
     warnings: tuple[str, ...] = ()
-    uncertainty: Mapping[str, float] = field(default_factory=dict)
 
 
 Work = Callable[[Task], Answer]
@@ -129,10 +125,9 @@ def solve(
             scene,
             keeps=tuple(keeps),
             sources=sources,
-            warnings=warnings,
-            **({"uncertainty": dict(answer.uncertainty)} if answer.uncertainty else {}),
             heights={"digest": digest_of(surface), "points": list(surface.shape), "used": [nx, ny]},
         ),
+        warnings=tuple(warnings),
     )
 
 

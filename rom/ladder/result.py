@@ -1,7 +1,8 @@
 """What a model returns: quantities with units, fields, how it was computed and from what."""
 
+import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -19,11 +20,34 @@ class Field:
 
 
 @dataclass(frozen=True, kw_only=True)
+class SolverRun:
+    """One run of an iterative solver within a result.
+
+    Attributes
+    ----------
+    name : the flow or the grid that it solved; "" where there is only one.
+    outcome, iterations : how it ended, and after how many iterations.
+    recipe : how the solver was set up differently after a run that failed; "" for the usual setup.
+    residual : recomputed after the run; None if it was not.
+    imbalance : mismatch of the forces on the liquid, relative to the force that drives it; None if it was not computed.
+    """
+
+    name: str = ""
+    outcome: str = "converged"
+    iterations: int
+    recipe: str = ""
+    residual: float | None = None
+    imbalance: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
 class Numerics:
     """How a result was computed.
 
     ``residual`` is recomputed after the solver claims success; what it measures is the model's ``residual_meaning``.
     ``cpu_s`` counts this process and its children; ``scheme`` is the advection scheme, "" where there is no choice.
+    ``runs`` are the runs of the solver in their order, where it reports them; ``details`` are further numbers that
+    describe the computation, by name.
     """
 
     residual: float
@@ -34,14 +58,42 @@ class Numerics:
     resolution: int
     tolerance: float
     scheme: str
+    processes: int = 1
+    runs: tuple[SolverRun, ...] = ()
+    details: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Result:
-    """What one model says of one scene; which quantities and fields, the kind of scene says."""
+    """The solution of one scene by one model; the kind of scene names its quantities and fields.
+
+    Attributes
+    ----------
+    provenance : where the result comes from: scene, versions, commit, machine, sources, times.
+    warnings : where the model leaves its range or the computation is coarse, one sentence each.
+    expected_error : relative error of the model in a quantity by a fitted law; empty where there is no law.
+    """
 
     model: str
     quantities: Mapping[str, Quantity]
     fields: Mapping[str, Field]
     numerics: Numerics
     provenance: Mapping[str, Any] = field(repr=False)
+    warnings: tuple[str, ...] = ()
+    expected_error: Mapping[str, float] = field(default_factory=dict)
+
+    def __getitem__(self, name: str) -> Quantity:
+        """The quantity of that name; KeyError with the names that there are."""
+        if name not in self.quantities:
+            raise KeyError(f"{name!r}: is no quantity of this result; it has {', '.join(self.quantities)}")
+        return self.quantities[name]
+
+
+def with_uncertainties(quantities: Mapping[str, Quantity], uncertainties: Mapping[str, float]) -> dict[str, Quantity]:
+    """The quantities with their uncertainties, in their units; one that is missing or not finite is unknown."""
+    return {
+        name: replace(quantity, uncertainty=uncertainties[name])
+        if math.isfinite(uncertainties.get(name, math.inf))
+        else quantity
+        for name, quantity in quantities.items()
+    }

@@ -2,7 +2,7 @@
 
 import io
 import json
-from dataclasses import asdict, fields
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -12,9 +12,11 @@ import numpy as np
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.rom.ladder.result import Field, Numerics, Result
+from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun, with_uncertainties
 
-SCHEMA = 2
+SCHEMA = 3
+ENTRIES = ("numerics", "warnings", "expected_error", "provenance")
+"""Parts of a result that are attributes of the file, as JSON."""
 
 
 def save(result: Result, path: Path) -> None:
@@ -24,15 +26,22 @@ def save(result: Result, path: Path) -> None:
 
 
 def as_bytes(result: Result) -> bytes:
-    """An HDF5 file: ``quantities`` and ``fields`` with units as attributes, ``numerics``, ``provenance`` as JSON."""
-    memory = io.BytesIO()
+    """An HDF5 file of a result.
+
+    ``quantities`` have ``unit`` and, where it is known, ``uncertainty`` as attributes, ``fields`` have ``unit``.
+    The ``ENTRIES`` are attributes of the file, as JSON.
+    """
+    memory, entries = io.BytesIO(), as_entries(result)
     with h5py.File(memory, "w") as file:
         file.attrs["schema"] = SCHEMA
         file.attrs["model"] = result.model
-        file.attrs["provenance"] = json.dumps(result.provenance)
-        file.create_group("numerics").attrs.update(asdict(result.numerics))
+        for name in ENTRIES:
+            file.attrs[name] = json.dumps(entries[name], default=np.generic.item)
         for name, quantity in result.quantities.items():
-            file.create_dataset(f"quantities/{name}", data=quantity.value).attrs["unit"] = quantity.unit
+            attributes = file.create_dataset(f"quantities/{name}", data=quantity.value).attrs
+            attributes["unit"] = quantity.unit
+            if quantity.uncertainty is not None:
+                attributes["uncertainty"] = quantity.uncertainty
         for name, field in result.fields.items():
             file.create_dataset(f"fields/{name}", data=field.values, compression="gzip").attrs["unit"] = field.unit
     return memory.getvalue()
@@ -42,21 +51,29 @@ def load(path: Path, *, with_fields: bool = True) -> Result:
     """Read a result, or all of it but its fields; raises InputError if the file is missing or is not one."""
     try:
         with h5py.File(path) as file:
-            if file.attrs["schema"] != SCHEMA:
-                raise InputError(f"{path}: has schema {file.attrs['schema']}; this version reads {SCHEMA}, solve again")
-            numerics = file["numerics"].attrs
+            if (schema := file.attrs["schema"]) not in (2, SCHEMA):
+                raise InputError(f"{path}: has schema {schema}; this version reads 2 and {SCHEMA}, solve again")
+            entries = _of_schema_2(file) if schema == 2 else {name: json.loads(file.attrs[name]) for name in ENTRIES}
+            runs = tuple(SolverRun(**run) for run in entries["numerics"].pop("runs"))
+            quantities = {
+                name: Quantity(
+                    value=float(item[()]),
+                    unit=str(item.attrs["unit"]),
+                    uncertainty=float(item.attrs["uncertainty"]) if "uncertainty" in item.attrs else None,
+                )
+                for name, item in file["quantities"].items()
+            }
             return Result(
                 model=str(file.attrs["model"]),
-                quantities={
-                    name: Quantity(value=float(item[()]), unit=str(item.attrs["unit"]))
-                    for name, item in file["quantities"].items()
-                },
+                quantities=with_uncertainties(quantities, entries.get("uncertainty", {})),
                 fields={
                     name: Field(values=np.asarray(item[()]), unit=str(item.attrs["unit"]))
                     for name, item in (file["fields"].items() if with_fields else ())
                 },
-                numerics=Numerics(**{entry.name: _plain(numerics[entry.name]) for entry in fields(Numerics)}),
-                provenance=_mapping(json.loads(file.attrs["provenance"])),
+                numerics=Numerics(**entries["numerics"], runs=runs),
+                provenance={**entries["provenance"]},
+                warnings=tuple(entries["warnings"]),
+                expected_error={**entries["expected_error"]},
             )
     except (OSError, LookupError, ValueError, TypeError, AttributeError) as error:
         if isinstance(error, InputError):
@@ -64,14 +81,23 @@ def load(path: Path, *, with_fields: bool = True) -> Result:
         raise InputError(f"{path}: is not a result of roughfilm; name an .h5 file that it wrote") from error
 
 
-def _plain(value: Any) -> Any:
-    return value if isinstance(value, str) else value.item()
-
-
-def _mapping(entries: object) -> dict[str, Any]:
-    if not isinstance(entries, dict):
-        raise ValueError("provenance is not a table")
-    return entries
+def _of_schema_2(file: h5py.File) -> dict[str, Any]:
+    """The entries of a file of schema 2, where uncertainties, warnings and the solver's runs are in the provenance."""
+    old = json.loads(file.attrs["provenance"])
+    attributes = file["numerics"].attrs.items()
+    numerics = {name: value if isinstance(value, str) else value.item() for name, value in attributes}
+    residuals, imbalances = old.pop("equations", {}), old.pop("imbalance", {})
+    runs = [{"name": " x ".join(map(str, grid.pop("nodes"))), **grid} for grid in old.pop("grids", [])]
+    for name, tries in {"": old.pop("tries", []), **old.pop("runs", {})}.items():
+        last = {"residual": residuals.get(name), "imbalance": imbalances.get(name)}
+        runs += [{"name": name, **one, **(last if one is tries[-1] else {})} for one in tries]
+    return {
+        "numerics": {**numerics, "processes": old.pop("processes", 1), "runs": runs},
+        "uncertainty": old.pop("uncertainty", {}),
+        "warnings": old.pop("warnings", []),
+        "expected_error": {},
+        "provenance": old,
+    }
 
 
 def as_entries(result: Result) -> dict[str, Any]:
@@ -80,5 +106,7 @@ def as_entries(result: Result) -> dict[str, Any]:
         "model": result.model,
         "quantities": {name: asdict(quantity) for name, quantity in result.quantities.items()},
         "numerics": asdict(result.numerics),
+        "warnings": list(result.warnings),
+        "expected_error": dict(result.expected_error),
         "provenance": dict(result.provenance),
     }

@@ -73,7 +73,7 @@ def solve(
 
     The flow q = ∫h⁻² dx / 2 ∫h⁻³ dx closes the pressure over the period. Without a given resolution, the
     number of nodes is doubled from 24 until the residual meets the tolerance (1e-7 by default); at a given one a
-    residual that misses it is a warning in the provenance.
+    residual that misses it is a warning.
 
     Raises
     ------
@@ -144,7 +144,7 @@ def solve(
             "pressure": Field(values=pressure.ravel() * pascal, unit="Pa"),
             "shear_stress": Field(values=shear.ravel() * pascal, unit="Pa"),
         },
-        provenance=provenance(scene, keeps=tuple(keeps), sources=sources, warnings=warnings),
+        provenance=provenance(scene, keeps=tuple(keeps), sources=sources),
         numerics=Numerics(
             residual=residual,
             iterations=tries,
@@ -155,6 +155,7 @@ def solve(
             tolerance=tolerance,
             scheme=scheme,
         ),
+        warnings=tuple(warnings),
     )
 
 

@@ -190,7 +190,7 @@ def solve(
             "cell_velocity": Field(values=np.stack([u, v], axis=2) * scene.speed, unit="m/s"),
             "cell_pressure": Field(values=np.repeat(middle[:, None], LAYERS, axis=1) * pascal, unit="Pa"),
         },
-        provenance=provenance(scene, keeps=tuple(keeps), sources=sources, warnings=warnings),
+        provenance=provenance(scene, keeps=tuple(keeps), sources=sources),
         numerics=Numerics(
             residual=residual,
             iterations=steps,
@@ -201,6 +201,7 @@ def solve(
             tolerance=tolerance,
             scheme=scheme,
         ),
+        warnings=tuple(warnings),
     )
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.dry_contact.model import Answer, Task, contact_model
 from roughfilm.rom.ladder.model import Applicability, Effect, Model
-from roughfilm.rom.ladder.result import Field
+from roughfilm.rom.ladder.result import Field, with_uncertainties
 from roughfilm.rom.pocket.validity import NOTHING_COARSER
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors
 from roughfilm.rom.rough_gap.flow.range_of_validity import part_of_lost_waves
@@ -50,7 +50,7 @@ def work(task: Task, *, find: Callable[[Walls, float], Found], slope: bool) -> A
         if not np.isfinite(found.uncertainty.pressure).all():
             warnings.append(NOTHING_COARSER)
     return Answer(
-        quantities=gap_quantities(scene, walls, found.factors),
+        quantities=with_uncertainties(gap_quantities(scene, walls, found.factors), bars),
         fields={
             "gap": Field(values=walls.gap, unit="m"),
             "flow": Field(values=found.flow * scene.nominal_flow, unit="m^2/s"),
@@ -58,7 +58,6 @@ def work(task: Task, *, find: Callable[[Walls, float], Found], slope: bool) -> A
         residual=found.residual,
         iterations=found.iterations,
         warnings=tuple(warnings),
-        uncertainty={name: bar for name, bar in bars.items() if np.isfinite(bar)},
     )
 
 

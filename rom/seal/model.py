@@ -13,7 +13,7 @@ from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.rom.dry_contact.model import Answer, Task, contact_model, one
 from roughfilm.rom.dry_contact.pressed import TOLERANCE, prepare
 from roughfilm.rom.ladder.model import Applicability, Effect, Model
-from roughfilm.rom.ladder.result import Field
+from roughfilm.rom.ladder.result import Field, with_uncertainties
 from roughfilm.rom.pocket.validity import NOTHING_COARSER
 from roughfilm.rom.seal.leakage.passage import Passage, dimensionless, mass_flow
 from roughfilm.rom.seal.scene import Seal
@@ -43,8 +43,14 @@ def leak(task: Task, *, flow: Flow) -> Answer:
     size = np.zeros(found.gap.shape) if driven is None else np.hypot(*driven)
     per_permeability = scene.flow.pressure_drop / (12 * scene.liquid.viscosity * scene.flow.length)
     return Answer(
-        quantities=quantities(
-            scene, passage.permeability, passage.sealed, found.area_fraction, found.mean_gap, task.heights.std()
+        quantities=with_uncertainties(
+            quantities(
+                scene, passage.permeability, passage.sealed, found.area_fraction, found.mean_gap, task.heights.std()
+            ),
+            {
+                "permeability": passage.uncertainty,
+                "leakage_per_width": leakage_of(scene, passage.uncertainty),
+            },
         ),
         fields={
             **gap_shares(float(task.heights.std()), found.gap),
@@ -54,12 +60,6 @@ def leak(task: Task, *, flow: Flow) -> Answer:
         residual=max(found.complementarity, passage.unsolved),
         iterations=max(found.iterations + passage.iterations, 1),
         warnings=(*_warnings(scene, found), *(() if math.isfinite(passage.uncertainty) else (NOTHING_COARSER,))),
-        uncertainty={
-            "permeability": passage.uncertainty,
-            "leakage_per_width": leakage_of(scene, passage.uncertainty),
-        }
-        if math.isfinite(passage.uncertainty)
-        else {},
     )
 
 

@@ -81,7 +81,7 @@ class Tally:
         account.jobs[state] += 1
         account.expected += expected_cost(job)
         account.measured += answer.numerics.cpu_s + STORING_S
-        self.warned += bool(answer.provenance.get("warnings"))
+        self.warned += bool(answer.warnings)
 
     def total(self, *states: State) -> int:
         """Jobs in these states; in any, if none is named."""

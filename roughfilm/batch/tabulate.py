@@ -53,7 +53,7 @@ def row_of(keys: Mapping[str, Key], case: Case, job: Job, answer: Result | Failu
             "residual": _number(numbers.residual),
             "iterations": _number(numbers.iterations),
             "cpu_s": Quantity(value=numbers.cpu_s, unit="s"),
-            "warnings": "; ".join(answer.provenance.get("warnings", [])),
+            "warnings": "; ".join(answer.warnings),
         },
     )
 

@@ -160,8 +160,10 @@ def _uncertainty(result: Result, study: Mapping[str, Convergence]) -> dict[str, 
 
     Grids that a study refines in some directions only cannot tell of the others.
     """
-    told = result.provenance.get("uncertainty", {})
-    return {name: max(found.uncertainty, told.get(name, 0.0)) / scale(result, name) for name, found in study.items()}
+    return {
+        name: max(found.uncertainty, result[name].uncertainty or 0.0) / scale(result, name)
+        for name, found in study.items()
+    }
 
 
 def _entries(report: Report, out: Path) -> dict[str, Any]:

@@ -85,20 +85,22 @@ def command(
             f"residual {numbers.residual:.1e} ({rung.residual_meaning}), {numbers.iterations} iterations, "
             f"{numbers.degrees_of_freedom} unknowns, {numbers.cpu_s:.3g} CPU s"
         )
-        for one in result.provenance.get("tries", [])[1:]:
-            output.print(f"second try, after a first one that was in vain: {one['recipe']}")
+        for run in numbers.runs:
+            if run.recipe and not run.name:
+                output.print(f"first run did not converge; second run succeeded with: {run.recipe}")
         output.print(rung.applies(read).reason)
-        for warning in result.provenance.get("warnings", []):
+        for warning in result.warnings:
             output.print(f"[yellow]warning:[/] {escape(warning)}")
 
 
 def table_of(result: Result) -> Table:
     """The quantities of a result, as people read them."""
-    known = result.provenance.get("uncertainty", {})
+    known = any(quantity.uncertainty is not None for quantity in result.quantities.values())
     columns = ("quantity", "value", "±", "unit") if known else ("quantity", "value", "unit")
     table = Table(*columns, title=f"{escape(result.provenance['scene']['name'])} by {result.model}")
     table.columns[1].justify = "right"
     for name, quantity in result.quantities.items():
-        told = [f"{known[name]:.1e}" if name in known else ""] if known else []
-        table.add_row(name, f"{quantity.value:.5g}", *told, "" if quantity.unit == "1" else quantity.unit)
+        uncertainty = "" if quantity.uncertainty is None else f"{quantity.uncertainty:.1e}"
+        cells = [name, f"{quantity.value:.5g}", uncertainty, "" if quantity.unit == "1" else quantity.unit]
+        table.add_row(*(cells if known else (*cells[:2], cells[3])))
     return table

@@ -4,7 +4,6 @@ import os
 import time
 from collections.abc import Mapping
 from contextlib import ExitStack
-from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated
 
@@ -84,7 +83,7 @@ def command(
                 advance(4, "drawing the page")
                 write_page(prepared, quantities, provenance, places[1])
     if as_json:
-        entries = {name: asdict(quantity) for name, quantity in quantities.items()}
+        entries = {name: {"value": one.value, "unit": one.unit} for name, one in quantities.items()}
         print_json({"quantities": entries, "numerics": numerics, "provenance": provenance})
     else:
         output.print(table_of(file.name, quantities))

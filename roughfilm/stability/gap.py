@@ -63,7 +63,7 @@ def spot_of(probe: Probe, answer: Result | Failure, truth: Truth | None, thin: T
         spot = failed(answer, **place, numbers=blank)
         return replace(spot, message=f"{spot.message} {cells}".strip())
     values = {name: answer.quantities[name].value for name in JUDGED if name in answer.quantities}
-    imbalance = max(answer.provenance.get("imbalance", {}).values(), default=None)
+    imbalance = max((run.imbalance for run in answer.numerics.runs if run.imbalance is not None), default=None)
     spot = Spot(
         **place,
         outcome=Outcome.CONVERGED,
@@ -79,8 +79,8 @@ def spot_of(probe: Probe, answer: Result | Failure, truth: Truth | None, thin: T
         worst = max(parts, key=lambda name: parts[name])
         spot = replace(spot, error=parts[worst], message=f"{worst} judged by {truth.source} {cells}".strip())
     plain = probe.setting.model.name == "homogenized"
-    bars: Mapping[str, float] = answer.provenance.get("uncertainty", {})
-    warned = bool(answer.provenance.get("warnings"))
+    bars = {name: one.uncertainty for name, one in answer.quantities.items() if one.uncertainty is not None}
+    warned = bool(answer.warnings)
     if short := _short(values, bars, thin if plain else truth):
         return replace(spot, outcome=Outcome.WRONG, why=TOO_SHORT, message=short)
     if thin and not plain and (beyond := _beyond(values, bars, thin)):
@@ -89,7 +89,7 @@ def spot_of(probe: Probe, answer: Result | Failure, truth: Truth | None, thin: T
     if spot.error is not None and spot.error > ALLOWED:
         why = CUT_OUT if probe.wave is None else LEFT_OUT if plain else TOLD if warned or worst in bars else SILENT
         return replace(spot, outcome=Outcome.WRONG if why == SILENT else Outcome.INACCURATE, why=why)
-    if any(len(one) > 1 for one in answer.provenance.get("runs", {}).values()):
+    if any(run.recipe for run in answer.numerics.runs):
         return replace(spot, outcome=Outcome.SLOW, why=SECOND)
     slow = (spot.iterations or 0) > SLOW[answer.model]
     return replace(spot, outcome=Outcome.SLOW if slow else Outcome.CONVERGED)

@@ -176,7 +176,7 @@ def judged(probe: Probe, before: Result | None, found: tuple[Scene, Result]) -> 
     faults = broken(scene, result)
     if before is not None:
         last = before.quantities[probe.falling].value
-        bars = sum(one.provenance.get("uncertainty", {}).get(probe.falling, 0.0) for one in (before, result))
+        bars = sum(one[probe.falling].uncertainty or 0.0 for one in (before, result))
         if value > last * (1 + SLACK) + bars:
             faults.append(f"{probe.falling} grows from {last:.6g} to {value:.6g}")
     names = ("permeability", "area_fraction", "load_per_width", "contact_share", "least_gap", "friction_coefficient")

@@ -106,15 +106,14 @@ def spot_of(setting: Setting, reynolds_number: float, depth_plus: float, answer:
     numbers = {"reynolds_number": reynolds_number, "depth_plus": depth_plus}
     if isinstance(answer, Failure):
         return failed(answer, **where, numbers={**numbers, "load_plus": None})
-    tries = answer.provenance.get("tries", [])
-    told = [f"{one['outcome']} after {one['iterations']} iterations at the first try" for one in tries[:-1]]
+    told = [f"{run.outcome} after {run.iterations} iterations at the first try" for run in answer.numerics.runs[:-1]]
     return Spot(
         **where,
         outcome=Outcome.SLOW if told else Outcome.CONVERGED,
         why=SECOND if told else "",
         iterations=answer.numerics.iterations,
         cpu_s=answer.numerics.cpu_s,
-        message="; ".join([*told, *answer.provenance.get("warnings", [])]),
+        message="; ".join([*told, *answer.warnings]),
         numbers={**numbers, "load_plus": answer.quantities["load_plus"].value},
     )
 

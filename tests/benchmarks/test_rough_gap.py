@@ -48,7 +48,7 @@ def row(model, scene, **options):
         "cpu_s": numerics.cpu_s,
         "iterations": numerics.iterations,
         **coefficients,
-        "uncertainty": dict(found.provenance["uncertainty"]),
+        "uncertainty": {name: found[name].uncertainty for name in coefficients},
     }
 
 

@@ -39,7 +39,7 @@ def factors(results: Mapping[str, Result]) -> str:
             axes.errorbar(
                 result.quantities[name].value,
                 place,
-                xerr=result.provenance.get("uncertainty", {}).get(name),
+                xerr=result[name].uncertainty,
                 color=style.colour,
                 marker=style.marker,
                 capsize=3,

@@ -32,7 +32,7 @@ def pocket(scene: Pocket, result: Result) -> Iterator[str]:
     if not low - slack <= value["load_plus"] <= high + slack:
         yield f"load+ {value['load_plus']:.6g} outside of the pressures, {low:.6g} to {high:.6g}"
     least = scene.plus_factor * _mean_inverse(scene) * scene.geometry.film
-    if not result.provenance["warnings"] and value["friction_plus"] < (1 - COARSE) * least:
+    if not result.warnings and value["friction_plus"] < (1 - COARSE) * least:
         yield f"friction+ {value['friction_plus']:.6g} is less than shear alone takes, {least:.6g}"
     if value["backflow"] < 0:
         yield f"backflow {value['backflow']:.3g} is below 0"

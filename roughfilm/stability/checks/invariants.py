@@ -33,27 +33,25 @@ def broken(scene: Any, result: Result) -> list[str]:
 
 def _out_of_range(result: Result) -> bool:
     """Whether an estimate says of itself that it is none."""
-    return any(warning.startswith("out of its range") for warning in result.provenance.get("warnings", []))
+    return any(warning.startswith("out of its range") for warning in result.warnings)
 
 
 def _not_finite(result: Result) -> Iterator[str]:
     for name, quantity in result.quantities.items():
         if not np.isfinite(quantity.value):
             yield f"{name} is {quantity.value}"
+        if quantity.uncertainty is not None and not 0 <= quantity.uncertainty < np.inf:
+            yield f"the uncertainty of {name} is {quantity.uncertainty}"
     for name, field in result.fields.items():
         if not (np.isfinite(field.values).all() and field.values.size):
             yield f"the field {name} is empty or not finite"
-    bars = result.provenance.get("uncertainty", {})
-    for name, bar in bars.items():
-        if name not in result.quantities or not (np.isfinite(bar) and bar >= 0):
-            yield f"the error bar of {name} is {bar}"
 
 
 def _not_solved(result: Result) -> Iterator[str]:
-    numerics, bars = result.numerics, result.provenance.get("uncertainty", {})
-    told = [bar / abs(result.quantities[name].value) for name, bar in bars.items() if result.quantities[name].value]
+    numerics = result.numerics
+    told = [(one.uncertainty or 0.0) / abs(one.value) for one in result.quantities.values() if one.value]
     allowed = RECOMPUTED * max([numerics.tolerance, *told])
-    if not (numerics.residual <= allowed or result.provenance.get("warnings")):
+    if not (numerics.residual <= allowed or result.warnings):
         yield f"the residual is {numerics.residual:.2g}, above {allowed:.2g}, and neither warning nor error bar says so"
     if min(numerics.cpu_s, numerics.wall_s, numerics.iterations) < 0 or numerics.degrees_of_freedom < 1:
         yield f"counts that cannot be: {numerics}"

@@ -84,7 +84,10 @@ def as_result(case: Case, run: Run) -> Result:
     """A row of a table as a result without fields."""
     return Result(
         model=run.model,
-        quantities={name: Quantity(value=value, unit="1") for name, value in run.values.items()},
+        quantities={
+            name: Quantity(value=value, unit="1", uncertainty=run.uncertainty.get(name))
+            for name, value in run.values.items()
+        },
         fields={},
         numerics=Numerics(
             residual=0.0,
@@ -96,7 +99,7 @@ def as_result(case: Case, run: Run) -> Result:
             tolerance=0.0,
             scheme="",
         ),
-        provenance={"uncertainty": dict(run.uncertainty), "scene": {"kind": case.scene.kind}},
+        provenance={"scene": {"kind": case.scene.kind}},
     )
 
 

@@ -85,12 +85,15 @@ def run_of(job: Job, answer: Result | Failure) -> Run:
     if isinstance(answer, Failure):
         return Run(model=asked.model.name, resolution=asked.resolution, failure=f"{answer.kind}: {answer.message}")
     kind = kind_of(answer)
-    told = answer.provenance.get("uncertainty", {})
     return Run(
         model=answer.model,
         resolution=asked.resolution,
         values={name: quantity.value for name, quantity in answer.quantities.items()},
-        uncertainty={name: told[name] for name in kind.compared if name in told},
+        uncertainty={
+            name: bar
+            for name in kind.compared
+            if name in answer.quantities and (bar := answer[name].uncertainty) is not None
+        },
         cpu_s=answer.numerics.cpu_s,
     )
 

@@ -139,6 +139,8 @@ def _pair(ratio: float, phase: float, averaged: Result, followed: Result) -> Pai
     def error(name: str) -> float:
         return averaged.quantities[name].value / followed.quantities[name].value - 1
 
+    load = followed["load_per_width"]
+    assert load.uncertainty is not None
     return Pair(
         ratio=ratio,
         phase=phase,
@@ -147,7 +149,7 @@ def _pair(ratio: float, phase: float, averaged: Result, followed: Result) -> Pai
         friction=error("friction_per_width"),
         cpu_direct=followed.numerics.cpu_s,
         cpu_homogenized=averaged.numerics.cpu_s,
-        uncertainty=followed.provenance["uncertainty"]["load_per_width"] / followed.quantities["load_per_width"].value,
+        uncertainty=load.uncertainty / load.value,
     )
 
 

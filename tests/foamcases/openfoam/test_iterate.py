@@ -100,11 +100,11 @@ def test_a_rescued_run_says_so_and_is_right(make_scene):
     deeper, shallower = (
         navier_stokes.MODEL.solve(make_scene(0.3, depth, 2000), resolution=30) for depth in (1e-4, 1e-6)
     )
-    told = shallower.provenance["tries"]
-    assert [one["outcome"] for one in deeper.provenance["tries"]] == ["converged"]
-    assert [one["outcome"] for one in told] == ["stalled", "converged"]
-    assert [bool(one["recipe"]) for one in told] == [False, True]
-    assert told[1]["iterations"] == shallower.numerics.iterations
+    runs = shallower.numerics.runs
+    assert [run.outcome for run in deeper.numerics.runs] == ["converged"]
+    assert [run.outcome for run in runs] == ["stalled", "converged"]
+    assert [bool(run.recipe) for run in runs] == [False, True]
+    assert runs[1].iterations == shallower.numerics.iterations
     ratio = deeper.quantities["load_plus"].value / shallower.quantities["load_plus"].value
     assert ratio == pytest.approx(100, rel=1e-3)
 

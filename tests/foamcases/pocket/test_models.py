@@ -133,5 +133,5 @@ def test_several_processes_find_what_one_finds(make_scene, model):
     assert together.fields["cell_velocity"].values.shape == shape
     difference = together.fields["cell_velocity"].values - alone.fields["cell_velocity"].values
     assert np.abs(difference).max() < 1e-6 * scene.speed
-    assert together.provenance["processes"] == 3
+    assert together.numerics.processes == 3
     assert together.numerics.cpu_s > 0

@@ -31,11 +31,10 @@ def test_ridges_are_within_their_bars_which_shrink_at_second_order(amplitude, wa
     bars = []
     for resolution in (16, 32):
         found = MODEL.solve(scene, resolution=resolution)
-        told = found.provenance["uncertainty"]
         truths = {"A11": exact.across, "A22": exact.along, "B1": exact.drag, "friction": exact.friction}
         for name, truth in truths.items():
-            assert abs(found.quantities[name].value - truth) < told[name] < 0.5 * truth
-        bars.append([told[name] for name in truths])
+            assert abs(found[name].value - truth) < found[name].uncertainty < 0.5 * truth
+        bars.append([found[name].uncertainty for name in truths])
     assert np.divide(*bars) == pytest.approx(np.full(4, 4.0), abs=1.2)
 
 
@@ -52,7 +51,7 @@ def test_waves_that_the_mesh_cannot_hold_are_counted():
     found = MODEL.solve(scene, resolution=16)
     assert found.quantities["A11"].value == pytest.approx(1.0, abs=1e-4)
     truth = sinusoidal_ridge_flow(0.3, 0.8, tolerance=1e-4).across
-    assert 1 - truth < 1.3 * found.provenance["uncertainty"]["A11"]
+    assert 1 - truth < 1.3 * found["A11"].uncertainty
 
 
 def test_flow_over_thin_film_theory_on_the_same_nodes_is_what_slope_takes():
@@ -76,7 +75,7 @@ def test_a_gap_that_contact_seals_is_an_answer():
     scene = read_scene({**entries, "solid": solid, "load": {"pressure": "9 GPa"}})
     found = MODEL.solve(scene)
     assert [found.quantities[name].value for name in ("A11", "A12", "A21", "A22")] == [0.0] * 4
-    assert any("seals the gap both ways" in warning for warning in found.provenance["warnings"])
+    assert any("seals the gap both ways" in warning for warning in found.warnings)
 
 
 @pytest.mark.parametrize(("amplitude", "columns"), [(0.3, 16), (0.9, 16), (0.98, 32), (0.98, 64)])
@@ -93,5 +92,5 @@ def test_walls_that_come_nearer_between_columns_are_told():
         MODEL.solve(scene_of(surface="sinusoid", amplitude=f"{amplitude} um", wavelength="5 um"), resolution=16)
         for amplitude in (0.3, 0.9)
     )
-    assert not any("come nearer" in warning for warning in apart.provenance["warnings"])
-    assert any("friction is too small by as much" in warning for warning in near.provenance["warnings"])
+    assert not any("come nearer" in warning for warning in apart.warnings)
+    assert any("friction is too small by as much" in warning for warning in near.warnings)

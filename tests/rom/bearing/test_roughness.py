@@ -41,7 +41,7 @@ def errors(make, ratios, names=("load_per_width",)):
     found = []
     for ratio in ratios:
         followed = DIRECT.solve(make(ratio))
-        assert followed.provenance["warnings"] == []
+        assert followed.warnings == ()
         there, waves = pressure(followed)
         most = np.abs(waves - np.interp(there, x, p)).max() / p.max()
         found.append([most, *(value(followed, name) / value(averaged, name) - 1 for name in names)])
@@ -196,7 +196,7 @@ def test_default_grids_resolve_the_waves():
             for cells in DIRECT.resolutions_of(scene):
                 sides = (scene.geometry.length, scene.geometry.width or 0)
                 assert all(cells * w >= 7.99 * s for s, w in zip(sides, scene.roughness.finest, strict=True))
-    told = DIRECT.solve(load_scene(SLIDER), resolution=256).provenance["warnings"]
+    told = DIRECT.solve(load_scene(SLIDER), resolution=256).warnings
     assert any("has 4 cells; take at least 2 times" in words for words in told)
 
 

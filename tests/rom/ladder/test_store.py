@@ -1,12 +1,17 @@
 """A stored result comes back as it was, and what is no result is refused in one line."""
 
+import json
+from dataclasses import replace
+
 import h5py
 import numpy as np
 import pytest
 
 from roughfilm import rom
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.ladder.model import find, ladder
+from roughfilm.rom.ladder.result import SolverRun, with_uncertainties
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.rom.ladder.store import as_entries, load, save
 
@@ -24,6 +29,94 @@ def test_round_trip(result, tmp_path):
     for name, field in result.fields.items():
         assert np.array_equal(back.fields[name].values, field.values)
         assert back.fields[name].unit == field.unit
+
+
+def test_what_a_result_says_of_its_accuracy_is_stored(result, tmp_path):
+    runs = (
+        SolverRun(name="along", outcome="stalled", iterations=np.int64(900)),
+        SolverRun(name="along", iterations=40, recipe="started by upwind", residual=1e-7, imbalance=0.01),
+    )
+    full = replace(
+        result,
+        quantities=with_uncertainties(result.quantities, {"load_plus": 0.25, "friction_plus": np.inf}),
+        numerics=replace(result.numerics, processes=2, runs=runs, details={"layers": 8}),
+        warnings=("the mesh is coarse", "out of range"),
+        expected_error={"load_plus": 0.02},
+    )
+    save(full, tmp_path / "r.h5")
+    back = load(tmp_path / "r.h5")
+    assert back == replace(full, quantities=back.quantities, fields=back.fields)
+    assert back.quantities == full.quantities
+    assert (back["load_plus"].uncertainty, back["friction_plus"].uncertainty) == (0.25, None)
+    with h5py.File(tmp_path / "r.h5") as file:
+        assert file["quantities/load_plus"].attrs["uncertainty"] == 0.25
+        assert "uncertainty" not in file["quantities/friction_plus"].attrs
+
+
+def test_a_quantity_that_is_not_there_is_answered_with_those_that_are(result):
+    with pytest.raises(KeyError, match=r"'lift'.*pressure_max"):
+        result["lift"]
+
+
+def write_schema_2(path, provenance):
+    """A file as it was before uncertainties and warnings had places of their own."""
+    with h5py.File(path, "w") as file:
+        file.attrs.update(schema=2, model="stokes", provenance=json.dumps(provenance))
+        numbers = {"residual": 1e-9, "iterations": 7, "cpu_s": 1.5, "wall_s": 2.0}
+        file.create_group("numerics").attrs.update(
+            **numbers, degrees_of_freedom=64, resolution=16, tolerance=1e-8, scheme=""
+        )
+        for name, value in {"A11": 0.5, "mean_gap": 1e-6}.items():
+            file.create_dataset(f"quantities/{name}", data=value).attrs["unit"] = "1"
+        file.create_dataset("fields/gap", data=np.ones((2, 3)), compression="gzip").attrs["unit"] = "m"
+
+
+def test_results_of_the_schema_before_are_read(tmp_path):
+    tries = [
+        {"recipe": "", "outcome": "stalled", "iterations": 3},
+        {"recipe": "started by upwind", "outcome": "converged", "iterations": 4},
+    ]
+    old = {
+        "scene": {"kind": "rough_gap"},
+        "warnings": ["coarse"],
+        "uncertainty": {"A11": 0.01},
+        "processes": 2,
+        "runs": {"along": tries},
+        "equations": {"along": 2e-9},
+        "imbalance": {"along": 0.001},
+        "tries": tries[1:],
+        "grids": [{"nodes": [9, 5], "iterations": 6}],
+    }
+    write_schema_2(tmp_path / "old.h5", old)
+    found = load(tmp_path / "old.h5")
+    assert found["A11"] == Quantity(value=0.5, unit="1", uncertainty=0.01)
+    assert found["mean_gap"].uncertainty is None
+    assert (found.warnings, found.provenance) == (("coarse",), {"scene": {"kind": "rough_gap"}})
+    assert (found.numerics.processes, found.numerics.iterations, found.numerics.cpu_s) == (2, 7, 1.5)
+    assert found.numerics.runs == (
+        SolverRun(name="9 x 5", iterations=6),
+        SolverRun(iterations=4, recipe="started by upwind"),
+        SolverRun(name="along", outcome="stalled", iterations=3),
+        SolverRun(name="along", iterations=4, recipe="started by upwind", residual=2e-9, imbalance=0.001),
+    )
+    assert found.fields["gap"].values.shape == (2, 3)
+    save(found, tmp_path / "new.h5")
+    assert as_entries(load(tmp_path / "new.h5")) == as_entries(found)
+
+
+def test_an_old_result_without_warnings_is_read(tmp_path):
+    write_schema_2(tmp_path / "old.h5", {"scene": {"kind": "rough_gap"}})
+    found = load(tmp_path / "old.h5")
+    assert (found.warnings, found.numerics.runs, found["A11"].uncertainty) == ((), (), None)
+
+
+@pytest.mark.parametrize("schema", [1, 4])
+def test_results_of_an_unknown_schema_are_refused(result, tmp_path, schema):
+    save(result, tmp_path / "r.h5")
+    with h5py.File(tmp_path / "r.h5", "a") as file:
+        file.attrs["schema"] = schema
+    with pytest.raises(InputError, match=f"has schema {schema}; this version reads 2 and 3"):
+        load(tmp_path / "r.h5")
 
 
 def test_provenance_suffices_to_compute_it_again(result, tmp_path):

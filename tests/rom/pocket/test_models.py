@@ -107,8 +107,8 @@ def test_a_half_circle_is_solved_or_refused(make_scene):
 def test_a_given_resolution_that_misses_the_tolerance_is_a_warning(make_scene):
     scene = make_scene(0.3, 0.25, 40)
     coarse, fine = (find(MODELS, "reynolds").solve(scene, resolution=n) for n in (2, 24))
-    assert "misses the tolerance" in coarse.provenance["warnings"][0]
-    assert fine.provenance["warnings"] == []
+    assert "misses the tolerance" in coarse.warnings[0]
+    assert fine.warnings == ()
 
 
 @pytest.mark.parametrize(
@@ -122,7 +122,7 @@ def test_a_given_resolution_that_misses_the_tolerance_is_a_warning(make_scene):
     ],
 )
 def test_cautions_beyond_the_range_of_a_model(make_scene, name, reynolds_number, words):
-    warnings = find(MODELS, name).solve(make_scene(0.3, 0.25, reynolds_number)).provenance["warnings"]
+    warnings = find(MODELS, name).solve(make_scene(0.3, 0.25, reynolds_number)).warnings
     assert len(warnings) == len(words)
     assert all(word in warning for word, warning in zip(words, warnings, strict=True))
 

@@ -66,9 +66,9 @@ def test_solve_json_is_one_object_and_nothing_else(pocket_file, tmp_path):
     )
     assert result.exit_code == 0
     told = json.loads(result.stdout)
-    assert {"model", "quantities", "numerics", "provenance"} <= set(told)
+    assert {"model", "quantities", "numerics", "warnings", "expected_error", "provenance"} <= set(told)
     assert set(told["quantities"]) == QUANTITIES
-    assert all(set(quantity) == {"value", "unit"} for quantity in told["quantities"].values())
+    assert all(set(quantity) == {"value", "unit", "uncertainty"} for quantity in told["quantities"].values())
     assert {"residual", "iterations", "cpu_s", "wall_s", "degrees_of_freedom"} <= set(told["numerics"])
     assert told["quantities"]["load_plus"]["value"] == pytest.approx(0.890, abs=1e-3)
     with h5py.File(out) as file:

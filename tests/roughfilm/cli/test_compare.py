@@ -207,7 +207,7 @@ def test_without_a_formal_order_there_is_no_grid_convergence(pocket_file, tmp_pa
 def test_a_result_that_tells_more_doubt_than_its_grids_is_believed():
     scene = load_scene(GAP)
     found = find(of_kind(models(), "rough_gap"), "slope_corrected").solve(scene)
-    value, bar = found.quantities["A11"].value, found.provenance["uncertainty"]["A11"]
+    value, bar = found["A11"].value, found["A11"].uncertainty
     for of_grids, expected in ((0.1 * bar, bar), (3 * bar, 3 * bar)):
         study = {"A11": converge((16, 32), (value, value), formal_order=2, noise=of_grids)}
         assert compare._uncertainty(found, study)["A11"] == pytest.approx(expected / value)

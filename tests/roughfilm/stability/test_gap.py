@@ -14,8 +14,8 @@ from roughfilm.batch.answers import SECOND
 from roughfilm.batch.jobs import failure_of
 from roughfilm.cli.main import app
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
-from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.ladder.model import find, of_kind
+from roughfilm.rom.ladder.result import SolverRun
 from roughfilm.rom.ladder.setting import Setting
 from roughfilm.stability import gap as stability_gap
 from roughfilm.stability.checks.gap import JUDGED, Truth, agreeing, exact_stokes, exact_thin, extrapolated
@@ -25,6 +25,10 @@ from roughfilm.stability.questions.gap import CUT, CUTS, INERTIA, NEAR, NEAREST,
 from roughfilm.terminal.console import models
 
 LADDER = of_kind(models(), "rough_gap")
+TWO_RUNS = (
+    SolverRun(name="along", outcome="stalled", iterations=900),
+    SolverRun(name="along", iterations=400, recipe="started by upwind"),
+)
 CHEAP = [find(LADDER, name) for name in ("homogenized", "slope_corrected")]
 
 
@@ -40,21 +44,15 @@ def asked(every):
     return probe, probe.setting.solve(probe.scene)
 
 
-def other(result, *, part=1.0, name="A22", tries=None, iterations=None):
+def other(result, *, part=1.0, name="A22", runs=(), iterations=None):
     """The same answer with another coefficient, without error bars, or by other means."""
-    changed = Quantity(value=part * result.quantities[name].value, unit="1")
-    more = {} if tries is None else {"runs": {"along": [{"outcome": "converged"}] * tries}}
+    changed = replace(result[name], value=part * result[name].value)
     numerics = result.numerics if iterations is None else replace(result.numerics, iterations=iterations)
-    return replace(
-        result,
-        quantities={**result.quantities, name: changed},
-        provenance={**result.provenance, **more},
-        numerics=numerics,
-    )
+    return replace(result, quantities={**result.quantities, name: changed}, numerics=replace(numerics, runs=runs))
 
 
 def without_bars(result):
-    return replace(result, provenance={k: v for k, v in result.provenance.items() if k != "uncertainty"})
+    return replace(result, quantities={k: replace(v, uncertainty=None) for k, v in result.quantities.items()})
 
 
 @pytest.mark.parametrize("amplitude", [0.3, 0.9])
@@ -101,10 +99,10 @@ def test_the_judge_tells_right_from_wrong(asked):
     resolved = replace(probe, setting=Setting(model=find(LADDER, "stokes"), resolution=32))
     silent = spot_of(resolved, replace(other(bare, part=0.94), model="stokes"), right)
     assert (silent.outcome, silent.why) == (Found.WRONG, SILENT)
-    warned = replace(bare, model="stokes", provenance={**bare.provenance, "warnings": ["coarse"]})
+    warned = replace(bare, model="stokes", warnings=("coarse",))
     told = spot_of(resolved, other(warned, part=0.94), right)
     assert (told.outcome, told.why) == (Found.INACCURATE, TOLD)
-    again = spot_of(probe, other(bare, tries=2), right)
+    again = spot_of(probe, other(bare, runs=TWO_RUNS), right)
     assert (again.outcome, again.why) == (Found.SLOW, SECOND)
     assert spot_of(probe, other(bare, iterations=101), right).outcome is Found.SLOW
     alone = spot_of(probe, bare, None)

@@ -234,8 +234,8 @@ def test_maps_by_laws_alone_are_drawn_and_what_breaks_a_law_is_wrong(monkeypatch
     probe = next(iter(stability_laws.seals(32)))
     spot, lighter = stability_laws.put(probe, None)
     assert spot.outcome in stability_form.GOOD
-    less = {name: replace(found, value=found.value / 2) for name, found in lighter.quantities.items()}
-    grown, _ = stability_laws.put(probe, replace(lighter, quantities=less, provenance={}))
+    less = {name: replace(found, value=found.value / 2, uncertainty=None) for name, found in lighter.quantities.items()}
+    grown, _ = stability_laws.put(probe, replace(lighter, quantities=less))
     assert (grown.outcome, "permeability grows from" in grown.message) == ("wrong", True)
     monkeypatch.setattr(stability_laws, "broken", lambda *_: ["a law is broken"])
     assert stability_laws.put(probe, None)[0].message == "a law is broken"
