@@ -60,7 +60,7 @@ def read(scene: Pocket, directory: Path, run: Run, *, model: str, keeps: frozens
             runs=tuple(SolverRun(outcome=str(t.outcome), iterations=t.iterations, recipe=t.recipe) for t in run.tries),
             details={"velocity_relaxation": VELOCITY_RELAXATION, "reynolds_number": card.reynolds_number},
         ),
-        provenance=provenance(scene, keeps=tuple(keeps), sources=SOURCES, openfoam=run.version),
+        provenance=provenance(scene, model=model, keeps=tuple(keeps), sources=SOURCES, openfoam=run.version),
         warnings=(*cautions(scene), *run.warnings),
     )
 

@@ -185,7 +185,7 @@ def read(scene: RoughGap, directory: Path, run: GapRun, *, model: str, keeps: fr
                 **{f"reciprocal_{name}": value for name, value in pulled.items()},
             },
         ),
-        provenance=provenance(scene, keeps=tuple(keeps), sources=SOURCES, openfoam=run.version),
+        provenance=provenance(scene, model=model, keeps=tuple(keeps), sources=SOURCES, openfoam=run.version),
         warnings=tuple(warnings),
     )
 

@@ -147,7 +147,7 @@ def solve(
                 SolverRun(name=" x ".join(map(str, level.shape)), iterations=level.iterations) for level in found.levels
             ),
         ),
-        provenance=provenance(scene, keeps=tuple(keeps), sources=sources),
+        provenance=provenance(scene, model=model, keeps=tuple(keeps), sources=sources),
         warnings=tuple(warnings),
     )
 

@@ -123,6 +123,7 @@ def solve(
         ),
         provenance=provenance(
             scene,
+            model=model,
             keeps=tuple(keeps),
             sources=sources,
             heights={"digest": digest_of(surface), "points": list(surface.shape), "used": [nx, ny]},

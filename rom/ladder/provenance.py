@@ -1,10 +1,11 @@
 """Where a number came from: versions, commit, machine, the complete scene, and the models' sources."""
 
+import ast
 import hashlib
 import os
 import platform
 import subprocess
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from functools import cache
 from importlib import metadata
@@ -13,6 +14,12 @@ from typing import Any
 
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.scene import scene_entries
+
+LIBRARY = Path(__file__).parents[2]
+"""The folder of the package roughfilm, with contact, rom and foamcases in it."""
+
+BLOCKS = (ast.stmt, ast.ExceptHandler, ast.match_case)
+"""Nodes of a syntax tree that are, or hold, statements."""
 
 
 @cache
@@ -43,12 +50,61 @@ def commit() -> str:
 
 @cache
 def code() -> str:
-    """A digest of the source of the three packages that compute: equal digests give equal numbers."""
-    tree = Path(__file__).parents[2]
+    """A digest of all source files of the packages that compute: equal digests give equal numbers."""
+    files = sorted(path for package in ("contact", "rom", "foamcases") for path in (LIBRARY / package).rglob("*.py"))
+    return _digest({path.relative_to(LIBRARY).as_posix(): path.read_bytes() for path in files})
+
+
+@cache
+def model_code(kind: str, model: str) -> str:
+    """A digest of the code that a model runs: equal digests give equal numbers.
+
+    It covers the model's module and all modules of this library that it imports, directly or through others, without
+    docstrings and comments. A model without a module of its own has the digest of everything, :func:`code`.
+    """
+    statements: dict[str, bytes] = {}
+    pending = [f"roughfilm.{package}.{kind}.models.{model}" for package in ("rom", "foamcases")]
+    while pending:
+        name = pending.pop()
+        if name not in statements:
+            statements[name], imports = _statements(LIBRARY.parent / f"{name.replace('.', '/')}.py")
+            pending += imports
+    return _digest(statements) if any(statements.values()) else code()
+
+
+def _digest(contents: Mapping[str, bytes]) -> str:
     digest = hashlib.sha256()
-    for path in sorted(path for package in ("contact", "rom", "foamcases") for path in (tree / package).rglob("*.py")):
-        digest.update(path.relative_to(tree).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+    for name in sorted(contents):
+        digest.update(name.encode() + b"\0" + contents[name] + b"\0")
     return digest.hexdigest()[:16]
+
+
+@cache
+def _statements(path: Path) -> tuple[bytes, frozenset[str]]:
+    """The statements of a module without docstrings, and all names in this library that it imports.
+
+    Both are empty where there is no such file, as for the name of an imported function.
+    """
+    if not path.is_file():
+        return b"", frozenset()
+    tree = ast.parse(path.read_bytes())
+    imports: set[str] = set()
+    pending: list[ast.AST] = [tree]
+    while pending:
+        node = pending.pop()
+        if isinstance(node, ast.ImportFrom) and node.module is not None:
+            imports |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+        elif isinstance(node, ast.Import):
+            imports |= {alias.name for alias in node.names}
+        for entries in vars(node).values():
+            if isinstance(entries, list) and entries and isinstance(entries[0], BLOCKS):
+                entries[:] = [entry for entry in entries if not _is_text(entry)]
+                pending += entries
+    return ast.dump(tree).encode(), frozenset(name for name in imports if name.startswith("roughfilm."))
+
+
+def _is_text(node: ast.AST) -> bool:
+    return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
 
 
 @cache
@@ -63,9 +119,18 @@ def machine() -> dict[str, str]:
     return {"system": platform.system(), "processor": processor, "cores": str(os.cpu_count())}
 
 
-def provenance(scene: Scene, *, keeps: Sequence[str], sources: Sequence[str], **more: Any) -> dict[str, Any]:
-    """Everything needed to compute a result again, as entries that JSON can hold."""
-    return {"scene": scene_entries(scene), "keeps": sorted(keeps), "sources": list(sources), **circumstances(), **more}
+def provenance(
+    scene: Scene, *, model: str = "", keeps: Sequence[str], sources: Sequence[str], **more: Any
+) -> dict[str, Any]:
+    """Everything needed to compute a result again, as entries that JSON can hold; its code is that of the model."""
+    return {
+        "scene": scene_entries(scene),
+        "keeps": sorted(keeps),
+        "sources": list(sources),
+        **circumstances(),
+        "code": model_code(scene.kind, model),
+        **more,
+    }
 
 
 def circumstances() -> dict[str, Any]:

@@ -144,7 +144,7 @@ def solve(
             "pressure": Field(values=pressure.ravel() * pascal, unit="Pa"),
             "shear_stress": Field(values=shear.ravel() * pascal, unit="Pa"),
         },
-        provenance=provenance(scene, keeps=tuple(keeps), sources=sources),
+        provenance=provenance(scene, model=model, keeps=tuple(keeps), sources=sources),
         numerics=Numerics(
             residual=residual,
             iterations=tries,

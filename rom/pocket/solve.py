@@ -190,7 +190,7 @@ def solve(
             "cell_velocity": Field(values=np.stack([u, v], axis=2) * scene.speed, unit="m/s"),
             "cell_pressure": Field(values=np.repeat(middle[:, None], LAYERS, axis=1) * pascal, unit="Pa"),
         },
-        provenance=provenance(scene, keeps=tuple(keeps), sources=sources),
+        provenance=provenance(scene, model=model, keeps=tuple(keeps), sources=sources),
         numerics=Numerics(
             residual=residual,
             iterations=steps,

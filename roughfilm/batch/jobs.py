@@ -13,7 +13,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Ou
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.model import Model
-from roughfilm.rom.ladder.provenance import code, versions
+from roughfilm.rom.ladder.provenance import model_code, versions
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import scene_entries
 from roughfilm.rom.ladder.setting import Setting
@@ -112,10 +112,14 @@ def _identity(job: Job) -> dict[str, Any]:
     return {
         "setting": job.setting.name,
         "scene": scene_entries(job.scene),
-        "code": code(),
+        "code": _code(job),
         "versions": versions(),
         "needs": job.setting.model.available().detail,
     }
+
+
+def _code(job: Job) -> str:
+    return model_code(job.scene.kind, job.setting.model.name)
 
 
 def _same(result: Result, job: Job) -> bool:
@@ -124,7 +128,7 @@ def _same(result: Result, job: Job) -> bool:
         result.model == setting.model.name
         and setting.resolution in (None, result.numerics.resolution)
         and setting.scheme in (None, result.numerics.scheme)
-        and (origin.get("scene"), origin.get("code")) == (scene_entries(job.scene), code())
+        and (origin.get("scene"), origin.get("code")) == (scene_entries(job.scene), _code(job))
         and origin.get("versions") == versions()
         and origin.get("openfoam") in (None, setting.model.available().detail)
     )

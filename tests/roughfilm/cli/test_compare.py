@@ -236,7 +236,7 @@ def test_finished_results_are_used_again_only_for_the_same_question(pocket_file,
         file.attrs["provenance"] = "[]"
     runs.solved_once(job, lambda *_: None)
     stamp = job.path.stat().st_mtime_ns
-    monkeypatch.setattr(runs, "code", lambda: "other code")
+    monkeypatch.setattr(runs, "model_code", lambda *_: "other code")
     runs.solved_once(job, lambda *_: None)
     assert job.path.stat().st_mtime_ns != stamp
 

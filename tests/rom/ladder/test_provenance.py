@@ -1,0 +1,68 @@
+"""The digest of a model's code changes with all that may change its numbers, and with nothing else."""
+
+import pytest
+
+from roughfilm import foamcases, rom
+from roughfilm.rom.ladder import provenance
+from roughfilm.rom.ladder.model import ladder
+from roughfilm.rom.ladder.provenance import code, model_code
+
+LIBRARY = {
+    "rom/gap/models/thin.py": "from roughfilm.rom.gap.film import solve\nMODEL = solve\n",
+    "rom/gap/film.py": "def solve(scene):\n    import roughfilm.contact.solver\n",
+    "contact/solver.py": "def limit():\n    return 3\n",
+    "contact/unrelated.py": "OTHER = 1\n",
+}
+PROSE = '"""The solver."""\n# a comment\n\ndef limit():\n    """Greatest number."""\n    return 3\n'
+
+
+@pytest.fixture
+def digest(tmp_path_factory, monkeypatch):
+    """digest(changes): that of the model thin in a library whose files are changed so."""
+
+    def of(changes):
+        package = tmp_path_factory.mktemp("library") / "roughfilm"
+        for name, text in (LIBRARY | changes).items():
+            (package / name).parent.mkdir(parents=True, exist_ok=True)
+            (package / name).write_text(text)
+        monkeypatch.setattr(provenance, "LIBRARY", package)
+        model_code.cache_clear()
+        return model_code("gap", "thin")
+
+    yield of
+    model_code.cache_clear()
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"contact/solver.py": PROSE},
+        {"contact/unrelated.py": "OTHER = 2"},
+        {"rom/gap/models/thick.py": "MODEL = 7"},
+    ],
+)
+def test_prose_and_modules_that_are_not_imported_do_not_count(digest, changes):
+    assert digest(changes) == digest({})
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"contact/solver.py": "def limit():\n    return 4\n"},
+        {"rom/gap/models/thin.py": LIBRARY["rom/gap/models/thin.py"] + "NAME = 1\n"},
+        {"contact/solver.py": "from roughfilm.contact import unrelated\n" + PROSE},
+    ],
+)
+def test_a_change_of_what_is_imported_directly_or_not_counts(digest, changes):
+    assert digest(changes) != digest({})
+
+
+def test_every_model_has_a_digest_of_its_own():
+    models = ladder(rom, foamcases)
+    digests = {model_code(model.kind, model.name) for model in models}
+    assert len(digests) == len(models)
+    assert code() not in digests
+
+
+def test_a_model_without_a_module_has_the_digest_of_everything():
+    assert model_code("pocket", "none") == code()
