@@ -9,6 +9,7 @@ from typing import Literal
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.mechanics.estimates.estimate import Estimate
 from roughfilm.contact.mechanics.estimates.greenwood_williamson import greenwood_williamson
@@ -19,7 +20,6 @@ from roughfilm.contact.mechanics.moments import wave_power
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.reference.stanley_kato import stanley_kato
 from roughfilm.contact.mechanics.store import Row
-from roughfilm.contact.foundation.arrays import Array
 
 
 class ContactModel(StrEnum):

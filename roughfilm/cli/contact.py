@@ -30,7 +30,7 @@ from roughfilm.contact.mechanics.models import (
 from roughfilm.contact.mechanics.press import COMPLEMENTARITY_TOLERANCE
 from roughfilm.contact.mechanics.solid import Solid, composite_modulus
 from roughfilm.contact.mechanics.store import UNITS, Row
-from roughfilm.contact.read import Rough, read_rough, spacing_of
+from roughfilm.contact.read import HeightMap, parse_spacing, read_height_map
 from roughfilm.rom.ladder.provenance import circumstances, code
 from roughfilm.terminal.console import AsJson, in_one_line, messages, output, print_json, progress_bar
 from roughfilm.terminal.load_range import loads_of
@@ -102,7 +102,7 @@ def command(
     with alone(out, "series"), progress_bar(len(asked) + 1) as advance:
         advance(0, f"reading {surface.name}")
         otherwise = ", --boundary free takes it as it stands"
-        rough = read_rough(surface, spacing_of(spacing), periodic=periodic, otherwise=otherwise)
+        rough = read_height_map(surface, parse_spacing(spacing), periodic=periodic, otherwise=otherwise)
         settings = {
             "model": rung.value,
             "modulus": body.modulus,
@@ -185,7 +185,7 @@ def _spaced(loads: tuple[float, ...]) -> tuple[float, ...]:
     return tuple(loads[round(k * (len(loads) - 1) / max(count - 1, 1))] for k in range(count))
 
 
-def _told(rung: ContactModel, rough: Rough, settings: dict[str, Any], series: Series) -> dict[str, Any]:
+def _told(rung: ContactModel, rough: HeightMap, settings: dict[str, Any], series: Series) -> dict[str, Any]:
     """The object of ``--json``."""
     last = series.rows[-1]
     quantities = {name: {"value": value, "unit": UNITS.get(name, "1")} for name, value in asdict(last).items()}
