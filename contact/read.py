@@ -1,4 +1,4 @@
-"""Surfaces to press or to film: files that `roughfilm surface` takes, synthetic ones, and arrays of heights."""
+"""Reading the heights of any surface: an instrument's file, a stored one, a synthetic one, or an array of heights."""
 
 import hashlib
 from collections.abc import Mapping
@@ -19,8 +19,16 @@ from roughfilm.contact.synthetic.description import make, read_description
 
 
 @dataclass(frozen=True, kw_only=True)
-class Rough:
-    """Heights, shape (nx, ny), m, with spacing, m; ny = 1 for a profile."""
+class HeightMap:
+    """The heights of a surface or a profile as a computation takes them.
+
+    Attributes
+    ----------
+    heights : shape (nx, ny), m; ny = 1 for a profile.
+    spacing : (dx, dy) of the points, m.
+    source : where the heights come from, as entries that JSON can hold.
+    warnings : sentences on what a computation with them leaves open.
+    """
 
     heights: Array
     spacing: tuple[float, float]
@@ -28,8 +36,14 @@ class Rough:
     warnings: tuple[str, ...]
 
 
-def spacing_of(text: str | None) -> tuple[float, float] | None:
-    """One length or two, such as "1um" or "1um,2um", in m; InputError for anything else."""
+def parse_spacing(text: str | None) -> tuple[float, float] | None:
+    """The spacing (dx, dy), m, that a text such as "1um" or "1um,2um" stands for; None for None.
+
+    Raises
+    ------
+    InputError
+        If the text is not one length above 0, or two.
+    """
     if text is None:
         return None
     parts = text.split(",")
@@ -42,57 +56,62 @@ def spacing_of(text: str | None) -> tuple[float, float] | None:
     return lengths[0], lengths[-1]
 
 
-def read_rough(file: Path, spacing: tuple[float, float] | None, *, periodic: bool, otherwise: str = "") -> Rough:
-    """Read a surface as it is.
+def read_height_map(
+    file: Path, spacing: tuple[float, float] | None, *, periodic: bool, otherwise: str = ""
+) -> HeightMap:
+    """The heights in a file, without any preparation.
 
     Parameters
     ----------
-    spacing : (dx, dy), m, of an array of heights.
-    periodic : whether it will be taken as periodic, and a warning is due if it is not.
-    otherwise : what else than preparing it can be done about that, for the warning.
+    file : an instrument's file, a stored surface (HDF5), a description of a synthetic one (TOML), or heights (NPY).
+    spacing : (dx, dy) of the points of an array of heights, m; None for files that say it themselves.
+    periodic : whether the computation repeats the surface; then there are warnings if its edges do not meet.
+    otherwise : a remedy other than preparing the surface, added to these warnings.
 
     Raises
     ------
     InputError
-        One line, if the file is no surface, tells no spacing, or has invalid points.
+        If the file holds no surface, if its spacing is missing or given twice, or if it has invalid points.
     """
     suffix = file.suffix.lower()
     try:
-        there = file.exists()
+        exists = file.exists()
     except OSError as error:
         raise InputError(f"{file}: cannot be read ({error.strerror}); name a surface") from None
-    if not there:
+    if not exists:
         raise InputError(f"{file}: there is no such file; name a surface")
-    whole = suffix == ".toml" or (file.is_file() and is_surface(file))
-    if whole and spacing is not None:
+    described = suffix == ".toml" or (file.is_file() and is_surface(file))
+    if described and spacing is not None:
         raise InputError(f"{file}: says its spacing itself; leave out --spacing")
     if suffix == ".npy" and spacing is None:
         raise InputError(f"{file}: tells no spacing of its points; give --spacing, such as 1um")
     if suffix == ".npy":
-        profile = _profile(file)
+        profile = _read_profile(file)
         if profile is not None and spacing is not None:
-            return _rough(file, *_along_x(profile, spacing), periodic, otherwise)
+            return _profile_map(file, *_as_column(profile, spacing), periodic, otherwise)
     if suffix == ".toml":
         surface = make(read_description(file))
     else:
         try:
             surface = read_surface(file, spacing=spacing)
         except InputError as error:
-            told = " in a recipe of roughfilm surface, and take its --out"
-            raise InputError(str(error).replace(" in the recipe", told)) from None
+            remedy = " in a recipe of roughfilm surface, and take its --out"
+            raise InputError(str(error).replace(" in the recipe", remedy)) from None
     if surface.invalid.any():
         count = int(surface.invalid.sum())
         raise InputError(f"{file}: has {count} invalid points; fill them: roughfilm surface {file} --out S.h5")
-    return Rough(
+    return HeightMap(
         heights=surface.heights,
         spacing=surface.spacing,
         source=surface.source,
-        warnings=joint_warnings(file, surface, otherwise, measured=not whole and suffix != ".npy") if periodic else (),
+        warnings=periodicity_warnings(file, surface, otherwise, measured=not described and suffix != ".npy")
+        if periodic
+        else (),
     )
 
 
-def _profile(file: Path) -> Array | None:
-    """Heights along a line, of shape (n,), (n, 1) or (1, n); None if the file holds something else."""
+def _read_profile(file: Path) -> Array | None:
+    """The array of heights along a line, of shape (n,), (n, 1) or (1, n); None if the file holds something else."""
     if not file.is_file():
         return None
     try:
@@ -104,29 +123,36 @@ def _profile(file: Path) -> Array | None:
     return np.array(array, dtype=np.float64)
 
 
-def _along_x(heights: Array, spacing: tuple[float, float]) -> tuple[Array, tuple[float, float]]:
-    """A profile as (n, 1), its spacing that between its points."""
+def _as_column(heights: Array, spacing: tuple[float, float]) -> tuple[Array, tuple[float, float]]:
+    """The heights of a profile as shape (n, 1), and (dx, dy) with dx between its points."""
     dx, dy = spacing
     return heights.reshape(-1, 1), (dy, dx) if heights.ndim == 2 and heights.shape[0] == 1 else (dx, dy)
 
 
-def _rough(file: Path, heights: Array, spacing: tuple[float, float], periodic: bool, otherwise: str) -> Rough:
+def _profile_map(file: Path, heights: Array, spacing: tuple[float, float], periodic: bool, otherwise: str) -> HeightMap:
     if heights.size < 2:
         raise InputError(f"{file}: holds {heights.size} points; a profile has at least 2")
     if not np.isfinite(heights).all():
         count = int((~np.isfinite(heights)).sum())
         raise InputError(f"{file}: has {count} heights that are not finite; fill them first")
     surface = Surface(heights=np.repeat(heights, 2, axis=1), spacing=spacing)
-    return Rough(
+    return HeightMap(
         heights=heights,
         spacing=spacing,
         source={"file": file.name, "sha256": hashlib.sha256(file.read_bytes()).hexdigest(), "format": "npy"},
-        warnings=joint_warnings(file, surface, otherwise, measured=False) if periodic else (),
+        warnings=periodicity_warnings(file, surface, otherwise, measured=False) if periodic else (),
     )
 
 
-def joint_warnings(file: Path, surface: Surface, otherwise: str = "", *, measured: bool) -> tuple[str, ...]:
-    """What must be known of a surface that will be repeated and is not periodic by itself."""
+def periodicity_warnings(file: Path, surface: Surface, otherwise: str = "", *, measured: bool) -> tuple[str, ...]:
+    """Warnings on a surface that will be repeated although it is not periodic by itself.
+
+    Parameters
+    ----------
+    file : the surface's file, for the messages.
+    otherwise : a remedy other than preparing the surface.
+    measured : whether the surface is a measured one, which has form and noise.
+    """
     if surface.periodic:
         return ()
     mismatch = periodicity_mismatch(surface)

@@ -1,22 +1,14 @@
-"""The runs of models behind a map: each solved once, stored as it comes, and used again."""
+"""The answers of many runs of models: each solved once, stored as it comes, and used again."""
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from roughfilm.batch.execute import Solved, expected_cost, run
 from roughfilm.batch.executors import local
 from roughfilm.batch.jobs import Failure, Job, store, stored
-from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
+from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.ladder.result import Result
-from roughfilm.stability.form import Outcome, Spot
 from roughfilm.terminal.console import progress_bar
-
-SECOND = "second try"
-"""Why a run that converged is slow."""
-
-MESH = "no mesh"
-"""Why a run stalled whose mesh OpenFOAM finds faults in."""
 
 
 def answers_to(jobs: Sequence[Job], processes: int, scratch: Path) -> dict[Path, Result | Failure]:
@@ -42,21 +34,3 @@ def answers_to(jobs: Sequence[Job], processes: int, scratch: Path) -> dict[Path,
         stop.add_note(f"stopped at {len(answers)} of {len(jobs)} runs; the same command goes on")
         raise
     return answers
-
-
-def failed(failure: Failure, **place: Any) -> Spot:
-    """The spot of a run without an answer: refused, given up in one of the ways of a solver, or a fault."""
-    if failure.kind == InputError.__name__:
-        outcome, why = Outcome.REFUSED, ""
-    elif failure.kind in (ConvergenceError.__name__, UnavailableError.__name__):
-        outcome, why = Outcome.STALLED, MESH if "mesh check" in failure.message else failure.outcome
-    else:
-        outcome, why = Outcome.WRONG, "fault"
-    return Spot(
-        outcome=outcome,
-        why="" if why == outcome else why,
-        iterations=failure.iterations,
-        cpu_s=failure.cpu_s or 0.0,
-        message=failure.message,
-        **place,
-    )

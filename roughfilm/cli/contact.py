@@ -12,18 +12,25 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
-from roughfilm.cli.contact_models import SOLVED, SOURCES, WITHOUT_HARDNESS, Model, chosen, estimator
 from roughfilm.cli.surface import refuse_same
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.threads import checked_threads
 from roughfilm.contact.foundation.units import to_si
-from roughfilm.contact.mechanics.load_series import Series, Solver, estimated, solved
-from roughfilm.contact.mechanics.press import COMPLEMENTARITY_TOLERANCE, Press
-from roughfilm.contact.mechanics.reference.stanley_kato import stanley_kato
+from roughfilm.contact.mechanics.load_series import Series, estimated, solved
+from roughfilm.contact.mechanics.models import (
+    GRID_MODELS,
+    MODELS_WITHOUT_HARDNESS,
+    SOURCES,
+    ContactModel,
+    chosen_model,
+    estimator,
+    solver,
+)
+from roughfilm.contact.mechanics.press import COMPLEMENTARITY_TOLERANCE
 from roughfilm.contact.mechanics.solid import Solid, composite_modulus
 from roughfilm.contact.mechanics.store import UNITS, Row
-from roughfilm.contact.read import Rough, read_rough, spacing_of
+from roughfilm.contact.read import HeightMap, parse_spacing, read_height_map
 from roughfilm.rom.ladder.provenance import circumstances, code
 from roughfilm.terminal.console import AsJson, in_one_line, messages, output, print_json, progress_bar
 from roughfilm.terminal.load_range import loads_of
@@ -62,7 +69,9 @@ def command(
     spacing: Annotated[
         str | None, typer.Option(metavar="D", help="Between the points of an array of heights: 1um, or 1um,2um.")
     ] = None,
-    model: Annotated[Model | None, typer.Option(help="The rung; by default the best that --hardness allows.")] = None,
+    model: Annotated[
+        ContactModel | None, typer.Option(help="The rung; by default the best that --hardness allows.")
+    ] = None,
     boundary: Annotated[Boundary, typer.Option(help="Repeated without end, or alone.")] = Boundary.PERIODIC,
     tolerance: Annotated[
         float, typer.Option(help="Of the conditions of contact, over the rms height.")
@@ -80,8 +89,8 @@ def command(
     asked = loads_of(loads)
     body = _solid("", modulus, poisson, hardness)
     counter = _counter(counter_modulus, counter_poisson)
-    rung = chosen(model, body.hardness)
-    bound = math.inf if rung in WITHOUT_HARDNESS else body.hardness
+    rung = chosen_model(model, body.hardness)
+    bound = math.inf if rung in MODELS_WITHOUT_HARDNESS else body.hardness
     _refuse(rung, boundary, asked, bound)
     checked_threads(threads)
     if not LEAST_TOLERANCE <= tolerance < 1:
@@ -93,7 +102,7 @@ def command(
     with alone(out, "series"), progress_bar(len(asked) + 1) as advance:
         advance(0, f"reading {surface.name}")
         otherwise = ", --boundary free takes it as it stands"
-        rough = read_rough(surface, spacing_of(spacing), periodic=periodic, otherwise=otherwise)
+        rough = read_height_map(surface, parse_spacing(spacing), periodic=periodic, otherwise=otherwise)
         settings = {
             "model": rung.value,
             "modulus": body.modulus,
@@ -107,8 +116,17 @@ def command(
         }
         inputs = Inputs(heights=rough.heights, spacing=rough.spacing, settings={**settings, "code": code()})
         shown = _spaced(asked)
-        if rung in SOLVED:
-            at = _solver(rung, rough, stiffness, bound, boundary, tolerance, threads)
+        if rung in GRID_MODELS:
+            at = solver(
+                rung,
+                rough.heights,
+                rough.spacing,
+                stiffness,
+                hardness=bound,
+                boundary=boundary.value,
+                tolerance=tolerance,
+                threads=threads,
+            )
             series = solved(at, inputs, asked, shown, out, advance)
         else:
             try:
@@ -124,22 +142,6 @@ def command(
             advance(len(asked), "drawing the page")
             write_page(surface.name, told, series, report)
     _tell(surface.name, told, series, [path for path in (out, report) if path is not None], as_json)
-
-
-def _solver(
-    rung: Model,
-    rough: Rough,
-    stiffness: float,
-    hardness: float,
-    boundary: Boundary,
-    tolerance: float,
-    threads: int,
-) -> Solver:
-    body = (rough.heights, rough.spacing, stiffness)
-    if rung is Model.STANLEY_KATO:
-        return lambda load, _: stanley_kato(*body, load, hardness=hardness, tolerance=tolerance)
-    press = Press(*body, hardness=hardness, boundary=boundary.value, threads=threads)
-    return lambda load, start: press.at(load, tolerance=tolerance, start=start)
 
 
 def _solid(prefix: str, modulus: str, poisson: float, hardness: str | None = None) -> Solid:
@@ -165,7 +167,7 @@ def _counter(modulus: str | None, poisson: float | None) -> Solid | None:
     return None if modulus is None or poisson is None else _solid("counter-", modulus, poisson)
 
 
-def _refuse(rung: Model, boundary: Boundary, asked: tuple[float, ...], hardness: float) -> None:
+def _refuse(rung: ContactModel, boundary: Boundary, asked: tuple[float, ...], hardness: float) -> None:
     """What cannot be, before anything is solved."""
     above = [load for load in asked if load > hardness]
     if above:
@@ -173,7 +175,7 @@ def _refuse(rung: Model, boundary: Boundary, asked: tuple[float, ...], hardness:
             f"--loads: {len(above)} of {len(asked)}, up to {above[-1] / 1e6:.10g} MPa, are above the hardness of "
             f"{hardness / 1e6:.10g} MPa, which is all that the whole area can bear; lower them"
         )
-    if boundary is Boundary.FREE and (rung not in SOLVED or rung is Model.STANLEY_KATO):
+    if boundary is Boundary.FREE and (rung not in GRID_MODELS or rung is ContactModel.STANLEY_KATO):
         raise InputError(f"--boundary free: {rung} knows no edges; take --model elastic or elastic_plastic")
 
 
@@ -183,7 +185,7 @@ def _spaced(loads: tuple[float, ...]) -> tuple[float, ...]:
     return tuple(loads[round(k * (len(loads) - 1) / max(count - 1, 1))] for k in range(count))
 
 
-def _told(rung: Model, rough: Rough, settings: dict[str, Any], series: Series) -> dict[str, Any]:
+def _told(rung: ContactModel, rough: HeightMap, settings: dict[str, Any], series: Series) -> dict[str, Any]:
     """The object of ``--json``."""
     last = series.rows[-1]
     quantities = {name: {"value": value, "unit": UNITS.get(name, "1")} for name, value in asdict(last).items()}
@@ -193,7 +195,7 @@ def _told(rung: Model, rough: Rough, settings: dict[str, Any], series: Series) -
     warnings = list(rough.warnings)
     if series.untrusted:
         few = f"{len(series.untrusted)} of {len(series.rows)} loads lie outside the range where {rung} is trusted"
-        better = Model.ELASTIC if settings["hardness"] is None else Model.ELASTIC_PLASTIC
+        better = ContactModel.ELASTIC if settings["hardness"] is None else ContactModel.ELASTIC_PLASTIC
         warnings.append(f"{few}; compare with --model {better}")
     return {
         "series": [asdict(row) for row in series.rows],

@@ -21,7 +21,7 @@ from roughfilm.contact.foundation.threads import checked_threads
 from roughfilm.contact.foundation.units import to_si
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.store import is_series, load_contact, load_series
-from roughfilm.contact.read import Rough, joint_warnings, read_rough, spacing_of
+from roughfilm.contact.read import HeightMap, parse_spacing, periodicity_warnings, read_height_map
 from roughfilm.contact.surfaces.surface import MAX_LENGTH, MIN_SPACING, Surface
 from roughfilm.rom.bearing.mixed.resume import Work, kept_table
 from roughfilm.rom.bearing.mixed.tabulate import gap_of, tabulate_pressed
@@ -94,7 +94,11 @@ def command(
         series = _read_series(surface) if surface.is_file() and is_series(surface) else None
         if series is not None and mean_gap is not None:
             raise InputError(f"--gap: {surface} holds contacts, which make a table; leave --gap out")
-        rough = _rough(surface, series[0]) if series else read_rough(surface, spacing_of(spacing), periodic=True)
+        rough = (
+            _undeformed(surface, series[0])
+            if series
+            else read_height_map(surface, parse_spacing(spacing), periodic=True)
+        )
         if min(rough.heights.shape) < 2:
             raise InputError(
                 f"{surface}: is a profile; roughfilm.rom.homogenization.line has its flow factors in closed form"
@@ -139,7 +143,9 @@ def _length(option: str, text: str | None, least: float = MIN_SPACING) -> float 
     return length
 
 
-def _of_surface(surface: Path, rough: Rough, tolerance: float, rule: FaceRule, threads: int, advance: Progress) -> Work:
+def _of_surface(
+    surface: Path, rough: HeightMap, tolerance: float, rule: FaceRule, threads: int, advance: Progress
+) -> Work:
     """How the table of an undeformed surface is made."""
 
     def work(known: Sequence[Point], keep: Callable[[Point], None]) -> FactorTable:
@@ -190,7 +196,7 @@ def _of_contacts(
     return work
 
 
-def _shown_gap(table: FactorTable, rough: Rough, settings: Mapping[str, Any]) -> Array:
+def _shown_gap(table: FactorTable, rough: HeightMap, settings: Mapping[str, Any]) -> Array:
     """The gap, m, at the point of a table whose flow is drawn."""
     shown = min(table.points, key=lambda point: (any(point.factors.sealed), abs(point.contact - SHOWN_CONTACT)))
     if shown.load == 0:
@@ -199,12 +205,12 @@ def _shown_gap(table: FactorTable, rough: Rough, settings: Mapping[str, Any]) ->
     return gap_of(shown, Press(rough.heights, rough.spacing, settings["composite_modulus"], hardness=hardness))
 
 
-def _rough(path: Path, pressed: Inputs) -> Rough:
+def _undeformed(path: Path, pressed: Inputs) -> HeightMap:
     """The undeformed surface of a file of contacts."""
     source = {"file": path.name, "settings": dict(pressed.settings)}
     surface = Surface(heights=pressed.heights, spacing=pressed.spacing)
-    warnings = joint_warnings(path, surface, measured=False)
-    return Rough(heights=pressed.heights, spacing=pressed.spacing, source=source, warnings=warnings)
+    warnings = periodicity_warnings(path, surface, measured=False)
+    return HeightMap(heights=pressed.heights, spacing=pressed.spacing, source=source, warnings=warnings)
 
 
 def _read_series(path: Path) -> tuple[Inputs, tuple[float, ...]]:
@@ -235,7 +241,7 @@ def relative(factors: FlowFactors, uncertainty: FlowFactors) -> dict[str, dict[s
     }
 
 
-def _told_one(rough: Rough, settings: dict[str, Any], found: Estimated, separation: float) -> dict[str, Any]:
+def _told_one(rough: HeightMap, settings: dict[str, Any], found: Estimated, separation: float) -> dict[str, Any]:
     """The object of ``--json`` for one mean gap."""
     factors = found.factors
     quantities: dict[str, Any] = {
@@ -257,7 +263,7 @@ def _told_one(rough: Rough, settings: dict[str, Any], found: Estimated, separati
     return {"quantities": quantities, **sealed, "numerics": numerics, **_provenance(rough, settings)}
 
 
-def _told_all(rough: Rough, settings: dict[str, Any], table: FactorTable, known: int) -> dict[str, Any]:
+def _told_all(rough: HeightMap, settings: dict[str, Any], table: FactorTable, known: int) -> dict[str, Any]:
     """The object of ``--json`` for a table."""
     points = [
         {
@@ -302,7 +308,7 @@ def _told_all(rough: Rough, settings: dict[str, Any], table: FactorTable, known:
     }
 
 
-def _provenance(rough: Rough, settings: dict[str, Any]) -> dict[str, Any]:
+def _provenance(rough: HeightMap, settings: dict[str, Any]) -> dict[str, Any]:
     return {
         "provenance": {
             "surface": dict(rough.source),

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.read import Rough
+from roughfilm.contact.read import HeightMap
 from roughfilm.figures import factors as factors_figures
 from roughfilm.pages.render import render
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
@@ -20,7 +20,7 @@ COLUMNS = ("A11", "A12", "A22", "B1", "B2", "d", "e")
 def write_page(
     name: str,
     told: Mapping[str, Any],
-    rough: Rough,
+    rough: HeightMap,
     path: Path,
     gap: Array,
     found: Estimated,

@@ -10,12 +10,20 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 from rich.table import Table
 
+from roughfilm.batch.jobs import Failure
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
 from roughfilm.rom.ladder.provenance import code, commit, machine, versions
 from roughfilm.rom.studies.table import Column
 
 SLOW = 100
 """More iterations than this are slow, where a family does not say otherwise."""
+
+
+SECOND = "second try"
+"""Why a run that converged is slow."""
+
+MESH = "no mesh"
+"""Why a run stalled whose mesh OpenFOAM finds faults in."""
 
 
 class Outcome(StrEnum):
@@ -134,6 +142,24 @@ def tried(
         error=float(found.error) if np.isfinite(found.error) else None,
         message=found.message,
         numbers=found.numbers,
+    )
+
+
+def failed(failure: Failure, **place: Any) -> Spot:
+    """The spot of a run without an answer: refused, given up in one of the ways of a solver, or a fault."""
+    if failure.kind == InputError.__name__:
+        outcome, why = Outcome.REFUSED, ""
+    elif failure.kind in (ConvergenceError.__name__, UnavailableError.__name__):
+        outcome, why = Outcome.STALLED, MESH if "mesh check" in failure.message else failure.outcome
+    else:
+        outcome, why = Outcome.WRONG, "fault"
+    return Spot(
+        outcome=outcome,
+        why="" if why == outcome else why,
+        iterations=failure.iterations,
+        cpu_s=failure.cpu_s or 0.0,
+        message=failure.message,
+        **place,
     )
 
 

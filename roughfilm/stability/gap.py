@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from roughfilm.batch.answers import SECOND, answers_to, failed
+from roughfilm.batch.answers import answers_to
 from roughfilm.batch.executors import local
 from roughfilm.batch.jobs import Failure, Job
 from roughfilm.contact.foundation.errors import InputError
@@ -18,7 +18,7 @@ from roughfilm.figures.views.rough_gap import STYLES
 from roughfilm.rom.ladder.model import of_kind
 from roughfilm.rom.ladder.result import Result
 from roughfilm.stability.checks.gap import JUDGED, Truth, agreeing, exact_stokes, exact_thin, extrapolated
-from roughfilm.stability.form import GOOD, Map, Outcome, Spot, count, in_groups, in_rows
+from roughfilm.stability.form import GOOD, SECOND, Map, Outcome, Spot, count, failed, in_groups, in_rows
 from roughfilm.stability.questions.gap import CUT, CUTS, Probe, probes
 from roughfilm.terminal.console import models
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
-from roughfilm.batch.answers import SECOND, answers_to, failed
+from roughfilm.batch.answers import answers_to
 from roughfilm.batch.jobs import Failure, Job
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.foamcases.openfoam.iterate import RECIPE
@@ -17,7 +17,7 @@ from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.rom.ladder.setting import Setting
 from roughfilm.rom.pocket.scene import Pocket
 from roughfilm.rom.pocket.validity import TURBULENT
-from roughfilm.stability.form import Map, Outcome, Spot, count, in_groups
+from roughfilm.stability.form import SECOND, Map, Outcome, Spot, count, failed, in_groups
 from roughfilm.terminal.console import models
 
 KIND = "pocket"

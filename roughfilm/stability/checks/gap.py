@@ -9,7 +9,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.rough_gap.flow.exact import sinusoidal_ridge_flow
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors, of_thin_film
-from roughfilm.stability.questions.gap import Wave
+from roughfilm.stability.wave import Wave
 
 JUDGED = ("A11", "A22", "B1", "friction")
 

@@ -11,7 +11,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.synthetic.gaussian import gaussian
 from roughfilm.contact.synthetic.self_affine import self_affine
 from roughfilm.rom.homogenization.paths import sealed
-from scripts.studies.lay.joint import cut_grooves, joined
+from roughfilm.stability.joint import cut_grooves, joined
 
 SIDE, ROUGHNESS = 1e-3, 1e-6
 """m: the period of the surfaces, and their rms height."""

@@ -4,12 +4,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.rom.ladder.setting import Setting
 from roughfilm.rom.rough_gap.scene import RoughGap
+from roughfilm.stability.wave import Wave
 
 GAP = 1e-5
 """m, the mean gap of waves."""
@@ -36,25 +35,6 @@ THIN_LAYERS, THIN_CUTS = (8, 16, 32), (0.1, 1e-2, 1e-3)
 
 NEAR, CUT, THIN, STEEP = "near walls", "contact", "thin cells at contact", "slope"
 CELLS, INERTIA = "shape of cells", "inertia"
-
-
-@dataclass(frozen=True, kw_only=True)
-class Wave:
-    """Heights a cos(2πx/L) h̄, or a cos(2πx/L) cos(2πy/L) h̄ if ``bumps``, under a flat wall; L in mean gaps h̄."""
-
-    amplitude: float
-    wavelength: float
-    bumps: bool = False
-
-    @property
-    def slope(self) -> float:
-        """Rms slope; of bumps and ridges alike."""
-        return float(np.sqrt(2) * np.pi * self.amplitude / self.wavelength)
-
-    @property
-    def name(self) -> str:
-        """Fit for a directory."""
-        return f"{'bumps' if self.bumps else 'ridges'}-a{self.amplitude:.12g}-L{self.wavelength:g}"
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -8,9 +8,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from roughfilm.rom.homogenization.lay import box_factors, turned
+from roughfilm.stability.joint import cut_grooves
 from scripts.studies.lay.claims import Lay
 from scripts.studies.lay.data import TEXTURES, THICKNESSES, Compared, angle, box_of, grooves_exactly
-from scripts.studies.lay.joint import cut_grooves
 from scripts.studies.lay.measured import OBLIQUE
 
 ALONG, ACROSS, MIXED = "#2166ac", "#1a7f37", "#b2182b"

@@ -8,18 +8,15 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError
-from roughfilm.contact.preparation.prepare import Prepared, prepare
-from roughfilm.contact.preparation.recipe import read_recipe
+from roughfilm.contact.preparation.prepare import Prepared
 from roughfilm.contact.surfaces.periodicity import periodicity_mismatch
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.gaussian import gaussian
 from roughfilm.rom.homogenization.flow_factors import flow_factors
 from roughfilm.rom.homogenization.lay import turned
+from roughfilm.stability.joint import cut_grooves, joined
 from scripts.studies.lay.data import ROUGHNESS, SIDE, THICKNESSES, gap_at, grooves_exactly
 from scripts.studies.lay.measured import STRIATED, along, lay_of
-
-EDGES_ONLY = {"form": "none", "outliers": {"points": 0}, "grid": {"points": "kept"}, "smoothing": 1}
-"""A recipe that does nothing but join the edges, as it is usually done."""
 
 GROOVES, NODES = 4, 192
 SHIFTS = tuple(np.linspace(0, 1, 11).tolist())
@@ -54,13 +51,6 @@ class Joints:
     measured: Mapping[str, Sequence[Joint]]
 
 
-def cut_grooves(shift: float, nodes: int = NODES) -> Surface:
-    """Grooves along x that end ``shift`` of their distance beside where they began; periodic across."""
-    x, y = np.meshgrid(*(np.arange(nodes) / nodes,) * 2, indexing="ij")
-    heights = np.sqrt(2) * ROUGHNESS * np.cos(2 * np.pi * (GROOVES * y - shift * x))
-    return Surface(heights=heights, spacing=(SIDE / nodes, SIDE / nodes))
-
-
 def judged(window: Surface, joined: Surface, truth: Mapping[float, float], lay: float) -> list[Joint]:
     """A window and the same with joined edges, at each thickness of which the true A along the lay is given."""
     roughness = float(window.heights.std())
@@ -88,13 +78,8 @@ def mirrored(surface: Surface) -> Surface:
     return Surface(heights=np.concatenate([surface.heights, surface.heights[::-1]]), spacing=surface.spacing)
 
 
-def joined(surface: Surface) -> Surface:
-    """With its edges joined as a preparation does, and nothing else done."""
-    return prepare(surface, read_recipe(EDGES_ONLY)).joined
-
-
 def _cut(shift: float, nodes: int) -> list[Joint]:
-    surface = cut_grooves(shift, nodes)
+    surface = cut_grooves(shift, nodes, grooves=GROOVES, side=SIDE, roughness=ROUGHNESS)
     slope = atan(shift / GROOVES)
     truth = {}
     for thickness in THICKNESSES:

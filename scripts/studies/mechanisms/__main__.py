@@ -6,177 +6,47 @@ no model of the ladder keeps both, so the page says which of them rules where, a
 """
 
 import json
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
-import numpy as np
 import typer
 from rich.markup import escape
 from rich.table import Table
 
-from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.files import replacing
-from roughfilm.contact.foundation.units import with_unit
 from roughfilm.pages.render import render, write_figures
-from roughfilm.rom.ladder.model import find, of_kind
 from roughfilm.rom.ladder.provenance import circumstances
-from roughfilm.rom.ladder.result import Result
-from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.terminal.console import (
     AsJson,
     in_one_line,
     make_directory,
-    models,
     output,
     print_json,
     progress_bar,
     run_alone,
 )
-
-FILM, LENGTH, WIDTH, DEPTH = 30e-6, 1e-3, 0.3e-3, 22.5e-6
-"""Of a period, m. The groove has w+ = 0.3 and d+ = 0.75, of Paper A; the waves are as deep and fill the period."""
-
-GAPS = {"waves": "waves, cos²", "groove": "a groove between flat lands"}
-"""Without inertia and cavitation, neither carries load: pressure falls where the film widens as it rises elsewhere."""
-
-VISCOSITY, DENSITY = 0.01, 1000.0
-TENSIONS = (0.0, 20e3, 100e3)
-"""Of ambient above the pressure of cavitation, Pa: a liquid full of air, one with some, one with none."""
+from scripts.studies.mechanisms.data import (
+    CAVITATION_NUMBERS,
+    DENSITY,
+    FILM,
+    GAPS,
+    NUMBERS,
+    SPEEDS,
+    TENSIONS,
+    VISCOSITY,
+    laws,
+    loads_of,
+    pocket,
+    slider,
+    solve,
+)
 
 SUCKED = 20e3
-"""The one of which pressures are drawn, Pa."""
+"""The tension at which pressures are drawn, Pa."""
 
-ROUNDING = 1e-6
-"""Mean pressure over speed, Pa s/m, below which a load is none."""
-
-SPEEDS = tuple(np.geomspace(0.3, 60, 24).tolist())
 SHOWN = (5.0, 20.0, 53.333)
-"""Speeds of which the pressures are drawn, m/s."""
-
-NUMBERS = tuple(np.geomspace(0.1, 400, 14).tolist())
-"""Reynolds numbers ρ u h/η; the load by inertia depends on nothing else."""
-
-TORN = tuple(np.geomspace(1e-4, 0.2, 24).tolist())
-"""Δp h²/(η u L); the load by cavitation depends on nothing else."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Laws:
-    """Mean pressure over η u L/h² by either mechanism: over Re, and over Δp h²/(η u L)."""
-
-    reynolds_numbers: Array
-    by_inertia: Array
-    tensions: Array
-    by_cavitation: Array
-
-    def inertia(self, speed: Array, film: Array, density: float = DENSITY) -> Array:
-        """Mean pressure, Pa, of a film of that thickness over a groove of the same proportions."""
-        number = density * speed * film / VISCOSITY
-        rise = np.interp(number, self.reynolds_numbers, self.by_inertia / self.reynolds_numbers)
-        return np.asarray(rise * number * _unit(speed, film))
-
-    def cavitation(self, speed: Array, film: Array, tension: float) -> Array:
-        """The same where the film ruptures at ``tension`` below ambient, Pa."""
-        unit = _unit(speed, film)
-        number = np.maximum(tension / unit, self.tensions[0])
-        load = np.interp(np.log(number), np.log(self.tensions), self.by_cavitation, right=0.0)
-        return np.asarray(load * unit)
-
-
-def _unit(speed: Array, film: Array) -> Array:
-    """η u L/h², with the proportions kept."""
-    return np.asarray(VISCOSITY * speed * (LENGTH / FILM) / film)
-
-
-def pocket(gap: str, speed: float) -> Any:
-    """One period of a gap as a pocket."""
-    places = np.linspace(-0.4995 * LENGTH, 0.4995 * LENGTH, 201)
-    depths = DEPTH * np.cos(np.pi / 2 * places / places[-1]) ** 2
-    depths[[0, -1]] = 0.0
-    waves = {"profile": "points", "points": np.column_stack([places, depths]).tolist()}
-    groove = {"profile": "cylindrical", "width": with_unit(WIDTH, "m"), "depth": with_unit(DEPTH, "m")}
-    return read_scene(
-        {
-            "name": f"{GAPS[gap]}, by inertia",
-            "kind": "pocket",
-            "geometry": {
-                "length": with_unit(LENGTH, "m"),
-                "film": with_unit(FILM, "m"),
-                **(waves if gap == "waves" else groove),
-            },
-            "lubricant": {"viscosity": with_unit(VISCOSITY, "Pa*s"), "density": with_unit(DENSITY, "kg/m^3")},
-            "motion": {"speed": with_unit(speed, "m/s")},
-        }
-    )
-
-
-def slider(gap: str, speed: float, tension: float) -> Any:
-    """One period of a gap as a bearing at ambient pressure; waves begin where they are widest."""
-    length, film, depth = (with_unit(value, "m") for value in (LENGTH, FILM, DEPTH))
-    waves = {"shape": "squared_cosine_inlet", "amplitude": depth, "wavelength": length, "extent": length}
-    texture = {"length": with_unit(WIDTH, "m"), "depth": depth, "start": with_unit((LENGTH - WIDTH) / 2, "m")}
-    groove = {"shape": "parallel", "texture": {"profile": "cylindrical", **texture}}
-    return read_scene(
-        {
-            "name": f"{GAPS[gap]}, by cavitation",
-            "kind": "bearing",
-            "geometry": {"length": length, "film": film, **(waves if gap == "waves" else groove)},
-            "lubricant": {
-                "viscosity": with_unit(VISCOSITY, "Pa*s"),
-                "cavitation_pressure": with_unit(-tension, "Pa"),
-            },
-            "motion": {"speed": with_unit(speed, "m/s")},
-        }
-    )
-
-
-def solve(scene: Any, model: str) -> Result:
-    """A scene by a model of its kind."""
-    return find(of_kind(models(), scene.kind), model).solve(scene)
-
-
-def by_inertia(gap: str, speed: float) -> float:
-    """Mean pressure above that of the place where the bearing is open to ambient, Pa."""
-    pressure = periodic_pressure(gap, solve(pocket(gap, speed), "film"))[1]
-    return float(pressure.mean())
-
-
-def periodic_pressure(gap: str, found: Result) -> tuple[Array, Array]:
-    """Even places from where the bearing begins, m, and the pressure there, zero at the first, Pa, by inertia.
-
-    Waves begin where they are widest, which is the middle of the pocket; the other begins on its land.
-    """
-    x, pressure = (found.fields[name].values for name in ("position", "pressure"))
-    place = np.linspace(0, LENGTH, 4000, endpoint=False)
-    shifted = place if gap == "waves" else place - LENGTH / 2
-    there = np.interp(shifted, x, pressure, period=LENGTH)
-    return place, there - there[0]
-
-
-def by_cavitation(gap: str, speed: float, tension: float) -> float:
-    """Mean pressure above ambient, Pa."""
-    return solve(slider(gap, speed, tension), "reynolds_cavitating").quantities["load_per_width"].value / LENGTH
-
-
-def laws(gap: str, advance: Callable[[str], None]) -> Laws:
-    """Both loads of a gap, dimensionless, over the one number that each depends on."""
-    inertia, cavitation = [], []
-    for number in NUMBERS:
-        speed = number * VISCOSITY / (DENSITY * FILM)
-        advance(f"{gap}, inertia, Re = {number:.3g}")
-        inertia.append(by_inertia(gap, speed) / (VISCOSITY * speed * LENGTH / FILM**2))
-    for number in TORN:
-        advance(f"{gap}, cavitation, {number:.3g}")
-        unit = VISCOSITY * LENGTH / FILM**2
-        cavitation.append(by_cavitation(gap, 1.0, number * unit) / unit)
-    return Laws(
-        reynolds_numbers=np.array(NUMBERS),
-        by_inertia=np.array(inertia),
-        tensions=np.array(TORN),
-        by_cavitation=np.array(cavitation),
-    )
+"""Speeds at which pressures are drawn, m/s."""
 
 
 @in_one_line
@@ -188,7 +58,7 @@ def command(
 
     make_directory(out)
     done = 0
-    with progress_bar(len(NUMBERS) + len(TORN) + len(GAPS) * len(SPEEDS)) as bar:
+    with progress_bar(len(NUMBERS) + len(CAVITATION_NUMBERS) + len(GAPS) * len(SPEEDS)) as bar:
 
         def advance(words: str) -> None:
             nonlocal done
@@ -231,18 +101,6 @@ def command(
             shown.add_row(*(f"{value:.4g}" for value in row.values()))
         output.print(shown)
     output.print(f"page: {escape(str(out / 'mechanisms.html'))}", soft_wrap=True)
-
-
-def loads_of(gap: str, advance: Callable[[str], None]) -> dict[str, list[float]]:
-    """Mean pressures over the speeds, Pa, by inertia and at each tension; rounding left is zero."""
-    found: dict[str, list[float]] = {"inertia": [], **{f"{tension:g}": [] for tension in TENSIONS}}
-    for speed in SPEEDS:
-        advance(f"{gap}, {speed:.3g} m/s")
-        found["inertia"].append(by_inertia(gap, speed))
-        for tension in TENSIONS:
-            load = by_cavitation(gap, speed, tension)
-            found[f"{tension:g}"].append(load if abs(load) > ROUNDING * speed else 0.0)
-    return found
 
 
 def table(loads: Mapping[str, list[float]]) -> list[dict[str, float]]:

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from roughfilm.figures.base import svg
 from roughfilm.rom.ladder.result import Result
-from scripts.studies.mechanisms.__main__ import FILM, GAPS, SPEEDS, TENSIONS, Laws, periodic_pressure
+from scripts.studies.mechanisms.data import FILM, GAPS, SPEEDS, TENSIONS, Laws, periodic_pressure
 
 INERTIA, CAVITATION = "#b2182b", ("#08519c", "#4292c6", "#9ecae1")
 

@@ -17,7 +17,7 @@ from roughfilm.cli.main import app
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.files import locked
 from roughfilm.contact.mechanics.press import Press
-from roughfilm.contact.read import spacing_of
+from roughfilm.contact.read import parse_spacing
 from roughfilm.contact.surfaces.store import save_surface
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.figures.rendering import probe
@@ -384,7 +384,7 @@ def test_ranges_of_loads():
     assert loads_of("1e1..1e3 kPa:2") == (1e4, 1e6)
     assert loads_of("5MPa, 200 kPa,5MPa") == (2e5, 5e6)
     assert loads_of("7bar") == (7e5,)
-    assert spacing_of("1um") == (1e-6, 1e-6)
-    assert spacing_of("1um, 2 nm") == (1e-6, 2e-9)
+    assert parse_spacing("1um") == (1e-6, 1e-6)
+    assert parse_spacing("1um, 2 nm") == (1e-6, 2e-9)
     with pytest.raises(InputError, match="one length above 0 or two"):
-        spacing_of("1um,2um,3um")
+        parse_spacing("1um,2um,3um")

@@ -10,7 +10,6 @@ import pytest
 from typer.testing import CliRunner
 
 from roughfilm.batch import answers as stability_runs
-from roughfilm.batch.answers import SECOND
 from roughfilm.batch.jobs import failure_of
 from roughfilm.cli.main import app
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
@@ -19,9 +18,11 @@ from roughfilm.rom.ladder.result import SolverRun
 from roughfilm.rom.ladder.setting import Setting
 from roughfilm.stability import gap as stability_gap
 from roughfilm.stability.checks.gap import JUDGED, Truth, agreeing, exact_stokes, exact_thin, extrapolated
+from roughfilm.stability.form import SECOND
 from roughfilm.stability.form import Outcome as Found
 from roughfilm.stability.gap import CUT_OUT, LEFT_OUT, SILENT, TOLD, TOO_SHORT, UNJUDGED, in_words, judged, spot_of
-from roughfilm.stability.questions.gap import CUT, CUTS, INERTIA, NEAR, NEAREST, Wave, probes, wave_scene
+from roughfilm.stability.questions.gap import CUT, CUTS, INERTIA, NEAR, NEAREST, probes, wave_scene
+from roughfilm.stability.wave import Wave
 from roughfilm.terminal.console import models
 
 LADDER = of_kind(models(), "rough_gap")

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from roughfilm.batch.answers import SECOND
 from roughfilm.batch.jobs import failure_of
 from roughfilm.cli import stability
 from roughfilm.cli.main import app
@@ -20,7 +19,7 @@ from roughfilm.rom.ladder.setting import Setting
 from roughfilm.stability import form as stability_form
 from roughfilm.stability import laws as stability_laws
 from roughfilm.stability import pocket as stability_pocket
-from roughfilm.stability.form import MEANING, Judged, Map, Spot, tried
+from roughfilm.stability.form import MEANING, SECOND, Judged, Map, Spot, tried
 from roughfilm.stability.pocket import in_words, spot_of
 from roughfilm.terminal.console import models
 

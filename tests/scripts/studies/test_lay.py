@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 from roughfilm.contact.surfaces.periodicity import periodicity_mismatch
+from roughfilm.stability.joint import cut_grooves, joined
 from scripts.studies.lay import __main__ as lay
 from scripts.studies.lay.claims import judge
 from scripts.studies.lay.data import ROUGHNESS, THICKNESSES, TURNS, angle, compare, gap_at, grooves_exactly, heights_of
-from scripts.studies.lay.joint import cut_grooves, joined, mirrored, passed
+from scripts.studies.lay.joint import mirrored, passed
 from scripts.studies.lay.measured import OBLIQUE, STRIATED, over_separations, prepared_surfaces
 
 COARSE = {"points": 128, "coarser": 4}

@@ -1,0 +1,118 @@
+"""The models of a dry contact: solved on the grid, or estimated from statistics of the heights."""
+
+import math
+import time
+from collections.abc import Callable
+from enum import StrEnum
+from functools import partial
+from typing import Literal
+
+import numpy as np
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.mechanics.estimates.estimate import Estimate
+from roughfilm.contact.mechanics.estimates.greenwood_williamson import greenwood_williamson
+from roughfilm.contact.mechanics.estimates.persson import persson
+from roughfilm.contact.mechanics.estimates.truncation import bearing_area
+from roughfilm.contact.mechanics.load_series import Solver
+from roughfilm.contact.mechanics.moments import wave_power
+from roughfilm.contact.mechanics.press import Press
+from roughfilm.contact.mechanics.reference.stanley_kato import stanley_kato
+from roughfilm.contact.mechanics.store import Row
+
+
+class ContactModel(StrEnum):
+    """A model of a dry contact, from the plainest to the best; the last one is for comparison."""
+
+    BEARING_AREA = "bearing_area"
+    GREENWOOD_WILLIAMSON = "greenwood_williamson"
+    PERSSON = "persson"
+    ELASTIC = "elastic"
+    ELASTIC_PLASTIC = "elastic_plastic"
+    STANLEY_KATO = "stanley_kato"
+
+
+GRID_MODELS = (ContactModel.ELASTIC, ContactModel.ELASTIC_PLASTIC, ContactModel.STANLEY_KATO)
+"""Models that solve on the grid; the others estimate from statistics."""
+
+MODELS_WITHOUT_HARDNESS = (ContactModel.ELASTIC, ContactModel.GREENWOOD_WILLIAMSON)
+"""Models in which pressures have no limit."""
+
+SOURCES = {
+    ContactModel.BEARING_AREA: "E. J. Abbott, F. A. Firestone, Mech. Eng. 55 (1933) 569",
+    ContactModel.GREENWOOD_WILLIAMSON: "J. A. Greenwood, J. B. P. Williamson, doi:10.1098/rspa.1966.0242",
+    ContactModel.PERSSON: "B. N. J. Persson, doi:10.1063/1.1388626",
+    ContactModel.ELASTIC: "I. A. Polonsky, L. M. Keer, doi:10.1016/S0043-1648(99)00113-1",
+    ContactModel.ELASTIC_PLASTIC: "F. Sahlin, Luleå University of Technology 2008:26, section E.2.2",
+    ContactModel.STANLEY_KATO: "H. M. Stanley, T. Kato, doi:10.1115/1.2833523",
+}
+
+
+def chosen_model(model: ContactModel | None, hardness: float) -> ContactModel:
+    """The model asked for, or the best one that the hardness, Pa, allows; InputError if the model needs one."""
+    found = model or (ContactModel.ELASTIC if math.isinf(hardness) else ContactModel.ELASTIC_PLASTIC)
+    if math.isinf(hardness) and found in (ContactModel.ELASTIC_PLASTIC, ContactModel.BEARING_AREA):
+        raise InputError(f"--hardness: {found} needs one; give it, such as --hardness 4GPa, or choose --model elastic")
+    return found
+
+
+def solver(
+    model: ContactModel,
+    heights: Array,
+    spacing: tuple[float, float],
+    composite_modulus: float,
+    *,
+    hardness: float,
+    boundary: Literal["periodic", "free"],
+    tolerance: float,
+    threads: int,
+) -> Solver:
+    """The contact of a model on the grid as a function of the load, Pa, and of a contact to start from."""
+    body = (heights, spacing, composite_modulus)
+    if model is ContactModel.STANLEY_KATO:
+        return lambda load, _: stanley_kato(*body, load, hardness=hardness, tolerance=tolerance)
+    press = Press(*body, hardness=hardness, boundary=boundary, threads=threads)
+    return lambda load, start: press.at(load, tolerance=tolerance, start=start)
+
+
+def estimator(
+    model: ContactModel, heights: Array, spacing: tuple[float, float], composite_modulus: float, hardness: float
+) -> Callable[[float], tuple[Row, Estimate]]:
+    """The numbers and the estimate of a statistical model as a function of the load, Pa."""
+    if model is ContactModel.BEARING_AREA:
+        estimate = partial(bearing_area, heights, hardness=hardness, **_stiffness(heights, spacing, composite_modulus))
+    else:
+        spectrum = wave_power(heights, spacing)
+        if model is ContactModel.PERSSON:
+            estimate = partial(persson, spectrum, composite_modulus=composite_modulus, hardness=hardness)
+        else:
+            estimate = partial(greenwood_williamson, spectrum.moments, composite_modulus=composite_modulus)
+
+    def row(load: float) -> tuple[Row, Estimate]:
+        started = time.process_time()
+        found = estimate(load=load)
+        return (
+            Row(
+                load=load,
+                area_fraction=found.area_fraction,
+                area_fraction_pixel=None,
+                plastic_fraction=found.plastic_fraction,
+                mean_gap=found.mean_gap,
+                approach=None,
+                complementarity=None,
+                iterations=None,
+                pressure_max=hardness if found.plastic_fraction > 0 else None,
+                cpu_s=time.process_time() - started,
+            ),
+            found,
+        )
+
+    return row
+
+
+def _stiffness(heights: Array, spacing: tuple[float, float], composite_modulus: float) -> dict[str, float]:
+    """The stiffness that limits the range of a bearing curve; nothing for a flat surface, where it is exact."""
+    if np.ptp(heights) == 0:
+        return {}
+    return {"composite_modulus": composite_modulus, "rms_slope": wave_power(heights, spacing).moments.rms_slope}
