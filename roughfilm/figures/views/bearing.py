@@ -122,6 +122,6 @@ VIEW = View(
     },
     plots=plots,
     groups=groups,
-    errors="of the load, and of the friction on the sliding wall",
+    errors="of the load and of the friction on the sliding wall",
     ordering="θ of the inlet, ϑ at 6ηuL/h² and B/L",
 )

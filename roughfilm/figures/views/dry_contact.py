@@ -119,6 +119,6 @@ VIEW = View(
     },
     plots=plots,
     groups=groups,
-    errors="of the contact area, and of the mean gap",
+    errors="of the contact area and of the mean gap",
     ordering="P/(E* g'), H/(E* g') and Nayak's α",
 )

@@ -143,7 +143,7 @@ VIEW = View(
     plots=plots,
     drawing="roughfilm.figures.gap_view",
     groups=dry_contact.groups,
-    errors="of the flow along x, and of the flow along y",
+    errors="of the flow along x and of the flow along y",
     ordering="slope g', Sq/h̄ and Re",
-    left_out=", but for what is all but closed",
+    left_out=" Cases that are almost closed are left out.",
 )

@@ -111,7 +111,7 @@ VIEW = View(
     },
     plots=plots,
     groups=dry_contact.groups,
-    errors="of the leakage, and of the contact area",
+    errors="of the leakage and of the contact area",
     ordering="P/(E* g') and Nayak's α",
-    left_out=", but for what is sealed or all but sealed",
+    left_out=" Cases that are sealed or almost sealed are left out.",
 )

@@ -122,7 +122,7 @@ def test_tables_and_page_hold_the_series(told, place):
     assert "leakage_direct_x (kg/(m*s))" in lines[0]
     page = (place / "out" / "report.html").read_text(encoding="utf-8")
     assert page.count("<svg") >= 4
-    assert "seals it in x" in page
+    assert "sealing load, x" in page
     assert "No picture: left out in a test" in page
     assert "http://www.w3.org" in page
     assert "<script" not in page

@@ -110,7 +110,7 @@ def test_a_comparison_shows_every_rung_and_the_film_in_space(tmp_path, monkeypat
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     for name in ("smooth_gap", "homogenized", "slope_corrected", "stokes", "navier_stokes"):
         assert f">{name}" in page
-    for heading in ("What passes, drags and rubs", "Across the gap", "In space"):
+    for heading in ("Flow and friction factors", "Across the gap", "Streamlines"):
         assert heading in page
     film = gap_view.film_of(load(tmp_path / "results" / "stokes.h5"))
     x0, x1, y0, y1, z0, z1 = film.bounds

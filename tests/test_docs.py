@@ -1,0 +1,78 @@
+"""The README and the manual: links that lead somewhere, commands that exist, scenes that can be solved."""
+
+import pkgutil
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+from places import ROOT
+
+from roughfilm.rom.ladder.scene import read_scene
+
+PAGES = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").glob("*.md"))]
+README_BYTES = 12_000
+LINE_LENGTH = 120
+BLOCK = re.compile(r"^```(\w*)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+LINK = re.compile(r"\]\(([^)\s]+)\)")
+COMMAND = re.compile(r"\broughfilm ([a-z]+)\b")
+NAME = re.compile(r"\b(roughfilm(?:\.\w+)+)")
+MODULE = re.compile(r"python -m (scripts\.[\w.]+)")
+
+
+def _named(page: Path) -> str:
+    return str(page.relative_to(ROOT))
+
+
+def _blocks(page: Path, language: str) -> list[str]:
+    return [text for name, text in BLOCK.findall(page.read_text()) if name == language]
+
+
+def _code(page: Path) -> str:
+    text = page.read_text()
+    return "\n".join([*_blocks(page, "sh"), *re.findall(r"`([^`\n]+)`", BLOCK.sub("", text))])
+
+
+SCENES = [
+    pytest.param(text, id=f"{_named(page)}: {tomllib.loads(text)['name']}")
+    for page in PAGES
+    for text in _blocks(page, "toml")
+    if text.startswith("name =")
+]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=_named)
+def test_relative_links_point_to_files(page: Path) -> None:
+    links = [link for link in LINK.findall(BLOCK.sub("", page.read_text())) if "://" not in link]
+    assert [link for link in links if not (page.parent / link.partition("#")[0]).exists()] == []
+
+
+def test_the_table_of_contents_names_every_chapter() -> None:
+    chapters = {path.name for path in (ROOT / "docs").glob("*.md")} - {"README.md"}
+    assert chapters <= set(LINK.findall((ROOT / "docs" / "README.md").read_text()))
+
+
+def test_the_readme_is_short() -> None:
+    assert (ROOT / "README.md").stat().st_size <= README_BYTES
+
+
+@pytest.mark.parametrize("page", PAGES, ids=_named)
+def test_lines_are_short(page: Path) -> None:
+    lines = [line for line in page.read_text().splitlines() if not line.startswith("|")]
+    assert [line for line in lines if len(line) > LINE_LENGTH] == []
+
+
+@pytest.mark.parametrize("page", [page for page in PAGES if page.name != "CHANGELOG.md"], ids=_named)
+def test_commands_and_names_exist(page: Path) -> None:
+    code = _code(page)
+    assert [name for name in COMMAND.findall(code) if not (ROOT / "roughfilm" / "cli" / f"{name}.py").exists()] == []
+    modules = [ROOT.joinpath(*name.split(".")) for name in MODULE.findall(code)]
+    assert [path for path in modules if not (path.is_dir() or path.with_suffix(".py").is_file())] == []
+    for name in NAME.findall(code):
+        pkgutil.resolve_name(name)
+
+
+@pytest.mark.parametrize("text", SCENES)
+def test_scenes_are_valid(text: str) -> None:
+    entries = tomllib.loads(text)
+    assert read_scene(entries).name == entries["name"]
