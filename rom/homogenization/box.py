@@ -1,4 +1,4 @@
-"""A box of one period between two reservoirs: pressure is given at its ends, and its sides are closed or joined."""
+"""Flow through a box of one period between two reservoirs, with closed or periodic sides."""
 
 from dataclasses import dataclass
 
@@ -10,17 +10,17 @@ from roughfilm.rom.homogenization.solvers import Matrix
 
 @dataclass(frozen=True, kw_only=True)
 class Box:
-    """The faces of a box, its flow in the first direction, lengths in spacings along it.
+    """Conductances of the faces of a box with flow along the first axis, lengths in spacings along it.
 
-    With ψ the pressure less what it would be in a uniform film, at a mean gradient of 1: ψ = 0 on line 0, which is one
-    reservoir, and on its copy one period on, which is the other; the lines between are unknown.
+    The unknown ψ is the pressure minus that of a uniform film, at a mean gradient of 1: ψ = 0 on line 0, one reservoir,
+    and on its copy one period on, the other; the lines between are unknown.
 
     Attributes
     ----------
-    east : what the faces from each line to the next let through, shape (n, m), the last to the copy of line 0.
-    north : the same from column to column, shape (n, m), of which those of line 0 count for nothing; the last column's
-        lead round to the first if the sides are joined.
-    joined : whether the box is periodic across the flow; if not, nothing gets out of its sides.
+    east : conductances from each line to the next, shape (n, m), the last to the copy of line 0.
+    north : conductances from column to column, shape (n, m); those of line 0 have no effect, and those of the last
+        column lead to the first if the sides are joined.
+    joined : whether the box is periodic across the flow; if not, its sides are closed.
     """
 
     east: Array
@@ -38,7 +38,7 @@ class Box:
         return Matrix(centre=centre, east=east[1:], north=north, periodic=(False, self.joined))
 
     def source(self) -> Array:
-        """What a uniform gradient leaves at the nodes of the lines between, shape (n − 1, m)."""
+        """The residual of a uniform gradient at the nodes of the inner lines, shape (n − 1, m)."""
         return np.diff(self.east, axis=0)
 
     def whole(self) -> float:
@@ -46,7 +46,7 @@ class Box:
         return float(self.east.sum())
 
     def flow(self, inside: Array) -> "Flow":
-        """What ψ on the lines between, shape (n − 1, m), drives."""
+        """The flow of ψ on the inner lines, shape (n − 1, m)."""
         psi = np.pad(inside, ((1, 1), (0, 0)))
         gradient = np.diff(psi, axis=0)
         gradient += 1
@@ -63,13 +63,13 @@ class Box:
 
 @dataclass(frozen=True, kw_only=True)
 class Flow:
-    """Of a box.
+    """Flow through a box.
 
     Attributes
     ----------
-    through : the flow through all of its width at a mean gradient of 1: an energy, whose error is the square of ψ's.
-    gradient : along the flow, on the faces of ``Box.east``.
-    uneven : by how much ``through`` would fall at least if every section were to let the same through.
+    through : total flow at a mean gradient of 1, computed as an energy, whose error is the square of that of ψ.
+    gradient : gradient along the flow on the faces of ``Box.east``.
+    uneven : lower bound on the decrease of ``through`` if the flow were equal through all cross sections.
     """
 
     through: float

@@ -14,8 +14,8 @@ from roughfilm.rom.homogenization.paths import sealed
 from roughfilm.rom.homogenization.solvers import SOLVERS, Matrix, Solver, Source, first_to_converge
 from roughfilm.rom.multigrid.multigrid import Solved
 
-TOLERANCE = 1e-8
-"""Of A; far below what any grid is good for."""
+CELL_TOLERANCE = 1e-8
+"""Default relative error of A from the linear solver, far below the discretisation error of any grid."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,11 +25,11 @@ class Cell:
     Attributes
     ----------
     factors : of the gap.
-    correctors : χ₁, χ₂, χ₃, shape (3, nx, ny): χ₁ and χ₂ in m, χ₃ in 1/m (of pressure over 6ηu); 0 for sealed ones.
-    unsolved : by how much A₁₁, A₂₂ and e, over those of a smooth film of the mean gap, would change by iterating on.
-    solver : which one it was.
-    iterations : of conjugate gradients, all three problems together.
-    residual : the largest of the three, recomputed, over its right-hand side.
+    correctors : χ₁, χ₂, χ₃, shape (3, nx, ny): χ₁ and χ₂ in m, χ₃ in 1/m (pressure over 6ηu); 0 in sealed directions.
+    unsolved : solver errors of A₁₁, A₂₂ and e, relative to those of a smooth film of the mean gap.
+    solver : name of the solver that converged.
+    iterations : conjugate-gradient iterations of all three problems.
+    residual : the largest recomputed residual of the three, relative to its right-hand side.
     """
 
     factors: FlowFactors
@@ -45,21 +45,21 @@ def solve_cell(
     spacing: tuple[float, float],
     *,
     rule: FaceRule = FaceRule.LINEAR,
-    tolerance: float = TOLERANCE,
+    tolerance: float = CELL_TOLERANCE,
     start: Array | None = None,
     solvers: Sequence[str] = tuple(SOLVERS),
 ) -> Cell:
     """Solve ∇·(h³(e_i + ∇χ_i)) = 0 and ∇·(h e₁ − h³∇χ₃) = 0, all periodic, on the nodes of a gap.
 
-    A_ij = <h³(e_i + ∇χ_i)·(e_j + ∇χ_j)>, B_i = <h(δ_1i + ∂₁χ_i)>, d = <1/h>, e = <h ∂₁χ₃>. A is a least
-    energy, and B and e have what the residuals do to χ₃ added: their errors are squares of those of χ.
+    A_ij = <h³(e_i + ∇χ_i)·(e_j + ∇χ_j)>, B_i = <h(δ_1i + ∂₁χ_i)>, d = <1/h>, e = <h ∂₁χ₃>. A is a minimum of an
+    energy, and B and e contain the first-order effect of the residuals: all errors are quadratic in the error of χ.
 
     Parameters
     ----------
     gap : h >= 0, shape (nx, ny), m; one period. Nodes where h = 0 are contact: nothing flows there.
     spacing : (dx, dy), m.
-    tolerance : of what iterating on would change A₁₁ and A₂₂ by, over themselves; and e, over its part from χ₃.
-    start : correctors of a gap much alike, in the units of :class:`Cell`, shape (3, nx, ny) or those of a coarser grid.
+    tolerance : largest relative solver error of A₁₁ and A₂₂, and of the contribution of χ₃ to e.
+    start : correctors of a similar gap, in the units of :class:`Cell`, on this grid or a coarser one.
     solvers : names in :data:`roughfilm.rom.homogenization.solvers.SOLVERS`, tried in this order.
 
     Raises
@@ -83,19 +83,19 @@ def solve_cell(
     def attempt(solve: Solver) -> dict[int, Solved]:
         return dict(zip(wanted, solve(network.matrix, map(source, wanted), tolerance), strict=True))
 
-    found, name = first_to_converge(solvers, attempt)
+    solved, name = first_to_converge(solvers, attempt)
     chi = np.zeros((3, *gap.shape))
-    for i, one in found.items():
+    for i, one in solved.items():
         chi[i] = one.solution
     factors = network.factors(chi).scaled(scale)
     chi *= units[:, None, None]
     return Cell(
         factors=factors,
         correctors=chi,
-        unsolved=np.array([found[i].left / (gap.size * network.aspect) if i in found else 0.0 for i in range(3)]),
+        unsolved=np.array([solved[i].left / (gap.size * network.aspect) if i in solved else 0.0 for i in range(3)]),
         solver=name,
-        iterations=sum(one.iterations for one in found.values()),
-        residual=max(one.residual for one in found.values()),
+        iterations=sum(one.iterations for one in solved.values()),
+        residual=max(one.residual for one in solved.values()),
     )
 
 
@@ -112,7 +112,7 @@ class _Network:
     sealed: tuple[bool, bool]
 
     def source(self, which: int) -> tuple[Array, float | None]:
-        """The right-hand side for χ₁, χ₂ or χ₃, and the energy from which what it gains is taken."""
+        """The right-hand side for χ₁, χ₂ or χ₃, and the energy of the uniform gradient."""
         if which == 0:
             flux, along, whole = self.matrix.east, 0, float(self.matrix.east.sum())
         elif which == 1:
@@ -122,7 +122,7 @@ class _Network:
         return _less_before(flux, along), whole
 
     def factors(self, chi: Array) -> FlowFactors:
-        """From the correctors; of A the flow that they drive along themselves, so that nothing cancels near sealing."""
+        """The factors of the correctors; A as an energy, so that no cancellation occurs near sealing."""
         sums = _energies(self.matrix.east, self.matrix.north, self.drag, self.aspect, chi) / chi[0].size
         open_to = ~np.array(self.closed)
         return FlowFactors(
@@ -156,7 +156,7 @@ def _network(h: Array, rule: FaceRule, aspect: float) -> _Network:
 
 
 def _less_before(flux: Array, along: int) -> Array:
-    """What a flux over the faces behind the nodes takes from each of them."""
+    """The divergence of a flux through the faces at the nodes."""
     values = flux.copy()
     own, all_of = (values, flux) if along == 0 else (values.T, flux.T)
     own[1:] -= all_of[:-1]
@@ -166,7 +166,7 @@ def _less_before(flux: Array, along: int) -> Array:
 
 @compiled
 def _energies(east, north, drag, aspect, chi):  # type: ignore[no-untyped-def]
-    """Sums over faces for A₁₁, A₁₂, A₂₂, B₁, B₂ and e, the last three with χ₃ times what is left of the equations."""
+    """Sums over faces for A₁₁, A₁₂, A₂₂, B₁, B₂ and e, the last three corrected by χ₃ times the residuals."""
     _, count, length = chi.shape
     sums = np.zeros(6)
     for i in range(count):
@@ -174,7 +174,7 @@ def _energies(east, north, drag, aspect, chi):  # type: ignore[no-untyped-def]
         one, two, three = chi[0, i], chi[1, i], chi[2, i]
         after = i + 1 if i + 1 < count else 0
         one_on, two_on, three_on = chi[0, after], chi[1, after], chi[2, after]
-        first = mixed = second = along = aside = rub = 0.0
+        first = mixed = second = along = aside = friction = 0.0
         for j in range(length):
             x_one, x_two, x_three = one_on[j] - one[j] + 1.0, two_on[j] - two[j], three_on[j] - three[j]
             first += k[j] * x_one * x_one
@@ -183,7 +183,7 @@ def _energies(east, north, drag, aspect, chi):  # type: ignore[no-untyped-def]
             drive = u[j] - k[j] * x_three / aspect
             along += drive * x_one
             aside += drive * x_two
-            rub += (u[j] + drive) * x_three
+            friction += (u[j] + drive) * x_three
         for j in range(length):
             on = j + 1 if j + 1 < length else 0
             y_one, y_two, y_three = one[on] - one[j], two[on] - two[j] + aspect, three[on] - three[j]
@@ -193,11 +193,11 @@ def _energies(east, north, drag, aspect, chi):  # type: ignore[no-untyped-def]
             drive = m[j] * y_three / aspect
             along -= drive * y_one
             aside -= drive * y_two
-            rub -= drive * y_three
+            friction -= drive * y_three
         sums[0] += first / aspect
         sums[1] += mixed / aspect
         sums[2] += second / aspect
         sums[3] += along
         sums[4] += aside
-        sums[5] += rub
+        sums[5] += friction
     return sums

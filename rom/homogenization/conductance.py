@@ -1,4 +1,4 @@
-"""What the faces between neighbouring nodes of a gap let through, drag along and rub."""
+"""Conductance, drag and friction of the faces between neighbouring nodes of a gap."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -9,32 +9,32 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.compiled import compiled, inlined
 
-CLOSED = 1e-14
-"""Of the largest h³: a node with less is contact, as rounding on coarse grids would hide what it lets through."""
+CLOSED_CUBE = 1e-14
+"""Nodes whose h³ is below this fraction of the largest are contact: round-off exceeds their flow."""
 
-ALIKE = 1e-4
-"""Of the sum of two gaps: if they differ by less, ln(h₂/h₁) is taken by its series."""
+SERIES_BEND = 1e-4
+"""Relative difference of two gaps below which ln(h₂/h₁) is computed by its series."""
 
 
 class FaceRule(StrEnum):
-    """How the gap runs between two nodes."""
+    """Interpolation of the gap between two nodes."""
 
     LINEAR = "linear"
-    """Straight: <h⁻³>⁻¹ = 2h₁²h₂²/(h₁+h₂)."""
+    """Linear: <h⁻³>⁻¹ = 2h₁²h₂²/(h₁+h₂)."""
     HARMONIC = "harmonic"
-    """As if each half had its node's gap: exact to all orders in a smooth gap that varies along the flow alone."""
+    """Constant on each half: exact to all orders for a smooth gap that varies along the flow alone."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Faces:
-    """Means over faces, between a node and the next one in x (``east``) or y (``north``), periodic.
+    """Means over the faces between a node and the next one in x (``east``) or y (``north``), periodic.
 
     Attributes
     ----------
     east, north : conductance <h⁻³>⁻¹, shape (nx, ny); 0 where the gap is closed at either node.
-    drag : <h⁻²>/<h⁻³> in x, shape (nx, ny), which carries as much of the sliding wall's flow as the gap does.
-    inverse : <h⁻¹> over all faces in x, closed ones as 0.
-    inside : <h⁻¹> − <h⁻²>²/<h⁻³> likewise: what e has inside the faces.
+    drag : <h⁻²>/<h⁻³> in x, shape (nx, ny): the uniform gap with the same Couette flow.
+    inverse : mean of <h⁻¹> over all faces in x, closed ones as 0.
+    inside : mean of <h⁻¹> − <h⁻²>²/<h⁻³> over the same faces: the contribution to e from inside the faces.
     """
 
     east: Array
@@ -45,14 +45,14 @@ class Faces:
 
 
 def without_traces(gap: Array) -> Array:
-    """The gap with h = 0 wherever h³ is below ``CLOSED`` of the largest."""
-    return np.where(gap > CLOSED ** (1 / 3) * gap.max(), gap, 0.0)
+    """The gap with h = 0 wherever h³ is below ``CLOSED_CUBE`` of the largest."""
+    return np.where(gap > CLOSED_CUBE ** (1 / 3) * gap.max(), gap, 0.0)
 
 
 def faces(gap: Array, rule: FaceRule = FaceRule.LINEAR) -> Faces:
     """Faces of a gap h >= 0, shape (nx, ny), in any unit; their means are in powers of that unit.
 
-    Second order in the spacing where h is smooth; a node where h = 0 closes its four faces.
+    The means are second-order accurate where h is smooth; a node where h = 0 closes its four faces.
     """
     east, north, drag = (np.empty(gap.shape) for _ in range(3))
     inverse, inside = _set_faces(np.ascontiguousarray(gap), rule is FaceRule.LINEAR, east, north, drag)
@@ -75,7 +75,7 @@ def _conductance(first, second, straight):  # type: ignore[no-untyped-def]
 def _inside(first, second):  # type: ignore[no-untyped-def]
     """<h⁻¹> − <h⁻²>²/<h⁻³> of a straight gap: ln(h₂/h₁)/(h₂ − h₁) − 2/(h₁ + h₂)."""
     bend = (second - first) / (first + second)
-    if abs(bend) < ALIKE:
+    if abs(bend) < SERIES_BEND:
         return 2 / (first + second) * bend * bend / 3
     return log(second / first) / (second - first) - 2 / (first + second)
 
@@ -84,18 +84,18 @@ def _inside(first, second):  # type: ignore[no-untyped-def]
 def straight_inverse(gap):  # type: ignore[no-untyped-def]
     """<h⁻¹> of straight lines from each node of h > 0, shape (nx, ny), to the next in x, periodic; 0 if closed."""
     count, length = gap.shape
-    found = np.zeros((count, length))
+    inverse = np.zeros((count, length))
     for i in range(count):
         own, after = gap[i], gap[i + 1 if i + 1 < count else 0]
         for j in range(length):
             if own[j] > 0 and after[j] > 0:
-                found[i, j] = 2 / (own[j] + after[j]) + _inside(own[j], after[j])
-    return found
+                inverse[i, j] = 2 / (own[j] + after[j]) + _inside(own[j], after[j])
+    return inverse
 
 
 @compiled
 def _set_faces(gap, straight, east, north, drag):  # type: ignore[no-untyped-def]
-    """Set the arrays of :class:`Faces`; its two sums."""
+    """Compute the arrays of :class:`Faces` in place; return its two sums."""
     count, length = gap.shape
     all_inverse = all_inside = 0.0
     for i in range(count):

@@ -30,13 +30,13 @@ def sinusoid(amplitude: float, *, mean_gap: float = 1.0, direction: float = 0.0)
 def nearly_smooth(gap: Array, spacing: tuple[float, float]) -> FlowFactors:
     """Factors of a gap of any shape to second order in s = σ/H, its rms over its mean.
 
-    With n the direction of each of its waves, and <> the mean over waves by their share of σ²:
+    With n the direction of each of its waves, and <> the mean over waves weighted by their share of σ²:
     A = H³(1 + 3s² - 9s² <nn>), B = H(e₁ - 3s² <n₁n>), d = (1 + s²)/H, e = s² <n₁²>/H. (A₁₁/H³ - 1)/s² is -6 for ridges
     across the flow, 3 for ridges along it, and -3/2 for roughness without a lay.
 
     Parameters
     ----------
-    gap : shape (nx, ny), m; one period. Its rms is much below its mean; terms left out are of third order.
+    gap : one period, shape (nx, ny), m, with an rms far below its mean; the error is of third order in s.
     spacing : (dx, dy), m.
 
     Source: Elrod, J. Lubr. Technol. 101 (1979) 8; Tripp, J. Lubr. Technol. 105 (1983) 458,
@@ -62,14 +62,14 @@ def nearly_smooth(gap: Array, spacing: tuple[float, float]) -> FlowFactors:
 
 
 def self_dual(gap: Array) -> float:
-    """A = exp <ln h³>, m³, in every direction, of a gap that is like its own inverse.
+    """A = exp <ln h³>, m³, in every direction, of a self-dual gap, exact for any contrast.
 
-    That is one where 1/h, as seen over the mean of ln h, is h shifted, turned or mirrored, and which looks the same
-    turned by 90°, as h = exp(a cos qx cos qy). Exact whatever the contrast.
+    A gap is self-dual if 1/h, scaled to the same mean of ln h, is h shifted, rotated or mirrored, and if the gap is
+    symmetric under rotation by 90°, for example h = exp(a cos qx cos qy).
 
     Parameters
     ----------
-    gap : h > 0, m, nodes over one period; the symmetry is the caller's to see to.
+    gap : h > 0, m, at the nodes of one period; the symmetry is not checked.
 
     Sources: Keller, J. Math. Phys. 5 (1964) 548, doi:10.1063/1.1704146; Dykhne, Sov. Phys. JETP 32 (1971) 63.
     """

@@ -1,4 +1,4 @@
-"""Flow factors: a rough gap as seen from far away."""
+"""Flow factors: the averaged coefficients of a rough gap."""
 
 from dataclasses import dataclass, replace
 from typing import Self
@@ -8,7 +8,7 @@ from roughfilm.contact.foundation.arrays import Array
 
 @dataclass(frozen=True, kw_only=True)
 class FlowFactors:
-    """Homogenized coefficients of a gap, with the wall at rest rough and the smooth one sliding along x at u.
+    """Homogenized coefficients of a gap between a rough wall at rest and a smooth wall sliding along x at u.
 
     Flow per width q = (u/2) B − A∇p/(12η), friction on the sliding wall τ = ηu (d + 3e) + C·∇p/2, p the pressure
     averaged over the cell; C = B by the symmetry of the cell problems. A smooth gap has A = h³I, B = (h, 0), d = 1/h,
@@ -19,10 +19,10 @@ class FlowFactors:
     mean_gap : m.
     pressure : A, shape (2, 2), m³; symmetric, positive semidefinite; rows and columns of a sealed direction are 0.
     shear : B, shape (2,), m.
-    couette : d = <1/h> over the open gap, 1/m; finite as contact is left out.
-    shear_couette : e, 1/m, of the pressure that sliding alone makes: <h ∂χ₃/∂x>.
-    sealed : whether no open path leads through in x, in y. (A path so thin that its h³ is below 1e-14 of the largest
-        is open, but lets nothing through that counts.)
+    couette : d = <1/h> over the open gap, 1/m; contact is left out.
+    shear_couette : e = <h ∂χ₃/∂x>, 1/m, from the pressure that sliding alone generates.
+    sealed : whether no open path leads through the gap in x, and in y. Paths with h³ below 1e-14 of the largest count
+        as open, but their flow is neglected.
 
     Sources: Sahlin 2008, E.2.3 to E.2.5 (whose C, d and e have the factors 1/2 and 6η u left out in print).
     """
@@ -36,11 +36,11 @@ class FlowFactors:
 
     @property
     def relative(self) -> Self:
-        """Over those of a smooth film as thick as the mean gap: A/ĥ³, B/ĥ, d ĥ, e ĥ, and a mean gap of 1."""
+        """The factors over those of a smooth film of the mean gap: A/ĥ³, B/ĥ, d ĥ, e ĥ, with mean gap 1."""
         return self.scaled(1 / self.mean_gap)
 
     def scaled(self, factor: float) -> Self:
-        """Of the gap ``factor`` times as high: A grows with its cube, B with it, d and e shrink."""
+        """The factors of the gap multiplied by ``factor``."""
         return replace(
             self,
             mean_gap=self.mean_gap * factor,

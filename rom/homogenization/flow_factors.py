@@ -1,4 +1,4 @@
-"""Flow factors of a gap with an error bar: the cell on its own grid, and on every second and fourth node of it."""
+"""Flow factors of a gap with their uncertainty, from its own grid and two coarser ones."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -10,29 +10,29 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.surfaces.surface import MAX_LENGTH, MIN_SPACING
 from roughfilm.rom.homogenization.cell import Cell, solve_cell
-from roughfilm.rom.homogenization.conductance import CLOSED, FaceRule, without_traces
+from roughfilm.rom.homogenization.conductance import CLOSED_CUBE, FaceRule, without_traces
 from roughfilm.rom.homogenization.factors import FlowFactors
 from roughfilm.rom.homogenization.grids import coarser_grids
 from roughfilm.rom.homogenization.richardson import sufficient, uncertainty_of
 from roughfilm.rom.homogenization.solvers import SOLVERS
 from roughfilm.rom.ladder.model import Progress, silent
 
-LONGEST = 1e4
-"""Of a pixel, over its width."""
+MAX_PIXEL_ASPECT = 1e4
+"""Largest ratio of a pixel's sides."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Estimated:
-    """Flow factors and how far off they may be.
+    """Flow factors and their uncertainty.
 
     Attributes
     ----------
-    factors : on the gap's own nodes.
-    uncertainty : of each, in the same units; ``mean_gap`` has none, it is that of the nodes.
+    factors : on the nodes of the gap.
+    uncertainty : uncertainty of each factor, in its unit; 0 for ``mean_gap``, the mean over the nodes.
     correctors : as in :class:`roughfilm.rom.homogenization.cell.Cell`.
-    contact : the part of the nodes that are closed: where h = 0, or h³ below 1e-14 of the largest.
-    unsolved : the largest part of A₁₁, A₂₂ or e by which iterating on would change them.
-    residual : of χ, which may be far larger: where next to nothing flows χ counts as much as elsewhere.
+    contact : fraction of closed nodes: h = 0, or h³ below 1e-14 of the largest.
+    unsolved : largest relative solver error of A₁₁, A₂₂ and e.
+    residual : residual of χ; it may far exceed ``unsolved``, since χ counts equally where hardly anything flows.
     """
 
     factors: FlowFactors
@@ -54,27 +54,27 @@ def flow_factors(
     solvers: Sequence[str] = tuple(SOLVERS),
     progress: Progress = silent,
 ) -> Estimated:
-    """Homogenized coefficients A, B, C, d and e of a periodic gap, each with an error bar.
+    """Homogenized coefficients A, B, C, d and e of a periodic gap, each with its uncertainty.
 
     Parameters
     ----------
     gap : h >= 0, m, shape (nx, ny); one period. Nodes where h = 0 are contact, whose faces are closed.
     spacing : (dx, dy), m; pixels need not be square.
-    offset : m, is added to the gap everywhere: Sahlin 2008, who lets contact through, takes 1e-8.
-    tolerance : of each cell, as :func:`rom.homogenization.cell.solve_cell` takes it; by default a hundredth of what the
-        coarser grids say that the grid is off by.
-    solvers : as :func:`roughfilm.rom.homogenization.cell.solve_cell` takes them.
+    offset : length added to the gap everywhere, m; Sahlin 2008 uses 1e-8, which makes contact permeable.
+    tolerance : solver tolerance of each cell, as in ``solve_cell``; by default a hundredth of the discretisation error
+        that the coarser grids indicate.
+    solvers : names of solvers, as in ``solve_cell``.
 
     Raises
     ------
     InputError
-        For a gap that is no array of at least 2 x 2 finite numbers, is below 0 anywhere or closed everywhere; for an
-        offset below 0.
+        If the gap is not an array of at least 2 x 2 finite numbers, is negative anywhere or closed everywhere, or if
+        the offset is negative.
     ConvergenceError
         If a cell problem does not meet the tolerance.
 
-    Each grid begins from the correctors of the coarser one, which are nearer than those of a gap 10 % wider are. Second
-    order in the spacing where the gap is smooth and open, near first order at the edges of contact.
+    Each grid starts from the correctors of the coarser one. The factors are second-order accurate in the spacing where
+    the gap is smooth and open, and nearly first-order at the edges of contact.
     """
     if tolerance is not None and not 0 < tolerance < 1:
         raise InputError(f"tolerance: got {tolerance!r}; it must be above 0 and below 1")
@@ -115,9 +115,7 @@ def checked_gap(gap: ArrayLike, spacing: tuple[float, float]) -> Array:
         raise InputError("gap: is masked; fill what is masked first")
     h = np.asarray(gap)
     if h.ndim != 2 or min(h.shape, default=0) < 2:
-        raise InputError(
-            f"gap: got shape {h.shape}; give at least 2 x 2 nodes (roughfilm.rom.homogenization.line takes profiles)"
-        )
+        raise InputError(f"gap: got shape {h.shape}; give at least 2 x 2 nodes (for a profile call line_factors)")
     if h.dtype.kind not in "fiu":
         raise InputError(f"gap: got {h.dtype}; give real numbers, in m")
     h = h.astype(np.float64)
@@ -134,8 +132,10 @@ def checked_gap(gap: ArrayLike, spacing: tuple[float, float]) -> Array:
     steps = np.asarray(spacing, dtype=object)
     if steps.shape != (2,) or not all(np.isfinite(step) and step > 0 for step in spacing):
         raise InputError(f"spacing: got {spacing!r}; give two lengths above 0, in m")
-    if not 1 / LONGEST <= spacing[0] / spacing[1] <= LONGEST:
-        raise InputError(f"spacing: got {spacing!r} m; pixels may be up to {LONGEST:g} times as long as wide, resample")
+    if not 1 / MAX_PIXEL_ASPECT <= spacing[0] / spacing[1] <= MAX_PIXEL_ASPECT:
+        raise InputError(
+            f"spacing: got {spacing!r} m; pixels may be up to {MAX_PIXEL_ASPECT:g} times as long as wide, resample"
+        )
     return h
 
 
@@ -146,14 +146,14 @@ def _largest_part(cell: Cell) -> float:
 
 
 def _uncertainty(cells: list[Cell], h: Array) -> FlowFactors:
-    """What the grids leave open, what the solver does, and what passes where the film is too thin to count."""
-    doubt = uncertainty_of([cell.factors for cell in cells])
+    """Sum of the discretisation error, the solver error and the flow through nodes treated as closed."""
+    grids = uncertainty_of([cell.factors for cell in cells])
     unsolved, gap = cells[-1].unsolved, cells[-1].factors.mean_gap
     mixed = np.sqrt(unsolved[:2])
-    trace = CLOSED ** (1 / 3) * float(h.max()) if ((h > 0) & (without_traces(h) == 0)).any() else 0.0
+    closed = CLOSED_CUBE ** (1 / 3) * float(h.max()) if ((h > 0) & (without_traces(h) == 0)).any() else 0.0
     return replace(
-        doubt,
-        pressure=doubt.pressure + gap**3 * np.outer(mixed, mixed) + trace**3,
-        shear=doubt.shear + gap * mixed * np.sqrt(unsolved[2]) + trace,
-        shear_couette=doubt.shear_couette + float(unsolved[2]) / gap,
+        grids,
+        pressure=grids.pressure + gap**3 * np.outer(mixed, mixed) + closed**3,
+        shear=grids.shear + gap * mixed * np.sqrt(unsolved[2]) + closed,
+        shear_couette=grids.shear_couette + float(unsolved[2]) / gap,
     )

@@ -1,4 +1,4 @@
-"""Where the flow goes in a cell."""
+"""Flow vectors in a cell."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ from roughfilm.rom.homogenization.conductance import FaceRule, faces, without_tr
 def flux(
     gap: Array, spacing: tuple[float, float], corrector: Array, direction: int, rule: FaceRule = FaceRule.LINEAR
 ) -> Array:
-    """h³(e_i + ∇χ_i) at the nodes, shape (2, nx, ny), m³: the mean of the two faces in x and of those in y.
+    """h³(e_i + ∇χ_i) at the nodes, shape (2, nx, ny), m³, the mean over the adjacent faces.
 
     Its mean over the cell is the column i = ``direction`` (0 or 1) of A.
 
@@ -17,7 +17,7 @@ def flux(
     ----------
     gap : h, m, shape (nx, ny).
     spacing : (dx, dy), m.
-    corrector : χ_i, m, shape (nx, ny), as :func:`roughfilm.rom.homogenization.flow_factors.flow_factors` gives it.
+    corrector : χ_i, m, shape (nx, ny), as ``flow_factors`` returns it.
     """
     parts = faces(without_traces(gap), rule)
     drops = _drops(corrector, spacing)

@@ -1,4 +1,4 @@
-"""Flow factors as functions of the mean gap: what a film asks of the roughness that it averages."""
+"""Flow factors as functions of the mean gap: the interface between averaged roughness and a film."""
 
 from dataclasses import dataclass, replace
 from typing import Protocol
@@ -11,16 +11,16 @@ from roughfilm.rom.homogenization.factors import FlowFactors
 
 @dataclass(frozen=True, kw_only=True)
 class GapFactors:
-    """Homogenized coefficients at many mean gaps, arrays of one shape, as :class:`FlowFactors` has them for one.
+    """Homogenized coefficients at many mean gaps, arrays of one shape; see :class:`FlowFactors`.
 
     Attributes
     ----------
-    along, across, cross : A₁₁, A₂₂ and A₁₂ = A₂₁, m³; 0 where no open path leads through.
+    along, across, cross : A₁₁, A₂₂ and A₁₂ = A₂₁, m³; 0 where the gap is sealed.
     drag, drag_across : B₁ and B₂, m.
     couette, shear_couette : d and e, 1/m.
-    streaming : friction over ηuξ where liquid fills the part ξ of the gap and no pressure is: B₁ <h⁻²>, 1/m, where
-        streamers go straight on, thin where they are wide.
-    least : the least gap, m; 0 where the walls touch.
+    streaming : friction over ηuξ of straight streamers without pressure that fill the fraction ξ of the gap, B₁ <h⁻²>,
+        1/m.
+    least : smallest gap, m; 0 where the walls touch.
     """
 
     along: Array
@@ -35,7 +35,7 @@ class GapFactors:
 
 
 class FactorsOverGap(Protocol):
-    """factors(mean_gap): the coefficients where the gap, averaged over the roughness, is that; m, of any shape."""
+    """factors(mean_gap): the coefficients at mean gaps over the roughness, m, of any shape."""
 
     def __call__(self, mean_gap: Array, /) -> GapFactors:
         """The coefficients, each of the shape of ``mean_gap``."""
@@ -43,24 +43,24 @@ class FactorsOverGap(Protocol):
 
 
 def mirrored_factors(factors: FactorsOverGap) -> FactorsOverGap:
-    """Of the roughness seen in a mirror across the sliding, x turned round, slid towards growing x as before."""
+    """The factors of the roughness mirrored in x, with sliding towards increasing x as before."""
 
     def mirrored(mean_gap: Array) -> GapFactors:
-        found = factors(mean_gap)
-        return replace(found, cross=-found.cross, drag_across=-found.drag_across)
+        own = factors(mean_gap)
+        return replace(own, cross=-own.cross, drag_across=-own.drag_across)
 
     return mirrored
 
 
 def flow_factors_at(mean_gap: float, factors: FactorsOverGap) -> FlowFactors:
-    """The coefficients at one mean gap, m; a direction in which A is 0 is sealed."""
-    found = factors(np.array([mean_gap]))
-    along, across, cross = (float(values[0]) for values in (found.along, found.across, found.cross))
+    """The coefficients at one mean gap, m; directions with A = 0 are sealed."""
+    own = factors(np.array([mean_gap]))
+    along, across, cross = (float(values[0]) for values in (own.along, own.across, own.cross))
     return FlowFactors(
         mean_gap=mean_gap,
         pressure=np.array([[along, cross], [cross, across]]),
-        shear=np.array([found.drag[0], found.drag_across[0]]),
-        couette=float(found.couette[0]),
-        shear_couette=float(found.shear_couette[0]),
+        shear=np.array([own.drag[0], own.drag_across[0]]),
+        couette=float(own.couette[0]),
+        shear_couette=float(own.shear_couette[0]),
         sealed=(along == 0, across == 0),
     )

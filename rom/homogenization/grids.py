@@ -1,23 +1,23 @@
-"""The same gap on coarser grids, and values carried to a finer one."""
+"""Coarser grids of a gap, and interpolation to a finer grid."""
 
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.compiled import compiled
 
-FEWEST = 8
-"""Nodes in a direction that is coarsened."""
+MIN_COARSENED_NODES = 8
+"""Smallest number of nodes along a direction that is coarsened."""
 
 
 def coarser_grids(gap: Array, spacing: tuple[float, float]) -> list[tuple[Array, tuple[float, float]]]:
-    """The gap on up to three grids, the coarsest first, and their spacings; nodes of a finer one where they fit.
+    """The gap on up to three grids with their spacings, the coarsest first; coarse nodes are fine ones where they fit.
 
-    A grid whose nodes are all closed is left out.
+    Grids whose nodes are all closed are left out.
     """
     grids = [(gap, spacing)]
     while len(grids) < 3:
         h, steps = grids[0]
-        counts = tuple(-(-n // 2) if n >= FEWEST else n for n in h.shape)
+        counts = tuple(-(-n // 2) if n >= MIN_COARSENED_NODES else n for n in h.shape)
         if counts == h.shape:
             break
         coarser = (steps[0] * h.shape[0] / counts[0], steps[1] * h.shape[1] / counts[1])
@@ -29,7 +29,7 @@ def coarser_grids(gap: Array, spacing: tuple[float, float]) -> list[tuple[Array,
 
 
 def sampled(gap: Array, count: int, axis: int) -> Array:
-    """The gap at ``count`` places evenly along an axis, straight between its nodes."""
+    """The gap at ``count`` even positions along an axis, by linear interpolation."""
     own = gap.shape[axis]
     if own % count == 0:
         return np.take(gap, np.arange(0, own, own // count), axis=axis)
@@ -41,7 +41,7 @@ def sampled(gap: Array, count: int, axis: int) -> Array:
 
 
 def refined(values: Array, shape: tuple[int, ...]) -> Array:
-    """Periodic values on a grid, between which lines are drawn, at (nx, ny) places."""
+    """Periodic values interpolated linearly to a grid of the given shape (nx, ny)."""
     out = np.empty(shape)
     _draw(values, out)
     return out

@@ -1,4 +1,4 @@
-"""Grooves turned against the flow, in closed form: their tensor, and what a box without side flow makes of a tensor."""
+"""Closed forms for grooves at an angle to the flow: their tensor A, and their flow factors in a closed box."""
 
 from math import acos, cos, exp, log, log1p, pi, sin, sqrt
 
@@ -10,11 +10,14 @@ from scipy.special import digamma, hyp2f1
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 
-NEAR_ONE, LARGEST = 12.0, 700.0
-"""Of ln(m/(1 − m)): above the one two terms of the series about m = 1 are enough, beyond the other exp overflows."""
+SERIES_LOGIT = 12.0
+"""ln(m/(1 − m)) above which two terms of the series about m = 1 are accurate to round-off."""
 
-SINGULAR = 1e-12
-"""Of A₁₁A₂₂: below it rounding rules the determinant."""
+MAX_LOGIT = 700.0
+"""Largest ln(m/(1 − m)) whose exponential does not overflow."""
+
+MIN_DETERMINANT = 1e-12
+"""Smallest det A over A₁₁A₂₂ that round-off does not dominate."""
 
 
 def turned(principal: ArrayLike, angle: float) -> Array:
@@ -28,14 +31,14 @@ def turned(principal: ArrayLike, angle: float) -> Array:
 
 
 def box_factors(tensor: ArrayLike, size: tuple[float, float]) -> Array:
-    """What Patir and Cheng's boxes make of A: (φ₁, φ₂) of a box whose roughness is far smaller than the box itself.
+    """Patir and Cheng's (φ₁, φ₂) of a box whose roughness of tensor A is much finer than the box.
 
-    A box between pressures at x = 0 and Lx, without flow through y = 0 and Ly, and with q = −A∇p inside. Stretched so
-    that A becomes √(det A) I it is a parallelogram, with cos θ = −A₁₂/√(A₁₁A₂₂) and sides of the ratio
-    Lx/Ly √(A₂₂/A₁₁), that F(1−m)/F(m) with F(m) = ₂F₁(θ/π, 1−θ/π; 1; m) maps on a rectangle:
-    φ₁ = √(det A) Lx/Ly K(m)/K(1−m). Flow and pressure change places between the two boxes, so that φ₁φ₂ = det A always,
-    where A₁₁A₂₂ = det A + A₁₂². A short wide box has φ₁ = A₁₁ (no pressure across), a long narrow one det A/A₂₂ (no
-    flow across), a square one with A₁₁ = A₂₂ has √(det A).
+    The box has given pressures at x = 0 and Lx, no flow through y = 0 and Ly, and q = −A∇p inside. An affine map that
+    turns A into √(det A) I makes it a parallelogram with cos θ = −A₁₂/√(A₁₁A₂₂) and sides of ratio Lx/Ly √(A₂₂/A₁₁).
+    F(1−m)/F(m) with F(m) = ₂F₁(θ/π, 1−θ/π; 1; m) maps the parallelogram to a rectangle:
+    φ₁ = √(det A) Lx/Ly K(m)/K(1−m). The two boxes are dual, so φ₁φ₂ = det A, where A₁₁A₂₂ = det A + A₁₂². A short wide
+    box has φ₁ = A₁₁ (no pressure gradient across), a long narrow one det A/A₂₂ (no flow across), and a square one with
+    A₁₁ = A₂₂ has √(det A).
 
     Parameters
     ----------
@@ -45,7 +48,7 @@ def box_factors(tensor: ArrayLike, size: tuple[float, float]) -> Array:
     Raises
     ------
     InputError
-        For a tensor that is not symmetric and positive definite, or a size that is not above 0.
+        If the tensor is not symmetric and positive definite, or a length is not above 0.
 
     Source of the map: Heikkala, Vamanamurthy and Vuorinen, Generalized elliptic integrals, arXiv:math/0701436.
     """
@@ -53,7 +56,7 @@ def box_factors(tensor: ArrayLike, size: tuple[float, float]) -> Array:
     if a.shape != (2, 2) or not abs(a[0, 1] - a[1, 0]) <= 1e-6 * sqrt(abs(a[0, 0] * a[1, 1])):
         raise InputError(f"tensor: got {a.tolist()}; give a symmetric one of shape (2, 2)")
     determinant = a[0, 0] * a[1, 1] - a[0, 1] ** 2
-    if not (a[0, 0] > 0 and determinant > SINGULAR * a[0, 0] * a[1, 1]):
+    if not (a[0, 0] > 0 and determinant > MIN_DETERMINANT * a[0, 0] * a[1, 1]):
         raise InputError(f"tensor: got {a.tolist()}; give a positive definite one")
     if not min(size) > 0:
         raise InputError(f"size: got {size!r}; give two lengths above 0")
@@ -64,19 +67,19 @@ def box_factors(tensor: ArrayLike, size: tuple[float, float]) -> Array:
     def excess(modulus: float) -> float:
         return log(_integral(part, -modulus)) - log(_integral(part, modulus)) - wanted
 
-    reach = 1.0
-    while excess(-reach) * excess(reach) > 0:
-        reach *= 2
-    modulus = brentq(excess, -reach, reach, xtol=1e-13, rtol=1e-13)
+    bracket = 1.0
+    while excess(-bracket) * excess(bracket) > 0:
+        bracket *= 2
+    modulus = brentq(excess, -bracket, bracket, xtol=1e-13, rtol=1e-13)
     first = sqrt(determinant) * aspect * _integral(0.5, modulus) / _integral(0.5, -modulus)
     return np.array([first, determinant / first])
 
 
 def _integral(part: float, modulus: float) -> float:
-    """₂F₁(part, 1 − part; 1; m) with m = 1/(1 + exp(−modulus)); of the part 1/2 it is 2K(m)/π."""
-    if modulus < NEAR_ONE:
-        return float(hyp2f1(part, 1 - part, 1.0, 1 / (1 + exp(-max(modulus, -LARGEST)))))
-    rest = 1 / (1 + exp(min(modulus, LARGEST)))
+    """₂F₁(part, 1 − part; 1; m) with m = 1/(1 + exp(−modulus)); 2K(m)/π for part = 1/2."""
+    if modulus < SERIES_LOGIT:
+        return float(hyp2f1(part, 1 - part, 1.0, 1 / (1 + exp(-max(modulus, -MAX_LOGIT)))))
+    rest = 1 / (1 + exp(min(modulus, MAX_LOGIT)))
     logarithm = modulus + log1p(exp(-modulus))
     terms = [logarithm + 2 * digamma(n) - digamma(part + n - 1) - digamma(n - part) for n in (1, 2)]
     return float(sin(pi * part) / pi * (terms[0] + part * (1 - part) * rest * terms[1]))

@@ -1,4 +1,4 @@
-"""Flow factors of a profile: a periodic gap that varies along the sliding direction alone, straight between points."""
+"""Flow factors of a profile: a periodic gap that varies along the sliding alone, linear between points."""
 
 from dataclasses import dataclass
 
@@ -16,7 +16,7 @@ from roughfilm.rom.homogenization.richardson import uncertainty_of
 
 @dataclass(frozen=True, kw_only=True)
 class LineFactors:
-    """Flow factors of a profile and how far off they may be, each in the same units."""
+    """Flow factors of a profile and their uncertainty, in the same units."""
 
     factors: FlowFactors
     uncertainty: FlowFactors
@@ -31,31 +31,30 @@ def line_factors(gap: ArrayLike) -> LineFactors:
 
     Parameters
     ----------
-    gap : h >= 0, m, shape (n,), n >= 2; one period, evenly spaced (how far apart the points are does not matter).
+    gap : h >= 0, m, shape (n,), n >= 2; one period of evenly spaced points; the spacing has no effect.
 
     Returns
     -------
-    ``uncertainty`` tells what the points do not: what a smooth gap through them might do between them, from lines
-    through all, every second and every fourth point (infinite below 8 points). The lines themselves are integrated
-    exactly, so that there is no number of nodes to choose: the source's study of 2¹⁰ to 2¹⁶ nodes has nothing to show.
+    ``uncertainty`` estimates the effect of the smooth gap between the points, from lines through all, every second and
+    every fourth point (infinite below 8 points). The lines themselves are integrated exactly.
 
-    Where a point touches the wall (h = 0) nothing flows along x: A₁₁ = B₁ = 0, ``sealed`` is (True, False), and d and e
-    leave out the lines that end there.
+    If a point touches the wall (h = 0) the gap is sealed along x: A₁₁ = B₁ = 0, ``sealed`` is (True, False), and d and
+    e leave out the lines that end there.
 
     Raises
     ------
     InputError
-        For a gap that is no array of at least 2 finite numbers, is below 0 anywhere or closed everywhere.
+        If the gap is not an array of at least 2 finite numbers, is negative anywhere or closed everywhere.
 
-    Second order in the distance of points where the gap is smooth. Of all gaps, those with the same bearing curve have
-    the same factors.
+    The error is of second order in the spacing where the gap is smooth. Gaps with the same bearing-area curve have the
+    same factors.
 
     Source: Sahlin, Almqvist, Larsson and Glavatskih, Tribol. Int. 40 (2007) 1025 (thesis, Eqs. C.15
     to C.18).
     """
     h = checked_profile(gap)
-    found = [_of_one(points[:, 0]) for points, _ in coarser_grids(h[:, None], (1.0, 1.0))]
-    return LineFactors(factors=found[-1], uncertainty=uncertainty_of(found))
+    factors = [_of_one(points[:, 0]) for points, _ in coarser_grids(h[:, None], (1.0, 1.0))]
+    return LineFactors(factors=factors[-1], uncertainty=uncertainty_of(factors))
 
 
 def profile_over_gap(heights: ArrayLike) -> FactorsOverGap:
@@ -63,12 +62,12 @@ def profile_over_gap(heights: ArrayLike) -> FactorsOverGap:
 
     Parameters
     ----------
-    heights : r of the rough wall, m, shape (n,), n >= 2; one period, evenly spaced; towards the smooth wall is up.
+    heights : r of the rough wall, m, shape (n,), n >= 2, positive towards the smooth wall; one period, evenly spaced.
 
     Raises
     ------
     InputError
-        For heights that are no profile; by the factors, where a mean gap is not above the highest point.
+        If the heights are not a profile, or when the factors are evaluated at a mean gap not above the highest point.
     """
     r = _numbers(heights, "heights")
     r = r - r.mean()
@@ -81,14 +80,14 @@ def profile_over_gap(heights: ArrayLike) -> FactorsOverGap:
                 f"mean_gap: got {clearance.min():.6g} m, where the profile rises to {highest:.6g} m; the walls would "
                 "touch, raise it"
             )
-        found = _straight(clearance.ravel() - r[:, None])
-        return GapFactors(**{name: values.reshape(clearance.shape) for name, values in vars(found).items()})
+        flat = _straight(clearance.ravel() - r[:, None])
+        return GapFactors(**{name: values.reshape(clearance.shape) for name, values in vars(flat).items()})
 
     return factors
 
 
 def checked_profile(gap: ArrayLike) -> Array:
-    """The profile as numbers; InputError as in :func:`line_factors`."""
+    """The profile as floats; InputError as in :func:`line_factors`."""
     h = _numbers(gap, "gap")
     if h.min() < 0:
         place = int(h.argmin())
@@ -116,7 +115,7 @@ def _of_one(points: Array) -> FlowFactors:
 
 
 def _straight(gaps: Array) -> GapFactors:
-    """Of profiles side by side, shape (n, m), straight between points; arrays of shape (m,)."""
+    """Factors of m profiles, shape (n, m), linear between points; arrays of shape (m,)."""
     scale = gaps.mean(axis=0)
     h = gaps / scale
     after = np.roll(h, -1, axis=0)

@@ -1,4 +1,4 @@
-"""Flow factors of a profile on a finite number of nodes, as the source takes them: the integrals are sums."""
+"""Flow factors of a profile by sums over a finite number of nodes, as in the source."""
 
 from enum import StrEnum
 
@@ -12,50 +12,50 @@ from roughfilm.rom.homogenization.factors import FlowFactors
 from roughfilm.rom.homogenization.grids import sampled
 from roughfilm.rom.homogenization.line import LineFactors, checked_profile
 
-MOST = 2**24
+MAX_NODES = 2**24
 
 
 class Rule(StrEnum):
-    """What is summed."""
+    """Quadrature rule."""
 
     TRAPEZOID = "trapezoid"
-    """Powers of h at the nodes, all alike."""
+    """Powers of h at the nodes with equal weights."""
     SIMPSON = "Simpson"
-    """Powers of h at the nodes, every second one double."""
+    """Powers of h at the nodes with weights 2/3 and 4/3."""
     DIFFERENCES = "differences"
     """Second-order differences of the cell problems, with h halfway between nodes."""
 
 
 def line_factors_on(gap: ArrayLike, nodes: int, *, rule: Rule = Rule.SIMPSON) -> LineFactors:
-    """Homogenized coefficients of a profile, as in :func:`rom.homogenization.line.line_factors`, on some nodes.
+    """Homogenized coefficients of a profile by a quadrature rule; ``line_factors`` integrates exactly.
 
-    The nodes lie evenly on straight lines between the points of the profile, the first on the first point. On as many
-    nodes as points ``TRAPEZOID`` takes sums over the heights, for which their order does not matter.
+    The nodes are evenly spaced on the straight lines between the points of the profile, the first at the first point.
+    With as many nodes as points ``TRAPEZOID`` sums over the heights, independent of their order.
 
     Parameters
     ----------
     gap : h >= 0, m, shape (n,); one period, evenly spaced.
     nodes : N, 4 to 2²⁴; even for ``SIMPSON``.
-    rule : what is summed.
+    rule : quadrature rule.
 
     Returns
     -------
-    ``uncertainty`` is the change from half as many nodes, not what the points leave open.
+    ``uncertainty`` is the change from half as many nodes; it does not include the effect of the gap between the points.
 
     Raises
     ------
     InputError
-        As ``line_factors``, and for a number of nodes that does not fit the rule.
+        As in ``line_factors``, and if the number of nodes does not fit the rule.
 
-    Error of order N⁻² for ``TRAPEZOID`` and ``DIFFERENCES``; in a line alone, differences are the midpoint rule: half
-    the trapezoid's error with the other sign. ``SIMPSON`` has N⁻⁴ where N is an even multiple of n. Elsewhere pairs of
-    steps straddle corners of the profile, and it has N⁻² as all others.
+    The error of ``TRAPEZOID`` and ``DIFFERENCES`` is of order N⁻²; for a profile, differences equal the midpoint rule,
+    with half the error of the trapezoid and the opposite sign. ``SIMPSON`` has N⁻⁴ where N is an even multiple of n,
+    and N⁻² elsewhere, because pairs of steps then straddle corners of the profile.
 
     Source: Sahlin, Almqvist, Larsson and Glavatskih, Tribol. Int. 40 (2007) 1025, section 3.2.
     """
     h = checked_profile(gap)
-    if isinstance(nodes, bool) or not isinstance(nodes, int) or not 4 <= nodes <= MOST:
-        raise InputError(f"nodes: got {nodes!r}; write a whole number from 4 to {MOST}")
+    if isinstance(nodes, bool) or not isinstance(nodes, int) or not 4 <= nodes <= MAX_NODES:
+        raise InputError(f"nodes: got {nodes!r}; write a whole number from 4 to {MAX_NODES}")
     if rule is Rule.SIMPSON and nodes % 2:
         raise InputError(f"nodes: got {nodes} for Simpson's rule; write an even number")
     fewer = 2 * (nodes // 4) if rule is Rule.SIMPSON else nodes // 2
@@ -104,7 +104,7 @@ def _on_nodes(h: Array, rule: Rule, *, closed: bool) -> FlowFactors:
 
 
 def _by_differences(middle: Array, *, closed: bool) -> FlowFactors:
-    """(h³(1 + χ'))' = 0 and (h - h³ χ₃')' = 0, periodic, from the gap halfway between nodes."""
+    """Factors from (h³(1 + χ'))' = 0 and (h - h³ χ₃')' = 0, periodic, with the gap halfway between nodes."""
     count = middle.size
     cubed = middle**3
     inverse = np.divide(1, middle, out=np.zeros_like(middle), where=middle > 0)
@@ -112,7 +112,7 @@ def _by_differences(middle: Array, *, closed: bool) -> FlowFactors:
     pressure = shear = 0.0
     if not closed:
         step = 1 / count
-        # row i balances the faces i - 1 and i; the last node is held at 0
+        # row i balances the faces i - 1 and i; the last node is fixed at 0
         bands = np.zeros((2, count - 1))
         bands[0, 1:] = -cubed[: count - 2]
         bands[1] = cubed[: count - 1] + np.roll(cubed, 1)[: count - 1]

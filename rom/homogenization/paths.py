@@ -1,4 +1,4 @@
-"""Whether a gap lets anything through, and in which direction: open paths that lead round a periodic cell."""
+"""Open paths through a gap: whether and in which direction a periodic cell is permeable."""
 
 from typing import Any
 
@@ -10,24 +10,24 @@ from scipy.sparse.csgraph import breadth_first_order, connected_components
 
 from roughfilm.contact.foundation.arrays import Array
 
-FOUR = np.array([[0, 1, 0], [1, 1, 1], [0, 1, 0]])
-"""Flow goes through faces, not through corners."""
+FACE_NEIGHBOURS = np.array([[0, 1, 0], [1, 1, 1], [0, 1, 0]])
+"""Nodes are connected through faces, not through corners."""
 
 
 def sealed(gap: Array) -> tuple[bool, bool]:
     """Whether no open path leads through a periodic gap, shape (nx, ny), in x and in y.
 
-    A path is open if it goes from node to node with h > 0, and leads through a direction if it comes back to where it
-    began having gone round the cell that way. One that goes round both ways at once (an oblique groove) opens both.
+    An open path connects nodes with h > 0 through faces; it leads through a direction if it returns to its start after
+    passing around the cell in that direction. A path around both directions at once (an oblique groove) opens both.
     """
     _, _, rounds = _pieces(gap > 0)
     return not rounds[:, 0].any(), not rounds[:, 1].any()
 
 
 def leads_round(opened: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Which nodes of a periodic cell, shape (nx, ny), belong to a piece of open ones that leads round it, either way.
+    """Mask of the open nodes of a periodic cell, shape (nx, ny), that are connected to a path around it.
 
-    What flows in steadily can flow out of these alone.
+    Steady flow exists in these nodes alone.
     """
     labels, joints, rounds = _pieces(opened)
     count = int(labels.max()) + 1
@@ -40,12 +40,12 @@ def leads_round(opened: NDArray[np.bool_]) -> NDArray[np.bool_]:
 def sealed_between_ends(gap: Array, *, joined: bool) -> bool:
     """Whether no open path leads from line 0 of a gap, shape (nx, ny), to its copy one period on, inside the box.
 
-    A path that leaves through a side comes in at the other if the sides are ``joined``; if not, the box has the first
-    column's copy as its last, and none leaves it. (Between ends a path need not come out where it went in, so that a
-    gap may be open here and sealed on and on; one whose paths lead round the cell is open here too.)
+    A path that leaves through a side enters at the other one if the sides are ``joined``; if not, the box has a copy of
+    the first column as its last, and no path leaves it. A path may end at another position than it starts, so a gap
+    that is sealed when repeated periodically may be open here; the converse cannot occur.
     """
     wide = np.pad(gap, ((0, 1), (0, 1)), mode="wrap") > 0
-    labels, count = ndimage.label(wide, structure=FOUR)
+    labels, count = ndimage.label(wide, structure=FACE_NEIGHBOURS)
     if joined:
         first, last = labels[:, 0], labels[:, -1]
         links = coo_array((np.ones(first.size), (first, last)), shape=(count + 1, count + 1))
@@ -55,8 +55,8 @@ def sealed_between_ends(gap: Array, *, joined: bool) -> bool:
 
 
 def _pieces(opened: NDArray[np.bool_]) -> tuple[NDArray[Any], Array, Array]:
-    """Pieces inside the box by their number, joints between them over its seams, and how often each leads round it."""
-    labels, count = ndimage.label(opened, structure=FOUR)
+    """Labels of the connected pieces, joints between them across the seams, and the winding number of each joint."""
+    labels, count = ndimage.label(opened, structure=FACE_NEIGHBOURS)
     joints = np.concatenate([_joints(labels[-1], labels[0], (1, 0)), _joints(labels[:, -1], labels[:, 0], (0, 1))])
     own = joints[:, 0] == joints[:, 1]
     rounds = joints[:, 2:].copy()
@@ -65,13 +65,13 @@ def _pieces(opened: NDArray[np.bool_]) -> tuple[NDArray[Any], Array, Array]:
 
 
 def _joints(before: Array, after: Array, step: tuple[int, int]) -> Array:
-    """Pieces that meet over a seam, once each: (piece before it, piece after it, the step in x, in y)."""
+    """Pairs of pieces that meet across a seam: (piece before it, piece after it, step in x, step in y)."""
     both = np.unique(np.stack([before, after], axis=1)[(before > 0) & (after > 0)], axis=0)
     return np.concatenate([both, np.broadcast_to(step, (len(both), 2))], axis=1)
 
 
 def _closing(joints: Array, pieces: int) -> Array:
-    """How often round x and y the circles in a graph of joints go: each closes one with the spanning tree."""
+    """Winding numbers in x and y of the cycles that each joint closes with a spanning tree of the joints."""
     links = coo_array((np.ones(len(joints)), (joints[:, 0], joints[:, 1])), shape=(pieces, pieces)).tocsr()
     steps: dict[tuple[int, int], tuple[int, int]] = {}
     for first, second, x, y in joints.tolist():

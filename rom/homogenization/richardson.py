@@ -1,4 +1,4 @@
-"""How far off flow factors may be, from those on coarser grids."""
+"""Uncertainty of flow factors from their values on coarser grids."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -8,32 +8,36 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.homogenization.factors import FlowFactors
 
-SAFETY = 1.5
-"""Of an error estimated from three grids.
+SAFETY_FACTOR = 1.5
+"""Safety factor of an error estimated from three grids.
 
 On 360 random gaps (self-affine, with lays, sums of a few waves, plateaus; open to 40 % contact, shortest waves of 4
-nodes and up, 64² and 128²) 97 of 100 values of A₁₁, A₂₂ and B₁ were within; for 95 of them 1.25 would do.
+nodes and up, 64² and 128²) it covers 97 of 100 values of A₁₁, A₂₂ and B₁; 1.25 would cover 95.
 """
 
-LOOSEST, TIGHTEST = 1e-4, 1e-10
-"""Tolerances of linear systems that are chosen from."""
+LOOSEST_TOLERANCE = 1e-4
+"""Largest solver tolerance that is chosen."""
 
-SPARE = 100
-"""A tolerance is so many times below what its grid is expected to be off by."""
+TIGHTEST_TOLERANCE = 1e-10
+"""Smallest solver tolerance that is chosen."""
+
+DISCRETISATION_TO_SOLVER_ERROR = 100
+"""Ratio of the expected discretisation error to the solver tolerance."""
 
 
-def uncertainty_of(found: Sequence[FlowFactors]) -> FlowFactors:
-    """Of the last of up to three on grids each twice as fine, by Richardson's rule at the order seen, one to two.
+def uncertainty_of(factors: Sequence[FlowFactors]) -> FlowFactors:
+    """Uncertainty of the last of up to three sets of factors, on grids each twice as fine as the one before.
 
-    Infinite where there is no coarser grid. In contact d and e have no limit, as at an edge <1/h> grows with the
-    logarithm of the nodes: of these two the change from grid to grid is told, no more.
+    Richardson's rule with the observed order between one and two; infinite without a coarser grid. With contact d and e
+    do not converge, since <1/h> at an edge grows with the logarithm of the number of nodes: for them it is only an
+    estimate of the change from grid to grid.
     """
 
     def each(name: str) -> Array:
-        return off([np.asarray(getattr(factors, name), dtype=float) for factors in found])
+        return off([np.asarray(getattr(one, name), dtype=float) for one in factors])
 
     return replace(
-        found[-1],
+        factors[-1],
         mean_gap=0.0,
         pressure=each("pressure"),
         shear=each("shear"),
@@ -43,27 +47,27 @@ def uncertainty_of(found: Sequence[FlowFactors]) -> FlowFactors:
 
 
 def off(values: Sequence[Array]) -> Array:
-    """How far the last of up to three values on grids each twice as fine may be off, as :func:`uncertainty_of` says."""
+    """Uncertainty of the last of up to three values on grids each twice as fine; see :func:`uncertainty_of`."""
     if len(values) < 2:
         return np.full_like(values[0], np.inf)
     last = np.abs(values[-1] - values[-2])
     if len(values) < 3:
-        return np.asarray(SAFETY * last)
+        return np.asarray(SAFETY_FACTOR * last)
     before = np.abs(values[-2] - values[-3])
     with np.errstate(divide="ignore", invalid="ignore"):
         ratio = np.clip(np.where(last > 0, before / last, 4.0), 2.0, 4.0)
-    return np.asarray(SAFETY * np.maximum(last, before / 4) / (ratio - 1))
+    return np.asarray(SAFETY_FACTOR * np.maximum(last, before / 4) / (ratio - 1))
 
 
-def sufficient(found: Sequence[Array]) -> float:
-    """A tolerance for the next finer grid: of its error in flows, if those on the last two grids tell what it will be.
+def sufficient(flows: Sequence[Array]) -> float:
+    """A solver tolerance for the next finer grid: a hundredth of its expected discretisation error, 1e-10 to 1e-4.
 
-    A hundredth of what the grid is expected to be off by, 1e-10 to 1e-4.
+    The error is extrapolated from the flows on the last two grids; with fewer grids the tolerance is 1e-4.
     """
-    if len(found) < 2:
-        return LOOSEST
-    before, last = found[-2:]
+    if len(flows) < 2:
+        return LOOSEST_TOLERANCE
+    before, last = flows[-2:]
     with np.errstate(divide="ignore", invalid="ignore"):
         change = np.abs(last - before) / last
     expected = float(np.min(change[last > 0], initial=np.inf)) / 4
-    return min(max(expected / SPARE, TIGHTEST), LOOSEST)
+    return min(max(expected / DISCRETISATION_TO_SOLVER_ERROR, TIGHTEST_TOLERANCE), LOOSEST_TOLERANCE)

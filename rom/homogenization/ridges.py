@@ -1,4 +1,4 @@
-"""Sinusoidal ridges of any direction: their flow factors in closed form."""
+"""Closed-form flow factors of sinusoidal ridges of any direction."""
 
 from math import cos, sin
 
@@ -8,12 +8,12 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap, GapFactors
 
-LEVEL = 1e-12
-"""Ridges whose wave vector has a smaller part along the sliding lie along it: streamers do not cross them."""
+MIN_SLOPE_ALONG = 1e-12
+"""Ridges with a smaller component of the unit wave vector along the sliding are parallel to it."""
 
 
 def sinusoidal_ridges(amplitude: float, direction: float) -> FactorsOverGap:
-    """Factors of h = ĥ + a sin(k·x) over the mean gap ĥ, exact for any length of the waves.
+    """Factors of h = ĥ + a sin(k·x) over the mean gap ĥ.
 
     With n along k, at ``direction`` from the sliding, t along the ridges, r = a/ĥ and b = <h⁻²>/<h⁻³>,
 
@@ -25,12 +25,12 @@ def sinusoidal_ridges(amplitude: float, direction: float) -> FactorsOverGap:
     Parameters
     ----------
     amplitude : a, m.
-    direction : rad; 0 has ridges across the sliding, π/2 along it.
+    direction : direction of k, rad; 0 has ridges across the sliding, π/2 along it.
 
     Raises
     ------
     InputError
-        By the factors, where a mean gap is not above the amplitude: the walls would touch.
+        When the factors are evaluated at a mean gap not above the amplitude, where the walls would touch.
     """
     along, across = cos(direction), sin(direction)
 
@@ -55,7 +55,7 @@ def sinusoidal_ridges(amplitude: float, direction: float) -> FactorsOverGap:
             drag_across=(carried - h) * along * across,
             couette=inverse,
             shear_couette=along**2 * (inverse - carried * square),
-            streaming=inverse if abs(along) < LEVEL else drag * square,
+            streaming=inverse if abs(along) < MIN_SLOPE_ALONG else drag * square,
             least=h - amplitude,
         )
 

@@ -1,4 +1,4 @@
-"""The linear systems of a cell, solved: by multigrid, and by elimination where that fails."""
+"""Solvers of the linear systems of a cell: multigrid, and elimination where that fails."""
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -16,16 +16,16 @@ from roughfilm.rom.multigrid.gradients import apply
 from roughfilm.rom.multigrid.multigrid import Multigrid, Solved
 from roughfilm.rom.multigrid.pieces import ROUNDING
 
-MOST_ELIMINATED = 1_100_000
-"""Nodes; factors of larger matrices take more than 3 GB."""
+MAX_ELIMINATION_NODES = 1_100_000
+"""Largest number of nodes for elimination; the factors of larger matrices take more than 3 GB."""
 
-BALANCED = 1e-6
-"""Of a right-hand side: an elimination that leaves a larger residual has failed."""
+ELIMINATION_RESIDUAL = 1e-6
+"""Relative residual above which an elimination has failed."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Matrix:
-    """K of ∇·(h³∇χ) on a grid, as :class:`rom.multigrid.multigrid.Multigrid` takes it, shape (nx, ny) each."""
+    """K of ∇·(h³∇χ) on a grid, arrays of shape (nx, ny) in the form that ``Multigrid`` takes."""
 
     centre: Array
     east: Array
@@ -39,19 +39,19 @@ class Matrix:
 
 @dataclass(frozen=True, kw_only=True)
 class Source:
-    """A right-hand side b, shape (nx, ny), and E, if the energy that counts is E − b·χ and not b·χ."""
+    """A right-hand side b, shape (nx, ny); ``whole`` is E if the energy of interest is E − b·χ, None if it is b·χ."""
 
     values: Array
     whole: float | None
     start: Array | None
 
 
-Found = TypeVar("Found")
+Solution = TypeVar("Solution")
 
 Solver = Callable[[Matrix, Iterable[Source], float], list[Solved]]
-"""solve(matrix, sources, tolerance) → solutions, each good to the tolerance of its energy; ConvergenceError if not.
+"""solve(matrix, sources, tolerance) → solutions to a relative error of the energy, or ConvergenceError.
 
-Sources are taken one after the other, so that only one of them needs memory at a time."""
+Sources are consumed one after the other, so that only one is in memory at a time."""
 
 
 def by_multigrid(matrix: Matrix, sources: Iterable[Source], tolerance: float, *, single: bool) -> list[Solved]:
@@ -63,9 +63,9 @@ def by_multigrid(matrix: Matrix, sources: Iterable[Source], tolerance: float, *,
 
 
 def by_elimination(matrix: Matrix, sources: Iterable[Source], _tolerance: float) -> list[Solved]:
-    """Sparse elimination (SuperLU), refined once, up to 1.1 million nodes; pieces without reservoir held at a node."""
+    """Sparse elimination (SuperLU) with one refinement; one node of each floating piece is fixed."""
     count = matrix.centre.size
-    if count > MOST_ELIMINATED:
+    if count > MAX_ELIMINATION_NODES:
         raise ConvergenceError(
             f"the cell's linear system: {count} nodes are too many to eliminate; take a coarser grid",
             outcome=Outcome.STALLED,
@@ -99,7 +99,7 @@ def by_elimination(matrix: Matrix, sources: Iterable[Source], _tolerance: float)
         left = abs(float((rest * change).sum()))
         chi += change
         residual = float(np.linalg.norm(b - matrix.image(chi)) / (np.linalg.norm(b) or 1.0))
-        if not residual <= BALANCED:
+        if not residual <= ELIMINATION_RESIDUAL:
             raise ConvergenceError(
                 f"the cell's linear system: elimination leaves a residual of {residual:.3g}; the gap spans too much",
                 outcome=Outcome.STALLED,
@@ -114,11 +114,11 @@ SOLVERS: dict[str, Solver] = {
     "multigrid_double": partial(by_multigrid, single=False),
     "elimination": by_elimination,
 }
-"""In the order in which they are tried."""
+"""Solvers by name, in the order in which they are tried."""
 
 
-def first_to_converge(names: Sequence[str], attempt: Callable[[Solver], Found]) -> tuple[Found, str]:
-    """What an attempt finds by the first of the solvers that does not raise a ConvergenceError, and which one it is."""
+def first_to_converge(names: Sequence[str], attempt: Callable[[Solver], Solution]) -> tuple[Solution, str]:
+    """The result of an attempt with the first solver that converges, and the name of that solver."""
     *others, last = names
     for name in others:
         try:

@@ -6,7 +6,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.homogenization.flow_factors import flow_factors
-from roughfilm.rom.homogenization.grids import FEWEST
+from roughfilm.rom.homogenization.grids import MIN_COARSENED_NODES
 from roughfilm.rom.homogenization.richardson import off
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors, of_thin_film
 from roughfilm.rom.rough_gap.flow.range_of_validity import REACH
@@ -152,7 +152,7 @@ def _coarser(walls: Walls, fluxes: Array) -> list[tuple[Walls, Array]]:
     grids = [(walls, fluxes)]
     while len(grids) < 3:
         finer, flow = grids[0]
-        steps = [2 if n % 2 == 0 and n >= FEWEST else 1 for n in finer.lower.shape]
+        steps = [2 if n % 2 == 0 and n >= MIN_COARSENED_NODES else 1 for n in finer.lower.shape]
         if max(steps) == 1:
             break
         every = (slice(None, None, steps[0]), slice(None, None, steps[1]))

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.rom.homogenization.box import Box
-from roughfilm.rom.homogenization.conductance import CLOSED, FaceRule, faces, without_traces
+from roughfilm.rom.homogenization.conductance import CLOSED_CUBE, FaceRule, faces, without_traces
 from roughfilm.rom.homogenization.flow_factors import checked_gap
 from roughfilm.rom.homogenization.grids import coarser_grids, refined
 from roughfilm.rom.homogenization.paths import sealed_between_ends
@@ -81,7 +81,7 @@ def direct_flow(
         found.append(_solve(np.tile(grid, (periods, 1)), dy / dx, rule, limit, solvers, found[-1] if found else None))
     finest = found[-1]
     closed = sealed_between_ends(np.tile(h, (periods, 1)), joined=True)
-    trace = CLOSED ** (1 / 3) * float(h.max()) if ((h > 0) & (without_traces(h) == 0)).any() else 0.0
+    trace = CLOSED_CUBE ** (1 / 3) * float(h.max()) if ((h > 0) & (without_traces(h) == 0)).any() else 0.0
     doubt = float(off([np.array(one.permeability) for one in found])) + finest.left
     corrector = finest.corrector * spacing[0]
     return Passage(

@@ -10,7 +10,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.homogenization.paths import FOUR, sealed_between_ends
+from roughfilm.rom.homogenization.paths import FACE_NEIGHBOURS, sealed_between_ends
 
 
 class Pool(IntEnum):
@@ -29,7 +29,7 @@ def pools(gap: Array) -> NDArray[np.int8]:
     Sides are joined. Line 0 itself is the inlet.
     """
     wide = np.concatenate([gap, gap[:1]]) > 0
-    labels, count = ndimage.label(wide, structure=FOUR)
+    labels, count = ndimage.label(wide, structure=FACE_NEIGHBOURS)
     both = wide[:, 0] & wide[:, -1]
     first, last = labels[both, 0], labels[both, -1]
     links = coo_array((np.ones(first.size), (first, last)), shape=(count + 1, count + 1))

@@ -180,7 +180,7 @@ def test_a_tolerance_of_each_grid_follows_what_the_grids_leave():
 
 
 def test_more_nodes_than_memory_are_not_eliminated(monkeypatch):
-    monkeypatch.setattr("roughfilm.rom.homogenization.solvers.MOST_ELIMINATED", 100)
+    monkeypatch.setattr("roughfilm.rom.homogenization.solvers.MAX_ELIMINATION_NODES", 100)
     with pytest.raises(ConvergenceError, match="too many to eliminate"):
         solve_cell(GAPS["contact"], (1.0, 1.0), solvers=("elimination",))
 
