@@ -130,8 +130,8 @@ def _solve(study: Study, tasks: Tasks, tally: Tally, place: AbstractContextManag
                         rows[job.path] = row_of(study.keys, case, job, result)
                         tally.receive(job, result)
                         advance(tally.done, _words(tally))
-    except (KeyboardInterrupt, SystemExit):
-        messages.print(f"stopped: {_words(tally)}; the same command goes on", soft_wrap=True)
+    except (KeyboardInterrupt, SystemExit) as stop:
+        stop.add_note(f"stopped: {_words(tally)}; the same command goes on")
         raise
     return [rows[path] for path in tasks]
 

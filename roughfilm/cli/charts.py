@@ -96,8 +96,8 @@ def measured(names: list[str], out: Path) -> tuple[list[Chart], dict[str, str]]:
                 charts.append(judged(family, found, family.absent()))
             except (ConvergenceError, UnavailableError) as error:
                 without[family.name] = str(error)
-            except (KeyboardInterrupt, SystemExit):
-                messages.print("stopped; the same command goes on", soft_wrap=True)
+            except (KeyboardInterrupt, SystemExit) as stop:
+                stop.add_note("stopped; the same command goes on")
                 raise
             spent += family.cost
     return charts, without

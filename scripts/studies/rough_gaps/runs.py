@@ -104,8 +104,8 @@ def _solve(
                         messages.print(told, soft_wrap=True)
                     done += costs[job.path]
                     bar(done, f"{number} of {len(missing)} runs")
-    except (KeyboardInterrupt, SystemExit):
-        messages.print("stopped; the same command goes on", soft_wrap=True)
+    except (KeyboardInterrupt, SystemExit) as stop:
+        stop.add_note("stopped; the same command goes on")
         raise
 
 
