@@ -64,7 +64,7 @@ def speed_against_accuracy(
         axes.set_xscale("log")
         axes.set_yscale("log")
         axes.set_xlabel("CPU time, s")
-        axes.set_ylabel(f"error in {title} against the best rung, %")
+        axes.set_ylabel(f"error in {title} relative to the reference, %")
     panels[0].legend(fontsize=8, loc="upper right")
     return svg(figure)
 
@@ -95,7 +95,7 @@ def grid_convergence(studies: Mapping[str, Mapping[str, Convergence]], titles: M
         low, high = axes.get_ylim()
         axes.set_ylim(10 ** np.floor(np.log10(low)), 10 ** np.ceil(np.log10(high)))
         axes.set_xlabel("mean length of a cell, periods (dotted: slope 2)")
-        axes.set_ylabel(f"{title}: from the extrapolated, %")
+        axes.set_ylabel(f"{title}: difference from the extrapolated value, %")
         axes.legend(fontsize=8)
     return svg(figure)
 

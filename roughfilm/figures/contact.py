@@ -35,7 +35,7 @@ def areas(rows: Sequence[Row]) -> str:
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlabel("load, MPa")
-    axes.set_ylabel("part of the nominal area, %")
+    axes.set_ylabel("fraction of the nominal area, %")
     return svg(figure)
 
 

@@ -29,10 +29,10 @@ def waterfall(told: Study, columns: Mapping[str, Shown], beside: Mapping[str, Am
     panels[0].set_yticks(range(len(rows)), rows)
     panels[0].set_ylim(len(rows) - 0.4, -0.6)
     handles: list[Patch | Line2D] = [
-        Patch(color=MORE, label="switched on next: adds"),
-        Patch(color=LESS, label="takes away"),
-        Patch(facecolor="none", edgecolor="0.25", label="switched off alone: from without it to all"),
-        Line2D([], [], color="0.25", linewidth=1, marker="|", label="error"),
+        Patch(color=MORE, label="switched on next: increase"),
+        Patch(color=LESS, label="switched on next: decrease"),
+        Patch(facecolor="none", edgecolor="0.25", label="switched off alone: from without it to all effects"),
+        Line2D([], [], color="0.25", linewidth=1, marker="|", label="uncertainty"),
     ]
     figure.legend(handles=handles, loc="outside lower center", ncols=4, fontsize=8)
     return svg(figure)
@@ -44,7 +44,7 @@ def _panel(axes: Axes, told: Study, name: str, how: Shown, beside: Amount | None
     if (plain := told.plain.get(name)) is not None:
         _bar(axes, 0, 0.0, how.factor * plain.value, how.factor * plain.uncertainty, WHOLE)
     else:
-        axes.text(full, 0, "no such film", fontsize=8, color=WHOLE, ha="right", va="center")
+        axes.text(full, 0, "no solution", fontsize=8, color=WHOLE, ha="right", va="center")
     for row, one in enumerate(told.contributions, start=1):
         if (on := one.on.get(name)) is not None:
             end = how.factor * one.after[name].value

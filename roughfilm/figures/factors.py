@@ -22,9 +22,9 @@ FAINT = 1e-4
 """Of the greatest flux, the darkest that is told apart."""
 
 PANELS = {
-    "what pressure drives": ((0, "A₁₁/ĥ³"), (1, "A₂₂/ĥ³"), (2, "A₁₂/ĥ³")),
-    "what the sliding wall carries": ((3, "B₁/ĥ"), (4, "B₂/ĥ")),
-    "what rubs": ((5, "d ĥ"), (6, "e ĥ")),
+    "pressure flow": ((0, "A₁₁/ĥ³"), (1, "A₂₂/ĥ³"), (2, "A₁₂/ĥ³")),
+    "shear flow": ((3, "B₁/ĥ"), (4, "B₂/ĥ")),
+    "friction": ((5, "d ĥ"), (6, "e ĥ")),
 }
 """Which entries of a row each panel shows."""
 
@@ -47,7 +47,7 @@ def curves(table: FactorTable) -> str:
         axes.set_xscale("log")
         axes.set_title(title, fontsize=10)
         axes.set_xlabel("mean gap ĥ, µm")
-        axes.set_ylabel("over a smooth film")
+        axes.set_ylabel("relative to a smooth film")
         axes.legend()
     return svg(figure)
 

@@ -67,7 +67,7 @@ def areas(rows: Sequence[Row], found: Mapping[str, Threshold]) -> str:
     axes.set_xlim(left=0)
     axes.set_ylim(bottom=0)
     axes.set_xlabel("load, MPa")
-    axes.set_ylabel("real area of contact, % of the nominal")
+    axes.set_ylabel("contact area, % of the nominal area")
     return svg(figure)
 
 
@@ -108,7 +108,7 @@ def leakages(scene: Seal, rows: Sequence[Row], found: Mapping[str, Threshold], e
     axes.set_yscale("log")
     axes.set_ylim(bottom=0.5 * PER_HOUR * leakage_of(scene, lowest))
     axes.set_xlabel("load, MPa (dotted: sealed beyond)")
-    axes.set_ylabel("leakage, kg/h for each metre")
+    axes.set_ylabel("leakage per width, kg/h/m")
     axes.legend(fontsize=8, loc="lower left")
     return svg(figure)
 

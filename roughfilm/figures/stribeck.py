@@ -109,7 +109,7 @@ def asperity_table(asperities: Asperities) -> Figure:
         for (label, values), colour in zip(drawn.items(), COLOURS, strict=False):
             axes.plot(1e6 * alpha, values / mean**power, color=colour, label=label)
         axes.legend(fontsize=8)
-        axes.set_ylabel("over a smooth film")
+        axes.set_ylabel("relative to a smooth film")
         axes.axvline(1e6 * touching, color="black", linewidth=0.8, linestyle="--")
     for axes in (contact, pressed, sheared):
         axes.set_xlabel("separation α, µm")

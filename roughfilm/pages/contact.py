@@ -14,13 +14,13 @@ from roughfilm.pages.render import render
 from roughfilm.words.numbers import digits
 
 MODELS = {
-    "bearing_area": "What stands above a plane is cut off and bears the hardness; nothing else moves.",
-    "greenwood_williamson": "Spherical asperities that do not feel each other, from the moments of the spectrum.",
-    "persson": "Pressures that spread as roughness is added, from the spectrum.",
-    "elastic": "Elastic half-space, solved at every point; no limit to the pressure.",
+    "bearing_area": "Heights above a plane are cut off; the pressure there is the hardness. The rest does not deform.",
+    "greenwood_williamson": "Independent spherical asperities, from the moments of the spectrum.",
+    "persson": "Diffusion of the pressures as shorter waves are added, from the spectrum.",
+    "elastic": "Elastic half-space, solved at every point, without a limit of the pressure.",
     "elastic_plastic": "Elastic half-space, perfectly plastic where the pressure reaches the hardness, "
     "solved at every point.",
-    "stanley_kato": "The same contact by the older algorithm of constant steps, for comparison.",
+    "stanley_kato": "The same contact by the older algorithm with constant steps, for comparison.",
 }
 
 PICTURED = 4
@@ -34,7 +34,7 @@ COLUMNS = (
     ("mean gap", "µm", "mean_gap", 1e6),
     ("approach", "µm", "approach", 1e6),
     ("p max", "MPa", "pressure_max", 1e-6),
-    ("broken by", "rms heights", "complementarity", 1),
+    ("violation", "rms heights", "complementarity", 1),
     ("iterations", "", "iterations", 1),
     ("CPU", "s", "cpu_s", 1),
 )

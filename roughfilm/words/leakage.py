@@ -6,21 +6,21 @@ from roughfilm.rom.seal.model import leakage_of
 from roughfilm.rom.seal.scene import Seal
 
 WORDS = {
-    "direct_x": "between ends, x",
-    "direct_y": "between ends, y",
-    "homogenized_x": "on and on, x",
-    "homogenized_y": "on and on, y",
+    "direct_x": "single period between reservoirs, x",
+    "direct_y": "single period between reservoirs, y",
+    "homogenized_x": "periodic, x",
+    "homogenized_y": "periodic, y",
 }
 
 
 def in_words(threshold: Threshold) -> str:
     """Where a direction seals, with the bracket of its contact area."""
     if threshold.sealed is None:
-        return "never seals"
+        return "does not seal"
     if threshold.open is None:
-        return "sealed under any load"
+        return "sealed at every load"
     low, high = 100 * threshold.open.area_fraction, 100 * threshold.sealed.area_fraction
-    return f"seals at {threshold.load / 1e6:.4g} MPa, {low:.2f} to {high:.2f} % of contact"
+    return f"seals at {threshold.load / 1e6:.4g} MPa, {low:.2f} to {high:.2f} % contact"
 
 
 def leaks(scene: Seal, row: Row, name: str) -> str:

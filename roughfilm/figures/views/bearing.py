@@ -52,8 +52,8 @@ def along(scene: Bearing, results: Mapping[str, Result]) -> str:
     film.set_ylabel("film, µm")
     pressure.set_ylabel("pressure above\nambient, MPa")
     pressure.legend(fontsize=8)
-    density.set_ylabel("density θ;\nbelow 1: filled part")
-    density.set_xlabel(label + " (dotted: pressure of cavitation)")
+    density.set_ylabel("density θ;\nbelow 1: filled fraction")
+    density.set_xlabel(label + " (dotted: cavitation pressure)")
     return svg(figure)
 
 

@@ -54,7 +54,7 @@ def pressures(scene: DryContact, results: Mapping[str, Result]) -> str:
             axes.axvline(scene.solid.hardness * 1e-9, color="black", linewidth=0.8, linestyle=":")
     density.set_ylim(bottom=DEEPEST * density.get_ylim()[1])
     density.set_ylabel("density of pressures below the hardness, 1/GPa")
-    above.set_ylabel("part of the nominal area that bears more")
+    above.set_ylabel("fraction of the nominal area\nat a higher pressure")
     above.legend(fontsize=8)
     return svg(figure)
 

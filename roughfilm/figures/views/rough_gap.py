@@ -47,7 +47,7 @@ def factors(results: Mapping[str, Result]) -> str:
             )
         axes.set_yticks(range(len(results)), list(results))
         axes.set_ylim(-0.6, len(results) - 0.4)
-        axes.set_xlabel(f"{name}, over a smooth gap's")
+        axes.set_xlabel(f"{name}, relative to a smooth gap")
         axes.margins(x=0.15)
     return svg(figure)
 

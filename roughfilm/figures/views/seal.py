@@ -81,7 +81,7 @@ def gaps(results: Mapping[str, Result]) -> str:
             density, edges * 1e6, baseline=None, color=style.colour, linestyle=style.line, linewidth=1.8, label=name
         )
     axes.set_xlabel("gap, µm")
-    axes.set_ylabel("part of the nominal area, 1/µm")
+    axes.set_ylabel("density of the nominal area, 1/µm")
     axes.set_ylim(bottom=0)
     axes.legend(fontsize=8, loc="upper right")
     return svg(figure)

@@ -222,8 +222,8 @@ def test_grooves_that_never_close_are_told_with_the_largest_load(place):
     assert told["quantities"]["seals_direct_y"]["value"] == 0
     assert told["quantities"]["seals_direct_x"]["value"] == 1
     warnings = " ".join(told["provenance"]["warnings"])
-    assert "between ends, y: stays open up to 13.33 MPa" in warnings
-    assert "between ends, x: is sealed under any load" in warnings
+    assert "single period between reservoirs, y: stays open up to 13.33 MPa" in warnings
+    assert "single period between reservoirs, x: is sealed under any load" in warnings
     assert told["series"][-1]["load"] <= 1e7 / 0.75 * (1 + 1e-9)
 
 
