@@ -1,7 +1,7 @@
-"""HDF5 files of our own, behind a digest: what was damaged or changed is told and never opened.
+"""HDF5 files with a checksum: a file that was damaged or changed is refused before it is opened.
 
-The HDF5 file stands behind a block of 512 bytes, as that format allows, which holds a mark and the digest of all that
-follows. A damaged file can crash or hang the library that reads it.
+A header of 512 bytes, which the HDF5 format allows as a user block, holds a mark and the SHA-256 digest of all bytes
+that follow. A damaged file can crash or hang the HDF5 library.
 """
 
 import hashlib
@@ -16,39 +16,46 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
 
 HEADER_BYTES = 512
+"""Length of the header, bytes: the smallest user block of HDF5."""
+
 CHUNK_BYTES = 1 << 22
+"""Number of bytes read at a time to compute a digest."""
 
 
 def header_block(mark: bytes, digest: str) -> bytes:
-    """The first bytes of a file that has the digest."""
+    """The header of a file, as bytes: the mark, the digest of the content, zeros."""
     return (mark + digest.encode() + b"\n").ljust(HEADER_BYTES, b"\0")
 
 
 def content_digest(path: Path) -> str:
-    """Of all that follows the block."""
+    """SHA-256 digest, in hexadecimal, of all bytes after the header."""
     digest = hashlib.sha256()
     with path.open("rb") as file:
         file.seek(HEADER_BYTES)
-        while piece := file.read(CHUNK_BYTES):
-            digest.update(piece)
+        while chunk := file.read(CHUNK_BYTES):
+            digest.update(chunk)
     return digest.hexdigest()
 
 
 def has_mark(path: Path, mark: bytes) -> bool:
-    """Whether a file begins with a mark, whatever its name; OSError if it cannot be read."""
+    """Whether a file begins with a mark, whatever its name; raises OSError if it cannot be read."""
     with path.open("rb") as file:
         return file.read(len(mark)) == mark
 
 
 def refuse_damaged(path: Path, mark: bytes, remedy: str) -> None:
-    """InputError if a file does not begin with the mark and the digest of what follows."""
+    """Raise InputError if a file does not begin with the mark and the digest of its content."""
     with path.open("rb") as file:
         if file.read(HEADER_BYTES) != header_block(mark, content_digest(path)):
             raise InputError(f"{path}: was damaged or changed since it was written; {remedy}")
 
 
 def write_checked(path: Path, mark: bytes, fill: Callable[[h5py.File], None]) -> None:
-    """Write a file whole or not at all, the same contents always as the same bytes.
+    """Write an HDF5 file with its header, completely or not at all; equal contents give equal bytes.
+
+    Parameters
+    ----------
+    fill : writes attributes and datasets into the open file.
 
     Raises
     ------
@@ -65,16 +72,15 @@ def write_checked(path: Path, mark: bytes, fill: Callable[[h5py.File], None]) ->
 
 @contextmanager
 def open_checked(path: Path, mark: bytes, schema: int, remedy: str) -> Iterator[h5py.File]:
-    """Open a file whose digest is right and whose attribute ``schema`` is this.
+    """Open a file after checking its digest and that its attribute ``schema`` has the given value.
 
     Raises
     ------
     InputError
-        If it was damaged or changed, or is of another version; ``remedy`` says what to do.
+        If it was damaged or changed, or has another schema; the message ends with ``remedy``.
     """
     refuse_damaged(path, mark, remedy)
     with h5py.File(path, "r") as file:
         if file.attrs["schema"] != schema:
-            told = f"{path}: has schema {file.attrs['schema']}; this version reads {schema}"
-            raise InputError(f"{told}, {remedy}")
+            raise InputError(f"{path}: has schema {file.attrs['schema']}; this version reads {schema}, {remedy}")
         yield file

@@ -7,10 +7,10 @@ from functools import cache
 
 @cache
 def terminate_with_parent() -> tuple[str, ...]:
-    """What stands before a command so that Linux ends it when the thread that started it ends; nothing elsewhere.
+    """Words to put before a command so that Linux terminates it with the thread that started it; empty elsewhere.
 
-    That thread waits for it, so it ends first only if this process is killed. (Python's own ``preexec_fn`` is not safe
-    beside threads.)
+    The thread waits for its child, so it ends before the child only if this process is killed. Python's ``preexec_fn``
+    is no alternative: it is unsafe in a program with threads.
     """
     command = ("setpriv", "--pdeathsig", "TERM")
     if shutil.which(command[0]) is None:

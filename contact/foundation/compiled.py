@@ -1,4 +1,4 @@
-"""Loops compiled by numba at their first call, and kept for the next run where there is a place for them."""
+"""Loops compiled by numba at their first call and cached on disk where the cache can be written."""
 
 from collections.abc import Callable
 from functools import partial
@@ -10,7 +10,7 @@ _njit: Any = partial(njit, nogil=True, error_model="numpy", fastmath={"reassoc",
 
 
 def compiled(loop: Callable[..., Any]) -> Any:
-    """A decorator for loops: sums may be reordered to be vectorised, infinities and NaN are kept."""
+    """Compile a loop; sums may be reordered for vectorisation, infinities and NaN keep their meaning."""
     try:
         return _njit(cache=True)(loop)
     except RuntimeError:
@@ -18,4 +18,4 @@ def compiled(loop: Callable[..., Any]) -> Any:
 
 
 inlined: Any = _njit(inline="always")
-"""For a small loop that others call for every row: it becomes part of them, and costs no call."""
+"""Decorator that inlines a small loop into the compiled loops that call it."""

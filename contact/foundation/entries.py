@@ -1,4 +1,4 @@
-"""What the tables of a TOML file are made of: numbers with units, and no unknown keys."""
+"""Building blocks of tables in TOML files: numbers with units, and tables that refuse unknown keys."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from roughfilm.contact.foundation.units import to_si, with_unit
 
 
 class Part(BaseModel):
-    """A table: frozen, and every key known."""
+    """Base class of a table in a TOML file; it is immutable and refuses unknown keys."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -28,7 +28,7 @@ def any_number(value: float) -> float:
 
 
 def plain_number(value: object) -> float:
-    """A number as it stands, without unit; ValueError for anything else."""
+    """The number as a float; raises ValueError for anything that is not a plain number without unit."""
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise ValueError(f"got {value!r}; write a plain number, without unit or quotes")
     try:
@@ -39,7 +39,13 @@ def plain_number(value: object) -> float:
 
 @dataclass(frozen=True)
 class InUnit:
-    """Marks an SI number that is read from text with a unit and written back as such."""
+    """Annotation of an SI number that is read from text with a unit and written back as such text.
+
+    Attributes
+    ----------
+    base : SI unit, such as "m".
+    check : returns an admissible number, raises ValueError for others; by default it accepts finite positive numbers.
+    """
 
     base: str
     check: Callable[[float], float] = _positive

@@ -1,36 +1,38 @@
-"""The three ways a request can fail; every package raises these and no others on purpose.
+"""The three exceptions that the packages raise deliberately.
 
-They live in the lowest package because every package needs them. Each message is one line that names the
-place, the value met there and the remedy.
+Each message is one line that names the place, the value, the allowed range and the remedy.
 """
 
 from enum import StrEnum
 
 
 class Outcome(StrEnum):
-    """What became of a solver."""
+    """How a solver ended."""
 
     CONVERGED = "converged"
     DIVERGED = "diverged"
-    """Its numbers grew beyond all bounds."""
+    """The residual or the fields grew without bound."""
     UNSTEADY = "unsteady"
-    """It keeps changing without getting nearer."""
+    """The solution keeps changing and the residual does not fall."""
     STALLED = "stalled"
-    """It hardly changes any more, but its residual stays above the tolerance."""
+    """The solution hardly changes, but the residual stays above the tolerance."""
     UNFINISHED = "unfinished"
-    """It was getting nearer when its iterations were used up."""
+    """The residual was falling when the maximum number of iterations was reached."""
     FAILED = "failed"
-    """Anything else."""
+    """The solver failed in another way."""
 
 
 class InputError(ValueError):
-    """What was asked cannot be understood or is out of range: ``place: got value; remedy``."""
+    """An input cannot be read or is out of range; the message reads ``place: got value; remedy``."""
 
 
 class ConvergenceError(RuntimeError):
-    """A solver stopped before it met its tolerance, or with fields that cannot be trusted.
+    """A solver stopped above its tolerance, or its fields are invalid.
 
-    ``outcome`` says how, and ``iterations`` after how many of them, where the solver knows.
+    Attributes
+    ----------
+    outcome : how the solver ended.
+    iterations : number of iterations done; None if the solver does not count them.
     """
 
     def __init__(self, message: str, *, outcome: Outcome = Outcome.FAILED, iterations: int | None = None) -> None:
@@ -40,4 +42,4 @@ class ConvergenceError(RuntimeError):
 
 
 class UnavailableError(ImportError):
-    """Something this model needs is not on this machine: what, and how to get it."""
+    """A program or package that a model needs is not installed; the message says how to install it."""

@@ -1,4 +1,4 @@
-"""Files that are whole or absent: written beside their place, then renamed into it; locks that end with a process."""
+"""Files written completely or not at all, by renaming a temporary file, and locks that end with their process."""
 
 import fcntl
 import os
@@ -12,9 +12,9 @@ from roughfilm.contact.foundation.errors import InputError
 
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
-    """Yield a scratch path beside ``path``; rename it into place on success, remove it on failure; a link is followed.
+    """Yield a temporary path beside ``path``; rename it to ``path`` on success, remove it on failure; follow links.
 
-    A reader sees the old file or the new one, never a part of it, even if the writer is killed.
+    A reader sees the old file or the complete new one, even if the writer is killed.
 
     Raises
     ------
@@ -52,17 +52,17 @@ def replacing(path: Path) -> Iterator[Path]:
 
 
 @contextmanager
-def locked(lock: Path, told: str) -> Iterator[None]:
-    """Hold a lock file against every other process until the end, then remove it; it ends with this process anyhow.
+def locked(lock: Path, message: str) -> Iterator[None]:
+    """Hold a lock file against every other process, then remove it; the lock also ends with this process.
 
     Parameters
     ----------
-    told : who is in the way, for the error: "{process}" in it becomes the number of the process that holds the lock.
+    message : of the error raised if another process holds the lock; "{process}" in it becomes the id of that process.
 
     Raises
     ------
     InputError
-        If another process holds it, or it cannot be written.
+        If another process holds the lock, or it cannot be written.
     """
     while True:
         try:
@@ -75,7 +75,7 @@ def locked(lock: Path, told: str) -> Iterator[None]:
                 fcntl.lockf(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except OSError:
                 file.seek(0)
-                raise InputError(told.replace("{process}", file.read().strip() or "unknown")) from None
+                raise InputError(message.replace("{process}", file.read().strip() or "unknown")) from None
             if not _is_at(file.fileno(), lock):  # removed by the last holder since it was opened
                 continue
             file.truncate(0)
@@ -98,7 +98,7 @@ def _is_at(descriptor: int, path: Path) -> bool:
 def _resolved(path: Path) -> Path:
     try:
         return path.expanduser().resolve()
-    except RuntimeError as error:  # pathlib's word for a home that is not known and for links that go in circles
+    except RuntimeError as error:  # raised by pathlib for an unknown home directory or circular links
         raise InputError(f"{path}: leads nowhere ({error}); choose another place") from error
 
 

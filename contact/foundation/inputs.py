@@ -1,4 +1,4 @@
-"""What the numbers in a file are computed from."""
+"""The inputs of a computation, and the digest that identifies them in a file of results."""
 
 import hashlib
 import json
@@ -13,13 +13,13 @@ from roughfilm.contact.foundation.arrays import Array
 
 @dataclass(frozen=True, kw_only=True)
 class Inputs:
-    """Heights and all else that numbers depend on; a file that keeps the numbers is keyed by the digest.
+    """Heights, spacing and settings that determine a result; files of results are identified by their digest.
 
     Attributes
     ----------
-    heights : of the undeformed surface z, shape (nx, ny), m.
+    heights : height z of the undeformed surface, shape (nx, ny), m.
     spacing : (dx, dy), m.
-    settings : all else that the numbers depend on, as entries that JSON can hold.
+    settings : all other inputs of the result, as entries that JSON can hold.
     """
 
     heights: Array
@@ -28,15 +28,15 @@ class Inputs:
 
     @property
     def digest(self) -> str:
-        """Of all inputs: equal digests give equal numbers."""
-        told = json.dumps([self.heights.shape, self.spacing, self.settings], sort_keys=True, allow_nan=False)
-        return hashlib.sha256(told.encode() + np.ascontiguousarray(self.heights).tobytes()).hexdigest()
+        """SHA-256 digest of all inputs, in hexadecimal; equal digests mean equal results."""
+        text = json.dumps([self.heights.shape, self.spacing, self.settings], sort_keys=True, allow_nan=False)
+        return hashlib.sha256(text.encode() + np.ascontiguousarray(self.heights).tobytes()).hexdigest()
 
     def difference(self, settings: str) -> str:
-        """What the inputs of a file differ in, in words; ``settings`` as it holds them, as JSON."""
-        there = json.loads(settings)
-        for name in sorted(there.keys() | self.settings.keys()):
-            mine, its = self.settings.get(name), there.get(name)
-            if mine != its:
-                return "of another version of roughfilm" if name == "code" else f"with {name} {its}, not {mine}"
+        """The first difference from the inputs of a file, in words; ``settings`` are those of the file, as JSON."""
+        stored = json.loads(settings)
+        for name in sorted(stored.keys() | self.settings.keys()):
+            own, other = self.settings.get(name), stored.get(name)
+            if own != other:
+                return "of another version of roughfilm" if name == "code" else f"with {name} {other}, not {own}"
         return "of another surface"

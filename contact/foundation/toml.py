@@ -1,4 +1,4 @@
-"""TOML files that people write: read, overridden key by key, every fault told in one line."""
+"""TOML files: reading, overriding single keys, and one-line messages for every fault."""
 
 import difflib
 import json
@@ -11,15 +11,15 @@ from pydantic import BaseModel, ValidationError
 
 from roughfilm.contact.foundation.errors import InputError
 
-LARGEST = 1_000_000
-"""Bytes; a longer file is refused unread."""
+MAX_BYTES = 1_000_000
+"""Size of a file, bytes, above which it is refused unread."""
 
 Location = Sequence[int | str]
 """The keys that lead to a place in a file."""
 
 
 def toml_value(value: Any) -> str:
-    """A number, a text, a list or a table as a TOML file writes it, on one line."""
+    """A number, a text, a list or a table as text of a TOML file, on one line."""
     if isinstance(value, Mapping):
         return (
             "{ " + ", ".join(f"{key} = {toml_value(entry)}" for key, entry in value.items()) + " }" if value else "{}"
@@ -30,16 +30,19 @@ def toml_value(value: Any) -> str:
 
 
 def read_toml(path: Path, example: str) -> dict[str, Any]:
-    """The nested entries of a TOML file; ``example`` is a line of it as it should be.
+    """The nested entries of a TOML file; messages quote ``example``, a correct line of such a file.
 
-    Raises InputError in one line if the file cannot be read or is not TOML.
+    Raises
+    ------
+    InputError
+        If the file cannot be read, is larger than 1 MB or is not TOML.
     """
     path = Path(path)
     try:
         if not path.is_file():
             raise InputError(f"{path}: {'is no' if path.exists() else 'no such'} file; name a TOML file")
-        if path.stat().st_size > LARGEST:
-            raise InputError(f"{path}: larger than {LARGEST} bytes; write a short TOML file")
+        if path.stat().st_size > MAX_BYTES:
+            raise InputError(f"{path}: larger than {MAX_BYTES} bytes; write a short TOML file")
         return tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror}); check its permissions") from error
@@ -57,8 +60,17 @@ def set_entry(
 ) -> None:
     """Set one key of nested entries in place, from a text such as ``geometry.depth=22.5um``.
 
-    A number in the path picks from a list of tables. ``replaces`` names the keys of the same table that a key makes
-    meaningless, and takes away. Raises InputError if the text is no assignment, or leads through what is no table.
+    A number in the path selects a table from a list of tables.
+
+    Parameters
+    ----------
+    example : a correct assignment, for messages.
+    replaces : for a key, the keys of the same table that are removed when it is set.
+
+    Raises
+    ------
+    InputError
+        If the text is not an assignment, or its path contains a key that is not a table.
     """
     key, equals, text = override.partition("=")
     key = key.strip()
@@ -93,9 +105,13 @@ def in_one_line(
     unknown: Callable[[Location], str],
     locate: Callable[[Location], Location] = tuple,
 ) -> str:
-    """The first of pydantic's faults as ``root.key: got value; remedy``, unknown keys before all others.
+    """The first fault in a pydantic error as ``root.key: got value; remedy``; unknown keys come first.
 
-    ``locate`` turns pydantic's path into the file's; ``unknown`` says what to do about an unknown key at such a path.
+    Parameters
+    ----------
+    root : name of the outermost table, for the message.
+    unknown : remedy for an unknown key at a location.
+    locate : location in the file of a location in the model.
     """
     faults = sorted(error.errors(include_url=False), key=lambda fault: fault["type"] != "extra_forbidden")
     fault = faults[0]
@@ -126,16 +142,16 @@ def in_one_line(
 
 
 def known_keys(model: type[BaseModel], path: Location) -> list[str]:
-    """The keys of the table at ``path`` inside a model whose tables are models too, some of them optional."""
-    part: Any = model
+    """The keys of the table at ``path`` in a model whose fields are models, optional or not."""
+    table: Any = model
     for name in path:
-        annotation = part.model_fields[name].annotation
-        part = next(one for one in (annotation, *get_args(annotation)) if hasattr(one, "model_fields"))
-    return [*part.model_fields]
+        annotation = table.model_fields[name].annotation
+        table = next(one for one in (annotation, *get_args(annotation)) if hasattr(one, "model_fields"))
+    return [*table.model_fields]
 
 
 def unknown_key(key: int | str, known: Iterable[str]) -> str:
-    """What to say of an unknown key: the known one it is nearest to, or all that are known."""
+    """The remedy for an unknown key: the most similar known key, or a list of all known keys."""
     names = list(known)
     near = difflib.get_close_matches(str(key), names, n=1)
     return "unknown key; " + (f"did you mean {near[0]!r}?" if near else f"known here: {', '.join(names)}")

@@ -1,4 +1,4 @@
-"""Numbers with units: as people write them ("30 um", "0.01 Pa*s") to SI numbers and back, and as results hold them."""
+"""Conversion between text with units ("30 um", "0.01 Pa*s") and SI numbers, and quantities of results."""
 
 import math
 import re

@@ -1,1 +1,1 @@
-"""Meshes of surfaces and gaps, and the files other tools read them from."""
+"""Meshes of surfaces and gaps, and files that other tools read."""

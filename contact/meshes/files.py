@@ -1,4 +1,4 @@
-"""Meshes in files that other tools read: VTU, STL and Gmsh, written by meshio."""
+"""Writing meshes to VTU, STL and Gmsh files with meshio."""
 
 from pathlib import Path
 from typing import Any
@@ -11,11 +11,11 @@ from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.meshes.mesh import CellType, Mesh, boundary, in_triangles
 
 FORMATS = {".vtu": "vtu", ".stl": "stl", ".msh": "gmsh22"}
-"""What meshio calls the format of each suffix. Gmsh's is 2.2, which every version of Gmsh and most others read."""
+"""Format names of meshio by suffix; Gmsh 2.2 is the version that most programs read."""
 
 
 def mesh_format(path: Path) -> str:
-    """The format that a file is to have by its suffix, as meshio calls it; InputError if it is none of ``FORMATS``."""
+    """The format name of meshio for the suffix of a path; raises InputError for a suffix not in ``FORMATS``."""
     if path.suffix.lower() not in FORMATS:
         *first, last = FORMATS
         raise InputError(f"{path}: got the suffix {path.suffix!r}; write {', '.join(first)} or {last}")
@@ -23,27 +23,27 @@ def mesh_format(path: Path) -> str:
 
 
 def write_mesh(mesh: Mesh, path: Path) -> Mesh:
-    """Write a mesh, whole or not at all, and return what went into the file.
+    """Write a mesh to a file, completely or not at all, and return the mesh in the file.
 
     VTU (binary) and Gmsh 2.2 (text) keep cells and data in double precision. STL (binary) holds triangles in single
-    precision and no data: quads are cut in two, hexahedra give the closed surface around them.
+    precision and no data: quads are split, hexahedra are replaced by their closed boundary.
 
     Raises
     ------
     InputError
-        For another suffix, a mesh without cells, lines in STL, or a place that cannot be written.
+        For another suffix, a mesh without cells, lines in STL, or a path that cannot be written.
     """
     name = mesh_format(path)
     if len(mesh.cells) == 0:
         raise InputError(f"{path}: there is nothing to export, no cell is left; look at the gap or the mask")
     if name == "stl":
         mesh = _for_stl(mesh, path)
-    import meshio  # slow to import, and most commands do without
+    import meshio  # slow to import and rarely needed
 
     point_data: dict[str, Any] = dict(mesh.point_data)
     cell_data: dict[str, list[Any]] = {key: [values] for key, values in mesh.cell_data.items()}
     if name == "gmsh22":
-        # meshio 5.3.5 writes the repr of each number, which for those of NumPy 2 is none that Gmsh can read.
+        # meshio 5.3.5 writes the repr of each number, which Gmsh cannot read for NumPy 2 scalars.
         point_data = {key: values.astype(object) for key, values in point_data.items()}
         cell_data = {key: [values.astype(object)] for key, (values,) in cell_data.items()}
         tags = np.ones(len(mesh.cells), dtype=np.int32)

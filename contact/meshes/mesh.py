@@ -1,4 +1,4 @@
-"""Meshes for other tools: points, cells of one sort, what is known at either, and the boundary of a solid."""
+"""Meshes of one cell type with point and cell data, and the boundary of a solid mesh."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -13,11 +13,11 @@ from roughfilm.contact.foundation.arrays import Array, Mask
 Indices = NDArray[np.int64]
 
 _FACES = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
-"""Corners of the faces of a hexahedron, turning so that each normal points out of it."""
+"""Corners of the six faces of a hexahedron, ordered so that normals point outward."""
 
 
 class CellType(StrEnum):
-    """What the cells are, by VTK's order of their corners."""
+    """Type of the cells; corners are ordered as in VTK."""
 
     LINE = "line"
     TRIANGLE = "triangle"
@@ -27,13 +27,14 @@ class CellType(StrEnum):
 
 @dataclass(frozen=True, kw_only=True)
 class Mesh:
-    """Points in space and cells between them.
+    """Points, cells of one type between them, and data on both.
 
     Attributes
     ----------
     points : shape (n, 3), m.
-    cells : shape (m, 2, 3, 4 or 8 corners), numbers of points. Quads and triangles turn left about their normal.
-    point_data, cell_data : by name, shape (n,) or (n, 3), and (m,) or (m, 3).
+    cell_type : type of all cells.
+    cells : shape (m, corners), indices of points; quads and triangles turn counterclockwise about their normal.
+    point_data, cell_data : arrays by name, shape (n,) or (n, 3), and (m,) or (m, 3).
     """
 
     points: Array
@@ -44,7 +45,7 @@ class Mesh:
 
     @property
     def content(self) -> float:
-        """Length, area or volume of all cells, m, m² or m³; hexahedra as their boundary in triangles holds it."""
+        """Total length, area or volume of the cells, m, m² or m³; a volume is that inside the triangulated boundary."""
         if self.cell_type is CellType.HEXAHEDRON:
             first, second, third = np.moveaxis(_corners(boundary(self)), 1, 0)
             origin = self.points.mean(axis=0)
@@ -56,7 +57,7 @@ class Mesh:
         return float(np.linalg.norm(np.cross(second - first, third - first), axis=1).sum()) / 2
 
     def kept(self, keep: Mask) -> Self:
-        """Only those cells, shape (m,), and the points that they use."""
+        """The mesh of the cells selected by a mask, shape (m,), and of the points that they use."""
         cells = self.cells[keep]
         used = np.unique(cells)
         return replace(
@@ -69,10 +70,14 @@ class Mesh:
 
 
 def grid(points: Array) -> Mesh:
-    """Lines, quads or hexahedra between the points of a grid, shape (nx, 3), (nx, ny, 3) or (nx, ny, nz, 3).
+    """The mesh of lines, quads or hexahedra between the points of a structured grid.
 
-    Cell [i, j, k] lies between the points i and i + 1, j and j + 1, k and k + 1 and has the number that ``ravel`` gives
-    it; normals of quads point along the third axis of a right-handed grid.
+    Cell [i, j, k] lies between the points i and i + 1, j and j + 1, k and k + 1; cells are in C order. Normals of quads
+    point along the third axis of a right-handed grid.
+
+    Parameters
+    ----------
+    points : shape (nx, 3), (nx, ny, 3) or (nx, ny, nz, 3), m.
     """
     shape = points.shape[:-1]
     number = np.arange(np.prod(shape)).reshape(shape)
@@ -86,7 +91,7 @@ def grid(points: Array) -> Mesh:
 
 
 def in_triangles(mesh: Mesh) -> Mesh:
-    """Quads cut from their first corner to their third, each half with the data of the whole; triangles as they are."""
+    """The mesh with quads split along the diagonal from corner 1 to 3; halves keep the data of their quad."""
     if mesh.cell_type is CellType.TRIANGLE:
         return mesh
     halves = np.stack([mesh.cells[:, [0, 1, 2]], mesh.cells[:, [0, 2, 3]]], axis=1).reshape(-1, 3)
@@ -95,10 +100,10 @@ def in_triangles(mesh: Mesh) -> Mesh:
 
 
 def boundary(mesh: Mesh) -> Mesh:
-    """The closed surface around hexahedra, in triangles whose normals point out of them.
+    """The closed boundary of a mesh of hexahedra, in triangles with outward normals.
 
-    Points at the same place become one; what has no area, or lies back to back, is left out. So an edge where walls
-    meet belongs to two triangles, one on either wall.
+    Coincident points are merged; triangles with coincident corners and pairs of coincident triangles are left out, so
+    that an edge where two walls meet belongs to two triangles, one on each wall.
     """
     points, number = np.unique(mesh.points, axis=0, return_inverse=True)
     faces = number.ravel()[mesh.cells[:, np.array(_FACES)]].reshape(-1, 4)

@@ -7,9 +7,9 @@ from roughfilm.contact.surfaces.surface import Surface
 
 
 def surface_mesh(surface: Surface) -> Mesh:
-    """A surface in quads between its points, normals upward; a periodic one over a whole period, m.
+    """The mesh of quads between the points of a surface, m, normals upward; over a whole period if periodic.
 
-    The quads at points that were not measured are left out.
+    Quads with an invalid corner are left out.
     """
     ends = (0, 1 if surface.periodic else 0)
     heights = np.pad(surface.heights, (ends, ends), mode="wrap")

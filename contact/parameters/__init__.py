@@ -1,1 +1,1 @@
-"""Height, feature and spatial parameters of a surface, and their exact values on simple surfaces."""
+"""Height, feature and spatial parameters of surfaces, and their exact values for simple surfaces."""

@@ -1,4 +1,4 @@
-"""How heights at a distance resemble each other, and the distance over which they cease to: Sal and Str."""
+"""The autocorrelation of the heights of a surface, and its decay lengths Sal and Str."""
 
 from dataclasses import dataclass
 
@@ -9,23 +9,23 @@ from roughfilm.contact.foundation.arrays import Array, Mask
 from roughfilm.contact.parameters.heights import surface_deviations
 from roughfilm.contact.surfaces.surface import Surface
 
-DECAYED = 0.2
-"""Autocorrelation at which heights count as no longer alike (ISO 25178-3)."""
+DECAY_THRESHOLD = 0.2
+"""Autocorrelation that defines the decay lengths (ISO 25178-3)."""
 
-MARGIN = 24
-"""Pixels around a patch, over which the error a spline makes at its edge dies away (0.27 a pixel)."""
+SPLINE_MARGIN = 24
+"""Width of the margin around a patch, pixels; the edge error of a cubic spline falls by 0.27 a pixel."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class DecayLengths:
-    """How far the central lobe of an autocorrelation, where it is above 0.2, reaches from its middle.
+    """Shortest and longest radius of the central lobe of an autocorrelation, where it exceeds 0.2.
 
     Attributes
     ----------
     shortest : Sal, m.
     longest : m.
-    closed : whether the lobe ends inside the window of lags; else ``longest`` is where it meets the window's edge,
-        a lower bound, and Str an upper bound.
+    closed : whether the lobe lies inside the window of lags; otherwise ``longest`` is a lower bound, the distance to
+        the edge of the window, and Str an upper bound.
     """
 
     shortest: float
@@ -34,20 +34,20 @@ class DecayLengths:
 
     @property
     def aspect(self) -> float:
-        """Str, from 0 (all one direction) to 1 (isotropic)."""
+        """The texture aspect ratio Str, from 0 (one direction) to 1 (isotropic)."""
         return self.shortest / self.longest
 
 
 def autocorrelation(surface: Surface) -> Array:
-    """Mean product of heights a lag apart, over all pairs of valid points, relative to their mean square.
+    """The autocorrelation r(t) = ⟨z(x) z(x + t)⟩ / ⟨z²⟩ over all pairs of valid points.
 
-    r(t) = ⟨z(x) z(x + t)⟩ / ⟨z²⟩. On a periodic surface pairs reach across its edges; otherwise only pairs within
-    the surface count, which is the unbiased estimate.
+    Pairs extend across the edges of a periodic surface; otherwise only pairs inside the surface count, which gives the
+    unbiased estimate.
 
     Returns
     -------
-    shape (2 (nx//2) + 1, 2 (ny//2) + 1): lag ((i − nx//2) dx, (j − ny//2) dy); 1 in the middle, and 0 at lags
-    of which there is no pair.
+    Array : shape (2 (nx//2) + 1, 2 (ny//2) + 1), at the lags ((i − nx//2) dx, (j − ny//2) dy); 1 in the middle, 0 at
+        lags without a pair.
 
     Raises
     ------
@@ -82,10 +82,10 @@ def autocorrelation(surface: Surface) -> Array:
 def decay_lengths(correlation: Array, spacing: tuple[float, float]) -> DecayLengths:
     """Shortest and longest distance at which an autocorrelation first drops to 0.2: Sal, and Str = Sal/longest.
 
-    The lobe is what is above 0.2 and connected to the middle. Its outline is found where lines of pixels cross it,
-    then, around the nearest and the farthest of these points, on rays through a cubic spline. Where the lobe runs
-    into the edge of the window of lags (half the surface), the edge is its end (see `DecayLengths`); if it drops to
-    0.2 nowhere, ``shortest`` too is the nearest edge, a lower bound.
+    The lobe is the region above 0.2 that is connected to the middle. Its outline is located along lines of pixels by
+    linear interpolation, then, near its nearest and farthest point, along rays by a cubic spline. If the lobe touches
+    the edge of the window of lags (half the surface), the edge bounds it (see `DecayLengths`); if the autocorrelation
+    drops to 0.2 nowhere, ``shortest`` is the distance to the nearest edge, a lower bound.
 
     Parameters
     ----------
@@ -94,46 +94,45 @@ def decay_lengths(correlation: Array, spacing: tuple[float, float]) -> DecayLeng
 
     Notes
     -----
-    Within 10⁻³, 10⁻⁴ and 10⁻⁵ for a Gaussian whose shorter correlation length is 4, 8 and 16 pixels.
-    ISO 25178-2:2021, 4.3.2 and 4.3.3.
+    The relative error is below 10⁻³, 10⁻⁴ and 10⁻⁵ for a Gaussian whose shorter correlation length is 4, 8 and 16
+    pixels. Source: ISO 25178-2:2021, 4.3.2 and 4.3.3.
     """
     middle = np.array(correlation.shape) // 2
-    labels, _ = ndimage.label(correlation > DECAYED)
+    labels, _ = ndimage.label(correlation > DECAY_THRESHOLD)
     lobe = labels == labels[tuple(middle)]
     edge = np.argwhere(_border(lobe))
     ends = np.hypot(*((edge - middle) * spacing).T)
     outline = np.concatenate([_crossings(correlation, lobe, axis) for axis in (0, 1)])
     if outline.size == 0:
         return DecayLengths(shortest=float(min(middle * spacing)), longest=float(ends.max()), closed=False)
-    reach = np.hypot(*((outline - middle) * spacing).T)
-    near = _rays(correlation, spacing, outline[reach.argmin()])
-    far = _rays(correlation, spacing, outline[reach.argmax()])
+    distances = np.hypot(*((outline - middle) * spacing).T)
+    near = _rays(correlation, spacing, outline[distances.argmin()])
+    far = _rays(correlation, spacing, outline[distances.argmax()])
     return DecayLengths(
-        shortest=float(near.min() if near.size else reach.min()),
-        longest=float(max(far.max() if far.size else reach.max(), ends.max(initial=0.0))),
+        shortest=float(near.min() if near.size else distances.min()),
+        longest=float(max(far.max() if far.size else distances.max(), ends.max(initial=0.0))),
         closed=ends.size == 0,
     )
 
 
 def _border(lobe: Mask) -> Mask:
-    """The part of the lobe on the edge of the window."""
-    rim = np.ones_like(lobe)
-    rim[1:-1, 1:-1] = False
-    border: Mask = lobe & rim
+    """Mask of the pixels of the lobe on the edge of the window."""
+    border = lobe.copy()
+    border[1:-1, 1:-1] = False
     return border
 
 
 def _crossings(correlation: Array, lobe: Mask, axis: int) -> Array:
-    """Where lines of pixels along an axis leave the lobe, shape (n, 2), pixels."""
+    """Points where lines of pixels along an axis leave the lobe, shape (n, 2), pixels."""
     inner = np.argwhere(np.diff(lobe, axis=axis))
     step = np.eye(2, dtype=np.intp)[axis]
     r, beyond = correlation[tuple(inner.T)], correlation[tuple((inner + step).T)]
-    crossing: Array = inner + ((r - DECAYED) / (r - beyond))[:, None] * step
+    crossing: Array = inner + ((r - DECAY_THRESHOLD) / (r - beyond))[:, None] * step
     return crossing
 
 
 def _rays(correlation: Array, spacing: tuple[float, float], point: Array) -> Array:
-    """Distances at which rays within a pixel of a point of the outline leave the lobe, m."""
+    """Distances at which rays near a point of the outline leave the lobe, shape (rays,), m."""
     middle = np.array(correlation.shape) // 2
     x, y = (point - middle) * spacing
     distance = np.hypot(x, y)
@@ -145,13 +144,13 @@ def _rays(correlation: Array, spacing: tuple[float, float], point: Array) -> Arr
         m + np.outer(radius, direction) / d
         for m, direction, d in zip(middle, (np.cos(angle), np.sin(angle)), spacing, strict=True)
     ]
-    low = [max(0, int(p.min()) - MARGIN) for p in place]
-    patch = correlation[tuple(slice(a, int(p.max()) + MARGIN) for a, p in zip(low, place, strict=True))]
+    low = [max(0, int(p.min()) - SPLINE_MARGIN) for p in place]
+    patch = correlation[tuple(slice(a, int(p.max()) + SPLINE_MARGIN) for a, p in zip(low, place, strict=True))]
     r = ndimage.map_coordinates(patch, [p - a for p, a in zip(place, low, strict=True)], order=3, mode="constant")
-    inside: Mask = r > DECAYED
+    inside: Mask = r > DECAY_THRESHOLD
     leaves = inside[0] & ~inside.all(axis=0)
     last = inside.argmin(axis=0)[leaves] - 1
     rays = np.flatnonzero(leaves)
     before, after = r[last, rays], r[last + 1, rays]
-    crossing: Array = radius[last] + (before - DECAYED) / (before - after) * (radius[1] - radius[0])
+    crossing: Array = radius[last] + (before - DECAY_THRESHOLD) / (before - after) * (radius[1] - radius[0])
     return crossing

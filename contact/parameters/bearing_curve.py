@@ -1,4 +1,4 @@
-"""The bearing (Abbott, material ratio) curve of heights, and the core, peaks and valleys it is divided into."""
+"""The bearing (Abbott, material ratio) curve of heights, and its core, peak and valley parameters."""
 
 from dataclasses import dataclass
 
@@ -10,23 +10,23 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.parameters.heights import checked
 
 CORE_WINDOW = 0.4
-"""Material ratio over which the curve is taken as straight (ISO 25178-2, ISO 13565-2)."""
+"""Width in material ratio of the window in which the core line is fitted (ISO 25178-2, ISO 13565-2)."""
 
-SAME_DROP = 1e-12
-"""Of the whole height: windows whose secants differ by less are as flat as each other, and the first counts."""
+EQUAL_SLOPE_TOLERANCE = 1e-12
+"""Difference of secants, relative to the total height, below which two windows count as equally flat."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Core:
-    """The straight line through the flattest part of the bearing curve, and what lies above and below its ends.
+    """The straight line through the flattest part of a bearing curve, and the peaks and valleys beyond its ends.
 
     Attributes
     ----------
-    upper, lower : m, heights of the line at ratio 0 and 1, measured as the heights were.
-    peak : Spk, m, height of the triangle with the area of the curve above ``upper`` and its base.
-    valley : Svk, m, depth of that below ``lower``; positive.
-    peak_ratio : Smr1, between 0 and 1: the part of the surface above ``upper``.
-    valley_ratio : Smr2, between 0 and 1: the part of the surface above ``lower``.
+    upper, lower : height of the line at material ratio 0 and 1, m, from the origin of the heights.
+    peak : Spk, m; height of the triangle on Smr1 whose area is that of the curve above ``upper``.
+    valley : Svk, m; depth of the triangle on 1 − Smr2 whose area is that of the curve below ``lower``; positive.
+    peak_ratio : Smr1, 0 to 1; fraction of the surface above ``upper``.
+    valley_ratio : Smr2, 0 to 1; fraction of the surface above ``lower``.
     """
 
     upper: float
@@ -38,38 +38,38 @@ class Core:
 
     @property
     def height(self) -> float:
-        """Sk, m."""
+        """The core height Sk, m."""
         return self.upper - self.lower
 
 
 def descending(heights: ArrayLike) -> Array:
-    """All heights from the highest to the lowest, shape (n,), m: the exact bearing curve, at ratios (i + 1/2)/n.
+    """The heights in descending order, shape (n,), m: the exact bearing curve at the ratios (i + 1/2)/n.
 
     Raises
     ------
     InputError
-        If there are none, one is not finite or beyond 1000 km, or all are the same but for rounding.
+        If there are no heights, one is not finite or above 1e6 m, or all are equal to rounding.
     """
     return np.sort(checked(heights), axis=None)[::-1]
 
 
 def bearing_curve(heights: ArrayLike, count: int = 501) -> tuple[Array, Array]:
-    """Height c above which a given part of the points lies, for drawing.
+    """The bearing curve: material ratios, and the heights above which these fractions of the points lie.
 
     Parameters
     ----------
-    heights : any shape, m: valid points only.
-    count : how many ratios.
+    heights : any shape, m; valid points only.
+    count : number of ratios.
 
     Returns
     -------
-    ratio : shape (count,), from 0 to 1.
-    height : shape (count,), m, falling; straight between neighbours of the ordered heights.
+    ratio : shape (count,), uniform from 0 to 1.
+    height : shape (count,), m, descending; interpolated linearly between the sorted heights.
 
     Raises
     ------
     InputError
-        If there are no heights, one is not finite, all are the same, or fewer than two ratios are asked for.
+        If there are no heights, one is not finite, all are equal, or ``count`` is below 2.
     """
     if count < 2:
         raise InputError(f"bearing curve: got {count} ratios; ask for at least 2")
@@ -79,12 +79,11 @@ def bearing_curve(heights: ArrayLike, count: int = 501) -> tuple[Array, Array]:
 
 
 def bearing_core(ordered: Array) -> Core:
-    """Sk, Spk, Svk, Smr1, Smr2 of ISO 25178-2, from the ordered heights themselves.
+    """The core parameters Sk, Spk, Svk, Smr1, Smr2 of ISO 25178-2, computed from the sorted heights without binning.
 
-    The window of 40 % of the points across which the heights drop least is found (the first, if several are as flat),
-    a line z = a + b m fitted to them by least squares, and read at ratios m = 0 and 1: Sk = −b. The curve passes its
-    upper end at Smr1, and with A the area of the curve above it, the triangle on Smr1 of the same area has the height
-    Spk = 2A/Smr1; Svk likewise, on 1 − Smr2.
+    A line z = a + b m is fitted by least squares in the window of 40 % of the points with the smallest drop in height
+    (the first of equals), and Sk = −b. The curve crosses the upper end of the line at Smr1; the triangle on Smr1 with
+    the area A of the curve above has the height Spk = 2A/Smr1. Svk follows in the same way, on 1 − Smr2.
 
     Parameters
     ----------
@@ -92,20 +91,20 @@ def bearing_core(ordered: Array) -> Core:
 
     Returns
     -------
-    Core : with Spk or Svk of 0 where nothing lies beyond the line.
+    Core : Spk or Svk is 0 where no height lies beyond the line.
 
     Notes
     -----
-    The window is 0.4 n points wide, rounded; for a bounded smooth curve the rest is of second order in 1/n. A plateau
-    that holds 40 % of the points is itself the core, with Sk = 0. Sorting takes O(n log n), the rest O(n).
-    ISO 25178-2:2021, annex B; ISO 13565-2:1996.
+    The window has 0.4 n points, rounded; otherwise the error for a bounded smooth curve is of second order in 1/n. A
+    plateau of 40 % of the points is itself the core, with Sk = 0. The cost is O(n). Source: ISO 25178-2:2021, annex B;
+    ISO 13565-2:1996.
     """
     n = ordered.size
     window = max(2, round(CORE_WINDOW * n))
     drop = ordered[: n - window + 1] - ordered[window - 1 :]
-    first = int(np.argmax(drop <= drop.min() + SAME_DROP * (ordered[0] - ordered[-1])))
+    first = int(np.argmax(drop <= drop.min() + EQUAL_SLOPE_TOLERANCE * (ordered[0] - ordered[-1])))
     inside = ordered[first : first + window]
-    # Heights taken from one of them leave a plateau exactly level.
+    # Subtracting one of the heights gives a slope of exactly 0 on a plateau.
     level = inside[window // 2]
     place = (np.arange(window) - (window - 1) / 2) / n
     slope = float(place @ (inside - level)) / float(place @ place)
@@ -126,7 +125,7 @@ def bearing_core(ordered: Array) -> Core:
 
 
 def _ratio(ordered: Array, height: float, above: int) -> float:
-    """Material ratio at a height above which that many points lie."""
+    """Material ratio at a height above which ``above`` points lie."""
     n = ordered.size
     if above in (0, n):
         return above / n

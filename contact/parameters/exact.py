@@ -1,4 +1,4 @@
-"""Roughness parameters that are known in closed form: of Gaussian heights, a sinusoid, simple autocorrelations."""
+"""Closed forms of roughness parameters: for Gaussian heights, sinusoids and simple autocorrelations."""
 
 import math
 
@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 from scipy.special import ndtr, ndtri
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.parameters.autocorrelation import DECAYED
+from roughfilm.contact.parameters.autocorrelation import DECAY_THRESHOLD
 from roughfilm.contact.parameters.bearing_curve import CORE_WINDOW, Core
 from roughfilm.contact.parameters.heights import HeightStatistics
 
@@ -18,17 +18,17 @@ def gaussian_average(rms: float) -> float:
 
 
 def gaussian_bearing_curve(ratio: ArrayLike, rms: float) -> Array:
-    """Height over the mean above which a part ``ratio`` (between 0 and 1) of Gaussian heights lies, −Sq Φ⁻¹(m), m."""
+    """Bearing curve of Gaussian heights, −Sq Φ⁻¹(m), m, at the material ratios m, 0 to 1, of any shape."""
     height: Array = -rms * ndtri(np.asarray(ratio, dtype=np.float64))
     return height
 
 
 def gaussian_core(rms: float) -> Core:
-    """Core, peaks and valleys of Gaussian heights of a given Sq, with their mean at 0.
+    """Core parameters of Gaussian heights with mean 0 and root mean square Sq = ``rms``, m.
 
-    The flattest window is the middle one, |z| < a Sq with Φ(a) = 0.7 for w = 0.4, and the line fitted to it has
-    Sk = Sq (12/w³) (erf(a)/(2√π) − w φ(a)) = 2.57396 Sq. (Its secant has 2a/w = 2.622 Sq, 1.9 % more.)
-    Above u = Sk/2 lies the part Q = 1 − Φ(u/Sq), by φ(u/Sq) Sq/Q − u on average, and Spk is twice that.
+    The flattest window is the middle one, |z| < a Sq with Φ(a) = 0.7 for the width w = 0.4. The line fitted to it has
+    Sk = Sq (12/w³) (erf(a)/(2√π) − w φ(a)) = 2.57396 Sq. (Its secant would give 2a/w = 2.622 Sq, 1.9 % more.)
+    The fraction Q = 1 − Φ(u/Sq) lies above u = Sk/2, on average by φ(u/Sq) Sq/Q − u, and Spk is twice this average.
 
     Examples
     --------
@@ -52,7 +52,7 @@ def gaussian_core(rms: float) -> Core:
 
 
 def sinusoid_statistics(amplitude: float) -> HeightStatistics:
-    """Of z = A sin: Sa = 2A/π, Sq = A/√2, Sp = Sv = A, Ssk = 0, Sku = 3/2; along a line or a surface of ridges."""
+    """Height statistics of z = A sin x: Sa = 2A/π, Sq = A/√2, Sp = Sv = A, Ssk = 0, Sku = 3/2; A in m."""
     return HeightStatistics(
         mean=0.0,
         average=2 * amplitude / math.pi,
@@ -65,18 +65,18 @@ def sinusoid_statistics(amplitude: float) -> HeightStatistics:
 
 
 def sinusoid_bearing_curve(ratio: ArrayLike, amplitude: float) -> Array:
-    """Height over the mean above which a part ``ratio`` (between 0 and 1) of a sinusoid lies, A cos πm, m."""
+    """Bearing curve of a sinusoid, A cos πm, m, at the material ratios m, 0 to 1, of any shape."""
     height: Array = amplitude * np.cos(np.pi * np.asarray(ratio, dtype=np.float64))
     return height
 
 
 def sinusoid_core(amplitude: float) -> Core:
-    """Core, peaks and valleys of a sinusoid with its mean at 0.
+    """Core parameters of a sinusoid with mean 0 and amplitude A, m.
 
-    Its bearing curve A cos πm is flattest at both ends; the first counts, 0 < m < w = 0.4. The line fitted there has
+    The bearing curve A cos πm is flattest at both ends; the first counts, 0 < m < w = 0.4. The line fitted there has
     Sk = A (12/w³) ((1 − cos πw)/π² − w sin(πw)/(2π)) and the height A sin(πw)/(πw) at m = w/2. It begins above the
-    crests, so that there are no peaks, and ends at −A cos πb, below which lies the part b, by A (sin(πb)/(πb) − cos πb)
-    on average; Svk is twice that.
+    crests, so that Spk = 0, and ends at −A cos πb; the fraction b of the heights lies below this end, on average by
+    A (sin(πb)/(πb) − cos πb), and Svk is twice this average.
 
     Examples
     --------
@@ -101,11 +101,11 @@ def sinusoid_core(amplitude: float) -> Core:
 
 
 def decay_length(correlation_length: float, exponent: float = 2.0) -> float:
-    """Sal of a surface whose autocorrelation is exp(−(t/λ)ⁿ): λ (ln 5)^(1/n), m.
+    """Decay length Sal = λ (ln 5)^(1/n), m, of the autocorrelation exp(−(t/λ)ⁿ).
 
-    For n = 2, with λx ≠ λy along two axes at right angles, Sal is that of the shorter and Str = λ shorter/λ longer.
+    For n = 2 and λx ≠ λy along perpendicular axes, Sal follows from the shorter length and Str is their ratio.
     """
-    return correlation_length * math.pow(math.log(1 / DECAYED), 1 / exponent)
+    return correlation_length * math.pow(math.log(1 / DECAY_THRESHOLD), 1 / exponent)
 
 
 def _normal(x: float) -> float:

@@ -1,4 +1,4 @@
-"""What the heights of a surface or profile are like, wherever they lie: means and moments about their mean."""
+"""Height parameters of a surface or profile: means and moments of the heights about their mean."""
 
 from dataclasses import dataclass
 
@@ -10,10 +10,10 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.surfaces.surface import MAX_LENGTH, Surface
 
 ROUNDING = 32 * np.finfo(np.float64).eps
-"""Of the largest height: heights that differ by less are the same number, rounded."""
+"""Relative rounding error; heights that differ by less than this fraction of the largest height are equal."""
 
-SMALLEST_DIFFERENCE = 1e-30
-"""m; powers of what is below vanish."""
+MIN_HEIGHT_DIFFERENCE = 1e-30
+"""Height difference, m, below which heights count as equal, as their powers underflow."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,13 +22,13 @@ class HeightStatistics:
 
     Attributes
     ----------
-    mean : m, from which all others are taken.
-    average : Sa, m, mean of the distances from it.
-    rms : Sq, m.
-    peak : Sp, m, the highest point above it.
-    valley : Sv, m, the lowest point below it; positive.
-    skewness : Ssk, mean cube over Sq³.
-    kurtosis : Sku, mean fourth power over Sq⁴; 3 for a Gaussian.
+    mean : mean height, m; all others are measured from it.
+    average : Sa, m; mean absolute height.
+    rms : Sq, m; root mean square height.
+    peak : Sp, m; largest height.
+    valley : Sv, m; largest depth, positive.
+    skewness : Ssk, ⟨z³⟩/Sq³.
+    kurtosis : Sku, ⟨z⁴⟩/Sq⁴; 3 for Gaussian heights.
     """
 
     mean: float
@@ -41,30 +41,30 @@ class HeightStatistics:
 
     @property
     def total(self) -> float:
-        """Sz, which the thesis calls St: from the lowest point to the highest, m."""
+        """The total height Sz = Sp + Sv, m, which the thesis calls St."""
         return self.peak + self.valley
 
 
 def checked(heights: ArrayLike) -> Array:
-    """The heights as they are, any shape, m.
+    """The heights as an array of floats, any shape, m.
 
     Raises
     ------
     InputError
-        If there are none, one is not finite or beyond 1000 km, or all are the same but for rounding.
+        If there are no heights, one is not finite or above 1e6 m, or all are equal to rounding.
     """
     z = np.asarray(heights, dtype=np.float64)
     low, high = (z.min(), z.max()) if z.size else (0.0, 0.0)
     largest = max(-low, high)
     if not largest <= MAX_LENGTH:
         raise InputError(f"heights: got {largest:.3g} m; leave out what was not measured and look at the unit")
-    if high - low <= max(ROUNDING * largest, SMALLEST_DIFFERENCE):
+    if high - low <= max(ROUNDING * largest, MIN_HEIGHT_DIFFERENCE):
         raise InputError(f"heights: got {z.size} of {high:.3g} m, all the same; roughness needs at least two heights")
     return z
 
 
 def deviations(heights: ArrayLike) -> Array:
-    """Heights less their mean, any shape, m; raises as `checked`."""
+    """The heights minus their mean, any shape, m; raises InputError as `checked` does."""
     z = checked(heights)
     deviation: Array = z - z.mean()
     deviation -= deviation.mean()
@@ -72,25 +72,25 @@ def deviations(heights: ArrayLike) -> Array:
 
 
 def surface_deviations(surface: Surface) -> Array:
-    """Heights less the mean of the valid ones, and 0 where invalid, shape (nx, ny), m; raises as `checked`."""
+    """Heights minus the mean of the valid ones, 0 where invalid, shape (nx, ny), m; raises as `checked` does."""
     z = np.zeros(surface.shape)
     z[surface.valid] = deviations(surface.heights[surface.valid])
     return z
 
 
 def height_statistics(heights: ArrayLike) -> HeightStatistics:
-    """Height parameters of ISO 25178-2, 4.2 (of ISO 21920-2 for a profile): each point has the same weight.
+    """Height parameters of a surface (ISO 25178-2, 4.2) or a profile (ISO 21920-2); all points have the same weight.
 
-    Sa = ⟨|z|⟩, Sq² = ⟨z²⟩, Ssk = ⟨z³⟩/Sq³, Sku = ⟨z⁴⟩/Sq⁴ with z measured from the mean; no point is left out.
+    Sa = ⟨|z|⟩, Sq² = ⟨z²⟩, Ssk = ⟨z³⟩/Sq³, Sku = ⟨z⁴⟩/Sq⁴ with z measured from the mean.
 
     Parameters
     ----------
-    heights : any shape, m: valid points only.
+    heights : any shape, m; valid points only.
 
     Raises
     ------
     InputError
-        If there are none, one is not finite or beyond 1000 km, or all are the same but for rounding.
+        If there are no heights, one is not finite or above 1e6 m, or all are equal to rounding.
 
     Examples
     --------

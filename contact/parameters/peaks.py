@@ -8,37 +8,36 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.parameters.heights import surface_deviations
 from roughfilm.contact.surfaces.surface import Surface
 
-COUNT = 5
+PEAK_COUNT = 5
+"""Number of peaks and of valleys that are averaged."""
 
 
 def highest_peaks(surface: Surface, distance: float) -> Array:
-    """Heights of the five highest peaks above the mean, from the highest down, shape (5,), m, or fewer if there are.
+    """Heights of the five highest peaks above the mean, descending, shape (5,) or fewer, m.
 
-    A peak is a valid point that no valid one within ``distance`` in x and in y exceeds; of equal ones that near each
-    other one counts. With the decay length Sal for the distance, two peaks belong to different bumps. A periodic
-    surface goes on beyond its edges; beyond those of another nothing is higher.
-
-    Heights are of second order in the pixel; a summit whose higher neighbour is just at the distance may come or go.
+    A peak is the highest valid point of a square of half width ``distance`` around it; of equal points in one square
+    only one counts. With the decay length Sal as distance, two peaks belong to different asperities. The square extends
+    across the edges of a periodic surface.
 
     Parameters
     ----------
-    distance : m, half the sides of the square; at least one pixel is looked at on each side.
+    distance : half width of the square, m; at least one pixel is used.
 
     Raises
     ------
     InputError
-        If all heights are the same, or the distance is not positive.
+        If all heights are equal, or the distance is not positive.
 
     Notes
     -----
-    ISO 25178-2's five-point peak height S5p prunes hills by height instead, at 5 % of Sz: a single spike makes that
-    threshold, and so S5p, a matter of the spike. Here a spike counts as one of the five.
+    The error of a peak height is of second order in the pixel. The five-point peak height S5p of ISO 25178-2 instead
+    prunes hills lower than 5 % of Sz, so that a single spike changes S5p; here a spike is one peak of five.
     """
     return _highest(surface_deviations(surface), surface, distance)
 
 
 def lowest_valleys(surface: Surface, distance: float) -> Array:
-    """Depths of the five lowest valleys below the mean, as `highest_peaks` of the surface upside down; positive."""
+    """Depths of the five lowest valleys, shape (5,) or fewer, m, positive: `highest_peaks` of the inverted surface."""
     return _highest(-surface_deviations(surface), surface, distance)
 
 
@@ -54,7 +53,7 @@ def _highest(z: Array, surface: Surface, distance: float) -> Array:
     places = np.argwhere((z == around) & surface.valid)
     height = z[tuple(places.T)]
     peaks: list[float] = []
-    while height.size and len(peaks) < COUNT:
+    while height.size and len(peaks) < PEAK_COUNT:
         top = height.argmax()
         peaks.append(float(height[top]))
         apart = np.abs(places - places[top])

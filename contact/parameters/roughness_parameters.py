@@ -14,20 +14,20 @@ from roughfilm.contact.surfaces.surface import Surface
 
 
 def parameters(surface: Surface) -> dict[str, Quantity]:
-    """Areal roughness parameters of ISO 25178-2, and the thesis's St, Spm, Svm, of the valid points.
+    """Areal roughness parameters of ISO 25178-2, and St, Spm, Svm of the thesis, over the valid points.
 
-    Nothing is filtered or levelled; heights count from their mean, which is taken out.
+    The surface is neither filtered nor levelled; heights are measured from their mean.
 
     Returns
     -------
-    Sa, Sq, Sp, Sv, Sz, m; Ssk, Sku (`heights`); Sk, Spk, Svk, m; Smr1, Smr2, ratios (`bearing_curve`);
-    Sal, m; Str (`autocorrelation`); Std, degrees (`spectrum`); St = Sz, and Spm, Svm, m: mean of the
-    five highest peaks and of the five lowest valleys, no two within Sal (`peaks`).
+    dict : Sa, Sq, Sp, Sv, Sz, m; Ssk, Sku (`heights`); Sk, Spk, Svk, m; Smr1, Smr2 (`bearing_curve`); Sal, m; Str
+        (`autocorrelation`); Std, degrees (`spectrum`); St = Sz, m; Spm and Svm, m, the means of the five highest peaks
+        and the five lowest valleys, no two within Sal (`peaks`).
 
     Raises
     ------
     InputError
-        If all heights are the same.
+        If all heights are equal.
     """
     ordered = descending(surface.heights[surface.valid])
     statistics = height_statistics(ordered)
@@ -51,25 +51,25 @@ def parameters(surface: Surface) -> dict[str, Quantity]:
 
 
 def bearing_parameters(surface: Surface) -> dict[str, Quantity]:
-    """Sk, Spk, Svk, m, and Smr1, Smr2, ratios, of the valid points (`bearing_curve`): a part of `parameters`."""
+    """The parameters Sk, Spk, Svk, m, and Smr1, Smr2 of the bearing curve, a subset of `parameters`."""
     return _core("S", bearing_core(descending(surface.heights[surface.valid])))
 
 
 def profile_parameters(heights: ArrayLike) -> dict[str, Quantity]:
-    """Roughness parameters of ISO 21920-2 of one profile, over its whole length; nothing is filtered or levelled.
+    """Roughness parameters of ISO 21920-2 of one profile over its whole length, neither filtered nor levelled.
 
     Parameters
     ----------
-    heights : shape (n,), m, at equal distances: valid points only.
+    heights : shape (n,), m, equidistant; valid points only.
 
     Returns
     -------
-    Ra, Rq, Rt, m; Rsk, Rku; Rk, Rpk, Rvk, m; Rmr1, Rmr2, ratios. The curve itself is `bearing_curve.bearing_curve`.
+    dict : Ra, Rq, Rt, m; Rsk, Rku; Rk, Rpk, Rvk, m; Rmr1, Rmr2. `bearing_curve.bearing_curve` gives the curve.
 
     Raises
     ------
     InputError
-        If the heights are not one profile, one is not finite, or all are the same.
+        If the array has another number of dimensions, a height is not finite, or all heights are equal.
     """
     shape = np.shape(heights)
     if len(shape) != 1:

@@ -1,4 +1,4 @@
-"""How the mean square of the heights is divided among wave vectors, wavelengths and directions: the lay, Std."""
+"""The power spectrum of a surface by wave vector, wavelength and direction, and the texture direction Std."""
 
 from dataclasses import dataclass
 
@@ -12,21 +12,23 @@ from roughfilm.contact.parameters.heights import ROUNDING, surface_deviations
 from roughfilm.contact.surfaces.surface import Surface
 
 LAY_WIDTH = 3.0
-"""degrees: directions this close (standard deviation) count together as one lay."""
+"""Standard deviation, degrees, of the kernel that smooths the angular spectrum."""
 
 SECTORS = 360
-STEPS = 50
-"""Of the search for the lay, from the best of the sectors."""
+"""Number of directions over 180 degrees in the first search for the maximum of the angular spectrum."""
+
+MEAN_SHIFT_STEPS = 50
+"""Number of mean-shift steps from the best of these directions."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class PowerSpectrum:
-    """Mean square of the heights in each pair of opposite wave vectors.
+    """Mean square height of each pair of opposite wave vectors.
 
     Attributes
     ----------
-    power : shape (nx, ny//2 + 1), m²; its sum is Sq².
-    frequencies : shapes (nx,) and (ny//2 + 1,), periods per metre along x (of both signs) and y.
+    power : shape (nx, ny//2 + 1), m²; the sum is Sq².
+    frequencies : spatial frequencies along x (of both signs) and y, shapes (nx,) and (ny//2 + 1,), 1/m.
     """
 
     power: Array
@@ -34,15 +36,15 @@ class PowerSpectrum:
 
 
 def power_spectrum(surface: Surface) -> PowerSpectrum:
-    """Power spectrum |∫ z e^(−2πi f·x)|² of the heights less their mean, scaled so that its sum is Sq².
+    """Power spectrum |∫ z e^(−2πi f·x)|² of the heights about their mean, scaled so that its sum is Sq².
 
-    A periodic surface is taken as it is. Any other is faded out towards its edges (Hann's window), whose jump would
-    else be seen as waves along x and y; its lines are then two frequencies wide. Invalid points lie on the mean.
+    A surface that is not periodic is multiplied by a Hann window, which removes the spurious waves along x and y from
+    its edges and makes spectral lines two frequency steps wide. Invalid points are set to the mean.
 
     Raises
     ------
     InputError
-        If all heights are the same.
+        If all heights are equal.
     """
     z = surface_deviations(surface)
     mean_square = float((z * z).sum()) / np.count_nonzero(surface.valid)
@@ -51,7 +53,7 @@ def power_spectrum(surface: Surface) -> PowerSpectrum:
         z = window * (z - (window * z).sum() / window.sum())
     transform = fft.rfft2(z)
     power = transform.real**2 + transform.imag**2
-    power[:, 1 : (surface.shape[1] + 1) // 2] *= 2  # those whose opposite is not in the array
+    power[:, 1 : (surface.shape[1] + 1) // 2] *= 2  # the opposite wave vectors of these are not in the array
     power[0, 0] = 0.0
     power *= mean_square / power.sum()
     (nx, ny), (dx, dy) = surface.shape, surface.spacing
@@ -59,12 +61,12 @@ def power_spectrum(surface: Surface) -> PowerSpectrum:
 
 
 def radial_power(spectrum: PowerSpectrum) -> tuple[Array, Array]:
-    """Power by wavelength, all directions together.
+    """Power by radial frequency, summed over all directions.
 
     Returns
     -------
-    frequency : shape (n,), 1/m, the middle of rings as wide as the coarser of the two frequency steps, from 0.
-    power : shape (n,), m², in each ring; its sum is Sq².
+    frequency : middle of each ring, shape (n,), 1/m, from 0; rings are as wide as the larger frequency step.
+    power : power in each ring, shape (n,), m²; the sum is Sq².
     """
     fx, fy = spectrum.frequencies
     step = max(abs(float(fx[1])), float(fy[1]))
@@ -74,21 +76,25 @@ def radial_power(spectrum: PowerSpectrum) -> tuple[Array, Array]:
 
 
 def angular_power(spectrum: PowerSpectrum, count: int = 180) -> tuple[Array, Array]:
-    """Power by direction of the lay, all wavelengths together.
+    """Power by direction of the lay, summed over all wavelengths.
 
-    Waves whose wave vector points to θ make ridges that run along θ + 90°. Each wave vector counts for a bell of
-    directions as wide (standard deviation) as its cell, 1/Lx by 1/Ly, is seen from the origin, and 3°: long waves have
-    too few directions among the discrete ones to count for these alone.
+    A wave vector in the direction θ makes ridges along θ + 90°. The power of each wave vector is spread over directions
+    by a kernel whose variance is that of 3° plus that of the cell 1/Lx by 1/Ly seen from the origin, as long waves
+    occur in few directions only.
+
+    Parameters
+    ----------
+    count : number of sectors, at least 1.
 
     Returns
     -------
     angle : shape (count,), degrees from the x axis towards the y axis, 0 <= angle < 180.
-    power : shape (count,), m², in each sector of 180°/count; its sum is Sq² for sectors narrower than 6°.
+    power : power in each sector of 180°/count, shape (count,), m²; the sum is Sq² for sectors narrower than 6°.
 
     Raises
     ------
     InputError
-        If fewer than one sector is asked for.
+        If ``count`` is below 1.
     """
     if count < 1:
         raise InputError(f"angular power: got {count} sectors; ask for at least 1")
@@ -97,47 +103,45 @@ def angular_power(spectrum: PowerSpectrum, count: int = 180) -> tuple[Array, Arr
 
 
 def texture_direction(spectrum: PowerSpectrum) -> float:
-    """Std, the direction in which most ridges run: degrees from the x axis towards the y axis, 0 <= Std < 180.
+    """The texture direction Std, the main direction of the ridges, degrees from x towards y, 0 <= Std < 180.
 
-    The maximum of `angular_power`, between its sectors. A periodic wave is found exactly, one that is not within 0.6°
-    if the surface holds 5 of it, 0.1° if 12, 0.01° if 25. Of an isotropic surface it says nothing (look at Str); of
-    two equal lays it gives one.
+    Std is the maximum of `angular_power`, interpolated between sectors. It has no meaning for an isotropic surface (see
+    Str) and is one of the two directions of a surface with two equal lays.
 
     Notes
     -----
-    ISO 25178-2:2021, 4.3.4 takes the maximum of the angular spectrum itself, which lies across the lay: 90° from this.
+    The value is exact for a periodic wave; otherwise the error is 0.6° for 5 waves in the surface, 0.1° for 12 and
+    0.01° for 25. ISO 25178-2:2021, 4.3.4 takes the maximum of the angular spectrum, which lies 90° from the lay.
     """
     lays = _lays(spectrum)
     grid = np.arange(SECTORS) * np.pi / SECTORS
     angle = float(grid[lays.density(grid).argmax()])
-    for _ in range(STEPS):
-        angle = lays.climb(angle)
+    for _ in range(MEAN_SHIFT_STEPS):
+        angle = lays.mean_shift(angle)
     return float(np.degrees(angle) % 180.0 % 180.0)
 
 
 @dataclass(frozen=True, kw_only=True)
 class _Lays:
-    """Power by lay as a sum of periodic bells: wave vectors of nearly one direction and width together, shape (n,)."""
+    """Power by lay direction as a sum of von Mises kernels, one for each group of wave vectors, shapes (n,)."""
 
     power: Array
     angle: Array
     concentration: Array
 
-    def bells(self, angle: Array) -> Array:
-        """Power per radian of each at some angles, shape (angles, n)."""
-        away = np.subtract.outer(angle, self.angle)
+    def kernels(self, angle: Array) -> Array:
+        """Power per radian of each group, shape (angles, n)."""
+        difference = np.subtract.outer(angle, self.angle)
         height = self.power / (np.pi * special.i0e(self.concentration))
-        bells: Array = height * np.exp(self.concentration * (np.cos(2 * away) - 1))
-        return bells
+        return np.asarray(height * np.exp(self.concentration * (np.cos(2 * difference) - 1)))
 
     def density(self, angle: Array) -> Array:
-        """Power per radian of all together, shape (angles,)."""
-        density: Array = self.bells(angle).sum(axis=1)
-        return density
+        """Total power per radian, shape (angles,)."""
+        return np.asarray(self.kernels(angle).sum(axis=1))
 
-    def climb(self, angle: float) -> float:
-        """An angle where it is higher (mean shift), or the same at a maximum."""
-        weights = self.bells(np.array([angle]))[0] * self.concentration
+    def mean_shift(self, angle: float) -> float:
+        """The angle after one mean-shift step, which increases the density; a maximum is a fixed point."""
+        weights = self.kernels(np.array([angle]))[0] * self.concentration
         return float(np.angle(weights @ np.exp(2j * self.angle))) / 2
 
 
@@ -163,5 +167,5 @@ def _lays(spectrum: PowerSpectrum) -> _Lays:
 
 
 def _totals(group: NDArray[np.intp], weights: Array) -> Array:
-    """Sum of the weights in each group."""
+    """Sum of the weights of each group, shape (groups,)."""
     return np.bincount(group, weights=weights).astype(np.float64)

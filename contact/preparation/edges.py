@@ -1,4 +1,4 @@
-"""Step 6: opposite edges made to meet, the middle left as it was measured."""
+"""Step 6 of the preparation: join opposite edges and leave the interior as measured."""
 
 from typing import Literal
 
@@ -11,41 +11,42 @@ from roughfilm.contact.surfaces.surface import Surface
 
 Direction = Literal["x", "y", "both", "none"]
 
-REACH = 3
-"""Standard deviations at which the Gaussian filter ends; its autocorrelation ends at twice as many."""
+TRUNCATION = 3
+"""Distance, in standard deviations, at which the Gaussian filter is truncated."""
 
-LEAST_WIDTH = 0.5
-"""Pixels: a finer filter blurs nothing."""
+MIN_WIDTH = 0.5
+"""Smallest standard deviation of the filter, pixels; a narrower filter has no effect."""
 
 AXES: dict[Direction, tuple[int, ...]] = {"x": (0,), "y": (1,), "both": (0, 1), "none": ()}
+"""Axes along which edges are joined, by direction."""
 
 
 def make_periodic(surface: Surface, direction: Direction, *, width: tuple[float, float]) -> Surface:
-    """Blend the heights near the edges into a low-passed copy that knows of the opposite edge.
+    """Blend the heights near the edges with a periodic low-pass filtered copy, so that opposite edges match.
 
-    h' = (1 − w) h + w (g ∗ h), with g a Gaussian that is cut at r = ⌈3 σ⌉ pixels and wrapped round, and
-    1 − w = (1 − a(x)) (1 − a(y)), where a is the autocorrelation of g over the distance from the nearer edge: 1 at
-    the edge, 0 beyond 2 r pixels, from where on heights stay untouched to the last bit. In one direction only, g and
-    a act along that one alone, and ridges across it stay sharp; the edges of the other direction stay as they are.
+    h' = (1 − w) h + w (g ∗ h), with g a periodic Gaussian filter truncated at r = ⌈3 σ⌉ pixels and
+    1 − w = (1 − a(x)) (1 − a(y)), where a is the autocorrelation of g at the distance from the nearer edge: 1 at the
+    edge, 0 beyond 2 r pixels, where heights stay unchanged bit for bit. If one direction is joined, g and a act along
+    this direction only, and ridges across it stay sharp.
 
     Parameters
     ----------
-    direction : "x" joins the edges x = 0 and x = nx dx, "y" the others, "both" all, "none" nothing.
-    width : standard deviation σ of g along x and y, m: from half a pixel to what leaves pixels untouched in the middle,
-        ⌈3 σ⌉ ≤ (n − 3)/4. That of a direction which is not joined does not count.
+    direction : "x" joins the edges x = 0 and x = nx dx, "y" those along y, "both" all, "none" none.
+    width : standard deviation σ of g along x and y, m, with 0.5 ≤ σ and ⌈3 σ⌉ ≤ (n − 3)/4 in pixels; the width of a
+        direction that is not joined is ignored.
 
     Returns
     -------
-    The surface, marked periodic unless nothing was joined.
+    Surface : periodic unless the direction is "none".
 
     Raises
     ------
     InputError
-        If a width is out of range, there are fewer than 11 pixels to join, or pixels are invalid.
+        If a width is out of range, a direction to join has fewer than 11 pixels, or pixels are invalid.
 
     References
     ----------
-    F. Sahlin, Luleå 2008, section E.3.1: weight from the autocorrelation of the filter; in one direction for a lay.
+    F. Sahlin, Luleå 2008, section E.3.1.
     """
     if surface.invalid.any():
         raise InputError(f"edges: {surface.invalid.sum()} pixels are invalid; fill them first")
@@ -60,31 +61,31 @@ def make_periodic(surface: Surface, direction: Direction, *, width: tuple[float,
     return surface.with_heights(heights, periodic=surface.periodic or direction != "none")
 
 
-def widest(count: int) -> float:
-    """The largest standard deviation, in pixels, that leaves the middle of so many pixels untouched.
+def largest_width(count: int) -> float:
+    """The largest standard deviation, pixels, that leaves the middle of ``count`` pixels unchanged.
 
-    >>> widest(240)
+    >>> largest_width(240)
     19.666666666666668
     """
-    return (count - 3) // 4 / REACH
+    return (count - 3) // 4 / TRUNCATION
 
 
 def _gaussian(sigma: float, count: int, axis: int) -> Array:
-    if widest(count) < LEAST_WIDTH:
+    if largest_width(count) < MIN_WIDTH:
         raise InputError(f"edges: got {count} pixels along {'xy'[axis]}; joining edges needs 11 and more")
-    if not LEAST_WIDTH <= sigma <= widest(count) * (1 + 1e-12):
+    if not MIN_WIDTH <= sigma <= largest_width(count) * (1 + 1e-12):
         raise InputError(
             f"edges: got a width of {sigma:.3g} pixels along {'xy'[axis]}; "
-            f"give {LEAST_WIDTH} to {widest(count):.4g} of the {count}"
+            f"give {MIN_WIDTH} to {largest_width(count):.4g} of the {count}"
         )
-    reach = int(np.ceil(REACH * sigma * (1 - 1e-12)))
-    filter_ = np.exp(-0.5 * (np.arange(-reach, reach + 1) / sigma) ** 2)
+    radius = int(np.ceil(TRUNCATION * sigma * (1 - 1e-12)))
+    filter_ = np.exp(-0.5 * (np.arange(-radius, radius + 1) / sigma) ** 2)
     return np.asarray(filter_ / filter_.sum())
 
 
 def _weight(filter_: Array, count: int) -> Array:
-    """The filter's autocorrelation over the number of pixels to the nearer edge, 1 at both edge pixels."""
-    reached = np.correlate(filter_, filter_, mode="full")[filter_.size - 1 :]
+    """Autocorrelation of the filter at the distance from the nearer edge, shape (count,); 1 at both edge pixels."""
+    weight = np.correlate(filter_, filter_, mode="full")[filter_.size - 1 :]
     distance = np.minimum(np.arange(count), np.arange(count)[::-1])
-    reached = np.append(reached / reached[0], 0.0)
-    return np.asarray(reached[np.minimum(distance, reached.size - 1)])
+    weight = np.append(weight / weight[0], 0.0)
+    return np.asarray(weight[np.minimum(distance, weight.size - 1)])

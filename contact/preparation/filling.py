@@ -1,4 +1,4 @@
-"""Step 2: invalid points filled as smoothly as their surroundings allow."""
+"""Step 2 of the preparation: fill invalid points with a harmonic function of the valid ones."""
 
 import numpy as np
 from scipy.ndimage import distance_transform_edt
@@ -9,25 +9,25 @@ from roughfilm.contact.foundation.arrays import Array, Mask
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.contact.surfaces.surface import Surface
 
-TOLERANCE = 1e-9
-"""Of the true residual, relative to the right-hand side."""
+RESIDUAL_TOLERANCE = 1e-9
+"""Tolerance of the true residual, relative to the right-hand side."""
 
-MOST_ITERATIONS = 20_000
+MAX_ITERATIONS = 20_000
+"""Largest number of iterations of the conjugate gradients."""
 
 
 def fill_invalid(surface: Surface) -> tuple[Surface, float]:
-    """Give every invalid point a height that is harmonic: ∂²h/∂x² + ∂²h/∂y² = 0 with the valid points held fixed.
+    """Fill invalid points with heights that satisfy ∂²h/∂x² + ∂²h/∂y² = 0; valid points stay fixed.
 
-    Five-point differences with the true spacings; no flux through the sides of the surface. So a filled height never
-    leaves the range of the valid heights around it, and valid points stay untouched. Conjugate gradients with the
-    diagonal as preconditioner, from the nearest valid heights on: iterations grow with the width of the widest hole.
+    The equation is discretised by five-point differences, with no flux through the sides of the surface, so that filled
+    heights stay within the range of the valid heights around them. Conjugate gradients with the diagonal as
+    preconditioner solve it, starting from the nearest valid heights; the number of iterations grows with the width of
+    the widest hole.
 
     Returns
     -------
-    surface
-        Without invalid points.
-    residual
-        ‖b − A h‖ / ‖b‖ recomputed from the heights returned, with b from the valid neighbours; 0 where nothing is
+    surface : without invalid points.
+    residual : ‖b − A h‖ / ‖b‖, recomputed from the filled heights, with b from the valid neighbours; 0 if no point is
         invalid.
 
     Raises
@@ -43,29 +43,29 @@ def fill_invalid(surface: Surface) -> tuple[Surface, float]:
     matrix, right = _laplace(surface.heights - level, surface.invalid, surface.spacing)
     scale = float(np.linalg.norm(right)) or 1.0
     diagonal = matrix.diagonal()
-    found, _ = cg(
+    filled, _ = cg(
         matrix,
         right,
         x0=start[surface.invalid] - level,
-        rtol=0.5 * TOLERANCE,
-        maxiter=MOST_ITERATIONS,
+        rtol=0.5 * RESIDUAL_TOLERANCE,
+        maxiter=MAX_ITERATIONS,
         M=LinearOperator(matrix.shape, matvec=lambda residual: residual / diagonal),
     )
-    residual = float(np.linalg.norm(right - matrix @ found)) / scale
-    if not residual <= TOLERANCE:
+    residual = float(np.linalg.norm(right - matrix @ filled)) / scale
+    if not residual <= RESIDUAL_TOLERANCE:
         raise ConvergenceError(
-            f"invalid points: their fill has a residual of {residual:.1e}, above {TOLERANCE:.0e}; "
+            f"invalid points: their fill has a residual of {residual:.1e}, above {RESIDUAL_TOLERANCE:.0e}; "
             "choose a window with smaller holes",
             outcome=Outcome.STALLED,
-            iterations=MOST_ITERATIONS,
+            iterations=MAX_ITERATIONS,
         )
     heights = surface.heights.copy()
-    heights[surface.invalid] = found + level
+    heights[surface.invalid] = filled + level
     return surface.with_heights(heights, invalid=np.zeros(surface.shape, dtype=bool)), residual
 
 
 def _laplace(heights: Array, invalid: Mask, spacing: tuple[float, float]) -> tuple[csr_array, Array]:
-    """Matrix over the invalid points in row-major order, and what their valid neighbours add to the right-hand side."""
+    """The matrix over the invalid points in row-major order, and the right-hand side from their valid neighbours."""
     number = np.full(invalid.shape, -1)
     count = int(invalid.sum())
     number[invalid] = np.arange(count)

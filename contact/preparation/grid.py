@@ -1,4 +1,4 @@
-"""Step 5: other numbers of pixels over the same rectangle."""
+"""Step 5 of the preparation: resample the surface to another number of pixels."""
 
 from typing import Literal
 
@@ -13,7 +13,7 @@ Method = Literal["linear", "band-limited"]
 
 
 def next_power_of_two(count: int) -> int:
-    """The least power of two that is not below ``count``.
+    """The smallest power of two that is at least ``count``.
 
     >>> next_power_of_two(480), next_power_of_two(512)
     (512, 512)
@@ -22,19 +22,21 @@ def next_power_of_two(count: int) -> int:
 
 
 def resample(surface: Surface, points: tuple[int, int], method: Method = "linear") -> Surface:
-    """The surface over the same rectangle with ``points`` pixels along x and y.
+    """Resample the surface over the same rectangle to ``points`` pixels along x and y.
 
-    ``"linear"`` interpolates linearly between the centres of pixels (and keeps the outermost height beyond them);
-    where pixels grow, each new height is the mean of that interpolant over the new pixel, so that nothing fine turns
-    into something coarse. Second order for smooth surfaces. ``"band-limited"`` is for periodic surfaces:
-    trigonometric interpolation through the pixels, pixel (0, 0) held in place; exact while no wave of the surface is
-    finer than two new pixels.
+    Parameters
+    ----------
+    points : (nx, ny), at least 2 each.
+    method : "linear" interpolates linearly between the centres of pixels, constant beyond the outermost; where pixels
+        grow, each new height is the mean of the interpolant over the new pixel, which prevents aliasing. The error is
+        of second order for smooth surfaces. "band-limited" is trigonometric interpolation of a periodic surface with
+        pixel (0, 0) fixed, exact if every wave spans at least two new pixels.
 
     Raises
     ------
     InputError
-        If fewer than 2 pixels are asked for in a direction, pixels are invalid, or a surface that is not periodic is
-        to be resampled ``"band-limited"``.
+        If a direction gets fewer than 2 pixels, pixels are invalid, or "band-limited" is asked for a surface that is
+        not periodic.
     """
     if min(points) < 2:
         raise InputError(f"grid: got {points[0]} x {points[1]} points; at least 2 x 2 are needed")
@@ -42,11 +44,11 @@ def resample(surface: Surface, points: tuple[int, int], method: Method = "linear
         raise InputError(f"grid: {surface.invalid.sum()} pixels are invalid; fill them first")
     if method == "band-limited" and not surface.periodic:
         raise InputError("grid: 'band-limited' needs a periodic surface; use 'linear'")
-    along = _linear if method == "linear" else _band_limited
+    resample_axis = _linear if method == "linear" else _band_limited
     heights = surface.heights
     for axis, count in enumerate(points):
         if count != surface.shape[axis]:
-            heights = np.moveaxis(along(np.moveaxis(heights, axis, 0), count), 0, axis)
+            heights = np.moveaxis(resample_axis(np.moveaxis(heights, axis, 0), count), 0, axis)
     spacing = (surface.size[0] / points[0], surface.size[1] / points[1])
     return surface.with_heights(heights, spacing=spacing, invalid=np.zeros(points, dtype=bool))
 
@@ -56,20 +58,20 @@ def _linear(heights: Array, count: int) -> Array:
     if count > old:
         return _interpolated(heights, (np.arange(count) + 0.5) * old / count - 0.5)
     padded = np.concatenate([heights[:1], heights, heights[-1:]])
-    steps = np.concatenate([np.zeros_like(heights[:1]), np.cumsum((padded[1:] + padded[:-1]) / 2, axis=0)])
-    edges = np.arange(count + 1) * old / count + 0.5  # in pixels from the centre of the padding's first
+    sums = np.concatenate([np.zeros_like(heights[:1]), np.cumsum((padded[1:] + padded[:-1]) / 2, axis=0)])
+    edges = np.arange(count + 1) * old / count + 0.5  # in pixels from the centre of the first padded pixel
     whole = np.minimum(edges.astype(int), old)
-    part = (edges - whole)[:, None]
+    fraction = (edges - whole)[:, None]
     here, next_ = padded[whole], padded[whole + 1]
-    integral = steps[whole] + part * (here + (next_ - here) * part / 2)
+    integral = sums[whole] + fraction * (here + (next_ - here) * fraction / 2)
     return np.asarray(np.diff(integral, axis=0) * count / old)
 
 
 def _interpolated(heights: Array, places: Array) -> Array:
     places = np.clip(places, 0, heights.shape[0] - 1)
     whole = np.minimum(places.astype(int), heights.shape[0] - 2)
-    part = (places - whole)[:, None]
-    return np.asarray((1 - part) * heights[whole] + part * heights[whole + 1])
+    fraction = (places - whole)[:, None]
+    return np.asarray((1 - fraction) * heights[whole] + fraction * heights[whole + 1])
 
 
 def _band_limited(heights: Array, count: int) -> Array:

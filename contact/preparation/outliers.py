@@ -1,4 +1,4 @@
-"""Step 3: points far from the main body of the bearing curve, cut."""
+"""Step 3 of the preparation: clip outliers to the ends of the height histogram."""
 
 from dataclasses import dataclass
 
@@ -10,7 +10,13 @@ from roughfilm.contact.surfaces.surface import Surface
 
 @dataclass(frozen=True, kw_only=True)
 class Cut:
-    """What was cut: heights (m) that nothing exceeds or undercuts any more, and how many points did before."""
+    """Limits to which heights were clipped, and the number of points beyond them.
+
+    Attributes
+    ----------
+    highest, lowest : limits of the heights, m.
+    above, below : number of points that were clipped to each limit.
+    """
 
     highest: float
     lowest: float
@@ -19,16 +25,25 @@ class Cut:
 
 
 def cut_outliers(surface: Surface, *, bins: int = 1000, points: int = 10) -> tuple[Surface, Cut]:
-    """Cut heights at the first bin, from the top and from the bottom, that holds at least so many points.
+    """Clip heights to the outermost bins of their histogram that hold at least ``points`` points.
 
-    The range of the valid heights is split into equal bins; the upper edge of the first full one from the top and the
-    lower edge of the first full one from the bottom become the highest and the lowest height. Points beyond are set
-    to that height. So heights inside stay untouched, and cutting again with the same edges changes nothing.
+    The range of the valid heights is divided into equal bins. The upper edge of the highest such bin and the lower edge
+    of the lowest one become the limits; points beyond are set to the limit, all others stay unchanged.
+
+    Parameters
+    ----------
+    bins : number of bins.
+    points : number of points that a bin must hold; 0 clips nothing.
+
+    Returns
+    -------
+    surface : with clipped heights.
+    cut : limits and numbers of clipped points.
 
     Raises
     ------
     InputError
-        If no bin holds so many points, or bins are finer than the heights are known.
+        If no bin holds enough points, or the bins are finer than the rounding of the heights.
 
     References
     ----------

@@ -1,4 +1,4 @@
-"""All steps of a recipe, taken in turn, and a record of what each did."""
+"""Preparation of a measured surface: all steps of a recipe in order, with a record of each step."""
 
 import math
 from collections.abc import Mapping
@@ -11,7 +11,7 @@ from roughfilm.contact.foundation.arrays import Mask
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.parameters.autocorrelation import autocorrelation, decay_lengths
 from roughfilm.contact.parameters.spectrum import power_spectrum, texture_direction
-from roughfilm.contact.preparation.edges import LEAST_WIDTH, Direction, make_periodic, widest
+from roughfilm.contact.preparation.edges import MIN_WIDTH, Direction, largest_width, make_periodic
 from roughfilm.contact.preparation.filling import fill_invalid
 from roughfilm.contact.preparation.form import remove_form
 from roughfilm.contact.preparation.grid import next_power_of_two, resample
@@ -22,44 +22,44 @@ from roughfilm.contact.preparation.window import Window, best_window, cut_window
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
 from roughfilm.contact.surfaces.surface import MAX_POINTS, Surface
 
-WIDTH = 1 / 2
-"""Standard deviation of the edges' filter over Sal, where the recipe does not tell it."""
+EDGE_WIDTH = 1 / 2
+"""Default standard deviation of the edge filter, in units of Sal."""
 
-LEAST_WIDTH_OF_SIDE, MOST_WIDTH_OF_SIDE = 1 / 80, 1 / 40
-"""And its bounds over the shorter side, so that most of the surface is kept."""
+MIN_WIDTH_OF_SIDE, MAX_WIDTH_OF_SIDE = 1 / 80, 1 / 40
+"""Limits of the default standard deviation, in units of the shorter side."""
 
 STRONG_LAY = 0.3
-"""Texture aspect ratio Str below which ISO 25178-3 calls a surface anisotropic."""
+"""Texture aspect ratio Str below which a surface is anisotropic (ISO 25178-3)."""
 
 NEAR_AXIS = 30.0
-"""Degrees between lay and axis within which the lay counts as lying along that axis."""
+"""Angle between lay and axis, degrees, up to which the lay counts as parallel to the axis."""
 
-FARTHEST = 1e9
-"""Pixels: a window that reaches farther is outside of any surface."""
+MAX_WINDOW_PIXELS = 1e9
+"""Bound on size and start of a window, pixels, larger than any surface; it prevents overflow."""
 
-MANY_INVALID = 0.15
-"""Part of the window's points that were invalid above which what was filled in may decide the result."""
+INVALID_WARNING_FRACTION = 0.15
+"""Fraction of invalid points in the window above which a warning is given."""
 
-TOO_MANY_INVALID = 0.9
-"""Part of the measurement's points that are invalid above which it is refused."""
+MAX_INVALID_FRACTION = 0.9
+"""Fraction of invalid points above which a measurement is refused."""
 
-MANY_CUT = 0.01
-"""Part of the points cut above which more than outliers is cut."""
+CUT_WARNING_FRACTION = 0.01
+"""Fraction of clipped points above which a warning is given."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Prepared:
-    """A surface on its way from measurement to cell.
+    """A prepared surface with its intermediate states.
 
     Attributes
     ----------
-    measured : form removed, nothing else; invalid points still marked.
-    filled : the same with invalid points filled.
-    cell : filled, cut, in its window and on its grid; edges as they were measured.
-    joined : with edges that meet.
-    surface : smoothed too: the periodic cell.
-    record : for each step what it found and changed, as entries that JSON can hold.
-    warnings : sentences about what may make the cell a bad picture of the surface.
+    measured : after removal of the form; invalid points are still marked.
+    filled : ``measured`` with invalid points filled.
+    cell : ``filled`` after clipping, cut to its window and resampled; edges as measured.
+    joined : ``cell`` with joined edges.
+    surface : ``joined`` after smoothing: the periodic cell.
+    record : data and changes of each step, as entries that JSON can hold.
+    warnings : reasons why the cell may misrepresent the surface, one sentence each.
     """
 
     measured: Surface
@@ -72,34 +72,36 @@ class Prepared:
 
 
 def prepare(surface: Surface, recipe: Recipe) -> Prepared:
-    """Take every step of the recipe; the same surface and recipe give the same bytes.
+    """Prepare a surface by all steps of a recipe; equal surfaces and recipes give equal bytes.
 
-    The prepared surface's ``source`` holds that of the given one, the complete recipe and the record.
+    Returns
+    -------
+    Prepared : the ``source`` of its surface holds the given source, the complete recipe and the record.
 
     Raises
     ------
     InputError
-        If a step cannot be taken, or all heights are the same; one line that names the step.
+        If a step fails, or all heights are equal; the message names the step.
     ConvergenceError
-        If invalid points cannot be filled to tolerance.
+        If the filling of invalid points does not converge.
 
     References
     ----------
     F. Sahlin, Lubrication, contact mechanics and leakage between rough surfaces, Luleå 2008, sections E.3.1 and F.3.
     """
     invalid = float(surface.invalid.mean())
-    if invalid > TOO_MANY_INVALID:
+    if invalid > MAX_INVALID_FRACTION:
         raise InputError(f"invalid points: they are {100 * invalid:.0f} % of all; measure again")
     measured = remove_form(surface, recipe.form)
     _refuse_constant(measured, surface)
     filled, residual = fill_invalid(measured)
-    cut, told = cut_outliers(filled, bins=recipe.outliers.bins, points=recipe.outliers.points)
-    window = _window(cut, recipe.window, surface.invalid)
-    part = cut_window(cut, window)
+    clipped, cut = cut_outliers(filled, bins=recipe.outliers.bins, points=recipe.outliers.points)
+    window = _window(clipped, recipe.window, surface.invalid)
+    windowed = cut_window(clipped, window)
     in_window = float(surface.invalid[window.slices].mean())
-    if in_window > TOO_MANY_INVALID:
+    if in_window > MAX_INVALID_FRACTION:
         raise InputError(f"window: {100 * in_window:.0f} % of its points are invalid; choose another window")
-    cell = resample(part, _points(window.shape, recipe.grid), recipe.grid.method)
+    cell = resample(windowed, _points(window.shape, recipe.grid), recipe.grid.method)
     direction, width, reason = _edges(cell, recipe.edges)
     joined = make_periodic(cell, direction, width=width)
     smoothed = smooth(joined, recipe.smoothing)
@@ -113,7 +115,7 @@ def prepare(surface: Surface, recipe: Recipe) -> Prepared:
             "in_window": in_window,
             "residual": residual,
         },
-        "outliers": asdict(told),
+        "outliers": asdict(cut),
         "window": {"start": list(window.start), "pixels": list(window.shape)},
         "grid": {"points": list(cell.shape), "spacing": list(cell.spacing)},
         "edges": {"direction": direction, "width": list(width), "reason": reason},
@@ -141,7 +143,7 @@ def _window(surface: Surface, sampling: Sampling | None, guessed: Mask) -> Windo
     if sampling is None:
         return Window(start=(0, 0), shape=surface.shape)
     sizes, places = (
-        [min(abs(length) / step, FARTHEST) for length, step in zip(lengths, surface.spacing, strict=True)]
+        [min(abs(length) / step, MAX_WINDOW_PIXELS) for length, step in zip(lengths, surface.spacing, strict=True)]
         for lengths in (sampling.size, sampling.start or (0.0, 0.0))
     )
     if sampling.start is None:
@@ -161,7 +163,7 @@ def _points(shape: tuple[int, int], grid: Grid) -> tuple[int, int]:
         case points:
             nx, ny = points
     if nx * ny > MAX_POINTS:
-        raise InputError(f"grid: got {nx} x {ny} points; at most {MAX_POINTS} are made, say fewer in grid.points")
+        raise InputError(f"grid: got {nx} x {ny} points; at most {MAX_POINTS} are made; set fewer in grid.points")
     return nx, ny
 
 
@@ -172,41 +174,41 @@ def _edges(surface: Surface, edges: Edges) -> tuple[Direction, tuple[float, floa
         return edges.direction, width, "given"
     angle = texture_direction(power_spectrum(surface))
     from_x = min(angle, 180 - angle)
-    told = f"Str {decay.aspect:.2f}, lay at {round(angle) % 180} degrees"
+    texture = f"Str {decay.aspect:.2f}, lay at {round(angle) % 180} degrees"
     if decay.aspect < STRONG_LAY and from_x <= NEAR_AXIS:
-        return "x", width, f"{told}: joined along the lay only"
+        return "x", width, f"{texture}: joined along the lay only"
     if decay.aspect < STRONG_LAY and 90 - from_x <= NEAR_AXIS:
-        return "y", width, f"{told}: joined along the lay only"
-    return "both", width, f"{told}: no strong lay along an axis"
+        return "y", width, f"{texture}: joined along the lay only"
+    return "both", width, f"{texture}: no strong lay along an axis"
 
 
 def _width(surface: Surface, correlation_length: float) -> tuple[float, float]:
-    """The usual width, brought into the range that each direction's pixels allow."""
+    """The default width of the edge filter along x and y, m, limited to the range that the pixels allow."""
     side = min(surface.size)
-    usual = min(max(WIDTH * correlation_length, LEAST_WIDTH_OF_SIDE * side), MOST_WIDTH_OF_SIDE * side)
+    usual = min(max(EDGE_WIDTH * correlation_length, MIN_WIDTH_OF_SIDE * side), MAX_WIDTH_OF_SIDE * side)
     x, y = (
-        max(min(usual, widest(count) * step), LEAST_WIDTH * step)
+        max(min(usual, largest_width(count) * step), MIN_WIDTH * step)
         for count, step in zip(surface.shape, surface.spacing, strict=True)
     )
     return x, y
 
 
 def _warnings(record: Mapping[str, Any]) -> list[str]:
-    told = []
+    warnings = []
     invalid, mismatch = record["invalid"]["in_window"], record["periodicity_mismatch"]["after"]
     cut = record["outliers"]["above"] + record["outliers"]["below"]
     points = record["invalid"]["measured"]
-    if invalid > MANY_INVALID:
-        told.append(f"{100 * invalid:.0f} % of the points were invalid and are filled in; measure again if you can")
-    if cut > MANY_CUT * points:
-        told.append(
+    if invalid > INVALID_WARNING_FRACTION:
+        warnings.append(f"{100 * invalid:.0f} % of the points were invalid and are filled in; measure again if you can")
+    if cut > CUT_WARNING_FRACTION * points:
+        warnings.append(
             f"{100 * cut / points:.1f} % of the points were cut as outliers; take fewer: outliers.bins=100, or "
             "outliers.points=0 to cut none"
         )
     if mismatch > MISMATCH_THRESHOLD:
-        told.append(
+        warnings.append(
             f"periodicity mismatch {mismatch:.2f}, above {MISMATCH_THRESHOLD}: ridges or steps end at the joint, which "
-            "throttles flow; choose another window (or let one be found: window.size without start), or a larger "
+            "throttles flow; choose another window (window.size without start selects one), or a larger "
             "edges.width"
         )
-    return told
+    return warnings

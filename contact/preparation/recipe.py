@@ -1,4 +1,4 @@
-"""The recipe: every step of a preparation with its numbers, as a TOML file holds it."""
+"""The recipe of a preparation: the parameters of every step, as tables of a TOML file."""
 
 import copy
 from collections.abc import Iterable, Mapping
@@ -14,13 +14,14 @@ from roughfilm.contact.preparation.edges import Direction
 from roughfilm.contact.preparation.form import Form
 from roughfilm.contact.preparation.grid import Method
 
-EXAMPLE = 'form = "quadratic"'
+EXAMPLE_LINE = 'form = "quadratic"'
+"""A correct line of a recipe, for messages."""
 
 Count = Annotated[int, Field(strict=True, ge=2, le=100_000)]
 
 
 class Reading(Part):
-    """What the file does not say, or says wrongly: channel, pixel spacing (m), unit of heights."""
+    """Channel, pixel spacing (m) and unit of heights, where the file of the surface lacks them or is wrong."""
 
     channel: str | None = None
     spacing: tuple[Length, Length] | None = None
@@ -28,30 +29,30 @@ class Reading(Part):
 
 
 class Outliers(Part):
-    """Cut at the first of ``bins`` bins that holds at least ``points`` points; 0 points cut nothing."""
+    """Number of histogram bins, and the number of points in the outermost bins that are kept; 0 clips nothing."""
 
     bins: Annotated[int, Field(strict=True, ge=1, le=1_000_000)] = 1000
     points: Annotated[int, Field(strict=True, ge=0)] = 10
 
 
 class Sampling(Part):
-    """A window of a size from a start (m); without a start, the one of at least that size that repeats best."""
+    """Size and start of the window (m); without a start, the window of at least this size whose edges match best."""
 
     size: tuple[Length, Length]
     start: tuple[Coordinate, Coordinate] | None = None
 
 
 class Grid(Part):
-    """Pixels along x and y, or the least powers of two that are not fewer than there are, or as many as there are."""
+    """Number of pixels along x and y, or the next powers of two, or the pixels of the measurement ("kept")."""
 
     points: tuple[Count, Count] | Literal["powers of two", "kept"] = "powers of two"
     method: Method = "linear"
 
 
 class Edges(Part):
-    """Which edges are made to meet, and the standard deviation of the filter (m), by default half of Sal.
+    """Direction in which edges are joined, and the standard deviation of the filter (m), by default half of Sal.
 
-    ``"auto"`` joins along a strong lay only, and otherwise in both directions.
+    ``"auto"`` joins along the lay of an anisotropic surface, otherwise in both directions.
     """
 
     direction: Direction | Literal["auto"] = "auto"
@@ -59,7 +60,7 @@ class Edges(Part):
 
 
 class Recipe(Part):
-    """All steps, in the order in which they are taken."""
+    """Parameters of all steps, in their order."""
 
     read: Reading = Reading()
     form: Form = "quadratic"
@@ -77,27 +78,33 @@ AS_IT_IS: Mapping[str, Any] = {
     "edges": {"direction": "none"},
     "smoothing": 1,
 }
-"""What a surface that is periodic already needs."""
+"""Entries of a recipe that changes nothing, for surfaces that are periodic already."""
 
 
 def load_recipe(
     path: Path | None = None, overrides: Iterable[str] = (), usual: Mapping[str, Any] | None = None
 ) -> Recipe:
-    """Read a recipe file, or else take the ``usual`` entries, and apply overrides such as ``edges.direction=x``.
+    """Read a recipe from a file and apply overrides.
+
+    Parameters
+    ----------
+    path : TOML file; without one, the ``usual`` entries are taken.
+    overrides : assignments such as ``edges.direction=x``.
+    usual : nested entries.
 
     Raises
     ------
     InputError
-        One line that names the key, what was got there and what to write instead.
+        If the file cannot be read, or an entry is unknown or out of range; the message names the key.
     """
-    entries = read_toml(path, EXAMPLE) if path is not None else copy.deepcopy(dict(usual or {}))
+    entries = read_toml(path, EXAMPLE_LINE) if path is not None else copy.deepcopy(dict(usual or {}))
     for override in overrides:
         set_entry(entries, override, "edges.direction=x")
     return read_recipe(entries)
 
 
 def read_recipe(entries: Mapping[str, Any]) -> Recipe:
-    """A recipe from nested entries as a TOML file holds them; raises InputError as :func:`load_recipe` does."""
+    """The recipe from nested entries of a TOML file; raises InputError as :func:`load_recipe` does."""
     try:
         return Recipe.model_validate(entries)
     except ValidationError as error:
@@ -105,7 +112,7 @@ def read_recipe(entries: Mapping[str, Any]) -> Recipe:
 
 
 def recipe_entries(recipe: Recipe) -> dict[str, Any]:
-    """The complete recipe, defaults written out, units as text; ``read_recipe`` reads it back unchanged."""
+    """The complete recipe as nested entries, with defaults, units as text; `read_recipe` reads it back unchanged."""
     return recipe.model_dump(mode="json", exclude_none=True)
 
 

@@ -1,4 +1,4 @@
-"""Step 7: a moving average that takes the last noise."""
+"""Step 7 of the preparation: reduce noise by a moving average."""
 
 from scipy.ndimage import uniform_filter
 
@@ -7,15 +7,15 @@ from roughfilm.contact.surfaces.surface import Surface
 
 
 def smooth(surface: Surface, points: int) -> Surface:
-    """Replace each height by the mean of ``points`` by ``points`` heights around it, wrapped round at the sides.
+    """Replace each height by the mean of ``points`` by ``points`` heights around it, periodic across the edges.
 
-    It keeps the mean height and takes a wave of wavelength λ along x down to sin(π n dx/λ) / (n sin(π dx/λ)) of its
-    amplitude. 1 leaves the surface as it is.
+    The mean height stays; the amplitude of a wave of wavelength λ along x is multiplied by
+    sin(π n dx/λ) / (n sin(π dx/λ)), with n = ``points``. The surface is unchanged for n = 1.
 
     Raises
     ------
     InputError
-        If ``points`` is even, below 1, or above the number of pixels in a direction; or pixels are invalid.
+        If ``points`` is even, below 1 or above the number of pixels in a direction, or pixels are invalid.
 
     References
     ----------

@@ -1,4 +1,4 @@
-"""Step 4: the part of a measurement that stands for the surface, chosen by hand or by how well it repeats itself."""
+"""Step 4 of the preparation: cut a window, given or chosen so that its opposite edges match."""
 
 from dataclasses import dataclass
 from itertools import product
@@ -9,29 +9,29 @@ from roughfilm.contact.foundation.arrays import Array, Mask
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.surfaces.surface import Surface
 
-COARSE = 48
-"""Positions along each direction in the first search."""
+COARSE_POSITIONS = 48
+"""Number of edge positions along each direction in the first search."""
 
-BAND = 32
-"""The lines compared at each edge are this part of the least window."""
+BAND_DIVISOR = 32
+"""Size of the smallest window over the number of lines compared at each edge."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Window:
-    """A rectangle of pixels: its first pixel and its numbers of pixels along x and y."""
+    """A rectangle of pixels: index of the first pixel and number of pixels along x and y."""
 
     start: tuple[int, int]
     shape: tuple[int, int]
 
     @property
     def slices(self) -> tuple[slice, slice]:
-        """What picks its pixels from an array."""
+        """Slices that select the window from an array."""
         (i, j), (nx, ny) = self.start, self.shape
         return slice(i, i + nx), slice(j, j + ny)
 
 
 def cut_window(surface: Surface, window: Window) -> Surface:
-    """The pixels of a window; InputError if it is not inside the surface."""
+    """The surface cut to a window; raises InputError if the window is not inside the surface."""
     for axis, (first, count, most) in enumerate(zip(window.start, window.shape, surface.shape, strict=True)):
         if not (first >= 0 and count >= 2 and first + count <= most):
             raise InputError(
@@ -49,30 +49,36 @@ def cut_window(surface: Surface, window: Window) -> Surface:
 def best_window(surface: Surface, least: tuple[int, int], guessed: Mask) -> Window:
     """The window of at least ``least`` pixels whose opposite edges match best.
 
-    Minimises ⟨(h(x₁ + k, y) − h(x₀ + k, y))²⟩ + ⟨(h(x, y₁ + k) − h(x, y₀ + k))²⟩ + 4 Sq² g, the means over the edges
-    and over a band of lines k, where the window holds the pixels x₀ … x₁ − 1 and y₀ … y₁ − 1: what begins again at its
-    end is what began at its beginning. g, which weighs as much as edges that know nothing of each other, is the part
-    of its points that are ``guessed`` (they were invalid and filled, and smooth fills match too well). All windows on
-    at most 48 positions a direction are tried, then the neighbours of the best with steps halved down to a pixel: not
-    always the very best of all, but deterministic and independent of scale.
+    The window, of the pixels x₀ … x₁ − 1 and y₀ … y₁ − 1, minimises
+    ⟨(h(x₁ + k, y) − h(x₀ + k, y))²⟩ + ⟨(h(x, y₁ + k) − h(x, y₀ + k))²⟩ + 4 Sq² g, with means over the edges and a band
+    of lines k. The fraction g of filled points is penalised, since smooth fills match too well; its weight is the
+    mismatch of uncorrelated edges. All windows on at most 48 positions along each direction are compared, then the
+    neighbours of the best with step sizes halved down to one pixel. The result is deterministic and independent of
+    scale, but may be a local minimum.
+
+    Parameters
+    ----------
+    surface : without invalid pixels.
+    least : smallest number of pixels along x and y.
+    guessed : mask of the points that were invalid and filled, shape (nx, ny).
 
     Raises
     ------
     InputError
-        If the surface is not larger than the least window by the band that is compared, or pixels are invalid.
+        If the surface does not exceed the smallest window by the compared band, or pixels are invalid.
     """
     if surface.invalid.any():
         raise InputError(f"window: {surface.invalid.sum()} pixels are invalid; fill them first")
-    bands = [max(1, count // BAND) for count in least]
+    bands = [max(1, count // BAND_DIVISOR) for count in least]
     for axis, (count, band, most) in enumerate(zip(least, bands, surface.shape, strict=True)):
         if not (count >= 2 and count + band <= most):
             raise InputError(
                 f"window: got at least {count} pixels along {'xy'[axis]}, where the surface has {most}; "
-                f"ask for at most {most * BAND // (BAND + 1)}, so that its edges can be compared"
+                f"ask for at most {most * BAND_DIVISOR // (BAND_DIVISOR + 1)}, so that its edges can be compared"
             )
     mismatch = _Mismatch(surface.heights, bands, guessed)
     last = [most - band for most, band in zip(surface.shape, bands, strict=True)]
-    steps = [max(1, -(-most // COARSE)) for most in surface.shape]
+    steps = [max(1, -(-most // COARSE_POSITIONS)) for most in surface.shape]
     pairs = [
         [(a, b) for a in range(0, n, s) for b in range(n, a, -s) if b - a >= count]
         for n, s, count in zip(last, steps, least, strict=True)
@@ -98,7 +104,7 @@ def _near(edges: Pair, step: int, last: int, least: int) -> list[Pair]:
 
 
 class _Mismatch:
-    """The mismatch of windows, by sums along the edges that are made once for each pair of edges."""
+    """Mismatch of windows from running sums along the edges, computed once for each pair of edges."""
 
     def __init__(self, heights: Array, bands: list[int], guessed: Mask) -> None:
         self.lines = (heights, heights.T)
@@ -108,7 +114,7 @@ class _Mismatch:
         self.known: tuple[dict[Pair, Array], dict[Pair, Array]] = ({}, {})
 
     def sums(self, axis: int, edges: Pair) -> Array:
-        """Running sums along the edge of the mean square difference of its bands, from 0."""
+        """Running sums of the mean square difference of the two bands along the edge, starting at 0."""
         if edges not in self.known[axis]:
             (a, b), band, lines = edges, self.bands[axis], self.lines[axis]
             squares = np.mean((lines[b : b + band] - lines[a : a + band]) ** 2, axis=0)
@@ -116,7 +122,7 @@ class _Mismatch:
         return self.known[axis][edges]
 
     def least(self, along_x: list[Pair], along_y: list[Pair]) -> tuple[Pair, Pair]:
-        """The pairs of edges with the least mismatch, the earliest of equals."""
+        """The pairs of edges along x and y with the smallest mismatch, the first of equals."""
         (x0, x1), (y0, y1) = np.transpose(along_x), np.transpose(along_y)
         at_x = np.stack([self.sums(0, pair)[[*y0, *y1]] for pair in along_x]).reshape(len(along_x), 2, len(along_y))
         at_y = np.stack([self.sums(1, pair)[[*x0, *x1]] for pair in along_y]).reshape(len(along_y), 2, len(along_x))

@@ -1,1 +1,1 @@
-"""A surface as heights on a grid, and the files it is read from and stored in."""
+"""Surfaces as heights on a grid, and the files that hold them."""

@@ -1,4 +1,4 @@
-"""Surfaces from files: our own HDF5, NPY and CSV, and all else that instruments write."""
+"""Reading surfaces from files: HDF5 of this package, NPY, CSV and the formats of instruments."""
 
 import hashlib
 import re
@@ -14,10 +14,11 @@ from roughfilm.contact.surfaces import store as surface_store
 from roughfilm.contact.surfaces.instruments import Measurement, read_instrument
 from roughfilm.contact.surfaces.surface import MAX_POINTS, Surface
 
-LARGEST_TEXT = 2_000_000_000
-"""Bytes; a longer CSV is refused unread."""
+MAX_CSV_BYTES = 2_000_000_000
+"""Size of a CSV file, bytes, above which it is refused unread."""
 
-HEADER = "# spacing: 1.5 um, 1.5 um; heights: um"
+HEADER_EXAMPLE = "# spacing: 1.5 um, 1.5 um; heights: um"
+"""A correct first line of a CSV file, for messages."""
 _CELLS = re.compile(r"[-+0-9.eE, \tnaNAinfINF\r]*")
 _HEADER = re.compile(r"#\s*spacing:\s*([^,;]+),\s*([^,;]+);\s*heights:\s*(\S+)\s*")
 
@@ -29,23 +30,27 @@ def read_surface(
     spacing: tuple[float, float] | None = None,
     height_unit: str | None = None,
 ) -> Surface:
-    """Read a surface from a file of any kind.
+    """Read a surface from a file of any supported format.
 
-    HDF5 as :func:`contact.surfaces.store.save_surface` writes it, whatever its name; NPY, an array [x, y]; CSV, a line
-    for each y and a column for each x, after a header such as ``# spacing: 1.5 um, 1.5 um; heights: um`` where nothing
-    else tells these. NaN (in a CSV an empty cell too) marks an invalid point. Every other file goes to
-    SurfaceTopography.
+    The formats are HDF5 as written by :func:`roughfilm.contact.surfaces.store.save_surface`, recognised by content; NPY
+    with an array [x, y]; CSV with a line for each y and a column for each x; and all that SurfaceTopography reads. A
+    CSV may begin with a header such as ``# spacing: 1.5 um, 1.5 um; heights: um``. NaN, and an empty cell of a CSV,
+    marks an invalid point.
 
     Parameters
     ----------
-    channel : which one, where an instrument's file holds several.
-    spacing : (dx, dy), m; in place of what the file says, if it says it at all. Not for our own HDF5.
-    height_unit : likewise, such as "um"; heights of NPY are in m unless told.
+    channel : name of the channel, for instrument files with several.
+    spacing : (dx, dy), m; replaces the spacing in the file. Not allowed for HDF5.
+    height_unit : unit such as "um"; replaces the unit in the file. Default for NPY: m. Not allowed for HDF5.
+
+    Returns
+    -------
+    Surface : heights in m, pixel by pixel as in the file.
 
     Raises
     ------
     InputError
-        One line that names the file, what is wrong in it and what to do.
+        If the file cannot be read, holds no surface, or lacks its spacing or unit.
     UnavailableError
         If the file needs SurfaceTopography and it is not installed.
     """
@@ -57,53 +62,58 @@ def read_surface(
             raise InputError(f"{path}: is empty; export it again from the instrument")
         if surface_store.is_surface(path):
             if channel or spacing or height_unit:
-                raise InputError(f"{path}: says all of itself; leave out the recipe's table read")
+                raise InputError(f"{path}: holds its own spacing and unit; leave out the recipe's table read")
             return surface_store.load_surface(path)
         suffix = path.suffix.lower()
-        found = _read_npy(path) if suffix == ".npy" else _read_csv(path) if suffix == ".csv" else None
-        if found is None:
-            found = read_instrument(path, channel)
+        measurement = _read_npy(path) if suffix == ".npy" else _read_csv(path) if suffix == ".csv" else None
+        if measurement is None:
+            measurement = read_instrument(path, channel)
         elif channel is not None:
             raise InputError(f"{path}: has no channels; leave out read.channel")
-        return _surface(path, found, spacing, height_unit)
+        return _surface(path, measurement, spacing, height_unit)
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror or error}); check the file") from error
-    except RuntimeError as error:  # pathlib's word for a home that is not known and for links that go in circles
+    except RuntimeError as error:  # raised by pathlib for an unknown home directory or circular links
         if isinstance(error, ConvergenceError):
             raise
-        raise InputError(f"{path}: leads nowhere ({error}); write the path out") from error
+        raise InputError(f"{path}: leads nowhere ({error}); write the full path") from error
 
 
-def _surface(path: Path, found: Measurement, spacing: tuple[float, float] | None, height_unit: str | None) -> Surface:
-    if min(found.heights.shape) < 2:
-        nx, ny = found.heights.shape
+def _surface(
+    path: Path, measurement: Measurement, spacing: tuple[float, float] | None, height_unit: str | None
+) -> Surface:
+    if min(measurement.heights.shape) < 2:
+        nx, ny = measurement.heights.shape
         raise InputError(f"{path}: holds {nx} x {ny} points; a surface has at least 2 x 2")
     if spacing is None:
-        if found.size is None:
+        if measurement.size is None:
             raise InputError(
-                f'{path}: tells no spacing of its points; say read.spacing = ["1 um", "1 um"] in the recipe'
+                f'{path}: gives no spacing of its points; set read.spacing = ["1 um", "1 um"] in the recipe'
             )
-        spacing = (found.size[0] / found.heights.shape[0], found.size[1] / found.heights.shape[1])
-    unit = height_unit or found.height_unit
+        spacing = (
+            measurement.size[0] / measurement.heights.shape[0],
+            measurement.size[1] / measurement.heights.shape[1],
+        )
+    unit = height_unit or measurement.height_unit
     if unit is None:
-        raise InputError(f'{path}: tells no unit of its heights; say read.height_unit = "um" in the recipe')
+        raise InputError(f'{path}: gives no unit of its heights; set read.height_unit = "um" in the recipe')
     try:
         factor = to_si(f"1 {unit}", "m")
     except ValueError as error:
         raise InputError(f"{path}: heights: {error}") from None
-    if np.isinf(found.heights).any():
-        i, j = np.argwhere(np.isinf(found.heights))[0]
+    if np.isinf(measurement.heights).any():
+        i, j = np.argwhere(np.isinf(measurement.heights))[0]
         raise InputError(f"{path}: the height at x {i}, y {j} is infinite; mark invalid points by NaN")
     try:
         return Surface(
-            heights=found.heights * factor,
+            heights=measurement.heights * factor,
             spacing=spacing,
-            invalid=np.isnan(found.heights),
+            invalid=np.isnan(measurement.heights),
             source={
                 "file": path.name,
                 "sha256": hashlib.sha256(path.read_bytes()).hexdigest(),
-                "format": found.format,
-                "channel": found.channel,
+                "format": measurement.format,
+                "channel": measurement.channel,
             },
         )
     except InputError as error:
@@ -112,19 +122,19 @@ def _surface(path: Path, found: Measurement, spacing: tuple[float, float] | None
 
 def _read_npy(path: Path) -> Measurement:
     try:
-        # A map, since it refuses a header that claims more than the file holds before any memory is taken.
+        # A memory map refuses a header that claims more than the file holds before any memory is allocated.
         array = np.lib.format.open_memmap(path, mode="r")
-    except Exception as error:  # a damaged header ends in many kinds of error
+    except Exception as error:  # NumPy raises many kinds of error for a damaged header
         raise InputError(f"{path}: is no whole NPY array; save one of shape (nx, ny) with numpy.save") from error
     if array.ndim != 2 or array.dtype.kind not in "fiu":
         raise InputError(f"{path}: got {array.dtype} of shape {array.shape}; save numbers of shape (nx, ny)")
-    _count(path, array.shape)
+    _check_point_count(path, array.shape)
     return Measurement(heights=np.array(array, dtype=float), height_unit="m", size=None, format="npy", channel="")
 
 
 def _read_csv(path: Path) -> Measurement:
-    if path.stat().st_size > LARGEST_TEXT:
-        raise InputError(f"{path}: is larger than {LARGEST_TEXT} bytes; save it as NPY")
+    if path.stat().st_size > MAX_CSV_BYTES:
+        raise InputError(f"{path}: is larger than {MAX_CSV_BYTES} bytes; save it as NPY")
     try:
         text = path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError as error:
@@ -135,7 +145,7 @@ def _read_csv(path: Path) -> Measurement:
         number, line = lines.pop(0)
         head = _HEADER.fullmatch(line)
         if head is None:
-            raise InputError(f"{path}: line {number} is no header of a surface; write for example: {HEADER}")
+            raise InputError(f"{path}: line {number} is no header of a surface; write for example: {HEADER_EXAMPLE}")
         try:
             step = to_si(head[1], "m"), to_si(head[2], "m")
         except ValueError as error:
@@ -162,7 +172,7 @@ def _numbers(path: Path, lines: list[tuple[int, str]]) -> Array:
         except ValueError as error:
             reason = str(error).rpartition(": ")[2][:40]
             raise InputError(f"{path}: line {number}: got {reason}; write numbers with commas between") from None
-        _count(path, (len(rows), len(cells)))
+        _check_point_count(path, (len(rows), len(cells)))
     if not rows:
         raise InputError(f"{path}: holds no numbers; write a matrix of heights, separated by commas")
     heights = np.array(rows).T
@@ -173,6 +183,6 @@ def _numbers(path: Path, lines: list[tuple[int, str]]) -> Array:
     return heights
 
 
-def _count(path: Path, shape: tuple[Any, ...]) -> None:
+def _check_point_count(path: Path, shape: tuple[Any, ...]) -> None:
     if shape[0] * shape[1] > MAX_POINTS:
         raise InputError(f"{path}: claims {shape[0]} x {shape[1]} points; at most {MAX_POINTS} are read")

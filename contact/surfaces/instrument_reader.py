@@ -1,6 +1,6 @@
-"""The child that reads one instrument file: asked by its argument, it answers one line of JSON and the heights.
+"""Program that reads one instrument file; it takes a request as JSON and writes one line of JSON and the heights.
 
-Only :mod:`roughfilm.contact.surfaces.instruments` starts it.
+Only :mod:`roughfilm.contact.surfaces.instruments` runs it, as a child process.
 """
 
 import json
@@ -11,10 +11,10 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-UNMARKED = {"hgt", "nms"}
-"""Formats that any bytes of the right number pass for: believed only if the file is named so."""
+FORMATS_WITHOUT_SIGNATURE = {"hgt", "nms"}
+"""Formats that any file of the right length matches; they are accepted only with this suffix of the name."""
 
-UNKNOWN = "is in no format that is known here, or damaged; export it again from the instrument"
+UNKNOWN_FORMAT = "is in no format that is known here, or damaged; export it again from the instrument"
 
 
 def _read(path: str, channel: str | None, most: int) -> tuple[dict[str, Any], Any]:
@@ -25,9 +25,9 @@ def _read(path: str, channel: str | None, most: int) -> tuple[dict[str, Any], An
     try:
         reader = open_topography(path)
     except CannotDetectFileFormat:
-        return {"fault": UNKNOWN}, None
-    if reader.format() in UNMARKED and not path.lower().endswith(reader.format()):
-        return {"fault": UNKNOWN}, None
+        return {"fault": UNKNOWN_FORMAT}, None
+    if reader.format() in FORMATS_WITHOUT_SIGNATURE and not path.lower().endswith(reader.format()):
+        return {"fault": UNKNOWN_FORMAT}, None
     channels = [one for one in reader.channels if one.dim == 2]
     names = ", ".join(repr(one.name) for one in channels)
     if not channels:
@@ -51,22 +51,22 @@ def _read(path: str, channel: str | None, most: int) -> tuple[dict[str, Any], An
     unit = topography.unit
     factor = get_unit_conversion_factor(unit, "m") if unit is not None else None
     size = [float(length) * factor for length in topography.physical_sizes] if known and factor else None
-    told = {"shape": heights.shape, "height_unit": unit, "size": size}
-    return {**told, "format": reader.format(), "channel": chosen.name}, heights
+    header = {"shape": heights.shape, "height_unit": unit, "size": size}
+    return {**header, "format": reader.format(), "channel": chosen.name}, heights
 
 
 def main(request: dict[str, Any], out: BinaryIO) -> None:
-    """Read what ``request`` names and write it to ``out``; a fault of the file is told as ``{"fault": text}``."""
+    """Read the file named in ``request`` and write header and heights to ``out``; a fault gives ``{"fault": text}``."""
     try:
-        told, heights = _read(request["path"], request["channel"], request["most"])
+        header, heights = _read(request["path"], request["channel"], request["most"])
     except ImportError as error:
-        told, heights = {"missing": " ".join(str(error).split())[:120]}, None
+        header, heights = {"missing": " ".join(str(error).split())[:120]}, None
     except MemoryError:
-        told, heights = {"fault": "needs more memory than a file of its length should; it may be damaged"}, None
-    except Exception as error:  # forty readers of damaged files raise whatever they like
+        header, heights = {"fault": "needs more memory than a file of its length should; it may be damaged"}, None
+    except Exception as error:  # the readers raise many kinds of error for damaged files
         reason = " ".join(str(error).split())[:120]
-        told, heights = {"fault": f"cannot be read ({type(error).__name__}: {reason}); it may be damaged"}, None
-    out.write(json.dumps(told).encode() + b"\n")
+        header, heights = {"fault": f"cannot be read ({type(error).__name__}: {reason}); it may be damaged"}, None
+    out.write(json.dumps(header).encode() + b"\n")
     if heights is not None:
         out.write(np.ascontiguousarray(heights).data)
     out.flush()
@@ -75,7 +75,7 @@ def main(request: dict[str, Any], out: BinaryIO) -> None:
 def _limit(memory: int, seconds: int) -> None:
     try:
         import resource
-    except ImportError:  # not on Windows, where only the time is limited, by the parent
+    except ImportError:  # absent on Windows, where the parent limits the time only
         return
     resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
     resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
@@ -83,9 +83,8 @@ def _limit(memory: int, seconds: int) -> None:
 
 if __name__ == "__main__":
     warnings.simplefilter("ignore")
-    asked = json.loads(sys.argv[1])
+    request = json.loads(sys.argv[1])
     pipe = os.fdopen(os.dup(1), "wb")
-    nowhere = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nowhere, 1)  # what a reader prints must not reach the pipe
-    _limit(asked["memory"], asked["seconds"])
-    main(asked, pipe)
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # output printed by a reader must not reach the pipe
+    _limit(request["memory"], request["seconds"])
+    main(request, pipe)

@@ -1,7 +1,7 @@
-"""Instrument files, read by SurfaceTopography in a process of its own.
+"""Instrument files, read by SurfaceTopography in a child process.
 
-A damaged file can make a reader take all memory, never end, crash or write on standard output. So the reader runs as a
-child with limits on memory and time, and hands heights over through a pipe.
+A damaged file can make a reader exhaust memory, run for ever, crash or print. Therefore the reader runs in a child
+process with limits on memory and time, which passes the heights through a pipe.
 """
 
 import json
@@ -20,18 +20,27 @@ from roughfilm.contact.foundation.errors import InputError, UnavailableError
 from roughfilm.contact.surfaces.surface import MAX_POINTS
 
 POINTS_PER_BYTE = 50
-"""No format packs more points into a byte of a file that holds a measurement."""
+"""Upper bound on the points for each byte of a file; a header that claims more is damaged."""
 
-MEMORY = 4 << 30, 40
-"""Bytes that reading may take: this many, and so many for each byte of the file."""
+MEMORY_LIMIT = 4 << 30, 40
+"""Memory limit of the reader, bytes: a constant, and bytes for each byte of the file."""
 
-SECONDS = 60, 4e-6
-"""CPU time that reading may take: this much, and so much for each byte of the file."""
+CPU_TIME_LIMIT = 60, 4e-6
+"""CPU time limit of the reader, s: a constant, and seconds for each byte of the file."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Measurement:
-    """What a file says: heights[x, y] in its unit, NaN where invalid; size along x and y in m; None where silent."""
+    """The content of a measurement file.
+
+    Attributes
+    ----------
+    heights : shape (nx, ny), in the unit of the file; NaN where invalid.
+    height_unit : unit of the heights; None if the file does not give it.
+    size : length along x and y, m; None if the file does not give it.
+    format : name of the file format.
+    channel : name of the channel; empty for formats without channels.
+    """
 
     heights: Array
     height_unit: str | None
@@ -41,13 +50,13 @@ class Measurement:
 
 
 def read_instrument(path: Path, channel: str | None = None) -> Measurement:
-    """Read one channel of heights, by default the file's own first choice.
+    """Read one channel of heights, by default the default channel of the file.
 
     Raises
     ------
     InputError
-        If no reader knows the file, it is damaged, claims more points than fit into its length or than 100 million,
-        or has no such channel of heights.
+        If the format is unknown, the file is damaged or claims more points than its length or the limit of 100
+        million allows, or it has no such channel of heights.
     UnavailableError
         If SurfaceTopography is not installed, or does not load.
     """
@@ -56,34 +65,45 @@ def read_instrument(path: Path, channel: str | None = None) -> Measurement:
             f"{path}: instrument files need SurfaceTopography; install it with: pip install 'roughfilm[instruments]'"
         )
     length = path.stat().st_size
-    memory, seconds = (int(least + each * length) for least, each in (MEMORY, SECONDS))
-    asked = {"path": str(path.resolve()), "channel": channel, "most": min(MAX_POINTS, POINTS_PER_BYTE * length)}
-    request = json.dumps({**asked, "memory": memory, "seconds": seconds})
-    places = os.pathsep.join([str(Path(__file__).resolve().parents[2]), *filter(None, sys.path)])
+    memory, seconds = (int(least + each * length) for least, each in (MEMORY_LIMIT, CPU_TIME_LIMIT))
+    request = {
+        "path": str(path.resolve()),
+        "channel": channel,
+        "most": min(MAX_POINTS, POINTS_PER_BYTE * length),
+        "memory": memory,
+        "seconds": seconds,
+    }
+    search_path = os.pathsep.join([str(Path(__file__).resolve().parents[2]), *filter(None, sys.path)])
     try:
         child = subprocess.run(
-            [*terminate_with_parent(), sys.executable, "-m", "roughfilm.contact.surfaces.instrument_reader", request],
+            [
+                *terminate_with_parent(),
+                sys.executable,
+                "-m",
+                "roughfilm.contact.surfaces.instrument_reader",
+                json.dumps(request),
+            ],
             capture_output=True,
             stdin=subprocess.DEVNULL,
-            env={**os.environ, "PYTHONPATH": places, "OPENBLAS_NUM_THREADS": "1"},
+            env={**os.environ, "PYTHONPATH": search_path, "OPENBLAS_NUM_THREADS": "1"},
             timeout=4 * seconds,
             check=False,
         )
     except subprocess.TimeoutExpired:
         raise InputError(f"{path}: reading it took more than {4 * seconds} s; the file may be damaged") from None
-    head, _, rest = child.stdout.partition(b"\n")
-    if child.returncode != 0 or not head:
+    header, _, data = child.stdout.partition(b"\n")
+    if child.returncode != 0 or not header:
         raise InputError(f"{path}: its reader broke down (exit {child.returncode}); the file may be damaged")
-    told = json.loads(head)
-    if "missing" in told:
-        raise UnavailableError(f"{path}: SurfaceTopography does not load ({told['missing']}); install it again")
-    if "fault" in told:
-        raise InputError(f"{path}: {told['fault']}")
-    size = told["size"]
+    reply = json.loads(header)
+    if "missing" in reply:
+        raise UnavailableError(f"{path}: SurfaceTopography does not load ({reply['missing']}); install it again")
+    if "fault" in reply:
+        raise InputError(f"{path}: {reply['fault']}")
+    size = reply["size"]
     return Measurement(
-        heights=np.frombuffer(rest).reshape(told["shape"]),
-        height_unit=told["height_unit"],
+        heights=np.frombuffer(data).reshape(reply["shape"]),
+        height_unit=reply["height_unit"],
         size=None if size is None else (size[0], size[1]),
-        format=told["format"],
-        channel=told["channel"],
+        format=reply["format"],
+        channel=reply["channel"],
     )

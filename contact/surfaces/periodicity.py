@@ -1,4 +1,4 @@
-"""How well a surface repeats itself: its joints against every other place in it."""
+"""The periodicity mismatch of a surface: steps across its opposite edges, compared with steps inside it."""
 
 import numpy as np
 
@@ -6,28 +6,37 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.surfaces.surface import Surface
 
 MISMATCH_THRESHOLD = 0.1
-"""Above it a joint is worth a warning: of random surfaces, some 4 in 100 that are truly periodic lie above it, and
-all raw windows of them."""
+"""Mismatch above which a warning is given.
+
+About 4 in 100 periodic random surfaces lie above it, and all windows cut from them without joining the edges."""
 
 INTERIOR_QUANTILE = 0.98
-"""Part of the places inside that are no worse than the one the joint is held against: scratches do not count."""
+"""Quantile of the interior structure function with which the joint is compared; scratches lie above it."""
 
 LAG_DIVISOR = 16
-"""The longest lag is this part of the surface: a longer one has too few other places to be compared with."""
+"""Length of the surface over the longest lag; longer lags leave too few interior places for comparison."""
 
 
 def periodicity_mismatch(surface: Surface) -> float:
-    """What the worst joint of the repeated surface adds to what is usual inside it, from 0 to 1 and more.
+    """The excess of the structure function across the joint of opposite edges over its interior values.
 
     For a direction and a lag l, S(i) = ⟨(h_{k+l} − h_k)²⟩ over the l pairs of lines k = i − l … i − 1 that straddle
-    place i. The joint is place 0 of the repeated surface, and its excess is (S(0) − s) / 2 Sq², where 98 % of the
-    places inside have S(i) below s. The mismatch is the largest excess over both directions and the lags 1, 2, 4 … up
-    to a sixteenth of the surface; 0 if the joint is nowhere worse than the surface itself. The two sides of a joint
-    that know nothing of each other give 1 where the surface inside is smooth over that lag. Lags beyond a pixel find
-    ridges that do not go on across a joint which blending has made smooth. A surface that is as rough everywhere as
-    its joint hides it: noise from pixel to pixel, or square grooves of which one is cut to another width.
+    place i. The joint is place 0 of the repeated surface; its excess is (S(0) − s) / (2 Sq²), where s is the 98 %
+    quantile of S inside. The mismatch is the largest excess over both directions and the lags 1, 2, 4 … up to a
+    sixteenth of the surface.
 
-    Invalid pixels count as 0 m: fill them first.
+    Parameters
+    ----------
+    surface : without invalid pixels; they would count as 0 m.
+
+    Returns
+    -------
+    float : 0 if the joint is no rougher than the interior; about 1 for uncorrelated edges of a smooth surface.
+
+    Notes
+    -----
+    Lags above one pixel detect ridges that end at a joint smoothed by blending. The measure fails where the interior is
+    as rough as the joint: white noise, or square grooves of which one has another width.
     """
     centred = surface.heights - surface.heights.mean()
     variance = float(np.mean(centred**2))

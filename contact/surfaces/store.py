@@ -1,4 +1,4 @@
-"""Surfaces in HDF5 of our own: written whole or not at all, the same surface always as the same bytes."""
+"""Surfaces in HDF5 files: written completely or not at all; equal surfaces give equal bytes."""
 
 import json
 from pathlib import Path
@@ -15,9 +15,14 @@ MARK = b"roughfilm surface, HDF5 behind 512 bytes, sha256 "
 
 
 def save_surface(surface: Surface, path: Path) -> None:
-    """Write ``heights`` (m, [x, y]) and ``invalid``, with ``spacing`` (m), ``periodic`` and ``source`` as attributes.
+    """Write a surface to an HDF5 file.
 
-    Raises InputError if ``path`` cannot be written.
+    The datasets are ``heights``, m, [x, y], and ``invalid``; attributes are ``spacing``, ``periodic``, ``source``.
+
+    Raises
+    ------
+    InputError
+        If ``path`` cannot be written.
     """
 
     def fill(file: h5py.File) -> None:
@@ -34,12 +39,18 @@ def save_surface(surface: Surface, path: Path) -> None:
 
 
 def is_surface(path: Path) -> bool:
-    """Whether a file begins as our surfaces do, whatever its name."""
+    """Whether a file holds a surface written by :func:`save_surface`, whatever its name."""
     return has_mark(path, MARK)
 
 
 def load_surface(path: Path) -> Surface:
-    """Read a surface back as it was; InputError if the file was damaged or changed, or is of another version."""
+    """Read a surface, bit for bit as it was saved.
+
+    Raises
+    ------
+    InputError
+        If the file was damaged or changed, or has another schema.
+    """
     with open_checked(path, MARK, SCHEMA, "make it again") as file:
         shape = file["heights"].shape
         if shape[0] * shape[1] > MAX_POINTS:

@@ -1,4 +1,4 @@
-"""A measured or made surface: heights on a uniform grid, in metres, and where they came from."""
+"""A measured or generated surface: heights on a uniform grid, in metres, and their origin."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -10,32 +10,32 @@ from roughfilm.contact.foundation.arrays import Array, Mask
 from roughfilm.contact.foundation.errors import InputError
 
 MAX_LENGTH = 1e6
-"""m; what lies beyond is a wrong unit, and its powers overflow."""
+"""Largest height and spacing, m; larger values have a wrong unit, and their powers overflow."""
 
 MIN_SPACING = 1e-15
-"""m; likewise."""
+"""Smallest spacing, m; smaller values have a wrong unit, and their powers underflow."""
 
 MAX_POINTS = 100_000_000
-"""No file or grid with more points is read or made."""
+"""Largest number of points of a surface that is read, generated or pressed."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Surface:
-    """Heights over a rectangle of pixels, which need not be square.
+    """Heights over a rectangle of pixels.
 
     Attributes
     ----------
     heights : shape (nx, ny), m, upward; finite, and 0 where invalid. Read-only.
-    spacing : (dx, dy), m, between neighbouring pixels; the surface is nx dx long and ny dy wide.
-    invalid : shape (nx, ny), bool: pixels that were not measured. Read-only.
-    periodic : whether the surface repeats itself in both directions.
-    source : where it came from and what was done to it, as entries that JSON can hold.
+    spacing : (dx, dy), m, between neighbouring pixels; the surface has the lengths nx dx and ny dy.
+    invalid : shape (nx, ny), bool; true where a pixel was not measured. Read-only.
+    periodic : whether the surface is periodic in both directions.
+    source : origin of the surface and steps of its preparation, as entries that JSON can hold.
 
     Raises
     ------
     InputError
-        If there are fewer than 2 x 2 pixels, a height that counts is not finite, every pixel is invalid, or a length is
-        below 1e-15 m or beyond 1000 km.
+        If there are fewer than 2 x 2 pixels, a valid height is not finite, every pixel is invalid, a height exceeds
+        1e6 m, or a spacing is outside 1e-15 m to 1e6 m.
     """
 
     heights: Array
@@ -70,20 +70,20 @@ class Surface:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Pixels along x and y."""
+        """Number of pixels along x and y, (nx, ny)."""
         nx, ny = self.heights.shape
         return nx, ny
 
     @property
     def size(self) -> tuple[float, float]:
-        """Length along x and y, m: one period if the surface is periodic."""
+        """Lengths along x and y, m; one period for a periodic surface."""
         return self.shape[0] * self.spacing[0], self.shape[1] * self.spacing[1]
 
     @property
     def valid(self) -> Mask:
-        """Where heights were measured, shape (nx, ny)."""
+        """Mask of the measured pixels, shape (nx, ny)."""
         return ~self.invalid
 
     def with_heights(self, heights: Array, **changes: Any) -> Self:
-        """The same surface with other heights (and other fields, by name)."""
+        """A copy with other heights, shape (nx, ny), m, and other attributes by keyword."""
         return replace(self, heights=heights, **changes)

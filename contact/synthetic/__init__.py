@@ -1,7 +1,8 @@
-"""Surfaces made from a few numbers and a seed: periodic, and the same bytes every time.
+"""Periodic surfaces generated from a few parameters and a seed, reproducible bit for bit.
 
-One file a family: ``self_affine``, ``gaussian``, ``sinusoids``, ``cross_hatch``, ``milled``, ``plateau_honed``; and
-``profile`` makes ground profiles of given ``four_moments``. ``description`` reads surfaces from TOML; ``distribution``
-changes heights and keeps the spectrum; ``rearrangement`` keeps heights and changes their order. A height belongs to a
-place, x = i dx and y = j dy, and is not a pixel's mean: a grid twice as fine holds the heights of the coarse one.
+There is a module for each family: ``self_affine``, ``gaussian``, ``sinusoids``, ``cross_hatch``, ``milled`` and
+``plateau_honed``; ``profile`` generates ground profiles with given ``four_moments``. ``description`` reads surfaces
+from TOML; ``distribution`` changes the heights and keeps the spectrum; ``rearrangement`` keeps the heights and changes
+their order. Heights are point values at x = i dx, y = j dy, so that a grid twice as fine contains those of the coarse
+one.
 """

@@ -1,4 +1,4 @@
-"""Two families of equal grooves that cross each other, as honing leaves them."""
+"""Two families of equal, crossing grooves, as honing leaves them."""
 
 import math
 
@@ -10,8 +10,8 @@ from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.checks import length, number_between
 from roughfilm.contact.synthetic.grid import Grid, metres, radians
 
-NEAR_SPACING, NEAR_ANGLE = 0.1, math.radians(3)
-"""How far the grooves that close over the period may be from those that were asked."""
+SPACING_TOLERANCE, ANGLE_TOLERANCE = 0.1, math.radians(3)
+"""Largest relative change of the spacing, and of the angle, rad, that makes the grooves periodic."""
 
 
 def cross_hatch(
@@ -23,28 +23,28 @@ def cross_hatch(
     depth: float,
     width: float,
 ) -> Surface:
-    """Flat land at height 0 with two families of parallel grooves at ± the half angle to the x axis.
+    """A plane at height 0 with two families of parallel grooves at ± the half angle to the x axis.
 
-    Across a groove h = -d (1 + cos(2π t/w))/2 for |t| < w/2, with t from its middle line; where two cross, the deeper
-    counts. One groove of each family passes through x = y = 0.
+    The cross-section of a groove is h = -d (1 + cos(2π t/w))/2 for |t| < w/2, with t from its middle line; the deeper
+    groove counts at crossings. One groove of each family passes through x = y = 0.
 
     Parameters
     ----------
-    size, points : the period, m, and the grid over it, along x and y.
-    spacing : m, between neighbouring grooves of a family, square to them.
-    half_angle : between the grooves and the x axis, above 0 and below π/2, rad: half the honing angle.
-    depth, width : d and w, m; the width at least two pixels and at most the spacing.
+    size, points : period, m, and number of points, along x and y.
+    spacing : distance between neighbouring grooves of a family, perpendicular to them, m.
+    half_angle : angle between the grooves and the x axis, above 0 and below π/2, rad; half the honing angle.
+    depth, width : d and w, m; the width is at least two pixels and at most the spacing.
 
     Returns
     -------
-    Periodic surface. Grooves close over the period only if m = Lx sin(angle)/spacing and n = Ly cos(angle)/spacing are
-    whole numbers; the nearest are taken, and ``source["achieved"]`` tells the spacing and the half angle they give.
+    Surface : periodic, so that m = Lx sin(angle)/spacing and n = Ly cos(angle)/spacing are rounded to whole numbers;
+        ``source["achieved"]`` holds the spacing and half angle that result.
 
     Raises
     ------
     InputError
-        One line, for what makes no sense, or if the nearest grooves that close are 10 % off the spacing or 3° off the
-        angle; it tells which those are.
+        If an argument is out of range, or rounding changes the spacing by more than 10 % or the angle by more than 3°;
+        the message gives values that fit.
     """
     grid = Grid(kind="cross_hatch", size=size, points=points)
     length("cross_hatch.spacing", spacing)
@@ -54,7 +54,7 @@ def cross_hatch(
     n = max(1, round(size[1] * math.cos(half_angle) / spacing))
     across = (m / size[0], n / size[1])
     near_spacing, near_angle = 1 / math.hypot(*across), math.atan2(*across)
-    if abs(near_spacing / spacing - 1) > NEAR_SPACING or abs(near_angle - half_angle) > NEAR_ANGLE:
+    if abs(near_spacing / spacing - 1) > SPACING_TOLERANCE or abs(near_angle - half_angle) > ANGLE_TOLERANCE:
         raise InputError(
             f"cross_hatch: got spacing {spacing:.4g} m at {math.degrees(half_angle):.4g} deg, which does not close "
             f"over the period; write {near_spacing:.4g} m at {math.degrees(near_angle):.4g} deg, or a longer size"
@@ -65,9 +65,8 @@ def cross_hatch(
     x, y = grid.axes
 
     def groove(phase: Array) -> Array:
-        aside = np.minimum(np.abs(phase - np.round(phase)) * near_spacing / width, 0.5)
-        shape: Array = (1 + np.cos(2 * np.pi * aside)) / 2
-        return shape
+        distance = np.minimum(np.abs(phase - np.round(phase)) * near_spacing / width, 0.5)
+        return np.asarray((1 + np.cos(2 * np.pi * distance)) / 2)
 
     return grid.surface(
         -depth * np.maximum(groove(m * x - n * y), groove(m * x + n * y)),

@@ -1,4 +1,4 @@
-"""A synthetic surface described by a TOML table, and made from it."""
+"""Synthetic surfaces described by a TOML table."""
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -32,7 +32,7 @@ Number = Annotated[float, BeforeValidator(plain_number)]
 
 
 class HeightDistribution(Part):
-    """Heights with a given Ssk, see ``roughfilm.contact.synthetic.distribution.with_skewness``."""
+    """Skewness Ssk of the heights, see ``roughfilm.contact.synthetic.distribution.with_skewness``."""
 
     skewness: Number
 
@@ -44,7 +44,7 @@ class _Described(Part):
 
 
 class SelfAffine(_Described):
-    """See ``roughfilm.contact.synthetic.self_affine``."""
+    """Arguments of ``roughfilm.contact.synthetic.self_affine``."""
 
     kind: Literal["self_affine"]
     seed: Whole
@@ -58,7 +58,7 @@ class SelfAffine(_Described):
 
 
 class Gaussian(_Described):
-    """See ``roughfilm.contact.synthetic.gaussian``."""
+    """Arguments of ``roughfilm.contact.synthetic.gaussian``."""
 
     kind: Literal["gaussian"]
     seed: Whole
@@ -72,7 +72,7 @@ class Gaussian(_Described):
 
 
 class Sinusoid(_Described):
-    """See ``roughfilm.contact.synthetic.sinusoids``."""
+    """Arguments of ``roughfilm.contact.synthetic.sinusoids``."""
 
     kind: Literal["sinusoid"]
     amplitude: Length
@@ -82,7 +82,7 @@ class Sinusoid(_Described):
 
 
 class CrossHatch(_Described):
-    """See ``roughfilm.contact.synthetic.cross_hatch``."""
+    """Arguments of ``roughfilm.contact.synthetic.cross_hatch``."""
 
     kind: Literal["cross_hatch"]
     spacing: Length
@@ -92,7 +92,7 @@ class CrossHatch(_Described):
 
 
 class Milled(_Described):
-    """See ``roughfilm.contact.synthetic.milled``."""
+    """Arguments of ``roughfilm.contact.synthetic.milled``."""
 
     kind: Literal["milled"]
     radius: Length
@@ -103,7 +103,7 @@ class Milled(_Described):
 
 
 class PlateauHoned(_Described):
-    """See ``roughfilm.contact.synthetic.plateau_honed``."""
+    """Arguments of ``roughfilm.contact.synthetic.plateau_honed``."""
 
     kind: Literal["plateau_honed"]
     seed: Whole
@@ -133,21 +133,24 @@ _READER: TypeAdapter[Description] = TypeAdapter(Annotated[Description, Field(dis
 def read_description(path: Path) -> Description:
     """Read the description of a surface from a TOML file.
 
-    Its keys are the arguments of the function that makes the kind, lengths and angles with units ("1 mm", "30 deg"). To
-    "self_affine" and "gaussian" a table ``[height_distribution]`` with ``skewness`` may be added.
+    The keys are ``kind`` and the arguments of the function of that kind, lengths and angles with units ("1 mm",
+    "30 deg"). "self_affine" and "gaussian" also take a table ``[height_distribution]`` with ``skewness``.
 
     Raises
     ------
     InputError
-        One line that names the key, what was got there and what to write instead.
+        If the file cannot be read, or a key is unknown, missing or has an invalid value; the message names the key.
     """
     return read_entries(read_toml(path, 'kind = "self_affine"'))
 
 
 def read_entries(entries: Mapping[str, Any]) -> Description:
-    """A description from entries as a TOML file, or ``source["synthetic"]`` of a surface, holds them.
+    """The description from entries of a TOML file, or from ``source["synthetic"]`` of a surface.
 
-    Raises InputError as ``read_description`` does.
+    Raises
+    ------
+    InputError
+        As ``read_description`` does.
     """
     try:
         return _READER.validate_python(entries)
@@ -162,20 +165,24 @@ def read_entries(entries: Mapping[str, Any]) -> Description:
 
 
 def description_entries(description: Description) -> dict[str, Any]:
-    """The complete description, defaults written out, units as text; ``read_entries`` reads it back unchanged."""
+    """The complete description as entries, with defaults, units as text; ``read_entries`` reads it back unchanged."""
     return description.model_dump(mode="json", exclude_none=True)
 
 
 def make(description: Description) -> Surface:
-    """The surface that a description tells of: periodic, and the same bytes for the same description.
+    """Generate the periodic surface of a description; equal descriptions give equal bytes.
 
-    ``source["synthetic"]`` holds the complete description, ``source["achieved"]`` what came of it. A height
-    distribution keeps the rms height or, where that was given, the rms slope; ``source["distribution"]`` tells more.
+    A height distribution keeps the rms height or, if the description gives it, the rms slope.
+
+    Returns
+    -------
+    Surface : ``source["synthetic"]`` holds the complete description, ``source["achieved"]`` the values achieved, and
+        ``source["distribution"]`` the results of a height distribution.
 
     Raises
     ------
     InputError
-        One line, for what makes no sense; see the function that makes the kind.
+        If an argument is out of range; see the function of the kind.
     """
     given = {name: getattr(description, name) for name in type(description).model_fields}
     kind, distribution = given.pop("kind"), given.pop("height_distribution", None)

@@ -1,4 +1,4 @@
-"""Closed forms for surfaces of known spectrum: moments of self-affine ones, correlation and slope of Gaussian ones."""
+"""Closed forms for surfaces of known spectrum: spectral moments, autocorrelations and rms slopes."""
 
 import math
 
@@ -9,20 +9,20 @@ from roughfilm.contact.foundation.errors import InputError
 
 
 def self_affine_moment(order: int, *, hurst: float, roll_off: float, cut_off: float) -> float:
-    """∫ q^(order + 1) C(q) dq from 0 to qs, for C = 1 up to qr and (q/qr)^(-2 - 2H) from there to qs.
+    """Spectral moment ∫ q^(k + 1) C(q) dq from 0 to qs, with C = 1 up to qr and C = (q/qr)^(-2 - 2H) up to qs.
 
-    qr^(k + 2) [1/(k + 2) + (s^(k - 2H) - 1)/(k - 2H)] with k the order and s = qs/qr; ln s for the fraction if k = 2H.
+    It equals qr^(k + 2) [1/(k + 2) + (s^(k - 2H) - 1)/(k - 2H)] with s = qs/qr; ln s replaces the fraction if k = 2H.
 
     Parameters
     ----------
     order : k: 0 for heights, 2 for slopes, 4 for curvatures.
     hurst : H, above 0 and at most 1.
-    roll_off, cut_off : 2π/qr and 2π/qs, m, the latter the shorter.
+    roll_off, cut_off : wavelengths 2π/qr and 2π/qs, m, with cut_off <= roll_off.
 
     Returns
     -------
-    In 1/m^(k + 2), per unit of C. Ratios are those of mean squares: the second over the zeroth moment is the mean
-    square slope over the mean square height, of a surface whose period holds many roll-off lengths.
+    float : 1/m^(k + 2), per unit of C. The second over the zeroth moment is the mean square slope over the mean square
+        height of a surface whose period holds many roll-off lengths.
 
     Raises
     ------
@@ -49,45 +49,44 @@ def self_affine_moment(order: int, *, hurst: float, roll_off: float, cut_off: fl
 
 
 def rms_slope_over_height(*, hurst: float, roll_off: float, cut_off: float) -> float:
-    """sqrt(<|∇h|²>/<h²>) of a self-affine surface, 1/m; see ``self_affine_moment``."""
+    """Rms slope over rms height, sqrt(<|∇h|²>/<h²>), 1/m, of a self-affine surface, from `self_affine_moment`."""
     second, zeroth = (self_affine_moment(order, hurst=hurst, roll_off=roll_off, cut_off=cut_off) for order in (2, 0))
     return math.sqrt(second / zeroth)
 
 
 def autocorrelation(distance: Array, correlation_length: float, *, exponent: float = 2.0) -> Array:
-    """R = 0.2^((t/λ)^exponent): of Gaussian form for exponent 2, exponential for 1.
+    """Autocorrelation R = 0.2^((t/λ)^exponent): Gaussian for exponent 2, exponential for exponent 1.
 
     Parameters
     ----------
     distance : t >= 0, m, any shape.
-    correlation_length : λ, m, where R = 0.2.
+    correlation_length : distance λ at which R = 0.2, m.
     exponent : above 0 and at most 2.
 
     Returns
     -------
-    R, of the same shape.
+    Array : R, same shape as ``distance``.
 
     Raises
     ------
     InputError
-        If the correlation length is not above zero, or the exponent out of range.
+        If the correlation length or the exponent is out of range.
     """
     if not (correlation_length > 0 and 0 < exponent <= 2):
         raise InputError(
             f"autocorrelation: got correlation length {correlation_length!r} m, exponent {exponent!r}; write a length "
             "above zero and an exponent above 0 and at most 2"
         )
-    value: Array = 0.2 ** ((np.asarray(distance, dtype=float) / correlation_length) ** exponent)
-    return value
+    return np.asarray(0.2 ** ((np.asarray(distance, dtype=float) / correlation_length) ** exponent))
 
 
 def gaussian_rms_slope(rms_height: float, along: float, across: float) -> float:
-    """sqrt(<|∇h|²>) = σ sqrt(2 ln 5 (1/along² + 1/across²)) for R = 0.2^(ρ²), from its curvature at the origin.
+    """The rms slope σ sqrt(2 ln 5 (1/along² + 1/across²)) of a surface with the autocorrelation R = 0.2^(ρ²).
 
     Parameters
     ----------
     rms_height : σ, m.
-    along, across : correlation lengths, m, where R = 0.2.
+    along, across : correlation lengths at which R = 0.2, m.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Heights whose mean distance, rms, skewness and kurtosis, or highest and lowest, are all given."""
+"""Heights with given mean deviation, rms, skewness and kurtosis, or with given extremes."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,30 +12,32 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.synthetic.checks import length, number_between, whole_between
 
-ORDER = 6
-"""Of the polynomial by which the distribution departs from the normal one: up to four conditions, and room."""
+POLYNOMIAL_ORDER = 6
+"""Order of the polynomial by which the distribution departs from the normal one."""
 
-FEWEST, MOST = 32, 1_000_000
-CLOSE = 1e-8
-"""How near the conditions have to be met, relatively (skewness: absolutely)."""
+MIN_COUNT, MAX_COUNT = 32, 1_000_000
+"""Range of the number of heights."""
+
+MOMENT_TOLERANCE = 1e-8
+"""Largest relative error of each condition; for the skewness the absolute error."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class FourMoments:
-    """What heights are asked to be like; of a profile Ra, Rq, Rsk, Rku, of a surface Sa, Sq, Ssk, Sku.
+    """Prescribed height parameters: Ra, Rq, Rsk, Rku of a profile, or Sa, Sq, Ssk, Sku of a surface.
 
     Attributes
     ----------
-    average : Ra, m, mean distance from the mean.
+    average : Ra, m; mean absolute deviation.
     rms : Rq, m.
-    skewness : Rsk.
-    kurtosis : Rku, 3 for normal heights.
-    peak : Rp, m, from the mean to the highest; where it is not given, what the others make of it.
+    skewness : Rsk, -10 to 10.
+    kurtosis : Rku, 1 + Rsk² to 200; 3 for normal heights.
+    peak : Rp, m, largest height above the mean; None leaves it free.
 
     Raises
     ------
     InputError
-        If no heights have them: Ra > Rq, or Rku < 1 + Rsk².
+        If a number is out of range, Ra > Rq, or Rku < 1 + Rsk².
     """
 
     average: float
@@ -55,25 +57,24 @@ class FourMoments:
 
 
 def heights_with(moments: FourMoments, count: int) -> Array:
-    """Growing heights with a mean of 0 that have the four moments, as smoothly spread as these allow.
+    """Increasing heights of mean 0 with the given moments, whose distribution is as near to the normal one as possible.
 
-    They are z(x) at the normal quantiles x = Φ⁻¹((k + ½)/n), with dz/dx = c exp(Σ b_j T_j(x/x_max)), j = 1 ... 6, which
-    is above 0 whatever the b_j, so that z has a density. Of all b that give the moments it has the least Σ (j b_j)²;
-    normal heights have b = 0.
+    The heights are z(x) at the normal quantiles x = Φ⁻¹((k + ½)/n), with dz/dx = c exp(Σ b_j T_j(x/x_max)) > 0,
+    j = 1 ... 6. The coefficients b minimise Σ (j b_j)² under the conditions; normal heights have b = 0.
 
     Parameters
     ----------
-    moments : that the n heights themselves have, not only the distribution they come from.
+    moments : parameters of the n heights themselves.
     count : n, 32 to 1 000 000.
 
     Returns
     -------
-    Shape (n,), m; moments are met to 1e-8.
+    Array : shape (n,), m; the moments are met to 1e-8.
 
     Raises
     ------
     InputError
-        If no such b is found: the moments do not go together, as those of heights of two levels.
+        If no such b exists, for example for moments of a two-level distribution.
 
     Examples
     --------
@@ -82,13 +83,13 @@ def heights_with(moments: FourMoments, count: int) -> Array:
     (0.93, 1.2, True)
     """
 
-    def missed(z: Array) -> Array:
-        found = np.abs(z).mean() * moments.rms / moments.average - 1, np.mean(z**4) / moments.kurtosis - 1
+    def errors(z: Array) -> Array:
+        average, kurtosis = np.abs(z).mean() * moments.rms / moments.average - 1, np.mean(z**4) / moments.kurtosis - 1
         highest = [] if moments.peak is None else [z[-1] * moments.rms / moments.peak - 1]
-        return np.array([found[0], np.mean(z**3) - moments.skewness, found[1], *highest])
+        return np.array([average, np.mean(z**3) - moments.skewness, kurtosis, *highest])
 
-    z, off = smoothest(count, missed)
-    if not off < CLOSE:
+    z, error = smoothest(count, errors)
+    if not error < MOMENT_TOLERANCE:
         highest = "" if moments.peak is None else f", Rp/Rq {moments.peak / moments.rms:.4g}"
         raise InputError(
             f"heights: got Ra/Rq {moments.average / moments.rms:.4g}, Rsk {moments.skewness:.4g}, Rku "
@@ -98,33 +99,33 @@ def heights_with(moments: FourMoments, count: int) -> Array:
 
 
 def heights_within(*, average: float, rms: float, peak: float, valley: float, count: int) -> Array:
-    """Growing heights with a mean of 0 that have Sa, Sq, Sp and Sv, as smoothly spread as these allow.
+    """Increasing heights of mean 0 with given Sa, Sq, Sp and Sv, constructed as by :func:`heights_with`.
 
     Parameters
     ----------
     average, rms : Sa and Sq, m.
-    peak, valley : Sp and Sv, from the mean to the highest and to the lowest, m, both above 0.
+    peak, valley : Sp and Sv, m, both above 0.
     count : n, 32 to 1 000 000.
 
     Returns
     -------
-    Shape (n,), m, as :func:`heights_with` makes them; all four are met to 1e-8.
+    Array : shape (n,), m; all four parameters are met to 1e-8.
 
     Raises
     ------
     InputError
-        If no such heights are found: Sa > Sq, or a height between two levels that are too near.
+        If no such heights exist: Sa > Sq, or extremes too close to the mean.
     """
     length("heights.rms", rms)
     number_between("heights.average", average, 1e-15, rms, "it must be above 0 m and at most the rms")
     length("heights.peak", peak)
     length("heights.valley", valley)
 
-    def missed(z: Array) -> Array:
+    def errors(z: Array) -> Array:
         return np.array([np.abs(z).mean() * rms / average, z[-1] * rms / peak, -z[0] * rms / valley]) - 1
 
-    z, off = smoothest(count, missed)
-    if not off < CLOSE:
+    z, error = smoothest(count, errors)
+    if not error < MOMENT_TOLERANCE:
         raise InputError(
             f"heights: got Sa/Sq {average / rms:.4g}, Sp/Sq {peak / rms:.4g}, Sv/Sq {valley / rms:.4g}, which no "
             f"smooth distribution of {count} heights was found for; those of {count} normal ones are 0.798 and both "
@@ -133,18 +134,23 @@ def heights_within(*, average: float, rms: float, peak: float, valley: float, co
     return np.asarray(rms * z)
 
 
-def smoothest(count: int, missed: Callable[[Array], Array]) -> tuple[Array, float]:
-    """Growing heights of mean 0 and rms 1 that are nearest to normal ones, and by how much they miss what is asked.
+def smoothest(count: int, errors: Callable[[Array], Array]) -> tuple[Array, float]:
+    """Increasing heights of mean 0 and rms 1 nearest to normal ones under conditions, and the largest error of these.
 
     Parameters
     ----------
     count : n, 32 to 1 000 000.
-    missed : of heights, shape (n,): by how much they miss each condition; infinite where they do not grow.
+    errors : errors of the conditions, shape (conditions,), for heights of shape (n,).
+
+    Returns
+    -------
+    heights : shape (n,), in units of the rms.
+    error : largest absolute error; infinite if the heights do not increase.
     """
-    whole_between("heights.count", count, FEWEST, MOST)
+    whole_between("heights.count", count, MIN_COUNT, MAX_COUNT)
     x = ndtri((np.arange(count) + 0.5) / count)
-    departures = chebyshev.chebvander((x[1:] + x[:-1]) / (2 * x[-1]), ORDER)[:, 1:]
-    weights = np.arange(1.0, ORDER + 1) ** 2
+    departures = chebyshev.chebvander((x[1:] + x[:-1]) / (2 * x[-1]), POLYNOMIAL_ORDER)[:, 1:]
+    weights = np.arange(1.0, POLYNOMIAL_ORDER + 1) ** 2
 
     def scaled(b: Array) -> Array:
         growth = departures @ b
@@ -152,13 +158,13 @@ def smoothest(count: int, missed: Callable[[Array], Array]) -> tuple[Array, floa
         z -= z.mean()
         return np.asarray(z / z.std())
 
-    found = minimize(
+    coefficients = minimize(
         lambda b: float(weights @ b**2),
-        np.zeros(ORDER),
+        np.zeros(POLYNOMIAL_ORDER),
         jac=lambda b: 2 * weights * b,
-        constraints={"type": "eq", "fun": lambda b: missed(scaled(b))},
+        constraints={"type": "eq", "fun": lambda b: errors(scaled(b))},
         method="SLSQP",
         options={"maxiter": 500, "ftol": 1e-12},
     ).x
-    z = scaled(found)
-    return z, float(np.abs(missed(z)).max()) if (np.diff(z) > 0).all() else np.inf
+    z = scaled(coefficients)
+    return z, float(np.abs(errors(z)).max()) if (np.diff(z) > 0).all() else np.inf

@@ -1,4 +1,4 @@
-"""The grid a synthetic surface is made on, and the surface it becomes."""
+"""The grid of a synthetic surface."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -9,17 +9,25 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import with_unit
-from roughfilm.contact.surfaces.surface import Surface
+from roughfilm.contact.surfaces.surface import MAX_POINTS, Surface
 from roughfilm.contact.synthetic.checks import length, whole_between
-
-MOST_POINTS = 100_000_000
 
 
 @dataclass(frozen=True, kw_only=True)
 class Grid:
-    """A period of ``size`` metres with ``points`` along x and y, at x = i Lx/nx and y = j Ly/ny.
+    """A period with points at x = i Lx/nx and y = j Ly/ny.
 
-    Raises InputError for fewer than 2 points along a side, more than 1e8 in total, or a length that is none.
+    Attributes
+    ----------
+    kind : kind of the surface, for messages.
+    size : (Lx, Ly), m.
+    points : (nx, ny).
+
+    Raises
+    ------
+    InputError
+        If a side has fewer than 2 points, there are more than 1e8 points, a length is out of range, or the ratio of the
+        sides exceeds 1e6.
     """
 
     kind: str
@@ -33,30 +41,30 @@ class Grid:
         for side in self.size:
             length(f"{self.kind}.size", side)
         for count in self.points:
-            whole_between(f"{self.kind}.points", count, 2, MOST_POINTS)
-        if self.points[0] * self.points[1] > MOST_POINTS:
+            whole_between(f"{self.kind}.points", count, 2, MAX_POINTS)
+        if self.points[0] * self.points[1] > MAX_POINTS:
             raise InputError(f"{self.kind}.points: got {self.points[0]} x {self.points[1]}; write at most 1e8 in total")
         if not 1e-6 <= self.size[0] / self.size[1] <= 1e6:
             raise InputError(f"{self.kind}.size: got {self.size[0]:.3g} m by {self.size[1]:.3g} m; look at the units")
 
     @property
     def spacing(self) -> tuple[float, float]:
-        """(dx, dy), m."""
+        """The spacing (dx, dy), m."""
         return self.size[0] / self.points[0], self.size[1] / self.points[1]
 
     @property
     def shortest_wavelength(self) -> float:
-        """Twice the longer side of a pixel, m: shorter waves are not resolved in all directions."""
+        """The shortest wavelength resolved in all directions, m: twice the longer side of a pixel."""
         return 2 * max(self.spacing)
 
     @property
     def axes(self) -> tuple[Array, Array]:
-        """Places as parts of a period, x/Lx of shape (nx, 1) and y/Ly of shape (1, ny)."""
+        """Coordinates over the period, x/Lx of shape (nx, 1) and y/Ly of shape (1, ny)."""
         nx, ny = self.points
         return np.arange(nx)[:, None] / nx, np.arange(ny)[None, :] / ny
 
     def resolves(self, name: str, value: float, pixel: float | None = None) -> float:
-        """A length, m, if it is at least two pixels (by default their longer side); InputError otherwise."""
+        """The length, m, if it is at least two pixels (by default their longer side); raises InputError otherwise."""
         least = self.shortest_wavelength if pixel is None else 2 * pixel
         if length(f"{self.kind}.{name}", value) < least * (1 - 1e-9):
             raise InputError(
@@ -65,7 +73,7 @@ class Grid:
         return value
 
     def surface(self, heights: Array, given: Mapping[str, Any], achieved: Mapping[str, Any]) -> Surface:
-        """The periodic surface, with what was asked (as a description file says it) and what was achieved."""
+        """The periodic surface; its source holds the arguments, as text of a description, and the achieved values."""
         asked = {"kind": self.kind, "size": [metres(side) for side in self.size], "points": list(self.points)}
         asked |= {key: value for key, value in given.items() if value is not None}
         return Surface(
@@ -77,10 +85,10 @@ class Grid:
 
 
 def metres(value: float | None) -> str | None:
-    """A length as a description file holds it."""
+    """A length as text of a description."""
     return None if value is None else with_unit(float(value), "m")
 
 
 def radians(value: float) -> str:
-    """An angle as a description file holds it."""
+    """An angle as text of a description."""
     return with_unit(float(value), "rad")

@@ -1,4 +1,4 @@
-"""The arcs that a face mill leaves."""
+"""Face-milled surfaces: the arcs that a face mill leaves."""
 
 import math
 
@@ -21,33 +21,32 @@ def milled(
     offset: float = 0.0,
     back_lift: float | None = None,
 ) -> Surface:
-    """Arcs of a face mill that is fed along x, with parabolic scallops between cusps.
+    """The marks of a face mill fed along x: arcs with parabolic scallops between cusps.
 
-    Front: h = d (2u/f)², where u, -f/2 to f/2, is the distance along x from the nearest arc x = k f - b(y), with
-    b = R - sqrt(R² - (y - yc)²). Where the back of the mill cuts too, the lower of that and h = l + d (2v/f)² counts,
-    with v from the arcs x = k f + b(y). Heights are 0 on the arcs of the front, and at most d.
+    The front of the mill leaves h = d (2u/f)², where u, -f/2 to f/2, is the distance along x from the nearest arc
+    x = k f - b(y), with b = R - sqrt(R² - (y - yc)²). If the back cuts too, the lower of this and h = l + d (2v/f)²
+    counts, with v from the arcs x = k f + b(y). Heights are 0 on the arcs of the front, and at most d.
 
     Parameters
     ----------
-    size, points : the period, m, and the grid over it, along x (the feed) and y.
-    radius : R, m, of the circle the cutting edge moves on; arcs must span the width.
-    feed : f, m, for each revolution; a whole number of times along x (to one part in a thousand), at least two pixels.
-    depth : d, m, from arc to cusp: f²/(8 r) for an edge of nose radius r.
-    offset : how far yc lies from the middle of the width, m.
-    back_lift : l, m, how much higher the back of the mill passes: 0 for equal crossing marks; from d on it leaves
-        none. Without it the back does not cut.
+    size, points : period, m, and number of points, along x (the feed) and y.
+    radius : radius R of the circle of the cutting edge, m; its arcs must span the width.
+    feed : f, m, per revolution; divides the length to 0.1 %, at least two pixels.
+    depth : d, m, from arc to cusp; f²/(8 r) for an edge of nose radius r.
+    offset : distance of yc from the middle of the width, m.
+    back_lift : height l of the back of the mill above its front, m: 0 for equal crossing marks, d or more for none. By
+        default the back does not cut.
 
     Returns
     -------
-    Periodic surface: along x because the feed divides the length; across the joint at y = 0 because the arcs arrive
-    there a whole number of feeds apart. With offset 0 they are symmetric and meet; any other offset is moved to the
-    nearest for which b(Ly) - b(0) is a whole number of feeds, told in ``source["achieved"]``. Heights are continuous at
-    the joint, but arcs have a kink there: with offset 0, dx/dy jumps by about Ly/R. Let R be long against Ly.
+    Surface : periodic along y since a non-zero offset is moved to the nearest for which b(Ly) - b(0) is a whole number
+        of feeds; ``source["achieved"]`` holds feed and offset. Heights are continuous at the joint y = 0, but arcs have
+        a kink there: with offset 0, dx/dy jumps by about Ly/R, so that R should be large against Ly.
 
     Raises
     ------
     InputError
-        One line, for what makes no sense, or where arcs end inside the width or come within two pixels of each other.
+        If an argument is out of range, or arcs end inside the width or come within two pixels of each other.
     """
     grid = Grid(kind="milled", size=size, points=points)
     length("milled.depth", depth)
@@ -57,10 +56,10 @@ def milled(
     number_between("milled.offset", offset, -1e6, 1e6, "it must be -1e6 to 1e6 m, look at the unit")
     if back_lift is not None:
         number_between("milled.back_lift", back_lift, 0, 1e6, "it must be 0 to 1e6 m, look at the unit")
-    reach = size[1] / 2 + abs(offset)
-    if reach >= radius:
+    half_span = size[1] / 2 + abs(offset)
+    if half_span >= radius:
         raise InputError(
-            f"milled.radius: got {radius:.5g} m, whose arcs end inside the width; write more than {reach:.5g} m, "
+            f"milled.radius: got {radius:.5g} m, whose arcs end inside the width; write more than {half_span:.5g} m, "
             "or less offset"
         )
     closing = _closing_offset(radius, size[1] / 2, fitting, offset)
@@ -90,13 +89,15 @@ def milled(
 
 
 def _scallop(phase: Array) -> Array:
-    """(2u/f)² of the distance u from the nearest of the places where the phase, in feeds, is whole."""
-    shape: Array = (2 * (phase - np.round(phase))) ** 2
-    return shape
+    """Height (2u/f)² of a scallop at the distance u from the nearest point of whole phase, in feeds."""
+    return np.asarray((2 * (phase - np.round(phase))) ** 2)
 
 
 def _closing_offset(radius: float, half: float, feed: float, offset: float) -> float:
-    """The nearest offset e with b(Ly) - b(0) = j f: e² = j² f² (R² - a² - j² f²/4) / (j² f² + 4 a²), a = Ly/2."""
+    """The offset e, m, nearest to the given one for which b(Ly) - b(0) = j f is a whole number of feeds.
+
+    e² = j² f² (R² - a² - j² f²/4) / (j² f² + 4 a²) with a = Ly/2.
+    """
     far, near = (math.sqrt(radius**2 - (half + sign * abs(offset)) ** 2) for sign in (1, -1))
     most = 2 * math.sqrt(half * (radius - half))
     apart = feed * min(round(4 * half * abs(offset) / (far + near) / feed), math.floor(most / feed))

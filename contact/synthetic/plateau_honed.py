@@ -1,4 +1,4 @@
-"""Plateau-honed surfaces: the lower of fine plateaus and coarse, crossing valleys."""
+"""Plateau-honed surfaces: the minimum of fine plateaus and coarse, crossing valleys."""
 
 import math
 
@@ -10,7 +10,7 @@ from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.checks import length, number_between, whole_between
 from roughfilm.contact.synthetic.gaussian import correlation_lengths, spectrum
 from roughfilm.contact.synthetic.grid import Grid, metres, radians
-from roughfilm.contact.synthetic.waves import LARGEST_SEED, random_waves
+from roughfilm.contact.synthetic.waves import MAX_SEED, random_waves
 
 
 def plateau_honed(
@@ -26,37 +26,37 @@ def plateau_honed(
     valley_anisotropy: float = 1.0,
     half_angle: float = 0.0,
 ) -> Surface:
-    """The lower of two Gaussian surfaces, h = min(p, v): plateaus p, and valleys v that are lifted above them.
+    """The minimum of two Gaussian surfaces, h = min(p, v), of plateaus p and valleys v.
 
-    On a probability plot the bearing curve follows two lines, of slopes Spq (plateaus) and Svq (valleys), which cross
-    at the material ratio Smq; for that the mean of v lies (Svq - Spq) Φ⁻¹(Smq) above that of p, which is height 0.
+    On a probability plot the bearing curve follows two lines of slopes Spq (plateaus) and Svq (valleys), which cross at
+    the material ratio Smq; therefore the mean of v lies (Svq - Spq) Φ⁻¹(Smq) above that of p, which is 0.
 
     Parameters
     ----------
-    size, points : the period, m, and the grid over it, along x and y.
-    seed : 0 to 2^63 - 1; plateaus are drawn with (seed, 0), valleys with (seed, 1), as in ``random_waves``.
-    plateau_rms_height, valley_rms_height : Spq <= Svq, m, of each surface before the lower is taken.
-    plateau_correlation_length, valley_correlation_length : m, across the lay, as in ``gaussian``.
-    material_ratio : Smq, 0.0001 to 0.9999: the greater, the more plateau.
-    valley_anisotropy : correlation length of the valleys along their lay over that across.
-    half_angle : between the valleys and the x axis, rad: half of their variance at +, half at -, so that they cross.
+    size, points : period, m, and number of points, along x and y.
+    seed : 0 to 2^63 - 1; plateaus use the seed (seed, 0), valleys (seed, 1), as in ``random_waves``.
+    plateau_rms_height, valley_rms_height : Spq <= Svq, m, of each surface before the minimum is taken.
+    plateau_correlation_length, valley_correlation_length : correlation length across the lay, m, as in ``gaussian``.
+    material_ratio : Smq, 0.0001 to 0.9999.
+    valley_anisotropy : correlation length of the valleys along their lay over that across it, 1e-4 to 1e4.
+    half_angle : angle between the valleys and the x axis, 0 to π/2 rad; half of their variance lies at +, half at -.
 
     Returns
     -------
-    Periodic surface; ``source["achieved"]`` tells by how much the valleys are lifted.
+    Surface : periodic; ``source["achieved"]`` holds the lift, the mean of v minus that of p.
 
     Raises
     ------
     InputError
-        One line, for what makes no sense.
+        If an argument is out of range.
 
     Notes
     -----
-    Source: the two processes behind ISO 13565-3:1998; Spq, Svq, Smq of ISO 25178-2:2021.
+    Source: ISO 13565-3:1998 for the two processes; ISO 25178-2:2021 for Spq, Svq, Smq.
     """
     kind = "plateau_honed"
     grid = Grid(kind=kind, size=size, points=points)
-    whole_between(f"{kind}.seed", seed, 0, LARGEST_SEED)
+    whole_between(f"{kind}.seed", seed, 0, MAX_SEED)
     length(f"{kind}.plateau_rms_height", plateau_rms_height)
     number_between(
         f"{kind}.valley_rms_height",

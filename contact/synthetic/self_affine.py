@@ -1,4 +1,4 @@
-"""Self-affine surfaces: a spectrum that falls as a power of the wave number between a roll-off and a cut-off."""
+"""Self-affine surfaces, whose spectrum is a power law between a roll-off and a cut-off wavelength."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.checks import length, number_between, whole_between
 from roughfilm.contact.synthetic.grid import Grid, metres
-from roughfilm.contact.synthetic.waves import LARGEST_SEED, Amplitudes, random_waves
+from roughfilm.contact.synthetic.waves import MAX_SEED, Amplitudes, random_waves
 
 
 def self_affine(
@@ -25,36 +25,36 @@ def self_affine(
     """A random isotropic self-affine surface.
 
     Its power spectrum is C(q) = C0 for q <= qr, C0 (q/qr)^(-2 - 2H) for qr < q < qs, and 0 from qs on, with
-    qr = 2π/roll_off and qs = 2π/cut_off, at all wave vectors of the period but q = 0. It is scaled so that the rms
-    height, or the rms slope sqrt(<|∇h|²>) of the continuous surface, is met to rounding.
+    qr = 2π/roll_off and qs = 2π/cut_off, at all wave vectors of the period except q = 0. It is scaled to the rms height
+    or to the rms slope sqrt(<|∇h|²>) of the continuous surface, to rounding.
 
     Parameters
     ----------
-    size, points : the period, m, and the grid over it, along x and y.
-    seed : 0 to 2^63 - 1; the same surface for the same seed, on every grid (see ``random_waves``).
+    size, points : period, m, and number of points, along x and y.
+    seed : 0 to 2^63 - 1; equal seeds give the same surface on every grid (see ``random_waves``).
     hurst : H, above 0 and at most 1.
-    roll_off : m, at most the longer side: as long as it, the surface is self-affine up to its own size.
-    cut_off : m, below the roll-off, at least two pixels.
-    rms_height, rms_slope : m, and a number; exactly one.
-    amplitudes : "fixed": every seed has this very spectrum; "random": only the mean over seeds has.
+    roll_off : wavelength, m, at most the longer side; equal to it, the surface is self-affine up to its own size.
+    cut_off : wavelength, m, below the roll-off, at least two pixels.
+    rms_height, rms_slope : m, and 1e-12 to 1000; exactly one of them.
+    amplitudes : "fixed": every seed has this spectrum; "random": only the mean over seeds has it.
 
     Returns
     -------
-    Periodic surface of mean 0; ``source["achieved"]`` tells rms height, rms slope and the number of waves.
+    Surface : periodic, of mean 0; ``source["achieved"]`` holds rms height, rms slope and number of waves.
 
     Raises
     ------
     InputError
-        One line, for what makes no sense.
+        If an argument is out of range.
 
     Notes
     -----
-    Heights are Gaussian as far as many waves add up: the fewer there are at the roll-off, the less they are.
+    Heights approach a Gaussian distribution as the number of waves near the roll-off grows.
 
     Source: Persson et al., J. Phys. Condens. Matter 17 (2005) R1, doi:10.1088/0953-8984/17/1/R01.
     """
     grid = Grid(kind="self_affine", size=size, points=points)
-    whole_between("self_affine.seed", seed, 0, LARGEST_SEED)
+    whole_between("self_affine.seed", seed, 0, MAX_SEED)
     number_between("self_affine.hurst", hurst, 1e-6, 1, "it must be above 0 and at most 1")
     length("self_affine.roll_off", roll_off)
     grid.resolves("cut_off", cut_off)
@@ -67,8 +67,8 @@ def self_affine(
             f"self_affine.cut_off: got {cut_off:.5g} m, not below the roll-off of {roll_off:.5g} m; write a shorter one"
         )
     if (rms_height is None) == (rms_slope is None):
-        found = "neither" if rms_height is None else "both"
-        raise InputError(f"self_affine: got {found} of rms_height and rms_slope; give exactly one")
+        given = "neither" if rms_height is None else "both"
+        raise InputError(f"self_affine: got {given} of rms_height and rms_slope; give exactly one")
     if rms_height is not None:
         length("self_affine.rms_height", rms_height)
     if rms_slope is not None:

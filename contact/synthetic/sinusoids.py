@@ -1,4 +1,4 @@
-"""Sinusoids along one direction or two: the surfaces whose contact and flow are known in closed form."""
+"""Sinusoids along one or two directions, whose contact and flow are known in closed form."""
 
 import math
 from typing import Literal
@@ -22,27 +22,27 @@ def sinusoid(
     wavelength_y: float | None = None,
     combination: Combination = "product",
 ) -> Surface:
-    """A wavy surface with a crest at x = y = 0.
+    """A sinusoidal surface with a crest at x = y = 0.
 
-    h = A cos(2π x/λx), or the same along y; with both wavelengths h = A cos(2π x/λx) cos(2π y/λy) ("product") or
-    h = A (cos(2π x/λx) + cos(2π y/λy))/2 ("sum"), so that heights are -A to A in all cases.
+    One wavelength gives h = A cos(2π x/λx), or the same along y; both give h = A cos(2π x/λx) cos(2π y/λy) ("product")
+    or h = A (cos(2π x/λx) + cos(2π y/λy))/2 ("sum"). Heights range from -A to A in all cases.
 
     Parameters
     ----------
-    size, points : the period, m, and the grid over it, along x and y.
+    size, points : period, m, and number of points, along x and y.
     amplitude : A, m.
-    wavelength_x, wavelength_y : m; one or both; at least two pixels, and a whole number of times in the period (to one
-        part in a thousand; the one that fits exactly is taken and told in ``source["achieved"]``).
-    combination : how two directions combine.
+    wavelength_x, wavelength_y : m, one or both, at least two pixels; each divides the period to 0.1 % and is rounded to
+        fit exactly.
+    combination : "product" or "sum" of the two directions.
 
     Returns
     -------
-    Periodic surface of mean 0.
+    Surface : periodic, of mean 0; ``source["achieved"]`` holds the rounded wavelengths.
 
     Raises
     ------
     InputError
-        One line, with the nearest wavelengths that fit.
+        If an argument is out of range or a wavelength does not fit; the message gives wavelengths that fit.
 
     Notes
     -----

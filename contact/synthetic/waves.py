@@ -1,4 +1,4 @@
-"""A sum of waves of random phase with a given spectrum, on the lattice of a period, the same on every grid."""
+"""Periodic sums of waves of random phase with a given spectrum, independent of the grid."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -15,18 +15,19 @@ from roughfilm.contact.synthetic.grid import Grid
 Index = NDArray[np.int64]
 Amplitudes = Literal["fixed", "random"]
 Spectrum = Callable[[Array, Array], Array]
-"""C(qx, qy) but for a factor; qx and qy in rad/m."""
+"""Function C(qx, qy), up to a constant factor, with qx and qy in rad/m."""
 
-LARGEST_SEED = 2**63 - 1
+MAX_SEED = 2**63 - 1
+"""Largest seed of random numbers."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Waves:
-    """h(x, y) = Σ 2 Re(a exp(i(qx x + qy y))) over half of the wave vectors qx = 2π m/Lx, qy = 2π n/Ly.
+    """Waves h(x, y) = Σ 2 Re(a exp(i(qx x + qy y))) over half of the wave vectors qx = 2π m/Lx, qy = 2π n/Ly.
 
     Attributes
     ----------
-    m, n : shape (count,): n > 0, or n = 0 and m > 0, in order of growing |q|.
+    m, n : shape (count,), with n > 0, or n = 0 and m > 0, in order of increasing |q|.
     qx, qy : shape (count,), rad/m.
     amplitudes : shape (count,), complex, m.
     """
@@ -39,23 +40,22 @@ class Waves:
 
     @property
     def rms_height(self) -> float:
-        """sqrt(<h²>) = sqrt(2 Σ |a|²), m."""
+        """The rms height sqrt(<h²>) = sqrt(2 Σ |a|²), m."""
         return float(np.sqrt(2 * np.sum(np.abs(self.amplitudes) ** 2)))
 
     @property
     def rms_slope(self) -> float:
-        """sqrt(<|∇h|²>) = sqrt(2 Σ q² |a|²), of the continuous surface, in both directions together."""
+        """The rms slope sqrt(<|∇h|²>) = sqrt(2 Σ q² |a|²) of the continuous surface."""
         return float(np.sqrt(2 * np.sum((self.qx**2 + self.qy**2) * np.abs(self.amplitudes) ** 2)))
 
     def heights(self, points: tuple[int, int]) -> Array:
-        """The sum at the points of a grid that resolves every wave, shape ``points``, m."""
+        """Heights h at the points of a grid that resolves every wave, shape ``points``, m."""
         nx, ny = points
         spectrum = np.zeros((nx, ny // 2 + 1), dtype=complex)
         spectrum[self.m % nx, self.n] = self.amplitudes
         level = self.n == 0
         spectrum[-self.m[level] % nx, 0] = self.amplitudes[level].conj()
-        heights: Array = scipy.fft.irfft2(spectrum, s=tuple(points), norm="forward")
-        return heights
+        return np.asarray(scipy.fft.irfft2(spectrum, s=tuple(points), norm="forward"))
 
 
 def random_waves(
@@ -68,17 +68,24 @@ def random_waves(
     rms_height: float | None = None,
     rms_slope: float | None = None,
 ) -> Waves:
-    """Waves longer than ``cut_off`` (m) with a given spectrum, scaled to one of rms height (m) and rms slope exactly.
+    """Random waves longer than the cut-off with a given spectrum, scaled exactly to an rms height or an rms slope.
 
-    For each wave vector a complex z of two normal numbers is drawn, in order of growing |q|, ties by n and then m. With
-    "fixed" amplitudes |a|² is C(q) itself and only the phase of z counts, so that every seed has the spectrum that was
-    asked; with "random" ones a = z sqrt(C(q)), the waves of a Gaussian process. The order knows no grid: with the same
-    cut-off a finer grid has the same waves; with a shorter one it keeps them, but for the scaling, and has others too.
+    Each wave vector gets a complex z of two normal random numbers, drawn in order of increasing |q|, ties by n and then
+    m. "fixed" amplitudes are sqrt(C(q)) with the phase of z, so that every seed has the given spectrum; "random" ones
+    are z sqrt(C(q)), the waves of a Gaussian process. The order is independent of the grid: a finer grid has the same
+    waves for the same cut-off, and additional ones, apart from the scaling, for a shorter cut-off.
+
+    Parameters
+    ----------
+    spectrum : C(qx, qy), up to a constant factor.
+    cut_off : wavelength, m.
+    seed : seed or pair of seeds of the random numbers.
+    rms_height, rms_slope : m, and a number; one of them.
 
     Raises
     ------
     InputError
-        If no wave of the period is longer than the cut-off, or amplitudes are named otherwise.
+        If no wave of the period is longer than the cut-off, or ``amplitudes`` is unknown.
     """
     if amplitudes not in ("fixed", "random"):
         raise InputError(f"{grid.kind}.amplitudes: got {amplitudes!r}; write 'fixed' or 'random'")
@@ -97,7 +104,7 @@ def random_waves(
 
 
 def _wave_vectors(grid: Grid, cut_off: float) -> tuple[Index, Index, Array, Array]:
-    """m, n, qx, qy of half the wave vectors 0 < |q| < 2π/cut_off that the grid resolves, in order of growing |q|."""
+    """Arrays m, n, qx, qy of half the wave vectors 0 < |q| < 2π/cut_off that the grid resolves, by increasing |q|."""
     most = [min(int(side / cut_off), (count - 1) // 2) for side, count in zip(grid.size, grid.points, strict=True)]
     m, n = np.arange(-most[0], most[0] + 1)[None, :], np.arange(most[1] + 1)[:, None]
     squared: Array = (m / grid.size[0]) ** 2 + (n / grid.size[1]) ** 2

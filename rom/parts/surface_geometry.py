@@ -111,7 +111,7 @@ class SurfaceGeometry(Part):
             told = "neither a surface of roughfilm nor NPY nor CSV; prepare it with: roughfilm surface"
             raise InputError(f"in {path}: it is {told}")
         if path.suffix.lower() == ".npy" and not ours and self.spacing is None:
-            raise InputError(f'in {path}: it tells no spacing of its points; add spacing = "1 um"')
+            raise InputError(f'in {path}: it gives no spacing of its points; add spacing = "1 um"')
         return _read(str(path), self.spacing, found.st_mtime_ns, found.st_size)
 
     def spectrum(self) -> WavePower | None:

@@ -101,7 +101,7 @@ def _mesh(
         left_out = sorted(set(names) - set(_data(mesh)))
         return mesh, {"model": result.model, "scene": result.provenance.get("scene"), "left_out": left_out}
     if spacing is None and file.suffix.lower() == ".npy" and file.is_file() and not is_surface(file):
-        raise InputError(f"{file}: tells no spacing of its points; give it by --spacing 1um")
+        raise InputError(f"{file}: gives no spacing of its points; give it by --spacing 1um")
     surface = read_surface(file, spacing=None if spacing is None else (spacing, spacing))
     return surface_mesh(surface), {"surface": dict(surface.source), "left_out": []}
 

@@ -111,7 +111,7 @@ def _read(file: Path, recipe: Recipe) -> Surface:
     read = recipe.read
     if file.suffix.lower() == ".toml":
         if read != Reading():
-            raise InputError(f"{file}: says all of itself; leave out the recipe's table read")
+            raise InputError(f"{file}: holds its own spacing and unit; leave out the recipe's table read")
         return make(read_description(file))
     return read_surface(file, channel=read.channel, spacing=read.spacing, height_unit=read.height_unit)
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.preparation.edges import make_periodic, widest
+from roughfilm.contact.preparation.edges import largest_width, make_periodic
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
 from roughfilm.contact.surfaces.surface import Surface
 
@@ -76,10 +76,10 @@ def test_joining_nothing_leaves_a_measurement_what_it_is():
 def test_the_widest_filter_leaves_the_middle_alone_and_a_wider_one_is_refused(count):
     heights = np.random.default_rng(827).normal(size=(count, 9))
     given = Surface(heights=heights, spacing=(1.0, 1.0))
-    joined = make_periodic(given, "x", width=(widest(count), 0.0))
+    joined = make_periodic(given, "x", width=(largest_width(count), 0.0))
     assert np.array_equal(joined.heights[count // 2], heights[count // 2])
     with pytest.raises(InputError, match=r"^edges: got a width"):
-        make_periodic(given, "x", width=(widest(count) * 1.01, 0.0))
+        make_periodic(given, "x", width=(largest_width(count) * 1.01, 0.0))
 
 
 def test_too_few_pixels_are_told():

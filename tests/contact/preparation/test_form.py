@@ -60,8 +60,8 @@ def test_only_a_form_that_repeats_itself_leaves_a_surface_periodic():
     ]
 
 
-def test_points_on_one_line_do_not_tell_a_tilt():
+def test_points_on_one_line_do_not_determine_a_tilt():
     invalid = np.ones((NX, NY), bool)
     invalid[:, 5] = False
-    with pytest.raises(InputError, match=r"^form: the valid points do not tell a form 'tilt'; choose"):
+    with pytest.raises(InputError, match=r"^form: the valid points do not determine a form 'tilt'; choose"):
         remove_form(surface(FORMS["tilt"], invalid), "tilt")

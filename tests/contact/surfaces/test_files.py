@@ -90,7 +90,7 @@ BAD_CSV = {
     HEAD + "1,2\n3,inf\n": "the height at x 1, y 1 is infinite; mark invalid points by NaN",
     HEAD + "nan,nan\nnan,nan\n": "every pixel is invalid",
     HEAD + "1e300,2\n3,4\n": "got a height of .* look at the unit",
-    "1,2\n3,4\n": "tells no spacing of its points; say read.spacing",
+    "1,2\n3,4\n": "gives no spacing of its points; set read.spacing",
     "# something else\n1,2\n3,4\n": "line 1 is no header of a surface; write for example",
     "# spacing: 1 um, 1 s; heights: um\n1,2\n3,4\n": "line 1: got '1 s', which has the wrong dimension",
     "# spacing: 1 um, 1 um; heights: kg\n1,2\n3,4\n": "heights: got '1 kg', which has the wrong dimension",
@@ -199,7 +199,7 @@ def test_our_own_file_of_another_version_is_told(tmp_path, monkeypatch):
 @pytest.mark.parametrize("told", [{"spacing": SPACING}, {"height_unit": "um"}, {"channel": "Raw"}])
 def test_our_own_file_is_not_contradicted(tmp_path, told):
     save_surface(Surface(heights=np.eye(4), spacing=SPACING), tmp_path / "s.h5")
-    with pytest.raises(InputError, match="says all of itself; leave out"):
+    with pytest.raises(InputError, match="holds its own spacing and unit; leave out"):
         read_surface(tmp_path / "s.h5", **told)
 
 

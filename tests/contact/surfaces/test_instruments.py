@@ -137,7 +137,7 @@ def test_what_is_no_surface_is_one_line(tmp_path, content):
 def test_a_matrix_in_text_needs_to_be_told_its_spacing_and_unit(tmp_path):
     path = tmp_path / "plain.txt"
     path.write_text("1 2 3 4\n5 6 7 8\n9 10 11 12\n")
-    with pytest.raises(InputError, match=r"plain\.txt: tells no spacing of its points; say read\.spacing"):
+    with pytest.raises(InputError, match=r"plain\.txt: gives no spacing of its points; set read\.spacing"):
         read_surface(path)
     read = read_surface(path, spacing=(1e-6, 1e-6), height_unit="um")
     assert read.shape == (4, 3)
@@ -179,7 +179,7 @@ def test_a_library_that_does_not_load_is_no_fault_of_the_file(tmp_path, monkeypa
 
 
 def test_a_reader_that_never_ends_is_stopped(tmp_path, monkeypatch):
-    monkeypatch.setattr(instruments, "SECONDS", (1, 0))
+    monkeypatch.setattr(instruments, "CPU_TIME_LIMIT", (1, 0))
     monkeypatch.setattr(sys, "executable", str(tmp_path / "python"))
     (tmp_path / "python").write_text("#!/bin/sh\nexec sleep 60\n")
     (tmp_path / "python").chmod(0o755)

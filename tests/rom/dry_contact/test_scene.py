@@ -113,7 +113,7 @@ def test_every_fault_is_one_line_that_names_the_key(override, words):
 
 def test_a_file_without_spacing_or_of_another_kind_is_refused(tmp_path, make_contact):
     np.save(tmp_path / "s.npy", heights())
-    with pytest.raises(InputError, match=r"tells no spacing of its points; add spacing = "):
+    with pytest.raises(InputError, match=r"gives no spacing of its points; add spacing = "):
         make_contact(tmp_path / "s.npy")
     (tmp_path / "s.opd").write_bytes(b"x" * 100)
     with pytest.raises(InputError, match="neither a surface of roughfilm nor NPY nor CSV; prepare it"):

@@ -131,7 +131,7 @@ BAD = [
     ("infinite.csv", HEAD + "1,2\n3,-inf\n", "is infinite"),
     ("letter.csv", "Dear colleague\n", "write numbers with commas between"),
     ("units.csv", "# spacing: 1 um, 1 kg; heights: um\n1,2\n3,4\n", "wrong dimension"),
-    ("bare.csv", "1,2\n3,5\n", "tells no spacing"),
+    ("bare.csv", "1,2\n3,5\n", "gives no spacing"),
     ("few.csv", HEAD + "1,2\n3,5\n", "choose a simpler one"),
     ("description.toml", 'kind = "self_afine"\n', "self_affine"),
 ]
