@@ -18,6 +18,11 @@ if TYPE_CHECKING:
     from roughfilm.contact.foundation.units import Quantity as Quantity
     from roughfilm.contact.surfaces.surface import Surface as Surface
     from roughfilm.interface.cases import write_case as write_case
+    from roughfilm.interface.curves import effects as effects
+    from roughfilm.interface.curves import leakage_curve as leakage_curve
+    from roughfilm.interface.curves import stribeck as stribeck
+    from roughfilm.interface.results import load_result as load_result
+    from roughfilm.interface.results import save as save
     from roughfilm.interface.scenes import load_scene as load_scene
     from roughfilm.interface.scenes import read_scene as read_scene
     from roughfilm.interface.solving import advise as advise
@@ -44,6 +49,8 @@ else:
         "contact.foundation.units": ("Quantity",),
         "contact.surfaces.surface": ("Surface",),
         "interface.cases": ("write_case",),
+        "interface.curves": ("effects", "leakage_curve", "stribeck"),
+        "interface.results": ("load_result", "save"),
         "interface.scenes": ("load_scene", "read_scene"),
         "interface.solving": ("advise", "compare", "models", "solve"),
         "interface.studies": ("load_study", "read_table", "run_study"),

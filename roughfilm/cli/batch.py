@@ -34,6 +34,7 @@ from roughfilm.terminal.console import (
 SHOWN = 5
 """How many cases and failures are listed; the rest is counted."""
 
+
 class Where(StrEnum):
     """Where the jobs run."""
 

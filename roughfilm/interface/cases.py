@@ -2,13 +2,12 @@
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from roughfilm import ladder
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.meshes.mesh import Sort
 from roughfilm.interface.scenes import checked_scene
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.model import Model, Progress, silent
@@ -54,19 +53,14 @@ class OpenFOAMCase:
         return self._result
 
     def mesh(self) -> "pyvista.UnstructuredGrid":
-        """Return the cells of the case with its fields as data, lengths in m, names with units; InputError before run().
+        """Return the cells of the case with its fields as data, lengths in m; InputError before run().
 
         The data are "cell_velocity (m/s)" and "cell_pressure (Pa)", a value for each cell.
         """
         import pyvista  # takes seconds to import
 
         found = result_mesh(self.result())
-        cell = {
-            Sort.LINE: pyvista.CellType.LINE,
-            Sort.TRIANGLE: pyvista.CellType.TRIANGLE,
-            Sort.QUAD: pyvista.CellType.QUAD,
-            Sort.HEXAHEDRON: pyvista.CellType.HEXAHEDRON,
-        }[found.sort]
+        cell = pyvista.CellType[found.cell_type.name]
         mesh = pyvista.UnstructuredGrid({cell: found.cells}, np.ascontiguousarray(found.points))
         mesh.point_data.update(dict(found.point_data))
         mesh.cell_data.update(dict(found.cell_data))
@@ -120,6 +114,6 @@ def write_case(
         known = [one.name for one in ladder.models(scene.kind) if one.write is not None]
         remedy = f"it must be {' or '.join(known)}" if known else f"no model of a {scene.kind} has any"
         raise InputError(f"model: got {model!r}, which writes no OpenFOAM case; {remedy}")
-    options: dict[str, Any] = vars(Request(resolution=resolution, tolerance=tolerance, scheme=scheme, processes=processes))
-    by.write(scene, Path(directory), **options)
+    request = Request(resolution=resolution, tolerance=tolerance, scheme=scheme, processes=processes)
+    by.write(scene, Path(directory), **vars(request))
     return OpenFOAMCase(scene, by, Path(directory))

@@ -44,9 +44,7 @@ def models(kind: str | None = None) -> tuple[Model, ...]:
     return ladder.models(kind)
 
 
-def advise(
-    scene: Scene, *, within: float, quantity: str | None = None, progress: Progress = silent
-) -> advice.Advice:
+def advise(scene: Scene, *, within: float, quantity: str | None = None, progress: Progress = silent) -> advice.Advice:
     """Choose the cheapest model, at the coarsest resolution, whose error in a quantity stays within a tolerance.
 
     Error laws C Π number^power, fitted to random scenes, judge every model by the scene's dimensionless numbers; cheap

@@ -14,9 +14,9 @@ from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.mechanics.checks import not_negative, positive
 from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.contact.mechanics.half_space import Boundary
-from roughfilm.contact.mechanics.press import TOLERANCE, Press
+from roughfilm.contact.mechanics.press import COMPLEMENTARITY_TOLERANCE, Press
 from roughfilm.contact.mechanics.solid import Solid, composite_modulus
-from roughfilm.contact.parameters import parameters as surface_parameters
+from roughfilm.contact.parameters import roughness_parameters
 from roughfilm.contact.preparation import prepare as preparation
 from roughfilm.contact.preparation.recipe import AS_IT_IS, load_recipe, read_recipe
 from roughfilm.contact.surfaces import files
@@ -181,7 +181,7 @@ def parameters(heights: Heights, *, spacing: float | Sequence[float] | None = No
     >>> round(1e6 * sq.value, 4), sq.unit
     (0.7071, 'm')
     """
-    return surface_parameters.parameters(surface_of(heights, spacing))
+    return roughness_parameters.parameters(surface_of(heights, spacing))
 
 
 def press(
@@ -193,7 +193,7 @@ def press(
     poisson: float = 0.3,
     hardness: float = math.inf,
     boundary: Boundary = "periodic",
-    tolerance: float = TOLERANCE,
+    tolerance: float = COMPLEMENTARITY_TOLERANCE,
     threads: int = 1,
 ) -> Contact:
     """Press a rough surface against a rigid plane, elastic or elastic-plastic, without friction or adhesion.

@@ -7,19 +7,12 @@ from typing import Any
 import numpy as np
 
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.interface.rows import Rows
 from roughfilm.interface.scenes import checked_scene, with_entries
 from roughfilm.interface.solving import answer_of, chosen_models
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.model import Progress, silent
 from roughfilm.rom.ladder.scene import scene_entries
-
-
-class Rows(list[dict[str, Any]]):
-    """Rows of a table, each a dict from column to number or text, and the SI ``units`` of the columns by name."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.units: dict[str, str] = {}
 
 
 def sweep(
