@@ -83,10 +83,14 @@ class Result:
     expected_error: Mapping[str, float] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> Quantity:
-        """The quantity of that name; KeyError with the names that there are."""
-        if name not in self.quantities:
-            raise KeyError(f"{name!r}: is no quantity of this result; it has {', '.join(self.quantities)}")
-        return self.quantities[name]
+        """The quantity of that name, or per area or width where it is given so; KeyError with the names that there are.
+
+        "load" is ``load``, ``load_per_area`` or ``load_per_width``, whichever the result has.
+        """
+        for known in (name, f"{name}_per_area", f"{name}_per_width"):
+            if known in self.quantities:
+                return self.quantities[known]
+        raise KeyError(f"{name!r}: is no quantity of this result; it has {', '.join(self.quantities)}")
 
 
 def with_uncertainties(quantities: Mapping[str, Quantity], uncertainties: Mapping[str, float]) -> dict[str, Quantity]:

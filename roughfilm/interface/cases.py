@@ -2,15 +2,16 @@
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from roughfilm import ladder
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.foamcases.openfoam.model import CaseModel
 from roughfilm.interface.scenes import checked_scene
 from roughfilm.rom.ladder.kind import Scene
-from roughfilm.rom.ladder.model import Model, Progress, silent
+from roughfilm.rom.ladder.model import Progress, silent
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.meshes.result_mesh import result_mesh
@@ -29,7 +30,7 @@ class OpenFOAMCase:
     directory : the case directory, which ``./Allrun`` there runs as well.
     """
 
-    def __init__(self, scene: Scene, model: Model, directory: Path) -> None:
+    def __init__(self, scene: Scene, model: CaseModel[Any, Any], directory: Path) -> None:
         self.scene, self.model, self.directory = scene, model, directory
         self._result: Result | None = None
 
@@ -43,7 +44,8 @@ class OpenFOAMCase:
         UnavailableError
             If OpenFOAM is not on this machine.
         """
-        self._result = self.model.openfoam.result(self.scene, self.directory, progress)
+        run = self.model.run(self.directory, progress)
+        self._result = self.model.read(self.scene, self.directory, run)
         return self._result
 
     def result(self) -> Result:
@@ -110,10 +112,10 @@ def write_case(
     ['0', 'Allrun', 'README']
     """
     by = ladder.find(checked_scene(scene).kind, model)
-    if by.write is None:
-        known = [one.name for one in ladder.models(scene.kind) if one.write is not None]
+    if not isinstance(by, CaseModel):
+        known = [one.name for one in ladder.models(scene.kind) if one.outside]
         remedy = f"it must be {' or '.join(known)}" if known else f"no model of a {scene.kind} has any"
         raise InputError(f"model: got {model!r}, which writes no OpenFOAM case; {remedy}")
     request = Request(resolution=resolution, tolerance=tolerance, scheme=scheme, processes=processes)
-    by.write(scene, Path(directory), **vars(request))
+    by.write(scene, Path(directory), request)
     return OpenFOAMCase(scene, by, Path(directory))

@@ -151,7 +151,7 @@ def solve(
     by = ladder.find(kind, model)
     if result is None:
         request = Request(resolution=resolution, tolerance=tolerance, scheme=scheme, processes=processes)
-        result = by.solve(scene, **vars(request), progress=progress)
+        result = by.solve(scene, request, progress)
     errors = expected_errors(scene, by, result.numerics.resolution, ladder.models(kind))
     return replace(result, expected_error=errors)
 

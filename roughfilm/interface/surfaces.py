@@ -25,7 +25,7 @@ from roughfilm.contact.synthetic.description import make, read_description
 from roughfilm.rom.homogenization.conductance import FaceRule
 from roughfilm.rom.homogenization.flow_factors import Estimated
 from roughfilm.rom.homogenization.flow_factors import flow_factors as factors_of
-from roughfilm.rom.homogenization.separation import Separations
+from roughfilm.rom.homogenization.table.separation import Separations
 from roughfilm.rom.ladder.model import Progress, silent
 
 Heights = ArrayLike | Surface

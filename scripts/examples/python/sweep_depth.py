@@ -5,11 +5,9 @@ import matplotlib.pyplot as plt
 import roughfilm as rf
 
 scene = rf.load_scene("scripts/examples/scenes/pocket.toml")
-depths = [f"{depth} um" for depth in (5, 10, 15, 20, 25, 30)]
-rows = rf.sweep(scene, {"geometry.depth": depths}, models=["inertial_reynolds", "film_slope"])
 for model in ("inertial_reynolds", "film_slope"):
-    own = [row for row in rows if row["model"] == model]
-    plt.plot([1e6 * row["geometry.depth"] for row in own], [row["load_per_area"] for row in own], label=model)
+    rows = rf.sweep(scene, {"geometry.depth": ["5 um", "10 um", "15 um", "20 um", "25 um"]}, models=[model])
+    plt.plot([1e6 * row["geometry.depth"] for row in rows], [row["load_per_area"] for row in rows], label=model)
 plt.gca().set(xlabel="depth, µm", ylabel="load per area, Pa")
 plt.legend()
 plt.savefig("load_over_depth.png")
