@@ -24,13 +24,29 @@ class Outcome(StrEnum):
 
 
 class InputError(ValueError):
-    """What was asked cannot be understood or is out of range: ``place: got value; remedy``."""
+    """The error for input that is not understood or out of range: ``place: got value; remedy``, in one line.
+
+    Examples
+    --------
+    >>> import roughfilm as rf
+    >>> try:
+    ...     rf.read_scene({"name": "wavy", "kind": "pocketful"})
+    ... except rf.InputError as error:
+    ...     print(str(error)[:38])
+    scene.kind: got 'pocketful'; it must b
+    """
 
 
 class ConvergenceError(RuntimeError):
-    """A solver stopped before it met its tolerance, or with fields that cannot be trusted.
+    """The error for a solver that stopped above its tolerance, or with fields that cannot be trusted.
 
     ``outcome`` says how, and ``iterations`` after how many of them, where the solver knows.
+
+    Examples
+    --------
+    >>> error = ConvergenceError("film: stopped at 1e-3", outcome=Outcome.STALLED, iterations=40)
+    >>> str(error), str(error.outcome), error.iterations
+    ('film: stopped at 1e-3', 'stalled', 40)
     """
 
     def __init__(self, message: str, *, outcome: Outcome = Outcome.FAILED, iterations: int | None = None) -> None:
@@ -40,4 +56,10 @@ class ConvergenceError(RuntimeError):
 
 
 class UnavailableError(ImportError):
-    """Something this model needs is not on this machine: what, and how to get it."""
+    """The error for a program or library that is not on this machine: which one, and how to get it.
+
+    Examples
+    --------
+    >>> str(UnavailableError("simpleFoam: not found; install OpenFOAM"))
+    'simpleFoam: not found; install OpenFOAM'
+    """

@@ -114,12 +114,11 @@ def read_table(path: str | os.PathLike[str]) -> dict[str, NDArray[Any]]:
 
     Examples
     --------
-    >>> import tempfile
     >>> import roughfilm as rf
-    >>> with tempfile.TemporaryDirectory() as out:
-    ...     _ = rf.run_study("scripts/examples/studies/pocket.toml", out, processes=1)
-    ...     table = rf.read_table(out + "/table.h5")
-    >>> sorted({float(depth) for depth in table["depth_plus"]})
-    [0.25, 0.75, 1.25]
+    >>> try:
+    ...     table = rf.read_table("README.md")
+    ... except rf.InputError as error:
+    ...     print(error)
+    README.md: is not a table of roughfilm; name a table.h5 that 'roughfilm batch' wrote
     """
     return table.read_table(Path(path))
