@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +22,7 @@ from roughfilm.contact.surfaces import files
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.description import make, read_description
 from roughfilm.rom.homogenization.conductance import FaceRule
-from roughfilm.rom.homogenization.flow_factors import Estimated
+from roughfilm.rom.homogenization.factors import relative_quantities
 from roughfilm.rom.homogenization.flow_factors import flow_factors as factors_of
 from roughfilm.rom.homogenization.table.separation import Separations
 from roughfilm.rom.ladder.model import Progress, silent
@@ -259,21 +258,6 @@ def press(
     return body.at(positive("load", load), tolerance=positive("tolerance", tolerance))
 
 
-def relative_factors(found: Estimated) -> dict[str, Quantity]:
-    """Flow factors over those of a smooth film of the same mean gap, each with its uncertainty."""
-    factors = found.factors.relative
-    doubt = replace(found.uncertainty, mean_gap=found.factors.mean_gap).relative
-    values, half_widths = (
-        (*one.pressure.ravel(), *one.shear, one.couette, one.shear_couette) for one in (factors, doubt)
-    )
-    return {
-        name: Quantity(value=float(value), unit="1", uncertainty=float(width) if np.isfinite(width) else None)
-        for name, value, width in zip(
-            ("A11", "A12", "A21", "A22", "B1", "B2", "d", "e"), values, half_widths, strict=True
-        )
-    }
-
-
 def flow_factors(
     heights: Heights,
     *,
@@ -339,7 +323,7 @@ def flow_factors(
         progress=progress,
     )
     return {
-        **relative_factors(found),
+        **relative_quantities(found.factors, found.uncertainty),
         "mean_gap": Quantity(value=found.factors.mean_gap, unit="m"),
         "separation": Quantity(value=separation, unit="m"),
         "contact": Quantity(value=found.contact, unit="1"),
