@@ -23,7 +23,17 @@ class Outcome(StrEnum):
 
 
 class InputError(ValueError):
-    """An input cannot be read or is out of range; the message reads ``place: got value; remedy``."""
+    """An input cannot be read or is out of range; the message reads ``place: got value; remedy``.
+
+    Examples
+    --------
+    >>> import roughfilm as rf
+    >>> try:
+    ...     rf.read_scene({"name": "wavy", "kind": "pocketful"})
+    ... except rf.InputError as error:
+    ...     print(str(error)[:38])
+    scene.kind: got 'pocketful'; it must b
+    """
 
 
 class ConvergenceError(RuntimeError):
@@ -33,6 +43,12 @@ class ConvergenceError(RuntimeError):
     ----------
     outcome : how the solver ended.
     iterations : number of iterations done; None if the solver does not count them.
+
+    Examples
+    --------
+    >>> error = ConvergenceError("film: stopped at 1e-3", outcome=Outcome.STALLED, iterations=40)
+    >>> str(error), str(error.outcome), error.iterations
+    ('film: stopped at 1e-3', 'stalled', 40)
     """
 
     def __init__(self, message: str, *, outcome: Outcome = Outcome.FAILED, iterations: int | None = None) -> None:
@@ -42,4 +58,10 @@ class ConvergenceError(RuntimeError):
 
 
 class UnavailableError(ImportError):
-    """A program or package that a model needs is not installed; the message says how to install it."""
+    """A program or package that a model needs is not installed; the message says how to install it.
+
+    Examples
+    --------
+    >>> str(UnavailableError("simpleFoam: not found; install OpenFOAM"))
+    'simpleFoam: not found; install OpenFOAM'
+    """

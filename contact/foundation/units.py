@@ -17,6 +17,12 @@ class Quantity:
 
     ``uncertainty`` is the half width of the interval that covers the truth in 95 of 100 cases, in the same unit; None
     where it is unknown.
+
+    Examples
+    --------
+    >>> load = Quantity(value=120.0, unit="N", uncertainty=3.0)
+    >>> f"{load.value:.0f} ± {load.uncertainty:.0f} {load.unit}"
+    '120 ± 3 N'
     """
 
     value: float

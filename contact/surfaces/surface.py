@@ -36,6 +36,12 @@ class Surface:
     InputError
         If there are fewer than 2 x 2 pixels, a valid height is not finite, every pixel is invalid, a height exceeds
         1e6 m, or a spacing is outside 1e-15 m to 1e6 m.
+
+    Examples
+    --------
+    >>> surface = Surface(heights=np.zeros((4, 3)), spacing=(1e-6, 2e-6))
+    >>> surface.shape, surface.size
+    ((4, 3), (4e-06, 6e-06))
     """
 
     heights: Array

@@ -13,6 +13,7 @@ from roughfilm.rom.advice.estimates import (
     a_priori,
     affordable,
     by_its_own_word,
+    near,
     percent,
 )
 from roughfilm.rom.advice.laws import Numbers, Table, table
@@ -100,6 +101,18 @@ def wanted(scene: Scene, name: str | None) -> str:
             return quantity
     told = ", ".join(repr(title) for title in compared.values())
     raise InputError(f"--want: got {name!r}; of a {scene.kind} it must be one of {told}")
+
+
+def shortfall(found: Advice, title: str) -> str:
+    """That no rung is enough, and which comes nearest."""
+    told = f"no rung here is known to give the {title} within {percent(found.within)}"
+    if found.omitted is not None and found.omitted.part > found.within / 2:
+        return f"{told}: {found.omitted.reason}"
+    if found.nearest is None or found.nearest.error is None:
+        return told
+    if found.nearest.sure:
+        return f"{told}; {found.nearest.model} comes nearest, {near(found.nearest.error)}"
+    return f"{told}, as the scene lies beyond those that were swept; {found.nearest.model} may come nearest"
 
 
 def advise(

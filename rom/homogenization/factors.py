@@ -3,7 +3,13 @@
 from dataclasses import dataclass, replace
 from typing import Self
 
+import numpy as np
+
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.units import Quantity
+
+NAMES = ("A11", "A12", "A21", "A22", "B1", "B2", "d", "e")
+"""Names of the numbers of flow factors, in the order of their definition."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,3 +55,15 @@ class FlowFactors:
             couette=self.couette / factor,
             shear_couette=self.shear_couette / factor,
         )
+
+
+def relative_quantities(factors: FlowFactors, uncertainty: FlowFactors) -> dict[str, Quantity]:
+    """The numbers by their ``NAMES`` over those of a smooth film of the same mean gap, with uncertainties."""
+    values, half_widths = (
+        np.array([*one.pressure.ravel(), *one.shear, one.couette, one.shear_couette])
+        for one in (factors.relative, replace(uncertainty, mean_gap=factors.mean_gap).relative)
+    )
+    return {
+        name: Quantity(value=float(value), unit="1", uncertainty=float(width) if np.isfinite(width) else None)
+        for name, value, width in zip(NAMES, values, half_widths, strict=True)
+    }

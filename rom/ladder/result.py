@@ -13,7 +13,14 @@ from roughfilm.contact.foundation.units import Quantity
 
 @dataclass(frozen=True, kw_only=True)
 class Field:
-    """An array with its unit."""
+    """An array with its unit.
+
+    Examples
+    --------
+    >>> pressure = Field(values=np.array([0.0, 2e5]), unit="Pa")
+    >>> float(pressure.values.max()), pressure.unit
+    (200000.0, 'Pa')
+    """
 
     values: NDArray[np.float64]
     unit: str
@@ -72,6 +79,14 @@ class Result:
     provenance : where the result comes from: scene, versions, commit, machine, sources, times.
     warnings : where the model leaves its range or the computation is coarse, one sentence each.
     expected_error : relative error of the model in a quantity by a fitted law; empty where there is no law.
+
+    Examples
+    --------
+    >>> import roughfilm as rf
+    >>> scene = rf.load_scene("scripts/examples/scenes/pocket.toml")
+    >>> result = rf.solve(scene, model="film_slope")
+    >>> result["load"].unit, result["load_plus"].unit, result.fields["pressure"].values.shape
+    ('Pa', '1', (399,))
     """
 
     model: str
@@ -83,10 +98,14 @@ class Result:
     expected_error: Mapping[str, float] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> Quantity:
-        """The quantity of that name; KeyError with the names that there are."""
-        if name not in self.quantities:
-            raise KeyError(f"{name!r}: is no quantity of this result; it has {', '.join(self.quantities)}")
-        return self.quantities[name]
+        """The quantity of that name, or per area or width where it is given so; KeyError with the names that there are.
+
+        "load" is ``load``, ``load_per_area`` or ``load_per_width``, whichever the result has.
+        """
+        for known in (name, f"{name}_per_area", f"{name}_per_width"):
+            if known in self.quantities:
+                return self.quantities[known]
+        raise KeyError(f"{name!r}: is no quantity of this result; it has {', '.join(self.quantities)}")
 
 
 def with_uncertainties(quantities: Mapping[str, Quantity], uncertainties: Mapping[str, float]) -> dict[str, Quantity]:

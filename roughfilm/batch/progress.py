@@ -102,3 +102,9 @@ class Tally:
         """The part of this run's CPU time that is spent, 0 to 1."""
         whole = self.spent + self.cpu_s
         return self.spent / whole if whole else 1.0
+
+    @property
+    def words(self) -> str:
+        """How many of the jobs have an answer, and how many of these failed."""
+        failed = f", {len(self.failures)} failed" if self.failures else ""
+        return f"{self.total() - self.total(State.TO_DO)} of {self.total()} jobs{failed}"

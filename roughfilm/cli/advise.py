@@ -8,8 +8,8 @@ from rich.markup import escape
 from rich.table import Table
 
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.rom.advice.advise import Advice, Considered, Verdict, advise, wanted
-from roughfilm.rom.advice.estimates import Estimate, near, percent
+from roughfilm.rom.advice.advise import Advice, Considered, Verdict, advise, shortfall, wanted
+from roughfilm.rom.advice.estimates import Estimate, percent
 from roughfilm.rom.advice.laws import table
 from roughfilm.rom.ladder.kind import Scene, kinds
 from roughfilm.rom.ladder.model import of_kind
@@ -98,18 +98,6 @@ def tell(scene: Scene, found: Advice) -> None:
     if numbers:
         output.print(f"numbers of the scene: {escape(numbers)}", soft_wrap=True)
     output.print(f"{found.spent_cpu_s:.2g} CPU s spent to be sure; laws: {_origin()}", soft_wrap=True)
-
-
-def shortfall(found: Advice, title: str) -> str:
-    """That no rung is enough, and which comes nearest."""
-    told = f"no rung here is known to give the {title} within {percent(found.within)}"
-    if found.omitted is not None and found.omitted.part > found.within / 2:
-        return f"{told}: {found.omitted.reason}"
-    if found.nearest is None or found.nearest.error is None:
-        return told
-    if found.nearest.sure:
-        return f"{told}; {found.nearest.model} comes nearest, {near(found.nearest.error)}"
-    return f"{told}, as the scene lies beyond those that were swept; {found.nearest.model} may come nearest"
 
 
 def _short(estimate: Estimate | None) -> str:

@@ -1,7 +1,6 @@
 """roughfilm batch: every case of a study by every model, in parallel; a batch that was stopped goes on where it was."""
 
 import os
-from collections.abc import Mapping
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager
 from dataclasses import asdict
@@ -13,16 +12,13 @@ import typer
 from rich.markup import escape
 from rich.table import Column, Table
 
-from roughfilm.batch.directory import CASES, alone, places, put_scene
-from roughfilm.batch.execute import Solved, run
+from roughfilm.batch.directory import alone
 from roughfilm.batch.executors import dask, local
-from roughfilm.batch.jobs import Failure, Job, store, stored
 from roughfilm.batch.progress import State, Tally
-from roughfilm.batch.tabulate import Row, columns, row_of
+from roughfilm.batch.solve import finished, solved_table, tasks_of
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.ladder.provenance import code, commit, versions
-from roughfilm.rom.studies.study import Case, Study, load_study
-from roughfilm.rom.studies.table import write_csv, write_hdf5
+from roughfilm.rom.studies.study import Study, load_study
 from roughfilm.terminal.console import (
     NOT_CONVERGED,
     AsJson,
@@ -37,9 +33,6 @@ from roughfilm.terminal.console import (
 
 SHOWN = 5
 """How many cases and failures are listed; the rest is counted."""
-
-Tasks = Mapping[Path, tuple[Case, Job]]
-"""What is to be done, by the file of its result."""
 
 
 class Where(StrEnum):
@@ -70,75 +63,26 @@ def command(
     read = load_study(study, models())
     tally = Tally()
     if dry_run:
-        _look(read, _tasks(read, out), tally)
+        finished(read, tasks_of(read, out), tally)
         _tell_plan(read, tally, processes, as_json)
         return
     make_directory(out)
     with alone(out) as scratch:
         place = local(processes, scratch) if scheduler is None else dask(scheduler)
-        rows = _solve(read, _tasks(read, out), tally, place)
-        table = columns(rows)
-        write_csv(table, out / "table.csv")
-        write_hdf5(table, out / "table.h5")
+        _solved(read, out, tally, place)
     _tell_outcome(read, tally, out, as_json)
     if tally.failures:
         raise typer.Exit(NOT_CONVERGED)
 
 
-def _tasks(study: Study, out: Path) -> Tasks:
-    known, tasks = places(out), {}
-    for case in study.cases:
-        place = known.get(case.digest, out / CASES / case.name)
-        for setting in study.settings:
-            job = Job(scene=case.scene, setting=setting, path=place / f"{setting.name}.h5")
-            tasks[job.path] = (case, job)
-    return tasks
-
-
-def _look(study: Study, tasks: Tasks, tally: Tally) -> tuple[dict[Path, Row], list[Job]]:
-    """The rows that need no solving, and the jobs that do."""
-    rows, missing = {}, []
-    for path, (case, job) in tasks.items():
-        fits = job.setting.model.applies(job.scene)
-        answer = stored(job, with_fields=False) if fits.applies else Failure(kind="left out", message=fits.reason)
-        if answer is None:
-            tally.expect(job)
-            missing.append(job)
-            continue
-        rows[path] = row_of(study.keys, case, job, answer)
-        if fits.applies:
-            tally.find(job, answer)
-        else:
-            tally.leave_out(job)
-    return rows, missing
-
-
-def _solve(study: Study, tasks: Tasks, tally: Tally, place: AbstractContextManager[Executor]) -> list[Row]:
-    """Solve what is missing and store it as it comes; the rows of all tasks in their order."""
+def _solved(study: Study, out: Path, tally: Tally, place: AbstractContextManager[Executor]) -> None:
+    """Solve with a bar of progress."""
     try:
         with progress_bar(1.0) as advance:
-            advance(0.0, "looking for finished results")
-            rows, missing = _look(study, tasks, tally)
-            if missing:
-                advance(0.0, f"starting {len(missing)} jobs")
-                with place as executor:
-                    for job, answer in run(missing, executor):
-                        case, _ = tasks[job.path]
-                        put_scene(case, job.path.parent)
-                        store(job, answer.file if isinstance(answer, Solved) else answer)
-                        result = answer.result if isinstance(answer, Solved) else answer
-                        rows[job.path] = row_of(study.keys, case, job, result)
-                        tally.receive(job, result)
-                        advance(tally.done, _words(tally))
+            solved_table(study, out, tally, place, advance)
     except (KeyboardInterrupt, SystemExit) as stop:
-        stop.add_note(f"stopped: {_words(tally)}; the same command goes on")
+        stop.add_note(f"stopped: {tally.words}; the same command goes on")
         raise
-    return [rows[path] for path in tasks]
-
-
-def _words(tally: Tally) -> str:
-    failed = f", {len(tally.failures)} failed" if tally.failures else ""
-    return f"{tally.total() - tally.total(State.TO_DO)} of {tally.total()} jobs{failed}"
 
 
 def _tell_plan(study: Study, tally: Tally, processes: int, as_json: bool) -> None:

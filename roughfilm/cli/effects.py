@@ -14,6 +14,7 @@ from rich.table import Table
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
+from roughfilm.interface.curves import checked_cells
 from roughfilm.rom.bearing.effects.analysis import EffectAnalysis, analyse_effects
 from roughfilm.rom.bearing.effects.contributions import Study
 from roughfilm.rom.bearing.effects.inertia import InertiaAdded
@@ -35,12 +36,6 @@ from roughfilm.terminal.console import (
 )
 from roughfilm.terminal.output_file import refuse_unwritable
 from roughfilm.words.effects import AT_FILM, UNDER_LOAD, cell, sentences, shown
-
-CELLS = {True: 1024, False: 128}
-"""Along the sliding, and as many across; by default, of infinitely wide bearings and of others."""
-
-COARSEST, FINEST = 16, {True: 65_536, False: 1024}
-
 
 SOURCES = (
     "10.1098/rstl.1886.0005",
@@ -73,9 +68,7 @@ def command(
         raise InputError(
             f"{scene}: kind: got {read.kind!r}; effects are those of a bearing (scripts/examples/scenes/pad.toml)"
         )
-    cells = CELLS[read.wide] if resolution is None else resolution
-    if not COARSEST <= cells <= FINEST[read.wide]:
-        raise InputError(f"--resolution: got {cells}; it must be {COARSEST} to {FINEST[read.wide]} cells along a side")
+    cells = checked_cells(read, resolution)
     make_directory(out)
     refuse_unwritable(out / "report.html")
     with progress_bar(1.0) as advance:

@@ -4,11 +4,9 @@ import math
 import os
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
-import numpy as np
 import typer
 from rich.markup import escape
 from rich.table import Table
@@ -26,7 +24,7 @@ from roughfilm.contact.surfaces.surface import MAX_LENGTH, MIN_SPACING, Surface
 from roughfilm.rom.bearing.mixed.resume import Work, kept_table
 from roughfilm.rom.bearing.mixed.tabulate import gap_of, tabulate_pressed
 from roughfilm.rom.homogenization.conductance import FaceRule
-from roughfilm.rom.homogenization.factors import FlowFactors
+from roughfilm.rom.homogenization.factors import NAMES, FlowFactors, relative_quantities
 from roughfilm.rom.homogenization.flow_factors import Estimated, flow_factors
 from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
 from roughfilm.rom.homogenization.table.separation import Separations
@@ -40,8 +38,6 @@ SOURCES = ("10.1016/j.triboint.2007.02.021", "10.1016/j.triboint.2006.02.069", "
 SHOWN = ("A11", "A12", "A22", "B1", "B2")
 SHOWN_CONTACT = 0.2
 """The flow is drawn at the point of a table whose contact is nearest to this."""
-
-NAMES = ("A11", "A12", "A21", "A22", "B1", "B2", "d", "e")
 
 
 @in_one_line
@@ -225,20 +221,10 @@ def _read_series(path: Path) -> tuple[Inputs, tuple[float, ...]]:
     return pressed, loads
 
 
-def numbers(factors: FlowFactors) -> dict[str, float]:
-    """By their names: A, B, d and e."""
-    a, b = factors.pressure, factors.shear
-    values = (a[0, 0], a[0, 1], a[1, 0], a[1, 1], b[0], b[1], factors.couette, factors.shear_couette)
-    return {name: float(value) for name, value in zip(NAMES, values, strict=True)}
-
-
 def relative(factors: FlowFactors, uncertainty: FlowFactors) -> dict[str, dict[str, float | None]]:
-    """Each over that of a smooth film of the mean gap, with its uncertainty; None where that cannot be said."""
-    own = numbers(factors.relative)
-    doubt = numbers(replace(uncertainty, mean_gap=factors.mean_gap).relative)
-    return {
-        name: {"value": own[name], "uncertainty": doubt[name] if np.isfinite(doubt[name]) else None} for name in NAMES
-    }
+    """Each over that of a smooth film of the mean gap, with its uncertainty; None where that is unknown."""
+    quantities = relative_quantities(factors, uncertainty).items()
+    return {name: {"value": one.value, "uncertainty": one.uncertainty} for name, one in quantities}
 
 
 def _told_one(rough: HeightMap, settings: dict[str, Any], found: Estimated, separation: float) -> dict[str, Any]:

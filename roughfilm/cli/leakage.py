@@ -13,16 +13,13 @@ from rich.markup import escape
 from rich.table import Table
 
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.threads import checked_threads
-from roughfilm.contact.mechanics.press import COMPLEMENTARITY_TOLERANCE, Press
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
-from roughfilm.rom.ladder.provenance import circumstances, code
+from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.rom.ladder.scene import load_scene, scene_entries
-from roughfilm.rom.seal.leakage.curve import Ready, chosen_loads, ready, sealing, solved
+from roughfilm.rom.seal.leakage.curve import Ready, chosen_loads, columns_of, ready_seal, sealing, solved
 from roughfilm.rom.seal.leakage.percolation import Threshold
-from roughfilm.rom.seal.leakage.series import SOUGHT, UNITS, Row
-from roughfilm.rom.seal.model import leakage_of
+from roughfilm.rom.seal.leakage.series import SOUGHT, Row
 from roughfilm.rom.seal.scene import Seal
 from roughfilm.rom.studies.table import Column, write_csv, write_hdf5
 from roughfilm.terminal.console import (
@@ -82,7 +79,7 @@ def command(
         progress_bar(1.0) as advance,
     ):
         advance(0.0, "reading the surface")
-        body = _ready(read, out)
+        body = ready_seal(read, out)
         found = sealing(body, lambda done, words: advance(0.2 * done, words))
         series = chosen_loads(body, found) if asked is None else asked
         rows, known = solved(body, series, sharing, lambda done, words: advance(0.2 + 0.7 * done, words))
@@ -96,24 +93,6 @@ def command(
     _tell(read, told, rows, found, out, as_json)
 
 
-def _ready(scene: Seal, out: Path) -> Ready:
-    surface = scene.surface()
-    settings = {
-        "model": "elastic" if scene.solid.hardness is None else "elastic_plastic",
-        "modulus": scene.solid.modulus,
-        "poisson": scene.solid.poisson,
-        "hardness": scene.solid.hardness,
-        "counter_modulus": scene.counter and scene.counter.modulus,
-        "counter_poisson": scene.counter and scene.counter.poisson,
-        "composite_modulus": scene.composite_modulus,
-        "boundary": "periodic",
-        "tolerance": COMPLEMENTARITY_TOLERANCE,
-        "code": code(),
-    }
-    press = Press(surface.heights, surface.spacing, scene.composite_modulus, hardness=scene.hardness)
-    return ready(surface, press, Inputs(heights=surface.heights, spacing=surface.spacing, settings=settings), out)
-
-
 def _told(scene: Seal, body: Ready, rows: dict[float, Row], found: dict[str, Threshold], known: int) -> dict[str, Any]:
     """The object of ``--json``."""
     quantities: dict[str, Any] = {}
@@ -124,7 +103,7 @@ def _told(scene: Seal, body: Ready, rows: dict[float, Row], found: dict[str, Thr
             quantities[f"sealing_area_{name}"] = {"value": threshold.area_fraction, "unit": "1"}
     return {
         "series": [_numbers(scene, row) for row in rows.values()],
-        "units": {name: unit for name, (unit, _) in _columns(scene, list(rows.values())).items()},
+        "units": {name: unit for name, (unit, _) in columns_of(scene, list(rows.values())).items()},
         "quantities": quantities,
         "thresholds": {
             name: {
@@ -142,22 +121,14 @@ def _told(scene: Seal, body: Ready, rows: dict[float, Row], found: dict[str, Thr
     }
 
 
-def _columns(scene: Seal, rows: list[Row]) -> dict[str, tuple[str, list[float]]]:
-    """All numbers of the rows, and the leakage of the scene's liquid, with their units."""
-    columns = {name: (UNITS.get(name, "1"), [getattr(row, name) for row in rows]) for name in asdict(rows[0])}
-    for name in SOUGHT:
-        columns[f"leakage_{name}"] = "kg/(m*s)", [leakage_of(scene, getattr(row, name)) for row in rows]
-    return columns
-
-
 def _numbers(scene: Seal, row: Row) -> dict[str, float | None]:
     """A row as JSON can hold it: None where a surface flattened out has no valleys, and an error no bar."""
-    columns = _columns(scene, [row])
+    columns = columns_of(scene, [row])
     return {name: value if math.isfinite(value) else None for name, (_, (value,)) in columns.items()}
 
 
 def _write_tables(scene: Seal, rows: dict[float, Row], out: Path) -> None:
-    columns = _columns(scene, list(rows.values()))
+    columns = columns_of(scene, list(rows.values()))
     table = {name: Column(values=values, unit=unit) for name, (unit, values) in columns.items()}
     write_csv(table, out / "table.csv")
     write_hdf5(table, out / "table.h5")

@@ -8,8 +8,9 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
-from roughfilm.cli.advise import Want, advice_for, entries_of, shortfall
+from roughfilm.cli.advise import Want, advice_for, entries_of
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.rom.advice.advise import shortfall
 from roughfilm.rom.ladder.kind import kinds
 from roughfilm.rom.ladder.model import find, of_kind
 from roughfilm.rom.ladder.result import Result

@@ -2,9 +2,9 @@
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
@@ -14,16 +14,19 @@ from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.threads import workers
 from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.contact.mechanics.moments import wave_power
-from roughfilm.contact.mechanics.press import Press
+from roughfilm.contact.mechanics.press import COMPLEMENTARITY_TOLERANCE, Press
 from roughfilm.contact.mechanics.store import Row as ContactRow
 from roughfilm.contact.mechanics.store import add, finished, load_contact, row_of
 from roughfilm.contact.parameters.autocorrelation import autocorrelation, decay_lengths
 from roughfilm.contact.parameters.peaks import lowest_valleys
 from roughfilm.contact.surfaces.surface import Surface
+from roughfilm.rom.ladder.provenance import code
 from roughfilm.rom.seal.leakage.direct import direct_leakage
 from roughfilm.rom.seal.leakage.homogenized import homogenized_leakage
 from roughfilm.rom.seal.leakage.percolation import Threshold, thresholds
-from roughfilm.rom.seal.leakage.series import SOUGHT, Kept, Row, kept_series, save_series
+from roughfilm.rom.seal.leakage.series import SOUGHT, UNITS, Kept, Row, kept_series, save_series
+from roughfilm.rom.seal.model import leakage_of
+from roughfilm.rom.seal.scene import Seal
 
 COUNT = 25
 """Loads, where nobody says which."""
@@ -82,6 +85,25 @@ def ready(surface: Surface, press: Press, inputs: Inputs, directory: Path) -> Re
     )
 
 
+def ready_seal(scene: Seal, directory: Path) -> Ready:
+    """The surface of a scene ready to be pressed between its solids, with the files of a directory."""
+    surface = scene.surface()
+    settings = {
+        "model": "elastic" if scene.solid.hardness is None else "elastic_plastic",
+        "modulus": scene.solid.modulus,
+        "poisson": scene.solid.poisson,
+        "hardness": scene.solid.hardness,
+        "counter_modulus": scene.counter and scene.counter.modulus,
+        "counter_poisson": scene.counter and scene.counter.poisson,
+        "composite_modulus": scene.composite_modulus,
+        "boundary": "periodic",
+        "tolerance": COMPLEMENTARITY_TOLERANCE,
+        "code": code(),
+    }
+    press = Press(surface.heights, surface.spacing, scene.composite_modulus, hardness=scene.hardness)
+    return ready(surface, press, Inputs(heights=surface.heights, spacing=surface.spacing, settings=settings), directory)
+
+
 def sealing(body: Ready, advance: Advance) -> dict[str, Threshold]:
     """Where it seals, by what is ``SOUGHT``; from the file, if that has it."""
     kept = kept_series(body.series, body.inputs)
@@ -110,6 +132,14 @@ def chosen_loads(body: Ready, found: dict[str, Threshold]) -> tuple[float, ...]:
     opened = [found[name].open for name in SOUGHT[:2]]
     more = {side.load for side in opened if side is not None and load < side.load < last}
     return tuple(sorted({*(float(one) for one in np.geomspace(load, last, COUNT)), *more}))
+
+
+def columns_of(scene: Seal, rows: Sequence[Row]) -> dict[str, tuple[str, list[float]]]:
+    """All numbers of the rows, and the leakage of the scene's liquid: unit and values, by name."""
+    columns = {name: (UNITS.get(name, "1"), [getattr(row, name) for row in rows]) for name in asdict(rows[0])}
+    for name in SOUGHT:
+        columns[f"leakage_{name}"] = "kg/(m*s)", [leakage_of(scene, getattr(row, name)) for row in rows]
+    return columns
 
 
 def _pressed(body: Ready) -> Callable[[float, Contact | None], Contact]:

@@ -1,0 +1,78 @@
+"""Every case of a study by every model: what is finished, what is missing, and the table of all."""
+
+from collections.abc import Mapping
+from concurrent.futures import Executor
+from contextlib import AbstractContextManager
+from pathlib import Path
+
+from roughfilm.batch.directory import CASES, places, put_scene
+from roughfilm.batch.execute import Solved, run
+from roughfilm.batch.jobs import Failure, Job, store, stored
+from roughfilm.batch.progress import Tally
+from roughfilm.batch.tabulate import Row, columns, row_of
+from roughfilm.rom.ladder.model import Progress
+from roughfilm.rom.studies.study import Case, Study
+from roughfilm.rom.studies.table import write_csv, write_hdf5
+
+Tasks = Mapping[Path, tuple[Case, Job]]
+"""Cases and jobs by the file of the result."""
+
+
+def tasks_of(study: Study, out: Path) -> Tasks:
+    """The jobs of a study, each case in its directory below ``out``."""
+    known, tasks = places(out), {}
+    for case in study.cases:
+        place = known.get(case.digest, out / CASES / case.name)
+        for setting in study.settings:
+            job = Job(scene=case.scene, setting=setting, path=place / f"{setting.name}.h5")
+            tasks[job.path] = (case, job)
+    return tasks
+
+
+def finished(study: Study, tasks: Tasks, tally: Tally) -> tuple[dict[Path, Row], list[Job]]:
+    """The rows that need no solving, and the jobs that do; both are counted."""
+    rows, missing = {}, []
+    for path, (case, job) in tasks.items():
+        fits = job.setting.model.applies(job.scene)
+        answer = stored(job, with_fields=False) if fits.applies else Failure(kind="left out", message=fits.reason)
+        if answer is None:
+            tally.expect(job)
+            missing.append(job)
+            continue
+        rows[path] = row_of(study.keys, case, job, answer)
+        if fits.applies:
+            tally.find(job, answer)
+        else:
+            tally.leave_out(job)
+    return rows, missing
+
+
+def solved_table(
+    study: Study, out: Path, tally: Tally, place: AbstractContextManager[Executor], progress: Progress
+) -> None:
+    """Solve what is missing, store each answer as it comes, and write ``table.csv`` and ``table.h5``.
+
+    Raises
+    ------
+    InputError
+        If a file cannot be written; what is stored stays, and the same call goes on from there.
+    UnavailableError
+        If the scheduler of the executor is gone.
+    """
+    tasks = tasks_of(study, out)
+    progress(0.0, "looking for finished results")
+    rows, missing = finished(study, tasks, tally)
+    if missing:
+        progress(0.0, f"starting {len(missing)} jobs")
+        with place as executor:
+            for job, answer in run(missing, executor):
+                case, _ = tasks[job.path]
+                put_scene(case, job.path.parent)
+                store(job, answer.file if isinstance(answer, Solved) else answer)
+                result = answer.result if isinstance(answer, Solved) else answer
+                rows[job.path] = row_of(study.keys, case, job, result)
+                tally.receive(job, result)
+                progress(tally.done, tally.words)
+    table = columns([rows[path] for path in tasks])
+    write_csv(table, out / "table.csv")
+    write_hdf5(table, out / "table.h5")

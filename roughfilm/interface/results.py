@@ -1,0 +1,66 @@
+"""Results in files."""
+
+import os
+from pathlib import Path
+
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.ladder import store
+from roughfilm.rom.ladder.result import Result
+
+
+def save(result: Result, path: str | os.PathLike[str]) -> None:
+    """Write a result with its fields and provenance to an HDF5 file, whole or not at all.
+
+    Parameters
+    ----------
+    result : the result.
+    path : the file, by custom ``*.h5``; a file of that name is replaced.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import roughfilm as rf
+    >>> result = rf.solve(rf.load_scene("scripts/examples/scenes/pocket.toml"), model="reynolds")
+    >>> with tempfile.TemporaryDirectory() as directory:
+    ...     rf.save(result, directory + "/pocket.h5")
+    ...     again = rf.load_result(directory + "/pocket.h5")
+    >>> again["load"] == result["load"]
+    True
+    """
+    if not isinstance(result, Result):
+        raise InputError(f"result: got {type(result).__name__}; give a Result, such as solve() returns")
+    store.save(result, Path(path))
+
+
+def load_result(path: str | os.PathLike[str]) -> Result:
+    """Read a result that was stored by :func:`roughfilm.save` or by the option ``--out`` of a command.
+
+    Parameters
+    ----------
+    path : the HDF5 file.
+
+    Returns
+    -------
+    Result
+        Quantities with unit and uncertainty, fields as NumPy arrays, numerics and provenance, as they were stored.
+
+    Raises
+    ------
+    InputError
+        If the file is missing, or is not a result of this package.
+
+    Examples
+    --------
+    >>> import roughfilm as rf
+    >>> try:
+    ...     rf.load_result("README.md")
+    ... except rf.InputError as error:
+    ...     print(error)
+    README.md: is not a result of roughfilm; name an .h5 file that it wrote
+    """
+    return store.load(Path(path))

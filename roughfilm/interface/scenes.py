@@ -1,0 +1,109 @@
+"""Scenes from TOML files and from nested entries."""
+
+import json
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.toml import set_entry
+from roughfilm.rom.ladder import scene as scenes
+from roughfilm.rom.ladder.kind import Scene
+
+EXAMPLE = "geometry.depth=22.5um"
+
+
+def load_scene(path: str | os.PathLike[str], *, set: Mapping[str, object] | None = None) -> Scene:  # noqa: A002
+    """Read a scene file (TOML) and change some of its entries.
+
+    Parameters
+    ----------
+    path : the scene file; a file that the scene names is sought beside it.
+    set : new values by dotted key, such as ``{"geometry.depth": "22.5 um"}``; lengths and the like are texts with a
+        unit, pure numbers are numbers. A file named here is sought in the current directory.
+
+    Returns
+    -------
+    Scene
+        A frozen model of its kind; all quantities in SI units.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or a key or value is wrong: one line with place, value and remedy.
+
+    Examples
+    --------
+    >>> import roughfilm as rf
+    >>> scene = rf.load_scene("scripts/examples/scenes/pocket.toml", set={"geometry.depth": "22.5 um"})
+    >>> scene.kind, round(scene.reynolds_number)
+    ('pocket', 160)
+    """
+    if not isinstance(path, str | os.PathLike):
+        raise InputError(f"path: got {type(path).__name__}; name a scene file, or give a dict to read_scene")
+    try:
+        return scenes.load_scene(Path(path), [f"{key}={_text(value)}" for key, value in (set or {}).items()])
+    except InputError as error:
+        raise InputError(str(error).replace("--set ", "set: ")) from None
+
+
+def read_scene(entries: Mapping[str, Any]) -> Scene:
+    """Read a scene from nested entries, as a scene file holds them.
+
+    Parameters
+    ----------
+    entries : tables by name: numbers, texts with a unit such as "30 um", lists and tables.
+
+    Returns
+    -------
+    Scene
+        A frozen model of its kind; all quantities in SI units.
+
+    Raises
+    ------
+    InputError
+        If a key is unknown or missing, or a value out of range: one line with place, value and remedy.
+
+    Examples
+    --------
+    >>> import roughfilm as rf
+    >>> scene = rf.read_scene({
+    ...     "name": "groove", "kind": "pocket",
+    ...     "geometry": {
+    ...         "length": "1 mm", "film": "30 um", "profile": "cylindrical", "width": "0.3 mm", "depth": "9 um"},
+    ...     "lubricant": {"viscosity": "0.01 Pa*s", "density": "1000 kg/m^3"},
+    ...     "motion": {"reynolds_number": 40},
+    ... })
+    >>> round(scene.speed, 2)
+    13.33
+    """
+    if not isinstance(entries, Mapping):
+        raise InputError(f"scene: got {type(entries).__name__}; give a dict of tables, or a file name to load_scene")
+    return scenes.read_scene(entries)
+
+
+def with_entries(scene: Scene, values: Mapping[str, object]) -> Scene:
+    """The scene with other values at some dotted keys."""
+    kind = scenes.kind_named({"kind": scene.kind})
+    entries = scenes.scene_entries(scene)
+    for key, value in values.items():
+        set_entry(entries, f"{key}={_text(value)}", EXAMPLE, kind.replaces if kind else {})
+    return scenes.read_scene(entries)
+
+
+def checked_scene(scene: object) -> Scene:
+    """The scene; InputError for anything else."""
+    if not isinstance(scene, Scene):
+        raise InputError(f"scene: got {type(scene).__name__}; give a scene, which load_scene and read_scene return")
+    return scene
+
+
+def _text(value: object) -> str:
+    """A value as an override holds it."""
+    if isinstance(value, str):
+        return value
+    try:
+        return json.dumps(value, default=lambda number: number.tolist())
+    except (AttributeError, TypeError, ValueError):
+        raise InputError(f"set: got {value!r:.60}; give a number, a text with a unit, or a list of these") from None

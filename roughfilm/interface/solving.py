@@ -1,0 +1,246 @@
+"""One scene by one model, by the cheapest that is accurate enough, or by all that apply."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from roughfilm import ladder
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.interface.scenes import checked_scene
+from roughfilm.rom.advice import advise as advice
+from roughfilm.rom.advice.estimates import expected_errors
+from roughfilm.rom.ladder.kind import Scene, kinds
+from roughfilm.rom.ladder.model import Model, Progress, best, silent
+from roughfilm.rom.ladder.request import Request
+from roughfilm.rom.ladder.result import Result
+from roughfilm.rom.studies.comparison import to_best
+
+
+def models(kind: str | None = None) -> tuple[Model, ...]:
+    """List the models of one kind of scene, or of all, from the plainest to the one that keeps most effects.
+
+    Parameters
+    ----------
+    kind : "pocket", "bearing", "dry_contact", "seal" or "rough_gap"; all of them by default.
+
+    Returns
+    -------
+    tuple of Model
+        Each with ``name``, ``summary``, the effects that it ``keeps``, ``sources``, ``available()`` on this machine,
+        ``applies(scene)`` and ``cost(scene, resolution)`` in CPU seconds.
+
+    Raises
+    ------
+    InputError
+        If there is no such kind.
+
+    Examples
+    --------
+    >>> import roughfilm as rf
+    >>> [model.name for model in rf.models("pocket")]
+    ['reynolds', 'inertial_reynolds', 'film', 'stokes', 'film_slope', 'navier_stokes']
+    """
+    if kind is not None and kind not in kinds():
+        raise InputError(f"kind: got {kind!r}; it must be one of {', '.join(kinds())}")
+    return ladder.models(kind)
+
+
+def advise(scene: Scene, *, within: float, quantity: str | None = None, progress: Progress = silent) -> advice.Advice:
+    """Choose the cheapest model, at the coarsest resolution, whose error in a quantity stays within a tolerance.
+
+    Error laws C Π number^power, fitted to random scenes, judge every model by the scene's dimensionless numbers; cheap
+    models are also run and compared with the next one up. Errors are those that 95 of 100 scenes do not exceed.
+
+    Parameters
+    ----------
+    scene : what is solved.
+    within : tolerated error over the size of the quantity, above 0 and below 1.
+    quantity : such as "load" or "load_plus"; the first that the kind of scene compares by default.
+    progress : called with the done fraction and a few words.
+
+    Returns
+    -------
+    Advice
+        ``chosen`` with ``model``, ``resolution``, ``error`` and ``reason``, None if no model is known to be accurate
+        enough; ``considered`` has the verdict on every model.
+
+    Raises
+    ------
+    InputError
+        For a tolerance out of range, a quantity that the scene does not have, or a scene to which no model applies.
+
+    Examples
+    --------
+    >>> import roughfilm as rf
+    >>> scene = rf.load_scene("scripts/examples/scenes/pocket.toml", set={"motion.reynolds_number": 1})
+    >>> rf.advise(scene, quantity="friction", within=0.05).chosen.model
+    'inertial_reynolds'
+    """
+    kind = checked_scene(scene).kind
+    if isinstance(within, bool) or not isinstance(within, int | float):
+        raise InputError(f"within: got {within!r}; give a number above 0 and below 1, for example 0.05")
+    wanted = advice.wanted(scene, quantity)
+    return advice.advise(scene, ladder.models(kind), quantity=wanted, within=within, progress=progress)
+
+
+def solve(
+    scene: Scene,
+    *,
+    model: str | None = None,
+    within: float | None = None,
+    quantity: str | None = None,
+    resolution: int | None = None,
+    tolerance: float | None = None,
+    scheme: str | None = None,
+    processes: int = 1,
+    progress: Progress = silent,
+) -> Result:
+    """Solve a scene by one model, or by the cheapest whose error in a quantity stays within a tolerance.
+
+    Parameters
+    ----------
+    scene : what is solved.
+    model : name of a model of the scene's kind, see :func:`roughfilm.models`; give it or ``within``.
+    within : tolerated error over the size of the quantity, above 0 and below 1, as :func:`roughfilm.advise` takes it.
+    quantity : the quantity that ``within`` counts for, such as "load".
+    resolution : cells, points or nodes, in the model's ``resolution_meaning``; its default if left out.
+    tolerance : residual at which the solver stops, in the model's ``residual_meaning``; its default if left out.
+    scheme : advection scheme, one of the model's ``schemes``.
+    processes : MPI processes of an OpenFOAM run.
+    progress : called with the done fraction and a few words.
+
+    Returns
+    -------
+    Result
+        ``result["load"].value``, ``.unit`` and ``.uncertainty`` (of the numerics, None where unknown);
+        ``expected_error`` of the model itself, over the size of the quantity, where a fitted law reaches the scene;
+        ``fields["pressure"].values``; ``warnings``.
+
+    Raises
+    ------
+    InputError
+        For an unknown model, an option that the model does not offer, or a value out of range.
+    ConvergenceError
+        If the solver stops above its tolerance, or no model is known to be accurate enough.
+    UnavailableError
+        If a program that the model needs is not on this machine.
+
+    Examples
+    --------
+    >>> import roughfilm as rf
+    >>> scene = rf.load_scene("scripts/examples/scenes/pocket.toml")
+    >>> result = rf.solve(scene, model="film_slope")
+    >>> result["load"].unit, result.fields["pressure"].unit, sorted(result.expected_error)
+    ('Pa', 'Pa', ['friction_plus', 'load_plus'])
+    """
+    kind = checked_scene(scene).kind
+    if within is not None:
+        chosen = {"model": model, "resolution": resolution, "tolerance": tolerance, "scheme": scheme}
+        for name in (name for name, value in chosen.items() if value is not None):
+            raise InputError(f"{name}: got {chosen[name]!r}, but within chooses how to solve; leave one of them out")
+        advised = advise(scene, within=within, quantity=quantity, progress=progress)
+        if advised.chosen is None:
+            title = kinds()[kind].compared[advised.quantity]
+            raise ConvergenceError(f"within: {advice.shortfall(advised, title)}")
+        model, resolution, result = advised.chosen.model, advised.chosen.resolution, advised.result
+    elif model is None:
+        raise InputError("model: missing; name one of models(scene.kind), or give within=0.05")
+    elif quantity is not None:
+        raise InputError(f"quantity: got {quantity!r} without within; give within=0.05 too, or leave it out")
+    else:
+        result = None
+    by = ladder.find(kind, model)
+    if result is None:
+        request = Request(resolution=resolution, tolerance=tolerance, scheme=scheme, processes=processes)
+        result = by.solve(scene, request, progress)
+    errors = expected_errors(scene, by, result.numerics.resolution, ladder.models(kind))
+    return replace(result, expected_error=errors)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Comparison:
+    """The results of several models on one scene.
+
+    Attributes
+    ----------
+    results : by the model's name, from the plainest to the one that keeps most.
+    best : name of the model that keeps most.
+    errors : by model and quantity, the difference to the best model over the size of the quantity, with its sign.
+    left_out : by model, why it has no result.
+    """
+
+    results: Mapping[str, Result]
+    best: str
+    errors: Mapping[str, Mapping[str, float]]
+    left_out: Mapping[str, str]
+
+
+def compare(scene: Scene, *, models: Sequence[str] | None = None, progress: Progress = silent) -> Comparison:
+    """Solve a scene by every model that applies, each at its default resolution, and compare with the best.
+
+    Parameters
+    ----------
+    scene : what is solved.
+    models : names of the models; by default all that apply and are available on this machine.
+    progress : called with the done fraction and a few words.
+
+    Returns
+    -------
+    Comparison
+        ``results`` by model, ``errors`` against the ``best`` of them, and why models were ``left_out``.
+
+    Raises
+    ------
+    InputError
+        For an unknown model.
+    ConvergenceError
+        If no model solves the scene.
+
+    Examples
+    --------
+    >>> import roughfilm as rf
+    >>> scene = rf.load_scene("scripts/examples/scenes/pocket.toml")
+    >>> both = rf.compare(scene, models=["inertial_reynolds", "film_slope"])
+    >>> both.best, list(both.errors)
+    ('film_slope', ['inertial_reynolds'])
+    """
+    known = chosen_models(checked_scene(scene).kind, models)
+    results: dict[str, Result] = {}
+    left_out: dict[str, str] = {}
+    for number, model in enumerate(known):
+        progress(number / len(known), model.name)
+        answer = answer_of(scene, model)
+        if isinstance(answer, str):
+            left_out[model.name] = answer
+        else:
+            results[model.name] = answer
+    if not results:
+        reasons = "; ".join(f"{name}: {reason}" for name, reason in left_out.items())
+        raise ConvergenceError(f"models: none of them solves the scene: {reasons}")
+    errors: dict[str, dict[str, float]] = {}
+    for difference in to_best(known, results):
+        errors.setdefault(difference.model, {})[difference.quantity] = difference.relative
+    top = best([model for model in known if model.name in results]).name
+    return Comparison(results=results, best=top, errors=errors, left_out=left_out)
+
+
+def chosen_models(kind: str, names: Sequence[str] | None) -> tuple[Model, ...]:
+    """The models of these names, from the plainest up, or all of the kind; InputError for an unknown one."""
+    known = ladder.models(kind)
+    if names is None:
+        return known
+    if isinstance(names, str) or not names:
+        raise InputError(f"models: got {names!r}; give a list of names, such as {[known[0].name]}")
+    for name in names:
+        ladder.find(kind, name)
+    return tuple(model for model in known if model.name in names)
+
+
+def answer_of(scene: Scene, model: Model, request: Request | None = None) -> Result | str:
+    """The result of a model, or why there is none."""
+    fits, here = model.applies(scene), model.available()
+    if not fits.applies or not here.available:
+        return here.detail if fits.applies else fits.reason
+    try:
+        return solve(scene, model=model.name, **({} if request is None else vars(request)))
+    except ConvergenceError as error:
+        return f"{type(error).__name__}: {error}"

@@ -1,0 +1,124 @@
+"""Studies: a scene with lists, whose cases are solved in parallel and kept in a directory."""
+
+import os
+from pathlib import Path
+from typing import Any
+
+from numpy.typing import NDArray
+
+from roughfilm import ladder
+from roughfilm.batch.directory import alone
+from roughfilm.batch.executors import local
+from roughfilm.batch.progress import Tally
+from roughfilm.batch.solve import solved_table
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.ladder.model import Progress, silent
+from roughfilm.rom.studies import study, table
+
+
+def load_study(path: str | os.PathLike[str]) -> study.Study:
+    """Read a study file: a scene in which every list is swept, and all lists multiply.
+
+    Parameters
+    ----------
+    path : the study file (TOML). ``[study]`` names models, resolutions and schemes; ``[[variants]]`` change several
+        entries together.
+
+    Returns
+    -------
+    Study
+        ``cases`` with ``name``, ``scene`` and what is ``varied``; ``settings`` with model, resolution and scheme.
+
+    Raises
+    ------
+    InputError
+        If a key, a value or a case is wrong: one line with place, value and remedy.
+    UnavailableError
+        If a model that the study names cannot run on this machine.
+
+    Examples
+    --------
+    >>> import roughfilm as rf
+    >>> study = rf.load_study("scripts/examples/studies/pocket.toml")
+    >>> len(study.cases), [setting.name for setting in study.settings]
+    (12, ['reynolds', 'inertial_reynolds'])
+    """
+    return study.load_study(Path(path), ladder.models())
+
+
+def run_study(
+    path: str | os.PathLike[str],
+    out: str | os.PathLike[str],
+    *,
+    processes: int | None = None,
+    progress: Progress = silent,
+) -> dict[str, NDArray[Any]]:
+    """Solve every case of a study by every model in parallel; a call that was stopped goes on where it was.
+
+    Parameters
+    ----------
+    path : the study file (TOML), as :func:`roughfilm.load_study` reads it.
+    out : directory of the cases, results and tables; finished results in it are used again.
+    processes : processes that solve at once; by default one for each core.
+    progress : called with the done fraction and a few words.
+
+    Returns
+    -------
+    dict of arrays
+        The columns of ``out/table.h5``, a row for each case and model, as :func:`roughfilm.read_table` reads them.
+
+    Raises
+    ------
+    InputError
+        If the study is wrong, or the directory is in use or cannot be written. A case that fails stops no other: the
+        column "outcome" says why it has no result.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import roughfilm as rf
+    >>> with tempfile.TemporaryDirectory() as out:
+    ...     table = rf.run_study("scripts/examples/studies/pocket.toml", out, processes=1)
+    >>> len(table["model"]), set(table["outcome"].tolist())
+    (24, {'solved'})
+    """
+    processes = len(os.sched_getaffinity(0)) if processes is None else processes
+    if isinstance(processes, bool) or not isinstance(processes, int) or processes < 1:
+        raise InputError(f"processes: got {processes!r}; give a whole number, 1 or more")
+    loaded, place = load_study(path), Path(out)
+    try:
+        place.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"out: {place} cannot be made ({error.strerror}); choose another place") from error
+    with alone(place) as scratch:
+        solved_table(loaded, place, Tally(), local(processes, scratch), progress)
+    return read_table(place / "table.h5")
+
+
+def read_table(path: str | os.PathLike[str]) -> dict[str, NDArray[Any]]:
+    """Read the table of a study as columns of one length, ready for pandas.DataFrame.
+
+    Parameters
+    ----------
+    path : a ``table.h5`` that :func:`roughfilm.run_study` or the command ``batch`` wrote.
+
+    Returns
+    -------
+    dict of arrays
+        Texts, and numbers in SI units, NaN where there is none; the file's datasets have the unit as attribute.
+
+    Raises
+    ------
+    InputError
+        If the file is missing or is not such a table.
+
+    Examples
+    --------
+    >>> import roughfilm as rf
+    >>> try:
+    ...     table = rf.read_table("README.md")
+    ... except rf.InputError as error:
+    ...     print(error)
+    README.md: is not a table of roughfilm; name a table.h5 that 'roughfilm batch' wrote
+    """
+    return table.read_table(Path(path))

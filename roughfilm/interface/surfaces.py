@@ -1,0 +1,330 @@
+"""Rough surfaces from arrays and files: roughness parameters, dry contact and flow factors."""
+
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.units import Quantity
+from roughfilm.contact.mechanics.checks import not_negative, positive
+from roughfilm.contact.mechanics.contact import Contact
+from roughfilm.contact.mechanics.half_space import Boundary
+from roughfilm.contact.mechanics.press import COMPLEMENTARITY_TOLERANCE, Press
+from roughfilm.contact.mechanics.solid import Solid, composite_modulus
+from roughfilm.contact.parameters import roughness_parameters
+from roughfilm.contact.preparation import prepare as preparation
+from roughfilm.contact.preparation.recipe import AS_IT_IS, load_recipe, read_recipe
+from roughfilm.contact.surfaces import files
+from roughfilm.contact.surfaces.surface import Surface
+from roughfilm.contact.synthetic.description import make, read_description
+from roughfilm.rom.homogenization.conductance import FaceRule
+from roughfilm.rom.homogenization.factors import relative_quantities
+from roughfilm.rom.homogenization.flow_factors import flow_factors as factors_of
+from roughfilm.rom.homogenization.table.separation import Separations
+from roughfilm.rom.ladder.model import Progress, silent
+
+Heights = ArrayLike | Surface
+
+
+def surface_of(heights: Heights, spacing: float | Sequence[float] | None) -> Surface:
+    """Checked heights on a uniform grid; InputError for anything but finite real numbers, (nx, ny) of 2 or more."""
+    if isinstance(heights, Surface):
+        if spacing is not None:
+            raise InputError(f"spacing: got {spacing!r}; the surface has {heights.spacing} m, leave it out")
+        if heights.invalid.any():
+            count = int(heights.invalid.sum())
+            raise InputError(f"heights: {count} of {heights.invalid.size} points are invalid; fill them by prepare()")
+        return heights
+    if isinstance(heights, np.ma.MaskedArray):
+        raise InputError("heights: got a masked array; give a Surface with its invalid points and prepare() it")
+    try:
+        array = np.asarray(heights)
+    except ValueError:
+        raise InputError("heights: got rows of different lengths; give an array of shape (nx, ny)") from None
+    if array.dtype.kind not in "fiu":
+        raise InputError(f"heights: got an array of {array.dtype}; give real numbers in m")
+    if spacing is None:
+        raise InputError("spacing: missing; give the distance of neighbouring points in m, or a pair (dx, dy)")
+    return Surface(heights=array, spacing=_pair(spacing))
+
+
+def _pair(spacing: float | Sequence[float]) -> tuple[float, float]:
+    try:
+        dx, dy = np.broadcast_to(np.asarray(spacing, dtype=float), (2,))
+    except (TypeError, ValueError):
+        raise InputError(f"spacing: got {spacing!r:.60}; give one length in m, or a pair (dx, dy)") from None
+    return float(dx), float(dy)
+
+
+def read_surface(
+    path: str | Path,
+    *,
+    spacing: float | Sequence[float] | None = None,
+    channel: str | None = None,
+    height_unit: str | None = None,
+) -> Surface:
+    """Read a measured surface from a file, or make the synthetic one that a TOML file describes.
+
+    Parameters
+    ----------
+    path : HDF5 of this package, NPY, CSV, TOML, or an instrument's file (with the extra ``instruments``).
+    spacing : distance of neighbouring points, m, or a pair (dx, dy), where the file does not hold it.
+    channel : name of the channel, where an instrument's file holds several.
+    height_unit : unit of the heights, such as "um", where the file does not hold it; m for NPY.
+
+    Returns
+    -------
+    Surface
+        Heights in m, shape (nx, ny), with invalid points marked.
+
+    Raises
+    ------
+    InputError
+        If the file is missing, damaged or incomplete; one line with the remedy.
+    UnavailableError
+        If the file needs a library that is not installed.
+
+    Examples
+    --------
+    >>> import roughfilm as rf
+    >>> surface = rf.read_surface("scripts/examples/surfaces/milled.toml")
+    >>> surface.shape, surface.periodic
+    ((512, 384), True)
+    """
+    file = Path(path)
+    if file.suffix.lower() == ".toml":
+        given = {"spacing": spacing, "channel": channel, "height_unit": height_unit}
+        for name in (name for name, value in given.items() if value is not None):
+            raise InputError(f"{name}: got {given[name]!r}; a described surface is complete, leave it out")
+        return make(read_description(file))
+    pair = None if spacing is None else _pair(spacing)
+    return files.read_surface(file, channel=channel, spacing=pair, height_unit=height_unit)
+
+
+def prepare(surface: Surface, recipe: str | Path | Mapping[str, Any] | None = None) -> preparation.Prepared:
+    """Prepare a measured surface as a periodic cell: level, fill, cut outliers, window, resample, join edges, smooth.
+
+    Parameters
+    ----------
+    surface : the measured surface.
+    recipe : TOML file or nested entries with the numbers of each step; the usual ones by default, and nothing but a
+        check for a surface that is periodic already.
+
+    Returns
+    -------
+    Prepared
+        The cell is its ``surface``; ``warnings`` has sentences on what may make it a poor picture, ``record`` what each
+        step changed.
+
+    Raises
+    ------
+    InputError
+        If a step cannot be taken; one line that names the step.
+    ConvergenceError
+        If invalid points cannot be filled to tolerance.
+
+    References
+    ----------
+    F. Sahlin, Lubrication, contact mechanics and leakage between rough surfaces, Luleå 2008, sections E.3.1 and F.3.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughfilm as rf
+    >>> measured = rf.Surface(heights=1e-6 * np.random.default_rng(1).normal(size=(60, 50)), spacing=(1e-6, 1e-6))
+    >>> prepared = rf.prepare(measured, {"edges": {"direction": "both"}})
+    >>> prepared.surface.shape, prepared.record["edges"]["direction"]
+    ((64, 64), 'both')
+    """
+    if not isinstance(surface, Surface):
+        raise InputError(f"surface: got {type(surface).__name__}; give a Surface, such as read_surface() returns")
+    if isinstance(recipe, Mapping):
+        return preparation.prepare(surface, read_recipe(recipe))
+    usual = AS_IT_IS if surface.periodic and recipe is None else None
+    return preparation.prepare(surface, load_recipe(None if recipe is None else Path(recipe), usual=usual))
+
+
+def parameters(heights: Heights, *, spacing: float | Sequence[float] | None = None) -> dict[str, Quantity]:
+    """Areal roughness parameters of ISO 25178-2, nothing filtered or levelled; heights count from their mean.
+
+    Parameters
+    ----------
+    heights : z, shape (nx, ny), m, upward; or a Surface.
+    spacing : distance of neighbouring points, m, or a pair (dx, dy); not for a Surface.
+
+    Returns
+    -------
+    dict of Quantity
+        Sa, Sq, Sp, Sv, Sz, St, Spm, Svm, Sk, Spk, Svk, Sal in m; Std in degrees; Ssk, Sku, Smr1, Smr2, Str without
+        unit. Their uncertainty is unknown.
+
+    Raises
+    ------
+    InputError
+        For heights that are not an array of finite numbers of at least 2 x 2 points, or all the same.
+
+    References
+    ----------
+    ISO 25178-2:2021.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughfilm as rf
+    >>> wave = 1e-6 * np.sin(2 * np.pi * np.arange(64) / 64)
+    >>> sq = rf.parameters(np.tile(wave, (64, 1)), spacing=1e-6)["Sq"]
+    >>> round(1e6 * sq.value, 4), sq.unit
+    (0.7071, 'm')
+    """
+    return roughness_parameters.parameters(surface_of(heights, spacing))
+
+
+def press(
+    heights: Heights,
+    *,
+    spacing: float | Sequence[float] | None = None,
+    modulus: float,
+    load: float,
+    poisson: float = 0.3,
+    hardness: float = math.inf,
+    boundary: Boundary = "periodic",
+    tolerance: float = COMPLEMENTARITY_TOLERANCE,
+    threads: int = 1,
+) -> Contact:
+    """Press a rough surface against a rigid plane, elastic or elastic-plastic, without friction or adhesion.
+
+    At the mean pressure W it solves for the pressure p, 0 <= p <= H, whose mean is W, and the deformed gap
+    h + K∗p − g, which is 0 where 0 < p < H and >= 0 where p = 0; K is the elastic half-space of the modulus
+    E* = E/(1 − ν²). For an elastic plane give the Young's modulus E = (1 − ν²) E* of the composite modulus.
+
+    Parameters
+    ----------
+    heights : z, shape (nx, ny), m, upward, towards the plane; or a Surface.
+    spacing : distance of neighbouring points, m, or a pair (dx, dy); not for a Surface.
+    modulus : Young's modulus E, Pa.
+    load : mean pressure W over the nominal area, Pa, above 0 and at most the hardness.
+    poisson : Poisson's ratio ν, 0 to 0.5.
+    hardness : greatest pressure H, Pa; infinite for an elastic surface.
+    boundary : "periodic", or "free" for a surface that stands alone on the half-space.
+    tolerance : greatest violation of the contact conditions over the rms height, 1e-13 to 1.
+    threads : threads that share the work.
+
+    Returns
+    -------
+    Contact
+        Floats ``area_fraction``, ``plastic_fraction``, ``mean_gap`` (m), ``approach`` (m), and arrays of shape (nx, ny)
+        ``pressure`` (Pa), ``gap`` (m), ``in_contact``. ``complementarity`` is the violation of the contact conditions,
+        recomputed from the pressure. The discretisation error is unknown on one grid: compare two. The area converges
+        with the first order of the spacing, gap and approach with the second, once the shortest wave is resolved.
+
+    Raises
+    ------
+    InputError
+        For an argument out of range, or heights that are not finite numbers of shape (nx, ny).
+    ConvergenceError
+        If the contact conditions stay violated by more than the tolerance.
+
+    References
+    ----------
+    F. Sahlin, Luleå 2008, section E.2.2; V. A. Yastrebov et al., doi:10.1016/j.triboint.2017.04.023 (area fraction).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughfilm as rf
+    >>> wave = 1e-6 * np.cos(2 * np.pi * np.arange(32) / 32)
+    >>> contact = rf.press(np.add.outer(wave, wave), spacing=1e-6, modulus=210e9, load=1e9)
+    >>> contact.pressure.shape, round(contact.area_fraction, 2)
+    ((32, 32), 0.06)
+    """
+    surface = surface_of(heights, spacing)
+    solid = Solid(
+        modulus=positive("modulus", modulus),
+        poisson=not_negative("poisson", poisson),
+        hardness=hardness if hardness == math.inf else positive("hardness", hardness),
+    )
+    body = Press(
+        surface.heights,
+        surface.spacing,
+        composite_modulus(solid),
+        hardness=solid.hardness,
+        boundary=boundary,
+        threads=threads,
+    )
+    return body.at(positive("load", load), tolerance=positive("tolerance", tolerance))
+
+
+def flow_factors(
+    heights: Heights,
+    *,
+    spacing: float | Sequence[float] | None = None,
+    gap: float,
+    offset: float = 0.0,
+    progress: Progress = silent,
+) -> dict[str, Quantity]:
+    """Flow factors of the film between a rough surface and a smooth one at one mean gap.
+
+    With the rough wall at rest and the smooth one sliding along x at u, the averaged flow per width is
+    q = (u/2) ĥ B − ĥ³ A∇p/(12η) and the shear stress on the sliding wall τ = (ηu/ĥ)(d + 3e) + ĥ B·∇p/2, with ĥ the mean
+    gap; a smooth film has A = 1, B = (1, 0), d = 1, e = 0. Heights that reach the smooth wall are cut off.
+
+    Parameters
+    ----------
+    heights : z, shape (nx, ny), m, upward, towards the smooth wall, one period; or a Surface.
+    spacing : distance of neighbouring points, m, or a pair (dx, dy); not for a Surface.
+    gap : mean gap ĥ, m, before the offset.
+    offset : length added to the gap everywhere, m; 0 closes the film where the walls touch.
+    progress : called with the done fraction and a few words.
+
+    Returns
+    -------
+    dict of Quantity
+        A11, A12, A21, A22, B1, B2, d, e with their uncertainties (None where unknown), and the ``mean_gap``, the
+        ``separation`` of the mean planes, both in m, and the fraction in ``contact``. A direction with A = 0 is sealed.
+
+    Raises
+    ------
+    InputError
+        For an argument out of range, or heights that are not finite numbers of shape (nx, ny).
+    ConvergenceError
+        If a cell problem does not converge.
+
+    Notes
+    -----
+    Second order in the spacing where the gap is smooth and open, near first order at the edges of contact.
+
+    References
+    ----------
+    F. Sahlin, Luleå 2008, papers C and E; doi:10.1016/j.triboint.2006.02.069.
+
+    Examples
+    --------
+    Transverse ridges obey closed forms: A11 = 1/(ĥ³<h⁻³>) and A22 = <h³>/ĥ³.
+
+    >>> import numpy as np
+    >>> import roughfilm as rf
+    >>> ridges = np.outer(1e-6 * np.cos(2 * np.pi * np.arange(64) / 64), np.ones(64))
+    >>> factors = rf.flow_factors(ridges, spacing=1e-6, gap=3e-6)
+    >>> round(factors["A11"].value, 3), round(factors["A22"].value, 3)
+    (0.706, 1.167)
+    """
+    surface = surface_of(heights, spacing)
+    walls = Separations(heights=surface.heights)
+    separation = walls.at_mean_gap(positive("gap", gap))
+    found = factors_of(
+        walls.gap(separation),
+        surface.spacing,
+        rule=FaceRule.LINEAR,
+        offset=not_negative("offset", offset),
+        progress=progress,
+    )
+    return {
+        **relative_quantities(found.factors, found.uncertainty),
+        "mean_gap": Quantity(value=found.factors.mean_gap, unit="m"),
+        "separation": Quantity(value=separation, unit="m"),
+        "contact": Quantity(value=found.contact, unit="1"),
+    }

@@ -1,0 +1,102 @@
+"""A scene with entries that vary, by several models, as rows of a table."""
+
+import itertools
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.interface.rows import Rows
+from roughfilm.interface.scenes import checked_scene, with_entries
+from roughfilm.interface.solving import answer_of, chosen_models
+from roughfilm.rom.ladder.kind import Scene
+from roughfilm.rom.ladder.model import Progress, silent
+from roughfilm.rom.ladder.scene import scene_entries
+
+
+def sweep(
+    scene: Scene,
+    values: Mapping[str, Sequence[object]],
+    *,
+    models: Sequence[str] | None = None,
+    progress: Progress = silent,
+) -> Rows:
+    """Solve a scene for every combination of some entries by several models, as rows ready for pandas.DataFrame.
+
+    Parameters
+    ----------
+    scene : the scene in which the entries vary.
+    values : by dotted key, the values that it takes, such as ``{"geometry.depth": ["5 um", "10 um"]}``.
+    models : names of the models; by default every one of the scene's kind.
+    progress : called with the done fraction and a few words.
+
+    Returns
+    -------
+    list of dict
+        A row for each combination and model. Columns: the keys of ``values``, "model", "resolution", "outcome"
+        ("solved" or why there is no result), each quantity by its name, its 95 % half width as "<name>_uncertainty"
+        where it is known, its model error over its size as "<name>_expected_error" where a law gives it, "cpu_s" and
+        "warnings". All numbers are in SI units, which ``units`` holds by column.
+
+    Raises
+    ------
+    InputError
+        For an unknown key or model, or a value out of range; nothing is solved then.
+
+    Examples
+    --------
+    >>> import roughfilm as rf
+    >>> scene = rf.load_scene("scripts/examples/scenes/pocket.toml")
+    >>> rows = rf.sweep(scene, {"geometry.depth": ["5 um", "10 um"]}, models=["reynolds", "film"])
+    >>> [(row["geometry.depth"], row["model"]) for row in rows]
+    [(5e-06, 'reynolds'), (5e-06, 'film'), (1e-05, 'reynolds'), (1e-05, 'film')]
+    >>> rows.units["geometry.depth"], rows.units["load_per_area"]
+    ('m', 'Pa')
+    """
+    known = chosen_models(checked_scene(scene).kind, models)
+    for key, taken in values.items():
+        if isinstance(taken, str) or not isinstance(taken, Sequence | np.ndarray) or not len(taken):
+            raise InputError(f"values: got {taken!r:.60} for {key}; give a list of the values that it takes")
+    combinations = [dict(zip(values, taken, strict=True)) for taken in itertools.product(*values.values())]
+    scenes = [with_entries(scene, combination) for combination in combinations]
+    rows = Rows()
+    for number, (case, varied) in enumerate(zip(scenes, combinations, strict=True)):
+        for place, model in enumerate(known):
+            progress((number + place / len(known)) / len(scenes), f"{model.name}, case {number + 1} of {len(scenes)}")
+            row: dict[str, Any] = {}
+            for key, value in varied.items():
+                row[key], rows.units[key] = _si(case, key, value)
+            answer = answer_of(case, model)
+            row |= {"model": model.name}
+            rows.append(row)
+            if isinstance(answer, str):
+                row["outcome"] = answer
+                continue
+            row |= {"resolution": answer.numerics.resolution, "outcome": "solved"}
+            for name, quantity in answer.quantities.items():
+                row[name], rows.units[name] = quantity.value, quantity.unit
+                if quantity.uncertainty is not None:
+                    row[f"{name}_uncertainty"], rows.units[f"{name}_uncertainty"] = quantity.uncertainty, quantity.unit
+                if name in answer.expected_error:
+                    row[f"{name}_expected_error"], rows.units[f"{name}_expected_error"] = (
+                        answer.expected_error[name],
+                        "1",
+                    )
+            row |= {"cpu_s": answer.numerics.cpu_s, "warnings": "; ".join(answer.warnings)}
+            rows.units["cpu_s"] = "s"
+    return rows
+
+
+def _si(scene: Scene, key: str, value: object) -> tuple[object, str]:
+    """What the scene has at a key as number and unit; the value as it was given where it is kept in another way."""
+    entry: Any = scene_entries(scene)
+    for part in key.split("."):
+        entry = entry.get(part) if isinstance(entry, dict) else None
+    if isinstance(entry, str):
+        number, _, unit = entry.partition(" ")
+        try:
+            return float(number), unit
+        except ValueError:
+            return entry, ""
+    return (value if entry is None else entry), "1"

@@ -1,0 +1,3 @@
+"""Keeps pytest from importing the example programs, which the tests run."""
+
+collect_ignore = ["python"]

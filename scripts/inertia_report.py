@@ -1,0 +1,42 @@
+"""Draw the load that inertia adds over the Reynolds number: python scripts/inertia_report.py DIR|SCENE --out PAGE."""
+
+import argparse
+from io import StringIO
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+
+import roughfilm as rf
+
+NUMBER = "motion.reynolds_number"
+
+
+def main() -> None:
+    """Write a page with the difference in load of each pair of models that differ by inertia."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("source", type=Path, help="directory of run_batch.py, or a pocket scene (TOML)")
+    parser.add_argument("--out", type=Path, default=Path("inertia.html"), metavar="PAGE", help="the page (HTML)")
+    given, names, page = parser.parse_args(), ["reynolds", "inertial_reynolds", "film"], StringIO()
+    try:
+        if given.source.is_dir():
+            table = rf.read_table(given.source / "table.h5")
+            rows = [dict(zip(table, row, strict=True)) for row in zip(*table.values(), strict=True)]
+        else:
+            rows = rf.sweep(rf.load_scene(given.source), {NUMBER: np.geomspace(1, 200, 12)}, models=names)
+    except rf.InputError as error:
+        raise SystemExit(f"error: {error}") from None
+    rows = [{"case": row.get(NUMBER), "reynolds_number": row.get(NUMBER), **row} for row in rows]
+    answers = {(row["model"], row["case"]): row for row in rows if row["outcome"] == "solved"}
+    axes = (figure := Figure()).add_subplot(xlabel="Re", ylabel="load added by inertia, p+", xscale="log")
+    for plain, inertial in ((names[0], names[1]), (names[0], names[2]), ("stokes", "navier_stokes")):
+        both = [(row, answers.get((inertial, case))) for (model, case), row in answers.items() if model == plain]
+        points = [(row["reynolds_number"], more["load_plus"] - row["load_plus"]) for row, more in both if more]
+        axes.plot(*np.reshape(points, (-1, 2)).T, "o", label=f"{inertial} - {plain}")
+    figure.legend()
+    figure.savefig(page, format="svg")
+    given.out.write_text(f"<!doctype html><title>Inertia</title>{page.getvalue()}", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
