@@ -4,9 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.polynomial import chebyshev
-from scipy.optimize import minimize
-from scipy.special import ndtri
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.surfaces.surface import Array
@@ -128,7 +127,7 @@ def heights_within(*, average: float, rms: float, peak: float, valley: float, co
         raise InputError(
             f"heights: got Sa/Sq {average / rms:.4g}, Sp/Sq {peak / rms:.4g}, Sv/Sq {valley / rms:.4g}, which no "
             f"smooth distribution of {count} heights was found for; those of {count} normal ones are 0.798 and both "
-            f"{ndtri(1 - 0.5 / count):.3g}"
+            f"{scipy.special.ndtri(1 - 0.5 / count):.3g}"
         )
     return np.asarray(rms * z)
 
@@ -142,7 +141,7 @@ def smoothest(count: int, missed: Callable[[Array], Array]) -> tuple[Array, floa
     missed : of heights, shape (n,): by how much they miss each condition; infinite where they do not grow.
     """
     whole_between("heights.count", count, FEWEST, MOST)
-    x = ndtri((np.arange(count) + 0.5) / count)
+    x = scipy.special.ndtri((np.arange(count) + 0.5) / count)
     departures = chebyshev.chebvander((x[1:] + x[:-1]) / (2 * x[-1]), ORDER)[:, 1:]
     weights = np.arange(1.0, ORDER + 1) ** 2
 
@@ -152,7 +151,7 @@ def smoothest(count: int, missed: Callable[[Array], Array]) -> tuple[Array, floa
         z -= z.mean()
         return np.asarray(z / z.std())
 
-    found = minimize(
+    found = scipy.optimize.minimize(
         lambda b: float(weights @ b**2),
         np.zeros(ORDER),
         jac=lambda b: 2 * weights * b,

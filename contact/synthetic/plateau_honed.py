@@ -3,7 +3,7 @@
 import math
 
 import numpy as np
-import scipy.special
+import scipy
 
 from roughfilm.contact.surfaces.surface import Array, Surface
 from roughfilm.contact.synthetic.checks import length, number_between, whole_between

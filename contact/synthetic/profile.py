@@ -1,7 +1,7 @@
 """Ground profiles: periodic, with given height parameters, and a self-affine spectrum as far as these allow."""
 
 import numpy as np
-import scipy.fft
+import scipy
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.errors import InputError

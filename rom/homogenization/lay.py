@@ -3,9 +3,8 @@
 from math import acos, cos, exp, log, log1p, pi, sin, sqrt
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy.optimize import brentq
-from scipy.special import digamma, hyp2f1
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.pocket.gap import Array
@@ -67,7 +66,7 @@ def box_factors(tensor: ArrayLike, size: tuple[float, float]) -> Array:
     reach = 1.0
     while excess(-reach) * excess(reach) > 0:
         reach *= 2
-    modulus = brentq(excess, -reach, reach, xtol=1e-13, rtol=1e-13)
+    modulus = scipy.optimize.brentq(excess, -reach, reach, xtol=1e-13, rtol=1e-13)
     first = sqrt(determinant) * aspect * _integral(0.5, modulus) / _integral(0.5, -modulus)
     return np.array([first, determinant / first])
 
@@ -75,8 +74,11 @@ def box_factors(tensor: ArrayLike, size: tuple[float, float]) -> Array:
 def _integral(part: float, modulus: float) -> float:
     """₂F₁(part, 1 − part; 1; m) with m = 1/(1 + exp(−modulus)); of the part 1/2 it is 2K(m)/π."""
     if modulus < NEAR_ONE:
-        return float(hyp2f1(part, 1 - part, 1.0, 1 / (1 + exp(-max(modulus, -LARGEST)))))
+        return float(scipy.special.hyp2f1(part, 1 - part, 1.0, 1 / (1 + exp(-max(modulus, -LARGEST)))))
     rest = 1 / (1 + exp(min(modulus, LARGEST)))
     logarithm = modulus + log1p(exp(-modulus))
-    terms = [logarithm + 2 * digamma(n) - digamma(part + n - 1) - digamma(n - part) for n in (1, 2)]
+    terms = [
+        logarithm + 2 * scipy.special.digamma(n) - scipy.special.digamma(part + n - 1) - scipy.special.digamma(n - part)
+        for n in (1, 2)
+    ]
     return float(sin(pi * part) / pi * (terms[0] + part * (1 - part) * rest * terms[1]))
