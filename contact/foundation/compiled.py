@@ -6,44 +6,45 @@ from functools import cache, cached_property, partial, update_wrapper
 from typing import Any
 
 
-class Compiled:
+class Loop:
     """A loop that numba compiles, or reads from its cache, at its first call; numba is slow to import."""
 
-    def __init__(self, loop: Callable[..., Any], *, inline: bool) -> None:
+    def __init__(self, loop: Callable[..., Any], **options: Any) -> None:
         self._loop = loop
-        self._inline = inline
+        self._options = options
         update_wrapper(self, loop)
 
     def __call__(self, *arguments: Any) -> Any:
         """Run the loop."""
-        return self.dispatcher(*arguments)
+        return self._dispatcher(*arguments)
 
     @cached_property
-    def dispatcher(self) -> Any:
+    def _dispatcher(self) -> Any:
         """The function of numba; the loops that this one calls are replaced by theirs, as numba wants to see them."""
         names = self._loop.__globals__
         for name in self._loop.__code__.co_names:
-            if isinstance(called := names.get(name), Compiled):
-                names[name] = called.dispatcher
-        njit = _njit()
-        if self._inline:
-            return njit(forceinline=True)(self._loop)
+            if isinstance(called := names.get(name), Loop):
+                names[name] = called._dispatcher
         try:
-            return njit(cache=True)(self._loop)
+            return _njit()(**self._options)(self._loop)
         except RuntimeError:  # there is no place for a cache
-            return njit(self._loop)
+            return _njit()(**{**self._options, "cache": False})(self._loop)
 
 
-compiled: Any = partial(Compiled, inline=False)
-"""A decorator for loops: sums may be reordered to be vectorised, infinities and NaN are kept."""
+compiled: Any = partial(Loop, cache=True, _nrt=False)
+"""A decorator for loops: sums may be reordered to be vectorised, infinities and NaN are kept.
 
-inlined: Any = partial(Compiled, inline=True)
-"""For a small loop that others call for every row: it becomes part of them, and costs no call."""
+No references to arrays are counted, which would cost more than a short row: such a loop makes and returns no array.
+"""
 
+called: Any = partial(compiled, no_cpython_wrapper=True)
+"""For a loop that only compiled ones call: it is compiled sooner, without what Python needs to call it."""
 
-@cache
-def _announce() -> None:
-    logging.getLogger(__name__).warning("compiling numerical kernels, once after installation ...")
+inlined: Any = partial(Loop, inline="always")
+"""For a loop that is called at one place, or is small: it becomes part of the loop that calls it."""
+
+allocating: Any = partial(Loop, cache=True)
+"""For loops that make or return arrays."""
 
 
 @cache
@@ -54,11 +55,17 @@ def _njit() -> Any:
 
     class Announcement(event.Listener):  # type: ignore[misc]
         def on_start(self, started: Any) -> None:
-            if started.data["dispatcher"].py_func.__module__.startswith("roughfilm."):
+            if str(started.data["dispatcher"].py_func.__module__).startswith("roughfilm."):
                 _announce()
 
         def on_end(self, _ended: Any) -> None:
             pass
 
     event.register("numba:compile", Announcement())
-    return partial(njit, nogil=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz", "arcp"})
+    fast = {"reassoc", "contract", "nsz", "arcp"}
+    return partial(njit, nogil=True, error_model="numpy", fastmath=fast, no_cfunc_wrapper=True)
+
+
+@cache
+def _announce() -> None:
+    logging.getLogger(__name__).warning("compiling numerical kernels, once after installation ...")

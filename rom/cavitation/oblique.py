@@ -22,7 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from roughfilm.contact.foundation.compiled import compiled, inlined
+from roughfilm.contact.foundation.compiled import allocating, compiled, inlined
 from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED
 from roughfilm.rom.pocket.gap import Array
 
@@ -132,7 +132,7 @@ def drifted(drift, upstream, torn, fixed, fill, excess, north):  # type: ignore[
             north[i, j] += drift[i, j] * (filled + w * excess[i, source] + (1.0 - w) * excess[i, other])
 
 
-@compiled
+@allocating
 def drift_slopes(drift, upstream, torn, fixed, kind, fill, excess_slope, centre, to_south, to_north):  # type: ignore[no-untyped-def]  # fmt: skip
     """Add the derivatives of what drifts by the unknowns of the nodes on both sides; rows without unknown stay."""
     nx, ny = drift.shape

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from roughfilm.contact.foundation.compiled import compiled
+from roughfilm.contact.foundation.compiled import allocating
 from roughfilm.rom.pocket.gap import Array
 
 FEWEST = 8
@@ -47,7 +47,7 @@ def refined(values: Array, shape: tuple[int, ...]) -> Array:
     return out
 
 
-@compiled
+@allocating
 def _draw(values, out):  # type: ignore[no-untyped-def]
     (count, length), (rows, columns) = values.shape, out.shape
     for i in range(rows):
