@@ -391,7 +391,15 @@ def cycle(counts, rows, across, source, values, total):  # type: ignore[no-untyp
         here = level_rows(rows, start, stop, counts[0])
         descend(here, across and count % 2 == 1, source[start:stop], values[start:stop], source[stop:end], total)
         start = stop
-    relax(level_rows(rows, start, start + 1, counts[0]), np.int64(0), np.bool_(False), np.bool_(False), source[start:], values[start:], total)
+    relax(
+        level_rows(rows, start, start + 1, counts[0]),
+        np.int64(0),
+        np.bool_(False),
+        np.bool_(False),
+        source[start:],
+        values[start:],
+        total,
+    )
     for level in range(counts.size - 2, -1, -1):
         count = counts[level]
         stop, start = start, start - count

@@ -10,7 +10,7 @@ from roughfilm.figures import effects as effects_figures
 from roughfilm.pages.render import percent, render, write_figures
 from roughfilm.rom.bearing.effects.ablation import Amount
 from roughfilm.rom.bearing.effects.contributions import Study
-from roughfilm.rom.ladder.kind import kinds
+from roughfilm.rom.ladder.kind import kind_of_name
 
 MORE = "contact_share"
 """A column of the page's tables beside those that are drawn."""
@@ -38,7 +38,7 @@ def write_page(told: Told, entries: Mapping[str, Any], out: Path) -> None:
         views.append(_view(title, told.under_load, UNDER_LOAD, beside))
     names = ("effects_at_film", "effects_under_load")
     write_figures({name: view.figure for name, view in zip(names, views, strict=False)}, out)
-    kind = kinds()[told.scene.kind]
+    kind = kind_of_name(told.scene.kind)
     render(
         "effects.html.j2",
         out / "report.html",

@@ -39,12 +39,12 @@ messages = Console(stderr=True, highlight=False)
 output = Console(highlight=False)
 
 
-def models() -> "tuple[Model, ...]":
-    """Every rung, from the plainest to the best."""
+def models(kind: str | None = None) -> "tuple[Model, ...]":
+    """The models of one kind of scene, or all, from the plainest to the best."""
     from roughfilm import foamcases, rom  # the models need what --help does without
     from roughfilm.rom.ladder.model import ladder
 
-    return ladder(rom, foamcases)
+    return ladder(rom, foamcases, kind=kind)
 
 
 def fail(error: Exception, code: int) -> typer.Exit:
