@@ -13,7 +13,7 @@ from roughfilm.contact.foundation.units import to_si, with_unit
 class Part(BaseModel):
     """A table: frozen, and every key known."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
 
 def _positive(value: float) -> float:

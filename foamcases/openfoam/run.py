@@ -6,8 +6,6 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from foamlib import FoamFile
-
 from roughfilm.contact.foundation.errors import Outcome, UnavailableError
 from roughfilm.foamcases.openfoam.installation import availability
 from roughfilm.foamcases.openfoam.iterate import Asked, Settled, Try, iterate
@@ -105,6 +103,8 @@ def converge(
     directory: Path, asked: Asked, judged: Judged, progress: Progress, settled: Settled | None = None
 ) -> Checked:
     """Iterate a flow and verify the fields it left; ConvergenceError as :func:`run_case` raises it."""
+    from foamlib import FoamFile  # slow to import
+
     tries = iterate(directory, asked, judged, progress, settled)
     last = tries[-1]
     if last.outcome is not Outcome.CONVERGED:
