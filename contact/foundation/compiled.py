@@ -53,7 +53,7 @@ def _njit() -> Any:
     from numba import njit
     from numba.core import event
 
-    class Announcement(event.Listener):  # type: ignore[misc]
+    class Announcement(event.Listener):
         def on_start(self, started: Any) -> None:
             if str(started.data["dispatcher"].py_func.__module__).startswith("roughfilm."):
                 _announce()
@@ -61,7 +61,7 @@ def _njit() -> Any:
         def on_end(self, _ended: Any) -> None:
             pass
 
-    event.register("numba:compile", Announcement())
+    event.register("numba:compile", Announcement())  # type: ignore[no-untyped-call]
     fast = {"reassoc", "contract", "nsz", "arcp"}
     return partial(njit, nogil=True, error_model="numpy", fastmath=fast, no_cfunc_wrapper=True)
 

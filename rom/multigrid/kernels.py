@@ -8,6 +8,7 @@ are 0, so that indices may wrap everywhere.
 Arrays of a hierarchy are all of single or all of double precision.
 
 All loops that call each other stand in this file: a compiled loop is kept until its own file changes, not another one.
+Constants are handed over as np.int64(0) or np.bool_(True): for each plain 0 or True numba compiles the loop once more.
 """
 
 import numpy as np
@@ -391,15 +392,8 @@ def cycle(counts, rows, across, source, values, total):  # type: ignore[no-untyp
         here = level_rows(rows, start, stop, counts[0])
         descend(here, across and count % 2 == 1, source[start:stop], values[start:stop], source[stop:end], total)
         start = stop
-    relax(
-        level_rows(rows, start, start + 1, counts[0]),
-        np.int64(0),
-        np.bool_(False),
-        np.bool_(False),
-        source[start:],
-        values[start:],
-        total,
-    )
+    last = level_rows(rows, start, start + 1, counts[0])
+    relax(last, np.int64(0), np.bool_(False), np.bool_(False), source[start:], values[start:], total)
     for level in range(counts.size - 2, -1, -1):
         count = counts[level]
         stop, start = start, start - count
