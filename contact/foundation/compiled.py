@@ -1,21 +1,71 @@
 """Loops compiled by numba at their first call and cached on disk where the cache can be written."""
 
+import logging
 from collections.abc import Callable
-from functools import partial
+from functools import cache, cached_property, partial, update_wrapper
 from typing import Any
 
-from numba import njit
 
-_njit: Any = partial(njit, nogil=True, error_model="numpy", fastmath={"reassoc", "contract", "nsz", "arcp"})
+class Loop:
+    """A loop that numba compiles, or reads from its cache, at its first call; numba is slow to import."""
+
+    def __init__(self, loop: Callable[..., Any], **options: Any) -> None:
+        self._loop = loop
+        self._options = options
+        update_wrapper(self, loop)
+
+    def __call__(self, *arguments: Any) -> Any:
+        """Run the loop."""
+        return self._dispatcher(*arguments)
+
+    @cached_property
+    def _dispatcher(self) -> Any:
+        """The function of numba; the loops that this one calls are replaced by theirs, as numba wants to see them."""
+        names = self._loop.__globals__
+        for name in self._loop.__code__.co_names:
+            if isinstance(called := names.get(name), Loop):
+                names[name] = called._dispatcher
+        try:
+            return _njit()(**self._options)(self._loop)
+        except RuntimeError:  # there is no place for a cache
+            return _njit()(**{**self._options, "cache": False})(self._loop)
 
 
-def compiled(loop: Callable[..., Any]) -> Any:
-    """Compile a loop; sums may be reordered for vectorisation, infinities and NaN keep their meaning."""
-    try:
-        return _njit(cache=True)(loop)
-    except RuntimeError:
-        return _njit(loop)
+compiled: Any = partial(Loop, cache=True, _nrt=False)
+"""A decorator for loops: sums may be reordered to be vectorised, infinities and NaN are kept.
+
+No references to arrays are counted, which would cost more than a short row: such a loop makes and returns no array.
+"""
+
+called: Any = partial(compiled, no_cpython_wrapper=True)
+"""For a loop that only compiled ones call: it is compiled sooner, without what Python needs to call it."""
+
+inlined: Any = partial(Loop, inline="always")
+"""For a loop that is called at one place, or is small: it becomes part of the loop that calls it."""
+
+allocating: Any = partial(Loop, cache=True)
+"""For loops that make or return arrays."""
 
 
-inlined: Any = _njit(inline="always")
-"""Decorator that inlines a small loop into the compiled loops that call it."""
+@cache
+def _njit() -> Any:
+    """Numba's decorator; when it first compiles a loop of this package, a warning in the log says so."""
+    from numba import njit
+    from numba.core import event
+
+    class Announcement(event.Listener):
+        def on_start(self, started: Any) -> None:
+            if str(started.data["dispatcher"].py_func.__module__).startswith("roughfilm."):
+                _announce()
+
+        def on_end(self, _ended: Any) -> None:
+            pass
+
+    event.register("numba:compile", Announcement())  # type: ignore[no-untyped-call]
+    fast = {"reassoc", "contract", "nsz", "arcp"}
+    return partial(njit, nogil=True, error_model="numpy", fastmath=fast, no_cfunc_wrapper=True)
+
+
+@cache
+def _announce() -> None:
+    logging.getLogger(__name__).warning("compiling numerical kernels, once after installation ...")

@@ -13,7 +13,7 @@ from roughfilm.contact.foundation.units import to_si, with_unit
 class Part(BaseModel):
     """Base class of a table in a TOML file; it is immutable and refuses unknown keys."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
 
 def _positive(value: float) -> float:

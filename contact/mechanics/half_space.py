@@ -4,7 +4,6 @@ import math
 from typing import Literal
 
 import numpy as np
-import pyfftw
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.threads import Team
@@ -40,6 +39,8 @@ class HalfSpace:
     def __init__(
         self, shape: tuple[int, int], spacing: tuple[float, float], boundary: Boundary, team: Team | None = None
     ) -> None:
+        import pyfftw  # slow to import
+
         team = team or Team(1)
         self.shape = shape
         grids = [pyfftw.empty_aligned(shape, "float32") for _ in range(3)]

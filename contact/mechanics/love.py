@@ -1,7 +1,7 @@
 """The half-space under uniformly loaded rectangles, summed by cyclic convolution on a grid twice as long."""
 
 import numpy as np
-import scipy.fft
+import scipy
 
 from roughfilm.contact.foundation.arrays import Array
 

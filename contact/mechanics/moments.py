@@ -4,8 +4,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy import fft
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
@@ -158,11 +158,11 @@ def wave_power(heights: ArrayLike, spacing: tuple[float, float]) -> WavePower:
         raise InputError(f"moments.heights: got shape {shape}; give (nx, ny), with ny = 1 for a profile")
     dx, dy = (positive("moments.spacing", float(length)) for length in spacing)
     z = deviations(heights)
-    transform = fft.rfft2(z, norm="forward")
+    transform = scipy.fft.rfft2(z, norm="forward")
     power = transform.real**2 + transform.imag**2
     power[:, 1 : (shape[1] + 1) // 2] *= 2
     power[0, 0] = 0.0
-    qx, qy = 2 * np.pi * fft.fftfreq(shape[0], dx), 2 * np.pi * fft.rfftfreq(shape[1], dy)
+    qx, qy = 2 * np.pi * scipy.fft.fftfreq(shape[0], dx), 2 * np.pi * scipy.fft.rfftfreq(shape[1], dy)
     number = np.hypot(qx[:, None], qy[None, :]).ravel()
     order = np.argsort(number, kind="stable")[1:]
     return WavePower(wave_numbers=number[order], power=power.ravel()[order], line=1 in shape)

@@ -4,7 +4,7 @@ import math
 from functools import cached_property
 
 import numpy as np
-import scipy.fft
+import scipy
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome

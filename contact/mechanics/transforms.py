@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pyfftw
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
@@ -38,6 +37,8 @@ class Filter:
     """
 
     def __init__(self, sources: Sequence[Any], result: Any, team: Team) -> None:
+        import pyfftw  # slow to import
+
         self._team, self._nodes = team, result.size
         rows, columns = result.shape[0], result.shape[1] // 2 + 1
         kind = np.result_type(result.dtype, np.complex64)
@@ -94,6 +95,8 @@ class _Planner:
 
     def plan(self, before: Any, after: Any, axis: int, *, back: bool = False) -> Any:
         """A transform along an axis, which may overwrite what it reads if it goes back."""
+        import pyfftw  # slow to import
+
         options = {"axes": (axis,), "direction": "FFTW_BACKWARD" if back else "FFTW_FORWARD"}
         flags = ("FFTW_MEASURE", "FFTW_DESTROY_INPUT") if back else ("FFTW_MEASURE",)
         try:
@@ -114,6 +117,8 @@ def _planner() -> Iterator[_Planner]:
 
 
 def _file() -> Path:
+    import pyfftw  # slow to import
+
     home = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
     return Path(home).expanduser() / "roughfilm" / f"transforms-{pyfftw.__version__}.json"
 
@@ -121,6 +126,8 @@ def _file() -> Path:
 @cache
 def _recall() -> None:
     """Take up what earlier runs kept; a file that cannot be understood is as good as none."""
+    import pyfftw  # slow to import
+
     try:
         kept = json.loads(_file().read_text(encoding="ascii"))
         pyfftw.import_wisdom(tuple(text.encode("ascii") for text in kept))
@@ -130,6 +137,8 @@ def _recall() -> None:
 
 def _keep() -> None:
     """Keep what is known by now; where there is no place for it, the next run plans again."""
+    import pyfftw  # slow to import
+
     try:
         with replacing(_file()) as scratch:
             scratch.write_text(json.dumps([text.decode("ascii") for text in pyfftw.export_wisdom()]), encoding="ascii")

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import fft, ndimage
+import scipy
 
 from roughfilm.contact.foundation.arrays import Array, Mask
 from roughfilm.contact.parameters.heights import surface_deviations
@@ -59,12 +59,13 @@ def autocorrelation(surface: Surface) -> Array:
     lags = [np.arange(-h, h + 1) for h in half]
     grid = np.ix_(*lags)
     padded = [
-        n if surface.periodic else fft.next_fast_len(n + h, real=True) for n, h in zip(surface.shape, half, strict=True)
+        n if surface.periodic else scipy.fft.next_fast_len(n + h, real=True)
+        for n, h in zip(surface.shape, half, strict=True)
     ]
 
     def sums(field: Array) -> Array:
-        transform = fft.rfft2(field, s=padded)
-        products: Array = fft.irfft2(transform.real**2 + transform.imag**2, s=padded)[grid]
+        transform = scipy.fft.rfft2(field, s=padded)
+        products: Array = scipy.fft.irfft2(transform.real**2 + transform.imag**2, s=padded)[grid]
         return products
 
     if surface.invalid.any():
@@ -98,7 +99,7 @@ def decay_lengths(correlation: Array, spacing: tuple[float, float]) -> DecayLeng
     pixels. Source: ISO 25178-2:2021, 4.3.2 and 4.3.3.
     """
     middle = np.array(correlation.shape) // 2
-    labels, _ = ndimage.label(correlation > DECAY_THRESHOLD)
+    labels, _ = scipy.ndimage.label(correlation > DECAY_THRESHOLD)
     lobe = labels == labels[tuple(middle)]
     edge = np.argwhere(_border(lobe))
     ends = np.hypot(*((edge - middle) * spacing).T)
@@ -146,7 +147,7 @@ def _rays(correlation: Array, spacing: tuple[float, float], point: Array) -> Arr
     ]
     low = [max(0, int(p.min()) - SPLINE_MARGIN) for p in place]
     patch = correlation[tuple(slice(a, int(p.max()) + SPLINE_MARGIN) for a, p in zip(low, place, strict=True))]
-    r = ndimage.map_coordinates(patch, [p - a for p, a in zip(place, low, strict=True)], order=3, mode="constant")
+    r = scipy.ndimage.map_coordinates(patch, [p - a for p, a in zip(place, low, strict=True)], order=3, mode="constant")
     inside: Mask = r > DECAY_THRESHOLD
     leaves = inside[0] & ~inside.all(axis=0)
     last = inside.argmin(axis=0)[leaves] - 1

@@ -3,8 +3,8 @@
 import math
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy.special import ndtr, ndtri
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.parameters.autocorrelation import DECAY_THRESHOLD
@@ -19,7 +19,7 @@ def gaussian_average(rms: float) -> float:
 
 def gaussian_bearing_curve(ratio: ArrayLike, rms: float) -> Array:
     """Bearing curve of Gaussian heights, −Sq Φ⁻¹(m), m, at the material ratios m, 0 to 1, of any shape."""
-    height: Array = -rms * ndtri(np.asarray(ratio, dtype=np.float64))
+    height: Array = -rms * scipy.special.ndtri(np.asarray(ratio, dtype=np.float64))
     return height
 
 
@@ -37,9 +37,9 @@ def gaussian_core(rms: float) -> Core:
     (2.57396, 0.09905)
     """
     w = CORE_WINDOW
-    a = float(ndtri((1 + w) / 2))
+    a = float(scipy.special.ndtri((1 + w) / 2))
     upper = 6 / w**3 * (math.erf(a) / (2 * math.sqrt(math.pi)) - w * _normal(a))
-    part = float(ndtr(-upper))
+    part = float(scipy.special.ndtr(-upper))
     peak = 2 * (_normal(upper) / part - upper)
     return Core(
         upper=upper * rms,

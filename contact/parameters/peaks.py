@@ -1,7 +1,7 @@
 """The five highest peaks and lowest valleys of a surface: Spm and Svm."""
 
 import numpy as np
-from scipy import ndimage
+import scipy
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
@@ -47,7 +47,7 @@ def _highest(z: Array, surface: Surface, distance: float) -> Array:
     z[surface.invalid] = -np.inf
     limit = [n // 2 if surface.periodic else n - 1 for n in surface.shape]
     half = [max(1, int(min(distance / d, top))) for d, top in zip(surface.spacing, limit, strict=True)]
-    around = ndimage.maximum_filter(
+    around = scipy.ndimage.maximum_filter(
         z, size=[2 * h + 1 for h in half], mode="wrap" if surface.periodic else "constant", cval=-np.inf
     )
     places = np.argwhere((z == around) & surface.valid)

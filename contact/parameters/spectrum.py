@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import fft, special
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
@@ -51,13 +51,13 @@ def power_spectrum(surface: Surface) -> PowerSpectrum:
     if not surface.periodic:
         window = np.outer(*(np.sin(np.pi * (np.arange(n) + 0.5) / n) ** 2 for n in surface.shape)) * surface.valid
         z = window * (z - (window * z).sum() / window.sum())
-    transform = fft.rfft2(z)
+    transform = scipy.fft.rfft2(z)
     power = transform.real**2 + transform.imag**2
     power[:, 1 : (surface.shape[1] + 1) // 2] *= 2  # the opposite wave vectors of these are not in the array
     power[0, 0] = 0.0
     power *= mean_square / power.sum()
     (nx, ny), (dx, dy) = surface.shape, surface.spacing
-    return PowerSpectrum(power=power, frequencies=(fft.fftfreq(nx, dx), fft.rfftfreq(ny, dy)))
+    return PowerSpectrum(power=power, frequencies=(scipy.fft.fftfreq(nx, dx), scipy.fft.rfftfreq(ny, dy)))
 
 
 def radial_power(spectrum: PowerSpectrum) -> tuple[Array, Array]:
@@ -132,7 +132,7 @@ class _Lays:
     def kernels(self, angle: Array) -> Array:
         """Power per radian of each group, shape (angles, n)."""
         difference = np.subtract.outer(angle, self.angle)
-        height = self.power / (np.pi * special.i0e(self.concentration))
+        height = self.power / (np.pi * scipy.special.i0e(self.concentration))
         return np.asarray(height * np.exp(self.concentration * (np.cos(2 * difference) - 1)))
 
     def density(self, angle: Array) -> Array:

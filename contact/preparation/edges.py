@@ -3,7 +3,7 @@
 from typing import Literal
 
 import numpy as np
-from scipy.ndimage import correlate1d
+import scipy
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
@@ -54,7 +54,7 @@ def make_periodic(surface: Surface, direction: Direction, *, width: tuple[float,
     for axis in AXES[direction]:
         spacing, count = surface.spacing[axis], surface.shape[axis]
         filter_ = _gaussian(width[axis] / spacing, count, axis)
-        blurred = correlate1d(blurred, filter_, axis=axis, mode="wrap")
+        blurred = scipy.ndimage.correlate1d(blurred, filter_, axis=axis, mode="wrap")
         weight = _weight(filter_, count)
         untouched = untouched * (1 - (weight[:, None] if axis == 0 else weight[None, :]))
     heights = np.where(untouched == 1, surface.heights, untouched * surface.heights + (1 - untouched) * blurred)

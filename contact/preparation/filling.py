@@ -1,9 +1,7 @@
 """Step 2 of the preparation: fill invalid points with a harmonic function of the valid ones."""
 
 import numpy as np
-from scipy.ndimage import distance_transform_edt
-from scipy.sparse import coo_array, csr_array
-from scipy.sparse.linalg import LinearOperator, cg
+import scipy
 
 from roughfilm.contact.foundation.arrays import Array, Mask
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
@@ -37,19 +35,19 @@ def fill_invalid(surface: Surface) -> tuple[Surface, float]:
     """
     if not surface.invalid.any():
         return surface, 0.0
-    _, nearest = distance_transform_edt(surface.invalid, sampling=surface.spacing, return_indices=True)
+    _, nearest = scipy.ndimage.distance_transform_edt(surface.invalid, sampling=surface.spacing, return_indices=True)
     start = surface.heights[tuple(nearest)]
     level = float(surface.heights[surface.valid].mean())
     matrix, right = _laplace(surface.heights - level, surface.invalid, surface.spacing)
     scale = float(np.linalg.norm(right)) or 1.0
     diagonal = matrix.diagonal()
-    filled, _ = cg(
+    filled, _ = scipy.sparse.linalg.cg(
         matrix,
         right,
         x0=start[surface.invalid] - level,
         rtol=0.5 * RESIDUAL_TOLERANCE,
         maxiter=MAX_ITERATIONS,
-        M=LinearOperator(matrix.shape, matvec=lambda residual: residual / diagonal),
+        M=scipy.sparse.linalg.LinearOperator(matrix.shape, matvec=lambda residual: residual / diagonal),
     )
     residual = float(np.linalg.norm(right - matrix @ filled)) / scale
     if not residual <= RESIDUAL_TOLERANCE:
@@ -64,7 +62,7 @@ def fill_invalid(surface: Surface) -> tuple[Surface, float]:
     return surface.with_heights(heights, invalid=np.zeros(surface.shape, dtype=bool)), residual
 
 
-def _laplace(heights: Array, invalid: Mask, spacing: tuple[float, float]) -> tuple[csr_array, Array]:
+def _laplace(heights: Array, invalid: Mask, spacing: tuple[float, float]) -> "tuple[scipy.sparse.csr_array, Array]":
     """The matrix over the invalid points in row-major order, and the right-hand side from their valid neighbours."""
     number = np.full(invalid.shape, -1)
     count = int(invalid.sum())
@@ -86,4 +84,4 @@ def _laplace(heights: Array, invalid: Mask, spacing: tuple[float, float]) -> tup
             held = (own >= 0) & (next_ < 0)
             np.add.at(right, own[held], weight * heights[other][held])
     entries = (np.concatenate([*values, diagonal]), (np.r_[*rows, :count], np.r_[*columns, :count]))
-    return coo_array(entries, shape=(count, count)).tocsr(), right
+    return scipy.sparse.coo_array(entries, shape=(count, count)).tocsr(), right

@@ -3,7 +3,7 @@
 from typing import Literal
 
 import numpy as np
-import scipy.fft
+import scipy
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError

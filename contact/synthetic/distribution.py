@@ -3,8 +3,7 @@
 from collections.abc import Callable
 
 import numpy as np
-import scipy.fft
-import scipy.special
+import scipy
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array

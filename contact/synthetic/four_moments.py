@@ -4,9 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.polynomial import chebyshev
-from scipy.optimize import minimize
-from scipy.special import ndtri
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
@@ -129,7 +128,7 @@ def heights_within(*, average: float, rms: float, peak: float, valley: float, co
         raise InputError(
             f"heights: got Sa/Sq {average / rms:.4g}, Sp/Sq {peak / rms:.4g}, Sv/Sq {valley / rms:.4g}, which no "
             f"smooth distribution of {count} heights was found for; those of {count} normal ones are 0.798 and both "
-            f"{ndtri(1 - 0.5 / count):.3g}"
+            f"{scipy.special.ndtri(1 - 0.5 / count):.3g}"
         )
     return np.asarray(rms * z)
 
@@ -148,7 +147,7 @@ def smoothest(count: int, errors: Callable[[Array], Array]) -> tuple[Array, floa
     error : largest absolute error; infinite if the heights do not increase.
     """
     whole_between("heights.count", count, MIN_COUNT, MAX_COUNT)
-    x = ndtri((np.arange(count) + 0.5) / count)
+    x = scipy.special.ndtri((np.arange(count) + 0.5) / count)
     departures = chebyshev.chebvander((x[1:] + x[:-1]) / (2 * x[-1]), POLYNOMIAL_ORDER)[:, 1:]
     weights = np.arange(1.0, POLYNOMIAL_ORDER + 1) ** 2
 
@@ -158,7 +157,7 @@ def smoothest(count: int, errors: Callable[[Array], Array]) -> tuple[Array, floa
         z -= z.mean()
         return np.asarray(z / z.std())
 
-    coefficients = minimize(
+    coefficients = scipy.optimize.minimize(
         lambda b: float(weights @ b**2),
         np.zeros(POLYNOMIAL_ORDER),
         jac=lambda b: 2 * weights * b,

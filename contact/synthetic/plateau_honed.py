@@ -3,7 +3,7 @@
 import math
 
 import numpy as np
-import scipy.special
+import scipy
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.surfaces.surface import Surface

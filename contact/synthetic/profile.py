@@ -1,7 +1,7 @@
 """Periodic profiles of ground surfaces with given height parameters and nearly a self-affine spectrum."""
 
 import numpy as np
-import scipy.fft
+import scipy
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array

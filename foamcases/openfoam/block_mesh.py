@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from foamlib import FoamFile
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array, Mask
@@ -71,6 +70,8 @@ def write_block(
     cut
         The patch of all other faces, those towards cells that are not kept; the last one. Must be given with ``kept``.
     """
+    from foamlib import FoamFile  # slow to import
+
     shape = tuple(n - 1 for n in vertices.shape[:3])
     kept = np.ones(shape, dtype=bool) if kept is None else kept
     used = _corners(kept)
@@ -160,5 +161,7 @@ def _quads(point: Labels, axis: int) -> list[Labels]:
 
 
 def _dump(kind: str, name: str, values: Any) -> bytes:
+    from foamlib import FoamFile  # slow to import
+
     header: Any = {"version": 2.0, "format": "binary", "arch": ARCHITECTURE, "class": kind, "object": name}
     return FoamFile.dumps({"FoamFile": header, None: values})

@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from foamlib import DimensionSet, FoamFile
 
 from roughfilm.foamcases.openfoam.block_mesh import Patch
 
@@ -65,6 +64,8 @@ def write_dictionaries(directory: Path, *, viscosity: float, tolerance: float, s
 
 def write_files(directory: Path, files: Mapping[str, Dictionary]) -> None:
     """Write dictionaries and fields, by their names below ``directory``."""
+    from foamlib import FoamFile  # slow to import
+
     for name, (kind, entries) in files.items():
         path = directory / name
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -78,6 +79,8 @@ def write_files(directory: Path, files: Mapping[str, Dictionary]) -> None:
 
 def change_scheme(directory: Path, *, scheme: str, tolerance: float) -> None:
     """Let a case go on by another advection scheme, until another tolerance is met."""
+    from foamlib import FoamFile  # slow to import
+
     FoamFile(directory / "system" / "fvSchemes")["divSchemes", "div(phi,U)"] = ADVECTION[scheme]
     with FoamFile(directory / "system" / "fvSolution") as solution:
         controlled = solution["SIMPLE", "residualControl"]
@@ -87,6 +90,8 @@ def change_scheme(directory: Path, *, scheme: str, tolerance: float) -> None:
 
 def strengthen(directory: Path) -> None:
     """Let a case correct the pressure for skewed cells in each iteration, and solve for velocity down to round-off."""
+    from foamlib import FoamFile  # slow to import
+
     with FoamFile(directory / "system" / "fvSolution") as solution:
         solution["SIMPLE", "nNonOrthogonalCorrectors"] = 1
         solution["solvers", "U", "tolerance"] = ROUND_OFF
@@ -191,6 +196,8 @@ def liquid(viscosity: float) -> dict[str, Dictionary]:
 
 
 def _dictionaries(viscosity: float, tolerance: float, scheme: str, processes: int) -> dict[str, Dictionary]:
+    from foamlib import DimensionSet  # slow to import
+
     return {
         "system/controlDict": control(ITERATIONS),
         "system/fvSchemes": schemes(scheme),

@@ -5,8 +5,6 @@ import shutil
 from dataclasses import dataclass
 from pathlib import Path
 
-from foamlib import FoamFile
-
 from roughfilm.contact.foundation.errors import Outcome, UnavailableError
 from roughfilm.foamcases.openfoam.installation import availability
 from roughfilm.foamcases.openfoam.iterate import Asked, Settled, Try, iterate
@@ -62,6 +60,8 @@ def converge(
     directory: Path, asked: Asked, judged: Judged, progress: Progress, settled: Settled | None = None
 ) -> Checked:
     """Iterate a flow and verify the fields it left; ConvergenceError that says how, with the last lines of the log."""
+    from foamlib import FoamFile  # slow to import
+
     tries = iterate(directory, asked, judged, progress, settled)
     last = tries[-1]
     if last.outcome is not Outcome.CONVERGED:

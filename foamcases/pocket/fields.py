@@ -4,7 +4,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from foamlib import FoamCase, FoamFile
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError
@@ -80,6 +79,8 @@ def read_channel(directory: Path) -> Channel:
     ConvergenceError
         If it holds no finished fields, or fields that are not finite.
     """
+    from foamlib import FoamCase, FoamFile  # slow to import
+
     card = read_card(directory, Card)
     shape = (card.columns, card.layers)
     try:

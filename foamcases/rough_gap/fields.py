@@ -4,7 +4,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from foamlib import FoamCase
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
@@ -65,6 +64,8 @@ def read_gap_flow(case: Path, card: GapCard, columns: Columns) -> GapFlow:
     ConvergenceError
         If it holds no finished fields, or fields that are not finite.
     """
+    from foamlib import FoamCase  # slow to import
+
     shape = (*columns.kept.shape, card.layers)
     kept = np.broadcast_to(columns.kept[..., None], shape).ravel(order="F")
     if int(kept.sum()) != card.cells:

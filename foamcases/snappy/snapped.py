@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from foamlib import FoamCase, FoamFile
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
@@ -166,6 +165,8 @@ def run_snapped(directory: Path, judged: Judged = ALL, *, progress: Progress = s
     ConvergenceError
         If the liquid does not reach through the box, the mesh has faults, or the flow does not converge.
     """
+    from foamlib import FoamCase  # slow to import
+
     ready(1)
     if shutil.which(PROGRAM) is None:
         raise UnavailableError(f"no {PROGRAM} on the PATH; {REMEDY}")
@@ -201,6 +202,8 @@ def run_snapped(directory: Path, judged: Judged = ALL, *, progress: Progress = s
 
 def _check_open(directory: Path, names: list[str]) -> None:
     """ConvergenceError if no liquid is left at a side that it is to pass, or that is to drive it."""
+    from foamlib import FoamFile  # slow to import
+
     patches: Any = FoamFile(directory / "constant" / "polyMesh" / "boundary")[None]
     faces = {name: entries["nFaces"] for name, entries in patches}
     for name in names:

@@ -17,7 +17,7 @@ from roughfilm.rom.advice.estimates import (
     percent,
 )
 from roughfilm.rom.advice.laws import Numbers, Table, table
-from roughfilm.rom.ladder.kind import Omission, Scene, kinds
+from roughfilm.rom.ladder.kind import Omission, Scene, kind_of_name
 from roughfilm.rom.ladder.model import Model, Progress, silent
 from roughfilm.rom.ladder.result import Result
 
@@ -93,7 +93,7 @@ def wanted(scene: Scene, name: str | None) -> str:
 
     Raises InputError for a name that the kind does not have.
     """
-    compared = kinds()[scene.kind].compared
+    compared = kind_of_name(scene.kind).compared
     if name is None:
         return next(iter(compared))
     for quantity, title in compared.items():
@@ -149,7 +149,7 @@ def advise(
     """
     if not 0 < within < 1:
         raise InputError(f"--within: got {within!r}; it must be above 0 and below 1, for example 5%")
-    kind = kinds()[scene.kind]
+    kind = kind_of_name(scene.kind)
     known: dict[tuple[str, int], Result] = {}
     failed: dict[tuple[str, int], Exception] = {}
 

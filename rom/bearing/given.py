@@ -5,8 +5,8 @@ from pathlib import Path
 from typing import Annotated, Literal, Self
 
 import numpy as np
+import scipy
 from pydantic import Field, model_validator
-from scipy.ndimage import map_coordinates
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import Length
@@ -66,7 +66,7 @@ class Given(Pad):
 
         def thickness(x: Array, y: Array) -> Array:
             places = np.array(np.broadcast_arrays(x / pixels[0], y / pixels[1]))
-            return np.asarray(self.film + map_coordinates(above, places, order=1, mode="nearest"))
+            return np.asarray(self.film + scipy.ndimage.map_coordinates(above, places, order=1, mode="nearest"))
 
         smooth = Shape(
             thickness=thickness,

@@ -19,9 +19,8 @@ or sides have a pressure, p₁ = 0: the film ends where it did, and what liquid 
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.sparse import coo_array, csc_array
-from scipy.sparse.linalg import spsolve
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
@@ -130,7 +129,9 @@ def _balanced(free: NDArray[np.bool_], east: Array, north: Array, drive_x: Array
     found = np.zeros(free.shape)
     if size:
         entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
-        found[free] = spsolve(csc_array(coo_array(entries, shape=(size, size))), into[free])
+        found[free] = scipy.sparse.linalg.spsolve(
+            scipy.sparse.csc_array(scipy.sparse.coo_array(entries, shape=(size, size))), into[free]
+        )
     return found
 
 

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Annotated, Literal, Self
 
 import numpy as np
+import scipy
 from pydantic import Field, model_validator
-from scipy.ndimage import map_coordinates
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import Angle, Length, Part, PositiveNumber
@@ -140,7 +140,9 @@ class RoughSurface(SurfaceGeometry):
             profile = np.append(heights[:, 0], heights[0, 0])
             return np.asarray(-np.interp(places, np.arange(profile.size), profile))
         pixels = (place / (step * self.stretch) for place, step in zip((x, y), spacing, strict=True))
-        found = map_coordinates(heights, np.array(np.broadcast_arrays(*pixels)), order=1, mode="grid-wrap")
+        found = scipy.ndimage.map_coordinates(
+            heights, np.array(np.broadcast_arrays(*pixels)), order=1, mode="grid-wrap"
+        )
         return np.asarray(-found)
 
     def factors(self, narrowest: float) -> FactorTable:

@@ -5,8 +5,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.integrate import solve_ivp
-from scipy.optimize import brentq, minimize_scalar
+import scipy
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
@@ -134,7 +133,7 @@ class _Places:
         if (np.diff(film[: lowest + 1]) > 0).any() or (np.diff(film[lowest:]) < 0).any():
             raise InputError("shape: got a film with more than one narrowest place; it must have one")
         around = samples[max(lowest - 1, 0)], samples[min(lowest + 1, samples.size - 1)]
-        found = minimize_scalar(thickness, bounds=around, method="bounded", options={"xatol": 1e-12})
+        found = scipy.optimize.minimize_scalar(thickness, bounds=around, method="bounded", options={"xatol": 1e-12})
         narrowest = float(found.x) if found.fun < film[lowest] else float(samples[lowest])
         unit = 6 * problem.viscosity * problem.speed * length / thickness(narrowest) ** 2
         return cls(thickness=thickness, breaks=breaks, narrowest=narrowest, length=length, pressure=unit)
@@ -167,7 +166,7 @@ def _flow_of(problem: Problem, places: _Places, inlet: float) -> float:
         least, most = most, 2 * most
     if excess(least) >= 0:
         return least
-    found = float(brentq(excess, least, most, xtol=1e-300, rtol=4 * np.finfo(float).eps, maxiter=200))
+    found = float(scipy.optimize.brentq(excess, least, most, xtol=1e-300, rtol=4 * np.finfo(float).eps, maxiter=200))
     if abs(excess(found)) > NEAR:
         raise _unbounded()
     return found
@@ -188,7 +187,9 @@ def _film(problem: Problem, places: _Places, flow: float) -> _Film:
         return _Film(0.0, 0.0, 1.0, 1.0, 0.0)
     end = 1.0
     if places.thickness(1.0) > full:
-        end = float(brentq(lambda x: places.thickness(x) - full, places.narrowest, 1.0, xtol=1e-16, rtol=1e-15))
+        end = float(
+            scipy.optimize.brentq(lambda x: places.thickness(x) - full, places.narrowest, 1.0, xtol=1e-16, rtol=1e-15)
+        )
     slope = _slope(problem, places, flow)
     here, state = end, np.zeros(2)
     greatest: float | None = None
@@ -241,7 +242,7 @@ def _integrated(slope: Slope, here: float, stop: float, state: Array, *, rising:
 
     starts.terminal = falls.terminal = True  # type: ignore[attr-defined]
     starts.direction, falls.direction = -1, 1  # type: ignore[attr-defined]
-    found = solve_ivp(
+    found = scipy.integrate.solve_ivp(
         slope,
         (here, stop),
         state,
@@ -260,7 +261,7 @@ def _integrated(slope: Slope, here: float, stop: float, state: Array, *, rising:
 
 def _state_at(slope: Slope, here: float, there: float, state: Array) -> Array:
     """The state at a place, by steps that end there: between them it is known less well."""
-    found = solve_ivp(slope, (here, there), state, method="DOP853", rtol=RELATIVE, atol=ABSOLUTE)
+    found = scipy.integrate.solve_ivp(slope, (here, there), state, method="DOP853", rtol=RELATIVE, atol=ABSOLUTE)
     _whole(found)
     return np.asarray(found.y[:, -1])
 

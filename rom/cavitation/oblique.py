@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.compiled import compiled, inlined
+from roughfilm.contact.foundation.compiled import allocating, compiled, inlined
 from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED
 
 
@@ -133,7 +133,7 @@ def drifted(drift, upstream, threshold, fixed, fill, excess, north):  # type: ig
             north[i, j] += drift[i, j] * (filled + w * excess[i, source] + (1.0 - w) * excess[i, other])
 
 
-@compiled
+@allocating
 def drift_slopes(drift, upstream, threshold, fixed, kind, fill, excess_slope, centre, to_south, to_north):  # type: ignore[no-untyped-def]  # fmt: skip
     """Add the derivatives of the drift by the unknowns of both nodes; rows without an unknown are unchanged."""
     nx, ny = drift.shape

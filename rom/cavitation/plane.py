@@ -13,7 +13,7 @@ depend on the pressure. The flows of an oblique lay are in the operator, but not
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.compiled import compiled
+from roughfilm.contact.foundation.compiled import allocating, compiled
 from roughfilm.rom.cavitation.balance import CAVITY, FILM
 from roughfilm.rom.cavitation.bicgstab import bicgstab
 from roughfilm.rom.cavitation.network import Network
@@ -69,7 +69,7 @@ def conductances(network: Network, linear: Linear) -> tuple[Array, Array, Array]
     return centre, east, north
 
 
-@compiled
+@allocating
 def couple(kind, east, north, periodic_x, periodic_y, by_self, by_south, by_north, centre, to_east, to_north):  # type: ignore[no-untyped-def]  # fmt: skip
     """Compute the couplings of film nodes; all other nodes are decoupled.
 

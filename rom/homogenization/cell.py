@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.compiled import compiled
+from roughfilm.contact.foundation.compiled import allocating
 from roughfilm.rom.homogenization.conductance import FaceRule, faces, without_traces
 from roughfilm.rom.homogenization.factors import FlowFactors
 from roughfilm.rom.homogenization.grids import refined
@@ -164,7 +164,7 @@ def _less_before(flux: Array, along: int) -> Array:
     return values
 
 
-@compiled
+@allocating
 def _energies(east, north, drag, aspect, chi):  # type: ignore[no-untyped-def]
     """Sums over faces for A₁₁, A₁₂, A₂₂, B₁, B₂ and e, the last three corrected by χ₃ times the residuals."""
     _, count, length = chi.shape

@@ -7,7 +7,7 @@ from math import log
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.compiled import compiled, inlined
+from roughfilm.contact.foundation.compiled import allocating, compiled, inlined
 
 CLOSED_CUBE = 1e-14
 """Nodes whose h³ is below this fraction of the largest are contact: round-off exceeds their flow."""
@@ -80,7 +80,7 @@ def _inside(first, second):  # type: ignore[no-untyped-def]
     return log(second / first) / (second - first) - 2 / (first + second)
 
 
-@compiled
+@allocating
 def straight_inverse(gap):  # type: ignore[no-untyped-def]
     """<h⁻¹> of straight lines from each node of h > 0, shape (nx, ny), to the next in x, periodic; 0 if closed."""
     count, length = gap.shape

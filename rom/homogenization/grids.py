@@ -3,7 +3,7 @@
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.compiled import compiled
+from roughfilm.contact.foundation.compiled import allocating
 
 MIN_COARSENED_NODES = 8
 """Smallest number of nodes along a direction that is coarsened."""
@@ -47,7 +47,7 @@ def refined(values: Array, shape: tuple[int, ...]) -> Array:
     return out
 
 
-@compiled
+@allocating
 def _draw(values, out):  # type: ignore[no-untyped-def]
     (count, length), (rows, columns) = values.shape, out.shape
     for i in range(rows):

@@ -3,9 +3,8 @@
 from math import acos, cos, exp, log, log1p, pi, sin, sqrt
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy.optimize import brentq
-from scipy.special import digamma, hyp2f1
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
@@ -70,7 +69,7 @@ def box_factors(tensor: ArrayLike, size: tuple[float, float]) -> Array:
     bracket = 1.0
     while excess(-bracket) * excess(bracket) > 0:
         bracket *= 2
-    modulus = brentq(excess, -bracket, bracket, xtol=1e-13, rtol=1e-13)
+    modulus = scipy.optimize.brentq(excess, -bracket, bracket, xtol=1e-13, rtol=1e-13)
     first = sqrt(determinant) * aspect * _integral(0.5, modulus) / _integral(0.5, -modulus)
     return np.array([first, determinant / first])
 
@@ -78,8 +77,11 @@ def box_factors(tensor: ArrayLike, size: tuple[float, float]) -> Array:
 def _integral(part: float, modulus: float) -> float:
     """₂F₁(part, 1 − part; 1; m) with m = 1/(1 + exp(−modulus)); 2K(m)/π for part = 1/2."""
     if modulus < SERIES_LOGIT:
-        return float(hyp2f1(part, 1 - part, 1.0, 1 / (1 + exp(-max(modulus, -MAX_LOGIT)))))
+        return float(scipy.special.hyp2f1(part, 1 - part, 1.0, 1 / (1 + exp(-max(modulus, -MAX_LOGIT)))))
     rest = 1 / (1 + exp(min(modulus, MAX_LOGIT)))
     logarithm = modulus + log1p(exp(-modulus))
-    terms = [logarithm + 2 * digamma(n) - digamma(part + n - 1) - digamma(n - part) for n in (1, 2)]
+    terms = [
+        logarithm + 2 * scipy.special.digamma(n) - scipy.special.digamma(part + n - 1) - scipy.special.digamma(n - part)
+        for n in (1, 2)
+    ]
     return float(sin(pi * part) / pi * (terms[0] + part * (1 - part) * rest * terms[1]))

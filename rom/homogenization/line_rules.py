@@ -3,8 +3,8 @@
 from enum import StrEnum
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy.linalg import solveh_banded
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
@@ -117,7 +117,7 @@ def _by_differences(middle: Array, *, closed: bool) -> FlowFactors:
         bands[0, 1:] = -cubed[: count - 2]
         bands[1] = cubed[: count - 1] + np.roll(cubed, 1)[: count - 1]
         sources = np.stack([cubed - np.roll(cubed, 1), np.roll(middle, 1) - middle], axis=1)[: count - 1] * step
-        solved = np.concatenate([solveh_banded(bands, sources), np.zeros((1, 2))])
+        solved = np.concatenate([scipy.linalg.solveh_banded(bands, sources), np.zeros((1, 2))])
         along, sliding = ((np.roll(solved, -1, axis=0) - solved) / step).T
         pressure = float((cubed * (1 + along)).mean())
         shear = float((middle - cubed * sliding).mean())

@@ -3,10 +3,8 @@
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import ndimage
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import breadth_first_order, connected_components
 
 from roughfilm.contact.foundation.arrays import Array
 
@@ -31,8 +29,8 @@ def leads_round(opened: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """
     labels, joints, rounds = _pieces(opened)
     count = int(labels.max()) + 1
-    links = coo_array((np.ones(len(joints)), (joints[:, 0], joints[:, 1])), shape=(count, count))
-    whole = connected_components(links, directed=False)[1]
+    links = scipy.sparse.coo_array((np.ones(len(joints)), (joints[:, 0], joints[:, 1])), shape=(count, count))
+    whole = scipy.sparse.csgraph.connected_components(links, directed=False)[1]
     leading = whole[joints[rounds.any(axis=1), 0]]
     return np.asarray(opened & np.isin(whole[labels], leading))
 
@@ -45,18 +43,18 @@ def sealed_between_ends(gap: Array, *, joined: bool) -> bool:
     that is sealed when repeated periodically may be open here; the converse cannot occur.
     """
     wide = np.pad(gap, ((0, 1), (0, 1)), mode="wrap") > 0
-    labels, count = ndimage.label(wide, structure=FACE_NEIGHBOURS)
+    labels, count = scipy.ndimage.label(wide, structure=FACE_NEIGHBOURS)
     if joined:
         first, last = labels[:, 0], labels[:, -1]
-        links = coo_array((np.ones(first.size), (first, last)), shape=(count + 1, count + 1))
-        labels = connected_components(links, directed=False)[1][labels]
+        links = scipy.sparse.coo_array((np.ones(first.size), (first, last)), shape=(count + 1, count + 1))
+        labels = scipy.sparse.csgraph.connected_components(links, directed=False)[1][labels]
     first, last = labels[0][wide[0]], labels[-1][wide[-1]]
     return not np.intersect1d(first, last).size
 
 
 def _pieces(opened: NDArray[np.bool_]) -> tuple[NDArray[Any], Array, Array]:
     """Labels of the connected pieces, joints between them across the seams, and the winding number of each joint."""
-    labels, count = ndimage.label(opened, structure=FACE_NEIGHBOURS)
+    labels, count = scipy.ndimage.label(opened, structure=FACE_NEIGHBOURS)
     joints = np.concatenate([_joints(labels[-1], labels[0], (1, 0)), _joints(labels[:, -1], labels[:, 0], (0, 1))])
     own = joints[:, 0] == joints[:, 1]
     rounds = joints[:, 2:].copy()
@@ -72,7 +70,7 @@ def _joints(before: Array, after: Array, step: tuple[int, int]) -> Array:
 
 def _closing(joints: Array, pieces: int) -> Array:
     """Winding numbers in x and y of the cycles that each joint closes with a spanning tree of the joints."""
-    links = coo_array((np.ones(len(joints)), (joints[:, 0], joints[:, 1])), shape=(pieces, pieces)).tocsr()
+    links = scipy.sparse.coo_array((np.ones(len(joints)), (joints[:, 0], joints[:, 1])), shape=(pieces, pieces)).tocsr()
     steps: dict[tuple[int, int], tuple[int, int]] = {}
     for first, second, x, y in joints.tolist():
         steps[first, second], steps[second, first] = (x, y), (-x, -y)
@@ -81,7 +79,7 @@ def _closing(joints: Array, pieces: int) -> Array:
     for root in np.unique(joints[:, 0]):
         if seen[root]:
             continue
-        order, previous = breadth_first_order(links, root, directed=False)
+        order, previous = scipy.sparse.csgraph.breadth_first_order(links, root, directed=False)
         seen[order] = True
         for piece in order[1:]:
             parent = previous[piece]

@@ -6,9 +6,7 @@ from functools import partial
 from typing import TypeVar
 
 import numpy as np
-from scipy.sparse import csc_array
-from scipy.sparse.csgraph import connected_components
-from scipy.sparse.linalg import splu
+import scipy
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
@@ -79,17 +77,19 @@ def by_elimination(matrix: Matrix, sources: Iterable[Source], _tolerance: float)
     couplings = np.concatenate([matrix.east.ravel(), matrix.north.ravel()])
     linked = (couplings > 0) & inside.ravel()
     first, second, couplings = first[linked], second[linked], couplings[linked]
-    links = csc_array((couplings, (first, second)), shape=(count, count))
+    links = scipy.sparse.csc_array((couplings, (first, second)), shape=(count, count))
     links = links + links.T
     diagonal = links.sum(axis=1)
     leak = matrix.centre.ravel() - diagonal
     leak[leak <= ROUNDING * diagonal] = 0.0
-    pieces, piece = connected_components(links, directed=False)
+    pieces, piece = scipy.sparse.csgraph.connected_components(links, directed=False)
     held = np.unique(piece, return_index=True)[1][np.bincount(piece, leak, pieces) == 0]
     diagonal += leak
     diagonal[held] *= 2
-    whole = csc_array((diagonal, (np.arange(count),) * 2), shape=(count, count)) - links
-    factors = splu(whole.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    whole = scipy.sparse.csc_array((diagonal, (np.arange(count),) * 2), shape=(count, count)) - links
+    factors = scipy.sparse.linalg.splu(
+        whole.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
+    )
     solved = []
     for source in sources:
         b = source.values

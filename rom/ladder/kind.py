@@ -111,17 +111,25 @@ class Kind:
 
 
 @cache
+def kind_names() -> tuple[str, ...]:
+    """The names of all kinds: the folders of ``rom`` that have models."""
+    folders = [folder.name for folder in pkgutil.iter_modules(rom.__path__) if folder.ispkg]
+    return tuple(name for name in folders if importlib.util.find_spec(f"{rom.__name__}.{name}.models"))
+
+
+def kind_of_name(name: str) -> Kind:
+    """The ``KIND`` of ``rom/<name>/kind.py``, whose module alone is imported; KeyError if there is none."""
+    if name not in kind_names():
+        raise KeyError(name)
+    kind: Kind = importlib.import_module(f"{rom.__name__}.{name}.kind").KIND
+    return kind
+
+
 def kinds() -> Mapping[str, Kind]:
-    """The ``KIND`` of every ``roughfilm/rom/<kind>/kind.py``, by its name."""
-    names = [
-        f"{folder.name}.kind"
-        for folder in pkgutil.iter_modules(rom.__path__, f"{rom.__name__}.")
-        if folder.ispkg and importlib.util.find_spec(f"{folder.name}.models")
-    ]
-    found: list[Kind] = [importlib.import_module(name).KIND for name in names]
-    return {kind.name: kind for kind in found}
+    """All kinds by their names."""
+    return {name: kind_of_name(name) for name in kind_names()}
 
 
 def kind_of(result: Result) -> Kind:
     """The kind of scene that a result solves."""
-    return kinds()[result.provenance["scene"]["kind"]]
+    return kind_of_name(result.provenance["scene"]["kind"])

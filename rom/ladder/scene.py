@@ -8,7 +8,7 @@ from pydantic import ConfigDict, ValidationError, field_validator
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.toml import in_one_line, read_toml, set_entry
-from roughfilm.rom.ladder.kind import Kind, Scene, kinds
+from roughfilm.rom.ladder.kind import Kind, Scene, kind_names, kind_of_name, kinds
 
 
 class _OfNoKind(Scene):
@@ -19,7 +19,7 @@ class _OfNoKind(Scene):
     @field_validator("kind")
     @classmethod
     def _is_known(cls, name: str) -> str:
-        raise ValueError(f"got {name!r:.60}; it must be {' or '.join(map(repr, kinds()))}")
+        raise ValueError(f"got {name!r:.60}; it must be {' or '.join(map(repr, kind_names()))}")
 
 
 def load_entries(path: Path) -> dict[str, Any]:
@@ -29,8 +29,8 @@ def load_entries(path: Path) -> dict[str, Any]:
     """
     entries = read_toml(path, 'film = "30 um"')
     try:
-        keys = frozenset[str]().union(*(kind.files for kind in kinds().values()))
         kind = kind_named(entries)
+        keys = kind.files if kind else frozenset[str]().union(*(kind.files for kind in kinds().values()))
         kept = kind.no_files if kind else frozenset[str]()
         _seek_files(entries, Path(path).parent, keys, kept)
     except RecursionError as error:
@@ -67,7 +67,7 @@ def load_scene(path: Path, overrides: Iterable[str] = ()) -> Scene:
 def kind_named(entries: Mapping[str, Any]) -> Kind | None:
     """The kind that the entries of a scene name; None if there is none, or none such."""
     name = entries.get("kind")
-    return kinds().get(name) if isinstance(name, str) else None
+    return kind_of_name(name) if isinstance(name, str) and name in kind_names() else None
 
 
 def read_scene(entries: Mapping[str, Any]) -> Scene:

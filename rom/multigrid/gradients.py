@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from roughfilm.contact.foundation.compiled import compiled
+from roughfilm.contact.foundation.compiled import allocating, compiled
 
 
 @compiled
@@ -35,7 +35,7 @@ def set_image(centre, east, north, p, across, along, image):  # type: ignore[no-
     return product
 
 
-@compiled
+@allocating
 def apply(centre, east, north, p, periodic):  # type: ignore[no-untyped-def]
     """The image Ap of p, all of shape (nx, ny), by the operator of :class:`rom.multigrid.multigrid.Multigrid`."""
     image = np.empty(p.shape)

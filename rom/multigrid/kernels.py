@@ -8,15 +8,16 @@ are 0, so that indices may wrap everywhere.
 Arrays of a hierarchy are all of single or all of double precision.
 
 All loops that call each other stand in this file: a compiled loop is kept until its own file changes, not another one.
+Constants are handed over as np.int64(0) or np.bool_(True): for each plain 0 or True numba compiles the loop once more.
 """
 
 import numpy as np
 
-from roughfilm.contact.foundation.compiled import compiled, inlined
+from roughfilm.contact.foundation.compiled import called, compiled, inlined
 from roughfilm.rom.multigrid.rows import GROUNDED, THIN, Rows
 
 
-@compiled
+@called
 def level_rows(rows, start, stop, finest):  # type: ignore[no-untyped-def]
     """The rows [start, stop) of one level; ``finest`` counts those of the finest, which have no up and down."""
     return Rows(
@@ -24,15 +25,15 @@ def level_rows(rows, start, stop, finest):  # type: ignore[no-untyped-def]
         rows.centre[start:stop],
         rows.north[start:stop],
         rows.east[start:stop],
-        rows.up[start - finest : stop - finest] if start else np.zeros((stop, 0), rows.up.dtype),
-        rows.down[start - finest : stop - finest] if start else np.zeros((stop, 0), rows.up.dtype),
+        rows.up[max(start - finest, 0) : stop - finest],
+        rows.down[max(start - finest, 0) : stop - finest],
         rows.inverse[start:stop],
         rows.factor[start:stop],
         rows.border[start:stop],
     )
 
 
-@compiled
+@called
 def eliminate(rows, row, size, sums):  # type: ignore[no-untyped-def]
     """Factorise a row's T, or its first ``size`` unknowns, from both ends to the middle: two chains at a time.
 
@@ -55,7 +56,7 @@ def eliminate(rows, row, size, sums):  # type: ignore[no-untyped-def]
     factor[row, middle] = 0.0
 
 
-@inlined
+@called
 def substitute(rows, row, size, total, values, place):  # type: ignore[no-untyped-def]
     """Solve Tx = total for x, row ``place`` of the ``values``, to the middle and back; ``total`` is used up."""
     inverse, factor = rows.inverse, rows.factor
@@ -84,15 +85,15 @@ def substitute(rows, row, size, total, values, place):  # type: ignore[no-untype
         values[place, j], values[place, end] = left, right
 
 
-@inlined
+@called
 def solve_row(rows, row, total, values, place):  # type: ignore[no-untyped-def]
     """Solve Tx = total of a row for x, row ``place`` of the ``values``; ``total`` is used up."""
-    last = total.size - 1
-    if rows.border.shape[1] == 0:
-        substitute(rows, row, last + 1, total, values, place)
-        return
     north, border = rows.north, rows.border
-    substitute(rows, row, last, total, values, place)
+    last = total.size - 1
+    ring = border.shape[1] > 0
+    substitute(rows, row, last if ring else last + 1, total, values, place)
+    if not ring:
+        return
     closing = total[last] + north[row, last] * values[place, 0] + north[row, last - 1] * values[place, last - 1]
     closing *= rows.inverse[row, last]
     for j in range(last):
@@ -100,14 +101,14 @@ def solve_row(rows, row, total, values, place):  # type: ignore[no-untyped-def]
     values[place, last] = closing
 
 
-@inlined
+@called
 def add_next(rows, row, values, place, total):  # type: ignore[no-untyped-def]
     """Add to a row what its couplings bring from the next row, whose values are in row ``place``."""
     east, up, down = rows.east, rows.up, rows.down
     last = total.size - 1
     for j in range(last + 1):
         total[j] += east[row, j] * values[place, j]
-    if up.shape[1] == 0:
+    if up.shape[0] == 0:
         return
     for j in range(last):
         total[j] += up[row, j] * values[place, j + 1]
@@ -117,7 +118,7 @@ def add_next(rows, row, values, place, total):  # type: ignore[no-untyped-def]
     total[0] += down[row, 0] * values[place, last]
 
 
-@inlined
+@called
 def add_previous(rows, row, values, place, total):  # type: ignore[no-untyped-def]
     """Add to a row what couplings bring from the row before it, whose values are in row ``place``."""
     east, up, down = rows.east, rows.up, rows.down
@@ -125,7 +126,7 @@ def add_previous(rows, row, values, place, total):  # type: ignore[no-untyped-de
     row = (row if row > 0 else east.shape[0]) - 1
     for j in range(last + 1):
         total[j] += east[row, j] * values[place, j]
-    if up.shape[1] == 0:
+    if up.shape[0] == 0:
         return
     for j in range(1, last + 1):
         total[j] += up[row, j - 1] * values[place, j - 1]
@@ -135,7 +136,7 @@ def add_previous(rows, row, values, place, total):  # type: ignore[no-untyped-de
     total[last] += down[row, 0] * values[place, 0]
 
 
-@compiled
+@inlined
 def factorise_row(rows, row, work):  # type: ignore[no-untyped-def]
     """Make the diagonal and factorise T; of a ring the last unknown apart, the others' answer to it in ``border``."""
     north, border = rows.north, rows.border
@@ -144,8 +145,8 @@ def factorise_row(rows, row, work):  # type: ignore[no-untyped-def]
     for j in range(last + 1):
         sums[j] = rows.leak[row, j]
         work[3, j] = 1.0
-    add_previous(rows, row, work, 3, sums)
-    add_next(rows, row, work, 3, sums)
+    add_previous(rows, row, work, np.int64(3), sums)
+    add_next(rows, row, work, np.int64(3), sums)
     for j in range(last + 1):
         rows.centre[row, j] = sums[j] + north[row, j] + north[row, j - 1 if j else last]
     if border.shape[1] == 0:
@@ -166,19 +167,20 @@ def factorise_row(rows, row, work):  # type: ignore[no-untyped-def]
     substitute(rows, row, last, total, border, row)
 
 
-@compiled
+@called
 def add_own(north, rows, row, between, share, forward):  # type: ignore[no-untyped-def]
     """Add to a coarse row's couplings along itself what an odd row brings by its share S: those of STS − SB − BᵀS.
 
     B are the couplings ``between`` two rows, from the odd row to the even one (``forward``) or the other way.
     """
-    up, down, along = rows.up[between], rows.down[between], rows.north[row]
+    along = rows.north[row]
     last = north.size - 1
     for j in range(last):
         north[j] += share[j] * along[j] * share[j + 1]
     north[last] += share[last] * along[last] * share[0]
-    if up.size == 0:
+    if rows.up.shape[0] == 0:
         return
+    up, down = rows.up[between], rows.down[between]
     if forward:
         for j in range(last):
             north[j] += share[j] * up[j] + share[j + 1] * down[j + 1]
@@ -189,7 +191,7 @@ def add_own(north, rows, row, between, share, forward):  # type: ignore[no-untyp
         north[last] += share[0] * up[last] + share[last] * down[0]
 
 
-@compiled
+@inlined
 def set_coupling(east, up, down, rows, row, first, second):  # type: ignore[no-untyped-def]
     """Set a coarse row's couplings to the next one, across an odd row with the shares F and S: BS + FB − FTS."""
     own, along = rows.centre[row], rows.north[row]
@@ -202,7 +204,7 @@ def set_coupling(east, up, down, rows, row, first, second):  # type: ignore[no-u
         down[j + 1] = first[j + 1] * along[j] * second[j]
     up[last] = first[last] * along[last] * second[0]
     down[0] = first[0] * along[last] * second[last]
-    if rows.up.shape[1] == 0:
+    if rows.up.shape[0] == 0:
         return
     before, after = rows.up[row - 1], rows.up[row]
     for j in range(last):
@@ -214,7 +216,7 @@ def set_coupling(east, up, down, rows, row, first, second):  # type: ignore[no-u
     down[0] += before[0] * second[last] + first[0] * after[0]
 
 
-@compiled
+@inlined
 def share(rows, row, work):  # type: ignore[no-untyped-def]
     """What an odd row takes from ones in the rows before and after it, T⁻¹B1: rows 0 and 1 of ``work``.
 
@@ -225,9 +227,9 @@ def share(rows, row, work):  # type: ignore[no-untyped-def]
     for side in range(2):
         total[:] = 0.0
         if side == 0:
-            add_previous(rows, row, work, 3, total)
+            add_previous(rows, row, work, np.int64(3), total)
         else:
-            add_next(rows, row, work, 3, total)
+            add_next(rows, row, work, np.int64(3), total)
         solve_row(rows, row, total, work, side)
         beside = (row + 2 * side - 1) % centre.shape[0]
         for j in range(total.size):
@@ -235,7 +237,7 @@ def share(rows, row, work):  # type: ignore[no-untyped-def]
                 work[side, j] = 0.0
 
 
-@compiled
+@inlined
 def leaks(rows, row, work):  # type: ignore[no-untyped-def]
     """Whether an odd row leaks; if so, row 3 of ``work`` is what its unknowns lose by it for rows of ones beside it."""
     total = work[2]
@@ -244,11 +246,11 @@ def leaks(rows, row, work):  # type: ignore[no-untyped-def]
         total[j] = rows.leak[row, j]
         any_leak |= total[j] > 0
     if any_leak:
-        solve_row(rows, row, total, work, 3)
+        solve_row(rows, row, total, work, np.int64(3))
     return any_leak
 
 
-@compiled
+@inlined
 def coarsen(fine, coarse, work):  # type: ignore[no-untyped-def]
     """Galerkin's operator PᵀAP on the even rows.
 
@@ -264,16 +266,16 @@ def coarsen(fine, coarse, work):  # type: ignore[no-untyped-def]
     if count % 2:
         for j in range(length):
             coarse.east[coarse_count - 1, j] = fine.east[count - 1, j]
-            coarse.up[coarse_count - 1, j] = fine.up[count - 1, j] if fine.up.shape[1] else 0.0
-            coarse.down[coarse_count - 1, j] = fine.down[count - 1, j] if fine.up.shape[1] else 0.0
+            coarse.up[coarse_count - 1, j] = fine.up[count - 1, j] if fine.up.shape[0] else 0.0
+            coarse.down[coarse_count - 1, j] = fine.down[count - 1, j] if fine.up.shape[0] else 0.0
     for row in range(1, count, 2):
         share(fine, row, work)
         left, right = row // 2, (row // 2 + 1) % coarse_count
         if leaks(fine, row, work):
-            add_next(fine, row - 1, work, 3, coarse.leak[left])
-            add_previous(fine, (row + 1) % count, work, 3, coarse.leak[right])
-        add_own(coarse.north[left], fine, row, row - 1, first, False)
-        add_own(coarse.north[right], fine, row, row, second, True)
+            add_next(fine, row - 1, work, np.int64(3), coarse.leak[left])
+            add_previous(fine, (row + 1) % count, work, np.int64(3), coarse.leak[right])
+        add_own(coarse.north[left], fine, row, row - 1, first, np.bool_(False))
+        add_own(coarse.north[right], fine, row, row, second, np.bool_(True))
         set_coupling(coarse.east[left], coarse.up[left], coarse.down[left], fine, row, first, second)
     if coarse_count == 1:
         for j in range(length):
@@ -281,7 +283,7 @@ def coarsen(fine, coarse, work):  # type: ignore[no-untyped-def]
         coarse.east[0, :] = coarse.up[0, :] = coarse.down[0, :] = 0.0
 
 
-@compiled
+@inlined
 def silence(rows):  # type: ignore[no-untyped-def]
     """Keep unknowns without couplings out of the coarse levels: the smoother alone solves them."""
     north, east = rows.north, rows.east
@@ -295,7 +297,7 @@ def silence(rows):  # type: ignore[no-untyped-def]
 @compiled
 def set_up(counts, rows, work):  # type: ignore[no-untyped-def]
     """Factorise all rows and make the coarse levels; ``counts`` has the rows of each level, ``work`` shape (4, m)."""
-    start = 0
+    start = np.int64(0)
     for level in range(counts.size):
         stop = start + counts[level]
         fine = level_rows(rows, start, stop, counts[0])
@@ -308,7 +310,7 @@ def set_up(counts, rows, work):  # type: ignore[no-untyped-def]
         start = stop
 
 
-@compiled
+@called
 def relax(rows, row, previous, following, source, values, total):  # type: ignore[no-untyped-def]
     """Solve a row's equations; ``previous`` and ``following``: with the values of the row before it, of the next."""
     count = values.shape[0]
@@ -321,7 +323,7 @@ def relax(rows, row, previous, following, source, values, total):  # type: ignor
     solve_row(rows, row, total, values, row)
 
 
-@compiled
+@called
 def bring_down(rows, row, values, left):  # type: ignore[no-untyped-def]
     """Set what is ``left`` of an even row's equations, which were solved before the rows beside it were."""
     count = values.shape[0]
@@ -331,7 +333,7 @@ def bring_down(rows, row, values, left):  # type: ignore[no-untyped-def]
         add_next(rows, row, values, row + 1, left)
 
 
-@compiled
+@inlined
 def descend(rows, seam, source, values, remainder, total):  # type: ignore[no-untyped-def]
     """From 0: even rows by themselves, odd ones with the rows beside them, and what is left of even ones' equations.
 
@@ -339,19 +341,19 @@ def descend(rows, seam, source, values, remainder, total):  # type: ignore[no-un
     """
     count = values.shape[0]
     for row in range(0, count, 2):
-        relax(rows, row, False, seam and row + 1 == count, source, values, total)
+        relax(rows, row, np.bool_(False), seam and row + 1 == count, source, values, total)
         if row > 0:
-            relax(rows, row - 1, True, True, source, values, total)
+            relax(rows, row - 1, np.bool_(True), np.bool_(True), source, values, total)
         if row > 2:
             bring_down(rows, row - 2, values, remainder[row // 2 - 1])
     if count % 2 == 0:
-        relax(rows, count - 1, True, True, source, values, total)
+        relax(rows, count - 1, np.bool_(True), np.bool_(True), source, values, total)
     if count > 2:
         bring_down(rows, (count - 1) // 2 * 2, values, remainder[(count - 1) // 2])
-    bring_down(rows, 0, values, remainder[0])
+    bring_down(rows, np.int64(0), values, remainder[0])
 
 
-@compiled
+@inlined
 def ascend(rows, source, values, correction, total):  # type: ignore[no-untyped-def]
     """Correct even rows, then odd ones with the rows beside them, then even ones, from the last to the first."""
     count, last = values.shape[0], (values.shape[0] - 1) // 2 * 2
@@ -359,13 +361,13 @@ def ascend(rows, source, values, correction, total):  # type: ignore[no-untyped-
     if last > 0:
         add_row(values[last], correction[last // 2])
     if count % 2 == 0:
-        relax(rows, count - 1, True, True, source, values, total)
+        relax(rows, count - 1, np.bool_(True), np.bool_(True), source, values, total)
     for row in range(last, -1, -2):
         if row > 2:
             add_row(values[row - 2], correction[row // 2 - 1])
         if row > 0:
-            relax(rows, row - 1, True, True, source, values, total)
-        relax(rows, row, True, True, source, values, total)
+            relax(rows, row - 1, np.bool_(True), np.bool_(True), source, values, total)
+        relax(rows, row, np.bool_(True), np.bool_(True), source, values, total)
 
 
 @inlined
@@ -382,7 +384,7 @@ def cycle(counts, rows, across, source, values, total):  # type: ignore[no-untyp
     Odd rows are solved exactly before and after the next level: nothing of their residual is left to bring down, and
     nothing to interpolate.
     """
-    start = 0
+    start = np.int64(0)
     for level in range(counts.size - 1):
         count = counts[level]
         stop = start + count
@@ -390,7 +392,8 @@ def cycle(counts, rows, across, source, values, total):  # type: ignore[no-untyp
         here = level_rows(rows, start, stop, counts[0])
         descend(here, across and count % 2 == 1, source[start:stop], values[start:stop], source[stop:end], total)
         start = stop
-    relax(level_rows(rows, start, start + 1, counts[0]), 0, False, False, source[start:], values[start:], total)
+    last = level_rows(rows, start, start + 1, counts[0])
+    relax(last, np.int64(0), np.bool_(False), np.bool_(False), source[start:], values[start:], total)
     for level in range(counts.size - 2, -1, -1):
         count = counts[level]
         stop, start = start, start - count

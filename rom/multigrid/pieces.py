@@ -1,6 +1,8 @@
 """Pieces of the film without a Dirichlet node: found, and held at a node in the preconditioner, to have an inverse."""
 
-from roughfilm.contact.foundation.compiled import compiled
+import numpy as np
+
+from roughfilm.contact.foundation.compiled import called, compiled
 
 ROUNDING = 4e-15
 """Of the diagonal: if it is more than the couplings by less, it is not more."""
@@ -13,7 +15,7 @@ def set_leak(centre, east, north, leak, seen, stack):  # type: ignore[no-untyped
     That takes from conjugate gradients nothing but the piece's free mean. Arrays of shape (n, m); ``stack`` has n m.
     """
     count, length = centre.shape
-    pending = 0
+    pending = np.int64(0)
     for row in range(count):
         for j in range(length):
             couplings = north[row, j] + north[row, j - 1] + east[row, j] + east[row - 1, j]
@@ -31,10 +33,10 @@ def set_leak(centre, east, north, leak, seen, stack):  # type: ignore[no-untyped
                 leak[row, j] = centre[row, j]
                 seen[row, j] = True
                 stack[0] = row * length + j
-                spread(east, north, seen, stack, 1)
+                spread(east, north, seen, stack, np.int64(1))
 
 
-@compiled
+@called
 def spread(east, north, seen, stack, pending):  # type: ignore[no-untyped-def]
     """See all nodes that are linked with those ``pending`` on the stack."""
     count, length = east.shape

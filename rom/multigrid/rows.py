@@ -14,7 +14,7 @@ class Rows(NamedTuple):
 
     ``leak`` is what the diagonal is more than all couplings. It is carried from level to level by itself, and centre
     and pivots are made from it, as a leak may be far below the rounding of the couplings. ``up`` and ``down`` have no
-    columns on the finest level, and ``border`` has none unless rows are rings. ``factor`` is the coupling towards the
+    rows on the finest level, and ``border`` has none unless rows are rings. ``factor`` is the coupling towards the
     middle of the row times the ``inverse`` of the pivot.
     """
 

@@ -1,7 +1,7 @@
 """Heights on a coarser grid, by leaving out the waves that it cannot hold."""
 
 import numpy as np
-from scipy import fft
+import scipy
 
 from roughfilm.contact.foundation.arrays import Array
 
@@ -18,10 +18,10 @@ def restricted(heights: Array, shape: tuple[int, int]) -> Array:
     """
     if shape == heights.shape:
         return heights
-    transform = fft.rfft2(heights, norm="forward")
+    transform = scipy.fft.rfft2(heights, norm="forward")
     kept = np.zeros((shape[0], shape[1] // 2 + 1), dtype=complex)
     x, y = (shape[0] + 1) // 2, (shape[1] + 1) // 2
     kept[:x, :y] = transform[:x, :y]
     if x > 1:
         kept[-(x - 1) :, :y] = transform[-(x - 1) :, :y]
-    return np.asarray(fft.irfft2(kept, s=shape, norm="forward"))
+    return np.asarray(scipy.fft.irfft2(kept, s=shape, norm="forward"))

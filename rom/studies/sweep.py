@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.rom.ladder.kind import Kind, kinds
+from roughfilm.rom.ladder.kind import Kind, kind_of_name
 from roughfilm.rom.ladder.sweeping import Sweeping
 
 SOLVED = "solved"
@@ -35,7 +35,7 @@ class Sweep:
         """The numbers by which errors are ordered, shape (cases,)."""
         return {
             name: np.asarray(values, dtype=float)
-            for name, values in sweeping(kinds()[self.kind]).features(self.given).items()
+            for name, values in sweeping(kind_of_name(self.kind)).features(self.given).items()
         }
 
 
@@ -48,7 +48,7 @@ def sweeping(kind: Kind) -> Sweeping:
 
 def read_sweep(table: Mapping[str, NDArray[Any]], kind: str) -> Sweep:
     """The sweep in a table of ``roughfilm batch``; InputError if columns are missing."""
-    judged = sweeping(kinds()[kind])
+    judged = sweeping(kind_of_name(kind))
     try:
         cases, first, index = np.unique(table["case"], return_index=True, return_inverse=True)
         settings = table["setting"]
@@ -74,13 +74,13 @@ def read_sweep(table: Mapping[str, NDArray[Any]], kind: str) -> Sweep:
 
 def loaded(sweep: Sweep, reference: str) -> NDArray[np.bool_]:
     """Which cases have a load (or what else is compared) worth dividing by; shape (cases,)."""
-    return np.asarray(sweeping(kinds()[sweep.kind]).worth(sweep.found[reference]))
+    return np.asarray(sweeping(kind_of_name(sweep.kind)).worth(sweep.found[reference]))
 
 
 def relative_error(sweep: Sweep, setting: str, reference: str, quantity: str) -> Array:
     """|difference to the reference| / what the kind of scene says to divide by, mostly its size; shape (cases,)."""
     best = sweep.found[reference]
-    scale = kinds()[sweep.kind].scale(best, quantity)
+    scale = kind_of_name(sweep.kind).scale(best, quantity)
     return np.asarray(np.abs(sweep.found[setting][quantity] - best[quantity]) / scale)
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from roughfilm.batch.jobs import Failure, Job
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.rom.ladder.kind import kinds
+from roughfilm.rom.ladder.kind import kind_of_name
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import scene_entries
 from roughfilm.rom.studies.study import Case, Key
@@ -40,7 +40,7 @@ def row_of(keys: Mapping[str, Key], case: Case, job: Job, answer: Result | Failu
         "scheme": scheme,
         "resolution": _number(resolution),
         **{label: _cell(_at(entries, keys[label], spelt)) for label, spelt in case.varied.items()},
-        **kinds()[case.scene.kind].columns(case.scene),
+        **kind_of_name(case.scene.kind).columns(case.scene),
     }
     if isinstance(answer, Failure):
         return Row(asked=asked, answer={"outcome": f"{answer.kind}: {answer.message}"})

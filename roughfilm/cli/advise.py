@@ -11,7 +11,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.advice.advise import Advice, Considered, Verdict, advise, shortfall, wanted
 from roughfilm.rom.advice.estimates import Estimate, percent
 from roughfilm.rom.advice.laws import table
-from roughfilm.rom.ladder.kind import Scene, kinds
+from roughfilm.rom.ladder.kind import Scene, kind_of_name
 from roughfilm.rom.ladder.model import of_kind
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.terminal.console import (
@@ -41,7 +41,7 @@ def command(
     read = load_scene(scene, set_ or ())
     found = advice_for(read, want, within)
     if as_json:
-        print_json({**entries_of(found), "composition": list(kinds()[read.kind].composed(read))})
+        print_json({**entries_of(found), "composition": list(kind_of_name(read.kind).composed(read))})
     else:
         tell(read, found)
     if found.chosen is None:
@@ -66,7 +66,7 @@ def advice_for(scene: Scene, want: str | None, within: str) -> Advice:
 
 def tell(scene: Scene, found: Advice) -> None:
     """For people."""
-    kind = kinds()[scene.kind]
+    kind = kind_of_name(scene.kind)
     title = kind.compared[found.quantity]
     chosen = found.chosen
     if chosen is None:

@@ -19,7 +19,7 @@ from roughfilm.figures.rendering import draw_apart
 from roughfilm.figures.view import views
 from roughfilm.pages.comparison import Picture, Report, cheapest_within, write_comparison
 from roughfilm.pages.render import write_figures
-from roughfilm.rom.ladder.kind import Scene, kinds
+from roughfilm.rom.ladder.kind import Scene, kind_of_name
 from roughfilm.rom.ladder.model import Model, best, of_kind
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import load_scene
@@ -118,7 +118,7 @@ def _judge(
 ) -> Report:
     from roughfilm.figures.base import grid_convergence, speed_against_accuracy  # matplotlib is slow to import
 
-    view, titles = views()[scene.kind], kinds()[scene.kind].compared
+    view, titles = views()[scene.kind], kind_of_name(scene.kind).compared
     top = best([model for model in ladder if model.name in results])
     chart = points(results[top.name], runs)
     studies = {
@@ -135,7 +135,7 @@ def _judge(
     }
     report = Report(
         scene=scene,
-        kind=kinds()[scene.kind],
+        kind=kind_of_name(scene.kind),
         view=view,
         models=ladder,
         results=results,

@@ -15,7 +15,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.figures.view import views
 from roughfilm.pages.render import render
-from roughfilm.rom.ladder.kind import kinds
+from roughfilm.rom.ladder.kind import kind_of_name, kinds
 from roughfilm.rom.ladder.model import best, of_kind
 from roughfilm.rom.ladder.provenance import machine
 from roughfilm.rom.studies.ordering import Ordering, fitted_powers, ordering
@@ -41,7 +41,7 @@ def command(
     """Write the page of a sweep: errors of every model, the number that orders them, speed against accuracy."""
     table = read_table(directory / "table.h5")
     sweep = read_sweep(table, _kind(table))
-    compared = kinds()[sweep.kind].compared
+    compared = kind_of_name(sweep.kind).compared
     reference = _reference(sweep)
     settings = [name for name in sweep.found if name != reference and np.isfinite(sweep.cpu_s[name]).any()]
     if not settings:
@@ -107,7 +107,7 @@ def _orderings(sweep: Sweep, setting: str, reference: str, quantity: str) -> dic
         raise InputError(f"{setting}: has {error.size} cases beside {reference}; a report needs at least 8")
     if error.max() <= (1 + SAME) * error.min():
         return {}
-    judged = sweeping(kinds()[sweep.kind])
+    judged = sweeping(kind_of_name(sweep.kind))
     found = {name: ordering(features, powers, error, TOLERANCES) for name, powers in judged.candidates.items()}
     fitted = fitted_powers({name: features[name] for name in judged.fitted}, error, step=0.25)
     found["fitted"] = ordering(features, fitted or {judged.fitted[0]: 1}, error, TOLERANCES)
@@ -122,13 +122,13 @@ def _row(
 ) -> dict[str, Any]:
     errors: dict[str, Any] = {}
     orders = {}
-    for quantity in kinds()[sweep.kind].compared:
+    for quantity in kind_of_name(sweep.kind).compared:
         _, error = _known(sweep, setting, reference, quantity)
         errors[quantity] = _spread(error) if error.size else dict.fromkeys(("median", "high", "worst"))
         if numbers.get((setting, quantity)):
             chosen = numbers[setting, quantity]["chosen"]
             orders[quantity] = {
-                "number": sweeping(kinds()[sweep.kind]).words(chosen.powers),
+                "number": sweeping(kind_of_name(sweep.kind)).words(chosen.powers),
                 "powers": dict(chosen.powers),
                 "rank": chosen.rank,
                 "thresholds": {f"{tolerance:g}": limit for tolerance, limit in chosen.thresholds.items()},
@@ -164,7 +164,7 @@ def _write_page(
 ) -> None:
     from roughfilm.figures import sweep as sweep_figures  # matplotlib is slow to import
 
-    kind, view = kinds()[sweep.kind], views()[sweep.kind]
+    kind, view = kind_of_name(sweep.kind), views()[sweep.kind]
     chosen = {key: found["chosen"] for key, found in numbers.items() if found}
     render(
         "sweep.html.j2",

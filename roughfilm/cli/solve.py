@@ -11,8 +11,8 @@ from rich.table import Table
 from roughfilm.cli.advise import Want, advice_for, entries_of
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.advice.advise import shortfall
-from roughfilm.rom.ladder.kind import kinds
-from roughfilm.rom.ladder.model import find, of_kind
+from roughfilm.rom.ladder.kind import kind_of_name
+from roughfilm.rom.ladder.model import find
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.rom.ladder.store import as_entries, save
@@ -51,7 +51,6 @@ def command(
 ) -> None:
     """Solve a scene with one model, or with the cheapest that is enough."""
     read = load_scene(scene, set_ or ())
-    ladder = of_kind(models(), read.kind)
     result, advised = None, None
     if within is not None:
         own = {"model": model, "resolution": resolution, "tolerance": tolerance, "scheme": scheme}
@@ -60,14 +59,14 @@ def command(
             raise InputError(f"--{given[0]}: --within chooses the model and how it is run; leave one of them out")
         found = advice_for(read, want, within)
         if found.chosen is None:
-            raise ConvergenceError(f"--within: {shortfall(found, kinds()[read.kind].compared[found.quantity])}")
+            raise ConvergenceError(f"--within: {shortfall(found, kind_of_name(read.kind).compared[found.quantity])}")
         model, resolution, result, advised = found.chosen.model, found.chosen.resolution, found.result, found
         messages.print(f"{model} at resolution {resolution}: {found.chosen.reason}", soft_wrap=True, markup=False)
     elif want is not None:
         raise InputError("--want: says of which quantity --within speaks; give that too")
     if model is None:
         raise InputError("--model: is missing; name one from 'roughfilm models', or give --within 5%")
-    rung = find(ladder, model)
+    rung = find(models(read.kind), model)
     if result is None:
         with progress_bar(1.0) as advance:
             result = rung.solve(

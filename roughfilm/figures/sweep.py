@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from roughfilm.figures.base import svg
 from roughfilm.figures.view import views
-from roughfilm.rom.ladder.kind import kinds
+from roughfilm.rom.ladder.kind import kind_of_name
 from roughfilm.rom.studies.ordering import Ordering, product
 from roughfilm.rom.studies.sweep import Sweep, loaded, relative_error, sweeping
 
@@ -18,7 +18,7 @@ def errors_in_order(
     sweep: Sweep, reference: str, orderings: Mapping[tuple[str, str], Ordering], settings: Sequence[str]
 ) -> str:
     """Error against the number that orders it, a panel for each setting and quantity, with the thresholds."""
-    kind, groups = kinds()[sweep.kind], views()[sweep.kind].groups(sweep.given)
+    kind, groups = kind_of_name(sweep.kind), views()[sweep.kind].groups(sweep.given)
     figure = Figure(figsize=(10, 0.6 + 2.6 * len(settings)), layout="constrained")
     panels, told = figure.subplots(len(settings), len(kind.compared), squeeze=False), set[str]()
     for line, setting in zip(panels, settings, strict=True):
@@ -49,7 +49,7 @@ def errors_in_order(
 
 def sweep_chart(sweep: Sweep, reference: str, settings: Sequence[str]) -> str:
     """CPU seconds against error over all cases: a dot each, the median, and a bar up to 95 of 100 cases."""
-    kind, view = kinds()[sweep.kind], views()[sweep.kind]
+    kind, view = kind_of_name(sweep.kind), views()[sweep.kind]
     figure = Figure(figsize=(10, 4.6), layout="constrained")
     panels = figure.subplots(1, len(kind.compared))
     for axes, (quantity, title) in zip(panels, kind.compared.items(), strict=True):

@@ -10,7 +10,7 @@ from roughfilm.pages.render import render, write_figures
 from roughfilm.rom.bearing.effects.ablation import Amount
 from roughfilm.rom.bearing.effects.analysis import EffectAnalysis
 from roughfilm.rom.bearing.effects.contributions import Study
-from roughfilm.rom.ladder.kind import kinds
+from roughfilm.rom.ladder.kind import kind_of_name
 from roughfilm.words.effects import AT_FILM, SHOWN, UNDER_LOAD, Shown, cell, sentences, shown
 from roughfilm.words.numbers import percent
 
@@ -40,7 +40,7 @@ def write_page(told: EffectAnalysis, entries: Mapping[str, Any], out: Path) -> N
         views.append(_view(title, told.under_load, UNDER_LOAD, beside))
     names = ("effects_at_film", "effects_under_load")
     write_figures({name: view.figure for name, view in zip(names, views, strict=False)}, out)
-    kind = kinds()[told.scene.kind]
+    kind = kind_of_name(told.scene.kind)
     render(
         "effects.html.j2",
         out / "report.html",

@@ -10,17 +10,17 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from types import FrameType
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.console import Console
 from rich.markup import escape
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 from typer.exceptions import TyperException
 
-from roughfilm import foamcases, rom
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
-from roughfilm.rom.ladder.model import Model, ladder
+
+if TYPE_CHECKING:
+    from roughfilm.rom.ladder.model import Model
 
 BAD_INPUT, NOT_CONVERGED, MISSING = 2, 3, 4
 
@@ -40,9 +40,12 @@ messages = Console(stderr=True, highlight=False)
 output = Console(highlight=False)
 
 
-def models() -> tuple[Model, ...]:
-    """Every rung, from the plainest to the best."""
-    return ladder(rom, foamcases)
+def models(kind: str | None = None) -> "tuple[Model, ...]":
+    """The models of one kind of scene, or all, from the plainest to the best."""
+    from roughfilm import foamcases, rom  # the models need what --help does without
+    from roughfilm.rom.ladder.model import ladder
+
+    return ladder(rom, foamcases, kind=kind)
 
 
 def fail(error: Exception, code: int) -> typer.Exit:
@@ -120,6 +123,8 @@ def print_json(entries: dict[str, Any]) -> None:
 @contextmanager
 def progress_bar(total: float) -> Iterator[Callable[[float, str], None]]:
     """A bar on standard error with time left; yields advance(done, words) with done counted towards ``total``."""
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
     columns = (
         TextColumn("{task.description}"),
         BarColumn(),

@@ -3,9 +3,8 @@
 import math
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy.optimize import brentq
-from scipy.special import gamma, ndtr, pbdv
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
@@ -74,7 +73,7 @@ def greenwood_williamson(moments: SpectralMoments, *, composite_modulus: float, 
         raise InputError(
             f"greenwood_williamson.load: got {load:.6g} Pa, at which no separation is sensible; look at the units"
         )
-    t = float(brentq(excess, NEAREST, FARTHEST, xtol=1e-12, rtol=1e-13))
+    t = float(scipy.optimize.brentq(excess, NEAREST, FARTHEST, xtol=1e-12, rtol=1e-13))
     area = math.pi * density * radius * spread * exceedance(t, 1.0)
     separation = moments.summit_mean + t * spread
 
@@ -82,7 +81,7 @@ def greenwood_williamson(moments: SpectralMoments, *, composite_modulus: float, 
         """Of Hertzian contacts, 2p/p0² each, over all whose largest pressure p0 = (2E*/π) sqrt(w/R) is above p."""
         p = np.maximum(np.asarray(pressure, dtype=np.float64), 0.0)
         depth = radius * (math.pi * p / (2 * modulus)) ** 2
-        taller = ndtr(-(t + depth / spread))
+        taller = scipy.special.ndtr(-(t + depth / spread))
         return np.asarray(math.pi**3 * density * radius**2 / (2 * modulus**2) * p * taller)
 
     return Estimate(
@@ -102,4 +101,9 @@ def exceedance(t: float, power: float) -> float:
 
     D is Whittaker's parabolic cylinder function. For t from -30 to 36, where it neither overflows nor vanishes.
     """
-    return float(gamma(power + 1) / math.sqrt(2 * math.pi) * math.exp(-t * t / 4) * pbdv(-power - 1, t)[0])
+    return float(
+        scipy.special.gamma(power + 1)
+        / math.sqrt(2 * math.pi)
+        * math.exp(-t * t / 4)
+        * scipy.special.pbdv(-power - 1, t)[0]
+    )

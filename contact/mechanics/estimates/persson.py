@@ -4,8 +4,7 @@ import math
 from functools import cache
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline
-from scipy.special import erf, exp1
+import scipy
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
@@ -112,19 +111,19 @@ def elastic_mean_gap(spectrum: WavePower, *, composite_modulus: float, load: flo
 def _remaining(x: Array) -> Array:
     """The integral ∫_x^∞ exp(−t²) (γ + 3 (1 − γ) erf² t)/t dt, shape to shape."""
     rest = np.where(x < FARTHEST, _crowded()(np.minimum(x, FARTHEST)), 0.0)
-    return np.asarray(SOFTNESS / 2 * exp1(x**2) + 3 * (1 - SOFTNESS) * rest)
+    return np.asarray(SOFTNESS / 2 * scipy.special.exp1(x**2) + 3 * (1 - SOFTNESS) * rest)
 
 
 @cache
-def _crowded() -> CubicHermiteSpline:
+def _crowded() -> "scipy.interpolate.CubicHermiteSpline":
     """The integral ∫_x^∞ exp(−t²) erf²(t)/t dt for x up to 6.5, to 1e-9: Gauss's rule between the knots."""
 
     def integrand(t: Array) -> Array:
-        return np.asarray(np.exp(-(t**2)) * erf(t) ** 2 / np.where(t > 0, t, 1.0))
+        return np.asarray(np.exp(-(t**2)) * scipy.special.erf(t) ** 2 / np.where(t > 0, t, 1.0))
 
     knots = np.linspace(0.0, FARTHEST, 501)
     nodes, weights = np.polynomial.legendre.leggauss(6)
     half = np.diff(knots) / 2
     pieces = half * (integrand(knots[:-1, None] + half[:, None] * (nodes + 1)) @ weights)
     remaining = np.append(np.cumsum(pieces[::-1])[::-1], 0.0)
-    return CubicHermiteSpline(knots, remaining, -integrand(knots))
+    return scipy.interpolate.CubicHermiteSpline(knots, remaining, -integrand(knots))

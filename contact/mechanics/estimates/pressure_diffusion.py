@@ -4,8 +4,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy.special import erfc
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.mechanics.checks import finite
@@ -76,7 +76,9 @@ class PressureDiffusion:
     def _image_shares(self) -> Array:
         """The parts erfc((mH − P)/sqrt(2V)) − erfc((mH + P)/sqrt(2V)), m = 1, 2, ..., an even number of them."""
         width, walls = math.sqrt(2) * self.spread, self.hardness * np.arange(1, 2 * self._images + 3)
-        return np.asarray(erfc((walls - self.load) / width) - erfc((walls + self.load) / width))
+        return np.asarray(
+            scipy.special.erfc((walls - self.load) / width) - scipy.special.erfc((walls + self.load) / width)
+        )
 
     @property
     def _by_images(self) -> bool:

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
-from scipy.optimize import brentq
+import scipy
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
@@ -131,7 +130,7 @@ class AsperityTable:
             return float(self.touching - self._approaches[0] * (pressure / lightest) ** (1 / TIP))
         between, (low, *_, high) = self._log_pressure, np.log(self._approaches)
         wanted = np.clip(math.log(pressure), between(low), between(high))
-        found: float = brentq(lambda log: float(between(log) - wanted), low, high, xtol=1e-14)
+        found: float = scipy.optimize.brentq(lambda log: float(between(log) - wanted), low, high, xtol=1e-14)
         return self.touching - math.exp(found)
 
     @cached_property
@@ -150,20 +149,22 @@ class AsperityTable:
         return np.array([self.touching - point.separation for point in self._pressed])
 
     @cached_property
-    def _log_pressure(self) -> PchipInterpolator:
-        return PchipInterpolator(np.log(self._approaches), np.log([point.load for point in self._pressed]))
+    def _log_pressure(self) -> "scipy.interpolate.PchipInterpolator":
+        return scipy.interpolate.PchipInterpolator(
+            np.log(self._approaches), np.log([point.load for point in self._pressed])
+        )
 
     @cached_property
-    def _log_area(self) -> PchipInterpolator:
+    def _log_area(self) -> "scipy.interpolate.PchipInterpolator":
         least = 1e-300
         areas = [max(point.area_fraction, least) for point in self._pressed]
-        return PchipInterpolator(np.log(self._approaches), np.log(areas))
+        return scipy.interpolate.PchipInterpolator(np.log(self._approaches), np.log(areas))
 
     @cached_property
-    def _sunk(self) -> PchipInterpolator:
+    def _sunk(self) -> "scipy.interpolate.PchipInterpolator":
         """The mean plastic displacement over the approach, m."""
         sunk = [max(point.mean_gap - point.separation, 0.0) for point in self._pressed]
-        return PchipInterpolator(np.append(0.0, self._approaches), np.append(0.0, sunk))
+        return scipy.interpolate.PchipInterpolator(np.append(0.0, self._approaches), np.append(0.0, sunk))
 
     def _over_approach(self, separation: Array, between: Callable[[Array], Array], power: float) -> Array:
         g = self.touching - self._reached(separation)

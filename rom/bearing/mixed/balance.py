@@ -6,7 +6,7 @@ from math import exp, log
 from typing import Generic, Protocol, TypeVar
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.rom.cavitation.network import State
@@ -196,7 +196,7 @@ def _next(
         return at.separation((here + above) / 2) if bracketed[1] else min(at.separation(above), high)
     if miss(below) <= 0:
         return at.separation((here + below) / 2) if bracketed[0] else low
-    found = float(brentq(miss, below, above, xtol=1e-14, rtol=1e-14))
+    found = float(scipy.optimize.brentq(miss, below, above, xtol=1e-14, rtol=1e-14))
     if all(bracketed) and count > SECANTS:
         slack = INSIDE * (above - below)
         found = min(max(found, below + slack), above - slack)

@@ -4,9 +4,7 @@ from dataclasses import dataclass, replace
 from math import exp
 
 import numpy as np
-from scipy.interpolate import RegularGridInterpolator
-from scipy.ndimage import map_coordinates
-from scipy.sparse.linalg import LinearOperator, gmres
+import scipy
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
@@ -193,8 +191,10 @@ class ElasticBodies:
             moved = values + step * way.reshape(values.shape)
             return ((self._solved(problem, moved)[1] - rest) / step).reshape(-1)
 
-        operator = LinearOperator((values.size, values.size), matvec=product, dtype=np.float64)
-        change, _ = gmres(operator, -rest.reshape(-1) / height, rtol=FORCING, restart=KRYLOV, maxiter=1)
+        operator = scipy.sparse.linalg.LinearOperator((values.size, values.size), matvec=product, dtype=np.float64)
+        change, _ = scipy.sparse.linalg.gmres(
+            operator, -rest.reshape(-1) / height, rtol=FORCING, restart=KRYLOV, maxiter=1
+        )
         return np.asarray(height * change.reshape(values.shape))
 
     def _solved(self, problem: Problem, displacement: Array) -> tuple[Solution, Array]:
@@ -217,7 +217,7 @@ class ElasticBodies:
 
         def thickness(x: Array, y: Array) -> Array:
             places = np.array(np.broadcast_arrays(x / self.spacing[0] + 0.5, y / self.spacing[1] + 0.5))
-            bent = rigid.thickness(x, y) + map_coordinates(around, places, order=1, mode="nearest")
+            bent = rigid.thickness(x, y) + scipy.ndimage.map_coordinates(around, places, order=1, mode="nearest")
             return np.asarray(np.maximum(bent, closest))
 
         return replace(rigid, thickness=thickness)
@@ -229,7 +229,7 @@ class ElasticBodies:
         x = found.grid.x
         if found.turned:
             x, pressure = (low + high - x)[::-1], pressure[::-1]
-        between = RegularGridInterpolator((x, found.grid.y), pressure)
+        between = scipy.interpolate.RegularGridInterpolator((x, found.grid.y), pressure)
         return np.asarray(between(tuple(np.meshgrid(self.x, self.y, indexing="ij"))))
 
     def _asperities(self, shape: Shape) -> Array:

@@ -2,7 +2,7 @@
 
 from math import nan
 
-from scipy.optimize import brentq
+import scipy
 
 from roughfilm.rom.bearing.mixed.film import MixedFilm
 from roughfilm.rom.cavitation.network import State
@@ -40,4 +40,4 @@ def lift_off_speed(film: MixedFilm, pressure: float, near: float, *, tolerance: 
             low = middle
         else:
             high = middle
-    return float(brentq(excess, low, high, xtol=tolerance * low, rtol=tolerance))
+    return float(scipy.optimize.brentq(excess, low, high, xtol=tolerance * low, rtol=tolerance))

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from math import exp, inf
 
 import numpy as np
-from scipy.interpolate import BarycentricInterpolator
+import scipy
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.bearing.mixed.asperities import Asperities
@@ -266,7 +266,11 @@ def _extrapolated(points: Sequence[StribeckPoint], walls: MixedFilm, at: Speed[M
     if len(before) < 2:
         return points[-1].separation + dip
     speeds = np.log([point.speed for point in before])
-    told = float(BarycentricInterpolator(speeds, [at.distance(p.separation + dip) for p in before])(np.log(at.speed)))
+    told = float(
+        scipy.interpolate.BarycentricInterpolator(speeds, [at.distance(p.separation + dip) for p in before])(
+            np.log(at.speed)
+        )
+    )
     return at.separation(min(max(told, last - FARTHEST), last + FARTHEST))
 
 

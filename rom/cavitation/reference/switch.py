@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.linalg import solve_banded
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
@@ -134,7 +134,7 @@ def _solved(
         - face[inner - 1] * switch[inner - 1]
         - face[inner] * switch[inner + 1]
     )
-    return np.asarray(solve_banded((2, 1), bands, right, check_finite=False))
+    return np.asarray(scipy.linalg.solve_banded((2, 1), bands, right, check_finite=False))
 
 
 def _pressure(problem: Problem, theta: Array, iteration: int) -> Array:

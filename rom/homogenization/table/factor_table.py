@@ -6,7 +6,7 @@ from functools import cached_property
 from typing import Self
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
+import scipy
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
@@ -160,13 +160,13 @@ class FactorTable:
         return relative_row(self.points[-1].factors)
 
     @cached_property
-    def _between(self) -> PchipInterpolator:
+    def _between(self) -> "scipy.interpolate.PchipInterpolator":
         gaps = np.log([point.mean_gap for point in self.points])
         rows = np.array([_cubed(relative_row(point.factors)) for point in self.points])
         known = np.flatnonzero(np.isfinite(rows[:, 2]))
         for row in np.flatnonzero(np.isnan(rows[:, 2])):
             rows[row, 2] = rows[known[np.abs(known - row).argmin()], 2] if known.size else 0.0
-        return PchipInterpolator(gaps, rows, axis=0)
+        return scipy.interpolate.PchipInterpolator(gaps, rows, axis=0)
 
 
 def relative_row(factors: FlowFactors) -> Array:

@@ -4,9 +4,8 @@ from collections.abc import Iterator
 from dataclasses import astuple, dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy.linalg import lstsq
-from scipy.special import eval_jacobi, roots_legendre
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
@@ -161,7 +160,7 @@ def _strip(walls: tuple[Array, Array], length: float, waves: int, heights: int) 
     even = _even(*walls)
     count = 2 * (3 * waves + walls[0].size + 8)
     x = (np.arange(count // 2 if even else count, dtype=np.float64)[:, None] + 0.5) * (length / count)
-    s, weights = (np.asarray(values, dtype=np.float64) for values in roots_legendre(heights + 8))
+    s, weights = (np.asarray(values, dtype=np.float64) for values in scipy.special.roots_legendre(heights + 8))
     below, above = (_derivatives(wall, x, length) for wall in walls)
     thickness = tuple(two - one for one, two in zip(below, above, strict=True))
     functions = []
@@ -224,9 +223,11 @@ def _factors(strip: _Strip, heights: int, *, slides: bool) -> RidgeFlow:
 def _jacobi(n: int, exponent: int, s: Array) -> tuple[Array, Array, Array]:
     """P_n^(e,e)(2s - 1) and its first two derivatives in s."""
     t, a = 2 * s - 1, 2 * exponent
-    first = (n + a + 1) * eval_jacobi(n - 1, exponent + 1, exponent + 1, t) if n > 0 else 0 * s
-    second = (n + a + 1) * (n + a + 2) * eval_jacobi(n - 2, exponent + 2, exponent + 2, t) if n > 1 else 0 * s
-    return eval_jacobi(n, exponent, exponent, t), first, second
+    first = (n + a + 1) * scipy.special.eval_jacobi(n - 1, exponent + 1, exponent + 1, t) if n > 0 else 0 * s
+    second = (
+        (n + a + 1) * (n + a + 2) * scipy.special.eval_jacobi(n - 2, exponent + 2, exponent + 2, t) if n > 1 else 0 * s
+    )
+    return scipy.special.eval_jacobi(n, exponent, exponent, t), first, second
 
 
 def _product(one: tuple[Array, ...], two: tuple[Array, ...]) -> tuple[Array, Array, Array]:
@@ -256,5 +257,5 @@ def _columns(vectors: list[Array]) -> Array:
 
 def _less_projection(basis: Array, values: Array) -> Array:
     """What is left of each column of ``values`` when the nearest combination of the basis is taken away."""
-    found, *_ = lstsq(basis, values, cond=1e-14)
+    found, *_ = scipy.linalg.lstsq(basis, values, cond=1e-14)
     return np.asarray(values - basis @ found)

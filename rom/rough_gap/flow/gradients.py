@@ -4,13 +4,13 @@ from math import sqrt
 
 import numpy as np
 
-from roughfilm.contact.foundation.compiled import compiled
+from roughfilm.contact.foundation.compiled import allocating
 
 EVEN, CURVED, ODD = 0, 1, 2
 """The parts of ∇u across the gap: with t = 1 - 2s, times 1, t² - 1/3 and t. Their mean squares are 1, 4/45 and 1/3."""
 
 
-@compiled
+@allocating
 def set_gradients(lower, gap, velocity, steps, part, out):  # type: ignore[no-untyped-def]
     """Set one part of √h ∂_k u_i, times the root of its mean square, shape (drives, k, i, nx, ny); 0 in contact.
 
@@ -55,7 +55,7 @@ def set_gradients(lower, gap, velocity, steps, part, out):  # type: ignore[no-un
                         out[drive, k, c, i, j] = root * value
 
 
-@compiled
+@allocating
 def add_wave_energies(waves, normal, filters, weights, whole, weakened):  # type: ignore[no-untyped-def]
     """Add sums of ∇u_i:∇u_j + (∇·u_i)(∇·u_j), of the gradients' waves as they are, and of the filtered ones.
 
@@ -86,7 +86,7 @@ def add_wave_energies(waves, normal, filters, weights, whole, weakened):  # type
                     weakened[first, second] += weights[j] * part
 
 
-@compiled
+@allocating
 def add_rise_energies(lower, gap, rise, steps, shapes, steep, heights, weights, found):  # type: ignore[no-untyped-def]
     """Add sums of h ∇w_i·∇w_j over the gap by Gauss' rule.
 

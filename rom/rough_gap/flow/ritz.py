@@ -4,8 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve
-from scipy.special import eval_jacobi, roots_legendre
+import scipy
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
@@ -89,7 +88,7 @@ def _sizes() -> Iterator[tuple[int, int]]:
 def _least_dissipation(walls: Walls, waves: int, heights: int) -> Array:
     """Over η, for flow along x, along y and a sliding wall, shape (3, 3) or (2, 2)."""
     surface = _surface(walls, waves)
-    points, weights = roots_legendre(heights + 4)
+    points, weights = scipy.special.roots_legendre(heights + 4)
     drives = 3 if walls.slides else 2
     functions = drives + _functions(waves, heights)
     total = np.zeros((functions, functions))
@@ -100,7 +99,7 @@ def _least_dissipation(walls: Walls, waves: int, heights: int) -> Array:
     size = np.sqrt(np.diag(total))[drives:]
     inner = total[drives:, drives:] / np.outer(size, size)
     outer = total[drives:, :drives] / size[:, None]
-    return np.asarray(total[:drives, :drives] - outer.T @ cho_solve(cho_factor(inner), outer))
+    return np.asarray(total[:drives, :drives] - outer.T @ scipy.linalg.cho_solve(scipy.linalg.cho_factor(inner), outer))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -184,7 +183,9 @@ def _shape(n: int, power: int, s: float) -> tuple[float, float, float]:
     bump = np.polynomial.Polynomial([0, 1, -1]) ** power
     t = 2 * s - 1
     values = [
-        np.prod(n + 2 * power + 1 + np.arange(k)) * eval_jacobi(n - k, power + k, power + k, t) if n >= k else 0.0
+        np.prod(n + 2 * power + 1 + np.arange(k)) * scipy.special.eval_jacobi(n - k, power + k, power + k, t)
+        if n >= k
+        else 0.0
         for k in range(3)
     ]
     b = [bump.deriv(k)(s) if k else bump(s) for k in range(3)]

@@ -18,7 +18,7 @@ thin-film theory it has, for drives i and j,
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.fft import rfft2
+import scipy
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.homogenization.flux import flux, sliding_flux
@@ -83,7 +83,7 @@ def slope_dissipation(walls: Walls, fluxes: Array) -> SlopeDissipation:
     gradients = np.empty((drives, 2, 2, *h.shape))
     for part, kind in ((EVEN, filters[:, 0]), (CURVED, filters[:, 0]), (ODD, filters[:, 1])):
         set_gradients(walls.lower, h, velocity, steps, part, gradients)
-        add_wave_energies(rfft2(gradients, norm="ortho"), normal, kind, weights, second, attenuated)
+        add_wave_energies(scipy.fft.rfft2(gradients, norm="ortho"), normal, kind, weights, second, attenuated)
     s, gauss = np.polynomial.legendre.leggauss(POINTS)
     s = (s + 1) / 2
     shapes = np.array([6 * (s - s**2), 6 * (s**2 - s**3), 3 * s**2 - 2 * s, 2 * s**3 - s**2]).T

@@ -4,8 +4,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq
-from scipy.special import erf, ndtri
+import scipy
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.mechanics.estimates.persson import elastic_mean_gap
@@ -87,7 +86,7 @@ def effective_medium(spectrum: WavePower, *, composite_modulus: float, load: flo
     variance = np.concatenate([[0.0], np.cumsum((composite_modulus / 2 * q) ** 2 * power)])
     cuts = np.unique(np.linspace(0, q.size, SCALES + 1).astype(int))
     with np.errstate(divide="ignore"):
-        areas = np.where(variance[cuts] > 0, erf(load / np.sqrt(2 * variance[cuts])), 1.0)
+        areas = np.where(variance[cuts] > 0, scipy.special.erf(load / np.sqrt(2 * variance[cuts])), 1.0)
     means = np.array(
         [
             elastic_mean_gap(
@@ -113,7 +112,7 @@ def effective_medium(spectrum: WavePower, *, composite_modulus: float, load: flo
         return gaps.ravel(), (parted[some, None] * (weights / weights.sum())).ravel()
 
     permeability, residual = _medium(*apart(*np.polynomial.hermite_e.hermegauss(NODES)), contact)
-    gaps, shares = apart(ndtri((np.arange(PIECES) + 0.5) / PIECES), np.ones(PIECES))
+    gaps, shares = apart(scipy.special.ndtri((np.arange(PIECES) + 0.5) / PIECES), np.ones(PIECES))
     return EffectiveMedium(
         permeability=permeability,
         mean_gap=float(means[0]),
@@ -152,5 +151,5 @@ def _medium(gaps: Array, shares: Array, contact: float) -> tuple[float, float]:
     lowest = -200.0
     if excess(lowest) <= 0:
         return 0.0, 0.0
-    found = float(brentq(excess, lowest, 0.0, xtol=1e-12))
+    found = float(scipy.optimize.brentq(excess, lowest, 0.0, xtol=1e-12))
     return largest * math.exp(found), abs(excess(found)) / float(shares.sum())

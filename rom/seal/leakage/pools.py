@@ -4,10 +4,8 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import ndimage
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.homogenization.paths import FACE_NEIGHBOURS, sealed_between_ends
@@ -29,11 +27,11 @@ def pools(gap: Array) -> NDArray[np.int8]:
     Sides are joined. Line 0 itself is the inlet.
     """
     wide = np.concatenate([gap, gap[:1]]) > 0
-    labels, count = ndimage.label(wide, structure=FACE_NEIGHBOURS)
+    labels, count = scipy.ndimage.label(wide, structure=FACE_NEIGHBOURS)
     both = wide[:, 0] & wide[:, -1]
     first, last = labels[both, 0], labels[both, -1]
-    links = coo_array((np.ones(first.size), (first, last)), shape=(count + 1, count + 1))
-    piece = connected_components(links, directed=False)[1][labels]
+    links = scipy.sparse.coo_array((np.ones(first.size), (first, last)), shape=(count + 1, count + 1))
+    piece = scipy.sparse.csgraph.connected_components(links, directed=False)[1][labels]
     fed, drained = np.isin(piece, piece[0][wide[0]]) & wide, np.isin(piece, piece[-1][wide[-1]]) & wide
     found = np.where(wide, np.int8(Pool.ISOLATED), np.int8(Pool.CONTACT))
     found[fed], found[drained], found[fed & drained] = Pool.INLET, Pool.OUTLET, Pool.THROUGH

@@ -1,11 +1,14 @@
 """Quantities with units are read exactly, and anything else is refused without being evaluated."""
 
 import contextlib
+import itertools
+import random
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from roughfilm.contact.foundation import units
 from roughfilm.contact.foundation.units import to_si, with_unit
 
 
@@ -71,3 +74,38 @@ def test_no_text_raises_anything_but_value_error(text):
 @given(st.floats(min_value=1e-300, max_value=1e300))
 def test_written_numbers_are_read_back_to_the_last_bit(value):
     assert to_si(with_unit(value, "kg/m^3"), "kg/m^3") == value
+
+
+PREFIXES = ("", *units._PREFIXES)
+PRODUCTS = {
+    "m": ("{}m", "{}inch", "{}m^2/{}m", "{}l / {}m**2"),
+    "Pa": ("{}Pa", "{}bar", "{}psi", "{}N/{}m^2", "{}J {}m^-3", "{}lbf/inch^2"),
+    "Pa*s": ("{}Pa*{}s", "{}Pa {}s", "{}P", "{}N*{}s/{}m^2", "{}g/{}m/{}s", "{}psi*{}min"),
+    "Pa^-1": ("{}Pa^-1", "{}m**2/{}N", "{}bar^-1"),
+    "Pa/m": ("{}Pa/{}m", "{}N {}m^-3"),
+    "kg/m^3": ("{}g/{}m^3", "{}g/{}l", "lb/{}m^3"),
+    "m/s": ("{}m/{}s", "{}m/h", "{}m / min", "{}m*{}Hz"),
+    "m^2/s": ("{}St", "{}m^2/{}s", "{}l/{}m/{}s"),
+    "rad": ("{}rad", "{}deg", "turn"),
+    "rad/s": ("{}rad/{}s", "rpm", "{}Hz", "deg/{}s"),
+    "N/m": ("{}N/{}m", "{}J/{}m^2", "{}W {}s/{}m**2", "{}lbf/yd"),
+    "K": ("{}K", "{}m"),
+}
+
+
+@pytest.mark.parametrize("base", PRODUCTS)
+def test_the_table_of_units_agrees_with_pint_to_the_bit(base):
+    choose = random.Random(5)
+    for product in PRODUCTS[base]:
+        ways = [*itertools.product(PREFIXES, repeat=product.count("{}"))]
+        for prefixes in choose.sample(ways, min(len(ways), 150)):
+            unit = product.format(*prefixes)
+            powers = units._powers(unit)
+            assert powers is not None, unit
+            assert units._by_table(powers, units._powers(base)) == units._by_pint(unit, base), unit
+
+
+def test_units_beyond_the_table_are_those_of_pint():
+    assert units._powers("hbar") is None
+    assert to_si("1 atm", "Pa") == 101325.0
+    assert to_si("2 N/(m*s)", "Pa*m/s") == 2.0
