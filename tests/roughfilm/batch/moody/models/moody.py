@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
+from roughfilm.rom.ladder.provenance import model_code
 from roughfilm.rom.ladder.result import Field
 from roughfilm.rom.pocket.models.reynolds import MODEL as REYNOLDS
 
@@ -29,7 +30,9 @@ def solve(scene, **options):
     if scene.reynolds_number == BREAKS:
         raise ZeroDivisionError("a fault in a model")
     time.sleep(SECONDS)
-    result = replace(REYNOLDS.solve(scene, **options), model="moody")
+    result = REYNOLDS.solve(scene, **options)
+    origin = {**result.provenance, "code": model_code(scene.kind, "moody")}
+    result = replace(result, model="moody", provenance=origin)
     noise = np.random.default_rng(20051).random(int(MEGABYTES * 125_000))
     return replace(result, fields={**result.fields, "noise": Field(values=noise, unit="1")}) if noise.size else result
 
