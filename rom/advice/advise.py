@@ -18,6 +18,7 @@ from roughfilm.rom.advice.estimates import (
 from roughfilm.rom.advice.laws import Numbers, Table, table
 from roughfilm.rom.ladder.kind import Omission, Scene, kinds
 from roughfilm.rom.ladder.model import Model, Progress, silent
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 
 HOPELESS = 5.0
@@ -148,7 +149,7 @@ def advise(
             progress(0.0, f"running {model.name} on {resolution}")
             try:
                 known[key] = (
-                    model.solve(scene, resolution=resolution, progress=progress)
+                    model.solve(scene, Request(resolution=resolution), progress=progress)
                     if run is None
                     else run(model, resolution)
                 )

@@ -20,6 +20,7 @@ from roughfilm.batch.jobs import Failure, Job, store, stored
 from roughfilm.batch.progress import State, Tally
 from roughfilm.batch.tabulate import Row, columns, row_of
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.ladder import models
 from roughfilm.rom.ladder.provenance import code, commit, versions
 from roughfilm.rom.studies.study import Case, Study, load_study
 from roughfilm.rom.studies.table import write_csv, write_hdf5
@@ -29,7 +30,6 @@ from roughfilm.terminal.console import (
     in_one_line,
     make_directory,
     messages,
-    models,
     output,
     print_json,
     progress_bar,

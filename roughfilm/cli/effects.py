@@ -14,6 +14,7 @@ from rich.table import Table
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
+from roughfilm.ladder import models
 from roughfilm.rom.bearing.effects.analysis import EffectAnalysis, analyse_effects
 from roughfilm.rom.bearing.effects.contributions import Study
 from roughfilm.rom.bearing.effects.inertia import InertiaAdded
@@ -28,7 +29,6 @@ from roughfilm.terminal.console import (
     in_one_line,
     make_directory,
     messages,
-    models,
     output,
     print_json,
     progress_bar,

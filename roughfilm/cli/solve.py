@@ -10,8 +10,9 @@ from rich.table import Table
 
 from roughfilm.cli.advise import Want, advice_for, entries_of, shortfall
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.ladder import find
 from roughfilm.rom.ladder.kind import kinds
-from roughfilm.rom.ladder.model import find, of_kind
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.rom.ladder.store import as_entries, save
@@ -25,7 +26,6 @@ from roughfilm.terminal.console import (
     Tolerance,
     in_one_line,
     messages,
-    models,
     output,
     print_json,
     progress_bar,
@@ -50,7 +50,6 @@ def command(
 ) -> None:
     """Solve a scene with one model, or with the cheapest that is enough."""
     read = load_scene(scene, set_ or ())
-    ladder = of_kind(models(), read.kind)
     result, advised = None, None
     if within is not None:
         own = {"model": model, "resolution": resolution, "tolerance": tolerance, "scheme": scheme}
@@ -66,11 +65,13 @@ def command(
         raise InputError("--want: says of which quantity --within speaks; give that too")
     if model is None:
         raise InputError("--model: is missing; name one from 'roughfilm models', or give --within 5%")
-    rung = find(ladder, model)
+    rung = find(read.kind, model)
     if result is None:
         with progress_bar(1.0) as advance:
             result = rung.solve(
-                read, resolution=resolution, tolerance=tolerance, scheme=scheme, processes=processes, progress=advance
+                read,
+                Request(resolution=resolution, tolerance=tolerance, scheme=scheme, processes=processes),
+                progress=advance,
             )
     if advised is not None:
         result = replace(result, provenance={**result.provenance, "advice": entries_of(advised)})

@@ -18,9 +18,7 @@ from rich.markup import escape
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 from typer.exceptions import TyperException
 
-from roughfilm import foamcases, rom
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
-from roughfilm.rom.ladder.model import Model, ladder
 
 BAD_INPUT, NOT_CONVERGED, MISSING = 2, 3, 4
 
@@ -38,11 +36,6 @@ Tolerance = Annotated[float | None, typer.Option(help="Residual at which a solve
 
 messages = Console(stderr=True, highlight=False)
 output = Console(highlight=False)
-
-
-def models() -> tuple[Model, ...]:
-    """Every rung, from the plainest to the best."""
-    return ladder(rom, foamcases)
 
 
 def fail(error: Exception, code: int) -> typer.Exit:
