@@ -23,7 +23,7 @@ def main() -> None:
             table = rf.read_table(given.source / "table.h5")
             rows = [dict(zip(table, row, strict=True)) for row in zip(*table.values(), strict=True)]
         else:
-            rows = rf.sweep(rf.load_scene(given.source), {NUMBER: np.geomspace(1, 200, 12)}, models=names)
+            rows = rf.sweep(rf.load_scene(given.source), {NUMBER: np.geomspace(1, 200, 12).tolist()}, models=names)
     except rf.InputError as error:
         raise SystemExit(f"error: {error}") from None
     rows = [{"case": row.get(NUMBER), "reynolds_number": row.get(NUMBER), **row} for row in rows]

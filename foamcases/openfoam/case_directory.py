@@ -35,10 +35,15 @@ fi
 """
 
 
+TOLERANCES = (1e-10, 1e-2)
+"""Least and greatest residual at which a run may end."""
+
+
 def check_tolerance(tolerance: float) -> None:
     """InputError for residuals that are out of reach, or of no use."""
-    if not 1e-10 <= tolerance <= 1e-2:
-        raise InputError(f"--tolerance: got {tolerance}; it must be 1e-10 to 1e-2")
+    least, most = TOLERANCES
+    if not least <= tolerance <= most:
+        raise InputError(f"tolerance: got {tolerance}; it must be {least:g} to {most:g}")
 
 
 def commands(processes: int) -> str:

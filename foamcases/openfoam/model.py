@@ -1,4 +1,4 @@
-"""What the rungs that run OpenFOAM share: a case is written, run and read in a directory that is removed afterwards."""
+"""What the models that run OpenFOAM share: a case is written, run and read, in one go or each apart."""
 
 import tempfile
 import time
@@ -6,130 +6,158 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, Generic, Unpack
 
-from roughfilm.contact.foundation.errors import UnavailableError
+from typing_extensions import TypeVar
+
+from roughfilm.foamcases.openfoam.case_directory import TOLERANCES
 from roughfilm.foamcases.openfoam.installation import availability
-from roughfilm.rom.ladder.model import Applicability, Effect, Model, Progress, Write, chosen_scheme, silent
+from roughfilm.foamcases.openfoam.run import CaseRun
+from roughfilm.rom.ladder.kind import Scene
+from roughfilm.rom.ladder.model import About, Applicability, Model, Progress, Resolutions, SceneT, silent
+from roughfilm.rom.ladder.request import CheckedRequest, Request
 from roughfilm.rom.ladder.result import Result
 
 CREEPING = 1e-6
-"""The Reynolds number of Stokes flow: advection is then a millionth of viscous stress (there is no scheme "none")."""
+"""Reynolds number of Stokes flow: advection is then a millionth of viscous stress (there is no scheme "none")."""
+
+RunT = TypeVar("RunT", bound=CaseRun, default=Any)
+
+CaseWriter = Callable[[SceneT, Path, CheckedRequest, float], None]
+"""write(scene, directory, request, reynolds_number)."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Cases:
+class Cases(Generic[SceneT, RunT]):
     """How the cases of one kind of scene are written, run and read, and the numbers of its models.
 
     Attributes
     ----------
-    write : write(scene, directory, reynolds_number=, resolution=, tolerance=, scheme=, processes=).
+    write : writes the case of a scene.
     write_to_run : the same where the case is run at once and on this machine.
-    run : run(directory, progress=): what a run says of itself, a dataclass with ``cpu_s`` and ``wall_s``, to which the
-        time that this process spends on the case is added.
-    read : read(scene, directory, what the run says, model=, keeps=): the result.
+    run : run(directory, progress), which returns how the run ended.
+    read : read(model, scene, directory, run), the result.
     """
 
     kind: str
-    sources: tuple[str, ...]
-    resolution: int | None
-    resolutions: tuple[int, ...]
-    own_resolutions: Callable[[Any], tuple[int, ...]] | None = None
+    resolutions: Resolutions | Callable[[SceneT], Resolutions]
     resolution_meaning: str
     residual_meaning: str
-    cost: Callable[[Any, int], float]
-    write: Callable[..., None]
-    write_to_run: Callable[..., None]
-    run: Callable[..., Any]
-    read: Callable[..., Result]
+    tolerance: float
+    most_processes: Callable[[SceneT, int], int]
+    cost: Callable[[SceneT, int], float]
+    write: CaseWriter[SceneT]
+    write_to_run: CaseWriter[SceneT]
+    run: Callable[[Path, Progress], RunT]
+    read: Callable[[Model[SceneT], SceneT, Path, RunT], Result]
+
+
+@dataclass(frozen=True, kw_only=True)
+class CaseModel(Model[SceneT], Generic[SceneT, RunT]):
+    """A model that runs OpenFOAM: ``solve`` does all in a directory that it removes; its three steps stand apart here.
+
+    Examples
+    --------
+    >>> from roughfilm.ladder import find
+    >>> from roughfilm.rom.ladder.scene import load_scene
+    >>> model, scene = find("pocket", "stokes"), load_scene("pocket.toml")  # doctest: +SKIP
+    >>> model.write(scene, directory, Request(resolution=60))  # doctest: +SKIP
+    >>> result = model.read(scene, directory, model.run(directory))  # doctest: +SKIP
+    """
+
+    cases: Cases[SceneT, RunT]
+    reynolds_number: Callable[[SceneT], float]
+
+    def write(self, scene: SceneT, directory: Path, request: Request = Request()) -> None:
+        """Write the case of a scene, whole or not at all.
+
+        Raises
+        ------
+        InputError
+            For an option outside the range that the model allows, or a directory that is not empty.
+        """
+        self.cases.write(scene, directory, self.checked(scene, request), self.reynolds_number(scene))
+
+    def run(self, directory: Path, progress: Progress = silent) -> RunT:
+        """Run a case that this model wrote, and verify the fields that it leaves in the directory.
+
+        Returns
+        -------
+        CaseRun
+            Residual, iterations, times and warnings of the run.
+
+        Raises
+        ------
+        UnavailableError
+            If OpenFOAM is not on this machine.
+        ConvergenceError
+            If the mesh has faults or the flow does not converge.
+        """
+        return self.cases.run(directory, progress)
+
+    def read(self, scene: SceneT, directory: Path, run: RunT) -> Result:
+        """The result of a case of this scene that was run.
+
+        Raises
+        ------
+        InputError
+            If the directory holds no case of this scene.
+        ConvergenceError
+            If it holds no finished fields.
+        """
+        return self.cases.read(self, scene, directory, run)
 
 
 def openfoam_model(
-    cases: Cases,
+    cases: Cases[SceneT, RunT],
     *,
-    name: str,
-    summary: str,
-    keeps: frozenset[Effect],
-    applies: Callable[[Any], Applicability],
-    reynolds_number: float | None = None,
+    applies: Callable[[SceneT], Applicability],
+    reynolds_number: Callable[[SceneT], float],
     schemes: tuple[str, ...] = (),
-) -> Model:
-    """A rung that runs OpenFOAM at the given Reynolds number (None: the scene's)."""
-    told = partial(write, model=name, schemes=schemes, reynolds_number=reynolds_number)
-    return Model(
-        name=name,
+    **about: Unpack[About],
+) -> CaseModel[SceneT, RunT]:
+    """A model that runs OpenFOAM at the Reynolds number that it gives a scene."""
+    return CaseModel(
+        **about,
         kind=cases.kind,
-        summary=summary,
-        keeps=keeps,
-        sources=cases.sources,
-        resolution=cases.resolution,
         resolutions=cases.resolutions,
-        own_resolutions=cases.own_resolutions,
         resolution_meaning=cases.resolution_meaning,
         residual_meaning=cases.residual_meaning,
         order=2,
+        tolerance=cases.tolerance,
+        tolerances=TOLERANCES,
+        schemes=schemes,
+        most_processes=cases.most_processes,
         cost=cases.cost,
         applies=applies,
-        solve=partial(
-            solve,
-            model=name,
-            write=partial(told, cases=cases.write_to_run),
-            run=cases.run,
-            read=partial(cases.read, model=name, keeps=keeps),
-        ),
+        outside=True,
         available=availability,
-        write=partial(told, cases=cases.write),
-        schemes=schemes,
+        compute=partial(solve, cases=cases, reynolds_number=reynolds_number),
+        cases=cases,
+        reynolds_number=reynolds_number,
     )
 
 
-def write(
-    scene: Any,
-    directory: Path,
-    *,
-    cases: Callable[..., None],
-    model: str,
-    schemes: tuple[str, ...],
-    reynolds_number: float | None,
-    resolution: int | None = None,
-    tolerance: float | None = None,
-    scheme: str | None = None,
-    processes: int = 1,
-) -> None:
-    """Write ``cases`` of a scene as a model wants them; InputError for another scheme than its, and what they raise."""
-    cases(
-        scene,
-        directory,
-        reynolds_number=scene.reynolds_number if reynolds_number is None else reynolds_number,
-        resolution=resolution,
-        tolerance=tolerance,
-        scheme=chosen_scheme(model, schemes, scheme),
-        processes=processes,
-    )
+def creeping(_scene: Scene) -> float:
+    """The Reynolds number of a model that leaves inertia out."""
+    return CREEPING
 
 
 def solve(
-    scene: Any,
+    model: Model[SceneT],
+    scene: SceneT,
+    request: CheckedRequest,
+    progress: Progress,
     *,
-    model: str,
-    write: Write,
-    run: Callable[..., Any],
-    read: Callable[[Any, Path, Any], Result],
-    resolution: int | None = None,
-    tolerance: float | None = None,
-    scheme: str | None = None,
-    processes: int = 1,
-    progress: Progress = silent,
+    cases: Cases[SceneT, RunT],
+    reynolds_number: Callable[[SceneT], float],
 ) -> Result:
-    """Write, run and read; raises what the three raise, and UnavailableError where OpenFOAM is not here."""
-    found = availability()
-    if not found.available:
-        raise UnavailableError(f"{model}: {found.detail}")
+    """Write, run and read; the run's times include those that this process spends on the case."""
     wall, cpu = time.perf_counter(), time.thread_time()
     with tempfile.TemporaryDirectory(prefix="roughfilm-") as place:
-        directory = Path(place) / model
-        write(scene, directory, resolution=resolution, tolerance=tolerance, scheme=scheme, processes=processes)
-        ran = run(directory, progress=progress)
+        directory = Path(place) / model.name
+        cases.write_to_run(scene, directory, request, reynolds_number(scene))
+        ran = cases.run(directory, progress)
         spent = time.thread_time() - cpu
         whole = replace(ran, cpu_s=ran.cpu_s + spent, wall_s=time.perf_counter() - wall)
-        return read(scene, directory, whole)
+        return cases.read(model, scene, directory, whole)

@@ -20,6 +20,16 @@ REMEDIES = {
 }
 
 
+@dataclass(frozen=True, kw_only=True)
+class CaseRun:
+    """Times of a successful run, the version of OpenFOAM, and the mesh check's remarks."""
+
+    cpu_s: float
+    wall_s: float
+    version: str
+    warnings: tuple[str, ...]
+
+
 def ready(processes: int) -> str:
     """The version of OpenFOAM that is here; UnavailableError if none is, or no mpirun for several processes."""
     found = availability()

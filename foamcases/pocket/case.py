@@ -3,15 +3,11 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from roughfilm.contact.foundation.errors import InputError
 from roughfilm.foamcases.openfoam import block_mesh as mesh
-from roughfilm.foamcases.openfoam.case_directory import SHELL, check_tolerance, commands, write_papers, write_whole
+from roughfilm.foamcases.openfoam.case_directory import SHELL, commands, write_papers, write_whole
 from roughfilm.foamcases.openfoam.dictionaries import SIDES, write_dictionaries
+from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.pocket.scene import Pocket
-
-COARSEST, FINEST = 12, 4000
-RESOLUTION = 240
-TOLERANCE = 1e-7
 
 ALLRUN = """\
 checkMesh > log.checkMesh 2>&1 &&
@@ -46,36 +42,21 @@ class Card:
     processes: int
 
 
-def write_case(
-    scene: Pocket,
-    directory: Path,
-    *,
-    reynolds_number: float,
-    resolution: int | None,
-    tolerance: float | None,
-    scheme: str,
-    processes: int = 1,
-) -> None:
+def write_case(scene: Pocket, directory: Path, request: CheckedRequest, reynolds_number: float) -> None:
     """Write the whole case of a scene at a Reynolds number of the model's choice.
 
-    ``resolution`` is the number of mesh columns along the film, about (every corner of the gap is a column);
-    a fifth as many layers cross it. ``scheme`` is a key of ``ADVECTION``. The case is there whole or not at all.
-    Raises InputError for numbers out of range or a directory that is not empty.
+    The resolution is the number of mesh columns along the film, about (every corner of the gap is a column);
+    a fifth as many layers cross it. The scheme is a key of ``ADVECTION``. The case is there whole or not at all.
+    Raises InputError for a directory that is not empty.
     """
-    resolution = RESOLUTION if resolution is None else resolution
-    tolerance = TOLERANCE if tolerance is None else tolerance
-    if not COARSEST <= resolution <= FINEST:
-        raise InputError(f"--resolution: got {resolution}; it must be {COARSEST} to {FINEST} mesh columns")
-    check_tolerance(tolerance)
-    if not 1 <= processes <= resolution // 2:
-        raise InputError(f"--processes: got {processes}; it must be 1 to {resolution // 2}, two columns for each")
+    resolution, scheme, processes = request.resolution, request.scheme, request.processes
     vertices = mesh.layered(scene.gap(), resolution)
     card = Card(
         columns=vertices.shape[0] - 1,
         layers=vertices.shape[1] - 1,
         reynolds_number=reynolds_number,
         resolution=resolution,
-        tolerance=tolerance,
+        tolerance=request.tolerance,
         scheme=scheme,
         processes=processes,
     )
@@ -84,7 +65,7 @@ def write_case(
     def fill(place: Path) -> None:
         mesh.write_block(vertices, SIDES, place)
         write_dictionaries(
-            place, viscosity=1 / reynolds_number, tolerance=tolerance, scheme=scheme, processes=processes
+            place, viscosity=1 / reynolds_number, tolerance=request.tolerance, scheme=scheme, processes=processes
         )
         write_papers(place, readme=readme, allrun=SHELL + ALLRUN.format(commands=commands(processes)), card=card)
 

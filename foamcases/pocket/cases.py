@@ -5,17 +5,17 @@ from pathlib import Path
 from roughfilm.foamcases.openfoam.case_directory import read_card
 from roughfilm.foamcases.openfoam.dictionaries import VELOCITY_RELAXATION
 from roughfilm.foamcases.openfoam.model import Cases
-from roughfilm.foamcases.pocket.case import RESOLUTION, Card, write_case
+from roughfilm.foamcases.pocket.case import Card, write_case
 from roughfilm.foamcases.pocket.fields import read_channel
 from roughfilm.foamcases.pocket.run import Run, run_case
-from roughfilm.rom.ladder.model import Effect
+from roughfilm.rom.ladder.model import Model, Resolutions
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
 from roughfilm.rom.pocket.validity import cautions
 
 SOURCES = ("10.1115/1.1828067", "10.1063/1.168744", "10.1080/01495728408961817")
-RESOLUTIONS = (30, 60, 120, 240)
+RESOLUTIONS = Resolutions(least=12, most=4000, default=240, series=(30, 60, 120, 240))
 
 
 def cost(_scene: Pocket, resolution: int) -> float:
@@ -23,8 +23,9 @@ def cost(_scene: Pocket, resolution: int) -> float:
     return float(0.3 + 2.4 * (resolution / 240) ** 2.4)
 
 
-def read(scene: Pocket, directory: Path, run: Run, *, model: str, keeps: frozenset[Effect]) -> Result:
+def read(solver: Model[Pocket], scene: Pocket, directory: Path, run: Run) -> Result:
     """The result of a case that was run; see :func:`roughfilm.foamcases.pocket.fields.read_channel` for the errors."""
+    model, keeps = solver.name, solver.keeps
     card, channel = read_card(directory, Card), read_channel(directory)
     film, pascal = scene.geometry.film, scene.pressure_unit
     lowest, highest = channel.pressure_range()
@@ -67,11 +68,11 @@ def read(scene: Pocket, directory: Path, run: Run, *, model: str, keeps: frozens
 
 CASES = Cases(
     kind="pocket",
-    sources=SOURCES,
-    resolution=RESOLUTION,
     resolutions=RESOLUTIONS,
     resolution_meaning="mesh columns along the film, with a fifth as many layers across",
     residual_meaning="largest initial residual of velocity and pressure that a new process finds in the fields on disk",
+    tolerance=1e-7,
+    most_processes=lambda _scene, resolution: resolution // 2,
     cost=cost,
     write=write_case,
     write_to_run=write_case,

@@ -7,28 +7,24 @@ from pathlib import Path
 from roughfilm.foamcases.openfoam.case_directory import read_card
 from roughfilm.foamcases.openfoam.iterate import Try
 from roughfilm.foamcases.openfoam.residuals import Judged
-from roughfilm.foamcases.openfoam.run import check_mesh, converge, ready, remarks
+from roughfilm.foamcases.openfoam.run import CaseRun, check_mesh, converge, ready, remarks
 from roughfilm.foamcases.pocket.case import Card
 from roughfilm.rom.ladder.model import Progress, silent
 
 
 @dataclass(frozen=True, kw_only=True)
-class Run:
-    """What a successful run says of itself.
+class Run(CaseRun):
+    """A successful run of one flow.
 
     ``residual`` is the largest initial residual of velocity and pressure that a new process finds in the fields on
-    disk; ``warnings`` are the mesh check's remarks; the last of the ``tries`` converged.
+    disk; the last of the ``tries`` converged.
     """
 
     residual: float
-    cpu_s: float
-    wall_s: float
-    version: str
     tries: tuple[Try, ...]
-    warnings: tuple[str, ...]
 
 
-def run_case(directory: Path, *, progress: Progress = silent) -> Run:
+def run_case(directory: Path, progress: Progress = silent) -> Run:
     """Check the mesh, run simpleFoam as :func:`foamcases.openfoam.iterate.iterate` does, and verify the fields it left.
 
     Raises

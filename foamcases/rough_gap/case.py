@@ -9,7 +9,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.foamcases.openfoam.block_mesh import write_block
-from roughfilm.foamcases.openfoam.case_directory import SHELL, check_tolerance, commands, write_papers, write_whole
+from roughfilm.foamcases.openfoam.case_directory import SHELL, commands, write_papers, write_whole
 from roughfilm.foamcases.openfoam.dictionaries import write_files
 from roughfilm.foamcases.openfoam.memory import check_memory
 from roughfilm.foamcases.openfoam.residuals import Judged
@@ -25,13 +25,9 @@ from roughfilm.foamcases.rough_gap.dictionaries import (
 from roughfilm.foamcases.rough_gap.mesh import Columns, columns_between
 from roughfilm.foamcases.rough_gap.start import Start
 from roughfilm.rom.homogenization.paths import sealed
-from roughfilm.rom.parts.pressed_surface import COARSEST
+from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.rough_gap.scene import FEWEST_LAYERS, RoughGap
 from roughfilm.rom.rough_gap.walls import Walls
-
-RESOLUTION = 64
-TOLERANCE = 1e-5
-"""By what part of itself a flow may still change; or the residuals at which simpleFoam stops by itself."""
 
 SLACK = 300.0
 """How much larger residuals may be if the flow has settled: they are of waves as short as the cells."""
@@ -103,6 +99,13 @@ def layers_of(scene: RoughGap, resolution: int) -> int:
     return scene.layers or max(FEWEST_LAYERS, round(resolution * LAYERS_PER_COLUMN))
 
 
+def columns_of(scene: RoughGap, resolution: int) -> tuple[int, int]:
+    """Mesh columns along x and y, ``resolution`` along the longer side."""
+    shape = scene.surface().shape
+    nx, ny = (max(2, round(points * resolution / max(shape))) for points in shape)
+    return nx, ny
+
+
 EVEN = 1e-12
 """Of the mean gap: heights that differ by less are the same but for rounding."""
 
@@ -129,37 +132,21 @@ def judged_of(drive: Drive, walls: Walls) -> tuple[str, ...]:
 
 
 def write_gap_case(
-    scene: RoughGap,
-    directory: Path,
-    *,
-    reynolds_number: float,
-    resolution: int | None,
-    tolerance: float | None,
-    scheme: str,
-    processes: int = 1,
-    run: bool = False,
+    scene: RoughGap, directory: Path, request: CheckedRequest, reynolds_number: float, *, run: bool = False
 ) -> None:
     """Write the cases of a scene at a Reynolds number of the model's choice, one for each drive, in one directory.
 
-    ``resolution`` is the number of columns along the longer side; in a direction that contact seals there is no flow,
+    The resolution is the number of columns along the longer side; in a direction that contact seals there is no flow,
     and no case. ``run`` says that they are to be run on this machine. The directory is there whole or not at all.
 
     Raises
     ------
     InputError
-        For numbers out of range, a directory that is not empty, a mesh that does not fit into this machine's memory, or
+        For a directory that is not empty, a mesh that does not fit into this machine's memory, or
         a gap through which nothing flows; if it is to be run here, that is a directory without cases.
     """
-    own = max(scene.surface().shape)
-    resolution = min(own, RESOLUTION) if resolution is None else resolution
-    tolerance = TOLERANCE if tolerance is None else tolerance
-    if not min(own, COARSEST) <= resolution <= own:
-        told = f"the surface has {own} points along its longer side, take {min(own, COARSEST)} to {own}"
-        raise InputError(f"--resolution: got {resolution}; {told}")
-    check_tolerance(tolerance)
-    nx, ny = (max(2, round(points * resolution / own)) for points in scene.surface().shape)
-    if not 1 <= processes <= max(1, nx * ny // 2):
-        raise InputError(f"--processes: got {processes}; it must be 1 to {nx * ny // 2}, two columns for each")
+    resolution, processes = request.resolution, request.processes
+    nx, ny = columns_of(scene, resolution)
     check_memory((nx, ny), layers_of(scene, resolution), run=run)
     walls, columns = mesh_of(scene, resolution)
     layers = layers_of(scene, resolution)
@@ -176,8 +163,8 @@ def write_gap_case(
         cells=int(columns.kept.sum()) * layers,
         reynolds_number=reynolds_number,
         resolution=resolution,
-        tolerance=tolerance,
-        scheme=scheme,
+        tolerance=request.tolerance,
+        scheme=request.scheme,
         processes=processes,
         judged=judged,
         relaxation={name: relaxation(layers, sides, straight=len(fields) == 1) for name, fields in judged.items()},

@@ -10,15 +10,16 @@ from roughfilm.contact.foundation.units import Quantity
 from roughfilm.foamcases.openfoam.case_directory import read_card
 from roughfilm.foamcases.openfoam.model import Cases
 from roughfilm.foamcases.rough_gap.balance import imbalance
-from roughfilm.foamcases.rough_gap.case import GapCard, layers_of, mesh_of, write_gap_case
+from roughfilm.foamcases.rough_gap.case import GapCard, columns_of, layers_of, mesh_of, write_gap_case
 from roughfilm.foamcases.rough_gap.dictionaries import DRIVES, SLIDING_SPEED
 from roughfilm.foamcases.rough_gap.fields import GapFlow, read_gap_flow
 from roughfilm.foamcases.rough_gap.mesh import Columns
 from roughfilm.foamcases.rough_gap.run import GapRun, run_gap
 from roughfilm.foamcases.rough_gap.uncertainty import error_bars
-from roughfilm.rom.ladder.model import Effect
+from roughfilm.rom.ladder.model import Model, Resolutions
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun, with_uncertainties
+from roughfilm.rom.parts.pressed_surface import COARSEST
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors
 from roughfilm.rom.rough_gap.quantities import coefficients, gap_quantities
 from roughfilm.rom.rough_gap.scene import RoughGap
@@ -26,6 +27,10 @@ from roughfilm.rom.rough_gap.validity import cautions
 
 SOURCES = ("10.1063/1.168744", "10.1080/01495728408961817")
 RESOLUTIONS = (16, 32, 64)
+"""Columns along the longer side; the last are the default."""
+
+TOLERANCE = 1e-5
+"""By what part of itself a flow may still change; or the residuals at which simpleFoam stops by itself."""
 
 UNBALANCED = 0.02
 """Of the drag of a smooth gap: what the walls do not hold of the drive more than that is told."""
@@ -40,10 +45,17 @@ CLOSED_IN = 1e-3
 """Of the open volume: what is left out more than that is told."""
 
 
-def resolutions(scene: RoughGap) -> tuple[int, ...]:
+def resolutions(scene: RoughGap) -> Resolutions:
     """Those of ``RESOLUTIONS`` for which the surface has points enough, or all that it has."""
     own = max(scene.surface().shape)
-    return tuple(n for n in RESOLUTIONS if n <= own) or (own,)
+    series = tuple(n for n in RESOLUTIONS if n <= own) or (own,)
+    return Resolutions(least=min(own, COARSEST), most=own, default=min(own, RESOLUTIONS[-1]), series=series)
+
+
+def most_processes(scene: RoughGap, resolution: int) -> int:
+    """One for every two columns."""
+    nx, ny = columns_of(scene, resolution)
+    return max(1, nx * ny // 2)
 
 
 def cost(scene: RoughGap, resolution: int) -> float:
@@ -107,8 +119,9 @@ def _shear(columns: Columns) -> float:
     return float(np.divide(1.0, columns.height, out=np.zeros(columns.kept.shape), where=columns.kept).mean())
 
 
-def read(scene: RoughGap, directory: Path, run: GapRun, *, model: str, keeps: frozenset[Effect]) -> Result:
+def read(solver: Model[RoughGap], scene: RoughGap, directory: Path, run: GapRun) -> Result:
     """The result of a case that was run; see :func:`foamcases.rough_gap.fields.read_gap_flow` for the errors."""
+    model, keeps = solver.name, solver.keeps
     card = read_card(directory, GapCard)
     walls, columns = mesh_of(scene, card.resolution)
     flows = {name: read_gap_flow(directory / name, card, columns) for name in card.judged}
@@ -192,12 +205,11 @@ def read(scene: RoughGap, directory: Path, run: GapRun, *, model: str, keeps: fr
 
 CASES = Cases(
     kind="rough_gap",
-    sources=SOURCES,
-    resolution=None,
-    resolutions=(),
-    own_resolutions=resolutions,
+    resolutions=resolutions,
     resolution_meaning="mesh columns along the longer side, by default with a quarter as many layers across",
     residual_meaning="largest part of a flow by which iterating on would change it, by what a new process does to it",
+    tolerance=TOLERANCE,
+    most_processes=most_processes,
     cost=cost,
     write=write_gap_case,
     write_to_run=partial(write_gap_case, run=True),

@@ -10,7 +10,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.foamcases.openfoam.case_directory import read_card
 from roughfilm.foamcases.openfoam.iterate import Settled
 from roughfilm.foamcases.openfoam.residuals import Judged, Residuals
-from roughfilm.foamcases.openfoam.run import Checked, check_mesh, converge, ready, remarks
+from roughfilm.foamcases.openfoam.run import CaseRun, Checked, check_mesh, converge, ready, remarks
 from roughfilm.foamcases.rough_gap.case import GapCard
 from roughfilm.foamcases.rough_gap.dictionaries import MEAN_VELOCITY
 from roughfilm.rom.ladder.model import Progress, silent
@@ -34,25 +34,20 @@ SEALED = "contact seals the gap both ways on this mesh: nothing flows, and nothi
 
 
 @dataclass(frozen=True, kw_only=True)
-class GapRun:
-    """What successful runs say of themselves.
+class GapRun(CaseRun):
+    """Successful runs of the flows through a gap.
 
     Attributes
     ----------
     flows : by the name of the drive.
     unsettled : likewise, by what part of itself the mean velocity would still change, by its trend.
-    warnings : the mesh check's remarks.
     """
 
     flows: dict[str, Checked]
     unsettled: dict[str, float]
-    cpu_s: float
-    wall_s: float
-    version: str
-    warnings: tuple[str, ...]
 
 
-def run_gap(directory: Path, *, progress: Progress = silent) -> GapRun:
+def run_gap(directory: Path, progress: Progress = silent) -> GapRun:
     """Check the mesh and run each drive; errors as :func:`roughfilm.foamcases.pocket.run.run_case` raises them."""
     card = read_card(directory, GapCard)
     version = ready(card.processes)

@@ -19,6 +19,7 @@ from roughfilm.rom.advice.estimates import (
 from roughfilm.rom.advice.laws import Numbers, Table, table
 from roughfilm.rom.ladder.kind import Omission, Scene, kind_of_name
 from roughfilm.rom.ladder.model import Model, Progress, silent
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 
 HOPELESS = 5.0
@@ -161,7 +162,7 @@ def advise(
             progress(0.0, f"running {model.name} on {resolution}")
             try:
                 known[key] = (
-                    model.solve(scene, resolution=resolution, progress=progress)
+                    model.solve(scene, Request(resolution=resolution), progress=progress)
                     if run is None
                     else run(model, resolution)
                 )

@@ -54,7 +54,7 @@ class Question:
     def next(self, model: Model) -> Model | None:
         """The next rung up; None at the top."""
         step = self.step(model)
-        return None if step is None else find(self.models, step.towards)
+        return None if step is None else find(self.models, self.kind.name, step.towards)
 
     def chain(self, model: Model) -> list[Model]:
         """From a rung up to the top."""
@@ -156,7 +156,7 @@ def expected_errors(scene: Scene, model: Model, resolution: int, models: Sequenc
             within=1.0,
             table=table(),
             numbers=kind.numbers(scene),
-            run=lambda other, grid: other.solve(scene, resolution=grid),
+            run=lambda other, grid: other.solve(scene, Request(resolution=grid)),
         )
         estimate, omitted = a_priori(asked, model, resolution), kind.omitted(scene, quantity)
         if estimate is not None and estimate.sure and estimate.error < math.inf:
@@ -236,7 +236,7 @@ def a_posteriori(asked: Question, model: Model, above: int = 1) -> Estimate | No
 
 def by_its_own_word(asked: Question, model: Model, resolution: int) -> Estimate | None:
     """What a rung at the top says of its grid once it is run; None where that is dear, or it does not say."""
-    own = None if model.write else run(asked, model, resolution)
+    own = None if model.outside else run(asked, model, resolution)
     told = None if own is None or asked.quantity not in own.quantities else asked.told(own)
     if told is None:
         return None
@@ -273,7 +273,7 @@ def _from_below(asked: Question, model: Model, own: Result) -> Estimate | None:
     law = None if step is None else step.seen.get(asked.quantity)
     if step is None or law is None:
         return None
-    below, higher = find(asked.models, step.seen_from), left_out(asked, asked.chain(model)[1:])
+    below, higher = find(asked.models, asked.kind.name, step.seen_from), left_out(asked, asked.chain(model)[1:])
     found = run(asked, below)
     if found is None or higher is None or asked.quantity not in found.quantities:
         return None

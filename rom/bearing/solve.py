@@ -5,6 +5,7 @@ import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cache, partial
+from typing import Unpack
 
 import numpy as np
 
@@ -19,17 +20,9 @@ from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.shape import Shape
 from roughfilm.rom.cavitation.solve import RESIDUAL_TOLERANCE, Solution
 from roughfilm.rom.cavitation.solve import solve as balance
-from roughfilm.rom.ladder.model import (
-    Applicability,
-    Effect,
-    Model,
-    Progress,
-    chosen_scheme,
-    chosen_tolerance,
-    one_process,
-    silent,
-)
+from roughfilm.rom.ladder.model import About, Applicability, Effect, Model, Progress, Resolutions
 from roughfilm.rom.ladder.provenance import provenance
+from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun, with_uncertainties
 from roughfilm.rom.pocket.validity import NOTHING_COARSER
 
@@ -83,43 +76,30 @@ class Reading:
 
 
 def solve(
+    solver: Model[Bearing],
     scene: Bearing,
+    request: CheckedRequest,
+    progress: Progress,
     *,
-    model: str,
-    keeps: frozenset[Effect],
-    sources: tuple[str, ...],
     film: Callable[[Bearing], Problem],
-    resolutions: Callable[[Bearing], tuple[int, ...]],
     ruptures: bool,
-    applies: Callable[[Bearing], Applicability],
     reading: Reading,
-    resolution: int | None = None,
-    tolerance: float | None = None,
-    scheme: str | None = None,
-    processes: int = 1,
-    progress: Progress = silent,
 ) -> Result:
     """Solve a bearing's film on ``resolution`` cells, and on half as many to say how far off it is.
 
     Raises
     ------
     InputError
-        For a resolution or tolerance out of range, a scheme, more than one process, or a scene to which the model does
-        not apply.
+        For a scene to which the model does not apply.
     ConvergenceError
         If the film does not come into balance.
     """
-    scheme = chosen_scheme(model, (), scheme)
-    one_process(model, processes)
-    tolerance = chosen_tolerance(tolerance, RESIDUAL_TOLERANCE)
-    fits = applies(scene)
+    model, keeps, sources = solver.name, solver.keeps, solver.sources
+    cells, tolerance, scheme = request.resolution, request.tolerance, request.scheme
+    fits = solver.applies(scene)
     if not fits.applies:
         raise InputError(f"--model: got {model!r}; {fits.reason}")
     problem = film(scene)
-    wide = problem.shape.wide
-    cells = resolutions(scene)[-1] if resolution is None else resolution
-    if not LEAST <= cells <= MOST[wide]:
-        raise InputError(f"--resolution: got {cells}; {model} takes {LEAST} to {MOST[wide]} {RESOLUTION_MEANING}")
     load_loops(problem.shape.wide)
     wall, cpu = time.perf_counter(), time.process_time()
     found = balance(problem, (cells, cells), tolerance=tolerance, ruptures=ruptures, progress=progress)
@@ -287,48 +267,36 @@ def line_resolutions(scene: Bearing) -> tuple[int, ...]:  # noqa: ARG001
 
 def bearing_model(
     *,
-    name: str,
-    summary: str,
-    keeps: frozenset[Effect],
     applies: Callable[[Bearing], Applicability],
-    sources: tuple[str, ...] = SOURCES,
     film: Callable[[Bearing], Problem] = Bearing.problem,
     resolutions: Callable[[Bearing], tuple[int, ...]] = smooth_resolutions,
     ruptures: bool = True,
     reading: Reading = Reading(),
     wide: bool = False,
     in_plane: float = 2e-6,
-) -> Model:
-    """A rung of a bearing: ``film`` says what it takes a scene for; one that is ``wide`` solves a single line.
+    **about: Unpack[About],
+) -> Model[Bearing]:
+    """A model of a bearing: ``film`` gives the equations that it solves; one that is ``wide`` solves a single line.
 
     ``resolutions`` go from coarse to fine; the finest is the default. ``in_plane``: expected CPU seconds for each cell
-    of a film with a width. ``reading``: what is read off the film.
+    of a film with a width. ``reading``: the quantities and fields that it reads off the film.
     """
-    if Effect.ROUGHNESS not in keeps:
+
+    def offered(scene: Bearing) -> Resolutions:
+        series = resolutions(scene)
+        return Resolutions(least=LEAST, most=MOST[wide or scene.wide], default=series[-1], series=series)
+
+    if Effect.ROUGHNESS not in about["keeps"]:
         applies = partial(roughness_left_out, told=applies)
     return Model(
-        name=name,
+        **about,
         kind="bearing",
-        summary=summary,
-        keeps=keeps,
-        sources=sources,
-        resolution=None,
-        resolutions=(),
-        own_resolutions=resolutions,
+        resolutions=offered,
         resolution_meaning=RESOLUTION_MEANING,
         residual_meaning=RESIDUAL_MEANING,
         order=2,
+        tolerance=RESIDUAL_TOLERANCE,
         cost=partial(cost, wide=wide, in_plane=in_plane),
         applies=applies,
-        solve=partial(
-            solve,
-            model=name,
-            keeps=keeps,
-            sources=sources,
-            film=film,
-            resolutions=resolutions,
-            ruptures=ruptures,
-            applies=applies,
-            reading=reading,
-        ),
+        compute=partial(solve, film=film, ruptures=ruptures, reading=reading),
     )

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from functools import partial
+from typing import Unpack
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import Quantity
@@ -10,7 +11,7 @@ from roughfilm.contact.mechanics.estimates.estimate import Estimate
 from roughfilm.rom.dry_contact.model import Answer, Task, contact_model, one
 from roughfilm.rom.dry_contact.pressures import bin_edges, density_of_estimate, load_mismatch
 from roughfilm.rom.dry_contact.scene import DryContact
-from roughfilm.rom.ladder.model import Applicability, Effect, Model
+from roughfilm.rom.ladder.model import About, Applicability, Model
 from roughfilm.rom.ladder.result import Field
 
 RESIDUAL_MEANING = "mismatch of the load that its pressures carry, relative to the load"
@@ -69,27 +70,14 @@ def applies(scene: DryContact, *, guess: Guess, what: str) -> Applicability:
     return Applicability(applies=True, reason=reason)
 
 
-def estimated_model(
-    *,
-    name: str,
-    summary: str,
-    what: str,
-    keeps: frozenset[Effect],
-    complete: bool,
-    sources: tuple[str, ...],
-    guess: Guess,
-) -> Model:
-    """A rung that estimates; ``what`` says in words what it keeps and leaves out."""
+def estimated_model(*, what: str, guess: Guess, **about: Unpack[About]) -> Model[DryContact]:
+    """A model that estimates; ``what`` says in words what it keeps and leaves out."""
     return contact_model(
-        name=name,
-        summary=summary,
-        keeps=keeps,
-        complete=complete,
-        sources=sources,
+        **about,
         residual_meaning=RESIDUAL_MEANING,
         applies=partial(applies, guess=guess, what=what),
         work=partial(estimate, guess=guess),
         prepare=prepare,
-        default_tolerance=TOLERANCE,
+        tolerance=TOLERANCE,
         cost=lambda heights: 2e-3 + 3e-7 * heights,
     )

@@ -5,28 +5,22 @@ import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import Any, TypeVar, Unpack
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.rom.ladder.model import (
-    Applicability,
-    Effect,
-    Model,
-    Progress,
-    chosen_scheme,
-    chosen_tolerance,
-    one_process,
-    silent,
-)
+from roughfilm.rom.ladder.model import About, Applicability, Model, Progress, Resolutions
 from roughfilm.rom.ladder.provenance import provenance
+from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.ladder.result import Field, Numerics, Result
-from roughfilm.rom.parts.pressed_surface import COARSEST
+from roughfilm.rom.parts.pressed_surface import COARSEST, RoughScene
 from roughfilm.rom.parts.restriction import restricted
 from roughfilm.rom.parts.surface_geometry import digest_of
 
 RESOLUTION_MEANING = "points along the longer side; on a coarser grid, the surface less the waves it cannot hold"
+
+
+RoughSceneT = TypeVar("RoughSceneT", bound=RoughScene)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,45 +51,38 @@ def nothing(_task: Task) -> None:
     """For work that needs no preparation."""
 
 
+def once(_scene: Any) -> int:
+    """One period."""
+    return 1
+
+
 def one(value: float) -> Quantity:
     """A number without unit."""
     return Quantity(value=value, unit="1")
 
 
 def solve(
-    scene: Any,
+    solver: Model[RoughSceneT],
+    scene: RoughSceneT,
+    request: CheckedRequest,
+    progress: Progress,
     *,
-    model: str,
-    keeps: frozenset[Effect],
-    sources: tuple[str, ...],
     work: Work,
     prepare: Callable[[Task], None],
-    default_tolerance: float,
-    resolution: int | None = None,
-    tolerance: float | None = None,
-    scheme: str | None = None,
-    processes: int = 1,
-    progress: Progress = silent,
 ) -> Result:
     """Do a rung's work on the surface, or on less of its waves where a coarser grid is asked for.
 
     Raises
     ------
     InputError
-        For a resolution that the surface does not have, a tolerance outside 1e-13..1, a scheme, or more than one
-        process, and what the work raises.
+        As the work raises it.
     ConvergenceError
         If the work does not converge.
     """
-    scheme = chosen_scheme(model, (), scheme)
-    one_process(model, processes)
-    tolerance = chosen_tolerance(tolerance, default_tolerance)
+    model, keeps, sources = solver.name, solver.keeps, solver.sources
+    resolution, tolerance, scheme = request.resolution, request.tolerance, request.scheme
     surface = scene.surface()
     own = max(surface.shape)
-    resolution = own if resolution is None else resolution
-    if not min(own, COARSEST) <= resolution <= own:
-        told = f"the surface has {own} points along its longer side, take {min(own, COARSEST)} to {own}"
-        raise InputError(f"--resolution: got {resolution}; {told}")
     progress(0.0, f"{resolution} points along the longer side")
     nx, ny = (max(2, round(points * resolution / own)) for points in surface.shape)
     heights, (length, width) = restricted(surface.heights, (nx, ny)), surface.size
@@ -132,52 +119,43 @@ def solve(
     )
 
 
+def own_resolutions(scene: RoughScene) -> Resolutions:
+    """Points along the longer side of a scene's surface: from a coarse grid to its own, which is the default."""
+    own = max(scene.surface().shape)
+    return Resolutions(least=min(own, COARSEST), most=own, default=own, series=scene.resolutions)
+
+
 def contact_model(
     *,
     kind: str = "dry_contact",
-    name: str,
-    summary: str,
-    keeps: frozenset[Effect],
-    complete: bool,
-    sources: tuple[str, ...],
     residual_meaning: str,
-    applies: Callable[[Any], Applicability],
+    applies: Callable[[RoughSceneT], Applicability],
     work: Work,
     prepare: Callable[[Task], None] = nothing,
-    default_tolerance: float,
+    tolerance: float,
     cost: Callable[[int], float],
-) -> Model:
-    """A rung of a contact, dry or wet, or of a rough gap; ``cost`` gives CPU seconds for a number of heights.
+    repeats: Callable[[RoughSceneT], int] = once,
+    **about: Unpack[About],
+) -> Model[RoughSceneT]:
+    """A model of a contact, dry or wet, or of a rough gap.
 
-    ``prepare`` does before the clock starts what is done once on a machine.
+    ``cost`` gives CPU seconds for a number of heights, of which there are as many again for each of the ``repeats``.
+    ``prepare`` does before the clock starts the work that is done once on a machine.
     """
 
-    def scene_cost(scene: Any, resolution: int) -> float:
+    def scene_cost(scene: RoughSceneT, resolution: int) -> float:
         nx, ny = scene.surface().shape
-        return cost(math.ceil(resolution**2 * min(nx, ny) / max(nx, ny)))
+        return cost(math.ceil(resolution**2 * min(nx, ny) / max(nx, ny))) * repeats(scene)
 
     return Model(
-        name=name,
+        **about,
         kind=kind,
-        summary=summary,
-        keeps=keeps,
-        complete=complete,
-        sources=sources,
-        resolution=None,
-        resolutions=(),
-        own_resolutions=lambda scene: scene.resolutions,
+        resolutions=own_resolutions,
         resolution_meaning=RESOLUTION_MEANING,
         residual_meaning=residual_meaning,
         order=None,
+        tolerance=tolerance,
         cost=scene_cost,
         applies=applies,
-        solve=partial(
-            solve,
-            model=name,
-            keeps=keeps,
-            sources=sources,
-            work=work,
-            prepare=prepare,
-            default_tolerance=default_tolerance,
-        ),
+        compute=partial(solve, work=work, prepare=prepare),
     )

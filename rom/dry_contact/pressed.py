@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from functools import cache, partial
+from typing import Unpack
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.dry_contact.model import Answer, Task, contact_model, one
 from roughfilm.rom.dry_contact.pressures import bin_edges, density_of_contact
 from roughfilm.rom.dry_contact.scene import DryContact
-from roughfilm.rom.ladder.model import Applicability, Effect, Model
+from roughfilm.rom.ladder.model import About, Applicability, Effect, Model
 from roughfilm.rom.ladder.result import Field
 
 RESIDUAL_MEANING = "largest break of the conditions of contact, computed afresh, relative to the rms height"
@@ -73,25 +74,14 @@ def cost(heights: int) -> float:
     return 5e-3 + 6e-7 * heights
 
 
-def pressed_model(
-    *,
-    name: str,
-    summary: str,
-    keeps: frozenset[Effect],
-    sources: tuple[str, ...],
-    applies: Callable[[DryContact], Applicability],
-) -> Model:
-    """A rung that presses the surface; plastic if it keeps plasticity."""
+def pressed_model(*, applies: Callable[[DryContact], Applicability], **about: Unpack[About]) -> Model[DryContact]:
+    """A model that presses the surface; plastic if it keeps plasticity."""
     return contact_model(
-        name=name,
-        summary=summary,
-        keeps=keeps,
-        complete=True,
-        sources=sources,
+        **about,
         residual_meaning=RESIDUAL_MEANING,
         applies=applies,
-        work=partial(press, plastic=Effect.PLASTICITY in keeps),
+        work=partial(press, plastic=Effect.PLASTICITY in about["keeps"]),
         prepare=prepare,
-        default_tolerance=TOLERANCE,
+        tolerance=TOLERANCE,
         cost=cost,
     )

@@ -3,15 +3,17 @@
 import importlib
 import importlib.util
 import pkgutil
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from pathlib import Path
 from types import ModuleType
-from typing import Any, Protocol
+from typing import Any, Generic, NotRequired, TypedDict
 
-from roughfilm.contact.foundation.errors import InputError
+from typing_extensions import TypeVar
+
+from roughfilm.contact.foundation.errors import InputError, UnavailableError
 from roughfilm.rom.ladder.kind import Scene
+from roughfilm.rom.ladder.request import CheckedRequest, Request
 from roughfilm.rom.ladder.result import Result
 
 
@@ -65,53 +67,53 @@ def silent(fraction: float, words: str) -> None:
     """Progress that nobody looks at."""
 
 
-class Solve(Protocol):
-    """solve(scene, resolution=None, tolerance=None, scheme=None, processes=1, progress=silent) → Result.
-
-    None means the model's default. Raises InputError, ConvergenceError or UnavailableError, only.
-    """
-
-    def __call__(
-        self,
-        scene: Any,
-        *,
-        resolution: int | None = None,
-        tolerance: float | None = None,
-        scheme: str | None = None,
-        processes: int = 1,
-        progress: Progress = silent,
-    ) -> Result:
-        """Solve one scene."""
-        ...
-
-
-class Write(Protocol):
-    """write(scene, directory, resolution=None, tolerance=None, scheme=None, processes=1): an outside solver's case."""
-
-    def __call__(
-        self,
-        scene: Any,
-        directory: Path,
-        *,
-        resolution: int | None = None,
-        tolerance: float | None = None,
-        scheme: str | None = None,
-        processes: int = 1,
-    ) -> None:
-        """Write one case."""
-        ...
+SceneT = TypeVar("SceneT", bound=Scene, default=Any)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Model:
-    """One rung: which kind of scene it solves, what it keeps, what it costs, where it applies, and how to solve it.
+class Resolutions:
+    """Allowed resolutions, least to most, the default one, and a series from coarse to fine for studies and charts."""
 
-    ``resolutions`` go from coarse to fine, for charts; ``resolution`` is the default one, and
-    ``resolution_meaning`` and ``residual_meaning`` say in words what the numbers count. Where the scene decides,
-    ``resolution`` is None, ``own_resolutions`` gives them, and the finest is the default.
-    ``complete`` says that the effects it keeps are kept in full, not to some order of smallness.
-    ``order`` is that of load and friction in the resolution, None for a spectral method.
-    ``schemes`` names the advection schemes it offers, the default first; empty where there is no choice.
+    least: int
+    most: int
+    default: int
+    series: tuple[int, ...]
+
+
+class About(TypedDict):
+    """The entries by which one model of a family differs from the others, beside what its equations need."""
+
+    name: str
+    summary: str
+    keeps: frozenset[Effect]
+    complete: NotRequired[bool]
+    sources: tuple[str, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Model(Generic[SceneT]):
+    """A model of one kind of scene, as data: the effects that it keeps, its range and cost, and its solver.
+
+    Parameters
+    ----------
+    name : name of its module, ``<kind>/models/<name>.py``.
+    kind : kind of the scenes that it solves.
+    summary : half a line for people.
+    keeps : the physical effects that it keeps.
+    complete : whether it keeps them in full, not to some order of smallness.
+    sources : DOIs of its equations and method.
+    resolutions : allowed and default resolutions; a function of the scene where that decides.
+    resolution_meaning, residual_meaning : what resolution counts and the residual measures, in words.
+    order : order of load and friction in the resolution; None for a spectral method.
+    tolerance : default residual at which its solver stops.
+    tolerances : least and greatest tolerance allowed.
+    schemes : advection schemes that it offers, the default first; empty where there is no choice.
+    most_processes : most_processes(scene, resolution); None for a model that runs in this process.
+    cost : cost(scene, resolution), expected CPU seconds.
+    applies : applies(scene), whether the model can solve it, and which effects it leaves out.
+    outside : whether another program solves it, in a directory.
+    available : whether the programs that it needs are on this machine.
+    compute : compute(model, scene, request, progress), its solver, called with a checked request.
     """
 
     name: str
@@ -120,26 +122,114 @@ class Model:
     keeps: frozenset[Effect]
     complete: bool = True
     sources: tuple[str, ...]
-    resolution: int | None
-    resolutions: tuple[int, ...]
+    resolutions: Resolutions | Callable[[SceneT], Resolutions]
     resolution_meaning: str
     residual_meaning: str
     order: int | None
-    cost: Callable[[Any, int], float]
-    applies: Callable[[Any], Applicability]
-    solve: Solve
-    available: Callable[[], Availability] = always
-    write: Write | None = None
+    tolerance: float
+    tolerances: tuple[float, float] = (1e-13, 1.0)
     schemes: tuple[str, ...] = ()
-    own_resolutions: Callable[[Any], tuple[int, ...]] | None = None
+    most_processes: Callable[[SceneT, int], int] | None = None
+    cost: Callable[[SceneT, int], float]
+    applies: Callable[[SceneT], Applicability]
+    outside: bool = False
+    available: Callable[[], Availability] = always
+    compute: "Callable[[Model[SceneT], SceneT, CheckedRequest, Progress], Result]"
 
-    def resolutions_of(self, scene: Scene) -> tuple[int, ...]:
-        """Those for charts of a scene, from coarse to fine."""
-        return self.resolutions if self.own_resolutions is None else self.own_resolutions(scene)
+    def solve(self, scene: SceneT, request: Request = Request(), progress: Progress = silent) -> Result:
+        """Solve a scene with the numerical options of a request, defaults where it has None.
 
-    def resolution_of(self, scene: Scene) -> int:
-        """The default one on a scene."""
-        return self.resolutions_of(scene)[-1] if self.resolution is None else self.resolution
+        Parameters
+        ----------
+        scene : scene of this model's kind.
+        request : numerical options.
+        progress : called with the done fraction and a few words.
+
+        Returns
+        -------
+        Result
+            Quantities and fields of the scene, with the residual recomputed.
+
+        Raises
+        ------
+        InputError
+            For an option outside the range that the model allows, or a scene that it cannot solve.
+        ConvergenceError
+            If the solver does not reach the tolerance.
+        UnavailableError
+            If a program that the model needs is not on this machine.
+        """
+        here = self.available()
+        if not here.available:
+            raise UnavailableError(f"{self.name}: {here.detail}")
+        return self.compute(self, scene, self.checked(scene, request), progress)
+
+    def checked(self, scene: SceneT, request: Request) -> CheckedRequest:
+        """The request with the model's defaults filled in; InputError for an option that the model does not allow."""
+        offered = self.offered(scene)
+        resolution = offered.default if request.resolution is None else request.resolution
+        if not offered.least <= resolution <= offered.most:
+            raise InputError(
+                f"--resolution: got {resolution}; {self.name} takes {offered.least} to {offered.most} "
+                f"{self.resolution_meaning}"
+            )
+        tolerance = self.tolerance if request.tolerance is None else request.tolerance
+        least, most = self.tolerances
+        if not least <= tolerance <= most:
+            raise InputError(f"--tolerance: got {tolerance}; {self.name} takes {least:g} to {most:g}")
+        return CheckedRequest(
+            resolution=resolution,
+            tolerance=tolerance,
+            scheme=self.checked_scheme(request.scheme),
+            processes=self._checked_processes(scene, resolution, request.processes),
+            asked=request,
+        )
+
+    def checked_scheme(self, scheme: str | None) -> str:
+        """The advection scheme, the model's first for None; InputError for one that the model does not offer."""
+        if scheme is None:
+            return self.schemes[0] if self.schemes else ""
+        if scheme not in self.schemes:
+            names = ", ".join(self.schemes)
+            remedy = f"it must be one of {names}" if names else "it offers no choice, leave the option out"
+            raise InputError(f"--scheme: got {scheme!r} for {self.name}; {remedy}")
+        return scheme
+
+    def _checked_processes(self, scene: SceneT, resolution: int, processes: int) -> int:
+        if self.most_processes is None:
+            if processes != 1:
+                raise InputError(f"--processes: got {processes}; {self.name} runs in one process, leave the option out")
+        elif not 1 <= processes <= (most := self.most_processes(scene, resolution)):
+            raise InputError(f"--processes: got {processes}; it must be 1 to {most}, two columns for each")
+        return processes
+
+    def offered(self, scene: SceneT) -> Resolutions:
+        """The allowed and default resolutions on a scene."""
+        return self.resolutions if isinstance(self.resolutions, Resolutions) else self.resolutions(scene)
+
+    def resolutions_of(self, scene: SceneT) -> tuple[int, ...]:
+        """Resolutions for charts and studies of a scene, from coarse to fine."""
+        return self.offered(scene).series
+
+    def resolution_of(self, scene: SceneT) -> int:
+        """The default resolution on a scene."""
+        return self.offered(scene).default
+
+
+def model_modules(*packages: ModuleType, kind: str | None = None) -> Mapping[tuple[str, str], str]:
+    """Names of the modules ``<package>/<kind>/models/*.py``, by kind and model name, from the listing of the folders.
+
+    With ``kind`` given, only those of that kind of scene. Nothing is imported but the packages ``models`` themselves,
+    whose ``__path__`` may name more folders.
+    """
+    modules = {}
+    for package in packages:
+        for folder in pkgutil.iter_modules(package.__path__):
+            name = f"{package.__name__}.{folder.name}.models"
+            if folder.ispkg and kind in (None, folder.name) and importlib.util.find_spec(name):
+                for module in pkgutil.iter_modules(importlib.import_module(name).__path__):
+                    modules[folder.name, module.name] = f"{name}.{module.name}"
+    return modules
 
 
 def ladder(*packages: ModuleType, kind: str | None = None) -> tuple[Model, ...]:
@@ -147,15 +237,8 @@ def ladder(*packages: ModuleType, kind: str | None = None) -> tuple[Model, ...]:
 
     With ``kind`` given, only the models of that kind of scene are imported.
     """
-    folders = [
-        f"{folder.name}.models"
-        for package in packages
-        for folder in pkgutil.iter_modules(package.__path__, f"{package.__name__}.")
-        if folder.ispkg and kind in (None, folder.name.rpartition(".")[2])
-    ]
-    rooms = [importlib.import_module(folder) for folder in folders if importlib.util.find_spec(folder)]
-    names = [module.name for room in rooms for module in pkgutil.iter_modules(room.__path__, f"{room.__name__}.")]
-    models: list[Model] = [importlib.import_module(name).MODEL for name in names]
+    modules = model_modules(*packages, kind=kind).values()
+    models: list[Model] = [importlib.import_module(module).MODEL for module in modules]
 
     def place(model: Model) -> tuple[Any, ...]:
         return model.kind, len(model.keeps), sorted(model.keeps), model.complete, model.name
@@ -168,39 +251,12 @@ def of_kind(models: Sequence[Model], kind: str) -> tuple[Model, ...]:
     return tuple(model for model in models if model.kind == kind)
 
 
-def find(models: Sequence[Model], name: str) -> Model:
-    """The model of that name; InputError if there is none."""
-    for model in models:
-        if model.name == name:
-            return model
-    raise InputError(f"--model: got {name!r}; it must be one of {', '.join(model.name for model in models)}")
-
-
-def chosen_scheme(model: str, schemes: Sequence[str], scheme: str | None) -> str:
-    """The advection scheme asked of a model that offers these: the first for None, "" where there is no choice.
-
-    Raises InputError for a name that is not offered.
-    """
-    if scheme is None:
-        return schemes[0] if schemes else ""
-    if scheme not in schemes:
-        remedy = f"it must be one of {', '.join(schemes)}" if schemes else "it offers no choice, leave the option out"
-        raise InputError(f"--scheme: got {scheme!r} for {model}; {remedy}")
-    return scheme
-
-
-def chosen_tolerance(tolerance: float | None, default: float) -> float:
-    """The tolerance asked for, the default for None; InputError outside 1e-13..1."""
-    tolerance = default if tolerance is None else tolerance
-    if not 1e-13 <= tolerance < 1:
-        raise InputError(f"--tolerance: got {tolerance}; it must be 1e-13 to 1")
-    return tolerance
-
-
-def one_process(model: str, processes: int) -> None:
-    """InputError if a model that computes in this process is asked for more of them."""
-    if processes != 1:
-        raise InputError(f"--processes: got {processes}; {model} runs in one process, leave the option out")
+def find(models: Sequence[Model], kind: str, name: str) -> Model:
+    """The model of that kind of scene and name; InputError if there is none."""
+    named = {model.name: model for model in of_kind(models, kind)}
+    if name not in named:
+        raise InputError(f"--model: got {name!r}; it must be one of {', '.join(named)}")
+    return named[name]
 
 
 def best(models: Sequence[Model]) -> Model:

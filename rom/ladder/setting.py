@@ -7,6 +7,7 @@ from typing import Any
 from roughfilm.contact.foundation.errors import InputError, UnavailableError
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.model import Model, Progress, silent
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 
 
@@ -29,7 +30,7 @@ class Setting:
 
     def solve(self, scene: Scene, progress: Progress = silent) -> Result:
         """Solve a scene; raises what the model's ``solve`` raises."""
-        return self.model.solve(scene, resolution=self.resolution, scheme=self.scheme, progress=progress)
+        return self.model.solve(scene, Request(resolution=self.resolution, scheme=self.scheme), progress)
 
 
 def read_settings(table: object, models: Sequence[Model]) -> tuple[Setting, ...]:

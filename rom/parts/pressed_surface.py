@@ -1,5 +1,6 @@
 """A rough surface pressed on a flat one: what scenes of dry contacts and of seals share."""
 
+from abc import abstractmethod
 from typing import Self
 
 from pydantic import model_validator
@@ -24,7 +25,26 @@ class Load(Part):
     pressure: Pressure
 
 
-class RoughContact(Scene):
+class RoughScene(Scene):
+    """A scene of one rough surface."""
+
+    @abstractmethod
+    def surface(self) -> Surface:
+        """The rough surface."""
+
+    @property
+    @abstractmethod
+    def rms_slope(self) -> float:
+        """Rms slope of the surface, 0 if it is flat."""
+
+    @property
+    def resolutions(self) -> tuple[int, ...]:
+        """Points along the longer side, from coarse grids to the surface's own."""
+        own = max(self.surface().shape)
+        return tuple(dict.fromkeys(own // part for part in COARSER if own // part >= COARSEST or part == 1))
+
+
+class RoughContact(RoughScene):
     """A periodic rough surface under a flat one, without friction or adhesion; a counter body not given is rigid."""
 
     geometry: SurfaceGeometry
@@ -69,9 +89,3 @@ class RoughContact(Scene):
     def pressure_unit(self) -> float:
         """E* g', Pa; E* for a flat surface. In full elastic contact pressure spreads by half of it."""
         return self.composite_modulus * (self.rms_slope or 1.0)
-
-    @property
-    def resolutions(self) -> tuple[int, ...]:
-        """Points along the longer side, from coarse grids to the surface's own."""
-        own = max(self.surface().shape)
-        return tuple(dict.fromkeys(own // part for part in COARSER if own // part >= COARSEST or part == 1))

@@ -10,12 +10,11 @@ from pydantic import ValidationError
 from roughfilm.contact.foundation.toml import Location, in_one_line, known_keys, unknown_key
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.ladder.kind import Kind
-from roughfilm.rom.ladder.model import Effect
 from roughfilm.rom.ladder.scene import scene_entries
 from roughfilm.rom.ladder.sweeping import Columns, Sweeping
-from roughfilm.rom.pocket import quadrature
 from roughfilm.rom.pocket.error_law import words
 from roughfilm.rom.pocket.geometry import PROFILES, PocketGeometry
+from roughfilm.rom.pocket.models.inertial_reynolds import MODEL as INERTIAL_REYNOLDS
 from roughfilm.rom.pocket.scene import Pocket
 
 LOADED = 0.05
@@ -114,7 +113,7 @@ def numbers(scene: Pocket) -> dict[str, float]:
 
 def first_order(scene: Pocket) -> dict[str, float]:
     """What the Reynolds equation with first-order inertia says, in closed form."""
-    found = quadrature.solve(scene, model="inertial_reynolds", keeps=frozenset({Effect.INERTIA}), sources=())
+    found = INERTIAL_REYNOLDS.solve(scene)
     return {name: quantity.value for name, quantity in found.quantities.items()}
 
 

@@ -4,13 +4,15 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
+from typing import Unpack
 
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.errors import ConvergenceError, InputError
-from roughfilm.rom.ladder.model import Applicability, Effect, Model, Progress, chosen_scheme, one_process, silent
+from roughfilm.contact.foundation.errors import ConvergenceError
+from roughfilm.rom.ladder.model import About, Applicability, Effect, Model, Progress, Resolutions
 from roughfilm.rom.ladder.provenance import provenance
+from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.ladder.result import Field, Numerics, Result
 from roughfilm.rom.pocket import closed_form as film_flow
 from roughfilm.rom.pocket.error_law import ErrorLaw
@@ -21,7 +23,7 @@ from roughfilm.rom.pocket.validity import cautions
 
 RESOLUTION = 24
 RESOLUTIONS = (2, 3, 4, 6, 8, 12, 16, 24)
-FINEST = 768
+COARSEST, FINEST = 2, 768
 TOLERANCE = 1e-7
 RESOLUTION_MEANING = "Gauss points on each smooth piece of the gap"
 RESIDUAL_MEANING = "mean mismatch of dp/dx between the nodes, relative to its mean size"
@@ -57,17 +59,7 @@ def _flow_and_residual(gap: Gap, film: _Film, rule: Rule) -> tuple[float, float]
 
 
 def solve(
-    scene: Pocket,
-    *,
-    model: str,
-    keeps: frozenset[Effect],
-    sources: tuple[str, ...],
-    law: ErrorLaw | None = None,
-    resolution: int | None = None,
-    tolerance: float | None = None,
-    scheme: str | None = None,
-    processes: int = 1,
-    progress: Progress = silent,
+    solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progress: Progress, *, law: ErrorLaw | None
 ) -> Result:
     """Solve dp/dx = 6/h² - 12 q/h³ (+ first-order inertia if it is kept) for a periodic gap.
 
@@ -77,27 +69,20 @@ def solve(
 
     Raises
     ------
-    InputError
-        For a resolution outside 2..768, a tolerance outside 0..1, a scheme, or more than one process.
     ConvergenceError
         If the finest rule does not meet the tolerance.
     """
     wall, cpu = time.perf_counter(), time.process_time()
-    scheme = chosen_scheme(model, (), scheme)
-    one_process(model, processes)
-    if resolution is not None and not 2 <= resolution <= FINEST:
-        raise InputError(f"--resolution: got {resolution}; {model} takes 2 to {FINEST} {RESOLUTION_MEANING}")
-    tolerance = TOLERANCE if tolerance is None else tolerance
-    if not 0 < tolerance < 1:
-        raise InputError(f"--tolerance: got {tolerance}; it must be between 0 and 1")
+    model, keeps, sources = solver.name, solver.keeps, solver.sources
+    tolerance, scheme = request.tolerance, request.scheme
     gap = scene.gap()
-    order, tries = resolution or RESOLUTION, 1
+    order, tries = request.resolution, 1
     while True:
         progress(0.0, f"{order} nodes on each piece")
         rule = gauss_rule(order)
         film = _sample(gap, rule.nodes)
         q, residual = _flow_and_residual(gap, film, rule)
-        if resolution is not None or residual <= tolerance:
+        if request.asked.resolution is not None or residual <= tolerance:
             break
         if order >= FINEST:
             raise ConvergenceError(
@@ -161,29 +146,19 @@ def solve(
 
 
 def quadrature_model(
-    *,
-    name: str,
-    summary: str,
-    keeps: frozenset[Effect],
-    complete: bool = True,
-    sources: tuple[str, ...],
-    applies: Callable[[Pocket], Applicability],
-    law: ErrorLaw | None = None,
-) -> Model:
-    """A rung that solves by quadrature; its cost is that of the default rule (a half circle takes seconds)."""
+    *, applies: Callable[[Pocket], Applicability], law: ErrorLaw | None = None, **about: Unpack[About]
+) -> Model[Pocket]:
+    """A model that solves by quadrature; its cost is that of the default rule (a half circle takes seconds)."""
     return Model(
-        name=name,
+        **about,
         kind="pocket",
-        summary=summary,
-        keeps=keeps,
-        complete=complete,
-        sources=sources,
-        resolution=RESOLUTION,
-        resolutions=RESOLUTIONS,
+        resolutions=Resolutions(least=COARSEST, most=FINEST, default=RESOLUTION, series=RESOLUTIONS),
         resolution_meaning=RESOLUTION_MEANING,
         residual_meaning=RESIDUAL_MEANING,
         order=None,
+        tolerance=TOLERANCE,
+        tolerances=(1e-16, 1.0),
         cost=lambda _scene, resolution: 2e-4 + 1e-7 * resolution**2,
         applies=applies,
-        solve=partial(solve, model=name, keeps=keeps, sources=sources, law=law),
+        compute=partial(solve, law=law),
     )

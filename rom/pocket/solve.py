@@ -3,13 +3,15 @@
 import time
 from collections.abc import Callable
 from functools import partial
+from typing import Unpack
 
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
-from roughfilm.rom.ladder.model import Applicability, Effect, Model, Progress, chosen_scheme, one_process, silent
+from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
+from roughfilm.rom.ladder.model import About, Applicability, Effect, Model, Progress, Resolutions
 from roughfilm.rom.ladder.provenance import provenance
+from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.ladder.result import Field, Numerics, Result
 from roughfilm.rom.pocket import slope, thin_film
 from roughfilm.rom.pocket.basis import Basis, even_basis, gauss_basis, sliding_wall_slope
@@ -113,17 +115,7 @@ def _with_slope(
 
 
 def solve(
-    scene: Pocket,
-    *,
-    model: str,
-    keeps: frozenset[Effect],
-    sources: tuple[str, ...],
-    law: ErrorLaw | None = None,
-    resolution: int | None = None,
-    tolerance: float | None = None,
-    scheme: str | None = None,
-    processes: int = 1,
-    progress: Progress = silent,
+    solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progress: Progress, *, law: ErrorLaw
 ) -> Result:
     """Solve the thin-film Navier-Stokes equations (``thin_film``), with slope to second order if it is kept.
 
@@ -131,8 +123,6 @@ def solve(
 
     Raises
     ------
-    InputError
-        For a resolution outside 12..4000, a tolerance outside 1e-14..1, an unknown scheme, or more than one process.
     ConvergenceError
         If no steady flow is found, or the residual does not meet the tolerance.
 
@@ -143,14 +133,8 @@ def solve(
     import scipy.linalg  # noqa: F401  # slow to import, and not the scene's cost
 
     wall, cpu = time.perf_counter(), time.process_time()
-    scheme = chosen_scheme(model, SCHEMES, scheme)
-    one_process(model, processes)
-    resolution = RESOLUTION if resolution is None else resolution
-    tolerance = TOLERANCE if tolerance is None else tolerance
-    if not COARSEST <= resolution <= FINEST:
-        raise InputError(f"--resolution: got {resolution}; {model} takes {COARSEST} to {FINEST} {RESOLUTION_MEANING}")
-    if not 1e-14 <= tolerance < 1:
-        raise InputError(f"--tolerance: got {tolerance}; it must be 1e-14 to 1")
+    model, keeps, sources = solver.name, solver.keeps, solver.sources
+    resolution, tolerance, scheme = request.resolution, request.tolerance, request.scheme
     gap, reynolds_number = scene.gap(), scene.reynolds_number
     film, across = thin_film.strip(gap, resolution, second_order=scheme == SCHEMES[0]), gauss_basis(MODES)
     with np.errstate(all="ignore"):
@@ -212,31 +196,19 @@ def _vertices(film: Strip) -> Array:
     return np.stack([np.broadcast_to(film.faces[:, None], y.shape), y], axis=2)
 
 
-def film_model(
-    *,
-    name: str,
-    summary: str,
-    keeps: frozenset[Effect],
-    sources: tuple[str, ...],
-    applies: Callable[[Pocket], Applicability],
-    law: ErrorLaw | None = None,
-    complete: bool,
-) -> Model:
-    """A rung that solves the thin-film equations; its cost was measured from 50 to 800 cells."""
+def film_model(*, applies: Callable[[Pocket], Applicability], law: ErrorLaw, **about: Unpack[About]) -> Model[Pocket]:
+    """A model that solves the thin-film equations; its cost was measured from 50 to 800 cells."""
     return Model(
-        name=name,
+        **about,
         kind="pocket",
-        summary=summary,
-        keeps=keeps,
-        complete=complete,
-        sources=sources,
-        resolution=RESOLUTION,
-        resolutions=RESOLUTIONS,
+        resolutions=Resolutions(least=COARSEST, most=FINEST, default=RESOLUTION, series=RESOLUTIONS),
         resolution_meaning=RESOLUTION_MEANING,
         residual_meaning=RESIDUAL_MEANING,
         order=2,
+        tolerance=TOLERANCE,
+        tolerances=(1e-14, 1.0),
         schemes=SCHEMES,
         cost=lambda _scene, resolution: 3e-3 + 1e-4 * resolution,
         applies=applies,
-        solve=partial(solve, model=name, keeps=keeps, sources=sources, law=law),
+        compute=partial(solve, law=law),
     )

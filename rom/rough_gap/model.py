@@ -3,12 +3,13 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import Unpack
 
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.dry_contact.model import Answer, Task, contact_model
-from roughfilm.rom.ladder.model import Applicability, Effect, Model
+from roughfilm.rom.ladder.model import About, Applicability, Effect, Model
 from roughfilm.rom.ladder.result import Field, with_uncertainties
 from roughfilm.rom.pocket.validity import NOTHING_COARSER
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors
@@ -79,28 +80,20 @@ def _with_lost_waves(
 
 def gap_model(
     *,
-    name: str,
-    summary: str,
-    keeps: frozenset[Effect],
-    complete: bool = True,
-    sources: tuple[str, ...],
     applies: Callable[[RoughGap], Applicability],
     find: Callable[[Walls, float], Found],
     cost: Callable[[int], float],
-) -> Model:
-    """A rung of a rough gap; ``find(walls, mean gap)`` solves, ``cost`` gives CPU seconds for a number of nodes."""
+    **about: Unpack[About],
+) -> Model[RoughGap]:
+    """A model of a rough gap; ``find(walls, mean gap)`` solves, ``cost`` gives CPU seconds for a number of nodes."""
     return contact_model(
+        **about,
         kind="rough_gap",
-        name=name,
-        summary=summary,
-        keeps=keeps,
-        complete=complete,
-        sources=sources,
         residual_meaning=RESIDUAL_MEANING,
         applies=applies,
-        work=partial(work, find=find, slope=Effect.SLOPE in keeps),
+        work=partial(work, find=find, slope=Effect.SLOPE in about["keeps"]),
         prepare=partial(prepare, find=find),
-        default_tolerance=TOLERANCE,
+        tolerance=TOLERANCE,
         cost=cost,
     )
 

@@ -11,8 +11,7 @@ from roughfilm.contact.foundation.entries import InUnit, Length, Part, PositiveN
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.mechanics.moments import wave_power
 from roughfilm.contact.surfaces.surface import Surface
-from roughfilm.rom.ladder.kind import Scene
-from roughfilm.rom.parts.pressed_surface import COARSER, COARSEST, Load
+from roughfilm.rom.parts.pressed_surface import Load, RoughScene
 from roughfilm.rom.parts.restriction import restricted
 from roughfilm.rom.parts.solids import Counter, RoughBody, composite_modulus, hardness
 from roughfilm.rom.pocket.scene import Lubricant
@@ -67,7 +66,7 @@ class Mesh(Part):
     smallest_gap: Length | None = None
 
 
-class RoughGap(Scene):
+class RoughGap(RoughScene):
     """One period of a gap between a rough wall at rest and another wall, in a steady, isothermal, incompressible flow.
 
     The flow is driven three times: by the mean pressure gradient along x, by the same along y, and by the upper wall
@@ -205,12 +204,6 @@ class RoughGap(Scene):
     def gap_over_wavelength(self) -> float:
         """h̄/λ with λ = 2π Sq/g', the wavelength of a single wave of that height and slope; 0 if both are flat."""
         return self.mean_gap * self.rms_slope / (2 * np.pi * self.rms_height) if self.rms_height > 0 else 0.0
-
-    @property
-    def resolutions(self) -> tuple[int, ...]:
-        """Nodes along the longer side, from coarse grids to the surface's own."""
-        own = max(self.surface().shape)
-        return tuple(dict.fromkeys(own // part for part in COARSER if own // part >= COARSEST or part == 1))
 
     def walls(self, resolution: int) -> Walls:
         """The walls with so many nodes along the longer side, less the waves that these cannot hold.

@@ -2,17 +2,17 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from functools import partial
+from typing import Unpack
 
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.mechanics.contact import Contact
-from roughfilm.rom.dry_contact.model import Answer, Task, contact_model, one
+from roughfilm.rom.dry_contact.model import Answer, Task, contact_model, once, one
 from roughfilm.rom.dry_contact.pressed import TOLERANCE, prepare
-from roughfilm.rom.ladder.model import Applicability, Effect, Model
+from roughfilm.rom.ladder.model import About, Applicability, Model
 from roughfilm.rom.ladder.result import Field, with_uncertainties
 from roughfilm.rom.pocket.validity import NOTHING_COARSER
 from roughfilm.rom.seal.leakage.passage import Passage, dimensionless, mass_flow
@@ -128,40 +128,22 @@ def applies(scene: Seal, *, keeps: str) -> Applicability:
     return Applicability(applies=True, reason=f"{keeps}; contact {told}; leaves out inertia{moved}")
 
 
-def once(_scene: Seal) -> int:
-    """One period."""
-    return 1
-
-
-def seal_model(
-    *,
-    name: str,
-    summary: str,
-    keeps: frozenset[Effect],
-    sources: tuple[str, ...],
-    words: str,
-    flow: Flow,
-    repeats: Callable[[Seal], int] = once,
-) -> Model:
-    """A rung that presses the surface and solves the flow through so many ``repeats`` of it.
+def seal_model(*, words: str, flow: Flow, repeats: Callable[[Seal], int] = once, **about: Unpack[About]) -> Model[Seal]:
+    """A model that presses the surface and solves the flow through so many ``repeats`` of it.
 
     ``words`` say what of the flow it keeps.
     """
-    made = contact_model(
+    return contact_model(
+        **about,
         kind="seal",
-        name=name,
-        summary=summary,
-        keeps=keeps,
-        complete=True,
-        sources=sources,
         residual_meaning=RESIDUAL_MEANING,
         applies=partial(applies, keeps=words),
         work=partial(leak, flow=flow),
         prepare=partial(prepare_flow, flow=flow),
-        default_tolerance=TOLERANCE,
+        tolerance=TOLERANCE,
         cost=lambda heights: 1e-2 + 1.5e-6 * heights,
+        repeats=repeats,
     )
-    return replace(made, cost=lambda scene, resolution: made.cost(scene, resolution) * repeats(scene))
 
 
 def prepare_flow(task: Task, *, flow: Flow) -> None:

@@ -14,13 +14,12 @@ from typing import Any
 
 from roughfilm.batch.jobs import Failure, Job, failure_of
 from roughfilm.contact.foundation.errors import UnavailableError
+from roughfilm.ladder import find
 from roughfilm.rom.ladder.kind import Scene
-from roughfilm.rom.ladder.model import find, of_kind
 from roughfilm.rom.ladder.provenance import code, versions
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.setting import Setting
 from roughfilm.rom.ladder.store import as_bytes
-from roughfilm.terminal.console import models
 
 CHUNK_S = 0.25
 """Expected seconds of a chunk: long against sending it, short against what a kill may cost."""
@@ -138,14 +137,14 @@ def ask(questions: Sequence[Question], origin: tuple[str, dict[str, Any]]) -> li
     if origin != (code(), versions()):
         host = platform.node()
         raise UnavailableError(f"{host}: has other code or libraries than the sender; install the same there")
-    ladder, end = models(), time.monotonic() + 2 * CHUNK_S
+    end = time.monotonic() + 2 * CHUNK_S
     answers: list[Answer] = []
     for question in questions:
         if answers and time.monotonic() > end:
             break
         before = sum(os.times()[:4])  # of this process, which has one job at a time, and of its ended children
         try:
-            model = find(of_kind(ladder, question.scene.kind), question.model)
+            model = find(question.scene.kind, question.model)
             setting = Setting(model=model, resolution=question.resolution, scheme=question.scheme)
             result = setting.solve(question.scene)
             answers.append(Solved(result=replace(result, fields={}), file=as_bytes(result)))

@@ -54,7 +54,7 @@ def pocket(models: Sequence[Model]) -> Family:
         lubricant=OIL,
         motion={"reynolds_number": 160},
     )
-    best = find(models, "navier_stokes")
+    best = find(models, "pocket", "navier_stokes")
     return of_scene(
         models,
         scene,
@@ -160,7 +160,7 @@ def dry_contact(models: Sequence[Model]) -> Family:
         )
 
     charted = scene(512)
-    elastic = find(models, "elastic")
+    elastic = find(models, "dry_contact", "elastic")
     fast, slow = ({n: cost * (n / 512) ** 2 + 0.5 for n in (64, 128, 256, 512)} for cost in (4.0, 60.0))
     return of_scene(
         models,
@@ -195,7 +195,7 @@ def mixed_bearing(models: Sequence[Model]) -> Family:
         },
         asperities={"friction": 0.1, "solid": {**STEEL, "hardness": "4 GPa"}},
     )
-    best = find(models, "mixed")
+    best = find(models, "bearing", "mixed")
     return of_scene(
         models,
         scene,
@@ -230,7 +230,7 @@ def seal(models: Sequence[Model]) -> Family:
             flow={"pressure_drop": "1 MPa", "length": "0.5 mm", "direction": "x"},
         )
 
-    best = find(models, "direct_leakage")
+    best = find(models, "seal", "direct_leakage")
     return of_scene(
         models,
         scene(256),

@@ -8,6 +8,7 @@ from typing import Any
 from roughfilm.figures.view import Style, views
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.model import Model, of_kind
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.studies.convergence import converge
 
 REPEATS, ENOUGH_S = 7, 2.0
@@ -131,7 +132,7 @@ def fastest(measure: Callable[[], Measured], *, compiles: bool = True) -> Measur
 
 def solved(model: Model, scene: Scene, resolution: int, quantity: str) -> Measured:
     """A model's answer; raises what its ``solve`` raises."""
-    found = model.solve(scene, resolution=resolution)
+    found = model.solve(scene, Request(resolution=resolution))
     return Measured(
         value=found.quantities[quantity].value,
         cpu_s=found.numerics.cpu_s,
@@ -187,7 +188,7 @@ def of_scene(
         if not model.available().available:
             left_out[model.name] = model.available().detail
             continue
-        outside = model.write is not None
+        outside = model.outside
         for resolution in model.resolutions_of(scene):
             measure = partial(fastest, partial(solved, model, scene, resolution, key), compiles=not outside)
             cost = model.cost(scene, resolution)

@@ -19,8 +19,10 @@ from roughfilm.foamcases.openfoam.case_directory import CARD, read_card
 from roughfilm.foamcases.openfoam.dictionaries import SIDES, Dictionary, control, write_files
 from roughfilm.foamcases.openfoam.installation import availability
 from roughfilm.foamcases.openfoam.program import Ended, succeed
-from roughfilm.foamcases.pocket.case import Card, write_case
+from roughfilm.foamcases.pocket.case import Card
 from roughfilm.foamcases.pocket.fields import read_channel
+from roughfilm.foamcases.pocket.models.navier_stokes import MODEL as NAVIER_STOKES
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
 
 NAME = "simpleFoam, tutorial"
@@ -109,14 +111,7 @@ def pocket_load(scene: Pocket, resolution: int) -> Measured:
     started = time.thread_time()
     with TemporaryDirectory(prefix="roughfilm-") as place:
         directory = Path(place) / "case"
-        write_case(
-            scene,
-            directory,
-            reynolds_number=scene.reynolds_number,
-            resolution=resolution,
-            tolerance=None,
-            scheme="linear_upwind",
-        )
+        NAVIER_STOKES.write(scene, directory, Request(resolution=resolution))
         card = replace(read_card(directory, Card), columns=resolution)
         (directory / CARD).write_text(json.dumps(asdict(card)), encoding="utf-8")
         write_block(uniform(scene, resolution, card.layers), SIDES, directory)

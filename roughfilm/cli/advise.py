@@ -8,11 +8,11 @@ from rich.markup import escape
 from rich.table import Table
 
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.ladder import models
 from roughfilm.rom.advice.advise import Advice, Considered, Verdict, advise, shortfall, wanted
 from roughfilm.rom.advice.estimates import Estimate, percent
 from roughfilm.rom.advice.laws import table
 from roughfilm.rom.ladder.kind import Scene, kind_of_name
-from roughfilm.rom.ladder.model import of_kind
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.terminal.console import (
     NOT_CONVERGED,
@@ -20,7 +20,6 @@ from roughfilm.terminal.console import (
     Overrides,
     ScenePath,
     in_one_line,
-    models,
     output,
     print_json,
     progress_bar,
@@ -61,7 +60,7 @@ def advice_for(scene: Scene, want: str | None, within: str) -> Advice:
     """Advise with a bar of progress; InputError for what cannot be asked."""
     quantity, part = wanted(scene, want), tolerance_of(within)
     with progress_bar(1.0) as advance:
-        return advise(scene, of_kind(models(), scene.kind), quantity=quantity, within=part, progress=advance)
+        return advise(scene, models(scene.kind), quantity=quantity, within=part, progress=advance)
 
 
 def tell(scene: Scene, found: Advice) -> None:

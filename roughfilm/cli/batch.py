@@ -17,6 +17,7 @@ from roughfilm.batch.executors import dask, local
 from roughfilm.batch.progress import State, Tally
 from roughfilm.batch.solve import finished, solved_table, tasks_of
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.ladder import models
 from roughfilm.rom.ladder.provenance import code, commit, versions
 from roughfilm.rom.studies.study import Study, load_study
 from roughfilm.terminal.console import (
@@ -25,7 +26,6 @@ from roughfilm.terminal.console import (
     in_one_line,
     make_directory,
     messages,
-    models,
     output,
     print_json,
     progress_bar,

@@ -15,19 +15,11 @@ from roughfilm.charts.store import answers
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.figures.rendering import embedded
+from roughfilm.ladder import models
 from roughfilm.pages.render import render, write_figures
 from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.rom.studies.table import write_csv
-from roughfilm.terminal.console import (
-    AsJson,
-    in_one_line,
-    make_directory,
-    messages,
-    models,
-    output,
-    print_json,
-    progress_bar,
-)
+from roughfilm.terminal.console import AsJson, in_one_line, make_directory, messages, output, print_json, progress_bar
 
 
 @in_one_line

@@ -17,10 +17,11 @@ from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.figures.rendering import draw_apart
 from roughfilm.figures.view import views
+from roughfilm.ladder import models
 from roughfilm.pages.comparison import Picture, Report, cheapest_within, write_comparison
 from roughfilm.pages.render import write_figures
 from roughfilm.rom.ladder.kind import Scene, kind_of_name
-from roughfilm.rom.ladder.model import Model, best, of_kind
+from roughfilm.rom.ladder.model import Model, best
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.rom.ladder.store import as_entries
@@ -34,7 +35,6 @@ from roughfilm.terminal.console import (
     in_one_line,
     make_directory,
     messages,
-    models,
     output,
     print_json,
 )
@@ -55,7 +55,7 @@ def command(
     """Run every model that applies and write report.html, results (.h5) and figures."""
     read = load_scene(scene, set_ or ())
     make_directory(out)
-    ladder = of_kind(models(), read.kind)
+    ladder = models(read.kind)
     left_out = {model.name: reason for model in ladder if (reason := _reason_to_leave_out(model, read))}
     failed: dict[str, str] = {}
     jobs = jobs_of(read, [model for model in ladder if model.name not in left_out], out / RESULTS, grids)

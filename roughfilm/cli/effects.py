@@ -15,6 +15,7 @@ from rich.table import Table
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.interface.curves import checked_cells
+from roughfilm.ladder import models
 from roughfilm.rom.bearing.effects.analysis import EffectAnalysis, analyse_effects
 from roughfilm.rom.bearing.effects.contributions import Study
 from roughfilm.rom.bearing.effects.inertia import InertiaAdded
@@ -29,7 +30,6 @@ from roughfilm.terminal.console import (
     in_one_line,
     make_directory,
     messages,
-    models,
     output,
     print_json,
     progress_bar,

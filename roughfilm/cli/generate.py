@@ -7,8 +7,10 @@ import typer
 from rich.markup import escape
 
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.rom.ladder.model import chosen_scheme, of_kind
+from roughfilm.foamcases.openfoam.model import CaseModel
+from roughfilm.ladder import models
 from roughfilm.rom.ladder.provenance import provenance
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.terminal.console import (
     AsJson,
@@ -20,7 +22,6 @@ from roughfilm.terminal.console import (
     Tolerance,
     in_one_line,
     make_directory,
-    models,
     output,
     print_json,
 )
@@ -39,24 +40,25 @@ def command(
 ) -> None:
     """Write the OpenFOAM cases alone; run each with its ./Allrun."""
     read = load_scene(scene, set_ or ())
-    writers = [(model, model.write) for model in of_kind(models(), read.kind) if model.write is not None]
+    writers = [model for model in models(read.kind) if isinstance(model, CaseModel)]
     if not writers:
-        known = " or ".join(sorted({model.kind for model in models() if model.write is not None}))
+        known = " or ".join(sorted({model.kind for model in models() if model.outside}))
         raise InputError(f"scene.kind: got {read.kind!r}, which no model solves in OpenFOAM; give a scene of {known}")
-    make_directory(out)
-    for model, _ in writers:
-        if model.schemes:
-            chosen_scheme(model.name, model.schemes, scheme)  # refused before anything is written
-    cases = []
-    for model, write in writers:
-        write(
-            read,
-            out / model.name,
+    requests = [
+        Request(
             resolution=resolution,
             tolerance=tolerance,
             scheme=scheme if model.schemes else None,
             processes=processes,
         )
+        for model in writers
+    ]
+    for model, request in zip(writers, requests, strict=True):
+        model.checked(read, request)  # before anything is written
+    make_directory(out)
+    cases = []
+    for model, request in zip(writers, requests, strict=True):
+        model.write(read, out / model.name, request)
         cases.append({"model": model.name, "directory": str(out / model.name)})
     if as_json:
         print_json({"cases": cases, "provenance": provenance(read, keeps=(), sources=())})

@@ -2,14 +2,16 @@
 
 from rich.table import Column, Table
 
+from roughfilm.ladder import models
 from roughfilm.rom.ladder.kind import kinds
-from roughfilm.terminal.console import AsJson, in_one_line, models, output, print_json
+from roughfilm.rom.ladder.model import Resolutions
+from roughfilm.terminal.console import AsJson, in_one_line, output, print_json
 
 
 @in_one_line
 def command(as_json: AsJson = False) -> None:
     """Show the ladder: each model, what it adds, whether it can run here or why not."""
-    rows = [(model, model.available()) for model in models()]
+    rows = [(model, model.available(), model.resolutions) for model in models()]
     if as_json:
         print_json(
             {
@@ -19,13 +21,13 @@ def command(as_json: AsJson = False) -> None:
                         "kind": model.kind,
                         "adds": model.summary,
                         "keeps": sorted(model.keeps),
-                        "resolution": model.resolution,
+                        "resolution": offered.default if isinstance(offered, Resolutions) else None,
                         "resolution_meaning": model.resolution_meaning,
                         "schemes": model.schemes,
                         "available": found.available,
                         "detail": found.detail,
                     }
-                    for model, found in rows
+                    for model, found, offered in rows
                 ]
             }
         )
@@ -34,9 +36,9 @@ def command(as_json: AsJson = False) -> None:
         name = Column("model", no_wrap=True)
         title = f"The ladder of {kind.name}, {kind.summary}, plainest first"
         table = Table(name, "what it adds", "resolution and schemes", "here", title=title)
-        for model, found in rows:
+        for model, found, offered in rows:
             if model.kind == kind.name:
-                own = "the scene's own" if model.resolution is None else model.resolution
+                own = offered.default if isinstance(offered, Resolutions) else "the scene's own"
                 table.add_row(
                     model.name,
                     model.summary,

@@ -14,14 +14,15 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.figures.view import views
+from roughfilm.ladder import models
 from roughfilm.pages.render import render
 from roughfilm.rom.ladder.kind import kind_of_name, kinds
-from roughfilm.rom.ladder.model import best, of_kind
+from roughfilm.rom.ladder.model import best
 from roughfilm.rom.ladder.provenance import machine
 from roughfilm.rom.studies.ordering import Ordering, fitted_powers, ordering
 from roughfilm.rom.studies.sweep import Sweep, loaded, read_sweep, relative_error, sweeping
 from roughfilm.rom.studies.table import read_table
-from roughfilm.terminal.console import AsJson, in_one_line, make_directory, models, output, print_json
+from roughfilm.terminal.console import AsJson, in_one_line, make_directory, output, print_json
 
 TOLERANCES = (0.01, 0.02, 0.05, 0.10)
 
@@ -80,7 +81,7 @@ def _kind(table: Mapping[str, Any]) -> str:
 
 def _reference(sweep: Sweep) -> str:
     """The best rung that solved any case, at its finest and best scheme: the one named first in the study."""
-    ladder = of_kind(models(), sweep.kind)
+    ladder = models(sweep.kind)
     solved = [name for name, values in sweep.found.items() if any(np.isfinite(v).any() for v in values.values())]
     names = {name.split("-")[0] for name in solved or sweep.found}
     top = best([model for model in ladder if model.name in names])

@@ -10,9 +10,10 @@ from rich.table import Table
 
 from roughfilm.cli.advise import Want, advice_for, entries_of
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.ladder import find
 from roughfilm.rom.advice.advise import shortfall
 from roughfilm.rom.ladder.kind import kind_of_name
-from roughfilm.rom.ladder.model import find
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.rom.ladder.store import as_entries, save
@@ -26,7 +27,6 @@ from roughfilm.terminal.console import (
     Tolerance,
     in_one_line,
     messages,
-    models,
     output,
     print_json,
     progress_bar,
@@ -66,11 +66,13 @@ def command(
         raise InputError("--want: says of which quantity --within speaks; give that too")
     if model is None:
         raise InputError("--model: is missing; name one from 'roughfilm models', or give --within 5%")
-    rung = find(models(read.kind), model)
+    rung = find(read.kind, model)
     if result is None:
         with progress_bar(1.0) as advance:
             result = rung.solve(
-                read, resolution=resolution, tolerance=tolerance, scheme=scheme, processes=processes, progress=advance
+                read,
+                Request(resolution=resolution, tolerance=tolerance, scheme=scheme, processes=processes),
+                progress=advance,
             )
     if advised is not None:
         result = replace(result, provenance={**result.provenance, "advice": entries_of(advised)})

@@ -15,12 +15,11 @@ from roughfilm.batch.jobs import Failure, Job
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.figures.base import svg
 from roughfilm.figures.views.rough_gap import STYLES
-from roughfilm.rom.ladder.model import of_kind
+from roughfilm.ladder import models
 from roughfilm.rom.ladder.result import Result
 from roughfilm.stability.checks.gap import JUDGED, Truth, agreeing, exact_stokes, exact_thin, extrapolated
 from roughfilm.stability.form import GOOD, SECOND, Map, Outcome, Spot, count, failed, in_groups, in_rows
 from roughfilm.stability.questions.gap import CUT, CUTS, Probe, probes
-from roughfilm.terminal.console import models
 
 KIND = "rough_gap"
 FEWEST, MOST = 32, 64
@@ -139,7 +138,7 @@ class GapFamily:
         """Solve what is not in ``out`` already, and judge all of it."""
         if not FEWEST <= resolution <= MOST or resolution % 2:
             raise InputError(f"--resolution: got {resolution}; it must be even, {FEWEST} to {MOST}")
-        ladder = of_kind(models(), KIND)
+        ladder = models(KIND)
         absent = {model.name: it.detail for model in ladder if not (it := model.available()).available}
         asked = list(probes([model for model in ladder if model.name not in absent], resolution))
         jobs = [_job(probe, out) for probe in asked]

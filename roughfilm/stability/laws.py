@@ -9,13 +9,15 @@ from typing import Any
 import numpy as np
 
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.ladder import find, models
 from roughfilm.rom.ladder.kind import Scene
-from roughfilm.rom.ladder.model import Model, find, of_kind
+from roughfilm.rom.ladder.model import Model
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.stability.checks.invariants import broken
 from roughfilm.stability.form import BAD, Judged, Map, Outcome, Spot, count, in_groups, named, summed, tried
-from roughfilm.terminal.console import models, progress_bar
+from roughfilm.terminal.console import progress_bar
 
 FEWEST, MOST = 32, 256
 """Points along a side of the surfaces."""
@@ -85,7 +87,7 @@ def surfaces(points: int) -> dict[str, dict[str, Any]]:
 
 def seals(points: int) -> Iterator[Probe]:
     """Surfaces pressed harder and harder, elastic and not."""
-    ladder = of_kind(models(), "seal")
+    ladder = models("seal")
     for name, surface in surfaces(points).items():
         for hardness in (None, 0.5):
             group = name + ("" if hardness is None else f", H = {hardness:g} E* g'")
@@ -122,7 +124,7 @@ def _seal(surface: Mapping[str, Any], pressure: float, hardness: float | None) -
 
 def films(points: int) -> Iterator[Probe]:
     """Bearings whose walls come nearer and nearer, at rest to fast, and backwards."""
-    model = find(of_kind(models(), "bearing"), "mixed")
+    model = find("bearing", "mixed")
     for shape, geometry in SHAPES.items():
         for name, surface in list(surfaces(points).items())[::2]:
             for speed in SPEEDS:
@@ -161,7 +163,7 @@ def put(probe: Probe, before: Result | None) -> tuple[Spot, Result | None]:
 
     def ask() -> tuple[Scene, Result]:
         scene = probe.scene()
-        result = probe.model.solve(scene, resolution=probe.resolution)
+        result = probe.model.solve(scene, Request(resolution=probe.resolution))
         kept.append(result)
         return scene, result
 

@@ -11,14 +11,13 @@ from roughfilm.batch.jobs import Failure, Job
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.foamcases.openfoam.iterate import RECIPE
 from roughfilm.foamcases.openfoam.residuals import PATIENCE
-from roughfilm.rom.ladder.model import of_kind
+from roughfilm.ladder import models
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.rom.ladder.setting import Setting
 from roughfilm.rom.pocket.scene import Pocket
 from roughfilm.rom.pocket.validity import TURBULENT
 from roughfilm.stability.form import SECOND, Map, Outcome, Spot, count, failed, in_groups
-from roughfilm.terminal.console import models
 
 KIND = "pocket"
 RUNS = "runs"
@@ -58,10 +57,10 @@ class PocketFamily:
 
     def make(self, *, resolution: int, out: Path, processes: int, scratch: Path) -> Map:
         """Solve what is not in ``out`` already, and put all of it together."""
-        ladder = of_kind(models(), KIND)
+        ladder = models(KIND)
         absent = {model.name: found.detail for model in ladder if not (found := model.available()).available}
         settings = [
-            Setting(model=model, resolution=resolution if model.write else None, scheme=scheme)
+            Setting(model=model, resolution=resolution if model.outside else None, scheme=scheme)
             for model in ladder
             if model.name not in absent
             for scheme in model.schemes or (None,)

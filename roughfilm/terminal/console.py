@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from types import FrameType
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 from rich.console import Console
@@ -18,9 +18,6 @@ from rich.markup import escape
 from typer.exceptions import TyperException
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
-
-if TYPE_CHECKING:
-    from roughfilm.rom.ladder.model import Model
 
 BAD_INPUT, NOT_CONVERGED, MISSING = 2, 3, 4
 
@@ -38,14 +35,6 @@ Tolerance = Annotated[float | None, typer.Option(help="Residual at which a solve
 
 messages = Console(stderr=True, highlight=False)
 output = Console(highlight=False)
-
-
-def models(kind: str | None = None) -> "tuple[Model, ...]":
-    """The models of one kind of scene, or all, from the plainest to the best."""
-    from roughfilm import foamcases, rom  # the models need what --help does without
-    from roughfilm.rom.ladder.model import ladder
-
-    return ladder(rom, foamcases, kind=kind)
 
 
 def fail(error: Exception, code: int) -> typer.Exit:

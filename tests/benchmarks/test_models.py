@@ -9,6 +9,7 @@ from roughfilm import foamcases, rom
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.rom.ladder.model import ladder
 from roughfilm.rom.ladder.provenance import commit, machine, versions
+from roughfilm.rom.ladder.request import Request
 
 RESULTS = BENCHMARKS / "models.json"
 REPEATS = 3
@@ -21,8 +22,8 @@ def test_cost_of_every_model(make_scene):
     for model in ladder(rom, foamcases):
         if not model.available().available:
             continue
-        for resolution in model.resolutions:
-            runs = [model.solve(scene, resolution=resolution) for _ in range(REPEATS)]
+        for resolution in model.resolutions_of(scene):
+            runs = [model.solve(scene, Request(resolution=resolution)) for _ in range(REPEATS)]
             times = sorted(run.numerics.cpu_s for run in runs)
             rows.append(
                 {

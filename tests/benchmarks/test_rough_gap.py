@@ -18,8 +18,10 @@ from roughfilm.contact.foundation.files import replacing
 from roughfilm.foamcases.rough_gap.dictionaries import DRIVES
 from roughfilm.foamcases.snappy.snapped import run_snapped, write_snapped
 from roughfilm.foamcases.snappy.solid import carved
-from roughfilm.rom.ladder.model import find, ladder, of_kind
+from roughfilm.ladder import find
+from roughfilm.rom.ladder.model import ladder, of_kind
 from roughfilm.rom.ladder.provenance import circumstances
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import load_scene, read_scene
 from roughfilm.rom.rough_gap.flow.ritz import ritz_flow
 
@@ -37,7 +39,7 @@ AGREED = 1e-4
 
 
 def row(model, scene, **options):
-    found = find(MODELS, model).solve(scene, **options)
+    found = find("rough_gap", model).solve(scene, Request(**options))
     coefficients = {name: found.quantities[name].value for name in ("A11", "A22", "B1", "friction")}
     numerics = found.numerics
     return {
@@ -93,7 +95,7 @@ def bumps(amplitude, length, smallest_gap, folder, points=256):
 
 
 def by_columns(scene, _folder):
-    found = [find(MODELS, "stokes").solve(scene, resolution=n) for n in COLUMNS]
+    found = [find("rough_gap", "stokes").solve(scene, Request(resolution=n)) for n in COLUMNS]
     return [one.quantities["A11"].value for one in found], [one.numerics.cpu_s for one in found]
 
 

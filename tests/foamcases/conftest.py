@@ -7,16 +7,17 @@ import pytest
 
 from roughfilm.foamcases.openfoam.case_directory import CARD, read_card
 from roughfilm.foamcases.rough_gap.case import GapCard, mesh_of, write_gap_case
-from roughfilm.foamcases.rough_gap.cases import factors_of
+from roughfilm.foamcases.rough_gap.cases import TOLERANCE, factors_of
 from roughfilm.foamcases.rough_gap.fields import read_gap_flow
 from roughfilm.foamcases.rough_gap.run import run_gap
+from roughfilm.rom.ladder.request import CheckedRequest, Request
 
 
 @pytest.fixture
 def flow_between(tmp_path):
     """Write, run and read the gap between walls whose heights are in mean gaps; all drives, or one ``only``."""
 
-    def solve(walls, layers, *, only=None, reynolds_number=1e-6, scheme="", **options):
+    def solve(walls, layers, *, only=None, reynolds_number=1e-6, tolerance=TOLERANCE, scheme="", processes=1):
         scene = SimpleNamespace(
             walls=lambda _: walls,
             mean_gap=1.0,
@@ -26,8 +27,10 @@ def flow_between(tmp_path):
             surface=lambda: SimpleNamespace(shape=walls.lower.shape),
         )
         case = tmp_path / f"case-{len([*tmp_path.iterdir()])}"
-        options = {"resolution": max(walls.lower.shape), "tolerance": None, **options}
-        write_gap_case(scene, case, reynolds_number=reynolds_number, scheme=scheme, **options)
+        request = CheckedRequest(
+            resolution=max(walls.lower.shape), tolerance=tolerance, scheme=scheme, processes=processes, asked=Request()
+        )
+        write_gap_case(scene, case, request, reynolds_number)
         if only is not None:
             entries = json.loads((case / CARD).read_text())
             entries["judged"] = {only: entries["judged"][only]}

@@ -1,7 +1,7 @@
 """The steady Navier-Stokes equations in OpenFOAM: slope and inertia in full."""
 
 from roughfilm.foamcases.openfoam.model import openfoam_model
-from roughfilm.foamcases.pocket.cases import CASES
+from roughfilm.foamcases.pocket.cases import CASES, SOURCES
 from roughfilm.rom.ladder.model import Applicability, Effect
 from roughfilm.rom.pocket.scene import Pocket
 
@@ -18,6 +18,8 @@ MODEL = openfoam_model(
     name="navier_stokes",
     summary="adds slope and inertia in full: the best rung",
     keeps=frozenset({Effect.SLOPE, Effect.INERTIA}),
+    sources=SOURCES,
     applies=applies,
+    reynolds_number=lambda scene: scene.reynolds_number,
     schemes=("linear_upwind", "upwind"),
 )

@@ -1,7 +1,7 @@
 """The Stokes equations in OpenFOAM: all of the shape, no inertia."""
 
-from roughfilm.foamcases.openfoam.model import CREEPING, openfoam_model
-from roughfilm.foamcases.pocket.cases import CASES
+from roughfilm.foamcases.openfoam.model import creeping, openfoam_model
+from roughfilm.foamcases.pocket.cases import CASES, SOURCES
 from roughfilm.rom.ladder.model import Applicability, Effect
 from roughfilm.rom.pocket.scene import Pocket
 
@@ -16,6 +16,7 @@ MODEL = openfoam_model(
     name="stokes",
     summary="adds slope: the whole film resolved, inertia negligible",
     keeps=frozenset({Effect.SLOPE}),
+    sources=SOURCES,
     applies=applies,
-    reynolds_number=CREEPING,
+    reynolds_number=creeping,
 )

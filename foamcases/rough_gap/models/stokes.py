@@ -1,7 +1,7 @@
 """The Stokes equations between rough walls in OpenFOAM: all of their shape, no inertia."""
 
-from roughfilm.foamcases.openfoam.model import CREEPING, openfoam_model
-from roughfilm.foamcases.rough_gap.cases import CASES
+from roughfilm.foamcases.openfoam.model import creeping, openfoam_model
+from roughfilm.foamcases.rough_gap.cases import CASES, SOURCES
 from roughfilm.rom.ladder.model import Applicability, Effect
 from roughfilm.rom.rough_gap.scene import RoughGap
 
@@ -17,6 +17,7 @@ MODEL = openfoam_model(
     name="stokes",
     summary="adds slope: the whole gap resolved, inertia negligible",
     keeps=frozenset({Effect.ROUGHNESS, Effect.SLOPE}),
+    sources=SOURCES,
     applies=applies,
-    reynolds_number=CREEPING,
+    reynolds_number=creeping,
 )

@@ -19,6 +19,7 @@ from roughfilm.rom.bearing.solve import load_loops
 from roughfilm.rom.bearing.texture import Texture
 from roughfilm.rom.cavitation.solve import solve
 from roughfilm.rom.ladder.model import Model, find, of_kind
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.rom.studies.convergence import converge
 
@@ -152,8 +153,8 @@ def _judged_pocket(scene: Bearing, texture: Texture, density: float, models: Seq
     judge = found.chosen or found.nearest
     if judge is None or judge.error is None or judge.error > 1 or not judge.sure:
         return None
-    first = find(models, FIRST_ORDER).solve(pocket).quantities["load_per_area"].value
-    told = found.result or find(models, judge.model).solve(pocket, resolution=judge.resolution)
+    first = find(models, "pocket", FIRST_ORDER).solve(pocket).quantities["load_per_area"].value
+    told = found.result or find(models, "pocket", judge.model).solve(pocket, Request(resolution=judge.resolution))
     ratio = told.quantities["load_per_area"].value / first
     return PocketJudged(model=judge.model, why=judge.reason, over_first_order=ratio, within=judge.error)
 

@@ -1,7 +1,7 @@
 """The Reynolds equation with cavitation over every wave of the roughness."""
 
 from roughfilm.rom.bearing.film import follows, rough_film, rough_resolutions
-from roughfilm.rom.bearing.solve import bearing_model
+from roughfilm.rom.bearing.solve import SOURCES, bearing_model
 from roughfilm.rom.ladder.model import Effect
 
 MODEL = bearing_model(
@@ -16,6 +16,7 @@ MODEL = bearing_model(
             Effect.FINITE_WAVES,
         }
     ),
+    sources=SOURCES,
     applies=follows,
     film=rough_film,
     resolutions=rough_resolutions,

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.solve import bearing_model, line_resolutions
+from roughfilm.rom.bearing.solve import SOURCES, bearing_model, line_resolutions
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.ladder.model import Applicability, Effect
 
@@ -33,6 +33,7 @@ MODEL = bearing_model(
     name="infinitely_wide",
     summary="one line of the film, with cavitation and any compressibility, without flow through the sides",
     keeps=frozenset({Effect.CAVITATION, Effect.PRESSURE_DEPENDENCE}),
+    sources=SOURCES,
     applies=applies,
     film=one_line,
     resolutions=line_resolutions,

@@ -1,7 +1,7 @@
 """The Reynolds equation with cavitation, for any law of compressibility and viscosity."""
 
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.solve import bearing_model
+from roughfilm.rom.bearing.solve import SOURCES, bearing_model
 from roughfilm.rom.ladder.model import Applicability, Effect
 
 
@@ -14,5 +14,6 @@ MODEL = bearing_model(
     name="reynolds_cavitating",
     summary="Reynolds equation with mass-conserving cavitation, for any compressibility",
     keeps=frozenset({Effect.SIDE_FLOW, Effect.CAVITATION, Effect.PRESSURE_DEPENDENCE}),
+    sources=SOURCES,
     applies=applies,
 )

@@ -3,7 +3,7 @@
 import numpy as np
 
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.solve import bearing_model
+from roughfilm.rom.bearing.solve import SOURCES, bearing_model
 from roughfilm.rom.cavitation.problem import unchanging
 from roughfilm.rom.ladder.model import Applicability, Effect
 
@@ -23,6 +23,7 @@ MODEL = bearing_model(
     name="reynolds_incompressible",
     summary="Reynolds equation with mass-conserving cavitation, incompressible",
     keeps=frozenset({Effect.SIDE_FLOW, Effect.CAVITATION}),
+    sources=SOURCES,
     applies=applies,
     film=lambda scene: unchanging(scene.problem()),
 )

@@ -25,7 +25,6 @@ MODEL = estimated_model(
     summary="truncation: what stands above a plane is flattened at the hardness, the rest is rigid",
     what="keeps plasticity, leaves out elastic deformation",
     keeps=frozenset({Effect.PLASTICITY}),
-    complete=True,
     sources=("10.1016/j.triboint.2005.11.008",),
     guess=guess,
 )

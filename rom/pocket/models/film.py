@@ -17,7 +17,6 @@ MODEL = film_model(
     name="film",
     summary="thin-film Navier-Stokes: inertia in full",
     keeps=frozenset({Effect.INERTIA}),
-    complete=True,
     sources=("10.1098/rstl.1886.0005", "10.1115/1.1828067"),
     applies=applies,
     law=LAW,

@@ -65,6 +65,6 @@ MODEL = contact_model(
     applies=applies,
     work=work,
     prepare=prepare,
-    default_tolerance=1e-9,
+    tolerance=1e-9,
     cost=lambda heights: 6e-3 + 3e-7 * heights,
 )

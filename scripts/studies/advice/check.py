@@ -19,23 +19,16 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.figures.base import svg
+from roughfilm.ladder import find, models
 from roughfilm.pages.render import render, write_figures
 from roughfilm.rom.advice.advise import Verdict, advise
 from roughfilm.rom.advice.laws import table
 from roughfilm.rom.ladder.kind import kinds
-from roughfilm.rom.ladder.model import Model, find, of_kind
+from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.provenance import circumstances
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Numerics, Result
-from roughfilm.terminal.console import (
-    AsJson,
-    in_one_line,
-    make_directory,
-    models,
-    output,
-    print_json,
-    progress_bar,
-    run_alone,
-)
+from roughfilm.terminal.console import AsJson, in_one_line, make_directory, output, print_json, progress_bar, run_alone
 from scripts.studies.advice.fit import Case, cases
 from scripts.studies.advice.runs import PARTS, Run, draw, read
 
@@ -106,7 +99,7 @@ def as_result(case: Case, run: Run) -> Result:
 def tried(case: Case, within: float, quantity: str) -> Trial:
     """Ask for advice on a quantity and judge it; rungs that the table has are looked up there, others are run."""
     kind = kinds()[case.scene.kind]
-    ladder = of_kind(models(), kind.name)
+    ladder = models(kind.name)
     solving = 0.0
 
     def run(model: Model, resolution: int) -> Result:
@@ -114,7 +107,7 @@ def tried(case: Case, within: float, quantity: str) -> Trial:
         found = case.runs.get((model.name, resolution))
         if found is None:
             begun = time.process_time()
-            result = model.solve(case.scene, resolution=resolution)
+            result = model.solve(case.scene, Request(resolution=resolution))
             solving += time.process_time() - begun
             return result
         if found.failure:
@@ -131,10 +124,10 @@ def tried(case: Case, within: float, quantity: str) -> Trial:
     if chosen is not None and chosen.resolution is not None:
         result = advice.result
         if result is None:
-            result = run(find(ladder, chosen.model), chosen.resolution)
+            result = run(find(kind.name, chosen.model), chosen.resolution)
             spent += result.numerics.cpu_s
         error = abs(result.quantities[quantity].value - case.truth[quantity]) / size
-    default = case.runs.get((case.best, find(ladder, case.best).resolution_of(case.scene)), best)
+    default = case.runs.get((case.best, find(kind.name, case.best).resolution_of(case.scene)), best)
     reasons = [one.reason for one in advice.considered if one.verdict is Verdict.CHOSEN]
     return Trial(
         kind=kind.name,

@@ -18,14 +18,15 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.toml import toml_value
+from roughfilm.ladder import models
 from roughfilm.rom.advice import laws
 from roughfilm.rom.advice.laws import Grid, Law, Numbers, Step, on_grid
 from roughfilm.rom.ladder.kind import Kind, Scene, kinds
-from roughfilm.rom.ladder.model import Model, best, of_kind
+from roughfilm.rom.ladder.model import Model, Resolutions, best
 from roughfilm.rom.studies.convergence import Kind as Way
 from roughfilm.rom.studies.convergence import converge
 from roughfilm.rom.studies.ordering import CERTAINTY
-from roughfilm.terminal.console import in_one_line, make_directory, models, output, run_alone
+from roughfilm.terminal.console import in_one_line, make_directory, output, run_alone
 from scripts.studies.advice.runs import PARTS, Drawn, Run, draw, read
 from scripts.studies.advice.scenes import random_scene
 from scripts.studies.advice.steps import GRIDS, GRIDS_APART, STEPS, Plan
@@ -79,7 +80,7 @@ def truths(kind: Kind, rung: Model, runs: Sequence[Run]) -> tuple[dict[str, floa
         if not known:
             continue
         value[quantity], bar[quantity] = known[-1].values[quantity], known[-1].uncertainty.get(quantity, 0.0)
-        if rung.order and len(known) > 1 and rung.write:
+        if rung.order and len(known) > 1 and rung.outside:
             found = converge(
                 [run.resolution for run in known],
                 [run.values[quantity] for run in known],
@@ -94,7 +95,7 @@ def truths(kind: Kind, rung: Model, runs: Sequence[Run]) -> tuple[dict[str, floa
 
 def cases(kind: str, drawn: Sequence[Drawn]) -> list[Case]:
     """The scenes whose best rung has an answer."""
-    found, ladder, told = [], of_kind(models(), kind), kinds()[kind]
+    found, ladder, told = [], models(kind), kinds()[kind]
     for one in drawn:
         scene = random_scene(kind, one.seed)
         rung = best([model for model in ladder if model.applies(scene).applies])
@@ -235,12 +236,12 @@ def fit_grid(kind: Kind, model: str, found: Sequence[Case]) -> Grid:
 
 def settles_itself(model: Model) -> bool:
     """Whether a rung refines until its residual is met: quadratures, whose finer grids cost nothing."""
-    return model.order is None and model.own_resolutions is None
+    return model.order is None and isinstance(model.resolutions, Resolutions)
 
 
 def fit(kind: Kind, found: Sequence[Case]) -> tuple[list[Step], list[Grid]]:
     """All steps of a kind, and the grids of its rungs."""
-    rungs = [model.name for model in of_kind(models(), kind.name) if not settles_itself(model)]
+    rungs = [model.name for model in models(kind.name) if not settles_itself(model)]
     grids = [fit_grid(kind, model, found) for model in rungs]
     return [fit_step(kind, plan, found) for plan in STEPS[kind.name]], [grid for grid in grids if grid.laws]
 

@@ -9,13 +9,13 @@ from typing import Any
 from roughfilm.batch.answers import answers_to
 from roughfilm.batch.jobs import Failure, Job
 from roughfilm.contact.foundation.files import replacing
+from roughfilm.ladder import models
 from roughfilm.rom.ladder.kind import Scene, kind_of
-from roughfilm.rom.ladder.model import best, of_kind
+from roughfilm.rom.ladder.model import best
 from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.setting import Setting
 from roughfilm.rom.rough_gap.scene import RoughGap
-from roughfilm.terminal.console import models
 from scripts.studies.advice.scenes import random_scene
 
 PARTS: Mapping[str, Mapping[str, range]] = {
@@ -63,14 +63,12 @@ class Drawn:
 
 def settings_of(scene: Scene, part: str) -> list[Setting]:
     """Every rung that applies and is here, at every resolution of it; to check, of those in OpenFOAM the best alone."""
-    rungs = [
-        model for model in of_kind(models(), scene.kind) if model.applies(scene).applies and model.available().available
-    ]
+    rungs = [model for model in models(scene.kind) if model.applies(scene).applies and model.available().available]
     return [
         Setting(model=model, resolution=resolution)
         for model in rungs
-        if part == "fit" or not model.write or model is best(rungs)
-        for resolution in (MESHED if _is_random_gap(scene) and model.write else model.resolutions_of(scene))
+        if part == "fit" or not model.outside or model is best(rungs)
+        for resolution in (MESHED if _is_random_gap(scene) and model.outside else model.resolutions_of(scene))
     ]
 
 

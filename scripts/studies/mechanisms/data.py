@@ -8,10 +8,9 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.units import with_unit
-from roughfilm.rom.ladder.model import find, of_kind
+from roughfilm.ladder import find
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import read_scene
-from roughfilm.terminal.console import models
 
 FILM, LENGTH, WIDTH, DEPTH = 30e-6, 1e-3, 0.3e-3, 22.5e-6
 """Lengths of one period, m. The groove has w+ = 0.3 and d+ = 0.75, of Paper A; the waves are as deep
@@ -107,7 +106,7 @@ def slider(gap: str, speed: float, tension: float) -> Any:
 
 def solve(scene: Any, model: str) -> Result:
     """A scene by a model of its kind."""
-    return find(of_kind(models(), scene.kind), model).solve(scene)
+    return find(scene.kind, model).solve(scene)
 
 
 def by_inertia(gap: str, speed: float) -> float:

@@ -17,13 +17,13 @@ from roughfilm.batch.execute import Solved, run
 from roughfilm.batch.executors import local
 from roughfilm.batch.jobs import Failure, Job, store, stored
 from roughfilm.contact.foundation.files import replacing
-from roughfilm.rom.ladder.model import find, of_kind
+from roughfilm.ladder import find
 from roughfilm.rom.ladder.provenance import code, versions
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import scene_entries
 from roughfilm.rom.ladder.setting import Setting
 from roughfilm.rom.rough_gap.scene import RoughGap
-from roughfilm.terminal.console import messages, models, progress_bar
+from roughfilm.terminal.console import messages, progress_bar
 
 FOUND = "found"
 """The folder beside the page where answers are kept."""
@@ -55,12 +55,11 @@ def answers(asked: Sequence[Asked], folder: Path, place: Place = local) -> tuple
 
     A rung that is not on this machine fails in all that is asked of it.
     """
-    ladder = of_kind(models(), "rough_gap")
     failed: dict[str, str] = {}
     found: dict[str, Result] = {}
     missing: dict[Path, tuple[str, Job]] = {}
     for one in {each.key: each for each in asked}.values():
-        model = find(ladder, one.model)
+        model = find("rough_gap", one.model)
         available = model.available()
         if not available.available:
             failed[one.key] = available.detail

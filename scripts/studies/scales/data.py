@@ -12,10 +12,10 @@ from roughfilm.contact.preparation.prepare import prepare
 from roughfilm.contact.preparation.recipe import Grid, Recipe
 from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.store import save_surface
-from roughfilm.rom.ladder.model import find, of_kind
+from roughfilm.ladder import find
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import load_scene, read_scene, scene_entries
-from roughfilm.terminal.console import models
 
 SCENES = Path(__file__).parents[2] / "examples" / "scenes"
 SURFACE = "ground_striated.x3p"
@@ -94,9 +94,9 @@ class Study:
 
 def solve(scene: Any, name: str) -> Result:
     """A bearing by a rung; a surface, whose pixels say what there is, on the coarsest grid that follows it."""
-    rung = find(of_kind(models(), "bearing"), name)
+    rung = find("bearing", name)
     coarse = name == "direct" and scene.roughness.kind == "surface"
-    return rung.solve(scene, resolution=rung.resolutions_of(scene)[0] if coarse else None)
+    return rung.solve(scene, Request(resolution=rung.resolutions_of(scene)[0] if coarse else None))
 
 
 def slider(ratio: float, phase: float, cavitation: str = NEVER) -> Any:

@@ -6,10 +6,10 @@ from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.foamcases.openfoam import iterate as tries
 from roughfilm.foamcases.openfoam.dictionaries import strengthen
 from roughfilm.foamcases.openfoam.residuals import PATIENCE, Judged, Residuals
-from roughfilm.foamcases.pocket.case import write_case
 from roughfilm.foamcases.pocket.fields import read_channel
 from roughfilm.foamcases.pocket.models import navier_stokes, stokes
 from roughfilm.foamcases.pocket.run import run_case
+from roughfilm.rom.ladder.request import Request
 
 
 def logged(values):
@@ -81,7 +81,7 @@ def test_outcomes(read, values, outcome):
 def test_a_failure_says_which(make_scene, monkeypatch, model, scene, resolution, outcome):
     monkeypatch.setattr(tries, "RETRIED", set())
     with pytest.raises(ConvergenceError, match=f"OpenFOAM: {outcome} after") as caught:
-        model.solve(make_scene(*scene), resolution=resolution)
+        model.solve(make_scene(*scene), Request(resolution=resolution))
     assert caught.value.outcome is outcome
     assert "\n" not in str(caught.value)
 
@@ -91,14 +91,14 @@ def test_what_fails_twice_tells_both_tries(make_scene):
     with pytest.raises(
         ConvergenceError, match=r"stalled after .*; second try .*: stalled after .*; loosen --tolerance"
     ):
-        stokes.MODEL.solve(make_scene(0.3, 1e-9, 160), resolution=30)
+        stokes.MODEL.solve(make_scene(0.3, 1e-9, 160), Request(resolution=30))
 
 
 @pytest.mark.openfoam
 def test_a_rescued_run_says_so_and_is_right(make_scene):
     """The load of so shallow a groove is proportional to its depth; at d+ = 1e-4 no rescue is needed."""
     deeper, shallower = (
-        navier_stokes.MODEL.solve(make_scene(0.3, depth, 2000), resolution=30) for depth in (1e-4, 1e-6)
+        navier_stokes.MODEL.solve(make_scene(0.3, depth, 2000), Request(resolution=30)) for depth in (1e-4, 1e-6)
     )
     runs = shallower.numerics.runs
     assert [run.outcome for run in deeper.numerics.runs] == ["converged"]
@@ -113,7 +113,7 @@ def test_a_rescued_run_says_so_and_is_right(make_scene):
 @pytest.mark.slow
 def test_a_half_circle_is_solved_on_the_default_mesh(make_scene):
     """Its groove's steep walls skew the cells; an independent check of the load is its own coarser mesh, to 10 %."""
-    fine, coarse = (navier_stokes.MODEL.solve(make_scene(0.3, 5, 160), resolution=n) for n in (240, 120))
+    fine, coarse = (navier_stokes.MODEL.solve(make_scene(0.3, 5, 160), Request(resolution=n)) for n in (240, 120))
     assert fine.numerics.residual <= 2e-7
     assert fine.quantities["load_plus"].value == pytest.approx(coarse.quantities["load_plus"].value, rel=0.1)
 
@@ -122,14 +122,7 @@ def test_a_half_circle_is_solved_on_the_default_mesh(make_scene):
 def test_the_recipe_does_not_change_the_answer(make_scene, tmp_path):
     loads = []
     for name in ("usual", "strengthened"):
-        write_case(
-            make_scene(0.3, 2.25, 160),
-            tmp_path / name,
-            reynolds_number=160.0,
-            resolution=60,
-            tolerance=None,
-            scheme="linear_upwind",
-        )
+        navier_stokes.MODEL.write(make_scene(0.3, 2.25, 160), tmp_path / name, Request(resolution=60))
         if name == "strengthened":
             strengthen(tmp_path / name)
         run_case(tmp_path / name)

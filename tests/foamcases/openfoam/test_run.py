@@ -7,19 +7,18 @@ from foamlib import FoamCase, FoamFile
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome, UnavailableError
 from roughfilm.foamcases.openfoam import installation as openfoam
 from roughfilm.foamcases.openfoam import run
-from roughfilm.foamcases.pocket.case import write_case
 from roughfilm.foamcases.pocket.fields import read_channel
+from roughfilm.foamcases.pocket.models.navier_stokes import MODEL as NAVIER_STOKES
 from roughfilm.foamcases.pocket.run import run_case
 from roughfilm.rom.ladder.model import Availability
+from roughfilm.rom.ladder.request import Request
 
 pytestmark = pytest.mark.openfoam
 
 
 @pytest.fixture
 def case(make_scene, tmp_path):
-    write_case(
-        make_scene(0.3, 0.25, 40), tmp_path, reynolds_number=40.0, resolution=30, tolerance=1e-5, scheme="linear_upwind"
-    )
+    NAVIER_STOKES.write(make_scene(0.3, 0.25, 40), tmp_path, Request(resolution=30, tolerance=1e-5))
     return tmp_path
 
 
@@ -95,15 +94,7 @@ def test_no_openfoam_is_said_in_one_line(case, monkeypatch):
 
 
 def test_no_mpirun_is_said_in_one_line(make_scene, tmp_path, monkeypatch):
-    write_case(
-        make_scene(0.3, 0.25, 40),
-        tmp_path,
-        reynolds_number=40.0,
-        resolution=30,
-        tolerance=None,
-        scheme="linear_upwind",
-        processes=2,
-    )
+    NAVIER_STOKES.write(make_scene(0.3, 0.25, 40), tmp_path, Request(resolution=30, processes=2))
     monkeypatch.setattr(run.shutil, "which", lambda _: None)
     with pytest.raises(UnavailableError, match="no mpirun on the PATH; leave --processes out, or"):
         run_case(tmp_path)

@@ -9,7 +9,9 @@ from foamlib import FoamFile
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.foamcases.openfoam.case_directory import read_card
-from roughfilm.foamcases.pocket.case import Card, write_case
+from roughfilm.foamcases.pocket.case import Card
+from roughfilm.foamcases.pocket.models.navier_stokes import MODEL as NAVIER_STOKES
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene, scene_entries
 
 HOSTILE = [
@@ -24,7 +26,7 @@ HOSTILE = [
 @pytest.mark.parametrize("name", HOSTILE)
 def test_a_hostile_name_never_reaches_the_case(make_scene, tmp_path, name):
     scene = read_scene({**scene_entries(make_scene(0.3, 0.25, 160)), "name": name})
-    write_case(scene, tmp_path / "case", reynolds_number=160.0, resolution=20, tolerance=None, scheme="linear_upwind")
+    NAVIER_STOKES.write(scene, tmp_path / "case", Request(resolution=20))
     files = [path for path in (tmp_path / "case").rglob("*") if path.is_file()]
     assert len(files) > 10
     for path in files:
@@ -46,7 +48,7 @@ def test_hostile_values_are_refused_before_a_case_is_made(make_scene, place, tex
 
 def test_the_case_says_what_it_is(make_scene, tmp_path):
     scene = make_scene(0.3, 0.25, 160)
-    write_case(scene, tmp_path, reynolds_number=160.0, resolution=60, tolerance=1e-6, scheme="linear_upwind")
+    NAVIER_STOKES.write(scene, tmp_path, Request(resolution=60, tolerance=1e-6))
     card = read_card(tmp_path, Card)
     assert (card.reynolds_number, card.resolution, card.tolerance) == (160.0, 60, 1e-6)
     assert FoamFile(tmp_path / "constant" / "transportProperties")["nu"] == pytest.approx(1 / 160)
@@ -62,22 +64,17 @@ def test_the_case_says_what_it_is(make_scene, tmp_path):
 )
 def test_options_out_of_range(make_scene, tmp_path, resolution, tolerance, words):
     with pytest.raises(InputError, match=words):
-        write_case(
-            make_scene(0.3, 0.25, 1),
-            tmp_path / "c",
-            reynolds_number=1.0,
-            resolution=resolution,
-            tolerance=tolerance,
-            scheme="linear_upwind",
+        NAVIER_STOKES.write(
+            make_scene(0.3, 0.25, 1), tmp_path / "c", Request(resolution=resolution, tolerance=tolerance)
         )
     assert not (tmp_path / "c").exists()
 
 
 def test_a_case_is_never_written_over_another(make_scene, tmp_path):
     scene = make_scene(0.3, 0.25, 1)
-    write_case(scene, tmp_path, reynolds_number=1.0, resolution=20, tolerance=None, scheme="linear_upwind")
+    NAVIER_STOKES.write(scene, tmp_path, Request(resolution=20))
     with pytest.raises(InputError, match="is not an empty directory"):
-        write_case(scene, tmp_path, reynolds_number=1.0, resolution=20, tolerance=None, scheme="linear_upwind")
+        NAVIER_STOKES.write(scene, tmp_path, Request(resolution=20))
 
 
 def test_a_directory_without_a_card_is_refused(tmp_path):
@@ -87,12 +84,5 @@ def test_a_directory_without_a_card_is_refused(tmp_path):
 
 def test_a_path_with_a_blank_is_refused_before_openfoam_stumbles_over_it(make_scene, tmp_path):
     with pytest.raises(InputError, match="takes no blanks in a path"):
-        write_case(
-            make_scene(0.3, 0.25, 1),
-            tmp_path / "my case",
-            reynolds_number=1.0,
-            resolution=20,
-            tolerance=None,
-            scheme="linear_upwind",
-        )
+        NAVIER_STOKES.write(make_scene(0.3, 0.25, 1), tmp_path / "my case", Request(resolution=20))
     assert not (tmp_path / "my case").exists()

@@ -3,15 +3,14 @@
 import numpy as np
 import pytest
 
-from roughfilm import foamcases
-from roughfilm.rom.ladder.model import find, ladder
+from roughfilm.ladder import find
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.rom.pocket.groove import cylindrical
 
 pytestmark = pytest.mark.openfoam
 
-MODELS = ladder(foamcases)
-STOKES, NAVIER_STOKES = find(MODELS, "stokes"), find(MODELS, "navier_stokes")
+STOKES, NAVIER_STOKES = find("pocket", "stokes"), find("pocket", "navier_stokes")
 
 SPLINED = [
     (0.15, 0.50, -0.3, 0.481),
@@ -57,12 +56,14 @@ def test_splined_loads_are_those_of_an_independent_solver(width, depth, shift, e
 
 
 def test_half_the_columns_find_the_load_of_a_narrow_spline_to_one_percent():
-    result = NAVIER_STOKES.solve(scene_of(40, **splined(0.15, 0.50, -0.3)), resolution=120)
+    result = NAVIER_STOKES.solve(scene_of(40, **splined(0.15, 0.50, -0.3)), Request(resolution=120))
     assert value(result, "load_plus") == pytest.approx(0.481, rel=1e-2)
 
 
 def test_a_mirrored_spline_has_the_mirrored_pressure_in_stokes_flow():
-    left, right = (STOKES.solve(scene_of(1, **splined(0.3, 0.75, shift)), resolution=60) for shift in (-0.3, 0.3))
+    left, right = (
+        STOKES.solve(scene_of(1, **splined(0.3, 0.75, shift)), Request(resolution=60)) for shift in (-0.3, 0.3)
+    )
     p, mirrored = left.fields["pressure"].values, right.fields["pressure"].values[::-1]
     assert np.abs(p + mirrored).max() < 1e-6 * np.abs(p).max()
     assert value(left, "load_plus") == pytest.approx(-value(right, "load_plus"), rel=1e-5)
@@ -71,9 +72,9 @@ def test_a_mirrored_spline_has_the_mirrored_pressure_in_stokes_flow():
 def test_two_equal_grooves_are_one_in_half_the_period():
     """To the error of the grid; in the longer period, one groove's pressure repeats the other's more closely."""
     groove = {"width": "0.3 mm", "depth": "22.5 um"}
-    single = NAVIER_STOKES.solve(scene_of(80, "0.5 mm", **groove), resolution=120)
+    single = NAVIER_STOKES.solve(scene_of(80, "0.5 mm", **groove), Request(resolution=120))
     grooves = [{"position": position, **groove} for position in ("-0.25 mm", "0.25 mm")]
-    double = NAVIER_STOKES.solve(scene_of(80, "1 mm", grooves=grooves), resolution=120)
+    double = NAVIER_STOKES.solve(scene_of(80, "1 mm", grooves=grooves), Request(resolution=120))
     for name in ("load_per_area", "friction_per_area"):
         assert value(double, name) == pytest.approx(value(single, name), rel=1e-2)
     pressure, x = (double.fields[name].values for name in ("pressure", "position"))
@@ -86,6 +87,6 @@ def test_an_arc_through_points_carries_what_the_arc_carries():
     s = np.linspace(-1.5e-4, 1.5e-4, 301)
     depth = cylindrical(width=3e-4, depth=7.5e-6).depth(s)
     scene = scene_of(160, profile="points", points=np.column_stack([s, depth]).tolist())
-    result = NAVIER_STOKES.solve(scene, resolution=120)
+    result = NAVIER_STOKES.solve(scene, Request(resolution=120))
     assert value(result, "load_plus") == pytest.approx(3.303, rel=5e-3)
     assert abs(result.fields["position"].values.size - 120) <= 6

@@ -4,12 +4,14 @@ import numpy as np
 import pytest
 
 from roughfilm import foamcases, rom
-from roughfilm.rom.ladder.model import find, ladder, of_kind
+from roughfilm.ladder import find
+from roughfilm.rom.ladder.model import ladder, of_kind
+from roughfilm.rom.ladder.request import Request
 
 pytestmark = pytest.mark.openfoam
 
 MODELS = of_kind(ladder(rom, foamcases), "pocket")
-STOKES, NAVIER_STOKES = find(MODELS, "stokes"), find(MODELS, "navier_stokes")
+STOKES, NAVIER_STOKES = find("pocket", "stokes"), find("pocket", "navier_stokes")
 PLUS = ("load_plus", "friction_plus", "pressure_max_plus", "pressure_min_plus")
 
 REFERENCE = [
@@ -40,20 +42,20 @@ def test_stokes_is_within_one_percent_antisymmetric_and_carries_no_load(make_sce
 
 def test_stokes_does_not_depend_on_the_parity_of_the_grid(make_scene):
     scene = make_scene(0.30, 0.25, 160)
-    even, odd = (plus(STOKES.solve(scene, resolution=n)) for n in (80, 81))
+    even, odd = (plus(STOKES.solve(scene, Request(resolution=n))) for n in (80, 81))
     assert even[1:] == pytest.approx(odd[1:], rel=5e-3)
     assert abs(odd[0]) < 1e-6 * odd[2]
 
 
 def test_a_hardly_grooved_wall_is_smooth(make_scene):
-    load, friction, highest, _lowest = plus(NAVIER_STOKES.solve(make_scene(0.3, 1e-4, 160), resolution=60))
+    load, friction, highest, _lowest = plus(NAVIER_STOKES.solve(make_scene(0.3, 1e-4, 160), Request(resolution=60)))
     assert friction == pytest.approx(3.0, abs=1e-3)
     assert max(abs(load), highest) < 0.02
 
 
 def test_stokes_becomes_reynolds_as_the_slope_vanishes(make_scene):
     """A groove four times as wide cuts the slope effect on pressure; wide and shallow must agree to 1 %."""
-    reynolds = find(MODELS, "reynolds")
+    reynolds = find("pocket", "reynolds")
     gaps = []
     for width, depth in ((0.15, 0.5), (0.6, 0.5)):
         scene = make_scene(width, depth, 1)
@@ -66,7 +68,7 @@ def test_stokes_becomes_reynolds_as_the_slope_vanishes(make_scene):
 def test_weighted_inertia_is_nearer_to_navier_stokes_at_small_reynolds_numbers_than_averaged_would_be(make_scene):
     """At Re = 4 the exact first-order load is within the slope effect of Navier-Stokes; 10-15 % less would not be."""
     scene = make_scene(0.5, 0.25, 4)
-    film = plus(find(MODELS, "inertial_reynolds").solve(scene))[0]
+    film = plus(find("pocket", "inertial_reynolds").solve(scene))[0]
     full = plus(NAVIER_STOKES.solve(scene))[0]
     assert film == pytest.approx(full, rel=0.05)
 
@@ -75,19 +77,19 @@ def test_load_and_friction_converge_at_second_order(make_scene):
     """Load of a flow with inertia, friction of one without (with it, two errors nearly cancel in friction)."""
     cases = [(NAVIER_STOKES, make_scene(0.5, 0.25, 40), 0), (STOKES, make_scene(0.3, 0.75, 1), 1)]
     for model, scene, which in cases:
-        coarse, middle, fine = (plus(model.solve(scene, resolution=n))[which] for n in (48, 96, 192))
+        coarse, middle, fine = (plus(model.solve(scene, Request(resolution=n)))[which] for n in (48, 96, 192))
         assert np.log2((middle - coarse) / (fine - middle)) == pytest.approx(2, abs=0.4)
 
 
 def test_back_flow_begins_with_depth(make_scene):
-    shallow = NAVIER_STOKES.solve(make_scene(0.3, 0.25, 160), resolution=120).quantities["backflow"].value
-    deep = NAVIER_STOKES.solve(make_scene(0.3, 0.75, 160), resolution=120).quantities["backflow"].value
+    shallow = NAVIER_STOKES.solve(make_scene(0.3, 0.25, 160), Request(resolution=120)).quantities["backflow"].value
+    deep = NAVIER_STOKES.solve(make_scene(0.3, 0.75, 160), Request(resolution=120)).quantities["backflow"].value
     assert shallow == 0
     assert deep == pytest.approx(0.021, abs=0.002)
 
 
 def test_flow_rate_is_the_same_through_every_column(make_scene):
-    result = NAVIER_STOKES.solve(make_scene(0.3, 0.75, 160), resolution=120)
+    result = NAVIER_STOKES.solve(make_scene(0.3, 0.75, 160), Request(resolution=120))
     velocity, vertices = result.fields["cell_velocity"].values, result.fields["vertices"].values
     layers = np.diff(vertices[:, :, 1], axis=1)
     flow = (velocity[..., 0] * (layers[1:] + layers[:-1]) / 2).sum(axis=1)
@@ -116,7 +118,7 @@ def test_walls_drag_each_other_equally(make_scene):
 def test_upwind_is_of_first_order_and_carries_too_much_load(make_scene):
     """4.179 is the load of an independent solver; at 240 columns numerical diffusion adds 6 to 7 % to it."""
     scene = make_scene(0.3, 0.75, 160)
-    runs = [NAVIER_STOKES.solve(scene, resolution=n, scheme="upwind") for n in (60, 120, 240)]
+    runs = [NAVIER_STOKES.solve(scene, Request(resolution=n, scheme="upwind")) for n in (60, 120, 240)]
     coarse, middle, fine = (plus(run)[0] for run in runs)
     assert np.log2((coarse - middle) / (middle - fine)) == pytest.approx(1, abs=0.2)
     assert 0.06 < fine / 4.179 - 1 < 0.07
@@ -127,7 +129,7 @@ def test_upwind_is_of_first_order_and_carries_too_much_load(make_scene):
 @pytest.mark.parametrize("model", [STOKES, NAVIER_STOKES])
 def test_several_processes_find_what_one_finds(make_scene, model):
     scene = make_scene(0.3, 0.75, 160)
-    alone, together = (model.solve(scene, resolution=60, processes=n) for n in (1, 3))
+    alone, together = (model.solve(scene, Request(resolution=60, processes=n)) for n in (1, 3))
     assert plus(together) == pytest.approx(plus(alone), rel=1e-6, abs=1e-6)
     shape = alone.fields["cell_velocity"].values.shape
     assert together.fields["cell_velocity"].values.shape == shape

@@ -2,6 +2,7 @@
 
 import re
 import subprocess
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -20,6 +21,7 @@ from roughfilm.foamcases.rough_gap.dictionaries import DRIVES
 from roughfilm.foamcases.rough_gap.models import navier_stokes as gap_navier_stokes
 from roughfilm.foamcases.rough_gap.models import stokes as gap_stokes
 from roughfilm.foamcases.rough_gap.run import run_gap, unsettled
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.rom.rough_gap.walls import Walls
 
@@ -31,12 +33,12 @@ ENTRIES = {
     "flow": {"reynolds_number": 0.5},
 }
 
-NUMBERS = {"reynolds_number": 0.5, "resolution": 8, "tolerance": None, "scheme": "linear_upwind"}
+COARSE = Request(resolution=8)
 
 
 @pytest.mark.parametrize("name", ['#calc "system(\\"touch /tmp/owned\\")"', "$include; }", "a; nu 1e9;"])
 def test_a_hostile_name_never_reaches_a_case(tmp_path, name):
-    write_gap_case(read_scene({**ENTRIES, "name": name}), tmp_path, **NUMBERS)
+    gap_navier_stokes.MODEL.write(read_scene({**ENTRIES, "name": name}), tmp_path, COARSE)
     files = [path for path in tmp_path.rglob("*") if path.is_file() and not path.is_symlink()]
     assert len(files) > 20
     for path in files:
@@ -47,7 +49,7 @@ def test_a_hostile_name_never_reaches_a_case(tmp_path, name):
 
 
 def test_a_case_can_be_moved(tmp_path):
-    write_gap_case(read_scene(ENTRIES), tmp_path / "case", **NUMBERS)
+    gap_navier_stokes.MODEL.write(read_scene(ENTRIES), tmp_path / "case", COARSE)
     (tmp_path / "case").rename(tmp_path / "moved")
     for drive in ("along", "across", "sliding"):
         assert (tmp_path / "moved" / drive / "constant" / "polyMesh" / "points").is_file()
@@ -59,7 +61,7 @@ def test_a_case_can_be_moved(tmp_path):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({"resolution": 7}, "--resolution: got 7; the surface has 256 points"),
+        ({"resolution": 7}, "--resolution: got 7; navier_stokes takes 8 to 256"),
         ({"resolution": 257}, "--resolution: got 257"),
         ({"tolerance": 0.5}, "--tolerance: got 0.5"),
         ({"processes": 99}, "--processes: got 99; it must be 1 to 8"),
@@ -67,7 +69,7 @@ def test_a_case_can_be_moved(tmp_path):
 )
 def test_numbers_out_of_range_are_refused(tmp_path, options, words):
     with pytest.raises(InputError, match=words):
-        write_gap_case(read_scene(ENTRIES), tmp_path / "case", **{**NUMBERS, **options})
+        gap_navier_stokes.MODEL.write(read_scene(ENTRIES), tmp_path / "case", replace(COARSE, **options))
     assert not (tmp_path / "case").exists()
 
 
@@ -75,8 +77,9 @@ def test_a_mesh_that_does_not_fit_is_refused_before_it_is_made(tmp_path, monkeyp
     monkeypatch.setattr(memory, "memory_available", lambda: 2.0**29)
     monkeypatch.setattr(gap_case, "mesh_of", lambda *_: pytest.fail("a mesh was made"))
     scene = read_scene({**ENTRIES, "mesh": {"layers": 1000}})
+    finest = gap_navier_stokes.MODEL.checked(scene, Request(resolution=256))
     with pytest.raises(InputError, match=r"256 × 2 × 1000 cells would take about .* GiB .* be run, and 0.5 GiB are"):
-        write_gap_case(scene, tmp_path / "case", **{**NUMBERS, "resolution": 256}, run=True)
+        write_gap_case(scene, tmp_path / "case", finest, 0.5, run=True)
     assert not (tmp_path / "case").exists()
     assert memory_estimate(256 * 2, 1000, run=False) < memory_estimate(256 * 2, 1000)
 
@@ -142,7 +145,7 @@ def test_faults_of_a_mesh_are_borne_only_where_they_are_known_to_be_harmless(tmp
 @pytest.mark.openfoam
 def test_rungs_tell_the_quantities_and_fields_of_their_kind():
     scene = read_scene(ENTRIES)
-    result = gap_navier_stokes.MODEL.solve(scene, resolution=16, scheme="upwind")
+    result = gap_navier_stokes.MODEL.solve(scene, Request(resolution=16, scheme="upwind"))
     value = {name: quantity.value for name, quantity in result.quantities.items()}
     assert {"A11", "A12", "A21", "A22", "B1", "B2", "friction", "flow_per_width_x", "contact_area"} < set(value)
     assert value["flow_per_width_x"] == pytest.approx(value["A11"] * 0.5 * 0.01 / 870, rel=1e-9)
@@ -159,7 +162,7 @@ def test_rungs_tell_the_quantities_and_fields_of_their_kind():
 @pytest.mark.openfoam
 def test_cases_run_by_hand_tell_the_flow_as_their_readme_says(tmp_path):
     case, a = tmp_path / "case", 0.3
-    write_gap_case(read_scene(ENTRIES), case, **{**NUMBERS, "reynolds_number": 1e-6, "resolution": 32})
+    gap_stokes.MODEL.write(read_scene(ENTRIES), case, Request(resolution=32))
     assert subprocess.run([case / "Allrun"], check=False, capture_output=True).returncode == 0
     excess = float(re.search(r"times (\S+) by the layers", (case / "README").read_text())[1])
     thin = (1 - a**2) ** 2.5 / (1 + a**2 / 2)
@@ -172,7 +175,7 @@ def test_cases_run_by_hand_tell_the_flow_as_their_readme_says(tmp_path):
 
 @pytest.mark.openfoam
 def test_a_run_that_stops_at_its_last_iteration_is_no_success(tmp_path):
-    write_gap_case(read_scene(ENTRIES), tmp_path, **NUMBERS)
+    gap_navier_stokes.MODEL.write(read_scene(ENTRIES), tmp_path, COARSE)
     with FoamFile(tmp_path / "along" / "system" / "controlDict") as control:
         control["endTime"] = 3
     with pytest.raises(ConvergenceError, match="unfinished after 3 iterations"):

@@ -6,6 +6,7 @@ import pytest
 from roughfilm.foamcases.rough_gap.case import mesh_of
 from roughfilm.foamcases.rough_gap.cases import lost_shear
 from roughfilm.foamcases.rough_gap.models.stokes import MODEL
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene, scene_entries
 from roughfilm.rom.rough_gap.flow.exact import sinusoidal_ridge_flow
 
@@ -30,7 +31,7 @@ def test_ridges_are_within_their_bars_which_shrink_at_second_order(amplitude, wa
     exact = sinusoidal_ridge_flow(amplitude, wavelength)
     bars = []
     for resolution in (16, 32):
-        found = MODEL.solve(scene, resolution=resolution)
+        found = MODEL.solve(scene, Request(resolution=resolution))
         truths = {"A11": exact.across, "A22": exact.along, "B1": exact.drag, "friction": exact.friction}
         for name, truth in truths.items():
             assert abs(found[name].value - truth) < found[name].uncertainty < 0.5 * truth
@@ -48,14 +49,14 @@ def test_waves_that_the_mesh_cannot_hold_are_counted():
     }
     scene = scene_of(surface=short)
     assert np.ptp(scene.walls(16).lower) == pytest.approx(0.0, abs=1e-12)
-    found = MODEL.solve(scene, resolution=16)
+    found = MODEL.solve(scene, Request(resolution=16))
     assert found.quantities["A11"].value == pytest.approx(1.0, abs=1e-4)
     truth = sinusoidal_ridge_flow(0.3, 0.8, tolerance=1e-4).across
     assert 1 - truth < 1.3 * found["A11"].uncertainty
 
 
 def test_flow_over_thin_film_theory_on_the_same_nodes_is_what_slope_takes():
-    found = MODEL.solve(scene_of(surface="sinusoid", amplitude="0.3 um", wavelength="5 um"), resolution=32)
+    found = MODEL.solve(scene_of(surface="sinusoid", amplitude="0.3 um", wavelength="5 um"), Request(resolution=32))
     assert found.quantities["A11_over_reynolds"].value == pytest.approx(0.95383, abs=1e-3)
     assert found.quantities["A22_over_reynolds"].value == pytest.approx(0.94218, abs=2e-3)
 
@@ -89,7 +90,9 @@ def test_shear_that_columns_do_not_see_is_known_before_anything_is_solved(amplit
 
 def test_walls_that_come_nearer_between_columns_are_told():
     apart, near = (
-        MODEL.solve(scene_of(surface="sinusoid", amplitude=f"{amplitude} um", wavelength="5 um"), resolution=16)
+        MODEL.solve(
+            scene_of(surface="sinusoid", amplitude=f"{amplitude} um", wavelength="5 um"), Request(resolution=16)
+        )
         for amplitude in (0.3, 0.9)
     )
     assert not any("come nearer" in warning for warning in apart.warnings)

@@ -10,6 +10,7 @@ from places import SCENES
 from roughfilm import foamcases, rom
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.ladder import find
 from roughfilm.rom.bearing.effects.ablation import Composed, Composition, at_film
 from roughfilm.rom.bearing.effects.inertia import inertia_added, judged, one_pocket, under_its_load
 from roughfilm.rom.bearing.effects.under_load import under_load
@@ -18,7 +19,8 @@ from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.discretise import Ends
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.solve import Solution, solve
-from roughfilm.rom.ladder.model import find, ladder, of_kind
+from roughfilm.rom.ladder.model import ladder, of_kind
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import load_scene, read_scene
 from roughfilm.rom.pocket.closed_form import inertia_pressure
 
@@ -100,7 +102,7 @@ def test_slow_flow_over_a_groove_is_that_of_the_mesh() -> None:
     speed = speed_of(5)
     _, found = judged_film(bearing(speed), 1024)
     loads = [
-        find(POCKET_MODELS, name).solve(pocket(speed), resolution=80).quantities["load_per_area"].value
+        find("pocket", name).solve(pocket(speed), Request(resolution=80)).quantities["load_per_area"].value
         for name in ("navier_stokes", "stokes")
     ]
     assert found.load / LENGTH == pytest.approx(loads[0] - loads[1], rel=0.01)
@@ -208,7 +210,7 @@ def test_a_torn_film_has_none_where_it_is_torn() -> None:
 def test_its_error_covers_the_models_that_keep_all_of_inertia() -> None:
     scene = bearing(speed_of(60))
     told = inertia_added(Composition(scene=scene, ruptures=False), 512, POCKET_MODELS)
-    truth = find(POCKET_MODELS, "film_slope").solve(pocket(speed_of(60))).quantities["load_per_area"].value * LENGTH
+    truth = find("pocket", "film_slope").solve(pocket(speed_of(60))).quantities["load_per_area"].value * LENGTH
     assert told.pocket is not None
     assert told.pocket.model == "film_slope"
     assert told.untextured_load == pytest.approx(0.0, abs=1e-9 * told.amounts["load"].value)

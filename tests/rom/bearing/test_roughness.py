@@ -10,14 +10,16 @@ from places import SCENES
 
 from roughfilm import rom
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.ladder import find
 from roughfilm.rom.cavitation.oblique import wetness
 from roughfilm.rom.homogenization.ridges import sinusoidal_ridges
-from roughfilm.rom.ladder.model import find, ladder, of_kind
+from roughfilm.rom.ladder.model import ladder, of_kind
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import load_scene, read_scene, scene_entries
 
 SLIDER, PAD = SCENES / "rough_slider.toml", SCENES / "rough_pad.toml"
 MODELS = of_kind(ladder(rom), "bearing")
-HOMOGENIZED, DIRECT, SMOOTH = (find(MODELS, name) for name in ("homogenized", "direct", "reynolds_cavitating"))
+HOMOGENIZED, DIRECT, SMOOTH = (find("bearing", name) for name in ("homogenized", "direct", "reynolds_cavitating"))
 INCOMPRESSIBLE = "lubricant.compressibility.law=incompressible"
 PARABOLIC = ["geometry.shape=parabolic", "geometry.rise=4 um"]
 
@@ -65,9 +67,9 @@ def test_ridges_are_those_of_the_source():
     scene = load_scene(SLIDER)
     x = np.linspace(0, 0.1, 1001)
     expected = 4e-6 + 1e-6 * (1 - x / 0.1) + 0.4e-6 * np.sin(2 * np.pi * 64 * x / 0.1)
-    film = DIRECT.solve(scene, resolution=1000).fields["film_thickness"].values[:, 0]
+    film = DIRECT.solve(scene, Request(resolution=1000)).fields["film_thickness"].values[:, 0]
     assert film == pytest.approx(expected, rel=1e-12)
-    mean = HOMOGENIZED.solve(scene, resolution=100).fields["film_thickness"].values[:, 0]
+    mean = HOMOGENIZED.solve(scene, Request(resolution=100)).fields["film_thickness"].values[:, 0]
     assert mean == pytest.approx(5e-6 - 1e-6 * np.linspace(0, 1, 101))
 
 
@@ -186,7 +188,7 @@ def test_walls_that_would_touch_are_averaged_but_not_followed(tmp_path):
     scene = rough_surface(tmp_path, made, scale=12.0)
     assert scene.roughness.peak > scene.geometry.film
     assert "the walls would touch" in applied(scene)["direct"].reason
-    assert value(HOMOGENIZED.solve(scene, resolution=24)) > 0
+    assert value(HOMOGENIZED.solve(scene, Request(resolution=24))) > 0
 
 
 def test_default_grids_resolve_the_waves():
@@ -196,7 +198,7 @@ def test_default_grids_resolve_the_waves():
             for cells in DIRECT.resolutions_of(scene):
                 sides = (scene.geometry.length, scene.geometry.width or 0)
                 assert all(cells * w >= 7.99 * s for s, w in zip(sides, scene.roughness.finest, strict=True))
-    told = DIRECT.solve(load_scene(SLIDER), resolution=256).warnings
+    told = DIRECT.solve(load_scene(SLIDER), Request(resolution=256)).warnings
     assert any("has 4 cells; take at least 2 times" in words for words in told)
 
 
@@ -274,12 +276,12 @@ def test_films_that_rupture_over_ridges_come_nearer_too():
 
 def test_slanting_ridges_come_nearer_on_a_pad_with_sides():
     ratios, overrides = np.array([0.25, 0.125, 0.0625]), ["geometry.shape=linear", "roughness.direction=40 deg"]
-    averaged = HOMOGENIZED.solve(load_scene(PAD, overrides), resolution=128)
-    smooth = SMOOTH.solve(load_scene(PAD, overrides), resolution=128)
+    averaged = HOMOGENIZED.solve(load_scene(PAD, overrides), Request(resolution=128))
+    smooth = SMOOTH.solve(load_scene(PAD, overrides), Request(resolution=128))
     found = []
     for ratio in ratios:
         scene = load_scene(PAD, [*overrides, f"roughness.wavelength={20 * ratio} mm"])
-        followed = DIRECT.solve(scene, resolution=256)
+        followed = DIRECT.solve(scene, Request(resolution=256))
         names = ("load", "friction", "pressure_max", "side_leakage")
         found.append([value(followed, name) / value(averaged, name) - 1 for name in names])
     off = np.abs(found)
@@ -291,7 +293,8 @@ def test_slanting_ridges_come_nearer_on_a_pad_with_sides():
 
 def test_slanting_ridges_lead_to_the_side_that_they_open_to():
     high, low = (
-        HOMOGENIZED.solve(load_scene(PAD, [f"roughness.direction={angle} deg"]), resolution=64) for angle in (-45, 45)
+        HOMOGENIZED.solve(load_scene(PAD, [f"roughness.direction={angle} deg"]), Request(resolution=64))
+        for angle in (-45, 45)
     )
     assert value(high, "load") == pytest.approx(value(low, "load"), rel=1e-6)
     turned = low.fields["pressure"].values[:, ::-1]
@@ -313,7 +316,7 @@ def test_a_sector_of_large_radius_is_a_pad():
         "rise": "20 um",
     }
     flat, bent = (
-        HOMOGENIZED.solve(read_scene({**entries, "geometry": shape}), resolution=48)
+        HOMOGENIZED.solve(read_scene({**entries, "geometry": shape}), Request(resolution=48))
         for shape in (entries["geometry"], sector)
     )
     for name in ("load", "friction", "side_leakage", "pressure_max"):
@@ -326,7 +329,7 @@ def test_a_short_journal_is_ocvirks_with_the_factors_of_its_roughness(angle):
     width, radius = 0.8e-3, 25e-3
     rough = ridges(amplitude="10 um", direction=f"{angle} deg")
     scene = load_scene(SCENES / "journal.toml", [f"geometry.width={width} m", rough])
-    found = HOMOGENIZED.solve(scene, resolution=192)
+    found = HOMOGENIZED.solve(scene, Request(resolution=192))
     # ∂/∂y (A₂₂/12η ∂p/∂y) = u/2 ∂B₁/∂x where the film narrows, p = 0 at both sides
     angles = np.linspace(0, np.pi, 20_001)
     factors = sinusoidal_ridges(10e-6, math.radians(angle))(25e-6 * (1 + 0.4 * np.cos(angles)))
@@ -397,4 +400,4 @@ def test_a_negative_filling_fraction_is_an_error():
         },
     }
     with pytest.raises(ConvergenceError, match="a filling fraction is -"):
-        HOMOGENIZED.solve(read_scene(entries), resolution=32)
+        HOMOGENIZED.solve(read_scene(entries), Request(resolution=32))

@@ -8,12 +8,14 @@ from places import SCENES
 
 from roughfilm import rom
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.ladder import find
 from roughfilm.rom.ladder.kind import kinds
-from roughfilm.rom.ladder.model import Effect, best, find, ladder, of_kind, one_effect_away
+from roughfilm.rom.ladder.model import Effect, best, ladder, of_kind, one_effect_away
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import load_scene, read_scene, scene_entries
 
 MODELS = of_kind(ladder(rom), "bearing")
-CAVITATING = find(MODELS, "reynolds_cavitating")
+CAVITATING = find("bearing", "reynolds_cavitating")
 
 
 ROUGH = [
@@ -22,7 +24,7 @@ ROUGH = [
 
 
 def solve(name, *overrides, model="reynolds_cavitating", **options):
-    return find(MODELS, model).solve(load_scene(SCENES / f"{name}.toml", overrides), **options)
+    return find("bearing", model).solve(load_scene(SCENES / f"{name}.toml", overrides), Request(**options))
 
 
 def values(result):
@@ -56,7 +58,7 @@ def test_contract(model, tips):
     if Effect.DEFORMATION in model.keeps:
         scene = tips.scene(scene_entries(scene)["geometry"] | {"eccentricity": 0.95})
     seen = []
-    result = model.solve(scene, resolution=32, progress=lambda done, words: seen.append((done, words)))
+    result = model.solve(scene, Request(resolution=32), progress=lambda done, words: seen.append((done, words)))
     assert result.model == model.name
     assert set(kinds()["bearing"].compared) <= set(result.quantities)
     assert {"x", "y", "film_thickness", "pressure", "density_ratio"} <= set(result.fields)
@@ -74,7 +76,7 @@ def test_contract(model, tips):
         ({"processes": 2}, "--processes: got 2"),
     ):
         with pytest.raises(InputError, match=words):
-            model.solve(scene, **options)
+            model.solve(scene, Request(**options))
 
 
 @pytest.mark.parametrize(
@@ -122,7 +124,7 @@ def test_a_full_journal_without_cavitation_is_sommerfelds():
     wide = load_scene(SCENES / "journal.toml")
     entries = scene_entries(wide)
     del entries["geometry"]["width"]
-    line = values(find(MODELS, "reynolds").solve(read_scene(entries)))
+    line = values(find("bearing", "reynolds").solve(read_scene(entries)))
     e = 0.4  # W = 12 π η u (R/c)² ε / ((2 + ε²) √(1 - ε²)), at right angles to the narrowest place
     load = 12 * math.pi * 0.02 * 2 * 1e3**2 * e / ((2 + e**2) * math.sqrt(1 - e**2))
     assert line["load_per_width"] == pytest.approx(load, rel=1e-6)
@@ -162,7 +164,8 @@ def test_a_film_that_only_narrows_needs_no_cavitation():
     entries = scene_entries(load_scene(SCENES / "parabolic_slider.toml")) | {"geometry": linear}
     scene = read_scene(entries)
     plain, cavitating = (
-        values(find(MODELS, name).solve(scene, resolution=64)) for name in ("reynolds", "reynolds_incompressible")
+        values(find("bearing", name).solve(scene, Request(resolution=64)))
+        for name in ("reynolds", "reynolds_incompressible")
     )
     assert cavitating["cavitated_fraction"] == 0
     for name, value in plain.items():
@@ -184,14 +187,14 @@ def test_the_infinitely_wide_line_stands_for_a_wide_bearing():
     wide = values(solve("journal", "geometry.width=5 m", model="infinitely_wide"))
     plane = values(solve("journal", "geometry.width=5 m", resolution=128))
     assert wide["load_per_width"] == pytest.approx(plane["load_per_width"], rel=0.03)
-    assert not find(MODELS, "infinitely_wide").applies(load_scene(SCENES / "parabolic_slider.toml")).applies
+    assert not find("bearing", "infinitely_wide").applies(load_scene(SCENES / "parabolic_slider.toml")).applies
 
 
 def test_a_starved_inlet_is_nothing_for_the_plain_equation():
     scene = load_scene(SCENES / "parabolic_slider.toml", ["boundary.inlet.theta=0.9"])
-    assert not find(MODELS, "reynolds").applies(scene).applies
+    assert not find("bearing", "reynolds").applies(scene).applies
     with pytest.raises(InputError, match="--model: got 'reynolds'; the inlet is starved"):
-        find(MODELS, "reynolds").solve(scene)
+        find("bearing", "reynolds").solve(scene)
 
 
 def test_an_inlet_that_brings_too_little_makes_no_film_and_says_so():
@@ -228,7 +231,7 @@ def joined(cells, **changes):
     entries = scene_entries(load_scene(SCENES / "parabolic_slider.toml"))
     entries["geometry"] = {"shape": "sector", "film": "10 um", "joined": True, **numbers}
     entries["boundary"] = {"sides": {"low": "1 bar", "high": "1 bar"}}
-    return CAVITATING.solve(read_scene(entries | changes), resolution=cells)
+    return CAVITATING.solve(read_scene(entries | changes), Request(resolution=cells))
 
 
 def test_joined_pads_meet_where_they_are_joined():
@@ -243,7 +246,7 @@ def test_the_line_of_the_greatest_pressure_lies_in_the_film():
     entries = scene_entries(load_scene(SCENES / "parabolic_slider.toml"))
     entries["geometry"]["width"] = "0.1 m"
     entries["boundary"]["sides"] = {"low": "10 MPa"}
-    found = values(CAVITATING.solve(read_scene(entries), resolution=48))
+    found = values(CAVITATING.solve(read_scene(entries), Request(resolution=48)))
     assert found["film_start"] < 0.1
 
 
@@ -286,7 +289,7 @@ def test_what_is_left_out_is_told_whatever_the_film(modulus):
 def test_one_line_does_not_stand_for_pockets_or_rings():
     entries = scene_entries(load_scene(SCENES / "journal.toml"))
     entries["geometry"]["texture"] = {"length": "5 mm", "width": "5 mm", "depth": "5 um", "start": "10 mm"}
-    assert not find(MODELS, "infinitely_wide").applies(read_scene(entries)).applies
+    assert not find("bearing", "infinitely_wide").applies(read_scene(entries)).applies
 
 
 def test_a_grid_too_coarse_for_the_wall_says_so():
@@ -301,7 +304,7 @@ def test_a_law_beyond_its_pressures_says_so():
     rows = [[0, 870], [1e6, 870.5], [2e6, 871]]
     entries = scene_entries(load_scene(SCENES / "parabolic_slider.toml"))
     entries["lubricant"]["compressibility"] = {"law": "tabulated", "table": rows}
-    told = CAVITATING.solve(read_scene(entries), resolution=256).warnings
+    told = CAVITATING.solve(read_scene(entries), Request(resolution=256)).warnings
     assert len(told) == 1
     assert "the law tabulated is meant for up to 2e+06 Pa" in told[0]
     assert solve("parabolic_slider", resolution=256).warnings == ()

@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 from places import SCENES
 
-from roughfilm import rom
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.ladder import find
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.solve import solve
-from roughfilm.rom.ladder.model import find, ladder, of_kind
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import load_scene, read_scene, scene_entries
 
 SCENE = SCENES / "washer.toml"
-FILM = find(of_kind(ladder(rom), "bearing"), "reynolds_cavitating")
+FILM = find("bearing", "reynolds_cavitating")
 INNER, OUTER, TURN = 0.15, 0.18, 2 * math.pi / 30
 
 
@@ -103,7 +103,7 @@ def test_points_of_a_wedge_are_the_wedge(tmp_path):
     assert film_of(scene, [0, 5e-3, 20e-3], [0, 3e-3, 10e-3]) == pytest.approx(np.array([12, 11.5, 10]) * 1e-6)
     entries = scene_entries(scene)
     entries["geometry"] = {"shape": "linear", "length": "20 mm", "width": "10 mm", "film": "10 um", "rise": "2 um"}
-    wedge, same = (FILM.solve(one, resolution=32) for one in (read_scene(entries), scene))
+    wedge, same = (FILM.solve(one, Request(resolution=32)) for one in (read_scene(entries), scene))
     for name, quantity in wedge.quantities.items():
         assert same.quantities[name].value == pytest.approx(quantity.value, rel=1e-9), name
 

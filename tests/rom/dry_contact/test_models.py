@@ -7,7 +7,9 @@ import pytest
 
 from roughfilm import rom
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.rom.ladder.model import find, ladder, of_kind
+from roughfilm.ladder import find
+from roughfilm.rom.ladder.model import ladder, of_kind
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.store import as_bytes, load
 
 RUNGS = of_kind(ladder(rom), "dry_contact")
@@ -24,7 +26,7 @@ KNOWN = {
 
 
 def solved(name, scene, **options):
-    return find(RUNGS, name).solve(scene, **options)
+    return find("dry_contact", name).solve(scene, Request(**options))
 
 
 def value(result, quantity):
@@ -53,7 +55,7 @@ def test_contract(model, make_contact, tmp_path):
     scene = make_contact(hardness=3e9)
     seen = []
     resolution = model.resolutions_of(scene)[1]
-    result = model.solve(scene, resolution=resolution, progress=lambda done, words: seen.append((done, words)))
+    result = model.solve(scene, Request(resolution=resolution), progress=lambda done, words: seen.append((done, words)))
     assert set(result.quantities) <= KNOWN
     assert {"area_fraction", "plastic_fraction", "mean_contact_pressure", "rms_height"} <= set(result.quantities)
     assert {"bin_edges", "pressure_density"} <= set(result.fields)
@@ -70,12 +72,12 @@ def test_contract(model, make_contact, tmp_path):
     assert value(result, "mean_contact_pressure") * value(result, "area_fraction") == pytest.approx(1e8)
     for bad, words in (({"scheme": "upwind"}, "--scheme"), ({"processes": 2}, "--processes: got 2")):
         with pytest.raises(InputError, match=words):
-            model.solve(scene, **bad)
+            model.solve(scene, Request(**bad))
     for size in (4, 65):
-        with pytest.raises(InputError, match=f"--resolution: got {size}; the surface has 64 points .* take 8 to 64"):
-            model.solve(scene, resolution=size)
+        with pytest.raises(InputError, match=f"--resolution: got {size}; {model.name} takes 8 to 64 points"):
+            model.solve(scene, Request(resolution=size))
     with pytest.raises(InputError, match="--tolerance: got 2"):
-        model.solve(scene, tolerance=2)
+        model.solve(scene, Request(tolerance=2))
     (tmp_path / "r.h5").write_bytes(as_bytes(result))
     assert load(tmp_path / "r.h5").quantities == result.quantities
 
@@ -154,7 +156,7 @@ def test_a_flat_surface_is_all_contact(make_contact, tmp_path):
         assert (value(result, "area_fraction"), value(result, "mean_gap")) == (1, 0)
         assert any("one period" in warning for warning in result.warnings)
     for name in ("persson", "greenwood_williamson"):
-        fits = find(RUNGS, name).applies(scene)
+        fits = find("dry_contact", name).applies(scene)
         assert not fits.applies
         assert "flat surface" in fits.reason
 
@@ -162,10 +164,10 @@ def test_a_flat_surface_is_all_contact(make_contact, tmp_path):
 def test_rungs_say_where_they_leave_their_range(make_contact):
     heavy = solved("greenwood_williamson", make_contact(pressure=2e9))
     assert any("out of its range" in warning for warning in heavy.warnings)
-    assert "out of its range" in find(RUNGS, "greenwood_williamson").applies(make_contact(pressure=2e9)).reason
-    assert "P/H = 0.05" in find(RUNGS, "elastic").applies(make_contact(hardness=2e9)).reason
-    assert "plasticity index E* g'/H = 5" in find(RUNGS, "elastic").applies(make_contact(hardness=2e9)).reason
-    assert "give a finite one" in find(RUNGS, "bearing_area").applies(make_contact()).reason
+    assert "out of its range" in find("dry_contact", "greenwood_williamson").applies(make_contact(pressure=2e9)).reason
+    assert "P/H = 0.05" in find("dry_contact", "elastic").applies(make_contact(hardness=2e9)).reason
+    assert "plasticity index E* g'/H = 5" in find("dry_contact", "elastic").applies(make_contact(hardness=2e9)).reason
+    assert "give a finite one" in find("dry_contact", "bearing_area").applies(make_contact()).reason
 
 
 @pytest.mark.parametrize("name", ["persson", "elastic"])

@@ -7,11 +7,12 @@ from roughfilm import foamcases, rom
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.ladder.kind import kinds
 from roughfilm.rom.ladder.model import Effect, best, find, ladder, of_kind, one_effect_away
+from roughfilm.rom.ladder.request import Request
 
 ALL = ladder(rom, foamcases)
 MODELS = of_kind(ALL, "pocket")
 CONTACTS = of_kind(ALL, "dry_contact")
-NEEDS_OPENFOAM = [pytest.param(m, marks=pytest.mark.openfoam) if m.write else m for m in MODELS]
+NEEDS_OPENFOAM = [pytest.param(m, marks=pytest.mark.openfoam) if m.outside else m for m in MODELS]
 
 
 def test_the_rungs_are_found_in_order():
@@ -59,7 +60,7 @@ def test_every_model_solves_a_kind_of_scene_and_has_a_name_of_its_own():
 
 def test_an_unknown_name_is_refused_with_the_known_ones():
     with pytest.raises(InputError, match="one of reynolds, inertial_reynolds, film, stokes, film_slope, navier_stokes"):
-        find(MODELS, "raynolds")
+        find(MODELS, "pocket", "raynolds")
 
 
 @pytest.mark.parametrize("model", NEEDS_OPENFOAM)
@@ -67,7 +68,7 @@ def test_contract(model, make_scene):
     scene = make_scene(0.3, 0.25, 20)
     seen = []
     result = model.solve(
-        scene, resolution=model.resolutions[1], progress=lambda done, words: seen.append((done, words))
+        scene, Request(resolution=model.resolutions.series[1]), progress=lambda done, words: seen.append((done, words))
     )
     assert result.model == model.name
     assert set(result.quantities) == {
@@ -85,14 +86,14 @@ def test_contract(model, make_scene):
     numbers = result.numerics
     assert np.isfinite(numbers.residual)
     assert min(numbers.cpu_s, numbers.wall_s, numbers.degrees_of_freedom, numbers.iterations) > 0
-    assert numbers.resolution == model.resolutions[1]
+    assert numbers.resolution == model.resolutions.series[1]
     assert numbers.scheme == (model.schemes[0] if model.schemes else "")
     assert result.provenance["keeps"] == sorted(model.keeps)
     assert result.provenance["sources"] == list(model.sources)
     assert all(0 <= done <= 1 for done, _ in seen)
     assert model.applies(scene).applies
     assert model.applies(scene).reason
-    assert model.cost(scene, model.resolution) > 0
+    assert model.cost(scene, model.resolution_of(scene)) > 0
     ratio = result.quantities["load_per_area"].value / scene.pressure_unit * scene.plus_factor
     assert ratio == pytest.approx(result.quantities["load_plus"].value)
 
@@ -101,13 +102,15 @@ def test_contract(model, make_scene):
 def test_choices_that_a_model_does_not_offer_are_refused(model, make_scene):
     offered = "one of " + ", ".join(model.schemes) if model.schemes else "it offers no choice"
     with pytest.raises(InputError, match=f"--scheme: got 'hybrid' for {model.name}; .*{offered}"):
-        model.solve(make_scene(0.3, 0.25, 20), scheme="hybrid")
-    if model.write is None:
+        model.solve(make_scene(0.3, 0.25, 20), Request(scheme="hybrid"))
+    if not model.outside:
         with pytest.raises(InputError, match=f"--processes: got 2; {model.name}"):
-            model.solve(make_scene(0.3, 0.25, 20), processes=2)
+            model.solve(make_scene(0.3, 0.25, 20), Request(processes=2))
 
 
 def test_resolutions_are_sorted_and_hold_the_default():
     for model in MODELS:
-        assert list(model.resolutions) == sorted(set(model.resolutions))
-        assert model.resolution in model.resolutions
+        offered = model.resolutions
+        assert list(offered.series) == sorted(set(offered.series))
+        assert offered.default in offered.series
+        assert offered.least <= offered.series[0] <= offered.series[-1] <= offered.most

@@ -9,10 +9,10 @@ from hypothesis import HealthCheck, Phase, given, note, reject, settings
 from random_scenes import bearings, dry_contacts, mirrored, number, pockets, rough_gaps, seals, written
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
-from roughfilm.rom.ladder.model import find, of_kind
+from roughfilm.ladder import find, models
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene, scene_entries
 from roughfilm.stability.checks.invariants import broken
-from roughfilm.terminal.console import models
 
 OURS = (InputError, ConvergenceError, UnavailableError)
 
@@ -41,11 +41,11 @@ def examples(count):
 
 
 def rungs(kind):
-    return [model for model in of_kind(models(), kind) if model.write is None]
+    return [model for model in models(kind) if not model.outside]
 
 
 def resolution(model, scene):
-    if model.write:
+    if model.outside:
         return MESH[model.kind]
     if model.kind == "bearing":
         return CELLS[scene.wide or model.name == "infinitely_wide"]
@@ -77,7 +77,7 @@ def solved(model, scene):
     assert 0 < cost < np.inf
     with in_time(max(LIMIT, TIMES * cost)):
         try:
-            result = model.solve(scene, resolution=at)
+            result = model.solve(scene, Request(resolution=at))
         except OURS as error:
             result = error
     if isinstance(result, OURS):
@@ -127,7 +127,7 @@ def test_every_rung_answers_as_the_laws_of_its_kind_allow(kind, count):
 @pytest.mark.slow
 @pytest.mark.parametrize(("kind", "count"), [("pocket", 2), ("rough_gap", 3)])
 def test_every_rung_of_openfoam_does_too(kind, count):
-    ladder = [model for model in of_kind(models(), kind) if model.write]
+    ladder = [model for model in models(kind) if model.outside]
 
     @settings(examples(count), phases=[Phase.generate])
     @given(SCENES[kind])
@@ -146,7 +146,7 @@ def test_every_rung_of_openfoam_does_too(kind, count):
 def test_a_mirrored_groove_has_its_pressure_turned_round(entries):
     """Reynolds' equation is linear in the speed: p(x) becomes -p(-x), whatever the groove."""
     scene = valid(entries)
-    model = find(rungs("pocket"), "reynolds")
+    model = find("pocket", "reynolds")
     one, other = (model.solve(each) for each in (scene, valid(mirrored(entries))))
     size = max(abs(value(one, "pressure_max_plus")), abs(value(one, "pressure_min_plus")))
     assert value(other, "load_plus") == pytest.approx(-value(one, "load_plus"), abs=1e-6 * size)
@@ -225,7 +225,7 @@ def test_a_seal_turned_by_a_right_angle_leaks_the_same_and_pressed_harder_no_mor
     turned = at(surface.heights.T, (dy, dx), other, load)
     harder = at(surface.heights, (dx, dy), scene.flow.direction, min(load * more, scene.hardness))
     for name in ("homogenized_leakage", "direct_leakage"):
-        model = find(rungs("seal"), name)
+        model = find("seal", name)
         one, two, three = (solved(model, each) for each in (plain, turned, harder))
         smooth = value(one, "rms_height") ** 3
         bar = one["permeability"].uncertainty or 0.0

@@ -7,10 +7,10 @@ import h5py
 import numpy as np
 import pytest
 
-from roughfilm import rom
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.rom.ladder.model import find, ladder
+from roughfilm.ladder import find
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import SolverRun, with_uncertainties
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.rom.ladder.store import as_entries, load, save
@@ -18,7 +18,7 @@ from roughfilm.rom.ladder.store import as_entries, load, save
 
 @pytest.fixture
 def result(make_scene):
-    return find(ladder(rom), "inertial_reynolds").solve(make_scene(0.3, 0.25, 40))
+    return find("pocket", "inertial_reynolds").solve(make_scene(0.3, 0.25, 40))
 
 
 def test_round_trip(result, tmp_path):
@@ -123,7 +123,7 @@ def test_provenance_suffices_to_compute_it_again(result, tmp_path):
     save(result, tmp_path / "r.h5")
     stored = load(tmp_path / "r.h5")
     scene = read_scene(stored.provenance["scene"])
-    again = find(ladder(rom), stored.model).solve(scene, resolution=stored.numerics.resolution)
+    again = find("pocket", stored.model).solve(scene, Request(resolution=stored.numerics.resolution))
     assert again.quantities == stored.quantities
     assert {"versions", "commit", "machine", "created", "sources", "keeps"} <= set(stored.provenance)
 

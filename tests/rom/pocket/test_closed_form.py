@@ -5,8 +5,7 @@ import pytest
 from numpy.polynomial import Polynomial
 from scipy.integrate import quad
 
-from roughfilm import rom
-from roughfilm.rom.ladder.model import find, ladder
+from roughfilm.ladder import find
 from roughfilm.rom.pocket import closed_form as film_flow
 
 CASES = [(1.0, 0.1, 0.516), (1.25, -0.2, 0.516), (1.7, 0.4, 0.53), (2.25, -0.05, 0.52), (0.6, 0.3, 0.4)]
@@ -55,7 +54,7 @@ def test_depth_averaged_momentum_with_the_parabola_is_told_apart(make_scene, wid
     By hand, at q = 1/2 and h near 1: weighting gives 6 N = -h'/5, averaging d/dx of h <u²> gives -h'/6, so 5/6.
     """
     scene = make_scene(width, depth, 40)
-    result = find(ladder(rom), "inertial_reynolds").solve(scene)
+    result = find("pocket", "inertial_reynolds").solve(scene)
     gap = scene.gap()
     count = 200_000
     x = ((np.arange(count) + 0.5) / count - 0.5) * gap.length / gap.film

@@ -9,7 +9,9 @@ from hypothesis import strategies as st
 
 from roughfilm import rom
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
-from roughfilm.rom.ladder.model import find, ladder, of_kind
+from roughfilm.ladder import find
+from roughfilm.rom.ladder.model import ladder, of_kind
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import load_scene, read_scene
 
 MODELS = of_kind(ladder(rom), "pocket")
@@ -29,7 +31,7 @@ def plus(result):
 
 @pytest.mark.parametrize(("name", "width", "depth", "reynolds_number", "expected"), REFERENCE)
 def test_reference_values_of_an_independent_solver(make_scene, name, width, depth, reynolds_number, expected):
-    got = plus(find(MODELS, name).solve(make_scene(width, depth, reynolds_number)))
+    got = plus(find("pocket", name).solve(make_scene(width, depth, reynolds_number)))
     assert got == pytest.approx(np.array(expected), rel=1e-3, abs=1e-9)
 
 
@@ -60,7 +62,7 @@ def test_numbers_do_not_depend_on_units_or_scale(pocket_file, model):
 
 def test_pressure_field_starts_from_zero_and_has_the_units_it_says(make_scene):
     scene = make_scene(0.3, 0.25, 40)
-    result = find(MODELS, "inertial_reynolds").solve(scene)
+    result = find("pocket", "inertial_reynolds").solve(scene)
     pressure, x = result.fields["pressure"], result.fields["position"]
     assert (pressure.unit, x.unit) == ("Pa", "m")
     assert np.all(np.diff(x.values) > 0)
@@ -71,7 +73,7 @@ def test_pressure_field_starts_from_zero_and_has_the_units_it_says(make_scene):
 
 
 def test_reynolds_pressure_is_antisymmetric(make_scene):
-    pressure = find(MODELS, "reynolds").solve(make_scene(0.4, 0.9, 80)).fields["pressure"].values
+    pressure = find("pocket", "reynolds").solve(make_scene(0.4, 0.9, 80)).fields["pressure"].values
     assert np.abs(pressure + pressure[::-1]).max() < 1e-12 * np.abs(pressure).max()
 
 
@@ -79,8 +81,8 @@ def test_reynolds_pressure_is_antisymmetric(make_scene):
 def test_error_falls_geometrically_and_the_residual_sees_it(make_scene, model):
     scene = make_scene(0.3, 0.75, 60)
     orders = [4, 8, 16, 32]
-    exact = plus(model.solve(scene, resolution=96))
-    runs = [model.solve(scene, resolution=order) for order in orders]
+    exact = plus(model.solve(scene, Request(resolution=96)))
+    runs = [model.solve(scene, Request(resolution=order)) for order in orders]
     errors = [np.abs(plus(run) - exact)[1] for run in runs]
     assert all(later < earlier / 5 for earlier, later in pairwise(errors[:3]))
     residuals = [run.numerics.residual for run in runs]
@@ -89,24 +91,24 @@ def test_error_falls_geometrically_and_the_residual_sees_it(make_scene, model):
 
 def test_default_resolution_refines_until_the_tolerance_is_met(make_scene):
     deep = make_scene(0.15, 2.0, 1)
-    result = find(MODELS, "reynolds").solve(deep, tolerance=1e-10)
+    result = find("pocket", "reynolds").solve(deep, Request(tolerance=1e-10))
     assert result.numerics.residual <= 1e-10
     assert result.numerics.iterations > 1
-    finer = find(MODELS, "reynolds").solve(deep, resolution=2 * result.numerics.resolution)
+    finer = find("pocket", "reynolds").solve(deep, Request(resolution=2 * result.numerics.resolution))
     assert plus(result) == pytest.approx(plus(finer), rel=1e-8, abs=1e-12)
 
 
 def test_a_half_circle_is_solved_or_refused(make_scene):
     half_circle = make_scene(0.3, 5.0, 1)
-    result = find(MODELS, "reynolds").solve(half_circle)
+    result = find("pocket", "reynolds").solve(half_circle)
     assert result.numerics.residual <= 1e-7
     with pytest.raises(ConvergenceError, match="loosen the tolerance"):
-        find(MODELS, "reynolds").solve(half_circle, tolerance=1e-14)
+        find("pocket", "reynolds").solve(half_circle, Request(tolerance=1e-14))
 
 
 def test_a_given_resolution_that_misses_the_tolerance_is_a_warning(make_scene):
     scene = make_scene(0.3, 0.25, 40)
-    coarse, fine = (find(MODELS, "reynolds").solve(scene, resolution=n) for n in (2, 24))
+    coarse, fine = (find("pocket", "reynolds").solve(scene, Request(resolution=n)) for n in (2, 24))
     assert "misses the tolerance" in coarse.warnings[0]
     assert fine.warnings == ()
 
@@ -122,7 +124,7 @@ def test_a_given_resolution_that_misses_the_tolerance_is_a_warning(make_scene):
     ],
 )
 def test_cautions_beyond_the_range_of_a_model(make_scene, name, reynolds_number, words):
-    warnings = find(MODELS, name).solve(make_scene(0.3, 0.25, reynolds_number)).warnings
+    warnings = find("pocket", name).solve(make_scene(0.3, 0.25, reynolds_number)).warnings
     assert len(warnings) == len(words)
     assert all(word in warning for word, warning in zip(words, warnings, strict=True))
 
@@ -142,7 +144,7 @@ def test_the_error_that_a_law_expects_covers_the_error_and_is_given_only_where_t
 @pytest.mark.parametrize(("option", "value"), [("resolution", 1), ("resolution", 10**9), ("tolerance", 0.0)])
 def test_options_out_of_range(make_scene, option, value):
     with pytest.raises(InputError, match=f"--{option}: got"):
-        MODELS[0].solve(make_scene(0.3, 0.25, 1), **{option: value})
+        MODELS[0].solve(make_scene(0.3, 0.25, 1), Request(**{option: value}))
 
 
 @settings(max_examples=60, deadline=None)
@@ -174,7 +176,7 @@ def test_random_grooves_give_finite_numbers_in_bounds_or_one_of_our_errors(film,
     smooth = scene.plus_factor
     for model in MODELS:
         try:
-            result = model.solve(scene, resolution=model.resolutions[0] if model.order else None)
+            result = model.solve(scene, Request(resolution=model.resolutions.series[0] if model.order else None))
             load, friction, highest, lowest = plus(result)
         except ConvergenceError:
             continue

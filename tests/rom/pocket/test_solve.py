@@ -8,15 +8,17 @@ from scipy.special import airy
 
 from roughfilm import rom
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.rom.ladder.model import find, ladder, of_kind
+from roughfilm.ladder import find
+from roughfilm.rom.ladder.model import ladder, of_kind
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.pocket import periodic_solve as ring
 from roughfilm.rom.pocket import thin_film
 from roughfilm.rom.pocket.basis import STIFFNESS, gauss_basis
 from roughfilm.rom.pocket.solve import MODES
 
 MODELS = of_kind(ladder(rom), "pocket")
-FILM, FILM_SLOPE, REYNOLDS = (find(MODELS, name) for name in ("film", "film_slope", "reynolds"))
-INERTIAL_REYNOLDS = find(MODELS, "inertial_reynolds")
+FILM, FILM_SLOPE, REYNOLDS = (find("pocket", name) for name in ("film", "film_slope", "reynolds"))
+INERTIAL_REYNOLDS = find("pocket", "inertial_reynolds")
 
 
 def value(result, name="load_plus"):
@@ -57,7 +59,7 @@ def test_a_ring_of_blocks_is_solved_like_the_whole_matrix(cells):
 
 def test_without_inertia_it_is_the_reynolds_equation(make_scene):
     scene = make_scene(0.3, 0.75, 1e-6)
-    film, reynolds = FILM.solve(scene), REYNOLDS.solve(scene, resolution=400)
+    film, reynolds = FILM.solve(scene), REYNOLDS.solve(scene, Request(resolution=400))
     for name in ("friction_plus", "pressure_max_plus", "pressure_min_plus", "backflow"):
         assert value(film, name) == pytest.approx(value(reynolds, name), rel=3e-3, abs=1e-9)
     assert abs(value(film)) < 1e-5
@@ -111,7 +113,7 @@ def test_forces_on_the_whole_film_balance(make_scene):
 @pytest.mark.parametrize(("scheme", "lowest", "highest"), [("linear_upwind", 1.6, 2.6), ("upwind", 0.7, 1.3)])
 def test_order_of_accuracy_in_load(make_scene, scheme, lowest, highest):
     scene = make_scene(0.3, 0.5, 120)
-    loads = [value(FILM.solve(scene, resolution=n, scheme=scheme)) for n in (100, 200, 400)]
+    loads = [value(FILM.solve(scene, Request(resolution=n, scheme=scheme))) for n in (100, 200, 400)]
     order = np.log2(abs((loads[0] - loads[1]) / (loads[1] - loads[2])))
     assert lowest < order < highest
 
@@ -120,7 +122,7 @@ def test_order_of_accuracy_in_load(make_scene, scheme, lowest, highest):
 @pytest.mark.parametrize("depth", [0.25, 1.25])
 @pytest.mark.parametrize("reynolds_number", [40, 160])
 def test_it_converges_at_the_ends_of_the_published_sweep(make_scene, width, depth, reynolds_number):
-    result = FILM.solve(make_scene(width, depth, reynolds_number), resolution=800)
+    result = FILM.solve(make_scene(width, depth, reynolds_number), Request(resolution=800))
     assert result.numerics.residual < 1e-11
     assert result.numerics.iterations <= 6
 
@@ -156,10 +158,10 @@ def test_a_flow_out_of_reach_is_said_to_be(make_scene):
     from roughfilm.contact.foundation.errors import ConvergenceError
 
     with pytest.raises(ConvergenceError, match=r"no steady flow within reach beyond Re = .*asked: 5000"):
-        FILM.solve(make_scene(0.3, 3.0, 5000), resolution=100)
+        FILM.solve(make_scene(0.3, 3.0, 5000), Request(resolution=100))
 
 
 @pytest.mark.parametrize("options", [{"resolution": 3}, {"tolerance": 0.0}, {"scheme": "central"}, {"processes": 2}])
 def test_numbers_out_of_range_are_refused(make_scene, options):
     with pytest.raises(InputError, match=f"--{next(iter(options))}: got"):
-        FILM.solve(make_scene(0.3, 0.5, 40), **options)
+        FILM.solve(make_scene(0.3, 0.5, 40), Request(**options))

@@ -5,7 +5,9 @@ import pytest
 
 from roughfilm import rom
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.rom.ladder.model import find, ladder, of_kind
+from roughfilm.ladder import find
+from roughfilm.rom.ladder.model import ladder, of_kind
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import load_scene, read_scene, scene_entries
 
 MODELS = of_kind(ladder(rom), "rough_gap")
@@ -111,7 +113,7 @@ def test_two_rough_walls_of_the_same_heights_leave_an_even_gap():
     alone = read_scene(changed(geometry={"surface": BUMPS, "amplitude": None, "wavelength": None, "mean_gap": "9 um"}))
     assert scene.rms_slope == pytest.approx(np.sqrt(2) * alone.rms_slope)
     assert scene.rms_height == pytest.approx(np.sqrt(2) * alone.rms_height)
-    found = find(MODELS, "homogenized").solve(scene)
+    found = find("rough_gap", "homogenized").solve(scene)
     assert found.quantities["A11"].value == pytest.approx(1.0, rel=1e-9)
     assert "B1" not in found.quantities
 
@@ -125,10 +127,10 @@ def test_a_load_leaves_a_gap_with_contact():
     lighter = read_scene(changed(**{**PRESSED, "load": {"pressure": "0.5 GPa"}}))
     assert lighter.mean_gap > scene.mean_gap
     assert (lighter.walls(48).gap == 0).mean() < touching
-    found = find(MODELS, "homogenized").solve(scene)
+    found = find("rough_gap", "homogenized").solve(scene)
     assert found.quantities["contact_area"].value == pytest.approx(touching)
     through = found.quantities["A11"].value * scene.mean_gap**3
-    easier = find(MODELS, "homogenized").solve(lighter).quantities["A11"].value * lighter.mean_gap**3
+    easier = find("rough_gap", "homogenized").solve(lighter).quantities["A11"].value * lighter.mean_gap**3
     assert 0 < through < easier
 
 
@@ -136,7 +138,7 @@ def test_what_is_thinner_than_the_smallest_gap_is_closed_for_every_model():
     entries = changed(geometry={"amplitude": "9.5 um"}, mesh={"smallest_gap": "1 um"})
     scene = read_scene(entries)
     closed = 2 * np.arccos(9 / 9.5) / (2 * np.pi)
-    found = find(MODELS, "homogenized").solve(scene)
+    found = find("rough_gap", "homogenized").solve(scene)
     assert found.quantities["contact_area"].value == pytest.approx(closed, abs=2 / 256)
     assert found.quantities["A11"].value == 0
     assert found.quantities["A22"].value > 1
@@ -195,7 +197,7 @@ def test_a_surface_that_does_not_repeat_itself_is_refused(tmp_path):
 def test_a_film_that_is_closed_everywhere_is_no_film():
     scene = read_scene(changed(mesh={"smallest_gap": "1 mm"}))
     with pytest.raises(InputError, match="the walls touch everywhere"):
-        find(MODELS, "homogenized").solve(scene)
+        find("rough_gap", "homogenized").solve(scene)
 
 
 def test_walls_that_cross_without_their_short_waves_are_refused(tmp_path):
@@ -232,7 +234,7 @@ def test_waves_that_a_grid_cannot_hold_count_in_the_error_bars():
     short = {"kind": "sinusoid", "size": ["8 um", "2 um"], "points": [32, 8], "amplitude": "0.2 um"}
     geometry = {"surface": {**short, "wavelength_x": "0.8 um"}, "amplitude": None, "wavelength": None}
     scene = read_scene(changed(geometry={**geometry, "mean_gap": "1 um"}))
-    found = find(MODELS, "homogenized").solve(scene, resolution=16)
+    found = find("rough_gap", "homogenized").solve(scene, Request(resolution=16))
     a = 0.2
     for name, truth in {"A11": (1 - a**2) ** 2.5 / (1 + a**2 / 2), "A22": 1 + 1.5 * a**2}.items():
         value = found.quantities[name].value
@@ -244,7 +246,7 @@ def test_waves_that_a_grid_cannot_hold_count_in_the_error_bars():
 def test_an_answer_without_error_bars_says_so(name):
     few = BUMPS | {"points": [6, 6], "wavelength_y": "40 um"}
     scene = read_scene(changed(geometry={"surface": few, "amplitude": None, "wavelength": None}))
-    found = find(MODELS, name).solve(scene)
+    found = find("rough_gap", name).solve(scene)
     assert all(quantity.uncertainty is None for quantity in found.quantities.values())
     assert any("no coarser grid" in warning for warning in found.warnings)
 
@@ -255,6 +257,6 @@ def test_nodes_that_are_open_each_by_itself_neither_pass_nor_rub(tmp_path):
     np.save(path, np.where((i + j) % 2, 1e-7, -1e-7))
     pressed = {"solid": {"modulus": "1 GPa", "poisson": 0.3}, "load": {"pressure": "1 kPa"}}
     geometry = {"surface": str(path), "spacing": "1 um", "amplitude": None, "wavelength": None, "mean_gap": None}
-    found = find(MODELS, "slope_corrected").solve(read_scene(changed(geometry=geometry, **pressed)))
+    found = find("rough_gap", "slope_corrected").solve(read_scene(changed(geometry=geometry, **pressed)))
     assert found.quantities["contact_area"].value == pytest.approx(0.5)
     assert {found.quantities[name].value for name in ("A11", "A22", "friction")} == {0.0}

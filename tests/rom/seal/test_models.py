@@ -11,7 +11,9 @@ from roughfilm import rom
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.mechanics.moments import wave_power
 from roughfilm.contact.synthetic.self_affine import self_affine
-from roughfilm.rom.ladder.model import Effect, best, find, ladder, of_kind, one_effect_away
+from roughfilm.ladder import find
+from roughfilm.rom.ladder.model import Effect, best, ladder, of_kind, one_effect_away
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene, scene_entries
 from roughfilm.rom.ladder.store import load, save
 from roughfilm.rom.seal.leakage.effective_medium import THRESHOLD, effective_medium
@@ -46,7 +48,7 @@ def seal(surface=ROUGH, *, pressure="50 kPa", direction="x", hardness=None, **ge
 
 
 def values(name, scene, **options):
-    found = find(RUNGS, name).solve(scene, **options)
+    found = find("seal", name).solve(scene, Request(**options))
     return {quantity: entry.value for quantity, entry in found.quantities.items()}
 
 
@@ -63,7 +65,7 @@ def test_contract(model, tmp_path):
     scene = seal()
     seen = []
     resolution = model.resolutions_of(scene)[1]
-    result = model.solve(scene, resolution=resolution, progress=lambda done, words: seen.append((done, words)))
+    result = model.solve(scene, Request(resolution=resolution), progress=lambda done, words: seen.append((done, words)))
     assert set(result.quantities) == {
         "leakage_per_width",
         "sealed",
@@ -88,9 +90,9 @@ def test_contract(model, tmp_path):
     save(result, tmp_path / "r.h5")
     assert load(tmp_path / "r.h5").quantities == result.quantities
     with pytest.raises(InputError, match="--scheme"):
-        model.solve(scene, scheme="upwind")
+        model.solve(scene, Request(scheme="upwind"))
     with pytest.raises(InputError, match="--processes"):
-        model.solve(scene, processes=2)
+        model.solve(scene, Request(processes=2))
 
 
 def test_a_smooth_gap_leaks_as_a_slit_does():
@@ -123,7 +125,7 @@ def test_the_longer_a_seal_the_nearer_is_averaging():
 
 
 def test_the_cost_of_a_direct_solution_grows_with_the_length():
-    direct, averaged = (find(RUNGS, name) for name in ("direct_leakage", "homogenized_leakage"))
+    direct, averaged = (find("seal", name) for name in ("direct_leakage", "homogenized_leakage"))
     assert direct.cost(seal(), 64) == pytest.approx(25 * averaged.cost(seal(), 64))
 
 
@@ -152,7 +154,7 @@ def test_a_flat_surface_is_sealed(tmp_path):
     np.save(tmp_path / "flat.npy", np.zeros((16, 16)))
     scene = seal(str(tmp_path / "flat.npy"), spacing="1 um")
     assert values("direct_leakage", scene)["sealed"] == 1
-    medium = find(RUNGS, "effective_medium")
+    medium = find("seal", "effective_medium")
     assert not medium.applies(scene).applies
     with pytest.raises(InputError, match="flat"):
         medium.solve(scene)
@@ -190,11 +192,11 @@ def test_a_bad_joint_is_warned_of(tmp_path):
     heights = 1e-6 * (np.cos(2 * np.pi * 7.5 * x)[:, None] + 0.2 * np.cos(2 * np.pi * 5 * x)[None, :])
     heights[-4:] = 2e-6
     np.save(tmp_path / "stepped.npy", heights)
-    result = find(RUNGS, "direct_leakage").solve(
+    result = find("seal", "direct_leakage").solve(
         seal(str(tmp_path / "stepped.npy"), spacing="1 um", pressure="200 kPa")
     )
     assert any("meets itself badly" in warning for warning in result.warnings)
-    assert not find(RUNGS, "direct_leakage").solve(seal()).warnings
+    assert not find("seal", "direct_leakage").solve(seal()).warnings
 
 
 @pytest.fixture(scope="module")
@@ -245,7 +247,7 @@ def test_a_direction_that_is_sealed_has_nothing_left_to_solve(tmp_path):
     noise = np.random.default_rng(20071).standard_normal((16, 16))
     np.save(path, 1e-7 * np.where((np.arange(16) % 8 < 2)[:, None], 9.0, noise))
     across, along = (seal(str(path), spacing="1 um", direction=direction, pressure="0.5 MPa") for direction in "xy")
-    model = find(RUNGS, "homogenized_leakage")
+    model = find("seal", "homogenized_leakage")
     sealed, open_ = model.solve(across), model.solve(along)
     assert (sealed.quantities["sealed"].value, open_.quantities["sealed"].value) == (1, 0)
     assert sealed.numerics.residual <= sealed.numerics.tolerance
@@ -255,6 +257,6 @@ def test_a_direction_that_is_sealed_has_nothing_left_to_solve(tmp_path):
 def test_an_answer_without_error_bar_says_so(name, tmp_path):
     path = tmp_path / "odd.npy"
     np.save(path, 1e-7 * np.random.default_rng(20071).standard_normal((6, 6)))
-    found = find(RUNGS, name).solve(seal(str(path), spacing="1 um", pressure="1 kPa"))
+    found = find("seal", name).solve(seal(str(path), spacing="1 um", pressure="1 kPa"))
     assert all(quantity.uncertainty is None for quantity in found.quantities.values())
     assert any("no coarser grid" in warning for warning in found.warnings)

@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from roughfilm import foamcases
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.rom.ladder.model import find, ladder
+from roughfilm.ladder import find
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.studies.convergence import Kind, converge, convergence
 
 RATIOS = [(60, 120, 240), (40, 60, 90), (50, 60, 110), (12, 97, 101)]
@@ -146,9 +146,9 @@ def test_what_is_no_sequence_is_refused_in_one_line(grids, values):
 )
 def test_load_of_navier_stokes_extrapolates_to_the_independent_value(make_scene, width, depth, load, least, most):
     """Second order over a shallow groove; less over a short steep one, whose edges are sharper."""
-    model = find(ladder(foamcases), "navier_stokes")
+    model = find("pocket", "navier_stokes")
     scene = make_scene(width, depth, 160)
-    found = convergence(model, [model.solve(scene, resolution=n) for n in (240, 60, 120)])["load_plus"]
+    found = convergence(model, [model.solve(scene, Request(resolution=n)) for n in (240, 60, 120)])["load_plus"]
     assert found.grids == (60, 120, 240)
     assert found.kind is Kind.MONOTONE
     assert least < found.order < most

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from roughfilm import rom
-from roughfilm.rom.ladder.model import find, ladder
+from roughfilm.ladder import find
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.pocket.error_law import ErrorLaw, words
 from roughfilm.rom.pocket.models import film, inertial_reynolds
 from roughfilm.rom.studies.ordering import CERTAINTY, fitted_powers, ordering, threshold
@@ -62,7 +62,7 @@ def test_products_are_written_as_people_write_them():
 @pytest.mark.parametrize(("name", "law"), [("inertial_reynolds", inertial_reynolds.LAW), ("film", film.LAW)])
 def test_shipped_laws_hold_on_grooves_they_were_not_fitted_to(make_scene, name, law):
     """Against film_slope, whose own load is within 1 % of Navier-Stokes there."""
-    model, reference = (find(ladder(rom), one) for one in (name, "film_slope"))
+    model, reference = (find("pocket", one) for one in (name, "film_slope"))
     kept = []
     random = np.random.default_rng(20081113)
     for _ in range(60):
@@ -72,7 +72,7 @@ def test_shipped_laws_hold_on_grooves_they_were_not_fitted_to(make_scene, name, 
         if within is None or scene.slope > 0.46:
             continue
         exact, load = (
-            m.solve(scene, resolution=200 if m.order else None).quantities["load_plus"].value
+            m.solve(scene, Request(resolution=200 if m.order else None)).quantities["load_plus"].value
             for m in (reference, model)
         )
         kept.append(abs(load - exact) <= (within + 0.01) * abs(exact))
@@ -88,4 +88,4 @@ def test_of_grooves_beyond_those_compared_no_law_tells(make_scene, width, depth)
     scene = make_scene(width, depth, 20)
     assert law.within(scene) is None
     assert "loads were compared for grooves" in law.told(scene)
-    assert "loads were compared" in find(ladder(rom), "film_slope").solve(scene, resolution=50).warnings[0]
+    assert "loads were compared" in find("pocket", "film_slope").solve(scene, Request(resolution=50)).warnings[0]

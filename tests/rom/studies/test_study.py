@@ -8,7 +8,8 @@ from places import STUDIES
 
 from roughfilm import foamcases, rom
 from roughfilm.contact.foundation.errors import InputError, UnavailableError
-from roughfilm.rom.ladder.model import Availability, find, ladder, of_kind
+from roughfilm.ladder import find
+from roughfilm.rom.ladder.model import Availability, ladder
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.rom.studies.relative import resolve_relative
 from roughfilm.rom.studies.study import as_toml, load_study
@@ -163,9 +164,9 @@ scheme = { navier_stokes = ["linear_upwind", "upwind"] }
 def test_models_that_are_missing_are_left_out_unless_they_are_named(study):
     absent = Availability(available=False, detail="no simpleFoam; install it")
     models = tuple(
-        type(model)(**{**vars(model), "available": lambda: absent}) if model.write else model for model in MODELS
+        type(model)(**{**vars(model), "available": lambda: absent}) if model.outside else model for model in MODELS
     )
-    assert {setting.model.write for setting in study(models=models).settings} == {None}
+    assert not any(setting.model.outside for setting in study(models=models).settings)
     with pytest.raises(UnavailableError, match=r"study.models: stokes: no simpleFoam; install it"):
         study(models=models, more='[study]\nmodels = ["stokes"]\n')
 
@@ -226,4 +227,4 @@ def test_the_first_study_is_cheap():
     found = load_study(STUDIES / "pocket.toml", MODELS)
     assert len(found.cases) == 12
     assert sum(setting.cost(case.scene) for setting in found.settings for case in found.cases) < 1
-    assert find(of_kind(MODELS, "pocket"), "reynolds") in [setting.model for setting in found.settings]
+    assert find("pocket", "reynolds") in [setting.model for setting in found.settings]

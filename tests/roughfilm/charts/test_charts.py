@@ -21,10 +21,11 @@ from roughfilm.charts.store import answers
 from roughfilm.cli import charts
 from roughfilm.cli.main import app
 from roughfilm.contact.foundation.errors import ConvergenceError, UnavailableError
+from roughfilm.ladder import find, models
 from roughfilm.rom.homogenization.cell import solve_cell
-from roughfilm.rom.ladder.model import find, of_kind
+from roughfilm.rom.ladder.model import Resolutions, of_kind
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene
-from roughfilm.terminal.console import models
 
 GAPFLOW_ABSENT = (
     "ROUGHFILM_GAPFLOW is not set: roughfilm/charts/peers/setup_gapflow DIR makes it, ROUGHFILM_GAPFLOW=DIR names it"
@@ -172,7 +173,11 @@ def small_family(ladder):
 
 def test_a_rung_that_is_added_appears_by_itself():
     ladder = models()
-    added = replace(find(ladder, "reynolds_cavitating"), name="another", resolutions=(8, 16), own_resolutions=None)
+    added = replace(
+        find("bearing", "reynolds_cavitating"),
+        name="another",
+        resolutions=Resolutions(least=8, most=16, default=16, series=(8, 16)),
+    )
     family = FAMILIES["cavitating slider"]((*ladder, added))
     assert [ask.resolution for ask in family.own if ask.solver == "another"] == [8, 16]
 
@@ -188,9 +193,8 @@ def test_every_family_asks_every_model_of_its_kind_or_says_why_not():
 
 
 def test_an_absent_model_is_left_out_by_name():
-    ladder = models()
-    gone = replace(find(ladder, "film").available(), available=False, detail="no such program")
-    film = replace(find(ladder, "film"), available=lambda: gone)
+    gone = replace(find("pocket", "film").available(), available=False, detail="no such program")
+    film = replace(find("pocket", "film"), available=lambda: gone)
     family = of_scene(
         [film],
         read_scene(
@@ -255,13 +259,12 @@ def test_an_environment_that_is_absent_says_how_it_is_made(monkeypatch, tmp_path
 
 def test_a_contact_peer_solves_the_very_heights_of_the_scene(monkeypatch):
     """Through the program that runs peers, with this project's own solver in place of one."""
-    ladder = models()
-    family = FAMILIES["dry contact"](ladder)
+    family = FAMILIES["dry contact"](models())
     scene = family.peers[0].measure.args[0]
     monkeypatch.setenv("ROUGHFILM_PEERS", sys.prefix)
     monkeypatch.setitem(charts_peers.TOLERANCES, "run_roughfilm", (1e-8,))
     found = charts_peers._mean_gap(scene, "run_roughfilm", 64)
-    ours = find(ladder, "elastic").solve(scene, resolution=64)
+    ours = find("dry_contact", "elastic").solve(scene, Request(resolution=64))
     assert found.value == pytest.approx(ours.quantities["mean_gap"].value, rel=1e-7)
     monkeypatch.setitem(charts_peers.TOLERANCES, "nobody_", (1e-8,))
     with pytest.raises(ConvergenceError, match="nobody_"):

@@ -6,16 +6,19 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import h5py
 import pytest
 from typer.testing import CliRunner
 
-from roughfilm.cli import compare, generate, solve
+from roughfilm.cli import compare, solve
 from roughfilm.cli import main as cli
 from roughfilm.cli.main import app
-from roughfilm.rom.ladder.model import Availability
+from roughfilm.ladder import models
+from roughfilm.rom.ladder.model import Availability, find, of_kind
 
 QUANTITIES = {
     "load_plus",
@@ -140,12 +143,9 @@ def test_a_missing_tolerance_is_code_3(pocket_file):
 def without_openfoam(monkeypatch):
     absent = Availability(available=False, detail="no simpleFoam on the PATH; install it")
     monkeypatch.setattr("roughfilm.foamcases.openfoam.model.availability", lambda: absent)
-    bare = tuple(
-        model if model.write is None else type(model)(**{**vars(model), "available": lambda: absent})
-        for model in solve.models()
-    )
-    for module in (solve, compare, generate):
-        monkeypatch.setattr(module, "models", lambda: bare)
+    bare = tuple(replace(model, available=lambda: absent) if model.outside else model for model in models())
+    monkeypatch.setattr(solve, "find", partial(find, bare))
+    monkeypatch.setattr(compare, "models", partial(of_kind, bare))
 
 
 def test_text_of_a_scene_is_text_in_the_table(pocket_file):

@@ -23,12 +23,12 @@ from roughfilm.cli import compare
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.figures import rendering
-from roughfilm.rom.ladder.model import Availability, find, of_kind
+from roughfilm.ladder import find, models
+from roughfilm.rom.ladder.model import Availability, Resolutions, of_kind
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.rom.ladder.setting import Setting
 from roughfilm.rom.ladder.store import load
 from roughfilm.rom.studies.convergence import converge
-from roughfilm.terminal.console import models
 
 GAP = SCENES / "rough_gap.toml"
 
@@ -53,8 +53,8 @@ def read_page(path):
 
 @pytest.fixture
 def film_only(monkeypatch):
-    film = tuple(model for model in models() if model.write is None)
-    monkeypatch.setattr(compare, "models", lambda: film)
+    film = tuple(model for model in models() if not model.outside)
+    monkeypatch.setattr(compare, "models", lambda kind: of_kind(film, kind))
 
 
 @pytest.mark.openfoam
@@ -70,7 +70,7 @@ def test_the_whole_ladder_in_one_self_contained_page(pocket_file, tmp_path):
     told = json.loads(done.stdout)
     assert told["model"] == "navier_stokes"
     names = ["reynolds", "inertial_reynolds", "film", "stokes", "film_slope", "navier_stokes"]
-    assert [part["model"] for part in told["models"]] == names == [model.name for model in of_kind(models(), "pocket")]
+    assert [part["model"] for part in told["models"]] == names == [model.name for model in models("pocket")]
     named = {(d["other"], d["model"], d["effect"]) for d in told["differences"] if d["effect"]}
     assert ("stokes", "navier_stokes", "inertia") in named
     assert ("film", "navier_stokes", "slope") in named
@@ -124,8 +124,9 @@ def test_the_note_on_the_published_plots_is_there(pocket_file, tmp_path):
 
 @pytest.mark.openfoam
 def test_where_nothing_can_be_drawn_the_page_says_so(pocket_file, tmp_path, monkeypatch):
-    some = tuple(type(model)(**{**vars(model), "resolutions": (30,), "resolution": 30}) for model in models())
-    monkeypatch.setattr(compare, "models", lambda: some)
+    at_30 = Resolutions(least=30, most=30, default=30, series=(30,))
+    some = tuple(replace(model, resolutions=at_30) for model in models("pocket"))
+    monkeypatch.setattr(compare, "models", lambda _: some)
     monkeypatch.setattr(
         compare, "draw_apart", lambda *_: Availability(available=False, detail="VTK cannot draw here (exit code -11)")
     )
@@ -136,10 +137,10 @@ def test_where_nothing_can_be_drawn_the_page_says_so(pocket_file, tmp_path, monk
 
 def sampled(monkeypatch, *, fails_at=None):
     """A single rung of formal order 2, whose load is the mean thickness over the groove by the midpoint rule."""
-    film = find(of_kind(models(), "pocket"), "reynolds")
+    film = find("pocket", "reynolds")
 
-    def solve(scene, *, resolution=None, **_):
-        n = resolution or 16
+    def compute(_model, scene, request, _progress):
+        n = request.resolution
         if n == fails_at:
             raise ConvergenceError("sampled: did not converge; take another grid")
         result = film.solve(scene)
@@ -148,8 +149,10 @@ def sampled(monkeypatch, *, fails_at=None):
         quantities = {**result.quantities, "load_plus": Quantity(value=float(thickness), unit="1")}
         return replace(result, quantities=quantities, numerics=replace(result.numerics, resolution=n))
 
-    model = replace(film, resolution=16, resolutions=(4, 8, 16), order=2, solve=solve)
-    monkeypatch.setattr(compare, "models", lambda: (model,))
+    model = replace(
+        film, resolutions=Resolutions(least=1, most=99, default=16, series=(4, 8, 16)), order=2, compute=compute
+    )
+    monkeypatch.setattr(compare, "models", lambda _: (model,))
 
 
 def compared(capsys, pocket_file, out, **options):
@@ -199,14 +202,14 @@ def test_a_grid_that_fails_is_told_in_one_line_and_the_others_are_judged(pocket_
 
 def test_without_a_formal_order_there_is_no_grid_convergence(pocket_file, tmp_path, monkeypatch, capsys):
     spectral = tuple(model for model in models() if model.order is None)
-    monkeypatch.setattr(compare, "models", lambda: spectral)
+    monkeypatch.setattr(compare, "models", lambda kind: of_kind(spectral, kind))
     assert compared(capsys, pocket_file, tmp_path)["convergence"] == {}
     assert "Grid convergence" not in (tmp_path / "report.html").read_text()
 
 
 def test_a_result_that_tells_more_doubt_than_its_grids_is_believed():
     scene = load_scene(GAP)
-    found = find(of_kind(models(), "rough_gap"), "slope_corrected").solve(scene)
+    found = find("rough_gap", "slope_corrected").solve(scene)
     value, bar = found["A11"].value, found["A11"].uncertainty
     for of_grids, expected in ((0.1 * bar, bar), (3 * bar, 3 * bar)):
         study = {"A11": converge((16, 32), (value, value), formal_order=2, noise=of_grids)}
@@ -221,7 +224,7 @@ def test_a_crash_while_drawing_is_an_answer():
 
 def test_finished_results_are_used_again_only_for_the_same_question(pocket_file, tmp_path, monkeypatch):
     scene, other = load_scene(pocket_file), load_scene(pocket_file, ["geometry.depth=8 um"])
-    setting = Setting(model=find(of_kind(models(), "pocket"), "reynolds"), resolution=8)
+    setting = Setting(model=find("pocket", "reynolds"), resolution=8)
     job = Job(scene=scene, setting=setting, path=tmp_path / "reynolds-8.h5")
     first = runs.solved_once(job, lambda *_: None)
     stamp = job.path.stat().st_mtime_ns

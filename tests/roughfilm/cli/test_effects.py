@@ -11,6 +11,7 @@ from typer.testing import CliRunner
 
 from roughfilm.cli.main import app
 from roughfilm.rom.bearing.effects.ablation import EFFECTS
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import load_scene, read_scene
 
 COARSE = ("--set", "roughness.surface.points=[32, 32]", "--set", "roughness.surface.correlation_length=60um")
@@ -133,9 +134,9 @@ def test_a_rung_says_that_a_given_film_does_not_carry_the_load() -> None:
 
     scene = load_scene(SCENES / "parabolic_slider.toml", ["load.pressure=1 MPa"])
     assert read_scene(scene.model_dump(mode="json", exclude_none=True)) == scene
-    found = MODEL.solve(scene, resolution=128)
+    found = MODEL.solve(scene, Request(resolution=128))
     mean = found.quantities["load_per_width"].value / 76.2e-3
     (warning,) = [told for told in found.warnings if "taken as given" in told]
     assert f"{mean:.4g} Pa" in warning
     near = load_scene(SCENES / "parabolic_slider.toml", [f"load.pressure={mean!r} Pa"])
-    assert not any("taken as given" in told for told in MODEL.solve(near, resolution=128).warnings)
+    assert not any("taken as given" in told for told in MODEL.solve(near, Request(resolution=128)).warnings)

@@ -12,9 +12,9 @@ from typer.testing import CliRunner
 from roughfilm import rom
 from roughfilm.cli.main import app
 from roughfilm.figures.view import views
+from roughfilm.ladder import models
 from roughfilm.rom.ladder.kind import kinds
 from roughfilm.rom.ladder.store import load
-from roughfilm.terminal.console import models
 
 SCENE = """
 name = "small"
@@ -79,7 +79,7 @@ def test_solve(scene, tmp_path):
     ("arguments", "words"),
     [
         (["solve", "--model", "reynolds"], "--model: got 'reynolds'; it must be one of greenwood_williamson"),
-        (["solve", "--model", "elastic", "--resolution", "65"], "--resolution: got 65; the surface has 64 points"),
+        (["solve", "--model", "elastic", "--resolution", "65"], "--resolution: got 65; elastic takes 8 to 64 points"),
         (["solve", "--model", "bearing_area", "--set", "solid.hardness=1 Pa"], "scene.load.pressure: got 1e+08 Pa"),
         (["generate", "--out", "x"], "scene.kind: got 'dry_contact', which no model solves in OpenFOAM"),
     ],

@@ -2,6 +2,7 @@
 
 import csv
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,8 +12,9 @@ from typer.testing import CliRunner
 from roughfilm.cli import compare
 from roughfilm.cli.main import app
 from roughfilm.figures import gap_view
+from roughfilm.ladder import models
+from roughfilm.rom.ladder.model import Resolutions
 from roughfilm.rom.ladder.store import load
-from roughfilm.terminal.console import models
 
 SCENE, STUDY = SCENES / "rough_gap.toml", SCENES.parent / "studies" / "rough_gap.toml"
 
@@ -101,11 +103,9 @@ def test_a_study_of_gaps_is_swept_and_reported(tmp_path):
 
 @pytest.mark.openfoam
 def test_a_comparison_shows_every_rung_and_the_film_in_space(tmp_path, monkeypatch):
-    coarse = tuple(
-        type(model)(**{**vars(model), "own_resolutions": lambda _: (16,)}) if model.write else model
-        for model in models()
-    )
-    monkeypatch.setattr(compare, "models", lambda: coarse)
+    at_16 = Resolutions(least=16, most=16, default=16, series=(16,))
+    coarse = tuple(replace(model, resolutions=at_16) if model.outside else model for model in models("rough_gap"))
+    monkeypatch.setattr(compare, "models", lambda _: coarse)
     compare.command(SCENE, out=tmp_path, set_=["mesh.layers=8"])
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     for name in ("smooth_gap", "homogenized", "slope_corrected", "stokes", "navier_stokes"):

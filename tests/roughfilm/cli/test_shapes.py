@@ -10,9 +10,9 @@ from roughfilm.cli import compare
 from roughfilm.figures.streamlines import shown
 from roughfilm.figures.views.pocket import pressure
 from roughfilm.foamcases.openfoam.block_mesh import layered
-from roughfilm.rom.ladder.model import find, of_kind
+from roughfilm.ladder import find, models
+from roughfilm.rom.ladder.model import of_kind
 from roughfilm.rom.ladder.scene import load_scene
-from roughfilm.terminal.console import models
 
 ONE = ["geometry.profile=points", "geometry.points=[[-1e-4,0],[0,1e-5],[2e-4,0]]"]
 FIVE = "geometry.grooves=[{}]".format(
@@ -22,8 +22,8 @@ FIVE = "geometry.grooves=[{}]".format(
 
 @pytest.fixture
 def film_only(monkeypatch):
-    film = tuple(model for model in models() if model.write is None)
-    monkeypatch.setattr(compare, "models", lambda: film)
+    film = tuple(model for model in models() if not model.outside)
+    monkeypatch.setattr(compare, "models", lambda kind: of_kind(film, kind))
 
 
 @pytest.mark.usefixtures("film_only")
@@ -59,7 +59,7 @@ def test_the_pressure_plot_marks_the_edges_of_every_groove_and_nothing_else(pock
     edges = []
     for name, overrides in (("pocket", []), ("pocket", ONE), ("two_grooves", [])):
         scene = load_scene(pocket_file.parent / f"{name}.toml", overrides)
-        svg = pressure(scene, {"reynolds": find(of_kind(models(), "pocket"), "reynolds").solve(scene)})
+        svg = pressure(scene, {"reynolds": find("pocket", "reynolds").solve(scene)})
         edges.append(svg.count("stroke-dasharray: 3.2,2.4"))
     assert edges == [2, 2, 4]
 

@@ -13,7 +13,7 @@ from roughfilm.batch import answers as stability_runs
 from roughfilm.batch.jobs import failure_of
 from roughfilm.cli.main import app
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
-from roughfilm.rom.ladder.model import find, of_kind
+from roughfilm.ladder import find, models
 from roughfilm.rom.ladder.result import SolverRun
 from roughfilm.rom.ladder.setting import Setting
 from roughfilm.stability import gap as stability_gap
@@ -23,14 +23,13 @@ from roughfilm.stability.form import Outcome as Found
 from roughfilm.stability.gap import CUT_OUT, LEFT_OUT, SILENT, TOLD, TOO_SHORT, UNJUDGED, in_words, judged, spot_of
 from roughfilm.stability.questions.gap import CUT, CUTS, INERTIA, NEAR, NEAREST, probes, wave_scene
 from roughfilm.stability.wave import Wave
-from roughfilm.terminal.console import models
 
-LADDER = of_kind(models(), "rough_gap")
+LADDER = models("rough_gap")
 TWO_RUNS = (
     SolverRun(name="along", outcome="stalled", iterations=900),
     SolverRun(name="along", iterations=400, recipe="started by upwind"),
 )
-CHEAP = [find(LADDER, name) for name in ("homogenized", "slope_corrected")]
+CHEAP = [find("rough_gap", name) for name in ("homogenized", "slope_corrected")]
 
 
 @pytest.fixture(scope="module")
@@ -97,7 +96,7 @@ def test_the_judge_tells_right_from_wrong(asked):
     assert spot_of(probe, other(bare, part=1.01), right).outcome is Found.CONVERGED
     far = spot_of(probe, other(bare, part=0.94), right)
     assert (far.outcome, far.why) == (Found.INACCURATE, LEFT_OUT)
-    resolved = replace(probe, setting=Setting(model=find(LADDER, "stokes"), resolution=32))
+    resolved = replace(probe, setting=Setting(model=find("rough_gap", "stokes"), resolution=32))
     silent = spot_of(resolved, replace(other(bare, part=0.94), model="stokes"), right)
     assert (silent.outcome, silent.why) == (Found.WRONG, SILENT)
     warned = replace(bare, model="stokes", warnings=("coarse",))
@@ -114,7 +113,7 @@ def test_the_judge_tells_right_from_wrong(asked):
 def test_what_no_flow_can_do_is_told_of_all_but_thin_films(asked, name, part):
     probe, result = asked
     bare, thin = without_bars(result), exact_thin(probe.wave)
-    resolved = replace(probe, setting=Setting(model=find(LADDER, "stokes"), resolution=32))
+    resolved = replace(probe, setting=Setting(model=find("rough_gap", "stokes"), resolution=32))
     impossible = spot_of(resolved, other(bare, part=part, name=name), None, thin)
     assert (impossible.outcome, impossible.why) == (Found.WRONG, SILENT)
     assert f"than is possible: {name} is" in impossible.message

@@ -13,17 +13,16 @@ from roughfilm.batch.jobs import failure_of
 from roughfilm.cli import stability
 from roughfilm.cli.main import app
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome, UnavailableError
+from roughfilm.ladder import find, models
 from roughfilm.pages.render import TEMPLATES
-from roughfilm.rom.ladder.model import find
 from roughfilm.rom.ladder.setting import Setting
 from roughfilm.stability import form as stability_form
 from roughfilm.stability import laws as stability_laws
 from roughfilm.stability import pocket as stability_pocket
 from roughfilm.stability.form import MEANING, SECOND, Judged, Map, Spot, tried
 from roughfilm.stability.pocket import in_words, spot_of
-from roughfilm.terminal.console import models
 
-NAVIER_STOKES = find(models(), "navier_stokes")
+NAVIER_STOKES = find("pocket", "navier_stokes")
 SETTING = Setting(model=NAVIER_STOKES, scheme="linear_upwind")
 HERE = partial(Spot, group="g", row="r", column="c")
 
@@ -37,8 +36,8 @@ def small(monkeypatch):
     """A usual groove, and one so shallow that OpenFOAM at 30 columns needs its second try."""
 
     def family(names, reynolds_numbers=(2000.0,), depths_plus=(0.25, 1e-6)):
-        chosen = tuple(model for model in models() if model.name in names)
-        monkeypatch.setattr(stability_pocket, "models", lambda: chosen)
+        chosen = tuple(model for model in models("pocket") if model.name in names)
+        monkeypatch.setattr(stability_pocket, "models", lambda _: chosen)
         made = stability_pocket.PocketFamily(reynolds_numbers=reynolds_numbers, depths_plus=depths_plus)
         monkeypatch.setitem(stability.FAMILIES, "pocket", made)
 

@@ -3,12 +3,13 @@
 import numpy as np
 import pytest
 
+from roughfilm.ladder import find, models
 from roughfilm.rom.advice.advise import advise
 from roughfilm.rom.advice.laws import read_table
 from roughfilm.rom.ladder.kind import kinds
-from roughfilm.rom.ladder.model import best, find, of_kind
+from roughfilm.rom.ladder.model import best
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import scene_entries
-from roughfilm.terminal.console import models
 from scripts.studies.advice.check import Trial, score, tried
 from scripts.studies.advice.fit import Case, cases, fit, fitted, written
 from scripts.studies.advice.runs import PARTS, Drawn, Run
@@ -149,7 +150,7 @@ def test_the_score_counts_misses_and_those_without_an_answer():
 
 @pytest.mark.parametrize(("kind", "seeds"), [("bearing", range(9100, 9106)), ("dry_contact", range(9200, 9206))])
 def test_what_is_advised_is_near_the_best_rung_on_scenes_that_no_law_has_seen(kind, seeds):
-    ladder, kept = of_kind(models(), kind), []
+    ladder, kept = models(kind), []
     for seed in seeds:
         scene = random_scene(kind, seed)
         quantity = next(iter(kinds()[kind].compared))
@@ -158,8 +159,8 @@ def test_what_is_advised_is_near_the_best_rung_on_scenes_that_no_law_has_seen(ki
             continue
         rung = best([model for model in ladder if model.applies(scene).applies])
         truth = rung.solve(scene)
-        chosen = find(ladder, found.chosen.model)
-        told = found.result or chosen.solve(scene, resolution=found.chosen.resolution)
+        chosen = find(kind, found.chosen.model)
+        told = found.result or chosen.solve(scene, Request(resolution=found.chosen.resolution))
         apart = abs(told.quantities[quantity].value - truth.quantities[quantity].value)
         kept.append(apart <= 0.1 * kinds()[kind].scale_of(truth, quantity))
     assert len(kept) >= 5

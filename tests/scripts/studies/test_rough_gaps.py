@@ -12,9 +12,9 @@ import pytest
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.sinusoids import sinusoid
-from roughfilm.rom.ladder.model import find, of_kind
+from roughfilm.ladder import find
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.rough_gap.flow.exact import sinusoidal_ridge_flow
-from roughfilm.terminal.console import models
 from scripts.studies.rough_gaps import __main__ as rough_gaps
 from scripts.studies.rough_gaps import inertia as rough_gaps_inertia
 from scripts.studies.rough_gaps import runs as rough_gaps_runs
@@ -58,7 +58,7 @@ def here(_count, _scratch):
 
 @pytest.fixture(scope="module")
 def base():
-    return find(of_kind(models(), "rough_gap"), "smooth_gap").solve(over_waves(0.3, 5.0), resolution=32)
+    return find("rough_gap", "smooth_gap").solve(over_waves(0.3, 5.0), Request(resolution=32))
 
 
 def told(base, scale=1.0, **numbers):

@@ -9,6 +9,7 @@ import pytest
 
 from roughfilm import rom
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.ladder import find
 from roughfilm.rom.bearing.effects.ablation import (
     EFFECTS,
     Composed,
@@ -25,7 +26,8 @@ from roughfilm.rom.bearing.effects.explanation import treatments
 from roughfilm.rom.bearing.effects.under_load import under_load
 from roughfilm.rom.bearing.mixed.equilibrium import equilibrium
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.ladder.model import find, ladder, of_kind
+from roughfilm.rom.ladder.model import ladder, of_kind
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene
 
 CELLS = 32
@@ -92,7 +94,7 @@ def all_steps() -> tuple[Composed, ...]:
 
 def rung(taken: Bearing, name: str) -> dict[str, float]:
     """What a rung of the ladder says on the same cells."""
-    found = find(MODELS, name).solve(taken, resolution=CELLS)
+    found = find("bearing", name).solve(taken, Request(resolution=CELLS))
     return {quantity: told.value for quantity, told in found.quantities.items()}
 
 

@@ -7,12 +7,14 @@ import pytest
 
 from roughfilm import rom
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.ladder import find
 from roughfilm.rom.bearing.closed_forms import linear_slider
-from roughfilm.rom.ladder.model import Effect, find, ladder, of_kind, one_effect_away
+from roughfilm.rom.ladder.model import Effect, ladder, of_kind, one_effect_away
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene, scene_entries
 
 MODELS = of_kind(ladder(rom), "bearing")
-MIXED, HOMOGENIZED, DIRECT = (find(MODELS, name) for name in ("mixed", "homogenized", "direct"))
+MIXED, HOMOGENIZED, DIRECT = (find("bearing", name) for name in ("mixed", "homogenized", "direct"))
 
 PARALLEL = {"shape": "parallel", "length": "20 mm", "width": "10 mm", "film": "1 um"}
 LINEAR = {"shape": "linear", "length": "20 mm", "film": "1 um", "rise": "1.5 um"}
@@ -42,7 +44,7 @@ def test_a_mixed_scene_is_read_back_from_its_entries(tips):
 
 def test_asperities_alone_carry_their_pressure_over_the_area(tips):
     scene = tips.scene(PARALLEL, motion={"speed": "0 m/s"})
-    found = MIXED.solve(scene, resolution=16)
+    found = MIXED.solve(scene, Request(resolution=16))
     force = float(tips.pressure(1e-6)) * 20e-3 * 10e-3
     assert value(found, "load") == pytest.approx(force)
     assert value(found, "contact_load") == pytest.approx(force)
@@ -58,12 +60,12 @@ def test_asperities_alone_carry_their_pressure_over_the_area(tips):
 def test_a_washer_presses_on_all_of_its_land(tips):
     pocket = {"depth": "0.5 mm", "share": 0.5, "extent": "30 mm"}
     sides = {"boundary": {"sides": {"low": "0.1 MPa"}}}
-    found = MIXED.solve(tips.scene(WASHER | {"pocket": pocket}, **sides), resolution=32)
+    found = MIXED.solve(tips.scene(WASHER | {"pocket": pocket}, **sides), Request(resolution=32))
     land = math.pi / 30 / 2 * (0.18**2 - 0.15**2)
     edge = 1e-6 / 0.5e-3 * (1 + math.log(0.5e-3 / 1e-6))  # of the pocket, where its floor touches too
     pressed = value(found, "contact_load") / (float(tips.pressure(1e-6)) * land)
     assert 1 - 1e-9 <= pressed <= 1 + edge
-    whole = MIXED.solve(tips.scene(WASHER, **sides), resolution=32)
+    whole = MIXED.solve(tips.scene(WASHER, **sides), Request(resolution=32))
     assert value(whole, "contact_load") == pytest.approx(float(tips.pressure(1e-6)) * 2 * land)
 
 
@@ -82,7 +84,7 @@ def test_film_and_asperities_of_a_wedge_are_each_as_if_alone(tips):
 
 
 def test_uncertainties_hold_the_error(tips):
-    found = MIXED.solve(tips.scene(LINEAR), resolution=64)
+    found = MIXED.solve(tips.scene(LINEAR), Request(resolution=64))
     contact = 0.4 * tips.stiffness * tips.touching * 20e-3 / 1.5e-6 * 0.5**2.5
     for name, exact in (("contact_load_per_width", contact), ("least_gap", 1e-6)):
         error = abs(value(found, name) - exact)
@@ -92,7 +94,8 @@ def test_uncertainties_hold_the_error(tips):
 def test_sliding_the_other_way_over_a_symmetric_wall_changes_nothing_but_the_way(tips):
     geometry = {"shape": "parabolic", "length": "20 mm", "width": "10 mm", "film": "1 um", "rise": "3 um"}
     one, other = (
-        MIXED.solve(tips.scene(geometry, motion={"speed": speed}), resolution=24) for speed in ("0.1 m/s", "-0.1 m/s")
+        MIXED.solve(tips.scene(geometry, motion={"speed": speed}), Request(resolution=24))
+        for speed in ("0.1 m/s", "-0.1 m/s")
     )
     for name in ("load", "contact_load", "friction", "contact_area", "cavitated_fraction"):
         assert value(other, name) == pytest.approx(value(one, name), rel=1e-6)
@@ -105,7 +108,7 @@ def test_where_nothing_touches_it_is_homogenized(tips):
     sides = {"boundary": {"sides": {"low": "0.1 MPa"}}}
     for geometry, more in ((PARALLEL | {"film": "3 um"}, {}), (journal, {}), (WASHER | {"film": "2.5 um"}, sides)):
         scene = tips.scene(geometry, **more)
-        mixed, film = (model.solve(scene, resolution=16) for model in (MIXED, HOMOGENIZED))
+        mixed, film = (model.solve(scene, Request(resolution=16)) for model in (MIXED, HOMOGENIZED))
         for name, quantity in film.quantities.items():
             assert value(mixed, name) == pytest.approx(quantity.value, rel=1e-12), name
         assert mixed.fields["pressure"].values == pytest.approx(film.fields["pressure"].values, rel=1e-12)
@@ -115,7 +118,7 @@ def test_where_nothing_touches_it_is_homogenized(tips):
 def test_forces_on_a_journal_add_up_as_vectors(tips):
     """At rest, ∫ p_c cos φ dA over the arc that touches; all of p_c rubs."""
     geometry = {"shape": "journal", "radius": "10 mm", "width": "10 mm", "clearance": "3 um", "eccentricity": 0.8}
-    found = MIXED.solve(tips.scene(geometry, motion={"speed": "0 m/s"}), resolution=256)
+    found = MIXED.solve(tips.scene(geometry, motion={"speed": "0 m/s"}), Request(resolution=256))
     angle = np.linspace(-np.pi, np.pi, 200_001)
     pressure = tips.pressure(3e-6 * (1 - 0.8 * np.cos(angle)))
     load, pressed = (float(np.trapezoid(p, angle)) * 1e-4 for p in (pressure * np.cos(angle), pressure))
@@ -130,10 +133,10 @@ def test_a_place_that_is_sealed_keeps_a_pressure_between_those_of_its_ends(tips,
         path=tips.stored(tmp_path / "sealed.h5", **sealed),
         boundary={"inlet": {"pressure": "1 MPa"}},
     )
-    found = MIXED.solve(scene, resolution=32)
+    found = MIXED.solve(scene, Request(resolution=32))
     assert np.isfinite(found.fields["pressure"].values).all()
     rest = MIXED.solve(
-        scene.model_copy(update={"motion": scene.motion.model_copy(update={"speed": 0.0})}), resolution=32
+        scene.model_copy(update={"motion": scene.motion.model_copy(update={"speed": 0.0})}), Request(resolution=32)
     )
     pressure = rest.fields["pressure"].values
     assert pressure.min() >= -1e-3
@@ -143,7 +146,7 @@ def test_a_place_that_is_sealed_keeps_a_pressure_between_those_of_its_ends(tips,
 def test_what_it_cannot_know_is_refused(tips):
     scene = tips.scene(PARALLEL | {"film": "0.1 um"})
     with pytest.raises(InputError, match=r"separation: got 1e-07 m, closer than the table reaches, 2e-07 m"):
-        MIXED.solve(scene, resolution=16)
+        MIXED.solve(scene, Request(resolution=16))
     entries = scene_entries(tips.scene(PARALLEL))
     smooth = {name: table for name, table in entries.items() if name not in ("roughness", "asperities")}
     fits = MIXED.applies(read_scene(smooth))
@@ -222,7 +225,7 @@ def test_roughness_of_few_points_has_no_error_bar_and_says_so(changes):
         "roughness": FEW,
         "asperities": {"friction": 0.1, "solid": {"modulus": "10 GPa", "poisson": 0.0}},
     }
-    found = MIXED.solve(read_scene(entries | changes), resolution=32)
+    found = MIXED.solve(read_scene(entries | changes), Request(resolution=32))
     known = {name: one.uncertainty for name, one in found.quantities.items() if one.uncertainty is not None}
     assert known
     assert all(math.isfinite(uncertainty) for uncertainty in known.values())

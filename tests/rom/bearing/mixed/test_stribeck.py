@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from roughfilm import rom
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.ladder import find
 from roughfilm.rom.bearing.closed_forms import linear_slider
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.bearing.mixed.balance import Speed, balanced
@@ -16,9 +16,9 @@ from roughfilm.rom.bearing.mixed.equilibrium import equilibrium
 from roughfilm.rom.bearing.mixed.film import MixedFilm
 from roughfilm.rom.bearing.mixed.lift_off import lift_off_speed
 from roughfilm.rom.bearing.mixed.stribeck import stribeck
-from roughfilm.rom.ladder.model import find, ladder, of_kind
+from roughfilm.rom.ladder.request import Request
 
-MIXED = find(of_kind(ladder(rom), "bearing"), "mixed")
+MIXED = find("bearing", "mixed")
 PARALLEL = {"shape": "parallel", "length": "20 mm", "width": "10 mm", "film": "1 um"}
 LINEAR = {"shape": "linear", "length": "20 mm", "film": "1 um", "rise": "1.5 um"}
 PAD = LINEAR | {"width": "20 mm", "rise": "5 um"}
@@ -79,7 +79,7 @@ def test_the_rung_at_the_separation_found_carries_the_load(tips, geometry, more,
     found = equilibrium(scene, pressure, resolution=32)
     assert 0 < found.contact_share < 1
     there = scene.model_copy(update={"geometry": scene.geometry.at_film(found.separation)})
-    result = MIXED.solve(there, resolution=32)
+    result = MIXED.solve(there, Request(resolution=32))
     area = 2 * 10e-3 * scene.geometry.width if geometry["shape"] == "journal" else found.load / pressure
     assert result.quantities["load"].value == pytest.approx(pressure * area, rel=1e-5)
     for name in ("contact_load", "friction", "friction_coefficient", "pressure_max", "contact_area", "contact_share"):

@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
-from roughfilm.rom.ladder.provenance import model_code
 from roughfilm.rom.ladder.result import Field
 from roughfilm.rom.pocket.models.reynolds import MODEL as REYNOLDS
 
@@ -18,7 +17,7 @@ SECONDS = float(os.environ.get("MOODY_SECONDS", "0"))
 MEGABYTES = float(os.environ.get("MOODY_MEGABYTES", "0"))
 
 
-def solve(scene, **options):
+def compute(model, scene, request, progress):
     with Path(os.environ["MOODY_NOTES"]).open("a") as notes:
         notes.write(f"{scene.reynolds_number:g}\n")
     if scene.reynolds_number == DIVERGES:
@@ -30,11 +29,9 @@ def solve(scene, **options):
     if scene.reynolds_number == BREAKS:
         raise ZeroDivisionError("a fault in a model")
     time.sleep(SECONDS)
-    result = REYNOLDS.solve(scene, **options)
-    origin = {**result.provenance, "code": model_code(scene.kind, "moody")}
-    result = replace(result, model="moody", provenance=origin)
+    result = REYNOLDS.compute(model, scene, request, progress)
     noise = np.random.default_rng(20051).random(int(MEGABYTES * 125_000))
     return replace(result, fields={**result.fields, "noise": Field(values=noise, unit="1")}) if noise.size else result
 
 
-MODEL = replace(REYNOLDS, name="moody", solve=solve, cost=lambda _scene, _resolution: SECONDS)
+MODEL = replace(REYNOLDS, name="moody", compute=compute, cost=lambda _scene, _resolution: SECONDS)

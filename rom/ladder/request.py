@@ -1,0 +1,40 @@
+"""The numerical options of one solve: as they are asked for, and as a model takes them."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, kw_only=True)
+class Request:
+    """Numerical options of one solve, which ``Model.solve`` checks; the physics is in the scene.
+
+    Parameters
+    ----------
+    resolution : number of cells, points or nodes that the model's ``resolution_meaning`` names; None for its default.
+    tolerance : residual at which the solver stops, in the model's ``residual_meaning``; None for its default.
+    scheme : advection scheme, one of the model's ``schemes``; None for the first of them.
+    processes : number of MPI processes of an OpenFOAM run; the other models run in one.
+
+    Examples
+    --------
+    >>> Request(resolution=200, scheme="upwind")
+    Request(resolution=200, tolerance=None, scheme='upwind', processes=1)
+    """
+
+    resolution: int | None = None
+    tolerance: float | None = None
+    scheme: str | None = None
+    processes: int = 1
+
+
+@dataclass(frozen=True, kw_only=True)
+class CheckedRequest:
+    """Numerical options that a model offers, defaults filled in; ``scheme`` is "" where there is no choice.
+
+    ``asked`` is the request before the defaults.
+    """
+
+    resolution: int
+    tolerance: float
+    scheme: str
+    processes: int
+    asked: Request
