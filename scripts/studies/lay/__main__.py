@@ -16,7 +16,7 @@ import typer
 from roughfilm.pages.render import render, write_figures
 from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.terminal.console import AsJson, in_one_line, make_directory, progress_bar, run_alone
-from scripts.studies.claims import Claim, Surfaces, tell, write_numbers
+from scripts.studies.study import Claim, Surfaces, tell, write_numbers
 from scripts.studies.lay import data as lay_data
 from scripts.studies.lay import joint as lay_joint
 from scripts.studies.lay import measured as lay_measured

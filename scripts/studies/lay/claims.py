@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import spearmanr
 
-from scripts.studies.claims import Claim
+from scripts.studies.study import Claim
 from scripts.studies.lay.data import THICKNESSES, Compared, Turned, angle
 from scripts.studies.lay.joint import Joint, Joints, lowest
 from scripts.studies.lay.measured import OBLIQUE, Measured

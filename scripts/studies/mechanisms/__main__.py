@@ -1,258 +1,71 @@
-"""Two ways in which a parallel film over a textured wall carries load: inertia, and cavitation.
+"""Compare two ways in which a parallel film over a textured wall carries load: inertia and cavitation.
 
-python -m scripts.studies.mechanisms --out OUT. Pockets solve the one (``film``), bearings the other
-(``reynolds_cavitating``);
-no model of the ladder keeps both, so the page says which of them rules where, and not what they do together.
+python -m scripts.studies.mechanisms --out OUT. Pockets solve the first (``film``), bearings the second
+(``reynolds_cavitating``). No model of the ladder has both: the page says which of them is larger, not their joint
+effect.
 """
 
-import json
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any
 
-import numpy as np
-import typer
-from rich.markup import escape
 from rich.table import Table
 
-from roughfilm.contact.foundation.files import replacing
-from roughfilm.contact.foundation.units import with_unit
-from roughfilm.pages.render import render, write_figures
-from roughfilm.rom.ladder.model import find, of_kind
 from roughfilm.rom.ladder.provenance import circumstances
-from roughfilm.rom.ladder.result import Result
-from roughfilm.rom.ladder.scene import read_scene
-from roughfilm.rom.pocket.gap import Array
-from roughfilm.terminal.console import (
-    AsJson,
-    in_one_line,
-    make_directory,
-    models,
-    output,
-    print_json,
-    progress_bar,
-    run_alone,
-)
-
-FILM, LENGTH, WIDTH, DEPTH = 30e-6, 1e-3, 0.3e-3, 22.5e-6
-"""Of a period, m. The groove has w+ = 0.3 and d+ = 0.75, of Paper A; the waves are as deep and fill the period."""
-
-GAPS = {"waves": "waves, cos²", "groove": "a groove between flat lands"}
-"""Without inertia and cavitation, neither carries load: pressure falls where the film widens as it rises elsewhere."""
-
-VISCOSITY, DENSITY = 0.01, 1000.0
-TENSIONS = (0.0, 20e3, 100e3)
-"""Of ambient above the pressure of cavitation, Pa: a liquid full of air, one with some, one with none."""
-
-SUCKED = 20e3
-"""The one of which pressures are drawn, Pa."""
-
-ROUNDING = 1e-6
-"""Mean pressure over speed, Pa s/m, below which a load is none."""
-
-SPEEDS = tuple(np.geomspace(0.3, 60, 24).tolist())
-SHOWN = (5.0, 20.0, 53.333)
-"""Speeds of which the pressures are drawn, m/s."""
-
-NUMBERS = tuple(np.geomspace(0.1, 400, 14).tolist())
-"""Reynolds numbers ρ u h/η; the load by inertia depends on nothing else."""
-
-TORN = tuple(np.geomspace(1e-4, 0.2, 24).tolist())
-"""Δp h²/(η u L); the load by cavitation depends on nothing else."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Laws:
-    """Mean pressure over η u L/h² by either mechanism: over Re, and over Δp h²/(η u L)."""
-
-    reynolds_numbers: Array
-    by_inertia: Array
-    tensions: Array
-    by_cavitation: Array
-
-    def inertia(self, speed: Array, film: Array, density: float = DENSITY) -> Array:
-        """Mean pressure, Pa, of a film of that thickness over a groove of the same proportions."""
-        number = density * speed * film / VISCOSITY
-        rise = np.interp(number, self.reynolds_numbers, self.by_inertia / self.reynolds_numbers)
-        return np.asarray(rise * number * _unit(speed, film))
-
-    def cavitation(self, speed: Array, film: Array, tension: float) -> Array:
-        """The same where the film ruptures at ``tension`` below ambient, Pa."""
-        unit = _unit(speed, film)
-        number = np.maximum(tension / unit, self.tensions[0])
-        load = np.interp(np.log(number), np.log(self.tensions), self.by_cavitation, right=0.0)
-        return np.asarray(load * unit)
-
-
-def _unit(speed: Array, film: Array) -> Array:
-    """η u L/h², with the proportions kept."""
-    return np.asarray(VISCOSITY * speed * (LENGTH / FILM) / film)
-
-
-def pocket(gap: str, speed: float) -> Any:
-    """One period of a gap as a pocket."""
-    places = np.linspace(-0.4995 * LENGTH, 0.4995 * LENGTH, 201)
-    depths = DEPTH * np.cos(np.pi / 2 * places / places[-1]) ** 2
-    depths[[0, -1]] = 0.0
-    waves = {"profile": "points", "points": np.column_stack([places, depths]).tolist()}
-    groove = {"profile": "cylindrical", "width": with_unit(WIDTH, "m"), "depth": with_unit(DEPTH, "m")}
-    return read_scene(
-        {
-            "name": f"{GAPS[gap]}, by inertia",
-            "kind": "pocket",
-            "geometry": {
-                "length": with_unit(LENGTH, "m"),
-                "film": with_unit(FILM, "m"),
-                **(waves if gap == "waves" else groove),
-            },
-            "lubricant": {"viscosity": with_unit(VISCOSITY, "Pa*s"), "density": with_unit(DENSITY, "kg/m^3")},
-            "motion": {"speed": with_unit(speed, "m/s")},
-        }
-    )
-
-
-def slider(gap: str, speed: float, tension: float) -> Any:
-    """One period of a gap as a bearing at ambient pressure; waves begin where they are widest."""
-    length, film, depth = (with_unit(value, "m") for value in (LENGTH, FILM, DEPTH))
-    waves = {"shape": "squared_cosine_inlet", "amplitude": depth, "wavelength": length, "extent": length}
-    texture = {"length": with_unit(WIDTH, "m"), "depth": depth, "start": with_unit((LENGTH - WIDTH) / 2, "m")}
-    groove = {"shape": "parallel", "texture": {"profile": "cylindrical", **texture}}
-    return read_scene(
-        {
-            "name": f"{GAPS[gap]}, by cavitation",
-            "kind": "bearing",
-            "geometry": {"length": length, "film": film, **(waves if gap == "waves" else groove)},
-            "lubricant": {
-                "viscosity": with_unit(VISCOSITY, "Pa*s"),
-                "cavitation_pressure": with_unit(-tension, "Pa"),
-            },
-            "motion": {"speed": with_unit(speed, "m/s")},
-        }
-    )
-
-
-def solve(scene: Any, model: str) -> Result:
-    """A scene by a model of its kind."""
-    return find(of_kind(models(), scene.kind), model).solve(scene)
-
-
-def by_inertia(gap: str, speed: float) -> float:
-    """Mean pressure above that of the place where the bearing is open to ambient, Pa."""
-    pressure = periodic_pressure(gap, solve(pocket(gap, speed), "film"))[1]
-    return float(pressure.mean())
-
-
-def periodic_pressure(gap: str, found: Result) -> tuple[Array, Array]:
-    """Even places from where the bearing begins, m, and the pressure there, zero at the first, Pa, by inertia.
-
-    Waves begin where they are widest, which is the middle of the pocket; the other begins on its land.
-    """
-    x, pressure = (found.fields[name].values for name in ("position", "pressure"))
-    place = np.linspace(0, LENGTH, 4000, endpoint=False)
-    shifted = place if gap == "waves" else place - LENGTH / 2
-    there = np.interp(shifted, x, pressure, period=LENGTH)
-    return place, there - there[0]
-
-
-def by_cavitation(gap: str, speed: float, tension: float) -> float:
-    """Mean pressure above ambient, Pa."""
-    return solve(slider(gap, speed, tension), "reynolds_cavitating").quantities["load_per_width"].value / LENGTH
-
-
-def laws(gap: str, advance: Callable[[str], None]) -> Laws:
-    """Both loads of a gap, dimensionless, over the one number that each depends on."""
-    inertia, cavitation = [], []
-    for number in NUMBERS:
-        speed = number * VISCOSITY / (DENSITY * FILM)
-        advance(f"{gap}, inertia, Re = {number:.3g}")
-        inertia.append(by_inertia(gap, speed) / (VISCOSITY * speed * LENGTH / FILM**2))
-    for number in TORN:
-        advance(f"{gap}, cavitation, {number:.3g}")
-        unit = VISCOSITY * LENGTH / FILM**2
-        cavitation.append(by_cavitation(gap, 1.0, number * unit) / unit)
-    return Laws(
-        reynolds_numbers=np.array(NUMBERS),
-        by_inertia=np.array(inertia),
-        tensions=np.array(TORN),
-        by_cavitation=np.array(cavitation),
-    )
+from roughfilm.terminal.console import AsJson, in_one_line, make_directory, run_alone
+from scripts.studies.mechanisms import data, figures
+from scripts.studies.mechanisms.data import DRAWN_TENSION, GAPS, SPEEDS, TENSIONS, pocket, slider, solve
+from scripts.studies.study import Out, counted, publish
 
 
 @in_one_line
-def command(
-    out: Annotated[Path, typer.Option(help="The page, its figures and the numbers go here.")], as_json: AsJson = False
-) -> None:
-    """Solve two textures both ways over speed and film thickness, and write mechanisms.html."""
-    from scripts.studies.mechanisms import figures as mechanisms_figures  # matplotlib is slow to import
-
+def command(out: Out, as_json: AsJson = False) -> None:
+    """Solve two textures by both mechanisms at many speeds and film thicknesses."""
     make_directory(out)
-    done = 0
-    with progress_bar(len(NUMBERS) + len(TORN) + len(GAPS) * len(SPEEDS)) as bar:
-
-        def advance(words: str) -> None:
-            nonlocal done
-            bar(done, words)
-            done += 1
-
-        rule = laws("waves", advance)
-        loads = {gap: loads_of(gap, advance) for gap in GAPS}
+    with counted(len(data.REYNOLDS_NUMBERS) + len(data.CAVITATION_NUMBERS) + len(GAPS) * len(SPEEDS)) as advance:
+        laws = data.laws("waves", advance)
+        loads = {gap: data.loads_of(gap, advance) for gap in GAPS}
     drawn = {
-        gap: {s: (solve(pocket(gap, s), "film"), solve(slider(gap, s, SUCKED), "reynolds_cavitating")) for s in SHOWN}
+        gap: {
+            speed: (solve(pocket(gap, speed), "film"), solve(slider(gap, speed, DRAWN_TENSION), "reynolds_cavitating"))
+            for speed in data.DRAWN_SPEEDS
+        }
         for gap in GAPS
     }
-    plots = {
-        "pressures": mechanisms_figures.pressures(drawn, SUCKED),
-        "loads": mechanisms_figures.loads(loads),
-        "rule": mechanisms_figures.rule(rule, TENSIONS),
-    }
-    write_figures(plots, out)
-    rows = {gap: table(found) for gap, found in loads.items()}
-    told = {"speeds": list(SPEEDS), "mean_pressure": loads, "provenance": circumstances()}
-    with replacing(out / "mechanisms.json") as scratch:
-        scratch.write_text(json.dumps(told, indent=1) + "\n", encoding="utf-8")
-    render(
-        Path(__file__).parent / "page.html.j2",
-        out / "mechanisms.html",
-        plots=plots,
+    rows = {gap: rows_of(found) for gap, found in loads.items()}
+    publish(
+        Path(__file__).parent,
+        out,
+        {
+            "pressures": figures.pressures(drawn, DRAWN_TENSION),
+            "loads": figures.loads(loads),
+            "rule": figures.rule(laws, TENSIONS),
+        },
+        {"speeds": SPEEDS, "mean_pressure": loads, "provenance": circumstances()},
+        tables=[table(GAPS[gap], found) for gap, found in rows.items()],
+        as_json=as_json,
         rows=rows,
         gaps=GAPS,
         tensions=TENSIONS,
-        sucked=SUCKED,
+        drawn_tension=DRAWN_TENSION,
     )
-    if as_json:
-        print_json({**told, "report": str(out / "mechanisms.html")})
-        return
-    for gap, found in rows.items():
-        shown = Table(
-            "speed, m/s", "Re", "inertia, Pa", *(f"{t * 1e-3:g} kPa below, Pa" for t in TENSIONS), title=GAPS[gap]
-        )
-        for row in found:
-            shown.add_row(*(f"{value:.4g}" for value in row.values()))
-        output.print(shown)
-    output.print(f"page: {escape(str(out / 'mechanisms.html'))}", soft_wrap=True)
 
 
-def loads_of(gap: str, advance: Callable[[str], None]) -> dict[str, list[float]]:
-    """Mean pressures over the speeds, Pa, by inertia and at each tension; rounding left is zero."""
-    found: dict[str, list[float]] = {"inertia": [], **{f"{tension:g}": [] for tension in TENSIONS}}
-    for speed in SPEEDS:
-        advance(f"{gap}, {speed:.3g} m/s")
-        found["inertia"].append(by_inertia(gap, speed))
-        for tension in TENSIONS:
-            load = by_cavitation(gap, speed, tension)
-            found[f"{tension:g}"].append(load if abs(load) > ROUNDING * speed else 0.0)
-    return found
-
-
-def table(loads: Mapping[str, list[float]]) -> list[dict[str, float]]:
-    """Every third speed with its Reynolds number and mean pressures, Pa."""
+def rows_of(loads: Mapping[str, list[float]]) -> list[dict[str, float]]:
+    """Return every third speed with its Reynolds number and mean pressures, Pa."""
     return [
-        {"speed": speed, "reynolds_number": DENSITY * speed * FILM / VISCOSITY}
+        {"speed": speed, "reynolds_number": data.DENSITY * speed * data.FILM / data.VISCOSITY}
         | {name: values[number] for name, values in loads.items()}
         for number, speed in enumerate(SPEEDS)
         if number % 3 == 2
     ]
+
+
+def table(title: str, rows: list[dict[str, float]]) -> Table:
+    """Return the rows of one gap as a printed table."""
+    shown = Table("speed, m/s", "Re", "inertia, Pa", *(f"{t * 1e-3:g} kPa below, Pa" for t in TENSIONS), title=title)
+    for row in rows:
+        shown.add_row(*(f"{value:.4g}" for value in row.values()))
+    return shown
 
 
 if __name__ == "__main__":

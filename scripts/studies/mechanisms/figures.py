@@ -1,18 +1,17 @@
-"""The figures of inertia beside cavitation, as SVG text."""
+"""Figures of load by inertia and by cavitation."""
 
 from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from roughfilm.figures.base import svg
 from roughfilm.rom.ladder.result import Result
-from scripts.studies.mechanisms.__main__ import FILM, GAPS, SPEEDS, TENSIONS, Laws, periodic_pressure
+from scripts.studies.mechanisms.data import FILM, GAPS, SPEEDS, TENSIONS, LoadLaws, periodic_pressure
 
 INERTIA, CAVITATION = "#b2182b", ("#08519c", "#4292c6", "#9ecae1")
 
 
-def pressures(drawn: Mapping[str, Mapping[float, tuple[Result, Result]]], tension: float) -> str:
+def pressures(drawn: Mapping[str, Mapping[float, tuple[Result, Result]]], tension: float) -> Figure:
     """Pressure along the sliding wall by both mechanisms: a row for each gap, a panel for each speed."""
     figure = Figure(figsize=(10, 6.4), layout="constrained")
     panels = figure.subplots(len(drawn), len(next(iter(drawn.values()))), sharex=True)
@@ -28,10 +27,10 @@ def pressures(drawn: Mapping[str, Mapping[float, tuple[Result, Result]]], tensio
     for axes in panels[-1]:
         axes.set_xlabel("position, mm")
     panels[0][0].legend(fontsize=8)
-    return svg(figure)
+    return figure
 
 
-def loads(found: Mapping[str, Mapping[str, Sequence[float]]]) -> str:
+def loads(found: Mapping[str, Mapping[str, Sequence[float]]]) -> Figure:
     """Mean pressure over speed, by inertia and by cavitation at each tension, a panel for each gap."""
     figure = Figure(figsize=(10, 4.2), layout="constrained")
     panels = figure.subplots(1, len(found))
@@ -46,10 +45,10 @@ def loads(found: Mapping[str, Mapping[str, Sequence[float]]]) -> str:
         axes.set_xlabel("sliding speed, m/s")
     panels[0].set_ylabel("mean pressure above ambient, kPa")
     panels[0].legend(fontsize=8)
-    return svg(figure)
+    return figure
 
 
-def rule(laws: Laws, tensions: Sequence[float]) -> str:
+def rule(laws: LoadLaws, tensions: Sequence[float]) -> Figure:
     """Load by cavitation over the size of that by inertia, over film thickness and speed, the proportions kept."""
     figure = Figure(figsize=(10, 3.8), layout="constrained")
     panels = figure.subplots(1, len(tensions), sharey=True)
@@ -67,4 +66,4 @@ def rule(laws: Laws, tensions: Sequence[float]) -> str:
         axes.set_xlabel("film thickness, µm")
     panels[0].set_ylabel("sliding speed, m/s")
     figure.colorbar(image, ax=panels, label="log₁₀ of load by cavitation\nover size of that by inertia")
-    return svg(figure)
+    return figure

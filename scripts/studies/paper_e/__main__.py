@@ -24,7 +24,7 @@ from roughfilm.pages.error_bars import with_error
 from roughfilm.pages.render import render, write_figures
 from roughfilm.rom.ladder.provenance import circumstances, code
 from roughfilm.terminal.console import AsJson, in_one_line, make_directory, progress_bar, run_alone
-from scripts.studies.claims import Claim, Surfaces, tell, write_numbers
+from scripts.studies.study import Claim, Surfaces, tell, write_numbers
 from scripts.studies.paper_e import data as paper_e_data
 from scripts.studies.paper_e import windows as paper_e_windows
 from scripts.studies.paper_e.claims import Paper, judge, worst_cell

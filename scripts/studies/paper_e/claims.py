@@ -7,7 +7,7 @@ import numpy as np
 
 from roughfilm.pages.error_bars import with_error
 from roughfilm.rom.pocket.gap import Array
-from scripts.studies.claims import Claim
+from scripts.studies.study import Claim
 from scripts.studies.paper_e.data import LOADS, SEEDS, Washer
 from scripts.studies.paper_e.windows import LOAD, PARTS, Leak
 

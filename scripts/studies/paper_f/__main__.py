@@ -18,7 +18,7 @@ import typer
 from roughfilm.pages.render import render, write_figures
 from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.terminal.console import AsJson, in_one_line, make_directory, progress_bar, run_alone
-from scripts.studies.claims import Claim, Surfaces, tell, write_numbers
+from scripts.studies.study import Claim, Surfaces, tell, write_numbers
 from scripts.studies.paper_f import sizes as paper_f_sizes
 from scripts.studies.paper_f.claims import judge
 from scripts.studies.paper_f.data import MODULUS, PARTS, Pressed, press_all

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughfilm.rom.pocket.gap import Array
-from scripts.studies.claims import Claim
+from scripts.studies.study import Claim
 from scripts.studies.paper_f.data import MODULUS, Pressed
 from scripts.studies.paper_f.fits import SHARES, SLOPE, Constant
 from scripts.studies.paper_f.study import DIRECTED, Laws, Study

@@ -18,7 +18,7 @@ from roughfilm.contact.foundation.files import replacing
 from roughfilm.pages.render import render, write_figures
 from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.terminal.console import AsJson, in_one_line, make_directory, progress_bar, run_alone
-from scripts.studies.claims import Claim, Surfaces, tell, write_numbers
+from scripts.studies.study import Claim, Surfaces, tell, write_numbers
 from scripts.studies.rough_gaps import inertia as rough_gaps_inertia
 from scripts.studies.rough_gaps import map as rough_gaps_map
 from scripts.studies.rough_gaps import range_of_validity as rough_gaps_reach

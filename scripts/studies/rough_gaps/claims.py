@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from scripts.studies.claims import Claim
+from scripts.studies.study import Claim
 from scripts.studies.rough_gaps.data import best
 from scripts.studies.rough_gaps.map import serves
 from scripts.studies.rough_gaps.range_of_validity import Reach

@@ -2,7 +2,7 @@
 
 import pytest
 
-from scripts.studies.mechanisms import __main__ as mechanisms
+from scripts.studies.mechanisms import data as mechanisms
 
 
 @pytest.mark.parametrize("gap", mechanisms.GAPS)
