@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from roughfilm.rom.homogenization.lay import box_factors, turned
 from scripts.studies.lay.claims import Lay
-from scripts.studies.lay.data import TEXTURES, THICKNESSES, Compared, angle, box_of, grooves_exactly
+from scripts.studies.lay.data import TEXTURES, THICKNESSES, FactorPair, angle, box_of, grooves_exactly
 from scripts.studies.lay.joint import cut_grooves
 from scripts.studies.lay.measured import OBLIQUE
 
@@ -56,15 +56,15 @@ def pressure(lay: Lay) -> Figure:
     return figure
 
 
-def _entry(i: int, j: int) -> Callable[[Compared], float]:
+def _entry(i: int, j: int) -> Callable[[FactorPair], float]:
     return lambda one: float(one.cell.pressure[i, j])
 
 
-def _box_factor(i: int) -> Callable[[Compared], float]:
+def _box_factor(i: int) -> Callable[[FactorPair], float]:
     return lambda one: float(one.box.pressure[i])
 
 
-def _drag(i: int) -> Callable[[Compared], float]:
+def _drag(i: int) -> Callable[[FactorPair], float]:
     return lambda one: float(one.cell.shear[i])
 
 
@@ -72,7 +72,7 @@ def _dots(
     axes: Axes,
     lay: Lay,
     setting: tuple[str, float],
-    of: Callable[[Compared], float],
+    of: Callable[[FactorPair], float],
     colour: str,
     name: str,
     *,

@@ -7,9 +7,9 @@ import numpy as np
 
 from roughfilm.pages.error_bars import with_error
 from roughfilm.rom.pocket.gap import Array
-from scripts.studies.study import Claim
 from scripts.studies.paper_e.data import LOADS, SEEDS, Washer
 from scripts.studies.paper_e.windows import LOAD, PARTS, Leak
+from scripts.studies.study import Claim
 
 FEW_PER_CENT = 0.05
 """Within which two leakages count as equal."""

@@ -14,7 +14,7 @@ from roughfilm.rom.pocket.gap import Array
 from scripts.studies.paper_f.claims import LEAKAGE, RANGE, SEALING, above_the_cell, subtracted
 from scripts.studies.paper_f.data import MODULUS
 from scripts.studies.paper_f.fits import SLOPE, LeakageLaw, scale_of
-from scripts.studies.paper_f.study import Study
+from scripts.studies.paper_f.laws import SealStudy
 from scripts.studies.paper_f.surfaces import HEIGHTS
 
 COLOURS = (
@@ -36,12 +36,12 @@ def kilograms(permeability: Array) -> Array:
     return 3600 * DENSITY * permeability * DROP / (12 * VISCOSITY * LENGTH)
 
 
-def _colours(study: Study) -> Mapping[str, str]:
+def _colours(study: SealStudy) -> Mapping[str, str]:
     families = dict.fromkeys(one.family for one in study.sample)
     return dict(zip(families, COLOURS, strict=False))
 
 
-def _legend(figure: Figure, study: Study) -> None:
+def _legend(figure: Figure, study: SealStudy) -> None:
     handles = [Line2D([], [], color=colour, label=name, lw=2) for name, colour in _colours(study).items()]
     figure.legend(handles=handles, loc="outside lower center", ncols=6, fontsize=8)
 
@@ -51,7 +51,7 @@ def _panels(rows: int, columns: int, height: float) -> tuple[Figure, list[Axes]]
     return figure, list(figure.subplots(rows, columns, squeeze=False).ravel())
 
 
-def area(study: Study) -> Figure:
+def area(study: SealStudy) -> Figure:
     """Real area of contact until both directions are sealed (dots: along x full, along y white; dashed: 33 and 55 %).
 
     Left as the source has it; right over E* times the rms slope, where surfaces fall together. Grey: measured ones.
@@ -80,7 +80,7 @@ def area(study: Study) -> Figure:
     return figure
 
 
-def spots(study: Study) -> Figure:
+def spots(study: SealStudy) -> Figure:
     """Contact (dark) when the last path from end to end closes: along x (left of each pair) and along y."""
     firsts = list({one.family: one for one in reversed(study.sample)}.values())[::-1]
     figure = Figure(figsize=(10.5, 2.05 * int(np.ceil(len(firsts) / 3))), layout="constrained")
@@ -97,7 +97,7 @@ def spots(study: Study) -> Figure:
     return figure
 
 
-def heights(study: Study) -> Figure:
+def heights(study: SealStudy) -> Figure:
     """Load at the threshold over the eight heights, both directions; lines: geometric mean of the ratio; red: F.14.
 
     The spread is the standard deviation of the ratio, as a factor.
@@ -116,7 +116,7 @@ def heights(study: Study) -> Figure:
     return figure
 
 
-def _thresholds(axes: Axes, study: Study, name: str, unit: float) -> None:
+def _thresholds(axes: Axes, study: SealStudy, name: str, unit: float) -> None:
     law, colours = study.laws["all"].sealing[name], _colours(study)
     for one in study.sample:
         x = scale_of(one, name) * unit
@@ -132,7 +132,7 @@ def _thresholds(axes: Axes, study: Study, name: str, unit: float) -> None:
     axes.set_title(f"spread {law.spread:.3g}, R² {law.explained:.2f}", fontsize=8)
 
 
-def pure(study: Study) -> Figure:
+def pure(study: SealStudy) -> Figure:
     """What k of F.14 hides (left): it falls as the length Sq/g′ of a surface grows; red: the source's.
 
     Middle: load over the rms slope, whose ratio is a pure number; line: geometric mean. Right: that number over the
@@ -163,7 +163,7 @@ def pure(study: Study) -> Figure:
     return figure
 
 
-def leakage(study: Study) -> Figure:
+def leakage(study: SealStudy) -> Figure:
     """Leakage along x, a surface of each family: HNS (lines) and DNS (circles), 1 MPa over 1 mm, 10³ kg/m³, 1 mPa s.
 
     Right: DNS over HNS of all surfaces and directions; line: median, dashed: nine in ten below.
@@ -203,7 +203,7 @@ def _bands(axes: Axes, parts: Array, values: Array, colour: str) -> None:
     axes.plot(places, [float(np.nanpercentile(values[one], 90)) for one in bins], color=colour, lw=1.4, ls="--")
 
 
-def same_heights(study: Study) -> Figure:
+def same_heights(study: SealStudy) -> Figure:
     """Leakage of all surfaces in both directions (DNS) scaled to the same height, which is the mean of all."""
     figure, panels = _panels(2, 4, 2.8)
     colours = _colours(study)
@@ -229,7 +229,7 @@ def same_heights(study: Study) -> Figure:
     return figure
 
 
-def dimensionless(study: Study) -> Figure:
+def dimensionless(study: SealStudy) -> Figure:
     """Leakage (DNS) over that of a smooth gap as high as Svm (left) and as Svm under load (right), both directions.
 
     Loads for surfaces of Svm = 1 µm. Under load Svm hardly changes, and does not follow the leakage.
@@ -254,7 +254,7 @@ def dimensionless(study: Study) -> Figure:
     return figure
 
 
-def closed_form(study: Study) -> Figure:
+def closed_form(study: SealStudy) -> Figure:
     """Leakage of a surface of each family by DNS, in x (circles) and y (crosses), and by F.18 as the source has it.
 
     The closed form (lines) knows no direction, and no sealing but where its base is 0.
@@ -278,7 +278,7 @@ def closed_form(study: Study) -> Figure:
     return figure
 
 
-def laws(study: Study) -> Figure:
+def laws(study: SealStudy) -> Figure:
     """F.18 as a straight line, K = s³ (a − b (W/(E* r))^⅓)⁹, K = 12ηQL/Δp by DNS, both directions.
 
     Left: s = r = Svm, as the source has it (red: its constants). Right: s = Sp, the mean gap at the first touch, with
@@ -299,7 +299,7 @@ def laws(study: Study) -> Figure:
     return figure
 
 
-def _line(axes: Axes, study: Study, law: LeakageLaw) -> None:
+def _line(axes: Axes, study: SealStudy, law: LeakageLaw) -> None:
     colours, (height, load) = _colours(study), law.scale
     for one in study.sample:
         x = np.cbrt(one.loads / (MODULUS * scale_of(one, load)))
@@ -313,7 +313,7 @@ def _line(axes: Axes, study: Study, law: LeakageLaw) -> None:
     axes.set_ylim(0, 1.9)
 
 
-def size(study: Study) -> Figure:
+def size(study: SealStudy) -> Figure:
     """One kind of random surface, larger and larger: area, and load over E* g′, when the last path closes.
 
     A dot for each surface and direction; bars: mean and standard deviation. Dashed: 33 and 55 %.
@@ -338,7 +338,7 @@ def size(study: Study) -> Figure:
     return figure
 
 
-def offset(study: Study) -> Figure:
+def offset(study: SealStudy) -> Figure:
     """Leakage of the cell with 10 nm let through everywhere, over that with closed contact.
 
     Left as it is, right after what is left at the threshold is subtracted. Lines: median, and nine in ten below.
@@ -360,7 +360,7 @@ def offset(study: Study) -> Figure:
     return figure
 
 
-NUMBERED: dict[str, Callable[[Study], Figure]] = {
+NUMBERED: dict[str, Callable[[SealStudy], Figure]] = {
     "F.5": area,
     "F.6": spots,
     "F.7": heights,
