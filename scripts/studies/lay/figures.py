@@ -128,10 +128,7 @@ def boxes(lay: Lay) -> Figure:
     ):
         axes.axhline(value, color="black", linewidth=0.8, linestyle=":")
         axes.annotate(name, (0.04, value), (0, 3), textcoords="offset points", size=8)
-    axes.set_xscale("log")
-    axes.set_ylim(0, 1.05)
-    axes.set_xlabel("length of the box over its width")
-    axes.set_ylabel("φ₁, over ĥ³")
+    axes.set(xscale="log", ylim=(0, 1.05), xlabel="length of the box over its width", ylabel="φ₁, over ĥ³")
     axes.legend(fontsize=8, loc="center right")
     return figure
 
@@ -155,8 +152,7 @@ def measured(lay: Lay) -> Figure:
     right.plot(places, [row.box.shear for row in rows], "s-", color=ALONG, label="1 + σφs/ĥ", ms=4, mfc="white", lw=0.8)
     for axes, name in ((left, "pressure flow factors, over ĥ³"), (right, "shear flow factors, over ĥ")):
         axes.axvline(1, color="black", linewidth=0.8, linestyle="--")
-        axes.set_xlabel("separation over highest point, α/ĥ₁")
-        axes.set_ylabel(name)
+        axes.set(xlabel="separation over highest point, α/ĥ₁", ylabel=name)
         axes.legend(fontsize=8)
     return figure
 
@@ -181,8 +177,7 @@ def joints(lay: Lay) -> Figure:
             ]
             label = ("raw", "edges blended")[kind] if thickness == THIN else None
             scattered.plot(*zip(*windows, strict=True), marker, color=colour, ms=4, label=label)
-    shifted.set_xlabel("shift over distance (dashed: blended)")
-    shifted.set_ylabel("flow along the lay, over the truth")
+    shifted.set(xlabel="shift over distance (dashed: blended)", ylabel="flow along the lay, over the truth")
     shifted.legend(fontsize=8)
     scattered.axvline(0.1, color="black", linewidth=0.8, linestyle=":")
     scattered.set_title("windows of random striated surfaces", fontsize=9)
@@ -202,12 +197,14 @@ def offsets(lay: Lay) -> Figure:
         left.plot(places, [1e9 * one.slit[0] for one in row], color=colour, linestyle="--", linewidth=1)
         both = [(r, a) for one in row for r, a in zip(one.relative, one.added, strict=True) if r > 0]
         right.plot(*zip(*both, strict=True), "o", color=colour, ms=4, label=name)
-    left.set_yscale("log")
-    left.set_xlabel("separation over Sq (dashed: with the offset)")
-    left.set_ylabel("slit that leaks as much, ∛A₁₁, nm")
+    left.set(
+        yscale="log", xlabel="separation over Sq (dashed: with the offset)", ylabel="slit that leaks as much, ∛A₁₁, nm"
+    )
     left.legend(fontsize=8)
-    right.set_xscale("log")
-    right.set_yscale("log")
-    right.set_xlabel("A₁₁/ĥ³ and A₂₂/ĥ³ with closed contact")
-    right.set_ylabel("what the offset adds, over A")
+    right.set(
+        xscale="log",
+        yscale="log",
+        xlabel="A₁₁/ĥ³ and A₂₂/ĥ³ with closed contact",
+        ylabel="what the offset adds, over A",
+    )
     return figure

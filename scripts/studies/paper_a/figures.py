@@ -35,9 +35,8 @@ def _pressure(axes: Axes, result: Result, style: str, label: str, **look: Any) -
     plus = result.quantities["load_plus"].value / result.quantities["load_per_area"].value
     length = result.fields["vertices"].values[-1, -1, 0] - result.fields["vertices"].values[0, -1, 0]
     axes.plot(2 * x / length, p * plus, style, label=label, **look)
-    axes.set_xlabel("x+ = 2x / Lx")
-    axes.set_ylabel("p+")
     axes.set_title(str(geometry["name"]), fontsize=0)
+    axes.set(xlabel="x+ = 2x / Lx", ylabel="p+")
 
 
 def _edges(axes: Axes, width: float) -> None:
@@ -75,10 +74,8 @@ def a4(paper: Paper) -> Figure:
         _against(axes, paper, "load_plus", rows, "width_plus", "Navier-Stokes (line: film_slope)", "C0")
         stokes = np.abs(paper.of("load_plus", rows, paper.stokes))
         axes.plot(paper.sweep.given["width_plus"][rows], stokes, "s", color="C2", ms=4, label="Stokes, size")
-        axes.set_yscale("log")
-        axes.set_xlabel("w+")
-        axes.set_ylabel("Fy+")
         axes.set_title(f"Re = {number:g}", fontsize=10)
+        axes.set(yscale="log", xlabel="w+", ylabel="Fy+")
         axes.legend()
     return figure
 
@@ -202,9 +199,8 @@ def scheme(paper: Paper) -> Figure:
 
 
 def _labels(axes: Axes, x: str, y: str, title: str) -> None:
-    axes.set_xlabel(x)
-    axes.set_ylabel(y)
     axes.set_title(title, fontsize=10)
+    axes.set(xlabel=x, ylabel=y)
     axes.legend(fontsize=8)
 
 

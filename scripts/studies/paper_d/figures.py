@@ -36,8 +36,7 @@ def d1(paper: Paper) -> Figure:
         for name, colour in (("elastic-plastic", "#b2182b"), ("elastic", "#2166ac")):
             _band(axes, np.array(paper.waves), 100 * paper.cut[spectrum][name], colour, "-", name)
         axes.set_title(f"{spectrum}, waves up to {SPECTRA[spectrum]}", fontsize=10)
-        axes.set_xlabel("number of frequencies n")
-        axes.set_yscale("log")
+        axes.set(xlabel="number of frequencies n", yscale="log")
         axes.set_yticks([2, 5, 10, 20, 50, 100], ["2", "5", "10", "20", "50", "100"])
     panels[0].set_ylabel("Ar/An, %")
     panels[0].legend()
@@ -53,8 +52,7 @@ def d2(paper: Paper) -> Figure:
         left.plot(100 * ratio, height, color=colour, label=name)
         density, edges = np.histogram(heights, bins=40, density=True)
         right.plot(density, (edges[1:] + edges[:-1]) / 2, color=colour)
-    left.set_xlabel("part of the profile above, %")
-    left.set_ylabel("height from the mean, µm")
+    left.set(xlabel="part of the profile above, %", ylabel="height from the mean, µm")
     right.set_xlabel("P(z), 1/µm")
     left.legend()
     return figure
@@ -71,8 +69,7 @@ def d3(paper: Paper) -> Figure:
     above.fill_between(x, after, before, color="#b2182b", lw=0.8)
     below.fill_between(x, 0, before - after, color="#b2182b", lw=0.8, step="mid")
     above.set_ylabel("height, µm")
-    below.set_ylabel("plastic, µm")
-    below.set_xlabel("x, µm")
+    below.set(ylabel="plastic, µm", xlabel="x, µm")
     return figure
 
 
@@ -83,9 +80,7 @@ def _against_load(paper: Paper, wanted: Sequence[tuple[str, str, float]]) -> Fig
             for spectrum, style in DASHES.items():
                 values = factor * paper.pressed[spectrum, name][quantity]
                 _band(axes, np.array(paper.loads) / 1e3, values, colour, style, name if style == "-" else "")
-        axes.set_xlabel("load, kN/m")
-        axes.set_ylabel(label)
-        axes.set_xlim(left=0)
+        axes.set(xlabel="load, kN/m", ylabel=label, xlim=(0, None))
     panels[0].legend(ncols=2)
     return figure
 

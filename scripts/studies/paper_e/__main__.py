@@ -94,7 +94,9 @@ def _leaks(
 
     inputs = {"surface": hashlib.sha256(milled.read_bytes()).hexdigest(), "loads": list(windows.LOADS)}
     held = kept(path, inputs, make)
-    leaks = [{name: tuple(v) if isinstance(v, list) else v for name, v in one.items()} for one in held["leaks"]]
+    leaks: list[dict[str, Any]] = [
+        {name: tuple(v) if isinstance(v, list) else v for name, v in one.items()} for one in held["leaks"]
+    ]
     return tuple(Leak(**one) for one in leaks), tuple((count, more) for count, more in held["rows"])
 
 

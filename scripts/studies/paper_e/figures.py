@@ -62,12 +62,9 @@ def leakages(windows: Sequence[Leak]) -> Figure:
             )
     grids.set_xscale("log", base=2)
     grids.set_xticks([0.5, 1, 2], ["half", "as prepared", "double"])
-    grids.set_xlabel("nodes along a side, along y")
-    grids.set_ylim(bottom=0)
+    grids.set(xlabel="nodes along a side, along y", ylim=(0, None))
     grids.legend(fontsize=8, loc="lower right")
-    loads.set_xscale("log")
-    loads.set_yscale("log")
-    loads.set_xlabel("load, MPa, along y")
+    loads.set(xscale="log", yscale="log", xlabel="load, MPa, along y")
     loads.legend(fontsize=8)
     for axes in (places, grids, loads):
         axes.set_ylabel("leaked in 300 s, ml")
@@ -129,10 +126,8 @@ def films(washers: dict[str, Washer]) -> Figure:
                 axes.plot(speeds, heights, line, color=colour, linewidth=1.4, label=name if line == "-" else None)
             _bar(axes, one, number, colour)
         axes.axhline(0, color="black", linewidth=0.8)
-        axes.set_xlim(0, end)
-        axes.set_ylim(-2.5, 12)
         axes.set_title(f"{LOADS[number] / 1e6:g} MPa; full: HNS, dashed: Patir and Cheng", fontsize=10)
-        axes.set_xlabel("speed, rpm")
+        axes.set(xlim=(0, end), ylim=(-2.5, 12), xlabel="speed, rpm")
     panels[0].set_ylabel("least separation over the first touch, µm")
     panels[0].legend(fontsize=8, loc="upper left")
     return figure
@@ -153,9 +148,9 @@ def friction(washers: dict[str, Washer]) -> Figure:
             label = name if line == "-" else None
             rubs = [point.friction_coefficient for point in curve.points]
             axes.plot(speeds, rubs, line, color=colour, label=label, linewidth=1.3)
-    axes.set_yscale("log")
-    axes.set_xlabel("speed, rpm (dotted 0.5 MPa, full 1 MPa, dashed 2 MPa)")
-    axes.set_ylabel("coefficient of friction")
+    axes.set(
+        yscale="log", xlabel="speed, rpm (dotted 0.5 MPa, full 1 MPa, dashed 2 MPa)", ylabel="coefficient of friction"
+    )
     axes.legend(fontsize=8)
     return figure
 
@@ -177,10 +172,7 @@ def lays(paper: Paper) -> Figure:
         first.errorbar(loads, lift[:, 0], lift[:, 1], fmt="o-", color=LAYS[lay], label=lay, lw=1, ms=3, capsize=2)
     first.set_title("surface 1", fontsize=10)
     for axes in (turned, first):
-        axes.set_xlabel("load, MPa")
-        axes.set_ylabel("lift-off, rpm")
-        axes.set_xscale("log")
-        axes.set_yscale("log")
+        axes.set(xlabel="load, MPa", ylabel="lift-off, rpm", xscale="log", yscale="log")
         axes.set_xticks(loads, [f"{load:g}" for load in loads])
         axes.minorticks_off()
         axes.set_yticks(ROUND, [f"{speed:g}" for speed in ROUND])

@@ -68,8 +68,7 @@ def area(study: SealStudy) -> Figure:
     for axes in (left, right):
         for part in RANGE:
             axes.axhline(100 * part, color=FOUND, lw=0.8, ls="--")
-        axes.set_ylabel("real area of contact, %")
-        axes.set_ylim(0, 90)
+        axes.set(ylabel="real area of contact, %", ylim=(0, 90))
     x = np.linspace(0, 0.8, 200)
     right.plot(x, 100 * erf(np.sqrt(2) * x), ":", color=FOUND)
     left.set_xlim(0, 1.6)
@@ -121,8 +120,7 @@ def _thresholds(axes: Axes, study: SealStudy, name: str, unit: float) -> None:
     for one in study.sample:
         x = scale_of(one, name) * unit
         axes.plot([x, x], one.threshold / 1e6, ".", color=colours[one.family], ms=5, alpha=0.8)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
+    axes.set(xscale="log", yscale="log")
     axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     axes.xaxis.set_major_formatter("{x:g}")
     axes.xaxis.set_minor_formatter(NullFormatter())
@@ -148,15 +146,12 @@ def pure(study: SealStudy) -> Figure:
             np.full(2, one.numbers.skewness), one.threshold / (MODULUS * one.numbers.slope), ".", color=colour, ms=5
         )
     left.axhline(SEALING, color=SOURCE, lw=1.2)
-    left.set_xlabel("Sq/g′, µm")
-    left.set_ylabel("W/(E* Spm), 1/m")
+    left.set(xlabel="Sq/g′, µm", ylabel="W/(E* Spm), 1/m")
     _thresholds(middle, study, SLOPE, 1.0)
-    middle.set_xlabel("g′")
-    middle.set_ylabel("W at the threshold, MPa")
+    middle.set(xlabel="g′", ylabel="W at the threshold, MPa")
     x = np.linspace(*right.get_xlim(), 50)
     right.plot(x, laws.skewed.constant.value * np.exp(laws.skewed.skewness.value * x), color=FOUND, lw=1)
-    right.set_xlabel("Ssk")
-    right.set_ylabel("W/(E* g′)")
+    right.set(xlabel="Ssk", ylabel="W/(E* g′)")
     for axes in (left, right):
         axes.set_yscale("log")
     _legend(figure, study)
@@ -177,19 +172,13 @@ def leakage(study: SealStudy) -> Figure:
         left.plot(
             one.loads[open_ends], kilograms(one.direct[open_ends, 0]), "o", color=colours[family], ms=4, mfc="none"
         )
-    left.set_xscale("log")
-    left.set_yscale("log")
-    left.set_ylim(LEAST, None)
-    left.set_xlabel("load W, Pa")
-    left.set_ylabel("leakage, kg/(h m)")
+    left.set(xscale="log", yscale="log", ylim=(LEAST, None), xlabel="load W, Pa", ylabel="leakage, kg/(h m)")
     parts, more = above_the_cell(study.sample)
     right.plot(parts, 1 + more, ".", color="#4292c6", ms=2.5, alpha=0.5)
     _bands(right, parts, 1 + more, FOUND)
-    right.set_yscale("log")
-    right.set_xscale("log")
-    right.set_ylim(0.9, 100)
-    right.set_xlabel("load over the one that seals the cell")
-    right.set_ylabel("DNS/HNS")
+    right.set(
+        yscale="log", xscale="log", ylim=(0.9, 100), xlabel="load over the one that seals the cell", ylabel="DNS/HNS"
+    )
     _legend(figure, study)
     return figure
 
@@ -215,10 +204,7 @@ def same_heights(study: SealStudy) -> Figure:
             for i in (0, 1):
                 flow = kilograms(one.direct[:, i] * factor**3)
                 axes.plot(one.loads * factor, np.where(flow > LEAST, flow, np.nan), color=colours[one.family], lw=0.5)
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        axes.set_ylim(LEAST, 1e2)
-        axes.set_xlim(1e1, 2e6)
+        axes.set(xscale="log", yscale="log", ylim=(LEAST, 1e2), xlim=(1e1, 2e6))
         told = ", ".join(f"{10**value:.2g}" for value in apart[name][:2])
         axes.set_title(f"{name} = {1e6 * mean:.3g} µm; spread {told}", fontsize=8)
     for axes in panels[::4]:
@@ -244,12 +230,9 @@ def dimensionless(study: SealStudy) -> Figure:
                 y = one.direct[:, i] / height**3
                 axes.plot(x, np.where(y > 1e-6, y, np.nan), color=colours[one.family], lw=0.6)
     for axes, name in zip(panels, ("Svm", "Svm under load"), strict=True):
-        axes.set_xscale("log")
-        axes.set_yscale("log")
+        axes.set(xscale="log", yscale="log")
         axes.axhline(1, color=FOUND, lw=0.8)
-        axes.set_ylim(1e-6, 1e3)
-        axes.set_xlabel("W/E*, for Svm = 1 µm")
-        axes.set_ylabel(f"12 η Q/(h³ p), h = {name}")
+        axes.set(ylim=(1e-6, 1e3), xlabel="W/E*, for Svm = 1 µm", ylabel=f"12 η Q/(h³ p), h = {name}")
     _legend(figure, study)
     return figure
 
@@ -269,11 +252,7 @@ def closed_form(study: SealStudy) -> Figure:
             axes.plot(one.loads[leaks], shown, marker, color=colours[family], ms=4, mfc="none")
         height = LEAKAGE[0] * np.cbrt(scale_of(one, "Svm")) - LEAKAGE[1] * np.cbrt(one.loads / MODULUS)
         axes.plot(one.loads, kilograms(np.maximum(height, 0.0) ** 9), color=colours[family], lw=1)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_ylim(LEAST, None)
-    axes.set_xlabel("load W, Pa")
-    axes.set_ylabel("leakage, kg/(h m)")
+    axes.set(xscale="log", yscale="log", ylim=(LEAST, None), xlabel="load W, Pa", ylabel="leakage, kg/(h m)")
     _legend(figure, study)
     return figure
 
@@ -309,8 +288,7 @@ def _line(axes: Axes, study: SealStudy, law: LeakageLaw) -> None:
     ends = np.array([0.0, axes.get_xlim()[1]])
     told = f"{law.a.value:.3g} − {law.b.value:.3g} x, R² {law.explained:.2f}"
     axes.plot(ends, law.a.value - law.b.value * ends, color=FOUND, lw=1.4, label=told)
-    axes.set_xlim(*ends)
-    axes.set_ylim(0, 1.9)
+    axes.set(xlim=ends, ylim=(0, 1.9))
 
 
 def size(study: SealStudy) -> Figure:
@@ -331,8 +309,7 @@ def size(study: SealStudy) -> Figure:
             axes.errorbar(lengths, ends.mean(), ends.std(), color=FOUND, fmt="o", ms=5, capsize=5, lw=1.4)
         axes.set_xscale("log", base=2)
         axes.set_xticks(list(found), [f"{one:.3g}" for one in found])
-        axes.set_xlabel("side, correlation lengths Sal")
-        axes.set_ylabel(name)
+        axes.set(xlabel="side, correlation lengths Sal", ylabel=name)
     for part in RANGE:
         panels[0].axhline(100 * part, color=FOUND, lw=0.8, ls="--")
     return figure
@@ -350,10 +327,8 @@ def offset(study: SealStudy) -> Figure:
             found.part, 1 + values, c=1e6 * found.average, s=4, cmap="viridis", norm="log", rasterized=True
         )
         _bands(axes, found.part, 1 + values, FOUND)
-        axes.set_yscale("log")
-        axes.set_ylim(0.5, 1e4)
         axes.set_title(name, fontsize=9)
-        axes.set_xlabel("load over the one that seals the cell")
+        axes.set(yscale="log", ylim=(0.5, 1e4), xlabel="load over the one that seals the cell")
     panels[0].set_ylabel("leakage over that with closed contact")
     bar = figure.colorbar(drawn, ax=panels, label="Sa, µm", ticks=[0.06, 0.12, 0.24, 0.48], format="%g")
     bar.ax.yaxis.set_minor_formatter(NullFormatter())

@@ -135,8 +135,7 @@ def _error(axes: Axes, study: RoughGapStudy, amplitude: float) -> None:
             axes.plot(wave.length, max(off_mesh, 1e-3), "o", color=STYLES["stokes"].colour, markersize=4.5)
     for level in (1, 5):
         axes.axhline(level, color="black", linewidth=0.6, linestyle=":")
-    axes.set_yscale("log")
-    axes.set_ylim(1e-3, 100)
+    axes.set(yscale="log", ylim=(1e-3, 100))
 
 
 def others(study: RoughGapStudy) -> Figure:
@@ -224,10 +223,7 @@ def inertia(study: RoughGapStudy) -> Figure:
             )  # fmt: skip
         for level in LEVELS:
             axes.axhline(100 * level, color="black", linewidth=0.6, linestyle=":")
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        axes.set_ylim(1e-3, 100)
-        axes.set_xlabel(title)
+        axes.set(xscale="log", yscale="log", ylim=(1e-3, 100), xlabel=title)
     if laws:
         panels[-1].plot((1e-3, 100), (1e-3, 100), color="black", linewidth=1)
         panels[-1].set_xlim(1e-3, 100)
@@ -261,11 +257,8 @@ def reach(study: RoughGapStudy) -> Figure:
     for axes in (by_slope, by_gap):
         for level in (1, 5):
             axes.axhline(level, color="black", linewidth=0.7, linestyle=":")
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        axes.set_ylim(3e-6, 3000)
-    by_slope.set_xlabel("rms slope g′")
-    by_slope.set_ylabel("Reynolds lets through too much, % of Stokes flow")
+        axes.set(xscale="log", yscale="log", ylim=(3e-6, 3000))
+    by_slope.set(xlabel="rms slope g′", ylabel="Reynolds lets through too much, % of Stokes flow")
     by_gap.set_xlabel("mean gap over rms height, h̄/Sq")
     by_gap.set_xticks([2, 3, 5, 10, 20, 30], ["2", "3", "5", "10", "20", "30"])
     by_gap.xaxis.minorticks_off()
@@ -287,14 +280,11 @@ def pixels(study: RoughGapStudy) -> Figure:
         errors = [100 * coarse.error for coarse in one.coarser]
         right.plot(slopes, errors, marker + "-", color=colour, markersize=4, linewidth=1, label=one.name)
     for axes in (left, right):
-        axes.set_xscale("log")
-        axes.set_yscale("log")
+        axes.set(xscale="log", yscale="log")
     for level in (1, 5):
         right.axhline(level, color="black", linewidth=0.7, linestyle=":")
-    left.set_xlabel("pixel, µm")
-    left.set_ylabel("rms slope g′")
-    right.set_xlabel("rms slope g′ on that pixel")
-    right.set_ylabel("off at twice the highest point, %")
+    left.set(xlabel="pixel, µm", ylabel="rms slope g′")
+    right.set(xlabel="rms slope g′ on that pixel", ylabel="off at twice the highest point, %")
     return figure
 
 
@@ -313,8 +303,7 @@ def map_of_rungs(study: RoughGapStudy) -> Figure:
         )  # fmt: skip
         axes.grid(visible=False)
         axes.set_facecolor("#f0f2f5")
-        axes.set_xscale("log")
-        axes.set_yscale("log")
+        axes.set(xscale="log", yscale="log")
         axes.set_xticks([2, 5, 10, 20, 50], ["2", "5", "10", "20", "50"])
         axes.xaxis.minorticks_off()
         axes.set_title(f"within {100 * level:.0f} %", fontsize=10)

@@ -27,8 +27,7 @@ def curves(averaged: Result, resolved: Mapping[float, Result]) -> Figure:
         axes.plot(x, p * 1e-6, color="#b2182b", linewidth=2, linestyle="--", label="homogenized")
         axes.set_xlabel("position, m")
     inside = (x > ZOOM[0]) & (x < ZOOM[1])
-    part.set_xlim(*ZOOM)
-    part.set_ylim(0.97 * p[inside].min() * 1e-6, 1.05 * p[inside].max() * 1e-6)
+    part.set(xlim=ZOOM, ylim=(0.97 * p[inside].min() * 1e-6, 1.05 * p[inside].max() * 1e-6))
     whole.set_ylabel("pressure, MPa")
     whole.legend(fontsize=8)
     return figure
@@ -50,10 +49,8 @@ def errors(studies: Sequence[WaveErrors]) -> Figure:
         slope = 100 * study.worst("load")[-1] * ratios / ratios[-1]
         axes.plot(ratios, slope, ":", color="black", linewidth=1, label="in proportion to ε")
         axes.set_xscale("log", base=2)
-        axes.set_yscale("log")
-        axes.set_ylim(1e-3, 300)
         axes.set_title(study.title, fontsize=9)
-        axes.set_xlabel("ε: length of the waves over that of the film")
+        axes.set(yscale="log", ylim=(1e-3, 300), xlabel="ε: length of the waves over that of the film")
     panels[0].set_ylabel("homogenized against direct, %")
     panels[0].legend(fontsize=8)
     return figure
