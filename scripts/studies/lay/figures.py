@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from roughfilm.figures.base import new_figure
 from roughfilm.rom.homogenization.lay import box_factors, turned
 from scripts.studies.lay.claims import Lay
 from scripts.studies.lay.data import TEXTURES, THICKNESSES, FactorPair, angle, box_of, grooves_exactly
@@ -34,8 +35,7 @@ def drawings(lay: Lay) -> dict[str, Callable[[Lay], Figure]]:
 
 def pressure(lay: Lay) -> Figure:
     """A and φ over the angle of the lay: a row for each texture, a column for each separation."""
-    figure = Figure(figsize=(10, 9), layout="constrained")
-    panels = figure.subplots(len(TEXTURES), len(THICKNESSES), sharex=True)
+    figure, panels = new_figure((10, 9), len(TEXTURES), len(THICKNESSES), sharex=True)
     turns = np.linspace(0, np.pi / 2, 91)
     for row, texture in zip(panels, TEXTURES, strict=True):
         for axes, thickness in zip(row, THICKNESSES, strict=True):
@@ -92,8 +92,7 @@ def _dots(
 
 def shear(lay: Lay) -> Figure:
     """B and what Patir and Cheng put beside B₁, over the angle of the lay, at 2 Sq."""
-    figure = Figure(figsize=(10, 3.4), layout="constrained")
-    panels = figure.subplots(1, len(TEXTURES), sharey=True)
+    figure, panels = new_figure((10, 3.4), 1, len(TEXTURES), sharey=True)
     turns = np.linspace(1e-3, np.pi / 2 - 1e-3, 91)
     for axes, texture in zip(panels, TEXTURES, strict=True):
         drag = np.array([lay.turned.drag(texture, THIN, turn) for turn in turns])
@@ -114,8 +113,7 @@ def shear(lay: Lay) -> Figure:
 
 def boxes(lay: Lay) -> Figure:
     """φ₁ of grooves at 45° in boxes of several shapes."""
-    figure = Figure(figsize=(7.5, 3.6), layout="constrained")
-    axes = figure.subplots()
+    figure, axes = new_figure((7.5, 3.6))
     shapes = np.geomspace(0.05, 20, 121)
     principal = grooves_exactly(THIN)[0]
     tensor = turned(principal, np.pi / 4)
@@ -136,8 +134,7 @@ def boxes(lay: Lay) -> Figure:
 def measured(lay: Lay) -> Figure:
     """Pressure and shear flow factors of the measured surface over the separation."""
     one = lay.measured[OBLIQUE]
-    figure = Figure(figsize=(10, 4.2), layout="constrained")
-    left, right = figure.subplots(1, 2)
+    figure, (left, right) = new_figure((10, 4.2), 1, 2)
     places = sorted(one.found)
     rows = [one.found[place] for place in places]
     for (i, j), colour, name in (((0, 0), ALONG, "A₁₁"), ((1, 1), ACROSS, "A₂₂"), ((0, 1), MIXED, "A₁₂")):
@@ -159,8 +156,7 @@ def measured(lay: Lay) -> Figure:
 
 def joints(lay: Lay) -> Figure:
     """Two periods of a cut surface, and what a joint lets through, by shift and by mismatch."""
-    figure = Figure(figsize=(10, 3.8), layout="constrained")
-    picture, shifted, scattered = figure.subplots(1, 3)
+    figure, (picture, shifted, scattered) = new_figure((10, 3.8), 1, 3)
     heights = cut_grooves(0.5).heights
     picture.imshow(np.tile(heights, (2, 1)).T, cmap="Greys", origin="lower", extent=(0, 2, 0, 1), aspect="auto")
     picture.axvline(1, color=MIXED, linewidth=1)
@@ -188,8 +184,7 @@ def joints(lay: Lay) -> Figure:
 
 def offsets(lay: Lay) -> Figure:
     """A along x with closed contact and with the offset; what the offset adds in both directions."""
-    figure = Figure(figsize=(10, 4), layout="constrained")
-    left, right = figure.subplots(1, 2)
+    figure, (left, right) = new_figure((10, 4), 1, 2)
     for (name, row), colour in zip(lay.offsets.items(), SURFACES, strict=False):
         places = [one.separation for one in row]
         closed = np.array([np.cbrt(one.closed[0]) for one in row]) * 1e9

@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
+from roughfilm.figures.base import new_figure
 from roughfilm.rom.ladder.result import Result
 from scripts.studies.mechanisms.data import FILM, GAPS, SPEEDS, TENSIONS, LoadLaws, periodic_pressure
 
@@ -13,8 +14,7 @@ INERTIA, CAVITATION = "#b2182b", ("#08519c", "#4292c6", "#9ecae1")
 
 def pressures(drawn: Mapping[str, Mapping[float, tuple[Result, Result]]], tension: float) -> Figure:
     """Pressure along the sliding wall by both mechanisms: a row for each gap, a panel for each speed."""
-    figure = Figure(figsize=(10, 6.4), layout="constrained")
-    panels = figure.subplots(len(drawn), len(next(iter(drawn.values()))), sharex=True)
+    figure, panels = new_figure((10, 6.4), len(drawn), len(next(iter(drawn.values()))), sharex=True)
     for line, (gap, runs) in zip(panels, drawn.items(), strict=True):
         for axes, (speed, (pocket, slider)) in zip(line, runs.items(), strict=True):
             x, p = periodic_pressure(gap, pocket)
@@ -32,8 +32,7 @@ def pressures(drawn: Mapping[str, Mapping[float, tuple[Result, Result]]], tensio
 
 def loads(found: Mapping[str, Mapping[str, Sequence[float]]]) -> Figure:
     """Mean pressure over speed, by inertia and by cavitation at each tension, a panel for each gap."""
-    figure = Figure(figsize=(10, 4.2), layout="constrained")
-    panels = figure.subplots(1, len(found))
+    figure, panels = new_figure((10, 4.2), 1, len(found))
     for axes, (gap, loads) in zip(panels, found.items(), strict=True):
         axes.plot(SPEEDS, np.array(loads["inertia"]) * 1e-3, color=INERTIA, linewidth=2.2, label="inertia")
         for tension, colour in zip(TENSIONS, CAVITATION, strict=True):
@@ -50,8 +49,7 @@ def loads(found: Mapping[str, Mapping[str, Sequence[float]]]) -> Figure:
 
 def rule(laws: LoadLaws, tensions: Sequence[float]) -> Figure:
     """Load by cavitation over the size of that by inertia, over film thickness and speed, the proportions kept."""
-    figure = Figure(figsize=(10, 3.8), layout="constrained")
-    panels = figure.subplots(1, len(tensions), sharey=True)
+    figure, panels = new_figure((10, 3.8), 1, len(tensions), sharey=True)
     film, speed = np.meshgrid(np.geomspace(1e-6, 100e-6, 121), np.geomspace(0.1, 60, 121))
     for axes, tension in zip(panels, tensions, strict=True):
         ratio = laws.cavitation(speed, film, tension) / np.abs(laws.inertia(speed, film))

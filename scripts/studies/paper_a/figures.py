@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from roughfilm.figures.base import new_figure
 from roughfilm.rom.ladder.result import Result
 from scripts.studies.paper_a.data import DEPTHS, NUMBERS, SHAPES, WIDTHS, Paper, Shape, highest
 
@@ -24,8 +25,8 @@ def _colours(count: int) -> NDArray[np.float64]:
 
 
 def _panels(count: int, *, height: float = 3.9) -> tuple[Figure, list[Axes]]:
-    figure = Figure(figsize=(5 * count, height), layout="constrained")
-    return figure, list(figure.subplots(1, count, squeeze=False)[0])
+    figure, axes = new_figure((5 * count, height), 1, count, squeeze=False)
+    return figure, list(axes[0])
 
 
 def _pressure(axes: Axes, result: Result, style: str, label: str, **look: Any) -> None:
@@ -170,8 +171,7 @@ def a15(paper: Paper) -> Figure:
 
 def onset(paper: Paper, onsets: Onsets) -> Figure:
     """The depth at which back-flow begins, and the depth of the greatest load, over w+ for each Re and shape."""
-    figure = Figure(figsize=(15, 3.9), layout="constrained")
-    panels = figure.subplots(1, len(SHAPES), sharey=True)
+    figure, panels = new_figure((15, 3.9), 1, len(SHAPES), sharey=True)
     for axes, (name, shape) in zip(panels, SHAPES.items(), strict=True):
         for number, colour in zip(NUMBERS, _colours(4), strict=True):
             begins = [onsets[name, width, number] for width in WIDTHS]

@@ -4,6 +4,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from roughfilm.figures.base import new_figure
 from roughfilm.rom.lubricants.compressibility import ConstantBulkModulus, DowsonHigginson
 from roughfilm.rom.pocket.gap import Array
 from scripts.studies.paper_b.data import (
@@ -40,8 +41,7 @@ def _thin(film: Film) -> slice:
 
 
 def _axes(height: float = 3.4) -> tuple[Figure, Axes]:
-    figure = Figure(figsize=(8, height), layout="constrained")
-    return figure, figure.subplots()
+    return new_figure((8, height))
 
 
 def _compared(paper: Paper, case: str, quantity: str, laws: tuple[str, ...], *, relative: bool = False) -> Figure:

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.contact.parameters.bearing_curve import bearing_curve
 from roughfilm.contact.surfaces.surface import Array
+from roughfilm.figures.base import new_figure
 from scripts.studies.paper_d.data import LENGTH, SPECTRA, Paper
 
 COLOURS = {"A": "#b2182b", "B": "#2166ac", "C": "#5aae61", "D": "#762a83"}
@@ -18,8 +19,8 @@ MAIN = "self-affine"
 
 
 def _panels(count: int, height: float = 3.9) -> tuple[Figure, list[Axes]]:
-    figure = Figure(figsize=(5 * count, height), layout="constrained")
-    return figure, list(figure.subplots(1, count, squeeze=False)[0])
+    figure, axes = new_figure((5 * count, height), 1, count, squeeze=False)
+    return figure, list(axes[0])
 
 
 def _band(axes: Axes, x: Array, values: Array, colour: str, style: str, label: str) -> None:
@@ -60,8 +61,7 @@ def d2(paper: Paper) -> Figure:
 
 def d3(paper: Paper) -> Figure:
     """A profile D (first seed) and what the highest load takes off it for good (shaded, and below by itself)."""
-    figure = Figure(figsize=(10, 4.6), layout="constrained")
-    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1))
+    figure, (above, below) = new_figure((10, 4.6), 2, 1, sharex=True, height_ratios=(3, 1))
     contact = paper.shown
     x = 1e6 * LENGTH * np.arange(contact.heights.shape[0]) / contact.heights.shape[0]
     before, after = 1e6 * contact.heights[:, 0], 1e6 * contact.unloaded_heights[:, 0]
@@ -110,8 +110,9 @@ NUMBERED = {"D.1": d1, "D.2": d2, "D.3": d3, "D.4": d4, "D.5": d5, "D.6": d6, "D
 
 def e4(contacts: Sequence[Contact]) -> Figure:
     """The model surface loaded, and its elastic and plastic parts; dots: nodes of purely elastic contact."""
-    figure = Figure(figsize=(10, 9), layout="constrained")
-    (corner, loaded), (elastic, plastic), (elastic_move, plastic_move) = figure.subplots(3, 2, sharex=True)
+    figure, ((corner, loaded), (elastic, plastic), (elastic_move, plastic_move)) = new_figure(
+        (10, 9), 3, 2, sharex=True
+    )
     first = contacts[0]
     x = 1e3 * first.spacing[0] * np.arange(first.heights.shape[0])
     for axes in (loaded, elastic, plastic):

@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from roughfilm.figures.base import new_figure
 from roughfilm.pages.stribeck import drawn_film
 from roughfilm.rom.bearing.mixed.film import MixedFilm
 from roughfilm.rom.bearing.mixed.stribeck import StribeckPoint
@@ -26,8 +27,7 @@ LAYS = {"along": COLOURS[0], "across": COLOURS[2], "+45°": COLOURS[1], "-45°":
 
 def leakages(windows: Sequence[Leak]) -> Figure:
     """Figs. E.19 to E.21: volumes by window and place; by resolution; over the load."""
-    figure = Figure(figsize=(11.4, 4.0), layout="constrained")
-    places, grids, loads = figure.subplots(1, 3)
+    figure, (places, grids, loads) = new_figure((11.4, 4.0), 1, 3)
     for window, colour in WINDOWS.items():
         rows = [one for one in windows if one.window == window and one.resolution == 1.0]
         usual = [one for one in rows if one.load == LOAD]
@@ -78,8 +78,7 @@ def _resolution(one: Leak) -> float:
 def pressures(washers: dict[str, Washer]) -> Figure:
     """Figs. E.25 to E.27: the film's pressure at 30 and 300 turns a minute under 1 MPa."""
     names = [name for name in COUNTED if name in washers]
-    figure = Figure(figsize=(11.4, 2.7 * len(SHOWN)), layout="constrained")
-    panels = figure.subplots(len(SHOWN), len(names), squeeze=False)
+    figure, panels = new_figure((11.4, 2.7 * len(SHOWN)), len(SHOWN), len(names), squeeze=False)
     drawn = {}
     for name in names:
         one = washers[name]
@@ -114,8 +113,7 @@ def point_at(one: Washer, number: int, turns: float) -> StribeckPoint:
 
 def films(washers: dict[str, Washer]) -> Figure:
     """Fig. E.28: the least separation over the first touch, by both methods, under 1 and 2 MPa."""
-    figure = Figure(figsize=(11.4, 4.2), layout="constrained")
-    panels = figure.subplots(1, 2, sharey=True)
+    figure, panels = new_figure((11.4, 4.2), 1, 2, sharey=True)
     for axes, number, end in zip(panels, (1, 2), (300, 600), strict=True):
         for (name, one), colour in zip(washers.items(), COLOURS, strict=False):
             touching = one.wall.asperities.touching
@@ -140,8 +138,7 @@ def _bar(axes: Axes, one: Washer, number: int, colour: str) -> None:
 
 def friction(washers: dict[str, Washer]) -> Figure:
     """Fig. E.29: the coefficient of friction over speed."""
-    figure = Figure(figsize=(11.4, 4.4), layout="constrained")
-    axes = figure.subplots()
+    figure, axes = new_figure((11.4, 4.4))
     for (name, one), colour in zip(washers.items(), COLOURS, strict=False):
         for curve, line in zip(one.curves, LINES, strict=True):
             speeds = [point.speed * one.turns for point in curve.points]
@@ -157,8 +154,7 @@ def friction(washers: dict[str, Washer]) -> Figure:
 
 def lays(paper: Paper) -> Figure:
     """Lift-off over the load for every lay of surface 3, and of surface 1 along and across."""
-    figure = Figure(figsize=(11.4, 3.8), layout="constrained")
-    turned, first = figure.subplots(1, 2)
+    figure, (turned, first) = new_figure((11.4, 3.8), 1, 2)
     loads = np.array(LOADS) / 1e6
     for lay, colour in LAYS.items():
         for seed in SEEDS:

@@ -1,5 +1,6 @@
 """Figures F.5 to F.12 of Paper F, and what they do not show: offset, size, and the cell beside the reservoirs."""
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
@@ -10,6 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter
 from scipy.special import erf
 
+from roughfilm.figures.base import new_figure
 from roughfilm.rom.pocket.gap import Array
 from scripts.studies.paper_f.claims import LEAKAGE, RANGE, SEALING, above_the_cell, subtracted
 from scripts.studies.paper_f.data import MODULUS
@@ -82,8 +84,9 @@ def area(study: SealStudy) -> Figure:
 def spots(study: SealStudy) -> Figure:
     """Contact (dark) when the last path from end to end closes: along x (left of each pair) and along y."""
     firsts = list({one.family: one for one in reversed(study.sample)}.values())[::-1]
-    figure = Figure(figsize=(10.5, 2.05 * int(np.ceil(len(firsts) / 3))), layout="constrained")
-    panels = figure.subplots(int(np.ceil(len(firsts) / 3)), 6, squeeze=False).ravel()
+    rows = math.ceil(len(firsts) / 3)
+    figure, grid = new_figure((10.5, 2.05 * rows), rows, 6, squeeze=False)
+    panels = grid.ravel()
     for axes in panels:
         axes.set_axis_off()
     shades = ListedColormap(["#e8eef5", FOUND])

@@ -13,6 +13,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
+from roughfilm.figures.base import new_figure
 from roughfilm.figures.views.rough_gap import STYLES
 from roughfilm.rom.pocket.gap import Array
 from scripts.studies.rough_gaps.data import NAMES, GapComparison, best
@@ -58,8 +59,9 @@ def drawings(study: RoughGapStudy) -> Mapping[str, Callable[[RoughGapStudy], Fig
 def waves(study: RoughGapStudy) -> Figure:
     """Stokes over Reynolds across the crests, over the length of a wave, and how far the cheap ones are off."""
     amplitudes = sorted({wave.amplitude for wave in study.waves.drawn})
-    figure = Figure(figsize=(11, 6.4), layout="constrained")
-    panels = figure.subplots(2, len(amplitudes), sharex=True, sharey="row", squeeze=False, height_ratios=(1.5, 1))
+    figure, panels = new_figure(
+        (11, 6.4), 2, len(amplitudes), sharex=True, sharey="row", squeeze=False, height_ratios=(1.5, 1)
+    )
     for column, amplitude in enumerate(amplitudes):
         ratio, error = panels[:, column]
         _ratio(ratio, study, amplitude, "A11", bare=True)
@@ -166,8 +168,7 @@ def others(study: RoughGapStudy) -> Figure:
 def surfaces(study: RoughGapStudy, *, measured: bool) -> Figure:
     """Stokes over Reynolds of each gap: mesh and slope correction with their bars, bounds behind them."""
     gaps = study.milled if measured else study.random
-    figure = Figure(figsize=(11, 1.5 + 0.38 * len(gaps)), layout="constrained")
-    panels = figure.subplots(1, 2, sharey=True)
+    figure, panels = new_figure((11, 1.5 + 0.38 * len(gaps)), 1, 2, sharey=True)
     for axes, name in zip(panels, ("A11", "A22"), strict=True):
         for place, one in enumerate(gaps):
             _row(axes, len(gaps) - 1 - place, one, name)
@@ -234,8 +235,7 @@ def inertia(study: RoughGapStudy) -> Figure:
 
 def reach(study: RoughGapStudy) -> Figure:
     """How far Reynolds is off for real surfaces, over their rms slope and over the mean gap."""
-    figure = Figure(figsize=(11, 4.8), layout="constrained")
-    by_slope, by_gap = figure.subplots(1, 2, sharey=True)
+    figure, (by_slope, by_gap) = new_figure((11, 4.8), 1, 2, sharey=True)
     order = sorted(study.reach, key=lambda one: one.slope)
     colours = mpl.colormaps["turbo"](np.linspace(0.05, 0.95, len(order)))
     for colour, one in zip(colours, order, strict=True):
@@ -268,8 +268,7 @@ def reach(study: RoughGapStudy) -> Figure:
 
 def pixels(study: RoughGapStudy) -> Figure:
     """The rms slope, and with it the error, over the pixel on which a surface is looked at."""
-    figure = Figure(figsize=(11, 3.8), layout="constrained")
-    left, right = figure.subplots(1, 2)
+    figure, (left, right) = new_figure((11, 3.8), 1, 2)
     order = sorted(study.reach, key=lambda one: one.slope)
     colours = mpl.colormaps["turbo"](np.linspace(0.05, 0.95, len(order)))
     for colour, one in zip(colours, order, strict=True):

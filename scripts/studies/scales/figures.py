@@ -6,6 +6,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
+from roughfilm.figures.base import new_figure
 from roughfilm.rom.ladder.result import Result
 from scripts.studies.scales.data import WaveErrors, line
 
@@ -15,8 +16,7 @@ ZOOM = (0.065, 0.075)
 
 def curves(averaged: Result, resolved: Mapping[float, Result]) -> Figure:
     """Fig. C.3: pressure along the film for every length of the waves, and a magnified section."""
-    figure = Figure(figsize=(10, 4.2), layout="constrained")
-    whole, part = figure.subplots(1, 2)
+    figure, (whole, part) = new_figure((10, 4.2), 1, 2)
     colours = mpl.colormaps["viridis"](np.linspace(0.85, 0.1, len(resolved)))
     for axes in (whole, part):
         for colour, (ratio, result) in zip(colours, resolved.items(), strict=True):
