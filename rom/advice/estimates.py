@@ -8,6 +8,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Un
 from roughfilm.rom.advice.laws import RESOLVING, Law, Numbers, Step, Table, on_grid, table
 from roughfilm.rom.ladder.kind import Kind, Scene, kinds
 from roughfilm.rom.ladder.model import Model, best, find
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 
 GRID_SHARE = 1 / 3

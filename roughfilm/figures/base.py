@@ -2,6 +2,7 @@
 
 import io
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
@@ -98,6 +99,12 @@ def grid_convergence(studies: Mapping[str, Mapping[str, Convergence]], titles: M
         axes.set_ylabel(f"{title}: difference from the extrapolated value, %")
         axes.legend(fontsize=8)
     return svg(figure)
+
+
+def new_figure(size: tuple[float, float], rows: int = 1, columns: int = 1, **options: Any) -> tuple[Figure, Any]:
+    """Return an empty figure of a size in inches and its axes, which are as ``Figure.subplots`` returns them."""
+    figure = Figure(figsize=size, layout="constrained")
+    return figure, figure.subplots(rows, columns, **options)
 
 
 def svg(figure: Figure) -> str:

@@ -16,11 +16,13 @@ TEMPLATES = Path(__file__).parent / "templates"
 def render(template: str | Path, path: Path, **entries: Any) -> None:
     """Fill a template and write the page; InputError if it cannot be written.
 
-    A template is a name in ``templates`` beside this file, or the path of one elsewhere, which may extend these.
+    A template is a name in ``templates`` beside this file, or the path of one elsewhere, which may extend these and
+    those of the folder above it.
     """
     template = Path(template)
+    folder = TEMPLATES / template.parent
     environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader([TEMPLATES / template.parent, TEMPLATES]),
+        loader=jinja2.FileSystemLoader([folder, folder.parent, TEMPLATES]),
         autoescape=True,
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,

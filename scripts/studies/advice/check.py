@@ -1,6 +1,5 @@
-"""Put the advice to the test on scenes to which no law was fitted: python -m scripts.studies.advice.check --out OUT."""
+"""Test the advice on scenes to which no law was fitted: python -m scripts.studies.advice.check --out OUT."""
 
-import json
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
@@ -16,11 +15,8 @@ from rich.table import Table
 
 from roughfilm.batch.directory import alone
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.figures.base import svg
 from roughfilm.ladder import find, models
-from roughfilm.pages.render import render, write_figures
 from roughfilm.rom.advice.advise import Verdict, advise
 from roughfilm.rom.advice.laws import table
 from roughfilm.rom.ladder.kind import kinds
@@ -28,23 +24,31 @@ from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Numerics, Result
-from roughfilm.terminal.console import AsJson, in_one_line, make_directory, output, print_json, progress_bar, run_alone
-from scripts.studies.advice.fit import Case, cases
+from roughfilm.terminal.console import (
+    AsJson,
+    in_one_line,
+    make_directory,
+    output,
+    print_json,
+    run_alone,
+)
+from scripts.studies.advice.fit import SolvedScene, cases
 from scripts.studies.advice.runs import PARTS, Run, draw, read
+from scripts.studies.study import Out, counted, write
 
 TOLERANCES = (0.02, 0.05, 0.10)
 
-ASKED = 0.95
-"""The part of the scenes whose true error is to be within what was asked."""
+REQUIRED_FRACTION = 0.95
+"""Fraction of the scenes whose true error must be within the tolerance."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Trial:
-    """One scene and tolerance: what was advised, what was expected, and what is true.
+    """Advice for one scene, quantity and tolerance, its expected error and its true error.
 
-    ``error`` and ``bar`` are of the best rung's size: how far the chosen one is off, and how far the best one may be.
-    ``spent_cpu_s`` is of all that was run to advise and to answer, ``advice_cpu_s`` of the advice alone, and
-    ``best_cpu_s`` of the best rung as it runs by default.
+    ``error`` and ``bar`` are relative to the best model: the error of the chosen one, and the uncertainty of the best.
+    ``spent_cpu_s`` is the CPU time of all runs for advice and answer, ``advice_cpu_s`` that of the advice alone, and
+    ``best_cpu_s`` that of the best model at its default resolution.
     """
 
     kind: str
@@ -64,17 +68,17 @@ class Trial:
 
     @property
     def missed(self) -> bool:
-        """Whether the true error is beyond what was asked."""
+        """Whether the true error exceeds the tolerance."""
         return self.error is not None and not self.error <= self.within
 
     @property
     def cost_ratio(self) -> float:
-        """What it all took, over the best rung."""
+        """CPU time of advice and answer divided by that of the best model."""
         return (self.spent_cpu_s + self.advice_cpu_s) / self.best_cpu_s
 
 
-def as_result(case: Case, run: Run) -> Result:
-    """A row of a table as a result without fields."""
+def as_result(case: SolvedScene, run: Run) -> Result:
+    """Return a row of a table as a result without fields."""
     return Result(
         model=run.model,
         quantities={
@@ -96,8 +100,8 @@ def as_result(case: Case, run: Run) -> Result:
     )
 
 
-def tried(case: Case, within: float, quantity: str) -> Trial:
-    """Ask for advice on a quantity and judge it; rungs that the table has are looked up there, others are run."""
+def tried(case: SolvedScene, within: float, quantity: str) -> Trial:
+    """Ask for advice on a quantity and judge it; models in the table are looked up there, others are run."""
     kind = kinds()[case.scene.kind]
     ladder = models(kind.name)
     solving = 0.0
@@ -149,7 +153,7 @@ def tried(case: Case, within: float, quantity: str) -> Trial:
 
 @dataclass(frozen=True, kw_only=True)
 class Score:
-    """How often the advice was right over some trials, and what it cost."""
+    """How often the advice was right in some trials, and its cost."""
 
     scenes: int
     answered: int
@@ -158,12 +162,12 @@ class Score:
 
     @property
     def share(self) -> float:
-        """Of the scenes that were answered, those whose error is within what was asked."""
+        """Fraction of the answered scenes whose error is within the tolerance."""
         return self.kept / self.answered if self.answered else float("nan")
 
 
 def score(trials: Sequence[Trial]) -> Score:
-    """Of trials at one tolerance."""
+    """Return the score of trials at one tolerance."""
     answered = [one for one in trials if one.error is not None]
     return Score(
         scenes=len(trials),
@@ -174,7 +178,7 @@ def score(trials: Sequence[Trial]) -> Score:
 
 
 def scores(trials: Sequence[Trial]) -> dict[str, dict[float, Score]]:
-    """By kind and quantity, and tolerance; of all together, and of scenes whose best rung is Navier–Stokes."""
+    """Return scores by kind, quantity and tolerance; also of all trials, and of those with Navier–Stokes."""
     groups: dict[str, Sequence[Trial]] = {
         f"{kind}, {kinds()[kind].compared[quantity]}": [o for o in trials if (o.kind, o.quantity) == (kind, quantity)]
         for kind, quantity in dict.fromkeys((one.kind, one.quantity) for one in trials)
@@ -188,7 +192,7 @@ def scores(trials: Sequence[Trial]) -> dict[str, dict[float, Score]]:
 
 
 def choices(trials: Sequence[Trial]) -> dict[tuple[str, str], dict[float, int]]:
-    """How often each rung was advised, by tolerance."""
+    """Return how often each model was advised, by tolerance."""
     names = sorted({(one.kind, one.model or "none") for one in trials})
     return {
         (kind, model): {
@@ -199,8 +203,8 @@ def choices(trials: Sequence[Trial]) -> dict[tuple[str, str], dict[float, int]]:
     }
 
 
-def figure(trials: Sequence[Trial]) -> str:
-    """What was expected against what is true, and what it cost against the best rung."""
+def figure(trials: Sequence[Trial]) -> Figure:
+    """Draw expected and true errors, and the cost relative to the best model."""
     drawn = Figure(figsize=(10, 4.2), layout="constrained")
     left, right = drawn.subplots(1, 2)
     known = [one for one in trials if one.error is not None and one.expected]
@@ -212,15 +216,15 @@ def figure(trials: Sequence[Trial]) -> str:
         right.semilogx(ratios, np.linspace(0, 100, ratios.size), label=kind)
     ends = np.array([1e-5, 0.1])
     left.loglog(ends, ends, color="0.4", linewidth=0.8)
-    left.set(xlabel="expected error, at most", ylabel="true error against the best rung", ylim=(1e-7, 1))
-    right.set(xlabel="CPU time of advice and answer over that of the best rung", ylabel="% of the scenes")
+    left.set(xlabel="expected error, at most", ylabel="true error against the best model", ylim=(1e-7, 1))
+    right.set(xlabel="CPU time of advice and answer over that of the best model", ylabel="% of the scenes")
     right.axvline(0.01, color="0.4", linewidth=0.8)
     left.legend(fontsize=8)
-    return svg(drawn)
+    return drawn
 
 
 def entries_of(trials: Sequence[Trial]) -> dict[str, Any]:
-    """For JSON."""
+    """Return the numbers of the page."""
     return {
         "scores": {
             name: {f"{within:g}": {**asdict(one), "share": one.share} for within, one in by.items() if one.answered}
@@ -237,12 +241,12 @@ def entries_of(trials: Sequence[Trial]) -> dict[str, Any]:
 
 @in_one_line
 def command(
-    out: Annotated[Path, typer.Option(help="Runs, table and page go here; finished runs are used again.")],
+    out: Out,
     jobs: Annotated[int, typer.Option(help="Processes.")] = 2,
-    again: Annotated[bool, typer.Option(help="Judge the runs that are there, without solving any.")] = False,
+    again: Annotated[bool, typer.Option(help="Judge finished runs without solving any.")] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Advise on random scenes to which nothing was fitted, and compare with the best rung."""
+    """Ask for advice on random scenes to which nothing was fitted, and compare it with the best model."""
     make_directory(out)
     if jobs < 1:
         raise InputError(f"--jobs: got {jobs}; it must be 1 or more")
@@ -251,49 +255,49 @@ def command(
             for kind in PARTS["check"]:
                 draw("check", kind, out, jobs, scratch)
     known = [case for kind in PARTS["check"] for case in cases(kind, read("check", kind, out)[0])]
+    asked = [
+        (case, quantity, within)
+        for case in known
+        for quantity in kinds()[case.scene.kind].compared
+        for within in TOLERANCES
+    ]
     trials: list[Trial] = []
-    asked = [(case, quantity) for case in known for quantity in kinds()[case.scene.kind].compared]
-    with progress_bar(len(asked) * len(TOLERANCES)) as advance:
-        for case, quantity in asked:
-            for within in TOLERANCES:
-                advance(len(trials), f"{case.scene.name}, {quantity} within {within:.0%}")
-                trials.append(tried(case, within, quantity))
-    entries = entries_of(trials)
-    with replacing(out / "advice.json") as file:
-        file.write_text(json.dumps(entries, indent=1) + "\n", encoding="utf-8")
-    plots = {"advice": figure(trials)}
-    write_figures(plots, out)
-    render(
-        Path(__file__).parent / "page.html.j2",
-        out / "advice.html",
-        asked=ASKED,
+    with counted(len(asked)) as advance:
+        for case, quantity, within in asked:
+            advance(f"{case.scene.name}, {quantity} within {within:.0%}")
+            trials.append(tried(case, within, quantity))
+    entries, page = write(
+        Path(__file__).parent,
+        out,
+        {"advice": figure(trials)},
+        entries_of(trials),
+        asked=REQUIRED_FRACTION,
         tolerances=TOLERANCES,
-        entries=entries,
+        entries=entries_of(trials),
         misses=[one for one in trials if one.missed],
         choices=choices(trials),
         scores=scores(trials),
-        plots=plots,
     )
     if as_json:
         print_json({name: entries[name] for name in ("scores", "misses", "provenance")})
         return
-    output.print(_told(scores(trials)))
+    output.print(_table(scores(trials)))
     for one in trials:
         if one.missed:
             output.print(f"missed: {escape(_miss(one))}", soft_wrap=True)
-    output.print(f"page: {escape(str(out / 'advice.html'))}", soft_wrap=True)
+    output.print(f"page: {escape(str(page))}", soft_wrap=True)
 
 
 def _miss(one: Trial) -> str:
     return (
         f"{one.kind} {one.seed}, {one.quantity} at {one.within:.0%}: {one.model}, {one.resolution}: "
         f"{100 * (one.error or 0):.2g} % off "
-        f"(expected {100 * (one.expected or 0):.2g} %; the best rung is known to {100 * one.bar:.2g} %): {one.reason}"
+        f"(expected {100 * (one.expected or 0):.2g} %; best model ± {100 * one.bar:.2g} %): {one.reason}"
     )
 
 
-def _told(found: Mapping[str, Mapping[float, Score]]) -> Table:
-    shown = Table("scenes", *(f"within {within:.0%}" for within in TOLERANCES), "median cost over the best rung's")
+def _table(found: Mapping[str, Mapping[float, Score]]) -> Table:
+    shown = Table("scenes", *(f"within {within:.0%}" for within in TOLERANCES), "median cost over the best model's")
     for name, by in found.items():
         cells = [
             f"{one.kept} of {one.answered} ({one.share:.1%}), {one.scenes - one.answered} none" for one in by.values()

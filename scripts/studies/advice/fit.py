@@ -29,29 +29,29 @@ from roughfilm.rom.studies.ordering import CERTAINTY
 from roughfilm.terminal.console import in_one_line, make_directory, output, run_alone
 from scripts.studies.advice.runs import PARTS, Drawn, Run, draw, read
 from scripts.studies.advice.scenes import random_scene
-from scripts.studies.advice.steps import GRIDS, GRIDS_APART, STEPS, Plan
+from scripts.studies.advice.steps import GRIDS, KINDS, STEPS, PlannedStep
 
 Rows = list[tuple[Numbers, float]]
 """The numbers of scenes, each with an error."""
 
-LEAST = 1e-7
-"""Smaller differences are rounding."""
+ROUND_OFF = 1e-7
+"""Differences below it are round-off."""
 
-ENOUGH = 12
-"""Scenes to which powers are fitted; to fewer, a bound alone."""
+LEAST_SCENES = 12
+"""Number of scenes from which on powers are fitted; with fewer, a bound alone."""
 
-STEP = 0.05
+POWER_STEP = 0.05
 """Powers are multiples of it."""
 
 RIDGE = 0.02
-"""Times the scenes: keeps powers of numbers that vary together from growing against each other."""
+"""Ridge parameter per scene: keeps the powers of correlated numbers from growing against each other."""
 
-STEEPEST = 6.0
+LARGEST_POWER = 6.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class Case:
-    """A random scene that was solved: its numbers, what every rung says, and the best answer by quantity."""
+class SolvedScene:
+    """A random scene that was solved: its numbers, the answer of every model, and the best answer by quantity."""
 
     seed: int
     scene: Scene
@@ -62,18 +62,17 @@ class Case:
     bar: Mapping[str, float]
 
     def finest(self, model: str) -> Run | None:
-        """The rung's run at its finest resolution; None where it has none."""
-        own = [run for (name, _), run in self.runs.items() if name == model and not run.failure]
-        return max(own, key=lambda run: run.resolution, default=None)
+        """Return the run of a model at its finest resolution; None where it has none."""
+        return next(reversed(self.grids(model)), None)
 
     def grids(self, model: str) -> list[Run]:
-        """Its runs from coarse to fine."""
+        """Return the runs of a model from coarse to fine."""
         own = [run for (name, _), run in self.runs.items() if name == model and not run.failure]
         return sorted(own, key=lambda run: run.resolution)
 
 
 def truths(kind: Kind, rung: Model, runs: Sequence[Run]) -> tuple[dict[str, float], dict[str, float]]:
-    """Of every compared quantity the best rung's value, at vanishing cells where its grids tell, and its error bar."""
+    """Return the best model's value and uncertainty of every compared quantity, extrapolated where possible."""
     value, bar = {}, {}
     for quantity in kind.compared:
         known = [run for run in runs if quantity in run.values]
@@ -93,20 +92,19 @@ def truths(kind: Kind, rung: Model, runs: Sequence[Run]) -> tuple[dict[str, floa
     return value, bar
 
 
-def cases(kind: str, drawn: Sequence[Drawn]) -> list[Case]:
-    """The scenes whose best rung has an answer."""
+def cases(kind: str, drawn: Sequence[Drawn]) -> list[SolvedScene]:
+    """Return the scenes whose best model has an answer."""
     found, ladder, told = [], models(kind), kinds()[kind]
     for one in drawn:
         scene = random_scene(kind, one.seed)
         rung = best([model for model in ladder if model.applies(scene).applies])
-        runs = sorted(
-            (run for run in one.runs if run.model == rung.name and not run.failure), key=lambda r: r.resolution
-        )
+        own = (run for run in one.runs if run.model == rung.name and not run.failure)
+        runs = sorted(own, key=lambda run: run.resolution)
         if not runs:
             continue
         value, bar = truths(told, rung, runs)
         found.append(
-            Case(
+            SolvedScene(
                 seed=one.seed,
                 scene=scene,
                 numbers=told.numbers(scene),
@@ -119,30 +117,32 @@ def cases(kind: str, drawn: Sequence[Drawn]) -> list[Case]:
     return found
 
 
-def apart(kind: Kind, case: Case, one: Mapping[str, float], other: Mapping[str, float], quantity: str) -> float:
-    """The difference of two answers over the size of the best one."""
+def apart(kind: Kind, case: SolvedScene, one: Mapping[str, float], other: Mapping[str, float], quantity: str) -> float:
+    """Return the difference of two answers divided by the size of the best one."""
     top = case.finest(case.best)
     assert top is not None
     return abs(one[quantity] - other[quantity]) / float(kind.scale({**top.values, **case.truth}, quantity))
 
 
 def fitted(rows: Rows, features: Sequence[str]) -> Law | None:
-    """The law of these errors; None where there are none.
+    """Fit the law of these errors; None where there are none.
 
     Least squares of logarithms with a ridge, then the coefficient that bounds ``CERTAINTY`` of the errors.
     """
     if not rows:
         return None
-    usable = [(n, e) for n, e in rows if all(n.get(f, 0) > 0 and math.isfinite(n[f]) for f in features) and e > LEAST]
+    usable = [
+        (n, e) for n, e in rows if all(n.get(f, 0) > 0 and math.isfinite(n[f]) for f in features) and e > ROUND_OFF
+    ]
     reach = {name: (min(n[name] for n, _ in usable), max(n[name] for n, _ in usable)) for name in features if usable}
     powers: dict[str, float] = {}
-    if len(usable) >= ENOUGH and features:
+    if len(usable) >= LEAST_SCENES and features:
         x = np.log([[numbers[name] for name in features] for numbers, _ in usable])
         y = np.log([error for _, error in usable])
         powers = _powers(x, y, features)
     errors = np.array([error for _, error in (usable or rows)])
     shapes = np.array([math.prod(n[name] ** p for name, p in powers.items()) for n, _ in (usable or rows)])
-    ratios = np.maximum(errors, LEAST) / shapes
+    ratios = np.maximum(errors, ROUND_OFF) / shapes
     bound, middle = float(np.quantile(ratios, CERTAINTY)), float(np.median(ratios))
     return Law(
         coefficient=float(f"{bound:.3g}"),
@@ -160,13 +160,15 @@ def _powers(x: Array, y: Array, features: Sequence[str]) -> dict[str, float]:
     scaled = centred[:, varied] / spread[varied]
     slopes = np.linalg.solve(scaled.T @ scaled + RIDGE * size * np.eye(scaled.shape[1]), scaled.T @ (y - y.mean()))
     found = np.zeros(x.shape[1])
-    found[varied] = np.clip(slopes / spread[varied], -STEEPEST, STEEPEST)
-    rounded = np.round(found / STEP) * STEP
+    found[varied] = np.clip(slopes / spread[varied], -LARGEST_POWER, LARGEST_POWER)
+    rounded = np.round(found / POWER_STEP) * POWER_STEP
     return {name: round(float(power), 2) for name, power in zip(features, rounded, strict=True) if power}
 
 
-def step_rows(kind: Kind, plan: Plan, found: Sequence[Case], quantity: str) -> list[tuple[Case, float]]:
-    """The scenes, and how far a rung is from its next one, both at their finest; the best one extrapolated."""
+def step_rows(
+    kind: Kind, plan: PlannedStep, found: Sequence[SolvedScene], quantity: str
+) -> list[tuple[SolvedScene, float]]:
+    """Return the scenes with the difference of a model to the next one, both at their finest; the best extrapolated."""
     rows = []
     for case in found:
         own, above = case.finest(plan.model), case.finest(plan.towards)
@@ -178,8 +180,8 @@ def step_rows(kind: Kind, plan: Plan, found: Sequence[Case], quantity: str) -> l
     return rows
 
 
-def seen_rows(kind: Kind, plan: Plan, found: Sequence[Case], quantity: str) -> Rows:
-    """The scenes' numbers with the size of the step from the rung below, and the error that is left."""
+def seen_rows(kind: Kind, plan: PlannedStep, found: Sequence[SolvedScene], quantity: str) -> Rows:
+    """Return the scenes' numbers with the size of the step from the model below, and the error that is left."""
     rows: Rows = []
     for case, left in step_rows(kind, plan, found, quantity):
         below, own = case.finest(plan.seen_from), case.finest(plan.model)
@@ -189,8 +191,8 @@ def seen_rows(kind: Kind, plan: Plan, found: Sequence[Case], quantity: str) -> R
     return rows
 
 
-def grid_rows(kind: Kind, model: str, found: Sequence[Case], quantity: str) -> Rows:
-    """The scenes' numbers with the resolution, and how far each grid is from the finest, or from the extrapolated."""
+def grid_rows(kind: Kind, model: str, found: Sequence[SolvedScene], quantity: str) -> Rows:
+    """Return the scenes' numbers with the resolution, and each grid's difference to the finest or the extrapolated."""
     rows: Rows = []
     for case in found:
         grids = [run for run in case.grids(model) if quantity in run.values]
@@ -204,8 +206,8 @@ def grid_rows(kind: Kind, model: str, found: Sequence[Case], quantity: str) -> R
     return rows
 
 
-def fit_step(kind: Kind, plan: Plan, found: Sequence[Case]) -> Step:
-    """A step with its laws, by quantity."""
+def fit_step(kind: Kind, plan: PlannedStep, found: Sequence[SolvedScene]) -> Step:
+    """Return a step with its laws by quantity."""
     left_out: dict[str, Law] = {}
     seen: dict[str, Law] = {}
     for quantity in kind.compared:
@@ -227,27 +229,29 @@ def fit_step(kind: Kind, plan: Plan, found: Sequence[Case]) -> Step:
     )
 
 
-def fit_grid(kind: Kind, model: str, found: Sequence[Case]) -> Grid:
-    """What a rung's resolution is worth, by quantity."""
-    features = GRIDS_APART.get((kind.name, model), GRIDS[kind.name])
+def fit_grid(kind: Kind, model: str, found: Sequence[SolvedScene]) -> Grid:
+    """Return the error law of a model's resolution by quantity."""
+    features = GRIDS.get((kind.name, model), GRIDS[kind.name, ""])
     laws = {q: law for q in kind.compared if (law := fitted(grid_rows(kind, model, found, q), features)) is not None}
     return Grid(kind=kind.name, model=model, laws=laws)
 
 
 def settles_itself(model: Model) -> bool:
-    """Whether a rung refines until its residual is met: quadratures, whose finer grids cost nothing."""
+    """Return whether a model refines itself until its residual is met, as quadratures do."""
     return model.order is None and isinstance(model.resolutions, Resolutions)
 
 
-def fit(kind: Kind, found: Sequence[Case]) -> tuple[list[Step], list[Grid]]:
-    """All steps of a kind, and the grids of its rungs."""
+def fit(kind: Kind, found: Sequence[SolvedScene]) -> tuple[list[Step], list[Grid]]:
+    """Return all steps of a kind and the grids of its models."""
     rungs = [model.name for model in models(kind.name) if not settles_itself(model)]
     grids = [fit_grid(kind, model, found) for model in rungs]
-    return [fit_step(kind, plan, found) for plan in STEPS[kind.name]], [grid for grid in grids if grid.laws]
+    return [fit_step(kind, plan, found) for plan in STEPS if plan.kind == kind.name], [
+        grid for grid in grids if grid.laws
+    ]
 
 
 def written(steps: Sequence[Step], grids: Sequence[Grid], origin: Mapping[str, Any]) -> str:
-    """The table as TOML."""
+    """Return the table as TOML."""
     lines = ["# Made by python -m scripts.studies.advice.fit: errors that 95 of 100 random scenes did not exceed"]
     lines += ["[provenance]", *(f"{key} = {toml_value(value)}" for key, value in origin.items())]
     for name, entries in (("step", steps), ("grid", grids)):
@@ -271,19 +275,19 @@ def command(
     table: Annotated[Path, typer.Option(help="Where the laws are written; by default the project's own.")] = OWN_TABLE,
     again: Annotated[bool, typer.Option(help="Fit to the runs that are there, without solving any.")] = False,
 ) -> None:
-    """Solve random scenes by every rung, fit laws, and write their table."""
+    """Solve random scenes by every model, fit laws, and write their table."""
     make_directory(out)
     if jobs < 1:
         raise InputError(f"--jobs: got {jobs}; it must be 1 or more")
     if not again:
         with alone(out) as scratch:
-            for kind in STEPS:
+            for kind in KINDS:
                 draw("fit", kind, out, jobs, scratch)
     steps: list[Step] = []
     grids: list[Grid] = []
     counts: dict[str, int] = {}
     circumstances: Mapping[str, Any] = {}
-    for name in STEPS:
+    for name in KINDS:
         drawn, circumstances = read("fit", name, out)
         solved = cases(name, drawn)
         counts[name] = len(solved)
@@ -305,8 +309,8 @@ def command(
 
 
 def told(kind: str, steps: Sequence[Step], grids: Sequence[Grid]) -> Table:
-    """The laws of a kind, for people."""
-    shown = Table("rung", "law", "quantity", "bound", "scenes", "bound over middle", title=kind)
+    """Return the laws of a kind as a printed table."""
+    shown = Table("model", "law", "quantity", "bound", "scenes", "bound over middle", title=kind)
     laws = [(step.model, f"to {step.towards}", step.left_out) for step in steps]
     laws += [(step.model, f"seen from {step.seen_from}", step.seen) for step in steps if step.seen]
     laws += [(grid.model, "grid", grid.laws) for grid in grids]

@@ -1,4 +1,4 @@
-"""What every rung says of random scenes, at every resolution: solved once, in parallel, and kept in a table."""
+"""The answers of every model to random scenes at every resolution, solved once, in parallel, and kept in a table."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -34,15 +34,15 @@ PARTS: Mapping[str, Mapping[str, range]] = {
         "seal": range(7000, 7050),
     },
 }
-"""Seeds of the scenes on which laws are fitted, and of those on which the advice is put to the test."""
+"""Seeds of the scenes to which laws are fitted, and of those on which the advice is tested."""
 
 MESHED = (16, 32, 48)
-"""Columns of a random gap whose heights have so many points: the last is finer than a comparison takes by default."""
+"""Mesh columns for random gaps; the last is the number of their points and finer than the default."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Run:
-    """One rung at one resolution: what it says, how far off by its own word, CPU seconds; or why it says nothing."""
+    """Answer of one model at one resolution with its uncertainty and CPU seconds, or the reason of its failure."""
 
     model: str
     resolution: int
@@ -62,7 +62,7 @@ class Drawn:
 
 
 def settings_of(scene: Scene, part: str) -> list[Setting]:
-    """Every rung that applies and is here, at every resolution of it; to check, of those in OpenFOAM the best alone."""
+    """Return every available model at every resolution; of OpenFOAM models the check takes only the best."""
     rungs = [model for model in models(scene.kind) if model.applies(scene).applies and model.available().available]
     return [
         Setting(model=model, resolution=resolution)
@@ -77,7 +77,7 @@ def _is_random_gap(scene: Scene) -> bool:
 
 
 def run_of(job: Job, answer: Result | Failure) -> Run:
-    """A row of the table."""
+    """Return the row of the table for one job."""
     asked = job.setting
     assert asked.resolution is not None
     if isinstance(answer, Failure):
@@ -97,7 +97,7 @@ def run_of(job: Job, answer: Result | Failure) -> Run:
 
 
 def draw(part: str, kind: str, out: Path, processes: int, scratch: Path) -> tuple[Drawn, ...]:
-    """Solve what is not solved yet, and write the table ``out``/part-kind.json."""
+    """Solve what is missing and write the table ``out``/part-kind.json."""
     scenes = {seed: random_scene(kind, seed) for seed in PARTS[part][kind]}
     jobs = {
         seed: [
@@ -118,7 +118,7 @@ def draw(part: str, kind: str, out: Path, processes: int, scratch: Path) -> tupl
 
 
 def read(part: str, kind: str, out: Path) -> tuple[Sequence[Drawn], Mapping[str, Any]]:
-    """The table that :func:`draw` wrote, and where it comes from."""
+    """Return the table that :func:`draw` wrote, and its provenance."""
     entries = json.loads((out / f"{part}-{kind}.json").read_text(encoding="utf-8"))
     scenes = [
         Drawn(kind=one["kind"], seed=one["seed"], runs=tuple(Run(**run) for run in one["runs"]))

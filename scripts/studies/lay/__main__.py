@@ -1,97 +1,65 @@
-"""The lay against the flow: Patir and Cheng's factors beside the homogenized ones, bad joints, and contact let through.
+"""Compare Patir and Cheng's flow factors with the homogenized ones, and judge bad joints and an offset at contact.
 
 python -m scripts.studies.lay --out OUT. Made surfaces, and measured ones with --surfaces DIR (or ROUGHFILM_SURFACES).
 Source: F. Sahlin, Luleå 2008, Paper E: Fig. E.22, E.4.1 and page 172.
 """
 
-import math
-from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
-import typer
 
-from roughfilm.pages.render import render, write_figures
 from roughfilm.rom.ladder.provenance import circumstances
-from roughfilm.terminal.console import AsJson, in_one_line, make_directory, progress_bar, run_alone
-from scripts.studies.claims import Claim, Surfaces, tell, write_numbers
-from scripts.studies.lay import data as lay_data
-from scripts.studies.lay import joint as lay_joint
-from scripts.studies.lay import measured as lay_measured
-from scripts.studies.lay import offset as lay_offset
+from roughfilm.terminal.console import AsJson, in_one_line, make_directory, run_alone
+from scripts.studies.lay import data, figures, joint, measured, offset
 from scripts.studies.lay.claims import Lay, judge
-from scripts.studies.lay.measured import OBLIQUE, SHOWN, prepared_surfaces
+from scripts.studies.lay.measured import OBLIQUE, SHOWN
+from scripts.studies.study import Out, Surfaces, counted, publish
 
 DIRECTIONS = {(False, False): "", (True, False): "x", (False, True): "y", (True, True): "x, y"}
-"""In words, by whether a gap is sealed along x and y."""
+"""Sealed directions in words, by whether a gap is sealed along x and y."""
 
 
 @in_one_line
-def command(
-    out: Annotated[Path, typer.Option(help="The page, its figures and the numbers go here.")],
-    surfaces: Surfaces = None,
-    as_json: AsJson = False,
-) -> None:
-    """Turn grooves against the flow, cut them at joints, let contact through, and judge what the source says of it."""
-    from roughfilm.figures.base import svg
-    from scripts.studies.lay import figures as lay_figures  # matplotlib is slow to import
-
+def command(out: Out, surfaces: Surfaces = None, as_json: AsJson = False) -> None:
+    """Turn grooves against the flow, cut them at joints, add an offset at contact, and judge the source's claims."""
     make_directory(out)
     lay = compute(surfaces)
-    claims = judge(lay)
-    plots = {name: svg(draw(lay)) for name, draw in lay_figures.drawings(lay).items()}
-    write_figures(plots, out)
-    told = numbers(lay, claims)
-    write_numbers(told, out / "lay.json")
-    render(
-        Path(__file__).parent / "page.html.j2",
-        out / "lay.html",
-        plots=plots,
-        claims=claims,
+    told = numbers(lay)
+    publish(
+        Path(__file__).parent,
+        out,
+        {name: draw(lay) for name, draw in figures.drawings(lay).items()},
+        told,
+        claims=judge(lay),
+        as_json=as_json,
         measured=lay.measured.get(OBLIQUE),
         shown=[row for row in told["measured"] if row["name"] == OBLIQUE and row["separation"] in SHOWN],
         directions=DIRECTIONS,
-        offset=lay_offset.OFFSET,
+        offset=offset.OFFSET,
     )
-    tell(claims, told, out / "lay.html", as_json=as_json)
 
 
-def compute(surfaces: Path | None = None, *, points: int = lay_data.POINTS, coarser: int = 1) -> Lay:
-    """Everything that the page shows; ``coarser`` takes every so many seeds, turns, shifts and separations only."""
-    prepared = prepared_surfaces(surfaces, points)
-    parts = lay_data.PARTS + 1 + lay_joint.PARTS + len(lay_offset.MADE) + len(prepared)
-    with progress_bar(parts) as bar:
-        advance = _counted(bar)
-        turned = lay_data.turn_all(advance, points=points, coarser=coarser)
+def compute(surfaces: Path | None = None, *, points: int = data.POINTS, coarser: int = 1) -> Lay:
+    """Compute everything the page shows; ``coarser`` takes only every n-th seed, turn, shift and separation."""
+    prepared = measured.prepared_surfaces(surfaces, points)
+    with counted(data.PARTS + 1 + joint.PARTS + len(offset.MADE) + len(prepared)) as advance:
+        turned = data.turn_all(advance, points=points, coarser=coarser)
         advance("measured surfaces")
-        measured = {name: lay_measured.over_separations(name, one) for name, one in prepared.items()}
         return Lay(
             turned=turned,
-            measured=measured,
-            joints=lay_joint.join_all(prepared, advance, nodes=3 * points // 4, coarser=coarser),
-            offsets=lay_offset.offset_all(prepared, advance, points=points, coarser=coarser),
+            measured={name: measured.over_separations(name, one) for name, one in prepared.items()},
+            joints=joint.join_all(prepared, advance, nodes=3 * points // 4, coarser=coarser),
+            offsets=offset.offset_all(prepared, advance, points=points, coarser=coarser),
         )
 
 
-def _counted(bar: Callable[[float, str], None]) -> Callable[[str], None]:
-    done = -1
-
-    def advance(words: str) -> None:
-        nonlocal done
-        done += 1
-        bar(done, words)
-
-    return advance
-
-
-def numbers(lay: Lay, claims: list[Claim]) -> dict[str, Any]:
-    """What the page tells, as entries that JSON can hold: factors over those of a smooth film as thick as the mean."""
-    told = {
-        "claims": [asdict(claim) for claim in claims],
+def numbers(lay: Lay) -> dict[str, Any]:
+    """Return the numbers of the page; factors are relative to a smooth film of the mean thickness."""
+    return {
         "turned": [
-            {"texture": texture, "thickness": thickness, "degrees": np.degrees(lay_data.angle(turn))} | _factors(one)
+            {"texture": texture, "thickness": thickness, "degrees": np.degrees(data.angle(turn))} | _factors(one)
             for (texture, thickness, turn), one in lay.turned.found.items()
         ],
         "isotropic": [
@@ -105,7 +73,7 @@ def numbers(lay: Lay, claims: list[Claim]) -> dict[str, Any]:
         ],
         "joints": {
             "cut": [{"shift": shift} | asdict(one) for shift, row in lay.joints.cut.items() for one in row],
-            "windows": [asdict(one) for one in lay.joints.windows],
+            "windows": lay.joints.windows,
             "measured": [{"name": name} | asdict(one) for name, row in lay.joints.measured.items() for one in row],
         },
         "offsets": [
@@ -115,11 +83,9 @@ def numbers(lay: Lay, claims: list[Claim]) -> dict[str, Any]:
         ],
         "provenance": circumstances(),
     }
-    made: dict[str, Any] = _plain(told)
-    return made
 
 
-def _factors(one: lay_data.Compared) -> dict[str, Any]:
+def _factors(one: data.FactorPair) -> dict[str, Any]:
     return {
         "contact": one.contact,
         "error": one.error,
@@ -130,17 +96,6 @@ def _factors(one: lay_data.Compared) -> dict[str, Any]:
         "patir_cheng_shear": one.box.shear,
         "patir_cheng_sealed": one.box.sealed,
     }
-
-
-def _plain(value: Any) -> Any:
-    """Lists for arrays, and null for what is no number."""
-    if isinstance(value, dict):
-        return {str(name): _plain(one) for name, one in value.items()}
-    if isinstance(value, np.ndarray | np.generic):
-        return _plain(value.tolist())
-    if isinstance(value, list | tuple):
-        return [_plain(one) for one in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 if __name__ == "__main__":

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import spearmanr
 
-from scripts.studies.claims import Claim
-from scripts.studies.lay.data import THICKNESSES, Compared, Turned, angle
+from scripts.studies.lay.data import THICKNESSES, FactorPair, Turned, angle
 from scripts.studies.lay.joint import Joint, Joints, lowest
 from scripts.studies.lay.measured import OBLIQUE, Measured
 from scripts.studies.lay.offset import MADE, OFFSET, Offset
+from scripts.studies.study import Claim
 
 EQUAL, SAMPLED, FAILS = 0.02, 0.1, 0.2
 """Parts of A: what counts as equal, as the scatter of one finite box, and as failing."""
@@ -91,7 +91,7 @@ def _share(part: float) -> str:
     return f"{100 * part:.3g} %"
 
 
-def worst(found: Sequence[Compared]) -> float:
+def worst(found: Sequence[FactorPair]) -> float:
     """The largest |φ/A − 1| of both directions."""
     return float(np.nanmax(np.abs([one.short for one in found])))
 
@@ -100,7 +100,7 @@ def box_equals_cell(lay: Lay) -> Claim:
     """Claim 21."""
     turned = lay.turned
 
-    def of(texture: str, *, straight: bool) -> list[Compared]:
+    def of(texture: str, *, straight: bool) -> list[FactorPair]:
         return [
             one
             for (name, _, turn), one in turned.found.items()

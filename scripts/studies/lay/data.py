@@ -41,7 +41,7 @@ RESOLVED = 1e-3
 
 
 @dataclass(frozen=True, kw_only=True)
-class Compared:
+class FactorPair:
     """One gap: factors of the cell and of the box, over those of a smooth film as thick as the mean gap.
 
     Attributes
@@ -69,11 +69,11 @@ def gap_at(heights: Array, separation: float) -> Array:
     return np.asarray(np.maximum(separation - heights, 0.0))
 
 
-def compare(gap: Array, spacing: tuple[float, float]) -> Compared:
+def compare(gap: Array, spacing: tuple[float, float]) -> FactorPair:
     """Both kinds of factors of a gap."""
     found = flow_factors(gap, spacing)
     pressure = found.factors.pressure
-    return Compared(
+    return FactorPair(
         cell=found.factors.relative,
         box=patir_cheng(gap, spacing).relative,
         contact=found.contact,
@@ -151,8 +151,8 @@ class Turned:
     boxes : length over width of boxes filled with grooves at 45°, and φ₁ of each over <h>³.
     """
 
-    found: Mapping[tuple[str, float, tuple[int, int]], Compared]
-    isotropic: Mapping[float, Sequence[Compared]]
+    found: Mapping[tuple[str, float, tuple[int, int]], FactorPair]
+    isotropic: Mapping[float, Sequence[FactorPair]]
     straight: Mapping[tuple[str, float], tuple[Array, Array]]
     boxes: tuple[Array, Array]
 

@@ -7,10 +7,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from roughfilm.figures.base import new_figure
 from roughfilm.rom.homogenization.lay import box_factors, turned
 from roughfilm.stability.joint import cut_grooves
 from scripts.studies.lay.claims import Lay
-from scripts.studies.lay.data import TEXTURES, THICKNESSES, Compared, angle, box_of, grooves_exactly
+from scripts.studies.lay.data import TEXTURES, THICKNESSES, FactorPair, angle, box_of, grooves_exactly
 from scripts.studies.lay.measured import OBLIQUE
 
 ALONG, ACROSS, MIXED = "#2166ac", "#1a7f37", "#b2182b"
@@ -34,8 +35,7 @@ def drawings(lay: Lay) -> dict[str, Callable[[Lay], Figure]]:
 
 def pressure(lay: Lay) -> Figure:
     """A and φ over the angle of the lay: a row for each texture, a column for each separation."""
-    figure = Figure(figsize=(10, 9), layout="constrained")
-    panels = figure.subplots(len(TEXTURES), len(THICKNESSES), sharex=True)
+    figure, panels = new_figure((10, 9), len(TEXTURES), len(THICKNESSES), sharex=True)
     turns = np.linspace(0, np.pi / 2, 91)
     for row, texture in zip(panels, TEXTURES, strict=True):
         for axes, thickness in zip(row, THICKNESSES, strict=True):
@@ -56,15 +56,15 @@ def pressure(lay: Lay) -> Figure:
     return figure
 
 
-def _entry(i: int, j: int) -> Callable[[Compared], float]:
+def _entry(i: int, j: int) -> Callable[[FactorPair], float]:
     return lambda one: float(one.cell.pressure[i, j])
 
 
-def _box_factor(i: int) -> Callable[[Compared], float]:
+def _box_factor(i: int) -> Callable[[FactorPair], float]:
     return lambda one: float(one.box.pressure[i])
 
 
-def _drag(i: int) -> Callable[[Compared], float]:
+def _drag(i: int) -> Callable[[FactorPair], float]:
     return lambda one: float(one.cell.shear[i])
 
 
@@ -72,7 +72,7 @@ def _dots(
     axes: Axes,
     lay: Lay,
     setting: tuple[str, float],
-    of: Callable[[Compared], float],
+    of: Callable[[FactorPair], float],
     colour: str,
     name: str,
     *,
@@ -92,8 +92,7 @@ def _dots(
 
 def shear(lay: Lay) -> Figure:
     """B and what Patir and Cheng put beside B₁, over the angle of the lay, at 2 Sq."""
-    figure = Figure(figsize=(10, 3.4), layout="constrained")
-    panels = figure.subplots(1, len(TEXTURES), sharey=True)
+    figure, panels = new_figure((10, 3.4), 1, len(TEXTURES), sharey=True)
     turns = np.linspace(1e-3, np.pi / 2 - 1e-3, 91)
     for axes, texture in zip(panels, TEXTURES, strict=True):
         drag = np.array([lay.turned.drag(texture, THIN, turn) for turn in turns])
@@ -114,8 +113,7 @@ def shear(lay: Lay) -> Figure:
 
 def boxes(lay: Lay) -> Figure:
     """φ₁ of grooves at 45° in boxes of several shapes."""
-    figure = Figure(figsize=(7.5, 3.6), layout="constrained")
-    axes = figure.subplots()
+    figure, axes = new_figure((7.5, 3.6))
     shapes = np.geomspace(0.05, 20, 121)
     principal = grooves_exactly(THIN)[0]
     tensor = turned(principal, np.pi / 4)
@@ -128,10 +126,7 @@ def boxes(lay: Lay) -> Figure:
     ):
         axes.axhline(value, color="black", linewidth=0.8, linestyle=":")
         axes.annotate(name, (0.04, value), (0, 3), textcoords="offset points", size=8)
-    axes.set_xscale("log")
-    axes.set_ylim(0, 1.05)
-    axes.set_xlabel("length of the box over its width")
-    axes.set_ylabel("φ₁, over ĥ³")
+    axes.set(xscale="log", ylim=(0, 1.05), xlabel="length of the box over its width", ylabel="φ₁, over ĥ³")
     axes.legend(fontsize=8, loc="center right")
     return figure
 
@@ -139,8 +134,7 @@ def boxes(lay: Lay) -> Figure:
 def measured(lay: Lay) -> Figure:
     """Pressure and shear flow factors of the measured surface over the separation."""
     one = lay.measured[OBLIQUE]
-    figure = Figure(figsize=(10, 4.2), layout="constrained")
-    left, right = figure.subplots(1, 2)
+    figure, (left, right) = new_figure((10, 4.2), 1, 2)
     places = sorted(one.found)
     rows = [one.found[place] for place in places]
     for (i, j), colour, name in (((0, 0), ALONG, "A₁₁"), ((1, 1), ACROSS, "A₂₂"), ((0, 1), MIXED, "A₁₂")):
@@ -155,16 +149,14 @@ def measured(lay: Lay) -> Figure:
     right.plot(places, [row.box.shear for row in rows], "s-", color=ALONG, label="1 + σφs/ĥ", ms=4, mfc="white", lw=0.8)
     for axes, name in ((left, "pressure flow factors, over ĥ³"), (right, "shear flow factors, over ĥ")):
         axes.axvline(1, color="black", linewidth=0.8, linestyle="--")
-        axes.set_xlabel("separation over highest point, α/ĥ₁")
-        axes.set_ylabel(name)
+        axes.set(xlabel="separation over highest point, α/ĥ₁", ylabel=name)
         axes.legend(fontsize=8)
     return figure
 
 
 def joints(lay: Lay) -> Figure:
     """Two periods of a cut surface, and what a joint lets through, by shift and by mismatch."""
-    figure = Figure(figsize=(10, 3.8), layout="constrained")
-    picture, shifted, scattered = figure.subplots(1, 3)
+    figure, (picture, shifted, scattered) = new_figure((10, 3.8), 1, 3)
     heights = cut_grooves(0.5).heights
     picture.imshow(np.tile(heights, (2, 1)).T, cmap="Greys", origin="lower", extent=(0, 2, 0, 1), aspect="auto")
     picture.axvline(1, color=MIXED, linewidth=1)
@@ -181,8 +173,7 @@ def joints(lay: Lay) -> Figure:
             ]
             label = ("raw", "edges blended")[kind] if thickness == THIN else None
             scattered.plot(*zip(*windows, strict=True), marker, color=colour, ms=4, label=label)
-    shifted.set_xlabel("shift over distance (dashed: blended)")
-    shifted.set_ylabel("flow along the lay, over the truth")
+    shifted.set(xlabel="shift over distance (dashed: blended)", ylabel="flow along the lay, over the truth")
     shifted.legend(fontsize=8)
     scattered.axvline(0.1, color="black", linewidth=0.8, linestyle=":")
     scattered.set_title("windows of random striated surfaces", fontsize=9)
@@ -193,8 +184,7 @@ def joints(lay: Lay) -> Figure:
 
 def offsets(lay: Lay) -> Figure:
     """A along x with closed contact and with the offset; what the offset adds in both directions."""
-    figure = Figure(figsize=(10, 4), layout="constrained")
-    left, right = figure.subplots(1, 2)
+    figure, (left, right) = new_figure((10, 4), 1, 2)
     for (name, row), colour in zip(lay.offsets.items(), SURFACES, strict=False):
         places = [one.separation for one in row]
         closed = np.array([np.cbrt(one.closed[0]) for one in row]) * 1e9
@@ -202,12 +192,14 @@ def offsets(lay: Lay) -> Figure:
         left.plot(places, [1e9 * one.slit[0] for one in row], color=colour, linestyle="--", linewidth=1)
         both = [(r, a) for one in row for r, a in zip(one.relative, one.added, strict=True) if r > 0]
         right.plot(*zip(*both, strict=True), "o", color=colour, ms=4, label=name)
-    left.set_yscale("log")
-    left.set_xlabel("separation over Sq (dashed: with the offset)")
-    left.set_ylabel("slit that leaks as much, ∛A₁₁, nm")
+    left.set(
+        yscale="log", xlabel="separation over Sq (dashed: with the offset)", ylabel="slit that leaks as much, ∛A₁₁, nm"
+    )
     left.legend(fontsize=8)
-    right.set_xscale("log")
-    right.set_yscale("log")
-    right.set_xlabel("A₁₁/ĥ³ and A₂₂/ĥ³ with closed contact")
-    right.set_ylabel("what the offset adds, over A")
+    right.set(
+        xscale="log",
+        yscale="log",
+        xlabel="A₁₁/ĥ³ and A₂₂/ĥ³ with closed contact",
+        ylabel="what the offset adds, over A",
+    )
     return figure

@@ -11,7 +11,7 @@ from roughfilm.contact.parameters.spectrum import power_spectrum, texture_direct
 from roughfilm.contact.preparation.prepare import Prepared, prepare
 from roughfilm.contact.preparation.recipe import read_recipe
 from roughfilm.contact.surfaces.files import read_surface
-from scripts.studies.lay.data import POINTS, Compared, box_of, compare, gap_at
+from scripts.studies.lay.data import POINTS, FactorPair, box_of, compare, gap_at
 
 OBLIQUE, STRIATED = "oblique_grooves.x3p", "ground_striated.x3p"
 
@@ -36,7 +36,7 @@ class Measured:
     name: str
     lay: float
     roughness: float
-    found: Mapping[float, Compared]
+    found: Mapping[float, FactorPair]
     boxes: Mapping[float, Array]
 
 

@@ -1,116 +1,71 @@
-"""Two ways in which a parallel film over a textured wall carries load: inertia, and cavitation.
+"""Compare two ways in which a parallel film over a textured wall carries load: inertia and cavitation.
 
-python -m scripts.studies.mechanisms --out OUT. Pockets solve the one (``film``), bearings the other
-(``reynolds_cavitating``);
-no model of the ladder keeps both, so the page says which of them rules where, and not what they do together.
+python -m scripts.studies.mechanisms --out OUT. Pockets solve the first (``film``), bearings the second
+(``reynolds_cavitating``). No model of the ladder has both: the page says which of them is larger, not their joint
+effect.
 """
 
-import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated
 
-import typer
-from rich.markup import escape
 from rich.table import Table
 
-from roughfilm.contact.foundation.files import replacing
-from roughfilm.pages.render import render, write_figures
 from roughfilm.rom.ladder.provenance import circumstances
-from roughfilm.terminal.console import (
-    AsJson,
-    in_one_line,
-    make_directory,
-    output,
-    print_json,
-    progress_bar,
-    run_alone,
-)
-from scripts.studies.mechanisms.data import (
-    CAVITATION_NUMBERS,
-    DENSITY,
-    FILM,
-    GAPS,
-    NUMBERS,
-    SPEEDS,
-    TENSIONS,
-    VISCOSITY,
-    laws,
-    loads_of,
-    pocket,
-    slider,
-    solve,
-)
-
-SUCKED = 20e3
-"""The tension at which pressures are drawn, Pa."""
-
-SHOWN = (5.0, 20.0, 53.333)
-"""Speeds at which pressures are drawn, m/s."""
+from roughfilm.terminal.console import AsJson, in_one_line, make_directory, run_alone
+from scripts.studies.mechanisms import data, figures
+from scripts.studies.mechanisms.data import DRAWN_TENSION, GAPS, SPEEDS, TENSIONS, pocket, slider, solve
+from scripts.studies.study import Out, counted, publish
 
 
 @in_one_line
-def command(
-    out: Annotated[Path, typer.Option(help="The page, its figures and the numbers go here.")], as_json: AsJson = False
-) -> None:
-    """Solve two textures both ways over speed and film thickness, and write mechanisms.html."""
-    from scripts.studies.mechanisms import figures as mechanisms_figures  # matplotlib is slow to import
-
+def command(out: Out, as_json: AsJson = False) -> None:
+    """Solve two textures by both mechanisms at many speeds and film thicknesses."""
     make_directory(out)
-    done = 0
-    with progress_bar(len(NUMBERS) + len(CAVITATION_NUMBERS) + len(GAPS) * len(SPEEDS)) as bar:
-
-        def advance(words: str) -> None:
-            nonlocal done
-            bar(done, words)
-            done += 1
-
-        rule = laws("waves", advance)
-        loads = {gap: loads_of(gap, advance) for gap in GAPS}
+    with counted(len(data.REYNOLDS_NUMBERS) + len(data.CAVITATION_NUMBERS) + len(GAPS) * len(SPEEDS)) as advance:
+        laws = data.laws("waves", advance)
+        loads = {gap: data.loads_of(gap, advance) for gap in GAPS}
     drawn = {
-        gap: {s: (solve(pocket(gap, s), "film"), solve(slider(gap, s, SUCKED), "reynolds_cavitating")) for s in SHOWN}
+        gap: {
+            speed: (solve(pocket(gap, speed), "film"), solve(slider(gap, speed, DRAWN_TENSION), "reynolds_cavitating"))
+            for speed in data.DRAWN_SPEEDS
+        }
         for gap in GAPS
     }
-    plots = {
-        "pressures": mechanisms_figures.pressures(drawn, SUCKED),
-        "loads": mechanisms_figures.loads(loads),
-        "rule": mechanisms_figures.rule(rule, TENSIONS),
-    }
-    write_figures(plots, out)
-    rows = {gap: table(found) for gap, found in loads.items()}
-    told = {"speeds": list(SPEEDS), "mean_pressure": loads, "provenance": circumstances()}
-    with replacing(out / "mechanisms.json") as scratch:
-        scratch.write_text(json.dumps(told, indent=1) + "\n", encoding="utf-8")
-    render(
-        Path(__file__).parent / "page.html.j2",
-        out / "mechanisms.html",
-        plots=plots,
+    rows = {gap: rows_of(found) for gap, found in loads.items()}
+    publish(
+        Path(__file__).parent,
+        out,
+        {
+            "pressures": figures.pressures(drawn, DRAWN_TENSION),
+            "loads": figures.loads(loads),
+            "rule": figures.rule(laws, TENSIONS),
+        },
+        {"speeds": SPEEDS, "mean_pressure": loads, "provenance": circumstances()},
+        tables=[table(GAPS[gap], found) for gap, found in rows.items()],
+        as_json=as_json,
         rows=rows,
         gaps=GAPS,
         tensions=TENSIONS,
-        sucked=SUCKED,
+        drawn_tension=DRAWN_TENSION,
     )
-    if as_json:
-        print_json({**told, "report": str(out / "mechanisms.html")})
-        return
-    for gap, found in rows.items():
-        shown = Table(
-            "speed, m/s", "Re", "inertia, Pa", *(f"{t * 1e-3:g} kPa below, Pa" for t in TENSIONS), title=GAPS[gap]
-        )
-        for row in found:
-            shown.add_row(*(f"{value:.4g}" for value in row.values()))
-        output.print(shown)
-    output.print(f"page: {escape(str(out / 'mechanisms.html'))}", soft_wrap=True)
 
 
-def table(loads: Mapping[str, list[float]]) -> list[dict[str, float]]:
-    """Every third speed with its Reynolds number and mean pressures, Pa."""
+def rows_of(loads: Mapping[str, list[float]]) -> list[dict[str, float]]:
+    """Return every third speed with its Reynolds number and mean pressures, Pa."""
     return [
-        {"speed": speed, "reynolds_number": DENSITY * speed * FILM / VISCOSITY}
+        {"speed": speed, "reynolds_number": data.DENSITY * speed * data.FILM / data.VISCOSITY}
         | {name: values[number] for name, values in loads.items()}
         for number, speed in enumerate(SPEEDS)
         if number % 3 == 2
     ]
+
+
+def table(title: str, rows: list[dict[str, float]]) -> Table:
+    """Return the rows of one gap as a printed table."""
+    shown = Table("speed, m/s", "Re", "inertia, Pa", *(f"{t * 1e-3:g} kPa below, Pa" for t in TENSIONS), title=title)
+    for row in rows:
+        shown.add_row(*(f"{value:.4g}" for value in row.values()))
+    return shown
 
 
 if __name__ == "__main__":

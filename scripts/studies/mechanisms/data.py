@@ -1,4 +1,4 @@
-"""Loads of two textures by inertia and by cavitation, each solved by the models of its kind of scene."""
+"""Load of a parallel film over a textured wall by inertia and by cavitation, each from a model that has it."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -13,21 +13,26 @@ from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import read_scene
 
 FILM, LENGTH, WIDTH, DEPTH = 30e-6, 1e-3, 0.3e-3, 22.5e-6
-"""Lengths of one period, m. The groove has w+ = 0.3 and d+ = 0.75, of Paper A; the waves are as deep
-and fill the period."""
+"""Lengths of a period, m. The groove has w+ = 0.3 and d+ = 0.75, as in Paper A; the waves have its depth."""
 
 GAPS = {"waves": "waves, cos²", "groove": "a groove between flat lands"}
-"""Without inertia and cavitation, neither carries load: pressure falls where the film widens as it rises elsewhere."""
+"""Without inertia and cavitation neither carries load."""
 
 VISCOSITY, DENSITY = 0.01, 1000.0
 TENSIONS = (0.0, 20e3, 100e3)
-"""Ambient pressure above that of cavitation, Pa: for a liquid full of air, one with some, one with none."""
+"""Ambient pressure less the pressure of cavitation, Pa: a liquid full of air, one with some, one with none."""
 
-ROUNDING = 1e-6
-"""Mean pressure over speed, Pa s/m, below which a load is none."""
+DRAWN_TENSION = 20e3
+"""Tension of the pressures that are drawn, Pa."""
+
+LEAST_LOAD_PER_SPEED = 1e-6
+"""Mean pressure divided by speed, Pa s/m, below which a load counts as zero."""
 
 SPEEDS = tuple(np.geomspace(0.3, 60, 24).tolist())
-NUMBERS = tuple(np.geomspace(0.1, 400, 14).tolist())
+DRAWN_SPEEDS = (5.0, 20.0, 53.333)
+"""Speeds of the pressures that are drawn, m/s."""
+
+REYNOLDS_NUMBERS = tuple(np.geomspace(0.1, 400, 14).tolist())
 """Reynolds numbers ρ u h/η; the load by inertia depends on nothing else."""
 
 CAVITATION_NUMBERS = tuple(np.geomspace(1e-4, 0.2, 24).tolist())
@@ -35,8 +40,8 @@ CAVITATION_NUMBERS = tuple(np.geomspace(1e-4, 0.2, 24).tolist())
 
 
 @dataclass(frozen=True, kw_only=True)
-class Laws:
-    """Mean pressure over η u L/h² by either mechanism: over Re, and over Δp h²/(η u L)."""
+class LoadLaws:
+    """Mean pressure in units of η u L/h²: by inertia over Re, by cavitation over Δp h²/(η u L)."""
 
     reynolds_numbers: Array
     by_inertia: Array
@@ -44,13 +49,13 @@ class Laws:
     by_cavitation: Array
 
     def inertia(self, speed: Array, film: Array, density: float = DENSITY) -> Array:
-        """Mean pressure, Pa, of a film of that thickness over a groove of the same proportions."""
+        """Return the mean pressure by inertia, Pa, of a film of any thickness with the same proportions."""
         number = density * speed * film / VISCOSITY
         rise = np.interp(number, self.reynolds_numbers, self.by_inertia / self.reynolds_numbers)
         return np.asarray(rise * number * _unit(speed, film))
 
     def cavitation(self, speed: Array, film: Array, tension: float) -> Array:
-        """The same where the film ruptures at ``tension`` below ambient, Pa."""
+        """Return the mean pressure by cavitation, Pa, where the film ruptures at ``tension``, Pa, below ambient."""
         unit = _unit(speed, film)
         number = np.maximum(tension / unit, self.tensions[0])
         load = np.interp(np.log(number), np.log(self.tensions), self.by_cavitation, right=0.0)
@@ -58,12 +63,12 @@ class Laws:
 
 
 def _unit(speed: Array, film: Array) -> Array:
-    """η u L/h², with the proportions kept."""
+    """Return η u L/h² for constant L/h."""
     return np.asarray(VISCOSITY * speed * (LENGTH / FILM) / film)
 
 
 def pocket(gap: str, speed: float) -> Any:
-    """One period of a gap as a pocket."""
+    """Return one period of a gap as a pocket."""
     places = np.linspace(-0.4995 * LENGTH, 0.4995 * LENGTH, 201)
     depths = DEPTH * np.cos(np.pi / 2 * places / places[-1]) ** 2
     depths[[0, -1]] = 0.0
@@ -85,7 +90,7 @@ def pocket(gap: str, speed: float) -> Any:
 
 
 def slider(gap: str, speed: float, tension: float) -> Any:
-    """One period of a gap as a bearing at ambient pressure; waves begin where they are widest."""
+    """Return one period of a gap as a bearing at ambient pressure; waves begin where the gap is widest."""
     length, film, depth = (with_unit(value, "m") for value in (LENGTH, FILM, DEPTH))
     waves = {"shape": "squared_cosine_inlet", "amplitude": depth, "wavelength": length, "extent": length}
     texture = {"length": with_unit(WIDTH, "m"), "depth": depth, "start": with_unit((LENGTH - WIDTH) / 2, "m")}
@@ -105,20 +110,20 @@ def slider(gap: str, speed: float, tension: float) -> Any:
 
 
 def solve(scene: Any, model: str) -> Result:
-    """A scene by a model of its kind."""
+    """Solve a scene by a model of its kind."""
     return find(scene.kind, model).solve(scene)
 
 
 def by_inertia(gap: str, speed: float) -> float:
-    """Mean pressure above that of the place where the bearing is open to ambient, Pa."""
+    """Return the mean pressure by inertia above that of the ends of the bearing, Pa."""
     pressure = periodic_pressure(gap, solve(pocket(gap, speed), "film"))[1]
     return float(pressure.mean())
 
 
 def periodic_pressure(gap: str, found: Result) -> tuple[Array, Array]:
-    """Even places from where the bearing begins, m, and the pressure there, zero at the first, Pa, by inertia.
+    """Return positions from the inlet of the bearing, m, and the pressure by inertia above that of the inlet, Pa.
 
-    Waves begin where they are widest, which is the middle of the pocket; the other begins on its land.
+    Waves begin where the gap is widest, in the middle of the pocket; the groove begins on its land.
     """
     x, pressure = (found.fields[name].values for name in ("position", "pressure"))
     place = np.linspace(0, LENGTH, 4000, endpoint=False)
@@ -128,14 +133,14 @@ def periodic_pressure(gap: str, found: Result) -> tuple[Array, Array]:
 
 
 def by_cavitation(gap: str, speed: float, tension: float) -> float:
-    """Mean pressure above ambient, Pa."""
+    """Return the mean pressure by cavitation above ambient, Pa."""
     return solve(slider(gap, speed, tension), "reynolds_cavitating").quantities["load_per_width"].value / LENGTH
 
 
-def laws(gap: str, advance: Callable[[str], None]) -> Laws:
-    """Both loads of a gap, dimensionless, over the one number that each depends on."""
+def laws(gap: str, advance: Callable[[str], None]) -> LoadLaws:
+    """Return both loads of a gap, dimensionless, each as a function of its one number."""
     inertia, cavitation = [], []
-    for number in NUMBERS:
+    for number in REYNOLDS_NUMBERS:
         speed = number * VISCOSITY / (DENSITY * FILM)
         advance(f"{gap}, inertia, Re = {number:.3g}")
         inertia.append(by_inertia(gap, speed) / (VISCOSITY * speed * LENGTH / FILM**2))
@@ -143,8 +148,8 @@ def laws(gap: str, advance: Callable[[str], None]) -> Laws:
         advance(f"{gap}, cavitation, {number:.3g}")
         unit = VISCOSITY * LENGTH / FILM**2
         cavitation.append(by_cavitation(gap, 1.0, number * unit) / unit)
-    return Laws(
-        reynolds_numbers=np.array(NUMBERS),
+    return LoadLaws(
+        reynolds_numbers=np.array(REYNOLDS_NUMBERS),
         by_inertia=np.array(inertia),
         tensions=np.array(CAVITATION_NUMBERS),
         by_cavitation=np.array(cavitation),
@@ -152,12 +157,12 @@ def laws(gap: str, advance: Callable[[str], None]) -> Laws:
 
 
 def loads_of(gap: str, advance: Callable[[str], None]) -> dict[str, list[float]]:
-    """Mean pressures over the speeds, Pa, by inertia and at each tension; rounding left is zero."""
+    """Return mean pressures at the speeds, Pa, by inertia and at each tension; round-off is set to zero."""
     found: dict[str, list[float]] = {"inertia": [], **{f"{tension:g}": [] for tension in TENSIONS}}
     for speed in SPEEDS:
         advance(f"{gap}, {speed:.3g} m/s")
         found["inertia"].append(by_inertia(gap, speed))
         for tension in TENSIONS:
             load = by_cavitation(gap, speed, tension)
-            found[f"{tension:g}"].append(load if abs(load) > ROUNDING * speed else 0.0)
+            found[f"{tension:g}"].append(load if abs(load) > LEAST_LOAD_PER_SPEED * speed else 0.0)
     return found

@@ -1,21 +1,20 @@
-"""The figures of inertia beside cavitation, as SVG text."""
+"""Figures of load by inertia and by cavitation."""
 
 from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from roughfilm.figures.base import svg
+from roughfilm.figures.base import new_figure
 from roughfilm.rom.ladder.result import Result
-from scripts.studies.mechanisms.data import FILM, GAPS, SPEEDS, TENSIONS, Laws, periodic_pressure
+from scripts.studies.mechanisms.data import FILM, GAPS, SPEEDS, TENSIONS, LoadLaws, periodic_pressure
 
 INERTIA, CAVITATION = "#b2182b", ("#08519c", "#4292c6", "#9ecae1")
 
 
-def pressures(drawn: Mapping[str, Mapping[float, tuple[Result, Result]]], tension: float) -> str:
+def pressures(drawn: Mapping[str, Mapping[float, tuple[Result, Result]]], tension: float) -> Figure:
     """Pressure along the sliding wall by both mechanisms: a row for each gap, a panel for each speed."""
-    figure = Figure(figsize=(10, 6.4), layout="constrained")
-    panels = figure.subplots(len(drawn), len(next(iter(drawn.values()))), sharex=True)
+    figure, panels = new_figure((10, 6.4), len(drawn), len(next(iter(drawn.values()))), sharex=True)
     for line, (gap, runs) in zip(panels, drawn.items(), strict=True):
         for axes, (speed, (pocket, slider)) in zip(line, runs.items(), strict=True):
             x, p = periodic_pressure(gap, pocket)
@@ -28,13 +27,12 @@ def pressures(drawn: Mapping[str, Mapping[float, tuple[Result, Result]]], tensio
     for axes in panels[-1]:
         axes.set_xlabel("position, mm")
     panels[0][0].legend(fontsize=8)
-    return svg(figure)
+    return figure
 
 
-def loads(found: Mapping[str, Mapping[str, Sequence[float]]]) -> str:
+def loads(found: Mapping[str, Mapping[str, Sequence[float]]]) -> Figure:
     """Mean pressure over speed, by inertia and by cavitation at each tension, a panel for each gap."""
-    figure = Figure(figsize=(10, 4.2), layout="constrained")
-    panels = figure.subplots(1, len(found))
+    figure, panels = new_figure((10, 4.2), 1, len(found))
     for axes, (gap, loads) in zip(panels, found.items(), strict=True):
         axes.plot(SPEEDS, np.array(loads["inertia"]) * 1e-3, color=INERTIA, linewidth=2.2, label="inertia")
         for tension, colour in zip(TENSIONS, CAVITATION, strict=True):
@@ -46,13 +44,12 @@ def loads(found: Mapping[str, Mapping[str, Sequence[float]]]) -> str:
         axes.set_xlabel("sliding speed, m/s")
     panels[0].set_ylabel("mean pressure above ambient, kPa")
     panels[0].legend(fontsize=8)
-    return svg(figure)
+    return figure
 
 
-def rule(laws: Laws, tensions: Sequence[float]) -> str:
+def rule(laws: LoadLaws, tensions: Sequence[float]) -> Figure:
     """Load by cavitation over the size of that by inertia, over film thickness and speed, the proportions kept."""
-    figure = Figure(figsize=(10, 3.8), layout="constrained")
-    panels = figure.subplots(1, len(tensions), sharey=True)
+    figure, panels = new_figure((10, 3.8), 1, len(tensions), sharey=True)
     film, speed = np.meshgrid(np.geomspace(1e-6, 100e-6, 121), np.geomspace(0.1, 60, 121))
     for axes, tension in zip(panels, tensions, strict=True):
         ratio = laws.cavitation(speed, film, tension) / np.abs(laws.inertia(speed, film))
@@ -60,11 +57,10 @@ def rule(laws: Laws, tensions: Sequence[float]) -> str:
         image = axes.pcolormesh(film * 1e6, speed, shown, cmap="RdBu", vmin=-3, vmax=3, rasterized=True)
         axes.contour(film * 1e6, speed, shown, levels=[0.0], colors="black", linewidths=1.2)
         axes.plot([FILM * 1e6] * 2, [0.3, 60], color="black", linestyle=":", linewidth=1)
-        axes.set_xscale("log")
-        axes.set_yscale("log")
+        axes.set(xscale="log", yscale="log")
         axes.grid(visible=False)
         axes.set_title(f"cavitation {tension * 1e-3:g} kPa below ambient", fontsize=9)
         axes.set_xlabel("film thickness, µm")
     panels[0].set_ylabel("sliding speed, m/s")
     figure.colorbar(image, ax=panels, label="log₁₀ of load by cavitation\nover size of that by inertia")
-    return svg(figure)
+    return figure

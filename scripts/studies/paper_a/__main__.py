@@ -1,11 +1,11 @@
-"""Figures A.3 to A.15 of the source, the onset of back-flow, and its claims judged, from one sweep on one page.
+"""Regenerate Figures A.3 to A.15 of Paper A, find the onset of back-flow, and judge the paper's claims.
 
-python -m scripts.studies.paper_a DIR --out OUT, where DIR holds the finished study
+python -m scripts.studies.paper_a DIR --out OUT, where DIR holds the finished sweep of
 scripts/examples/studies/paper_a.toml. Source: Sahlin et al. 2005, doi:10.1115/1.1828067.
 """
 
+from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import asdict
 from itertools import product
 from pathlib import Path
 from typing import Annotated, Any
@@ -15,54 +15,49 @@ import typer
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.figures.rendering import draw_apart, embedded
-from roughfilm.pages.render import render, write_figures
 from roughfilm.rom.studies.sweep import read_sweep, relative_error
 from roughfilm.rom.studies.table import read_table
-from roughfilm.terminal.console import AsJson, in_one_line, make_directory, progress_bar, run_alone
-from scripts.studies.claims import Claim, tell, write_numbers
+from roughfilm.terminal.console import AsJson, in_one_line, make_directory, run_alone
+from scripts.studies.paper_a import figures
 from scripts.studies.paper_a.claims import judge
 from scripts.studies.paper_a.data import DEPTHS, NUMBERS, SHAPES, WIDTHS, Paper, first_zero, still_wall_shear
+from scripts.studies.study import Out, captions, counted, publish
 
 
 @in_one_line
 def command(
-    directory: Annotated[Path, typer.Argument(metavar="DIR", help="What 'roughfilm batch' made of paper_a.toml.")],
-    out: Annotated[Path, typer.Option(help="The page, and every figure by its number, go here.")],
+    directory: Annotated[Path, typer.Argument(metavar="DIR", help="Directory of the finished batch of paper_a.toml.")],
+    out: Out,
     as_json: AsJson = False,
 ) -> None:
     """Draw the figures of Paper A and judge its claims."""
-    from roughfilm.figures.base import svg
-    from scripts.studies.paper_a import figures as paper_a_figures  # matplotlib is slow to import
-
     paper = read_paper(directory)
     make_directory(out)
     onsets = find_onsets(paper)
-    claims = judge(paper, onsets)
-    figures = {name: draw(paper) for name, draw in paper_a_figures.NUMBERED.items()}
-    figures |= {"onset": paper_a_figures.onset(paper, onsets), "scheme": paper_a_figures.scheme(paper)}
-    plots = {name: svg(figure) for name, figure in figures.items()}
-    write_figures(plots, out)
-    pictures = _streamlines(paper, paper_a_figures.STREAMLINES, out)
-    told = {
-        "claims": [asdict(claim) for claim in claims],
+    upwind = upwind_effect(paper)
+    numbers = {
         "onset": [
-            {
-                "shape": name,
-                "width_plus": width,
-                "reynolds_number": number,
-                "depth_plus": depth if np.isfinite(depth) else None,
-            }
+            {"shape": name, "width_plus": width, "reynolds_number": number, "depth_plus": depth}
             for (name, width, number), depth in onsets.items()
         ],
-        "upwind": upwind_effect(paper),
+        "upwind": upwind,
     }
-    write_numbers(told, out / "paper_a.json")
-    _write_page(plots, pictures, claims, told["upwind"], out / "paper_a.html")
-    tell(claims, told, out / "paper_a.html", as_json=as_json)
+    drawn = {name: draw(paper) for name, draw in figures.NUMBERED.items()}
+    publish(
+        Path(__file__).parent,
+        out,
+        drawn | {"onset": figures.onset(paper, onsets), "scheme": figures.scheme(paper)},
+        numbers,
+        claims=judge(paper, onsets),
+        as_json=as_json,
+        captions=captions(figures.NUMBERED),
+        pictures=_streamlines(paper, out),
+        upwind=upwind,
+    )
 
 
 def read_paper(directory: Path) -> Paper:
-    """The sweep with the settings that stand for Navier-Stokes at second order, with upwind, and Stokes."""
+    """Return the sweep with its settings for Navier-Stokes (second order and upwind) and for Stokes flow."""
     sweep = read_sweep(read_table(directory / "table.h5"), "pocket")
 
     def setting(model: str, scheme: str | None = None) -> str | None:
@@ -78,12 +73,12 @@ def read_paper(directory: Path) -> Paper:
 
 
 def find_onsets(paper: Paper) -> dict[tuple[str, float, float], float]:
-    """The depth d+ at which the shear on the still wall first turns, by shape, w+ and Re."""
+    """Return the depth d+ at which the shear on the still wall first reverses, by shape, w+ and Re."""
     onsets = {}
     keys = list(product(SHAPES.items(), WIDTHS, NUMBERS))
-    with progress_bar(len(keys)) as advance:
-        for done, ((name, shape), width, number) in enumerate(keys):
-            advance(done, "looking for back-flow")
+    with counted(len(keys)) as advance:
+        for (name, shape), width, number in keys:
+            advance("looking for back-flow")
             shear = [
                 still_wall_shear(paper.result(paper.rows(shape, width=width, depth=depth, number=number), paper.best))
                 for depth in DEPTHS
@@ -93,7 +88,7 @@ def find_onsets(paper: Paper) -> dict[tuple[str, float, float], float]:
 
 
 def upwind_effect(paper: Paper) -> list[dict[str, Any]]:
-    """By Re, how far load and friction by first-order upwind are from second order on the same meshes."""
+    """Return the relative difference of load and friction between first-order upwind and second order, for each Re."""
     if paper.upwind is None:
         return []
     rows = []
@@ -103,21 +98,14 @@ def upwind_effect(paper: Paper) -> list[dict[str, Any]]:
             relative_error(paper.sweep, paper.upwind, paper.best, quantity)[chosen]
             for quantity in ("load_plus", "friction_plus")
         )
-        rows.append(
-            {
-                "reynolds_number": number,
-                "load_median": float(np.nanmedian(load)),
-                "load_worst": float(np.nanmax(load)),
-                "friction_worst": float(np.nanmax(friction)),
-            }
-        )
+        worst = {"load_worst": float(np.nanmax(load)), "friction_worst": float(np.nanmax(friction))}
+        rows.append({"reynolds_number": number, "load_median": float(np.nanmedian(load)), **worst})
     return rows
 
 
-def _streamlines(
-    paper: Paper, wanted: dict[str, tuple[tuple[str, str, float, float, float], ...]], out: Path
-) -> dict[str, list[tuple[str, str]]]:
-    """Every picture as title and data, empty with the reason in the title where it could not be drawn."""
+def _streamlines(paper: Paper, out: Path) -> Mapping[str, list[tuple[str, str]]]:
+    """Return title and data of every picture; without data, and with the reason in the title, where drawing failed."""
+    wanted = figures.STREAMLINES
 
     def picture(job: tuple[str, int, tuple[str, str, float, float, float]]) -> tuple[str, str, str]:
         name, place, (title, model, width, depth, number) = job
@@ -134,31 +122,11 @@ def _streamlines(
 
     jobs = [(name, place, case) for name, cases in wanted.items() for place, case in enumerate(cases)]
     pictures: dict[str, list[tuple[str, str]]] = {name: [] for name in wanted}
-    with ThreadPoolExecutor() as pool, progress_bar(len(jobs)) as advance:
-        for done, (name, title, data) in enumerate(pool.map(picture, jobs)):
-            advance(done + 1, "drawing streamlines")
+    with ThreadPoolExecutor() as pool, counted(len(jobs)) as advance:
+        for name, title, data in pool.map(picture, jobs):
+            advance("drawing streamlines")
             pictures[name].append((title, data))
     return pictures
-
-
-def _write_page(
-    plots: dict[str, str],
-    pictures: dict[str, list[tuple[str, str]]],
-    claims: list[Claim],
-    upwind: list[dict[str, Any]],
-    path: Path,
-) -> None:
-    from scripts.studies.paper_a.figures import NUMBERED
-
-    render(
-        Path(__file__).parent / "page.html.j2",
-        path,
-        plots=plots,
-        captions={name: str(draw.__doc__) for name, draw in NUMBERED.items()},
-        pictures=pictures,
-        claims=claims,
-        upwind=upwind,
-    )
 
 
 if __name__ == "__main__":

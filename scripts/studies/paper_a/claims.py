@@ -5,8 +5,8 @@ from itertools import product
 
 import numpy as np
 
-from scripts.studies.claims import Claim
 from scripts.studies.paper_a.data import DEPTHS, NUMBERS, SHAPES, WIDTHS, Paper, highest
+from scripts.studies.study import Claim
 
 CYLINDRICAL, AHEAD, LEVEL, BEHIND = SHAPES.values()
 NEGLIGIBLE = 0.01

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from roughfilm.figures.base import new_figure
 from roughfilm.rom.ladder.result import Result
 from scripts.studies.paper_a.data import DEPTHS, NUMBERS, SHAPES, WIDTHS, Paper, Shape, highest
 
@@ -24,8 +25,8 @@ def _colours(count: int) -> NDArray[np.float64]:
 
 
 def _panels(count: int, *, height: float = 3.9) -> tuple[Figure, list[Axes]]:
-    figure = Figure(figsize=(5 * count, height), layout="constrained")
-    return figure, list(figure.subplots(1, count, squeeze=False)[0])
+    figure, axes = new_figure((5 * count, height), 1, count, squeeze=False)
+    return figure, list(axes[0])
 
 
 def _pressure(axes: Axes, result: Result, style: str, label: str, **look: Any) -> None:
@@ -35,9 +36,8 @@ def _pressure(axes: Axes, result: Result, style: str, label: str, **look: Any) -
     plus = result.quantities["load_plus"].value / result.quantities["load_per_area"].value
     length = result.fields["vertices"].values[-1, -1, 0] - result.fields["vertices"].values[0, -1, 0]
     axes.plot(2 * x / length, p * plus, style, label=label, **look)
-    axes.set_xlabel("x+ = 2x / Lx")
-    axes.set_ylabel("p+")
     axes.set_title(str(geometry["name"]), fontsize=0)
+    axes.set(xlabel="x+ = 2x / Lx", ylabel="p+")
 
 
 def _edges(axes: Axes, width: float) -> None:
@@ -75,10 +75,8 @@ def a4(paper: Paper) -> Figure:
         _against(axes, paper, "load_plus", rows, "width_plus", "Navier-Stokes (line: film_slope)", "C0")
         stokes = np.abs(paper.of("load_plus", rows, paper.stokes))
         axes.plot(paper.sweep.given["width_plus"][rows], stokes, "s", color="C2", ms=4, label="Stokes, size")
-        axes.set_yscale("log")
-        axes.set_xlabel("w+")
-        axes.set_ylabel("Fy+")
         axes.set_title(f"Re = {number:g}", fontsize=10)
+        axes.set(yscale="log", xlabel="w+", ylabel="Fy+")
         axes.legend()
     return figure
 
@@ -173,8 +171,7 @@ def a15(paper: Paper) -> Figure:
 
 def onset(paper: Paper, onsets: Onsets) -> Figure:
     """The depth at which back-flow begins, and the depth of the greatest load, over w+ for each Re and shape."""
-    figure = Figure(figsize=(15, 3.9), layout="constrained")
-    panels = figure.subplots(1, len(SHAPES), sharey=True)
+    figure, panels = new_figure((15, 3.9), 1, len(SHAPES), sharey=True)
     for axes, (name, shape) in zip(panels, SHAPES.items(), strict=True):
         for number, colour in zip(NUMBERS, _colours(4), strict=True):
             begins = [onsets[name, width, number] for width in WIDTHS]
@@ -202,9 +199,8 @@ def scheme(paper: Paper) -> Figure:
 
 
 def _labels(axes: Axes, x: str, y: str, title: str) -> None:
-    axes.set_xlabel(x)
-    axes.set_ylabel(y)
     axes.set_title(title, fontsize=10)
+    axes.set(xlabel=x, ylabel=y)
     axes.legend(fontsize=8)
 
 

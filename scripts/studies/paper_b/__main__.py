@@ -1,33 +1,19 @@
-"""Figures B.1 to B.17 of Paper B, its numbers beside ours, and its claims judged, on one page.
+"""Regenerate Figures B.1 to B.17 of Paper B, compare its numbers with ours, and judge its claims.
 
-python -m scripts.studies.paper_b --out OUT. What the paper leaves open is chosen, and the page says how.
+python -m scripts.studies.paper_b --out OUT. The page lists what the paper leaves open, and our choices.
 Source: Sahlin, Almqvist, Larsson and Glavatskih, Tribol. Int. 40 (2007) 1294, doi:10.1016/j.triboint.2007.02.021.
 """
 
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
-import typer
-
-from roughfilm.pages.render import render, write_figures
-from roughfilm.terminal.console import AsJson, in_one_line, make_directory, progress_bar, run_alone
-from scripts.studies.claims import Claim, tell, write_numbers
-from scripts.studies.paper_b.claims import MAXIMA_APART, Row, judge, maxima, rows
-from scripts.studies.paper_b.data import (
-    CASES,
-    COARSE,
-    CONSTANT,
-    HALF,
-    MODULUS,
-    ORIGINAL,
-    PARTS,
-    READINGS,
-    ROUNDED,
-    Paper,
-    compute,
-    difference,
-)
+from roughfilm.terminal.console import AsJson, in_one_line, make_directory, run_alone
+from scripts.studies.paper_b import data, figures
+from scripts.studies.paper_b.claims import MAXIMA_APART, PrintedDifference, judge, maxima, rows
+from scripts.studies.paper_b.data import COARSE, CONSTANT, HALF, MODULUS, ORIGINAL, ROUNDED, Paper, compute, difference
+from scripts.studies.study import Out, captions, counted, publish
 
 OPEN = (
     (
@@ -42,61 +28,45 @@ OPEN = (
     ("film of B.13 to B.15", "H0 = 10 µm, A = 5 µm", "as B.16 and B.17, whose numbers are printed"),
     ("wavelengths (B.13, B.16)", "10 and 5 mm", "peaks then reach 1.06 MPa in B.14 and θ = 1.0003 in B.15"),
     ("inlet of B.14 and B.15", "flooded, p = pc", "the caption is damaged"),
-    ("lubricant of B.14 to B.17", "D&H-MNL", "not told; at 2 MPa it hardly matters"),
+    ("lubricant of B.14 to B.17", "D&H-MNL", "not stated; at 2 MPa it hardly matters"),
     ("pressures", "above ambient", "the paper's are absolute where it writes pw = 2·10⁵ Pa; add 0.1 MPa"),
 )
-"""What the paper leaves open, what is taken, and why."""
-
+"""What the paper leaves open, our choice, and its reason."""
 
 FRONTS = {"starved": ORIGINAL, "starved, moduli": HALF}
-"""Films that begin a little behind the reference."""
+"""Films that begin a little downstream of the reference."""
 
 
 @in_one_line
-def command(
-    out: Annotated[Path, typer.Option(help="The page, every figure by its number, and the numbers go here.")],
-    as_json: AsJson = False,
-) -> None:
+def command(out: Out, as_json: AsJson = False) -> None:
     """Solve the films of Paper B, draw its figures, and judge its claims."""
-    from roughfilm.figures.base import svg
-    from scripts.studies.paper_b import figures as paper_b_figures  # matplotlib is slow to import
-
     make_directory(out)
-    with progress_bar(PARTS) as advance:
+    with counted(data.PARTS) as advance:
         paper = compute(advance)
-    claims, compared = judge(paper), rows(paper)
-    drawings = paper_b_figures.NUMBERED | {"claim 9": paper_b_figures.reach}
-    plots = {name: svg(draw(paper)) for name, draw in drawings.items()}
-    write_figures({name.replace(" ", "_"): text for name, text in plots.items()}, out)
-    told = numbers(paper, claims, compared)
-    write_numbers(told, out / "paper_b.json")
-    render(
-        Path(__file__).parent / "page.html.j2",
-        out / "paper_b.html",
-        plots=plots,
-        captions={name: str(draw.__doc__) for name, draw in drawings.items()},
-        claims=claims,
+    compared = rows(paper)
+    told = numbers(paper, compared)
+    drawings = figures.NUMBERED | {"claim 9": figures.reach}
+    publish(
+        Path(__file__).parent,
+        out,
+        {name: draw(paper) for name, draw in drawings.items()},
+        told,
+        claims=judge(paper),
+        as_json=as_json,
+        captions=captions(drawings),
         rows=compared,
-        cells=paper.cells,
-        maxima=told["maxima"],
-        fronts=told["fronts"],
         maxima_apart=MAXIMA_APART,
-        readings=told["readings"],
-        moduli=told["moduli"],
-        patterns=told["patterns"],
         open=OPEN,
+        **{name: told[name] for name in ("cells", "maxima", "fronts", "readings", "moduli", "patterns")},
     )
-    tell(claims, told, out / "paper_b.html", as_json=as_json)
 
 
-def numbers(paper: Paper, claims: list[Claim], compared: list[Row]) -> dict[str, Any]:
-    """What the page tells, as entries that JSON can hold: SI units, differences as parts of one."""
+def numbers(paper: Paper, compared: Sequence[PrintedDifference]) -> dict[str, Any]:
+    """Return the numbers of the page in SI units; differences are relative."""
     return {
         "cells": paper.cells,
-        "claims": [asdict(claim) for claim in claims],
         "differences": [
-            asdict(row.told)
-            | {"reference": row.reference, "grids_apart": row.grids_apart, "agrees": list(row.agrees)}
+            {**asdict(row.told), "reference": row.reference, "grids_apart": row.grids_apart, "agrees": row.agrees}
             | asdict(row.found)
             for row in compared
         ],
@@ -114,8 +84,10 @@ def numbers(paper: Paper, claims: list[Claim], compared: list[Row]) -> dict[str,
             for name, films in paper.films.items()
         },
         "fronts": {case: 1e3 * front_apart(paper, case, law) for case, law in FRONTS.items()},
-        "maxima": {law: list(maxima(film)) for law, film in paper.films["twin"].items()},
-        "readings": {told: {name: _reading(paper, name, told) for name in ("single", "twin")} for told in READINGS},
+        "maxima": {law: maxima(film) for law, film in paper.films["twin"].items()},
+        "readings": {
+            told: {name: _reading(paper, name, told) for name in ("single", "twin")} for told in data.READINGS
+        },
         "moduli": {
             law: {case: paper.found[case, law, "p"][0].integrals for case in ("starved", "gap")}
             for law in (CONSTANT, ROUNDED, COARSE)
@@ -131,19 +103,12 @@ def numbers(paper: Paper, claims: list[Claim], compared: list[Row]) -> dict[str,
             }
             for (name, inlet), film in paper.patterns.items()
         ],
-        "sweeps": {
-            name: {
-                "speeds": sweep.speeds.tolist(),
-                "peaks": sweep.peaks.tolist(),
-                "differences": {law: values.tolist() for law, values in sweep.differences.items()},
-            }
-            for name, sweep in paper.sweeps.items()
-        },
+        "sweeps": paper.sweeps,
     }
 
 
 def front_apart(paper: Paper, case: str, law: str) -> float:
-    """By how much the film begins behind that of the reference, m."""
+    """Return how far downstream of the reference a film begins, m."""
     films = paper.films[case]
     reference = next(iter(films.values()))
     return (films[law].start - reference.start) * float(reference.x[-1])
@@ -151,7 +116,7 @@ def front_apart(paper: Paper, case: str, law: str) -> float:
 
 def _reading(paper: Paper, case: str, told: str) -> dict[str, float]:
     films = paper.readings[case, told]
-    reference, other = (films[law] for law in CASES[case].laws)
+    reference, other = (films[law] for law in data.CASES[case].laws)
     return asdict(difference(other.pressure, reference.pressure, reference.weights))
 
 

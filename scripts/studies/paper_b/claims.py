@@ -1,16 +1,16 @@
-"""What Paper B tells in numbers and claims: its numbers beside ours, and each claim with a verdict."""
+"""The numbers that Paper B prints beside ours, and its claims judged."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from scripts.studies.claims import Claim
 from scripts.studies.paper_b.data import CONSTANT, DOUBLE, HALF, ORIGINAL, SOFT, Difference, Film, Paper
+from scripts.studies.study import Claim
 
 
 @dataclass(frozen=True, kw_only=True)
-class Told:
-    """A difference that the paper prints: parts of one, to its last digit."""
+class PrintedNumber:
+    """A relative difference that the paper prints, and the unit of its last digit."""
 
     figure: str
     case: str
@@ -20,37 +20,37 @@ class Told:
     digit: float
 
 
-TOLD = (
-    Told(figure="B.3", case="single", law=SOFT, quantity="p", value=0.12, digit=0.01),
-    Told(figure="B.5", case="twin", law=SOFT, quantity="p", value=0.15, digit=0.01),
-    Told(figure="B.6", case="flooded", law=ORIGINAL, quantity="θ", value=0.0061, digit=0.0001),
-    Told(figure="B.7", case="flooded", law=ORIGINAL, quantity="p", value=0.017, digit=0.001),
-    Told(figure="B.8", case="starved", law=ORIGINAL, quantity="θ", value=0.0064, digit=0.0001),
-    Told(figure="B.9", case="starved", law=ORIGINAL, quantity="p", value=0.074, digit=0.001),
-    Told(figure="B.9", case="starved", law=CONSTANT, quantity="p", value=0.0011, digit=0.0001),
-    Told(figure="B.10", case="starved, moduli", law=HALF, quantity="p", value=0.084, digit=0.001),
-    Told(figure="B.10", case="starved, moduli", law=DOUBLE, quantity="p", value=0.048, digit=0.001),
-    Told(figure="B.11", case="gap", law=ORIGINAL, quantity="p", value=0.22, digit=0.01),
-    Told(figure="B.11", case="gap", law=CONSTANT, quantity="p", value=0.0054, digit=0.0001),
-    Told(figure="B.12", case="gap, moduli", law=HALF, quantity="p", value=0.25, digit=0.01),
-    Told(figure="B.12", case="gap, moduli", law=DOUBLE, quantity="p", value=0.19, digit=0.01),
+PRINTED = (
+    PrintedNumber(figure="B.3", case="single", law=SOFT, quantity="p", value=0.12, digit=0.01),
+    PrintedNumber(figure="B.5", case="twin", law=SOFT, quantity="p", value=0.15, digit=0.01),
+    PrintedNumber(figure="B.6", case="flooded", law=ORIGINAL, quantity="θ", value=0.0061, digit=0.0001),
+    PrintedNumber(figure="B.7", case="flooded", law=ORIGINAL, quantity="p", value=0.017, digit=0.001),
+    PrintedNumber(figure="B.8", case="starved", law=ORIGINAL, quantity="θ", value=0.0064, digit=0.0001),
+    PrintedNumber(figure="B.9", case="starved", law=ORIGINAL, quantity="p", value=0.074, digit=0.001),
+    PrintedNumber(figure="B.9", case="starved", law=CONSTANT, quantity="p", value=0.0011, digit=0.0001),
+    PrintedNumber(figure="B.10", case="starved, moduli", law=HALF, quantity="p", value=0.084, digit=0.001),
+    PrintedNumber(figure="B.10", case="starved, moduli", law=DOUBLE, quantity="p", value=0.048, digit=0.001),
+    PrintedNumber(figure="B.11", case="gap", law=ORIGINAL, quantity="p", value=0.22, digit=0.01),
+    PrintedNumber(figure="B.11", case="gap", law=CONSTANT, quantity="p", value=0.0054, digit=0.0001),
+    PrintedNumber(figure="B.12", case="gap, moduli", law=HALF, quantity="p", value=0.25, digit=0.01),
+    PrintedNumber(figure="B.12", case="gap, moduli", law=DOUBLE, quantity="p", value=0.19, digit=0.01),
 )
 MAXIMA_APART = 1.6e3
-"""By how much the paper's left maximum of Fig. B.5 is above its right one, Pa."""
+"""Left maximum of the paper's Fig. B.5 minus its right one, Pa."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Row:
-    """A number of the paper beside both readings of Eq. B.11, and how far the coarser grid is from the finer."""
+class PrintedDifference:
+    """A number of the paper beside both readings of Eq. B.11, and the difference between both grids."""
 
-    told: Told
+    told: PrintedNumber
     reference: str
     found: Difference
     grids_apart: float
 
     @property
     def agrees(self) -> tuple[bool, bool]:
-        """Whether the paper's number is ours to its last digit, rounded or cut off: by integrals, and between."""
+        """Whether the paper's number is ours to its last digit, rounded or truncated: by integrals, and between."""
         digit = self.told.digit
         return self._to_a_digit(self.found.integrals, digit), self._to_a_digit(self.found.between, digit)
 
@@ -58,25 +58,25 @@ class Row:
         return -0.5 * digit <= value - self.told.value < digit
 
 
-def rows(paper: Paper) -> list[Row]:
-    """Every number of the paper."""
+def rows(paper: Paper) -> list[PrintedDifference]:
+    """Return every number of the paper beside ours."""
     made = []
-    for told in TOLD:
+    for told in PRINTED:
         fine, coarse = paper.found[told.case, told.law, told.quantity]
         apart = max(abs(fine.between - coarse.between), abs(fine.integrals - coarse.integrals))
         reference = next(iter(paper.films[told.case]))
-        made.append(Row(told=told, reference=reference, found=fine, grids_apart=apart))
+        made.append(PrintedDifference(told=told, reference=reference, found=fine, grids_apart=apart))
     return made
 
 
 def maxima(film: Film) -> tuple[float, float]:
-    """The greatest pressures of both halves, Pa."""
+    """Return the greatest pressures of the left and the right half, Pa."""
     left = film.x <= film.x[-1] / 2
     return float(film.pressure[left].max()), float(film.pressure[~left].max())
 
 
 def judge(paper: Paper) -> list[Claim]:
-    """Claims 8 to 10."""
+    """Judge claims 8 to 10."""
     return [laws_differ(paper), constant_modulus(paper), inlet_matters(paper)]
 
 

@@ -1,6 +1,6 @@
-"""Every film of Paper B solved, on two grids, and how far its solutions for two lubricants lie apart."""
+"""The films of Paper B on two grids, and the differences between lubricants."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -13,13 +13,14 @@ from roughfilm.rom.bearing.quantities import density_ratio, film_ends
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.solve import solve
 from roughfilm.rom.ladder.scene import load_entries, read_scene
+from scripts.studies.study import Advance
 
 SCENES = Path(__file__).parent / "scenes"
 CELLS = 16384
-"""Of the finer grid; the coarser one has half as many."""
+"""Cells of the finer grid; the coarser one has half as many."""
 
 AMBIENT = 1e5
-"""What the paper calls pc, Pa absolute."""
+"""Pressure of cavitation, pc in the paper, Pa absolute."""
 
 MNL, ORIGINAL, CONSTANT = "D&H-MNL", "D&H-Orig", "Const β, MNL"
 SOFT, HALF, DOUBLE = "β = 0.069 GPa", "β = 3.34/2 GPa", "β = 3.34·2 GPa"
@@ -51,7 +52,7 @@ PRESSED: Inlet = {"pressure": f"{AMBIENT!r} Pa"}
 
 
 @dataclass(frozen=True, kw_only=True)
-class Case:
+class LubricantCase:
     """A film whose solutions for several lubricants are compared with that for the first one."""
 
     scene: str
@@ -64,13 +65,13 @@ STARVED: Inlet = {"theta": 0.55}
 GAP_STARVED: Inlet = {"theta": 0.85}
 DENSE: Inlet = {"theta": 1.0001}
 CASES = {
-    "single": Case(scene="single_parabola", inlet=DENSE, laws=(MNL, SOFT)),
-    "twin": Case(scene="twin_parabola", inlet=DENSE, laws=(MNL, SOFT)),
-    "flooded": Case(scene="thin_parabola", inlet=FLOODED, laws=(MNL, ORIGINAL)),
-    "starved": Case(scene="thin_parabola", inlet=STARVED, laws=(MNL, ORIGINAL, CONSTANT, ROUNDED, COARSE)),
-    "starved, moduli": Case(scene="thin_parabola", inlet=STARVED, laws=(CONSTANT, HALF, DOUBLE)),
-    "gap": Case(scene="converging_gap", inlet=GAP_STARVED, laws=(MNL, ORIGINAL, CONSTANT, ROUNDED, COARSE)),
-    "gap, moduli": Case(scene="converging_gap", inlet=GAP_STARVED, laws=(CONSTANT, HALF, DOUBLE)),
+    "single": LubricantCase(scene="single_parabola", inlet=DENSE, laws=(MNL, SOFT)),
+    "twin": LubricantCase(scene="twin_parabola", inlet=DENSE, laws=(MNL, SOFT)),
+    "flooded": LubricantCase(scene="thin_parabola", inlet=FLOODED, laws=(MNL, ORIGINAL)),
+    "starved": LubricantCase(scene="thin_parabola", inlet=STARVED, laws=(MNL, ORIGINAL, CONSTANT, ROUNDED, COARSE)),
+    "starved, moduli": LubricantCase(scene="thin_parabola", inlet=STARVED, laws=(CONSTANT, HALF, DOUBLE)),
+    "gap": LubricantCase(scene="converging_gap", inlet=GAP_STARVED, laws=(MNL, ORIGINAL, CONSTANT, ROUNDED, COARSE)),
+    "gap, moduli": LubricantCase(scene="converging_gap", inlet=GAP_STARVED, laws=(CONSTANT, HALF, DOUBLE)),
 }
 
 READINGS: dict[str, Inlet] = {
@@ -79,7 +80,7 @@ READINGS: dict[str, Inlet] = {
     "p = 336 kPa for both": {"pressure": "336 kPa"},
     "θ = 1, flooded": FLOODED,
 }
-"""What the inlet of Figs. B.3 and B.5 may mean: θ = 1.0001 is 6.9 kPa in one law and 336 kPa in the other."""
+"""Possible meanings of the inlet of Figs. B.3 and B.5: θ = 1.0001 is 6.9 kPa in one law and 336 kPa in the other."""
 
 PATTERNS = {
     "sinusoidal, 10 mm": "sinusoidal_long",
@@ -126,29 +127,29 @@ class Film:
 
 @dataclass(frozen=True, kw_only=True)
 class Difference:
-    """How far ψ lies from a reference ψ: between the integrals, and the integral of |ψ - ψ_reference| over its own."""
+    """Relative difference to a reference ψ: between the integrals, and the integral of |ψ - ψ_reference|."""
 
     integrals: float
     between: float
 
 
 def difference(values: Array, reference: Array, weights: Array) -> Difference:
-    """Eq. B.11 in its two readings."""
+    """Return Eq. B.11 in its two readings."""
     whole = float(weights @ reference)
     apart = values - reference
     return Difference(integrals=abs(float(weights @ apart)) / whole, between=float(weights @ np.abs(apart)) / whole)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Sweep:
-    """One film at rising speed: the greatest pressure with D&H-MNL, and by how much the loads of others differ."""
+class SpeedSweep:
+    """One film at rising speed: greatest pressure with D&H-MNL, and relative load differences of the other laws."""
 
     speeds: Array
     peaks: Array
     differences: dict[str, Array]
 
     def reach(self, law: str, part: float) -> float | None:
-        """The greatest pressure up to which the load differs by less than a part, from 0; None if it always does."""
+        """Return the greatest pressure up to which the load differs by less than a fraction; None if at all."""
         values = self.differences[law]
         above = np.flatnonzero(values >= part)
         if not above.size:
@@ -160,13 +161,13 @@ class Sweep:
         return float(np.exp(np.interp(np.log(part), np.log(values[pair]), np.log(self.peaks[pair]))))
 
     def at(self, law: str, peak: float) -> float:
-        """The difference where the greatest pressure is ``peak``."""
+        """Return the difference where the greatest pressure is ``peak``."""
         return float(np.interp(peak, self.peaks, self.differences[law]))
 
 
 @dataclass(frozen=True, kw_only=True)
 class Paper:
-    """All that is drawn, told and judged; ``coarser`` is ``films`` on half as many cells."""
+    """Everything the page shows; ``coarser`` is ``films`` on half as many cells."""
 
     cells: int
     films: dict[str, dict[str, Film]]
@@ -174,11 +175,11 @@ class Paper:
     readings: dict[tuple[str, str], dict[str, Film]]
     patterns: dict[tuple[str, str], Film]
     coarser_patterns: dict[tuple[str, str], Film]
-    sweeps: dict[str, Sweep]
+    sweeps: dict[str, SpeedSweep]
 
     @cached_property
     def found(self) -> dict[tuple[str, str, str], tuple[Difference, Difference]]:
-        """By case, law and "p" or "θ": the difference to the first law of the case, on both grids."""
+        """Differences to the first law of each case on both grids, by case, law and "p" or "θ"."""
         return {
             (case, law, quantity): (
                 _apart(self.films[case], law, quantity),
@@ -197,7 +198,7 @@ def _apart(films: dict[str, Film], law: str, quantity: str) -> Difference:
 
 
 def bearing(scene: str, law: str, inlet: Inlet, speed: float | None = None) -> Bearing:
-    """A scene of the paper with another lubricant, inlet or speed, m/s."""
+    """Return a scene of the paper with another lubricant, inlet or speed, m/s."""
     entries = load_entries(SCENES / f"{scene}.toml")
     entries["lubricant"]["compressibility"] = LAWS[law]
     entries["boundary"]["inlet"] = dict(inlet)
@@ -209,7 +210,7 @@ def bearing(scene: str, law: str, inlet: Inlet, speed: float | None = None) -> B
 
 
 def film(scene: Bearing, cells: int) -> Film:
-    """A scene solved."""
+    """Return the film of a scene."""
     found = solve(scene.problem(), (cells, 1))
     start, rupture = film_ends(found, 0)
     return Film(
@@ -223,61 +224,55 @@ def film(scene: Bearing, cells: int) -> Film:
     )
 
 
-def sweep(scene: str, inlet: Inlet, speeds: Array, cells: int) -> Sweep:
-    """One film at rising speeds."""
+def sweep(scene: str, inlet: Inlet, speeds: Array, cells: int) -> SpeedSweep:
+    """Solve one film at rising speeds."""
     peaks, differences = np.empty(speeds.size), {law: np.empty(speeds.size) for law in (CONSTANT, ORIGINAL)}
     for i, speed in enumerate(speeds):
         reference = film(bearing(scene, MNL, inlet, float(speed)), cells)
         peaks[i] = reference.peak
         for law, values in differences.items():
             values[i] = abs(film(bearing(scene, law, inlet, float(speed)), cells).load / reference.load - 1)
-    return Sweep(speeds=speeds, peaks=peaks, differences=differences)
+    return SpeedSweep(speeds=speeds, peaks=peaks, differences=differences)
 
 
 PARTS = 2 * len(CASES) + len(READINGS) + 1 + len(RANGES)
 
 
-def compute(advance: Callable[[float, str], None], *, cells: int = CELLS, steps: int = STEPS) -> Paper:
-    """Everything; ``advance`` is told how many of ``PARTS`` are done."""
-    done = 0
-
-    def tell(words: str) -> None:
-        nonlocal done
-        advance(done, words)
-        done += 1
-
+def compute(advance: Advance, *, cells: int = CELLS, steps: int = STEPS) -> Paper:
+    """Solve every film; ``advance`` is called ``PARTS`` times."""
+    sizes = (cells, cells // 2)
     grids: list[dict[str, dict[str, Film]]] = []
-    for size in (cells, cells // 2):
+    for size in sizes:
         films = {}
         for name, case in CASES.items():
-            tell(f"{name}, {size} cells")
+            advance(f"{name}, {size} cells")
             films[name] = {law: film(bearing(case.scene, law, case.inlet), size) for law in case.laws}
         grids.append(films)
     readings = {}
     for told, inlet in READINGS.items():
-        tell(told)
+        advance(told)
         for name in ("single", "twin"):
             case = CASES[name]
             readings[name, told] = {law: film(bearing(case.scene, law, inlet), cells) for law in case.laws}
-    tell("patterns")
-    patterns, coarser_patterns = (
+    advance("patterns")
+    patterns = [
         {
             (name, told): film(bearing(scene, MNL, inlet), size)
             for name, scene in PATTERNS.items()
             for told, inlet in INLETS.items()
         }
-        for size in (cells, cells // 2)
-    )
+        for size in sizes
+    ]
     sweeps = {}
     for name, (scene, inlet, ends) in RANGES.items():
-        tell(f"speeds, {name}")
+        advance(f"speeds, {name}")
         sweeps[name] = sweep(scene, inlet, np.geomspace(*ends, steps), cells // 4)
     return Paper(
         cells=cells,
         films=grids[0],
         coarser=grids[1],
         readings=readings,
-        patterns=patterns,
-        coarser_patterns=coarser_patterns,
+        patterns=patterns[0],
+        coarser_patterns=patterns[1],
         sweeps=sweeps,
     )

@@ -5,6 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.figures.base import new_figure
 from roughfilm.rom.lubricants.compressibility import ConstantBulkModulus, DowsonHigginson
 from scripts.studies.paper_b.data import (
     CASES,
@@ -40,8 +41,7 @@ def _thin(film: Film) -> slice:
 
 
 def _axes(height: float = 3.4) -> tuple[Figure, Axes]:
-    figure = Figure(figsize=(8, height), layout="constrained")
-    return figure, figure.subplots()
+    return new_figure((8, height))
 
 
 def _compared(paper: Paper, case: str, quantity: str, laws: tuple[str, ...], *, relative: bool = False) -> Figure:
@@ -52,9 +52,7 @@ def _compared(paper: Paper, case: str, quantity: str, laws: tuple[str, ...], *, 
         kept, length = _thin(film), film.x[-1] if relative else 1.0
         values = film.pressure / 1e6 if quantity == "p" else film.theta
         axes.plot(film.x[kept] / length, values[kept], style, color=colour, label=law, lw=1.8)
-    axes.set_xlabel("x/L" if relative else "x, m")
-    axes.set_ylabel("p, MPa" if quantity == "p" else "θ")
-    axes.set_xlim(left=0)
+    axes.set(xlabel="x/L" if relative else "x, m", ylabel="p, MPa" if quantity == "p" else "θ", xlim=(0, None))
     if quantity == "p":
         axes.set_ylim(bottom=0)
     axes.legend()
@@ -64,8 +62,7 @@ def _compared(paper: Paper, case: str, quantity: str, laws: tuple[str, ...], *, 
 def _film(axes: Axes, film: Film, colour: str, label: str = "") -> None:
     kept = _thin(film)
     axes.plot(film.x[kept], 1e6 * film.thickness[kept], color=colour, lw=1.6, label=label)
-    axes.set_xlabel("x, m")
-    axes.set_ylabel("h, µm")
+    axes.set(xlabel="x, m", ylabel="h, µm")
 
 
 def _geometry(film: Film) -> Figure:
@@ -101,10 +98,7 @@ def b1(paper: Paper) -> Figure:  # noqa: ARG001
         colour, style = STYLES[law]
         label = f"{law}, β = {MODULUS:.3f} GPa" if law == CONSTANT else law
         axes.plot(pressure / 1e6, 1 + found.compression(pressure)[0], style, color=colour, label=label, lw=1.8)
-    axes.set_xlabel("p, MPa")
-    axes.set_ylabel("θ")
-    axes.set_xlim(0, 800)
-    axes.set_ylim(1, 1.3)
+    axes.set(xlabel="p, MPa", ylabel="θ", xlim=(0, 800), ylim=(1, 1.3))
     axes.legend()
     return figure
 
@@ -195,9 +189,7 @@ def b14(paper: Paper) -> Figure:
     figure, axes = _axes()
     for number, colour, film in _patterns(paper, "sinusoidal", "pc"):
         axes.plot(film.x[_thin(film)], film.pressure[_thin(film)] / 1e6, color=colour, label=number, lw=1.2)
-    axes.set_xlabel("x, m")
-    axes.set_ylabel("p, MPa")
-    axes.set_ylim(0, 1.5)
+    axes.set(xlabel="x, m", ylabel="p, MPa", ylim=(0, 1.5))
     axes.legend()
     return figure
 
@@ -214,13 +206,9 @@ def b15(paper: Paper) -> Figure:
         liquid: Array = np.where(film.pressure > 0, film.theta, np.nan)
         panels[0].plot(1e3 * film.x[near], 1e4 * (liquid[near] - 1), color=colour, label=number, lw=1.6)
         panels[1].plot(1e3 * film.x[near], np.minimum(film.theta[near], 1), color=colour, lw=1.6)
-    panels[0].set_ylim(0, 4)
-    panels[0].set_ylabel("(θ − 1) · 10⁴")
+    panels[0].set(ylim=(0, 4), ylabel="(θ − 1) · 10⁴")
     panels[0].legend(loc="upper left")
-    panels[1].set_ylabel("θ")
-    panels[1].set_ylim(top=1.02)
-    panels[1].set_xlabel("x, mm")
-    panels[1].set_xlim(0, 10.5)
+    panels[1].set(ylabel="θ", ylim=(None, 1.02), xlabel="x, mm", xlim=(0, 10.5))
     return figure
 
 
@@ -236,10 +224,7 @@ def b17(paper: Paper) -> Figure:
         for number, colour, film in _patterns(paper, "cos²", inlet):
             label = f"{number}, pw = {inlet}"
             axes.plot(film.x[_thin(film)], film.pressure[_thin(film)] / 1e6, style, color=colour, label=label, lw=1.2)
-    axes.set_xlabel("x, m")
-    axes.set_ylabel("p, MPa")
-    axes.set_xlim(0, 0.1)
-    axes.set_ylim(0, 2.5)
+    axes.set(xlabel="x, m", ylabel="p, MPa", xlim=(0, 0.1), ylim=(0, 2.5))
     axes.legend()
     return figure
 
@@ -257,14 +242,10 @@ def reach(paper: Paper) -> Figure:
         axes.plot(sweep.peaks / 1e6, 100 * sweep.differences[CONSTANT], color=colour, label=f"{name}: constant β")
         axes.plot(sweep.peaks / 1e6, 100 * sweep.differences[ORIGINAL], "--", color=colour, label="D&H-Orig")
     axes.axvspan(50, 100, color="#5b6675", alpha=0.12, lw=0)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_xlim(0.5, 1000)
-    axes.set_ylim(1e-3, 100)
+    axes.set(xscale="log", yscale="log", xlim=(0.5, 1000), ylim=(1e-3, 100))
     axes.set_xticks([1, 10, 50, 100, 500], ["1", "10", "50", "100", "500"])
     axes.set_yticks([0.001, 0.01, 0.1, 1, 10, 100], ["0.001", "0.01", "0.1", "1", "10", "100"])
     axes.minorticks_off()
-    axes.set_xlabel("greatest pressure, MPa")
-    axes.set_ylabel("load differs by, %")
+    axes.set(xlabel="greatest pressure, MPa", ylabel="load differs by, %")
     axes.legend(fontsize=8, ncols=1, loc="upper left", bbox_to_anchor=(1, 1))
     return figure

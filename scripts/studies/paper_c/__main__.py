@@ -1,25 +1,25 @@
-"""Figures C.4 to C.13 of Paper C, and its claims on flow factors of profiles judged, on one page.
+"""Regenerate Figures C.4 to C.13 of Paper C and judge its claims on flow factors of profiles.
 
-python -m scripts.studies.paper_c --out OUT. The measured profiles of the paper are not public: random ones with the
-numbers of its Table C.2 stand for them. Source: Sahlin, Almqvist, Larsson and Glavatskih, Tribol. Int. 40 (2007) 1025.
+python -m scripts.studies.paper_c --out OUT. The measured profiles of the paper are not public: random profiles with the
+numbers of its Table C.2 replace them. Source: Sahlin, Almqvist, Larsson and Glavatskih, Tribol. Int. 40 (2007) 1025.
 """
 
-from dataclasses import asdict
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
-import typer
 from numpy.typing import NDArray
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.parameters.heights import height_statistics
-from roughfilm.pages.render import render, write_figures
-from roughfilm.terminal.console import AsJson, in_one_line, make_directory, progress_bar, run_alone
-from scripts.studies.claims import Claim, tell, write_numbers
+from roughfilm.terminal.console import AsJson, in_one_line, make_directory, run_alone
+from scripts.studies.paper_c import data, figures
 from scripts.studies.paper_c.claims import apart, judge, order_holds_to
-from scripts.studies.paper_c.data import ALPHAS, PARTS, RANGE, TABLE, WAYS, Paper, compute
-from scripts.studies.paper_c.films import LOADS, MODULI
+from scripts.studies.paper_c.data import ALPHAS, RANGE, TABLE, WAYS, Paper, compute
+from scripts.studies.paper_c.films import LOADS
 from scripts.studies.paper_d.data import MACHINING
+from scripts.studies.study import Out, captions, counted, publish
 
 OPEN = (
     (
@@ -45,7 +45,7 @@ OPEN = (
     (
         "where the nodes lie on the profile",
         "on its points (N = 2ᵏ), and beside them (N = 2ᵏ − 4)",
-        "not told; it decides the order of Simpson's rule",
+        "not stated; it decides the order of Simpson's rule",
     ),
     (
         "the joint of the period",
@@ -59,38 +59,30 @@ OPEN = (
     ),
     (
         "flow factors between computed α (C.10 to C.12)",
-        "none are: closed forms at every place",
+        "none are: closed forms at every point",
         "the paper uses splines",
     ),
     ("films of C.13", "narrowing by 1 µm from inlet to outlet", "the caption's max h0 = min h0 + 1 µm"),
 )
-"""What the paper leaves open, what is taken, and why."""
+"""What the paper leaves open, our choice, and its reason."""
 
 
 @in_one_line
-def command(
-    out: Annotated[Path, typer.Option(help="The page, every figure by its number, and the numbers go here.")],
-    as_json: AsJson = False,
-) -> None:
+def command(out: Out, as_json: AsJson = False) -> None:
     """Compute flow factors of profiles and films on them as Paper C does, and judge its claims."""
-    from roughfilm.figures.base import svg
-    from scripts.studies.paper_c import figures as paper_c_figures  # matplotlib is slow to import
-
     make_directory(out)
-    with progress_bar(PARTS) as advance:
+    with counted(data.PARTS) as advance:
         paper = compute(advance)
-    claims = judge(paper)
-    drawings = paper_c_figures.NUMBERED | {"claim 14": paper_c_figures.claim_14}
-    plots = {name: svg(draw(paper)) for name, draw in drawings.items()}
-    write_figures({name.replace(" ", "_"): text for name, text in plots.items()}, out)
-    told = numbers(paper, claims)
-    write_numbers(told, out / "paper_c.json")
-    render(
-        Path(__file__).parent / "page.html.j2",
-        out / "paper_c.html",
-        plots=plots,
-        captions={name: str(draw.__doc__) for name, draw in drawings.items()},
-        claims=claims,
+    told = numbers(paper)
+    drawings = figures.NUMBERED | {"claim 14": figures.claim_14}
+    publish(
+        Path(__file__).parent,
+        out,
+        {name: draw(paper) for name, draw in drawings.items()},
+        told,
+        claims=judge(paper),
+        as_json=as_json,
+        captions=captions(drawings),
         table=TABLE,
         machining=MACHINING,
         made=told["profiles"],
@@ -102,14 +94,12 @@ def command(
         best=told["a_flows_best"],
         open=OPEN,
     )
-    tell(claims, told, out / "paper_c.html", as_json=as_json)
 
 
-def numbers(paper: Paper, claims: list[Claim]) -> dict[str, Any]:
-    """What the page tells, as entries that JSON can hold: SI units, differences as parts of one."""
+def numbers(paper: Paper) -> dict[str, Any]:
+    """Return the numbers of the page in SI units; differences are relative."""
     return {
-        "claims": [asdict(claim) for claim in claims],
-        "profiles": {name: _achieved(made) for name, made in paper.profiles.items()},
+        "profiles": {name: _mean_statistics(made) for name, made in paper.profiles.items()},
         "convergence": [
             {
                 "profile": name,
@@ -117,14 +107,14 @@ def numbers(paper: Paper, claims: list[Claim]) -> dict[str, Any]:
                 "rule": str(rule),
                 "left_out": left_out,
                 "order": study.order(rule, left_out),
-                "nodes": study.nodes.tolist(),
-                "errors": np.median(study.errors(rule, left_out), axis=0).tolist(),
+                "nodes": study.nodes,
+                "errors": np.median(study.errors(rule, left_out), axis=0),
             }
             for (name, alpha), study in paper.convergence.items()
             for rule, left_out in study.found
         ],
-        "alpha": RANGE.tolist(),
-        "factors": {name: values.mean(axis=0).tolist() for name, values in paper.factors.items()},
+        "alpha": RANGE,
+        "factors": {name: values.mean(axis=0) for name, values in paper.factors.items()},
         "spread": {
             name: {
                 str(alpha): {
@@ -139,27 +129,21 @@ def numbers(paper: Paper, claims: list[Claim]) -> dict[str, Any]:
         },
         "a_flows_best": [
             {"seeds": int(best.any(axis=1).sum()), "from": float(RANGE[best.any(axis=0)].min(initial=1.0))}
-            for i in range(2)
-            for best in [_best(paper, "A", i)]
+            for best in (_a_flows_best(paper, factor) for factor in range(2))
         ],
-        "rearranged": {
-            name: {way: apart(paper.shuffled[name, way]).max(axis=0).tolist() for way in WAYS} for name in TABLE
-        },
+        "rearranged": {name: {way: apart(paper.shuffled[name, way]).max(axis=0) for way in WAYS} for name in TABLE},
         "loads_by_nodes": [
-            {"profile": name, "rule": str(rule), "left_out": left_out, "loads": values.tolist()}
+            {"profile": name, "rule": str(rule), "left_out": left_out, "loads": values}
             for (name, rule, left_out), values in paper.loads.items()
         ],
         "films": {
             figure: {name: {"peak": float(film.pressure.max()), "load": film.load} for name, film in shown.items()}
             for figure, shown in paper.films.items()
         },
-        "peaks": {str(modulus): paper.peaks[modulus] for modulus in MODULI},
+        "peaks": paper.peaks,
         "order_holds_to": order_holds_to(paper.curves),
         "min_film": {
-            name: {
-                "loads": LOADS,
-                "clearance": np.mean([one.at(LOADS) for one in curves], axis=0).tolist(),
-            }
+            name: {"loads": LOADS, "clearance": np.mean([one.at(LOADS) for one in curves], axis=0)}
             for name, curves in paper.curves.items()
         },
         "ordered_by": {
@@ -169,13 +153,13 @@ def numbers(paper: Paper, claims: list[Claim]) -> dict[str, Any]:
     }
 
 
-def _best(paper: Paper, name: str, factor: int) -> NDArray[np.bool_]:
-    """Where a profile lets more through than all others of the same seed, shape (seeds, α)."""
-    others = [values[:, :, factor] for other, values in paper.factors.items() if other != name]
-    return np.asarray(paper.factors[name][:, :, factor] > np.max(others, axis=0))
+def _a_flows_best(paper: Paper, factor: int) -> NDArray[np.bool_]:
+    """Return where a factor of profile A exceeds those of all others of the same seed, shape (seeds, α)."""
+    others = [values[:, :, factor] for name, values in paper.factors.items() if name != "A"]
+    return np.asarray(paper.factors["A"][:, :, factor] > np.max(others, axis=0))
 
 
-def _achieved(made: list[Any]) -> dict[str, float]:
+def _mean_statistics(made: Sequence[Array]) -> dict[str, float]:
     found = [height_statistics(heights) for heights in made]
     names = ("peak", "average", "rms", "skewness", "kurtosis")
     return {name: float(np.mean([getattr(one, name) for one in found])) for name in names}

@@ -6,9 +6,9 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.homogenization.line_rules import Rule
-from scripts.studies.claims import Claim
 from scripts.studies.paper_c.data import ALPHAS, BESIDE, POINTS, RANGE, TABLE, WAYS, Paper
 from scripts.studies.paper_c.films import LOADS, MODULUS, SMOOTH, SPAN, Curve
+from scripts.studies.study import Claim
 
 CLOSE = 1e-10
 """Relative differences below which factors are the same."""

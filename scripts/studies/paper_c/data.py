@@ -1,6 +1,6 @@
 """Profiles made to Table C.2 of Paper C, their flow factors by every rule, and films between them and a flat slider."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,6 +23,7 @@ from scripts.studies.paper_c.films import (
     peaks,
     random_ordering,
 )
+from scripts.studies.study import Advance
 
 TABLE = {
     "A": FourMoments(average=0.93e-6, rms=1.2e-6, skewness=-0.99, kurtosis=4.3, peak=2.2e-6),
@@ -48,7 +49,7 @@ WAYS = ("sums over the 512 heights", "lines between the 512 points", f"lines, re
 
 
 PARTS = 7
-"""Of the work: four profiles, loads by nodes, films, random profiles."""
+"""Steps of the work: four profiles, loads by nodes, films, random profiles."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,7 +97,7 @@ class Convergence:
 
 @dataclass(frozen=True, kw_only=True)
 class Paper:
-    """All that is drawn, told and judged.
+    """Everything the page shows.
 
     ``factors``: φx and φs over ``RANGE``, shape (seeds, α, 2). ``shuffled``: the same of the first seed and of its six
     rearrangements, by profile and way, shape (7, α, 2).
@@ -169,35 +170,35 @@ def shuffled(heights: Array, seeds: Sequence[int], refined: int) -> dict[str, Ar
 
 
 def compute(
-    advance: Callable[[float, str], None],
+    advance: Advance,
     *,
     seeds: Sequence[int] = SEEDS,
     powers: Sequence[int] = POWERS,
     refined: int = REFINED,
     random: int = 100,
 ) -> Paper:
-    """Everything; ``advance`` is told how many of the ``PARTS`` are done."""
+    """Compute everything the page shows; ``advance`` is called ``PARTS`` times."""
     profiles = {name: [make(name, seed) for seed in seeds] for name in TABLE}
     study, factors, orders = {}, {}, {}
-    for part, (name, made) in enumerate(profiles.items()):
-        advance(part, f"integrating over profile {name}")
+    for name, made in profiles.items():
+        advance(f"integrating over profile {name}")
         for alpha in ALPHAS:
             study[name, alpha] = convergence(made, alpha, powers)
         factors[name] = np.array([by_lines(heights) for heights in made])
         for way, values in shuffled(made[0], SHUFFLES, refined).items():
             orders[name, way] = values
     first = {name: made[0] for name, made in profiles.items()}
-    advance(4, "loads by the number of nodes")
+    advance("loads by the number of nodes")
     loads = {
         (name, rule, left_out): loads_by_nodes(heights, [2**power - left_out for power in powers], rule)
         for name, heights in first.items()
         for rule in (Rule.SIMPSON, Rule.TRAPEZOID)
         for left_out in (0, BESIDE)
     }
-    advance(5, "films")
+    advance("films")
     shown, by_modulus = films(first), peaks(first)
     curves = load_curves(profiles)
-    advance(6, "films of random profiles")
+    advance("films of random profiles")
     return Paper(
         profiles=profiles,
         convergence=study,

@@ -131,13 +131,10 @@ def c8(paper: Paper) -> Figure:
                 one.plot(RANGE, values[:, :, i].mean(axis=0), color=COLOURS[name], label=name, lw=1.5)
                 low, high = values[:, :, i].min(axis=0), values[:, :, i].max(axis=0)
                 one.fill_between(RANGE, low, high, color=COLOURS[name], alpha=0.2, lw=0)
-        axes.set_xlim(0, 1)
-        axes.set_ylim(0, 1.02)
-        inset.set_xlim(0.95, 1)
-        inset.set_ylim(0, (0.16, 0.34)[i])
+        axes.set(xlim=(0, 1), ylim=(0, 1.02))
+        inset.set(xlim=(0.95, 1), ylim=(0, (0.16, 0.34)[i]))
         inset.tick_params(labelsize=8)
-        axes.set_xlabel("α = rmax/ĥ")
-        axes.set_ylabel(factor)
+        axes.set(xlabel="α = rmax/ĥ", ylabel=factor)
     panels[0].legend(loc="upper right")
     return figure
 
@@ -166,10 +163,7 @@ def _pressures(paper: Paper, figure_name: str) -> Figure:
     figure.set_size_inches(8, 3.9)
     for name, film in paper.films[figure_name].items():
         axes.plot(film.x, film.pressure / 1e6, color=COLOURS[name], label=name, lw=1.6)
-    axes.set_xlabel("x, m")
-    axes.set_ylabel("p, MPa")
-    axes.set_xlim(0, film.x[-1])
-    axes.set_ylim(bottom=0)
+    axes.set(xlabel="x, m", ylabel="p, MPa", xlim=(0, film.x[-1]), ylim=(0, None))
     axes.legend()
     return figure
 
@@ -210,10 +204,7 @@ def c13(paper: Paper) -> Figure:
 
 
 def _range(axes: Axes, x: tuple[float, float], y: tuple[float, float], label: str) -> None:
-    axes.set_xlim(*x)
-    axes.set_ylim(*y)
-    axes.set_xlabel("W, 10⁵ N/m")
-    axes.set_ylabel(label)
+    axes.set(xlim=x, ylim=y, xlabel="W, 10⁵ N/m", ylabel=label)
 
 
 NUMBERED = {

@@ -4,8 +4,8 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.synthetic.profile import STEEL_PROFILES
-from scripts.studies.claims import Claim
 from scripts.studies.paper_d.data import LENGTH, SPECTRA, STEEL, Paper
+from scripts.studies.study import Claim
 
 LEAST_NODES = 4
 """Fits take loads from which on the real area has at least so many nodes on average."""

@@ -12,6 +12,7 @@ from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.solid import Solid, composite_modulus
 from roughfilm.contact.parameters.heights import height_statistics
 from roughfilm.contact.synthetic.profile import STEEL_PROFILES, ground_profile
+from scripts.studies.study import Advance
 
 STEEL = Solid(modulus=210e9, poisson=0.3, hardness=4e9)
 LENGTH = 0.42e-3
@@ -108,17 +109,17 @@ def area_by_waves(profiles: Sequence[Array], waves: Sequence[int], load: float) 
 
 
 def compute(
-    advance: Callable[[float, str], None],
+    advance: Advance,
     *,
     seeds: Sequence[int] = SEEDS,
     loads: Sequence[float] = LOADS,
     waves: Sequence[int] = WAVES,
 ) -> Paper:
-    """Everything; ``advance`` is told how many of the 5 parts of each spectrum are done."""
+    """Compute everything the page shows; ``advance`` is called 5 times for each spectrum."""
     profiles, pressed, cut, finer = {}, {}, {}, {}
-    for part, (spectrum, highest) in enumerate(SPECTRA.items()):
-        for step, (name, moments) in enumerate(STEEL_PROFILES.items()):
-            advance(5 * part + step, f"pressing profile {name}, {spectrum}")
+    for spectrum, highest in SPECTRA.items():
+        for name, moments in STEEL_PROFILES.items():
+            advance(f"pressing profile {name}, {spectrum}")
             made = [
                 low_pass(ground_profile(moments, length=LENGTH, points=POINTS, seed=seed, roll_off=ROLL_OFF), highest)
                 for seed in seeds
@@ -126,7 +127,7 @@ def compute(
             profiles[spectrum, name] = made
             pressed[spectrum, name] = press_all(made, loads)
             finer[spectrum, name] = press_all([refined(z, FINER) for z in made], (loads[0], loads[-1]))
-        advance(5 * part + 4, f"cutting off waves, {spectrum}")
+        advance(f"cutting off waves, {spectrum}")
         made = profiles[spectrum, "D"]
         cut[spectrum] = area_by_waves(made, waves, loads[-1])
     return Paper(

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.contact.parameters.bearing_curve import bearing_curve
+from roughfilm.figures.base import new_figure
 from scripts.studies.paper_d.data import LENGTH, SPECTRA, Paper
 
 COLOURS = {"A": "#b2182b", "B": "#2166ac", "C": "#5aae61", "D": "#762a83"}
@@ -18,8 +19,8 @@ MAIN = "self-affine"
 
 
 def _panels(count: int, height: float = 3.9) -> tuple[Figure, list[Axes]]:
-    figure = Figure(figsize=(5 * count, height), layout="constrained")
-    return figure, list(figure.subplots(1, count, squeeze=False)[0])
+    figure, axes = new_figure((5 * count, height), 1, count, squeeze=False)
+    return figure, list(axes[0])
 
 
 def _band(axes: Axes, x: Array, values: Array, colour: str, style: str, label: str) -> None:
@@ -36,8 +37,7 @@ def d1(paper: Paper) -> Figure:
         for name, colour in (("elastic-plastic", "#b2182b"), ("elastic", "#2166ac")):
             _band(axes, np.array(paper.waves), 100 * paper.cut[spectrum][name], colour, "-", name)
         axes.set_title(f"{spectrum}, waves up to {SPECTRA[spectrum]}", fontsize=10)
-        axes.set_xlabel("number of frequencies n")
-        axes.set_yscale("log")
+        axes.set(xlabel="number of frequencies n", yscale="log")
         axes.set_yticks([2, 5, 10, 20, 50, 100], ["2", "5", "10", "20", "50", "100"])
     panels[0].set_ylabel("Ar/An, %")
     panels[0].legend()
@@ -53,8 +53,7 @@ def d2(paper: Paper) -> Figure:
         left.plot(100 * ratio, height, color=colour, label=name)
         density, edges = np.histogram(heights, bins=40, density=True)
         right.plot(density, (edges[1:] + edges[:-1]) / 2, color=colour)
-    left.set_xlabel("part of the profile above, %")
-    left.set_ylabel("height from the mean, µm")
+    left.set(xlabel="part of the profile above, %", ylabel="height from the mean, µm")
     right.set_xlabel("P(z), 1/µm")
     left.legend()
     return figure
@@ -62,8 +61,7 @@ def d2(paper: Paper) -> Figure:
 
 def d3(paper: Paper) -> Figure:
     """A profile D (first seed) and what the highest load takes off it for good (shaded, and below by itself)."""
-    figure = Figure(figsize=(10, 4.6), layout="constrained")
-    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1))
+    figure, (above, below) = new_figure((10, 4.6), 2, 1, sharex=True, height_ratios=(3, 1))
     contact = paper.shown
     x = 1e6 * LENGTH * np.arange(contact.heights.shape[0]) / contact.heights.shape[0]
     before, after = 1e6 * contact.heights[:, 0], 1e6 * contact.unloaded_heights[:, 0]
@@ -71,8 +69,7 @@ def d3(paper: Paper) -> Figure:
     above.fill_between(x, after, before, color="#b2182b", lw=0.8)
     below.fill_between(x, 0, before - after, color="#b2182b", lw=0.8, step="mid")
     above.set_ylabel("height, µm")
-    below.set_ylabel("plastic, µm")
-    below.set_xlabel("x, µm")
+    below.set(ylabel="plastic, µm", xlabel="x, µm")
     return figure
 
 
@@ -83,9 +80,7 @@ def _against_load(paper: Paper, wanted: Sequence[tuple[str, str, float]]) -> Fig
             for spectrum, style in DASHES.items():
                 values = factor * paper.pressed[spectrum, name][quantity]
                 _band(axes, np.array(paper.loads) / 1e3, values, colour, style, name if style == "-" else "")
-        axes.set_xlabel("load, kN/m")
-        axes.set_ylabel(label)
-        axes.set_xlim(left=0)
+        axes.set(xlabel="load, kN/m", ylabel=label, xlim=(0, None))
     panels[0].legend(ncols=2)
     return figure
 
@@ -115,8 +110,9 @@ NUMBERED = {"D.1": d1, "D.2": d2, "D.3": d3, "D.4": d4, "D.5": d5, "D.6": d6, "D
 
 def e4(contacts: Sequence[Contact]) -> Figure:
     """The model surface loaded, and its elastic and plastic parts; dots: nodes of purely elastic contact."""
-    figure = Figure(figsize=(10, 9), layout="constrained")
-    (corner, loaded), (elastic, plastic), (elastic_move, plastic_move) = figure.subplots(3, 2, sharex=True)
+    figure, ((corner, loaded), (elastic, plastic), (elastic_move, plastic_move)) = new_figure(
+        (10, 9), 3, 2, sharex=True
+    )
     first = contacts[0]
     x = 1e3 * first.spacing[0] * np.arange(first.heights.shape[0])
     for axes in (loaded, elastic, plastic):

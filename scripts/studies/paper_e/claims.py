@@ -7,9 +7,9 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.words.numbers import with_error
-from scripts.studies.claims import Claim
 from scripts.studies.paper_e.data import LOADS, SEEDS, Washer
 from scripts.studies.paper_e.windows import LOAD, PARTS, Leak
+from scripts.studies.study import Claim
 
 FEW_PER_CENT = 0.05
 """Within which two leakages count as equal."""

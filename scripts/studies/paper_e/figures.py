@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from roughfilm.figures.base import new_figure
 from roughfilm.pages.stribeck import drawn_film
 from roughfilm.rom.bearing.mixed.film import MixedFilm
 from roughfilm.rom.bearing.mixed.stribeck import StribeckPoint
@@ -26,8 +27,7 @@ LAYS = {"along": COLOURS[0], "across": COLOURS[2], "+45°": COLOURS[1], "-45°":
 
 def leakages(windows: Sequence[Leak]) -> Figure:
     """Figs. E.19 to E.21: volumes by window and place; by resolution; over the load."""
-    figure = Figure(figsize=(11.4, 4.0), layout="constrained")
-    places, grids, loads = figure.subplots(1, 3)
+    figure, (places, grids, loads) = new_figure((11.4, 4.0), 1, 3)
     for window, colour in WINDOWS.items():
         rows = [one for one in windows if one.window == window and one.resolution == 1.0]
         usual = [one for one in rows if one.load == LOAD]
@@ -62,12 +62,9 @@ def leakages(windows: Sequence[Leak]) -> Figure:
             )
     grids.set_xscale("log", base=2)
     grids.set_xticks([0.5, 1, 2], ["half", "as prepared", "double"])
-    grids.set_xlabel("nodes along a side, along y")
-    grids.set_ylim(bottom=0)
+    grids.set(xlabel="nodes along a side, along y", ylim=(0, None))
     grids.legend(fontsize=8, loc="lower right")
-    loads.set_xscale("log")
-    loads.set_yscale("log")
-    loads.set_xlabel("load, MPa, along y")
+    loads.set(xscale="log", yscale="log", xlabel="load, MPa, along y")
     loads.legend(fontsize=8)
     for axes in (places, grids, loads):
         axes.set_ylabel("leaked in 300 s, ml")
@@ -81,8 +78,7 @@ def _resolution(one: Leak) -> float:
 def pressures(washers: dict[str, Washer]) -> Figure:
     """Figs. E.25 to E.27: the film's pressure at 30 and 300 turns a minute under 1 MPa."""
     names = [name for name in COUNTED if name in washers]
-    figure = Figure(figsize=(11.4, 2.7 * len(SHOWN)), layout="constrained")
-    panels = figure.subplots(len(SHOWN), len(names), squeeze=False)
+    figure, panels = new_figure((11.4, 2.7 * len(SHOWN)), len(SHOWN), len(names), squeeze=False)
     drawn = {}
     for name in names:
         one = washers[name]
@@ -117,8 +113,7 @@ def point_at(one: Washer, number: int, turns: float) -> StribeckPoint:
 
 def films(washers: dict[str, Washer]) -> Figure:
     """Fig. E.28: the least separation over the first touch, by both methods, under 1 and 2 MPa."""
-    figure = Figure(figsize=(11.4, 4.2), layout="constrained")
-    panels = figure.subplots(1, 2, sharey=True)
+    figure, panels = new_figure((11.4, 4.2), 1, 2, sharey=True)
     for axes, number, end in zip(panels, (1, 2), (300, 600), strict=True):
         for (name, one), colour in zip(washers.items(), COLOURS, strict=False):
             touching = one.wall.asperities.touching
@@ -129,10 +124,8 @@ def films(washers: dict[str, Washer]) -> Figure:
                 axes.plot(speeds, heights, line, color=colour, linewidth=1.4, label=name if line == "-" else None)
             _bar(axes, one, number, colour)
         axes.axhline(0, color="black", linewidth=0.8)
-        axes.set_xlim(0, end)
-        axes.set_ylim(-2.5, 12)
         axes.set_title(f"{LOADS[number] / 1e6:g} MPa; full: HNS, dashed: Patir and Cheng", fontsize=10)
-        axes.set_xlabel("speed, rpm")
+        axes.set(xlim=(0, end), ylim=(-2.5, 12), xlabel="speed, rpm")
     panels[0].set_ylabel("least separation over the first touch, µm")
     panels[0].legend(fontsize=8, loc="upper left")
     return figure
@@ -145,25 +138,23 @@ def _bar(axes: Axes, one: Washer, number: int, colour: str) -> None:
 
 def friction(washers: dict[str, Washer]) -> Figure:
     """Fig. E.29: the coefficient of friction over speed."""
-    figure = Figure(figsize=(11.4, 4.4), layout="constrained")
-    axes = figure.subplots()
+    figure, axes = new_figure((11.4, 4.4))
     for (name, one), colour in zip(washers.items(), COLOURS, strict=False):
         for curve, line in zip(one.curves, LINES, strict=True):
             speeds = [point.speed * one.turns for point in curve.points]
             label = name if line == "-" else None
             rubs = [point.friction_coefficient for point in curve.points]
             axes.plot(speeds, rubs, line, color=colour, label=label, linewidth=1.3)
-    axes.set_yscale("log")
-    axes.set_xlabel("speed, rpm (dotted 0.5 MPa, full 1 MPa, dashed 2 MPa)")
-    axes.set_ylabel("coefficient of friction")
+    axes.set(
+        yscale="log", xlabel="speed, rpm (dotted 0.5 MPa, full 1 MPa, dashed 2 MPa)", ylabel="coefficient of friction"
+    )
     axes.legend(fontsize=8)
     return figure
 
 
 def lays(paper: Paper) -> Figure:
     """Lift-off over the load for every lay of surface 3, and of surface 1 along and across."""
-    figure = Figure(figsize=(11.4, 3.8), layout="constrained")
-    turned, first = figure.subplots(1, 2)
+    figure, (turned, first) = new_figure((11.4, 3.8), 1, 2)
     loads = np.array(LOADS) / 1e6
     for lay, colour in LAYS.items():
         for seed in SEEDS:
@@ -177,10 +168,7 @@ def lays(paper: Paper) -> Figure:
         first.errorbar(loads, lift[:, 0], lift[:, 1], fmt="o-", color=LAYS[lay], label=lay, lw=1, ms=3, capsize=2)
     first.set_title("surface 1", fontsize=10)
     for axes in (turned, first):
-        axes.set_xlabel("load, MPa")
-        axes.set_ylabel("lift-off, rpm")
-        axes.set_xscale("log")
-        axes.set_yscale("log")
+        axes.set(xlabel="load, MPa", ylabel="lift-off, rpm", xscale="log", yscale="log")
         axes.set_xticks(loads, [f"{load:g}" for load in loads])
         axes.minorticks_off()
         axes.set_yticks(ROUND, [f"{speed:g}" for speed in ROUND])

@@ -1,63 +1,48 @@
-"""Figures F.5 to F.12 of Paper F over made families of surfaces, its laws fitted again, its claims judged, on a page.
+"""Regenerate Figures F.5 to F.12 of Paper F for families of made surfaces, fit its laws and judge its claims.
 
 python -m scripts.studies.paper_f --out OUT. The ten elastomer surfaces of the paper are not public; measured ones of
-other
-makers stand beside the made ones with --surfaces DIR (or ROUGHFILM_SURFACES). Every surface is kept in OUT/found: what
-was finished is not done again. Source: F. Sahlin, Luleå 2008, Paper F.
+other makers are added with --surfaces DIR (or ROUGHFILM_SURFACES). Every finished surface is kept in OUT/found and used
+by the next run. Source: F. Sahlin, Luleå 2008, Paper F.
 """
 
-import math
-from collections.abc import Callable, Sequence
-from dataclasses import asdict
+from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
-import typer
 
-from roughfilm.pages.render import render, write_figures
 from roughfilm.rom.ladder.provenance import circumstances
-from roughfilm.terminal.console import AsJson, in_one_line, make_directory, progress_bar, run_alone
-from scripts.studies.claims import Claim, Surfaces, tell, write_numbers
-from scripts.studies.paper_f import sizes as paper_f_sizes
+from roughfilm.terminal.console import AsJson, in_one_line, make_directory, run_alone
+from scripts.studies.paper_f import figures
 from scripts.studies.paper_f.claims import judge
 from scripts.studies.paper_f.data import MODULUS, PARTS, Pressed, press_all
 from scripts.studies.paper_f.fits import SLOPE, ratios
-from scripts.studies.paper_f.study import Laws, Study, fit_groups
+from scripts.studies.paper_f.laws import SealStudy, fit_groups
+from scripts.studies.paper_f.sizes import COUNTS, grow
 from scripts.studies.paper_f.surfaces import FAMILIES, HEIGHTS, POINTS, SEEDS, made_surfaces, measured_surfaces
+from scripts.studies.study import Out, Surfaces, captions, counted, publish
 
 
 @in_one_line
-def command(
-    out: Annotated[Path, typer.Option(help="The page, its figures, the numbers, and every finished surface go here.")],
-    surfaces: Surfaces = None,
-    as_json: AsJson = False,
-) -> None:
-    """Press families of surfaces until they are sealed, fit sealing load and leakage, and judge Paper F."""
-    from roughfilm.figures.base import svg
-    from scripts.studies.paper_f import figures as paper_f_figures  # matplotlib is slow to import
-
+def command(out: Out, surfaces: Surfaces = None, as_json: AsJson = False) -> None:
+    """Press families of surfaces until they seal, fit sealing load and leakage, and judge the claims of Paper F."""
     make_directory(out)
     study = compute(out / "found", surfaces)
-    claims = judge(study)
-    plots = {name: svg(draw(study)) for name, draw in paper_f_figures.NUMBERED.items()}
-    write_figures({name.replace(" ", "_"): text for name, text in plots.items()}, out)
-    told = numbers(study, claims)
-    write_numbers(told, out / "paper_f.json")
-    render(
-        Path(__file__).parent / "page.html.j2",
-        out / "paper_f.html",
-        plots=plots,
-        captions={name: str(draw.__doc__) for name, draw in paper_f_figures.NUMBERED.items()},
-        claims=claims,
+    told = numbers(study)
+    publish(
+        Path(__file__).parent,
+        out,
+        {name: draw(study) for name, draw in figures.NUMBERED.items()},
+        told,
+        claims=judge(study),
+        as_json=as_json,
+        captions=captions(figures.NUMBERED),
         count=len(study.sample),
         laws=study.laws,
         slope=SLOPE,
-        families=told["families"],
-        measured=told["measured"],
-        finer=told["finer"],
+        **{name: told[name] for name in ("families", "measured", "finer")},
     )
-    tell(claims, told, out / "paper_f.html", as_json=as_json)
 
 
 def compute(
@@ -69,72 +54,44 @@ def compute(
     points: int = POINTS,
     parts: Sequence[float] = PARTS,
     sizes: dict[int, int] | None = None,
-) -> Study:
-    """Everything that the page shows, kept in a folder; by default as the page has it, smaller for a test."""
+) -> SealStudy:
+    """Compute everything the page shows, with finished surfaces kept in ``folder``; smaller sizes serve tests."""
     made = made_surfaces(families, seeds, points)
     finer = made_surfaces(families, seeds[:1], 2 * points)
     measured = measured_surfaces(surfaces, points)
-    counts = paper_f_sizes.COUNTS if sizes is None else sizes
-    with progress_bar(len(made) + 4 * len(finer) + len(measured) + len(counts)) as bar:
-        advance = _counted(bar)
+    counts = COUNTS if sizes is None else sizes
+    with counted(len(made) + 4 * len(finer) + len(measured) + len(counts)) as advance:
         found = press_all(made, folder, advance, parts)
-        beside = press_all(measured, folder, advance, parts)
-        twice = press_all(finer, None if folder is None else folder / "finer", _by(advance, 4), parts)
-        grown = paper_f_sizes.grow(folder, advance, counts)
-        return Study(sample=found, finer=twice, measured=beside, sizes=grown, laws=fit_groups(found))
+        return SealStudy(
+            sample=found,
+            measured=press_all(measured, folder, advance, parts),
+            finer=press_all(finer, folder and folder / "finer", partial(advance, steps=4), parts),
+            sizes=grow(folder, advance, counts),
+            laws=fit_groups(found),
+        )
 
 
-def _counted(bar: Callable[[float, str], None]) -> Callable[[str], None]:
-    done = -1
-
-    def advance(words: str) -> None:
-        nonlocal done
-        done += 1
-        bar(done, words)
-
-    return advance
-
-
-def _by(advance: Callable[[str], None], times: int) -> Callable[[str], None]:
-    def several(words: str) -> None:
-        for _ in range(times):
-            advance(words)
-
-    return several
-
-
-def numbers(study: Study, claims: Sequence[Claim]) -> dict[str, Any]:
-    """What the page tells, as entries that JSON can hold, SI units."""
+def numbers(study: SealStudy) -> dict[str, Any]:
+    """Return the numbers of the page in SI units."""
     families: dict[str, list[Pressed]] = {}
     for one in study.sample:
         families.setdefault(one.family, []).append(one)
-    told: dict[str, Any] = {
-        "claims": [asdict(claim) for claim in claims],
+    return {
         "modulus": MODULUS,
-        "surfaces": [_told(one) for one in study.sample],
+        "surfaces": [_surface(one) for one in study.sample],
         "families": {name: _family(members) for name, members in families.items()},
-        "measured": [_told(one) for one in study.measured],
+        "measured": [_surface(one) for one in study.measured],
         "finer": _finer(study),
         "sizes": [
-            {"lengths": lengths, "area": area.tolist(), "load": study.sizes.load[lengths].tolist()}
+            {"lengths": lengths, "area": area, "load": study.sizes.load[lengths]}
             for lengths, area in study.sizes.area.items()
         ],
-        "laws": {name: _laws(laws) for name, laws in study.laws.items()},
+        "laws": {name: {**vars(laws), "leakage": [*laws.leakage.values()]} for name, laws in study.laws.items()},
         "provenance": circumstances(),
     }
-    return {name: _plain(value) for name, value in told.items()}
 
 
-def _plain(value: Any) -> Any:
-    """Null for what is no number."""
-    if isinstance(value, dict):
-        return {name: _plain(one) for name, one in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(one) for one in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
-def _told(one: Pressed) -> dict[str, Any]:
+def _surface(one: Pressed) -> dict[str, Any]:
     return {
         "name": one.name,
         **{name: one.numbers.heights[name] for name in HEIGHTS},
@@ -142,16 +99,16 @@ def _told(one: Pressed) -> dict[str, Any]:
         "Sal": one.numbers.decay,
         "Str": one.numbers.aspect,
         "Ssk": one.numbers.skewness,
-        "threshold": one.threshold.tolist(),
-        "sealed_area": one.sealed_area.tolist(),
-        "round_threshold": one.round_threshold.tolist(),
-        "round_area": one.round_area.tolist(),
-        "k": (one.threshold / MODULUS / one.numbers.heights["Spm"]).tolist(),
-        "load_over_slope": (one.threshold / MODULUS / one.numbers.slope).tolist(),
-        "loads": one.loads.tolist(),
-        "area": one.area.tolist(),
-        "direct": one.direct.tolist(),
-        "flow": one.flow.tolist(),
+        "threshold": one.threshold,
+        "sealed_area": one.sealed_area,
+        "round_threshold": one.round_threshold,
+        "round_area": one.round_area,
+        "k": (one.threshold / MODULUS / one.numbers.heights["Spm"]),
+        "load_over_slope": (one.threshold / MODULUS / one.numbers.slope),
+        "loads": one.loads,
+        "area": one.area,
+        "direct": one.direct,
+        "flow": one.flow,
     }
 
 
@@ -174,8 +131,8 @@ def _family(members: Sequence[Pressed]) -> dict[str, Any]:
     }
 
 
-def _finer(study: Study) -> dict[str, float]:
-    """The largest and the middle change from ``sample`` to ``finer``, of W/(E* g′) and of the area at the threshold."""
+def _finer(study: SealStudy) -> dict[str, float]:
+    """Return the largest and the median change from ``sample`` to ``finer`` of W/(E* g′) and of the sealing area."""
     coarse = {one.name: one for one in study.sample}
     pairs = [(coarse[one.name], one) for one in study.finer]
     load = np.abs([b.threshold / b.numbers.slope / (a.threshold / a.numbers.slope) - 1 for a, b in pairs])
@@ -186,12 +143,6 @@ def _finer(study: Study) -> dict[str, float]:
         "area_middle": float(np.median(area)),
         "area_largest": float(area.max()),
     }
-
-
-def _laws(laws: Laws) -> dict[str, Any]:
-    told = asdict(laws)
-    told["leakage"] = [asdict(one) for one in laws.leakage.values()]
-    return told
 
 
 if __name__ == "__main__":

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from scripts.studies.claims import Claim
 from scripts.studies.paper_f.data import MODULUS, Pressed
 from scripts.studies.paper_f.fits import SHARES, SLOPE, Constant
-from scripts.studies.paper_f.study import DIRECTED, Laws, Study
+from scripts.studies.paper_f.laws import DIRECTED, GroupLaws, SealStudy
 from scripts.studies.paper_f.surfaces import HEIGHTS
+from scripts.studies.study import Claim
 
 PRESSED = 1e5
 """W, Pa, at which areas are compared."""
@@ -39,7 +39,7 @@ ROUNDING = 1e-9
 VALLEYS, PEAKS = ("Sv", "Svm"), ("Sp", "Spm")
 
 
-def judge(study: Study) -> list[Claim]:
+def judge(study: SealStudy) -> list[Claim]:
     """Claims 16, 19, 23, 24, 25 and 26."""
     return [
         areas_differ(study),
@@ -56,7 +56,7 @@ def area_at(one: Pressed, load: float) -> float:
     return float(np.interp(load, one.loads, one.area, left=np.nan, right=np.nan))
 
 
-def areas_differ(study: Study) -> Claim:
+def areas_differ(study: SealStudy) -> Claim:
     """Claim 16, its half on surfaces in space."""
     same_load = np.array([area_at(one, PRESSED) for one in study.sample])
     alike = np.array([area_at(one, ALIKE * MODULUS * one.numbers.slope) for one in study.sample])
@@ -111,7 +111,7 @@ def cell_equals_direct(sample: Sequence[Pressed]) -> Claim:
     )
 
 
-def lost_between(study: Study) -> Claim:
+def lost_between(study: SealStudy) -> Claim:
     """Claim 23."""
     area = np.array([one.sealed_area for one in study.sample])
     inside = (area >= RANGE[0]) & (area <= RANGE[1])
@@ -139,7 +139,7 @@ def lost_between(study: Study) -> Claim:
     )
 
 
-def peaks_rule_sealing(laws: Mapping[str, Laws]) -> Claim:
+def peaks_rule_sealing(laws: Mapping[str, GroupLaws]) -> Claim:
     """Claim 24."""
     every = laws["all"]
     spreads = {name: every.sealing[name].spread for name in HEIGHTS}
@@ -169,7 +169,7 @@ def peaks_rule_sealing(laws: Mapping[str, Laws]) -> Claim:
     )
 
 
-def valleys_rule_leakage(study: Study) -> Claim:
+def valleys_rule_leakage(study: SealStudy) -> Claim:
     """Claim 25."""
     every = study.laws["all"]
     apart = {one.scale[0]: one.apart for one in every.collapses if one.scale[0] and one.scale[0] == one.scale[1]}

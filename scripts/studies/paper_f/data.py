@@ -1,9 +1,9 @@
 """Every surface of Paper F pressed until it is sealed: thresholds, area, leakage; each kept in a file of its own."""
 
 import hashlib
-import json
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any, Self
 
@@ -11,17 +11,16 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
-from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.solid import Solid, composite_modulus
 from roughfilm.contact.parameters.peaks import lowest_valleys
 from roughfilm.rom.homogenization.flow_factors import flow_factors
-from roughfilm.rom.ladder.provenance import code
 from roughfilm.rom.seal.leakage.direct import direct_leakage
 from roughfilm.rom.seal.leakage.percolation import thresholds
 from scripts.studies.paper_f.surfaces import Made, Numbers, numbers_of
+from scripts.studies.study import kept
 
 MODULUS = composite_modulus(Solid(modulus=10e6, poisson=0.5), Solid(modulus=210e9, poisson=0.3))
 """E*, Pa, of the elastomer against steel."""
@@ -189,51 +188,24 @@ def press_all(
     advance: Callable[[str], None],
     parts: Sequence[float] = PARTS,
 ) -> list[Pressed]:
-    """Each surface, read from the folder where it was found before with the same inputs; ``advance`` is told each."""
+    """Press each surface, or read it from the folder where it is kept; ``advance`` is called for each."""
     found = []
     for one in surfaces:
         advance(one.name)
-        surface = one.surface
-        settings = {
-            "own": OWN,
-            "modulus": MODULUS,
-            "parts": list(parts),
-            "near": NEAR,
-            "offset": OFFSET,
-            "code": code(),
-        }
-        inputs = Inputs(heights=surface.heights, spacing=surface.spacing, settings=settings)
-        path = None if folder is None else folder / f"{one.name.replace(' ', '_')}.json"
-        known = None if path is None else read(path, inputs.digest)
-        if known is None:
-            known = press(one, parts)
-            if path is not None:
-                write(path, known, inputs.digest)
-        found.append(known)
+        settings = {"own": OWN, "modulus": MODULUS, "parts": list(parts), "near": NEAR, "offset": OFFSET}
+        inputs = Inputs(heights=one.surface.heights, spacing=one.surface.spacing, settings=settings)
+        path = folder and folder / f"{one.name.replace(' ', '_')}.json"
+        found.append(_restored(kept(path, {"digest": inputs.digest}, partial(_stored, one, parts))))
     return found
 
 
-def write(path: Path, found: Pressed, digest: str) -> None:
-    """Keep a surface; InputError if it cannot be written."""
-    entries = {name: _plain(value) for name, value in asdict(found).items()}
-    entries["spots"] = [np.packbits(one).tobytes().hex() for one in found.spots]
-    entries["nodes"] = list(found.spots.shape[1:])
-    with replacing(path) as scratch:
-        scratch.write_text(json.dumps({"digest": digest, "found": entries}) + "\n", encoding="utf-8")
+def _stored(made: Made, parts: Sequence[float]) -> dict[str, Any]:
+    found = press(made, parts)
+    spots = [np.packbits(one).tobytes().hex() for one in found.spots]
+    return {**vars(found), "spots": spots, "nodes": found.spots.shape[1:]}
 
 
-def read(path: Path, digest: str) -> Pressed | None:
-    """A surface as kept; None if there is none, if it is of other inputs, or no longer whole."""
-    try:
-        told = json.loads(path.read_text(encoding="utf-8"))
-        if told["digest"] != digest:
-            return None
-        return _whole(told["found"])
-    except (OSError, ValueError, KeyError, TypeError):
-        return None
-
-
-def _whole(entries: dict[str, Any]) -> Pressed:
+def _restored(entries: dict[str, Any]) -> Pressed:
     nx, ny = entries.pop("nodes")
     bits = [np.unpackbits(np.frombuffer(bytes.fromhex(one), dtype=np.uint8)) for one in entries.pop("spots")]
     spots = np.array([one[: nx * ny].reshape(nx, ny) for one in bits], dtype=bool)
@@ -241,9 +213,3 @@ def _whole(entries: dict[str, Any]) -> Pressed:
     family, seed, (length, width) = entries.pop("family"), entries.pop("seed"), entries.pop("size")
     arrays = {name: np.array(values, dtype=float) for name, values in entries.items()}
     return Pressed(family=family, seed=seed, size=(length, width), numbers=numbers, spots=spots, **arrays)
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, np.ndarray):
-        return value.tolist()
-    return {name: _plain(one) for name, one in value.items()} if isinstance(value, Mapping) else value

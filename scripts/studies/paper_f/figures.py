@@ -1,5 +1,6 @@
 """Figures F.5 to F.12 of Paper F, and what they do not show: offset, size, and the cell beside the reservoirs."""
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
@@ -11,10 +12,11 @@ from matplotlib.ticker import LogLocator, NullFormatter
 from scipy.special import erf
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.figures.base import new_figure
 from scripts.studies.paper_f.claims import LEAKAGE, RANGE, SEALING, above_the_cell, subtracted
 from scripts.studies.paper_f.data import MODULUS
 from scripts.studies.paper_f.fits import SLOPE, LeakageLaw, scale_of
-from scripts.studies.paper_f.study import Study
+from scripts.studies.paper_f.laws import SealStudy
 from scripts.studies.paper_f.surfaces import HEIGHTS
 
 COLOURS = (
@@ -36,12 +38,12 @@ def kilograms(permeability: Array) -> Array:
     return 3600 * DENSITY * permeability * DROP / (12 * VISCOSITY * LENGTH)
 
 
-def _colours(study: Study) -> Mapping[str, str]:
+def _colours(study: SealStudy) -> Mapping[str, str]:
     families = dict.fromkeys(one.family for one in study.sample)
     return dict(zip(families, COLOURS, strict=False))
 
 
-def _legend(figure: Figure, study: Study) -> None:
+def _legend(figure: Figure, study: SealStudy) -> None:
     handles = [Line2D([], [], color=colour, label=name, lw=2) for name, colour in _colours(study).items()]
     figure.legend(handles=handles, loc="outside lower center", ncols=6, fontsize=8)
 
@@ -51,7 +53,7 @@ def _panels(rows: int, columns: int, height: float) -> tuple[Figure, list[Axes]]
     return figure, list(figure.subplots(rows, columns, squeeze=False).ravel())
 
 
-def area(study: Study) -> Figure:
+def area(study: SealStudy) -> Figure:
     """Real area of contact until both directions are sealed (dots: along x full, along y white; dashed: 33 and 55 %).
 
     Left as the source has it; right over E* times the rms slope, where surfaces fall together. Grey: measured ones.
@@ -68,8 +70,7 @@ def area(study: Study) -> Figure:
     for axes in (left, right):
         for part in RANGE:
             axes.axhline(100 * part, color=FOUND, lw=0.8, ls="--")
-        axes.set_ylabel("real area of contact, %")
-        axes.set_ylim(0, 90)
+        axes.set(ylabel="real area of contact, %", ylim=(0, 90))
     x = np.linspace(0, 0.8, 200)
     right.plot(x, 100 * erf(np.sqrt(2) * x), ":", color=FOUND)
     left.set_xlim(0, 1.6)
@@ -80,11 +81,12 @@ def area(study: Study) -> Figure:
     return figure
 
 
-def spots(study: Study) -> Figure:
+def spots(study: SealStudy) -> Figure:
     """Contact (dark) when the last path from end to end closes: along x (left of each pair) and along y."""
     firsts = list({one.family: one for one in reversed(study.sample)}.values())[::-1]
-    figure = Figure(figsize=(10.5, 2.05 * int(np.ceil(len(firsts) / 3))), layout="constrained")
-    panels = figure.subplots(int(np.ceil(len(firsts) / 3)), 6, squeeze=False).ravel()
+    rows = math.ceil(len(firsts) / 3)
+    figure, grid = new_figure((10.5, 2.05 * rows), rows, 6, squeeze=False)
+    panels = grid.ravel()
     for axes in panels:
         axes.set_axis_off()
     shades = ListedColormap(["#e8eef5", FOUND])
@@ -97,7 +99,7 @@ def spots(study: Study) -> Figure:
     return figure
 
 
-def heights(study: Study) -> Figure:
+def heights(study: SealStudy) -> Figure:
     """Load at the threshold over the eight heights, both directions; lines: geometric mean of the ratio; red: F.14.
 
     The spread is the standard deviation of the ratio, as a factor.
@@ -116,13 +118,12 @@ def heights(study: Study) -> Figure:
     return figure
 
 
-def _thresholds(axes: Axes, study: Study, name: str, unit: float) -> None:
+def _thresholds(axes: Axes, study: SealStudy, name: str, unit: float) -> None:
     law, colours = study.laws["all"].sealing[name], _colours(study)
     for one in study.sample:
         x = scale_of(one, name) * unit
         axes.plot([x, x], one.threshold / 1e6, ".", color=colours[one.family], ms=5, alpha=0.8)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
+    axes.set(xscale="log", yscale="log")
     axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     axes.xaxis.set_major_formatter("{x:g}")
     axes.xaxis.set_minor_formatter(NullFormatter())
@@ -132,7 +133,7 @@ def _thresholds(axes: Axes, study: Study, name: str, unit: float) -> None:
     axes.set_title(f"spread {law.spread:.3g}, R² {law.explained:.2f}", fontsize=8)
 
 
-def pure(study: Study) -> Figure:
+def pure(study: SealStudy) -> Figure:
     """What k of F.14 hides (left): it falls as the length Sq/g′ of a surface grows; red: the source's.
 
     Middle: load over the rms slope, whose ratio is a pure number; line: geometric mean. Right: that number over the
@@ -148,22 +149,19 @@ def pure(study: Study) -> Figure:
             np.full(2, one.numbers.skewness), one.threshold / (MODULUS * one.numbers.slope), ".", color=colour, ms=5
         )
     left.axhline(SEALING, color=SOURCE, lw=1.2)
-    left.set_xlabel("Sq/g′, µm")
-    left.set_ylabel("W/(E* Spm), 1/m")
+    left.set(xlabel="Sq/g′, µm", ylabel="W/(E* Spm), 1/m")
     _thresholds(middle, study, SLOPE, 1.0)
-    middle.set_xlabel("g′")
-    middle.set_ylabel("W at the threshold, MPa")
+    middle.set(xlabel="g′", ylabel="W at the threshold, MPa")
     x = np.linspace(*right.get_xlim(), 50)
     right.plot(x, laws.skewed.constant.value * np.exp(laws.skewed.skewness.value * x), color=FOUND, lw=1)
-    right.set_xlabel("Ssk")
-    right.set_ylabel("W/(E* g′)")
+    right.set(xlabel="Ssk", ylabel="W/(E* g′)")
     for axes in (left, right):
         axes.set_yscale("log")
     _legend(figure, study)
     return figure
 
 
-def leakage(study: Study) -> Figure:
+def leakage(study: SealStudy) -> Figure:
     """Leakage along x, a surface of each family: HNS (lines) and DNS (circles), 1 MPa over 1 mm, 10³ kg/m³, 1 mPa s.
 
     Right: DNS over HNS of all surfaces and directions; line: median, dashed: nine in ten below.
@@ -177,19 +175,13 @@ def leakage(study: Study) -> Figure:
         left.plot(
             one.loads[open_ends], kilograms(one.direct[open_ends, 0]), "o", color=colours[family], ms=4, mfc="none"
         )
-    left.set_xscale("log")
-    left.set_yscale("log")
-    left.set_ylim(LEAST, None)
-    left.set_xlabel("load W, Pa")
-    left.set_ylabel("leakage, kg/(h m)")
+    left.set(xscale="log", yscale="log", ylim=(LEAST, None), xlabel="load W, Pa", ylabel="leakage, kg/(h m)")
     parts, more = above_the_cell(study.sample)
     right.plot(parts, 1 + more, ".", color="#4292c6", ms=2.5, alpha=0.5)
     _bands(right, parts, 1 + more, FOUND)
-    right.set_yscale("log")
-    right.set_xscale("log")
-    right.set_ylim(0.9, 100)
-    right.set_xlabel("load over the one that seals the cell")
-    right.set_ylabel("DNS/HNS")
+    right.set(
+        yscale="log", xscale="log", ylim=(0.9, 100), xlabel="load over the one that seals the cell", ylabel="DNS/HNS"
+    )
     _legend(figure, study)
     return figure
 
@@ -203,7 +195,7 @@ def _bands(axes: Axes, parts: Array, values: Array, colour: str) -> None:
     axes.plot(places, [float(np.nanpercentile(values[one], 90)) for one in bins], color=colour, lw=1.4, ls="--")
 
 
-def same_heights(study: Study) -> Figure:
+def same_heights(study: SealStudy) -> Figure:
     """Leakage of all surfaces in both directions (DNS) scaled to the same height, which is the mean of all."""
     figure, panels = _panels(2, 4, 2.8)
     colours = _colours(study)
@@ -215,10 +207,7 @@ def same_heights(study: Study) -> Figure:
             for i in (0, 1):
                 flow = kilograms(one.direct[:, i] * factor**3)
                 axes.plot(one.loads * factor, np.where(flow > LEAST, flow, np.nan), color=colours[one.family], lw=0.5)
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        axes.set_ylim(LEAST, 1e2)
-        axes.set_xlim(1e1, 2e6)
+        axes.set(xscale="log", yscale="log", ylim=(LEAST, 1e2), xlim=(1e1, 2e6))
         told = ", ".join(f"{10**value:.2g}" for value in apart[name][:2])
         axes.set_title(f"{name} = {1e6 * mean:.3g} µm; spread {told}", fontsize=8)
     for axes in panels[::4]:
@@ -229,7 +218,7 @@ def same_heights(study: Study) -> Figure:
     return figure
 
 
-def dimensionless(study: Study) -> Figure:
+def dimensionless(study: SealStudy) -> Figure:
     """Leakage (DNS) over that of a smooth gap as high as Svm (left) and as Svm under load (right), both directions.
 
     Loads for surfaces of Svm = 1 µm. Under load Svm hardly changes, and does not follow the leakage.
@@ -244,17 +233,14 @@ def dimensionless(study: Study) -> Figure:
                 y = one.direct[:, i] / height**3
                 axes.plot(x, np.where(y > 1e-6, y, np.nan), color=colours[one.family], lw=0.6)
     for axes, name in zip(panels, ("Svm", "Svm under load"), strict=True):
-        axes.set_xscale("log")
-        axes.set_yscale("log")
+        axes.set(xscale="log", yscale="log")
         axes.axhline(1, color=FOUND, lw=0.8)
-        axes.set_ylim(1e-6, 1e3)
-        axes.set_xlabel("W/E*, for Svm = 1 µm")
-        axes.set_ylabel(f"12 η Q/(h³ p), h = {name}")
+        axes.set(ylim=(1e-6, 1e3), xlabel="W/E*, for Svm = 1 µm", ylabel=f"12 η Q/(h³ p), h = {name}")
     _legend(figure, study)
     return figure
 
 
-def closed_form(study: Study) -> Figure:
+def closed_form(study: SealStudy) -> Figure:
     """Leakage of a surface of each family by DNS, in x (circles) and y (crosses), and by F.18 as the source has it.
 
     The closed form (lines) knows no direction, and no sealing but where its base is 0.
@@ -269,16 +255,12 @@ def closed_form(study: Study) -> Figure:
             axes.plot(one.loads[leaks], shown, marker, color=colours[family], ms=4, mfc="none")
         height = LEAKAGE[0] * np.cbrt(scale_of(one, "Svm")) - LEAKAGE[1] * np.cbrt(one.loads / MODULUS)
         axes.plot(one.loads, kilograms(np.maximum(height, 0.0) ** 9), color=colours[family], lw=1)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_ylim(LEAST, None)
-    axes.set_xlabel("load W, Pa")
-    axes.set_ylabel("leakage, kg/(h m)")
+    axes.set(xscale="log", yscale="log", ylim=(LEAST, None), xlabel="load W, Pa", ylabel="leakage, kg/(h m)")
     _legend(figure, study)
     return figure
 
 
-def laws(study: Study) -> Figure:
+def laws(study: SealStudy) -> Figure:
     """F.18 as a straight line, K = s³ (a − b (W/(E* r))^⅓)⁹, K = 12ηQL/Δp by DNS, both directions.
 
     Left: s = r = Svm, as the source has it (red: its constants). Right: s = Sp, the mean gap at the first touch, with
@@ -299,7 +281,7 @@ def laws(study: Study) -> Figure:
     return figure
 
 
-def _line(axes: Axes, study: Study, law: LeakageLaw) -> None:
+def _line(axes: Axes, study: SealStudy, law: LeakageLaw) -> None:
     colours, (height, load) = _colours(study), law.scale
     for one in study.sample:
         x = np.cbrt(one.loads / (MODULUS * scale_of(one, load)))
@@ -309,11 +291,10 @@ def _line(axes: Axes, study: Study, law: LeakageLaw) -> None:
     ends = np.array([0.0, axes.get_xlim()[1]])
     told = f"{law.a.value:.3g} − {law.b.value:.3g} x, R² {law.explained:.2f}"
     axes.plot(ends, law.a.value - law.b.value * ends, color=FOUND, lw=1.4, label=told)
-    axes.set_xlim(*ends)
-    axes.set_ylim(0, 1.9)
+    axes.set(xlim=ends, ylim=(0, 1.9))
 
 
-def size(study: Study) -> Figure:
+def size(study: SealStudy) -> Figure:
     """One kind of random surface, larger and larger: area, and load over E* g′, when the last path closes.
 
     A dot for each surface and direction; bars: mean and standard deviation. Dashed: 33 and 55 %.
@@ -331,14 +312,13 @@ def size(study: Study) -> Figure:
             axes.errorbar(lengths, ends.mean(), ends.std(), color=FOUND, fmt="o", ms=5, capsize=5, lw=1.4)
         axes.set_xscale("log", base=2)
         axes.set_xticks(list(found), [f"{one:.3g}" for one in found])
-        axes.set_xlabel("side, correlation lengths Sal")
-        axes.set_ylabel(name)
+        axes.set(xlabel="side, correlation lengths Sal", ylabel=name)
     for part in RANGE:
         panels[0].axhline(100 * part, color=FOUND, lw=0.8, ls="--")
     return figure
 
 
-def offset(study: Study) -> Figure:
+def offset(study: SealStudy) -> Figure:
     """Leakage of the cell with 10 nm let through everywhere, over that with closed contact.
 
     Left as it is, right after what is left at the threshold is subtracted. Lines: median, and nine in ten below.
@@ -350,17 +330,15 @@ def offset(study: Study) -> Figure:
             found.part, 1 + values, c=1e6 * found.average, s=4, cmap="viridis", norm="log", rasterized=True
         )
         _bands(axes, found.part, 1 + values, FOUND)
-        axes.set_yscale("log")
-        axes.set_ylim(0.5, 1e4)
         axes.set_title(name, fontsize=9)
-        axes.set_xlabel("load over the one that seals the cell")
+        axes.set(yscale="log", ylim=(0.5, 1e4), xlabel="load over the one that seals the cell")
     panels[0].set_ylabel("leakage over that with closed contact")
     bar = figure.colorbar(drawn, ax=panels, label="Sa, µm", ticks=[0.06, 0.12, 0.24, 0.48], format="%g")
     bar.ax.yaxis.set_minor_formatter(NullFormatter())
     return figure
 
 
-NUMBERED: dict[str, Callable[[Study], Figure]] = {
+NUMBERED: dict[str, Callable[[SealStudy], Figure]] = {
     "F.5": area,
     "F.6": spots,
     "F.7": heights,

@@ -257,7 +257,7 @@ READINGS: dict[str, Callable[[Array, Array], Array]] = {
 
 
 @dataclass(frozen=True, kw_only=True)
-class Reading:
+class FormulaReading:
     """One reading of F.17 beside the surfaces.
 
     Attributes
@@ -276,12 +276,12 @@ class Reading:
     scales: bool
 
 
-def read_formulas(sample: Sample) -> list[Reading]:
+def read_formulas(sample: Sample) -> list[FormulaReading]:
     """All of ``READINGS``, with the source's constants."""
     return [_read(formula, law, sample) for formula, law in READINGS.items()]
 
 
-def _read(formula: str, law: Callable[[Array, Array], Array], sample: Sample) -> Reading:
+def _read(formula: str, law: Callable[[Array, Array], Array], sample: Sample) -> FormulaReading:
     rows = []
     for one in sample:
         told = law(one.loads / MODULUS, np.full(one.loads.shape, one.numbers.heights["Svm"]))
@@ -293,7 +293,7 @@ def _read(formula: str, law: Callable[[Array, Array], Array], sample: Sample) ->
     twice = law(np.array([0.02]), np.array([2e-6])) / law(np.array([0.01]), np.array([1e-6]))
     cube = np.sign(told) * np.abs(told) ** 3
     leaks, missed = misfit(cube, flow)
-    return Reading(
+    return FormulaReading(
         formula=formula,
         valley=misfit(told, valley)[0],
         leakage=leaks,

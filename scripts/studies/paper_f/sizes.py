@@ -1,19 +1,18 @@
 """The threshold on larger and larger random surfaces of one kind: how far one small surface is from the large one."""
 
-import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.synthetic.distribution import rms_slope
 from roughfilm.contact.synthetic.gaussian import gaussian
-from roughfilm.rom.ladder.provenance import code
 from scripts.studies.paper_f.data import MODULUS, NEAR, Series, sealed_contacts
 from scripts.studies.paper_f.surfaces import SIDE
+from scripts.studies.study import kept
 
 CORRELATION = 4e-6
 """Sal, m."""
@@ -44,25 +43,15 @@ def grow(folder: Path | None, advance: Callable[[str], None], counts: Mapping[in
     area, load = {}, {}
     for nodes, count in counts.items():
         advance(f"{nodes} × {nodes} nodes")
-        path = None if folder is None else folder / f"size_{nodes}.json"
-        key = {"count": count, "correlation": CORRELATION, "near": NEAR, "code": code()}
-        found = None if path is None else _kept(path, key)
-        if found is None:
-            found = np.array([_one(nodes, seed) for seed in range(601, 601 + count)])
-            if path is not None:
-                with replacing(path) as scratch:
-                    scratch.write_text(json.dumps({"key": key, "found": found.tolist()}) + "\n", encoding="utf-8")
+        inputs = {"count": count, "correlation": CORRELATION, "near": NEAR}
+        found = np.array(kept(folder and folder / f"size_{nodes}.json", inputs, partial(_all, nodes, count)))
         lengths = nodes / NODES_PER_SIDE * SIDE / CORRELATION
         area[lengths], load[lengths] = found[:, 0], found[:, 1]
     return Sizes(area=area, load=load)
 
 
-def _kept(path: Path, key: Mapping[str, object]) -> Array | None:
-    try:
-        told = json.loads(path.read_text(encoding="utf-8"))
-        return np.array(told["found"], dtype=float) if told["key"] == key else None
-    except (OSError, ValueError, KeyError, TypeError):
-        return None
+def _all(nodes: int, count: int) -> list[tuple[Array, Array]]:
+    return [_one(nodes, seed) for seed in range(601, 601 + count)]
 
 
 def _one(nodes: int, seed: int) -> tuple[Array, Array]:

@@ -5,25 +5,25 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from scripts.studies.claims import Claim
 from scripts.studies.rough_gaps.data import best
 from scripts.studies.rough_gaps.map import serves
-from scripts.studies.rough_gaps.range_of_validity import Reach
+from scripts.studies.rough_gaps.range_of_validity import SurfaceValidity
 from scripts.studies.rough_gaps.scenes import MILLED
 from scripts.studies.rough_gaps.study import (
     STEEP,
-    Study,
+    RoughGapStudy,
     bounds_hold,
     mesh_meets_exact,
     theory_meets_mesh,
 )
 from scripts.studies.rough_gaps.waves import MARKED, bare_coefficient
+from scripts.studies.study import Claim
 
 FEW = 0.05
 """Parts of the flow: the claim's few per cent."""
 
 
-def judge(study: Study) -> list[Claim]:
+def judge(study: RoughGapStudy) -> list[Claim]:
     """Claim 19, as far as Stokes flow can judge what both of its sides leave out."""
     measured = [one for one in study.reach if one.measured]
     if not measured:
@@ -55,7 +55,7 @@ def _share(part: float) -> str:
     return f"{100 * part:.0f} %" if part >= 1 else f"{100 * part:.2g} %"
 
 
-def words(study: Study) -> dict[str, str]:
+def words(study: RoughGapStudy) -> dict[str, str]:
     """A plain sentence or two for each section."""
     return {
         "waves": _waves(study),
@@ -68,7 +68,7 @@ def words(study: Study) -> dict[str, str]:
     }
 
 
-def _waves(study: Study) -> str:
+def _waves(study: RoughGapStudy) -> str:
     marked = [wave for length in MARKED if (wave := study.wave(0.3, length)) is not None]
     exact = ", ".join(f"{wave.exact['A11']:.4f}" for wave in marked if "A11" in wave.exact)
     told = [
@@ -100,7 +100,7 @@ def _up_to(errors: Mapping[float, float]) -> float:
     return max((slope for slope in errors if slope < bad), default=0.0)
 
 
-def _along(study: Study) -> str:
+def _along(study: RoughGapStudy) -> str:
     wave = study.wave(0.3, 5.0)
     if wave is None or not wave.exact:
         return ""
@@ -111,7 +111,7 @@ def _along(study: Study) -> str:
     )
 
 
-def _surfaces(study: Study, *, study_random: bool) -> str:
+def _surfaces(study: RoughGapStudy, *, study_random: bool) -> str:
     gaps = study.random if study_random else study.milled
     if not gaps:
         return ""
@@ -134,7 +134,7 @@ def _surfaces(study: Study, *, study_random: bool) -> str:
     )
 
 
-def _inertia(study: Study) -> str:
+def _inertia(study: RoughGapStudy) -> str:
     if not study.inertia.laws:
         return ""
     fitted = "; ".join(
@@ -147,7 +147,7 @@ def _inertia(study: Study) -> str:
     )
 
 
-def _crossed(study: Study) -> str:
+def _crossed(study: RoughGapStudy) -> str:
     told = []
     for level in (0.01, 0.05):
         places = [x for _, x in study.inertia.crossings(level).values()]
@@ -156,7 +156,7 @@ def _crossed(study: Study) -> str:
     return f" Gap by gap, {' and '.join(told)}." if told else ""
 
 
-def _reach(reach: Sequence[Reach], factors: Sequence[float]) -> str:
+def _reach(reach: Sequence[SurfaceValidity], factors: Sequence[float]) -> str:
     if not factors:
         return ""
     middle = float(np.median(factors))
@@ -174,11 +174,11 @@ def _reach(reach: Sequence[Reach], factors: Sequence[float]) -> str:
     )
 
 
-def _within(one: Reach, level: float) -> bool:
+def _within(one: SurfaceValidity, level: float) -> bool:
     return max(off.error + off.bar for off in one.found) <= level
 
 
-def _map(study: Study) -> str:
+def _map(study: RoughGapStudy) -> str:
     if not study.map:
         return ""
     told = []
@@ -192,7 +192,7 @@ def _map(study: Study) -> str:
     return f"{text[0].upper()}{text[1:]}. Beyond it takes a mesh, or waves that are long or short enough."
 
 
-def cards(study: Study) -> list[dict[str, str]]:
+def cards(study: RoughGapStudy) -> list[dict[str, str]]:
     """The numbers to take away, for the head of the page."""
     told = []
     wave = study.wave(0.3, 5.0)

@@ -4,15 +4,13 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
 from roughfilm.rom.rough_gap.flow.corrected import SlopeCorrected, slope_corrected
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors
 from roughfilm.rom.rough_gap.flow.waves import nearly_smooth_flow
 from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.rough_gap.walls import Walls
 from roughfilm.rom.studies.convergence import Convergence, converge
-from scripts.studies.rough_gaps.runs import Answers, Asked
+from scripts.studies.rough_gaps.runs import Answers, ModelRun
 from scripts.studies.rough_gaps.scenes import MILLED
 
 NAMES = ("A11", "A22", "B1", "friction")
@@ -41,7 +39,7 @@ class Theory:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Compared:
+class GapComparison:
     """A gap, and its coefficients over those of Reynolds' theory on the same heights.
 
     Attributes
@@ -95,15 +93,15 @@ def theory_of(walls: Walls, found: SlopeCorrected | None = None) -> dict[str, Th
     }
 
 
-def asked_of(scene: RoughGap, grids: Sequence[int]) -> list[Asked]:
+def asked_of(scene: RoughGap, grids: Sequence[int]) -> list[ModelRun]:
     """The runs that :func:`compare` looks for."""
-    return [Asked(scene=scene, model="stokes", resolution=grid) for grid in grids]
+    return [ModelRun(scene=scene, model="stokes", resolution=grid) for grid in grids]
 
 
-def compare(name: str, group: str, scene: RoughGap, grids: Sequence[int], answers: Answers) -> Compared:
+def compare(name: str, group: str, scene: RoughGap, grids: Sequence[int], answers: Answers) -> GapComparison:
     """A gap by theory on its own points, and by its meshes over Reynolds' theory on the nodes of each mesh."""
     walls = scene.walls(max(scene.surface().shape))
-    return Compared(
+    return GapComparison(
         name=name,
         group=group,
         slope=scene.rms_slope,
@@ -133,19 +131,8 @@ def resolved(scene: RoughGap, grids: Sequence[int], answers: Answers) -> dict[st
     }
 
 
-def best(one: Compared, name: str) -> tuple[float, float]:
+def best(one: GapComparison, name: str) -> tuple[float, float]:
     """Stokes over Reynolds and its error bar: resolved where that was run, else corrected."""
     if name in one.resolved:
         return one.resolved[name].value, one.resolved[name].uncertainty
     return one.theory[name].corrected, one.theory[name].bar
-
-
-def plain(value: object) -> object:
-    """Entries that JSON can hold: lists for arrays, null for what is no number."""
-    if isinstance(value, Mapping):
-        return {str(name): plain(one) for name, one in value.items()}
-    if isinstance(value, np.ndarray | np.generic):
-        return plain(value.tolist())
-    if isinstance(value, list | tuple):
-        return [plain(one) for one in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -14,11 +14,12 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.figures.base import new_figure
 from roughfilm.figures.views.rough_gap import STYLES
-from scripts.studies.rough_gaps.data import NAMES, Compared, best
-from scripts.studies.rough_gaps.inertia import LEVELS, RIDGES, Held
+from scripts.studies.rough_gaps.data import NAMES, GapComparison, best
+from scripts.studies.rough_gaps.inertia import LEVELS, RIDGES, InertialLoss
 from scripts.studies.rough_gaps.map import RUNGS
-from scripts.studies.rough_gaps.study import STEEP, Study
+from scripts.studies.rough_gaps.study import STEEP, RoughGapStudy
 from scripts.studies.rough_gaps.waves import MARKED, Wave, bare_coefficient
 
 COLOURS = ("#2166ac", "#e08214", "#762a83", "#1b7837", "#b2182b", "#01665e", "#8c510a", "#c51b7d")
@@ -39,9 +40,9 @@ LINES: dict[str, dict[str, Any]] = {
 }
 
 
-def drawings(study: Study) -> Mapping[str, Callable[[Study], Figure]]:
+def drawings(study: RoughGapStudy) -> Mapping[str, Callable[[RoughGapStudy], Figure]]:
     """Those for which there are numbers, by name."""
-    shown: dict[str, Callable[[Study], Figure]] = {"waves": waves, "others": others}
+    shown: dict[str, Callable[[RoughGapStudy], Figure]] = {"waves": waves, "others": others}
     if study.random:
         shown["random"] = partial(surfaces, measured=False)
     if study.milled:
@@ -55,11 +56,12 @@ def drawings(study: Study) -> Mapping[str, Callable[[Study], Figure]]:
     return shown
 
 
-def waves(study: Study) -> Figure:
+def waves(study: RoughGapStudy) -> Figure:
     """Stokes over Reynolds across the crests, over the length of a wave, and how far the cheap ones are off."""
     amplitudes = sorted({wave.amplitude for wave in study.waves.drawn})
-    figure = Figure(figsize=(11, 6.4), layout="constrained")
-    panels = figure.subplots(2, len(amplitudes), sharex=True, sharey="row", squeeze=False, height_ratios=(1.5, 1))
+    figure, panels = new_figure(
+        (11, 6.4), 2, len(amplitudes), sharex=True, sharey="row", squeeze=False, height_ratios=(1.5, 1)
+    )
     for column, amplitude in enumerate(amplitudes):
         ratio, error = panels[:, column]
         _ratio(ratio, study, amplitude, "A11", bare=True)
@@ -89,7 +91,7 @@ def _of(rows: Sequence[Wave], amplitude: float) -> list[Wave]:
     return sorted((wave for wave in rows if wave.amplitude == amplitude), key=lambda wave: wave.length)
 
 
-def _ratio(axes: Axes, study: Study, amplitude: float, name: str, *, bare: bool = False) -> None:
+def _ratio(axes: Axes, study: RoughGapStudy, amplitude: float, name: str, *, bare: bool = False) -> None:
     drawn = _of(study.waves.drawn, amplitude)
     lengths = [wave.length for wave in drawn]
     exact = [(wave.length, wave.exact[name]) for wave in drawn if name in wave.exact]
@@ -116,7 +118,7 @@ def _mark() -> dict[str, Any]:
     return {"color": STYLES["stokes"].colour, "marker": "o", "markersize": 4.5, "capsize": 3, "linestyle": ""}
 
 
-def _error(axes: Axes, study: Study, amplitude: float) -> None:
+def _error(axes: Axes, study: RoughGapStudy, amplitude: float) -> None:
     drawn = [wave for wave in _of(study.waves.drawn, amplitude) if wave.exact]
     lengths = [wave.length for wave in drawn]
     rows = {
@@ -135,11 +137,10 @@ def _error(axes: Axes, study: Study, amplitude: float) -> None:
             axes.plot(wave.length, max(off_mesh, 1e-3), "o", color=STYLES["stokes"].colour, markersize=4.5)
     for level in (1, 5):
         axes.axhline(level, color="black", linewidth=0.6, linestyle=":")
-    axes.set_yscale("log")
-    axes.set_ylim(1e-3, 100)
+    axes.set(yscale="log", ylim=(1e-3, 100))
 
 
-def others(study: Study) -> Figure:
+def others(study: RoughGapStudy) -> Figure:
     """The other coefficients of the same waves."""
     names = [name for name in NAMES if name != "A11"]
     amplitudes = sorted({wave.amplitude for wave in study.waves.drawn})
@@ -164,11 +165,10 @@ def others(study: Study) -> Figure:
     return figure
 
 
-def surfaces(study: Study, *, measured: bool) -> Figure:
+def surfaces(study: RoughGapStudy, *, measured: bool) -> Figure:
     """Stokes over Reynolds of each gap: mesh and slope correction with their bars, bounds behind them."""
     gaps = study.milled if measured else study.random
-    figure = Figure(figsize=(11, 1.5 + 0.38 * len(gaps)), layout="constrained")
-    panels = figure.subplots(1, 2, sharey=True)
+    figure, panels = new_figure((11, 1.5 + 0.38 * len(gaps)), 1, 2, sharey=True)
     for axes, name in zip(panels, ("A11", "A22"), strict=True):
         for place, one in enumerate(gaps):
             _row(axes, len(gaps) - 1 - place, one, name)
@@ -187,7 +187,7 @@ def surfaces(study: Study, *, measured: bool) -> Figure:
     return figure
 
 
-def _row(axes: Axes, place: float, one: Compared, name: str) -> None:
+def _row(axes: Axes, place: float, one: GapComparison, name: str) -> None:
     theory, colour = one.theory[name], STYLES["slope_corrected"].colour
     axes.barh(place, 1 - theory.bound, left=theory.bound, height=0.62, color=colour, alpha=0.15)
     axes.errorbar(
@@ -199,11 +199,11 @@ def _row(axes: Axes, place: float, one: Compared, name: str) -> None:
         axes.errorbar(value, place + 0.14, xerr=bar, **_mark())
 
 
-def inertia(study: Study) -> Figure:
+def inertia(study: RoughGapStudy) -> Figure:
     """What inertia holds back, over Re and over what the law of its group says."""
     figure = Figure(figsize=(11, 4.8), layout="constrained")
     flows, laws = study.inertia.flows, {law.group: law for law in study.inertia.laws}
-    measures: dict[str, Callable[[Held], float]] = {"Re": lambda one: one.reynolds_number}
+    measures: dict[str, Callable[[InertialLoss], float]] = {"Re": lambda one: one.reynolds_number}
     if laws:
         measures["by the law of its group, %"] = lambda one: (
             100 * laws[one.group].lost(one) if one.group in laws else np.nan
@@ -224,10 +224,7 @@ def inertia(study: Study) -> Figure:
             )  # fmt: skip
         for level in LEVELS:
             axes.axhline(100 * level, color="black", linewidth=0.6, linestyle=":")
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        axes.set_ylim(1e-3, 100)
-        axes.set_xlabel(title)
+        axes.set(xscale="log", yscale="log", ylim=(1e-3, 100), xlabel=title)
     if laws:
         panels[-1].plot((1e-3, 100), (1e-3, 100), color="black", linewidth=1)
         panels[-1].set_xlim(1e-3, 100)
@@ -236,10 +233,9 @@ def inertia(study: Study) -> Figure:
     return figure
 
 
-def reach(study: Study) -> Figure:
+def reach(study: RoughGapStudy) -> Figure:
     """How far Reynolds is off for real surfaces, over their rms slope and over the mean gap."""
-    figure = Figure(figsize=(11, 4.8), layout="constrained")
-    by_slope, by_gap = figure.subplots(1, 2, sharey=True)
+    figure, (by_slope, by_gap) = new_figure((11, 4.8), 1, 2, sharey=True)
     order = sorted(study.reach, key=lambda one: one.slope)
     colours = mpl.colormaps["turbo"](np.linspace(0.05, 0.95, len(order)))
     for colour, one in zip(colours, order, strict=True):
@@ -261,11 +257,8 @@ def reach(study: Study) -> Figure:
     for axes in (by_slope, by_gap):
         for level in (1, 5):
             axes.axhline(level, color="black", linewidth=0.7, linestyle=":")
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        axes.set_ylim(3e-6, 3000)
-    by_slope.set_xlabel("rms slope g′")
-    by_slope.set_ylabel("Reynolds lets through too much, % of Stokes flow")
+        axes.set(xscale="log", yscale="log", ylim=(3e-6, 3000))
+    by_slope.set(xlabel="rms slope g′", ylabel="Reynolds lets through too much, % of Stokes flow")
     by_gap.set_xlabel("mean gap over rms height, h̄/Sq")
     by_gap.set_xticks([2, 3, 5, 10, 20, 30], ["2", "3", "5", "10", "20", "30"])
     by_gap.xaxis.minorticks_off()
@@ -273,10 +266,9 @@ def reach(study: Study) -> Figure:
     return figure
 
 
-def pixels(study: Study) -> Figure:
+def pixels(study: RoughGapStudy) -> Figure:
     """The rms slope, and with it the error, over the pixel on which a surface is looked at."""
-    figure = Figure(figsize=(11, 3.8), layout="constrained")
-    left, right = figure.subplots(1, 2)
+    figure, (left, right) = new_figure((11, 3.8), 1, 2)
     order = sorted(study.reach, key=lambda one: one.slope)
     colours = mpl.colormaps["turbo"](np.linspace(0.05, 0.95, len(order)))
     for colour, one in zip(colours, order, strict=True):
@@ -287,18 +279,15 @@ def pixels(study: Study) -> Figure:
         errors = [100 * coarse.error for coarse in one.coarser]
         right.plot(slopes, errors, marker + "-", color=colour, markersize=4, linewidth=1, label=one.name)
     for axes in (left, right):
-        axes.set_xscale("log")
-        axes.set_yscale("log")
+        axes.set(xscale="log", yscale="log")
     for level in (1, 5):
         right.axhline(level, color="black", linewidth=0.7, linestyle=":")
-    left.set_xlabel("pixel, µm")
-    left.set_ylabel("rms slope g′")
-    right.set_xlabel("rms slope g′ on that pixel")
-    right.set_ylabel("off at twice the highest point, %")
+    left.set(xlabel="pixel, µm", ylabel="rms slope g′")
+    right.set(xlabel="rms slope g′ on that pixel", ylabel="off at twice the highest point, %")
     return figure
 
 
-def map_of_rungs(study: Study) -> Figure:
+def map_of_rungs(study: RoughGapStudy) -> Figure:
     """The cheapest rung that is good enough, over slope and wavelength."""
     figure = Figure(figsize=(11, 4.4), layout="constrained")
     slopes, lengths = (sorted({getattr(one, name) for one in study.map}) for name in ("slope", "length"))
@@ -313,8 +302,7 @@ def map_of_rungs(study: Study) -> Figure:
         )  # fmt: skip
         axes.grid(visible=False)
         axes.set_facecolor("#f0f2f5")
-        axes.set_xscale("log")
-        axes.set_yscale("log")
+        axes.set(xscale="log", yscale="log")
         axes.set_xticks([2, 5, 10, 20, 50], ["2", "5", "10", "20", "50"])
         axes.xaxis.minorticks_off()
         axes.set_title(f"within {100 * level:.0f} %", fontsize=10)

@@ -10,7 +10,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.studies.convergence import converge
 from scripts.studies.rough_gaps.data import ORDER
-from scripts.studies.rough_gaps.runs import Answers, Asked
+from scripts.studies.rough_gaps.runs import Answers, ModelRun
 from scripts.studies.rough_gaps.scenes import CREEPING, over_random, over_waves
 
 REYNOLDS = (3.0, 10.0, 30.0, 100.0, 300.0)
@@ -46,7 +46,7 @@ LEVELS = (0.01, 0.05)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Held:
+class InertialLoss:
     """One flow along x.
 
     Attributes
@@ -70,7 +70,7 @@ class Held:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Law:
+class InertiaLaw:
     """What inertia holds back, 1 - NS/Stokes = c (Re* g')² / (1 + b Re* h̄/λ), fitted to gaps of one group.
 
     A square at first, as nothing odd in Re can be, then near linear in Re.
@@ -90,7 +90,7 @@ class Law:
     worst: float
     count: int
 
-    def lost(self, one: Held) -> float:
+    def lost(self, one: InertialLoss) -> float:
         """Part of the flow that is held back."""
         square = (one.flow_reynolds_number * one.slope) ** 2
         return self.coefficient * square / (1 + self.saturation * one.flow_reynolds_number / one.wavelength)
@@ -100,8 +100,8 @@ class Law:
 class Inertia:
     """All flows, and the law of each group of gaps."""
 
-    flows: tuple[Held, ...]
-    laws: tuple[Law, ...]
+    flows: tuple[InertialLoss, ...]
+    laws: tuple[InertiaLaw, ...]
 
     def earliest(self, part: float) -> float | None:
         """The least Re* g' at which a gap loses so much; None where none does."""
@@ -127,7 +127,7 @@ class _Flow:
     group: str
     name: str
     scene: RoughGap
-    asked: tuple[tuple[Asked, Asked], ...]
+    asked: tuple[tuple[ModelRun, ModelRun], ...]
 
 
 def _flow(
@@ -140,8 +140,8 @@ def _flow(
         scene=scene,
         asked=tuple(
             (
-                Asked(scene=creeping, model="stokes", resolution=grid),
-                Asked(scene=scene, model="navier_stokes", resolution=grid),
+                ModelRun(scene=creeping, model="stokes", resolution=grid),
+                ModelRun(scene=scene, model="navier_stokes", resolution=grid),
             )
             for grid in grids
         ),
@@ -174,7 +174,7 @@ def _flows(shapes: Sequence[tuple[float, float]], reynolds: Sequence[float], ran
 
 def asked(
     shapes: Sequence[tuple[float, float]] = WAVES, reynolds: Sequence[float] = REYNOLDS, random: Random = RANDOM
-) -> list[Asked]:
+) -> list[ModelRun]:
     """The runs of OpenFOAM that :func:`inertia` looks for."""
     return [one for flow in _flows(shapes, reynolds, random) for pair in flow.asked for one in pair]
 
@@ -195,12 +195,12 @@ def inertia(
     return Inertia(flows=tuple(found), laws=tuple(law for law in laws if law))
 
 
-def _held(flow: _Flow, answers: Answers) -> Held:
+def _held(flow: _Flow, answers: Answers) -> InertialLoss:
     passed = [[answers[one.key].quantities["A11"].value for one in pair] for pair in flow.asked]
     lost = [1 - inert / creeping for creeping, inert in passed]
     grids = [stokes.resolution for stokes, _ in flow.asked]
     found = converge(grids, lost, formal_order=ORDER, noise=NOISE)
-    return Held(
+    return InertialLoss(
         name=flow.name,
         group=flow.group,
         slope=flow.scene.rms_slope,
@@ -214,7 +214,7 @@ def _held(flow: _Flow, answers: Answers) -> Held:
     )
 
 
-def _fit(group: str, found: Sequence[Held]) -> Law | None:
+def _fit(group: str, found: Sequence[InertialLoss]) -> InertiaLaw | None:
     own = [one for one in found if one.group == group and 0 < one.lost < LARGEST and one.bar < KNOWN * one.lost]
     if len(own) < FEWEST:
         return None
@@ -226,7 +226,7 @@ def _fit(group: str, found: Sequence[Held]) -> Law | None:
         return np.asarray(law[0] + squares - np.log1p(law[1] * ratios) - lost)
 
     best = least_squares(missed, [-7.0, 0.1], bounds=([-np.inf, 0.0], np.inf), xtol=1e-12, ftol=1e-12)
-    return Law(
+    return InertiaLaw(
         group=group,
         coefficient=float(np.exp(best.x[0])),
         saturation=float(best.x[1]),

@@ -25,7 +25,7 @@ SURE = 1e-3
 
 
 @dataclass(frozen=True, kw_only=True)
-class Errors:
+class ModelErrors:
     """Of the cheaper rungs, in the flow across or along a wave, the worse; infinite where the exact is not known."""
 
     slope: float
@@ -42,12 +42,14 @@ class Errors:
         return RUNGS[-1]
 
 
-def errors(folder: Path, slopes: Sequence[float] = SLOPES, lengths: Sequence[float] = LENGTHS) -> tuple[Errors, ...]:
+def errors(
+    folder: Path, slopes: Sequence[float] = SLOPES, lengths: Sequence[float] = LENGTHS
+) -> tuple[ModelErrors, ...]:
     """All that fit into the gap."""
     return tuple(one for length in lengths for slope in slopes if (one := _errors(slope, length, folder)) is not None)
 
 
-def _errors(slope: float, length: float, folder: Path) -> Errors | None:
+def _errors(slope: float, length: float, folder: Path) -> ModelErrors | None:
     amplitude = float(slope * np.sqrt(2) * length / (2 * np.pi))
     if amplitude > HIGHEST:
         return None
@@ -66,10 +68,10 @@ def _errors(slope: float, length: float, folder: Path) -> Errors | None:
     ]
     if sure:
         worst[2] = max(theory[name].bar for name in names)
-    return Errors(slope=slope, length=length, smooth_gap=worst[0], homogenized=worst[1], slope_corrected=worst[2])
+    return ModelErrors(slope=slope, length=length, smooth_gap=worst[0], homogenized=worst[1], slope_corrected=worst[2])
 
 
-def serves(found: Sequence[Errors], name: str, level: float) -> float:
+def serves(found: Sequence[ModelErrors], name: str, level: float) -> float:
     """The largest slope up to which a rung is within ``level`` for waves of every length; 0 if for none."""
     bad = min((one.slope for one in found if getattr(one, name) > level), default=np.inf)
     return max((one.slope for one in found if one.slope < bad), default=0.0)

@@ -1,7 +1,8 @@
 """For which real surfaces Reynolds' theory is near Stokes flow: by slope correction and bounds, at many mean gaps."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -19,8 +20,8 @@ from roughfilm.rom.homogenization.richardson import off as grid_doubt
 from roughfilm.rom.parts.restriction import restricted
 from roughfilm.rom.rough_gap.flow.corrected import SlopeCorrected, slope_corrected
 from roughfilm.rom.rough_gap.walls import Walls
-from scripts.studies.rough_gaps.runs import kept
 from scripts.studies.rough_gaps.scenes import peak_over_rms, window_of
+from scripts.studies.study import kept
 
 MADE = Path(__file__).parents[2] / "examples" / "surfaces"
 NOT_SURFACES = ("recipe",)
@@ -49,7 +50,7 @@ LEVELS = (0.01, 0.05)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Off:
+class ReynoldsError:
     """What Reynolds' theory lets too much through at one mean gap, in the worse direction, over Stokes flow.
 
     Attributes
@@ -70,7 +71,7 @@ class Off:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Coarse:
+class CoarserGrid:
     """A surface on a coarser grid: pixel, m, rms slope, and the error at ``AT`` times the highest point."""
 
     pixel: float
@@ -79,7 +80,7 @@ class Coarse:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Reach:
+class SurfaceValidity:
     """One surface over its mean gaps; ``measured`` or made. ``shape`` is that of its nodes, ``spacing`` in m."""
 
     name: str
@@ -90,8 +91,8 @@ class Reach:
     slope: float
     peak: float
     mismatch: float
-    found: tuple[Off, ...]
-    coarser: tuple[Coarse, ...]
+    found: tuple[ReynoldsError, ...]
+    coarser: tuple[CoarserGrid, ...]
 
     def within(self, level: float) -> float | None:
         """h̄/Sq from which on Reynolds is surely within so much at every larger gap looked at; None if nowhere."""
@@ -144,7 +145,7 @@ def reach(
     thicknesses: Sequence[float] = THICKNESSES,
     coarser: Sequence[int] = COARSER,
     advance: Callable[[str], None] = lambda _words: None,
-) -> tuple[Reach, ...]:
+) -> tuple[SurfaceValidity, ...]:
     """Each surface over its mean gaps and pixels; kept in the folder."""
     found = []
     for name, surface in surfaces.items():
@@ -152,26 +153,26 @@ def reach(
         settings = {"thicknesses": [*thicknesses], "coarser": [*coarser], "just_above": JUST_ABOVE}
         digest = Inputs(heights=surface.heights, spacing=surface.spacing, settings=settings).digest
 
-        def make_it(name: str = name, surface: Surface = surface) -> dict[str, Any]:
-            return asdict(_reach(name, surface, measured, thicknesses, coarser))
-
+        make_it = partial(_reach, name, surface, measured, thicknesses, coarser)
         entries = kept(folder / f"reach-{name.replace(' ', '_')}.json", {"digest": digest}, make_it)
         found.append(_whole(entries))
     return tuple(found)
 
 
-def _whole(entries: dict[str, Any]) -> Reach:
-    lists = {"found": tuple(Off(**one) for one in entries["found"])}
-    pixels = {"coarser": tuple(Coarse(**one) for one in entries["coarser"])}
+def _whole(entries: dict[str, Any]) -> SurfaceValidity:
+    lists = {"found": tuple(ReynoldsError(**one) for one in entries["found"])}
+    pixels = {"coarser": tuple(CoarserGrid(**one) for one in entries["coarser"])}
     pairs = {name: tuple(entries[name]) for name in ("shape", "spacing")}
-    return Reach(**{**entries, **lists, **pixels, **pairs})
+    return SurfaceValidity(**{**entries, **lists, **pixels, **pairs})
 
 
-def _reach(name: str, surface: Surface, measured: bool, thicknesses: Sequence[float], coarser: Sequence[int]) -> Reach:
+def _reach(
+    name: str, surface: Surface, measured: bool, thicknesses: Sequence[float], coarser: Sequence[int]
+) -> SurfaceValidity:
     peak, rms = peak_over_rms(surface), float(surface.heights.std())
     nearest = JUST_ABOVE * peak
     mismatch = periodicity_mismatch(surface)
-    return Reach(
+    return SurfaceValidity(
         name=name,
         measured=measured,
         shape=surface.shape,
@@ -185,9 +186,9 @@ def _reach(name: str, surface: Surface, measured: bool, thicknesses: Sequence[fl
     )
 
 
-def _coarse(surface: Surface, part: int, mean_gap: float) -> Coarse:
+def _coarse(surface: Surface, part: int, mean_gap: float) -> CoarserGrid:
     less = coarse(surface, max(surface.shape) // part)
-    return Coarse(
+    return CoarserGrid(
         pixel=float(np.sqrt(np.prod(less.spacing))),
         slope=slope_of(less),
         error=off(less, mean_gap / float(less.heights.std())).error,
@@ -199,7 +200,7 @@ def slope_of(surface: Surface) -> float:
     return wave_power(surface.heights, surface.spacing).moments.rms_slope
 
 
-def off(surface: Surface, thickness: float) -> Off:
+def off(surface: Surface, thickness: float) -> ReynoldsError:
     """How far Reynolds' theory is off at a mean gap of so many rms heights, under a flat wall.
 
     The error bar is of the ratio alone: what slope correction leaves out, and what the ratio changes by on every second
@@ -218,7 +219,7 @@ def off(surface: Surface, thickness: float) -> Off:
     worse = int(np.argmax(found.excess))
     error, bound = found.excess[worse], found.greatest_excess[worse]
     left_out = found.left_out[worse]
-    return Off(
+    return ReynoldsError(
         thickness=thickness,
         wavelength=2 * np.pi * rms / slope_of(surface) / gap,
         error=float(error),

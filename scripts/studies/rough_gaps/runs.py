@@ -8,7 +8,6 @@ from concurrent.futures import Executor
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from rich.markup import escape
 
@@ -16,9 +15,7 @@ from roughfilm.batch.directory import alone
 from roughfilm.batch.execute import Solved, run
 from roughfilm.batch.executors import local
 from roughfilm.batch.jobs import Failure, Job, store, stored
-from roughfilm.contact.foundation.files import replacing
 from roughfilm.ladder import find
-from roughfilm.rom.ladder.provenance import code, versions
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import scene_entries
 from roughfilm.rom.ladder.setting import Setting
@@ -30,7 +27,7 @@ FOUND = "found"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Asked:
+class ModelRun:
     """A gap, a rung, and nodes along the longer side."""
 
     scene: RoughGap
@@ -45,12 +42,12 @@ class Asked:
 
 
 Answers = Mapping[str, Result]
-"""Results without their fields by :attr:`Asked.key`; what failed is not there."""
+"""Results without their fields by :attr:`ModelRun.key`; what failed is not there."""
 
 Place = Callable[[int, Path], AbstractContextManager[Executor]]
 
 
-def answers(asked: Sequence[Asked], folder: Path, place: Place = local) -> tuple[Answers, dict[str, str]]:
+def answers(asked: Sequence[ModelRun], folder: Path, place: Place = local) -> tuple[Answers, dict[str, str]]:
     """What is stored, and what is not yet, solved; and of each failure why, likewise by key.
 
     A rung that is not on this machine fails in all that is asked of it.
@@ -106,18 +103,3 @@ def _solve(
     except (KeyboardInterrupt, SystemExit) as stop:
         stop.add_note("stopped; the same command goes on")
         raise
-
-
-def kept(path: Path, inputs: Mapping[str, Any], make: Callable[[], Any]) -> Any:
-    """What ``make`` gives, entries that JSON can hold, read from the file if that was made from the same inputs."""
-    identity = json.loads(json.dumps({"inputs": inputs, "code": code(), "versions": versions()}))
-    try:
-        told = json.loads(path.read_text(encoding="utf-8"))
-        if told["identity"] == identity:
-            return told["found"]
-    except (OSError, ValueError, LookupError, TypeError):
-        pass  # is made again and replaced
-    found = make()
-    with replacing(path) as scratch:
-        scratch.write_text(json.dumps({"identity": identity, "found": found}) + "\n", encoding="utf-8")
-    return json.loads(path.read_text(encoding="utf-8"))["found"]

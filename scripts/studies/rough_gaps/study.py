@@ -5,10 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from scripts.studies.rough_gaps.data import Compared
+from scripts.studies.rough_gaps.data import GapComparison
 from scripts.studies.rough_gaps.inertia import Inertia
-from scripts.studies.rough_gaps.map import Errors
-from scripts.studies.rough_gaps.range_of_validity import Reach
+from scripts.studies.rough_gaps.map import ModelErrors
+from scripts.studies.rough_gaps.range_of_validity import SurfaceValidity
 from scripts.studies.rough_gaps.waves import Wave, Waves
 
 STEEP = 0.35
@@ -16,7 +16,7 @@ STEEP = 0.35
 
 
 @dataclass(frozen=True, kw_only=True)
-class Meeting:
+class Agreement:
     """How a cheap answer meets a dear one, over some coefficients of some gaps.
 
     Attributes
@@ -31,7 +31,7 @@ class Meeting:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Study:
+class RoughGapStudy:
     """All that is told.
 
     Attributes
@@ -43,21 +43,21 @@ class Study:
     """
 
     waves: Waves
-    surfaces: tuple[Compared, ...]
+    surfaces: tuple[GapComparison, ...]
     inertia: Inertia
-    reach: tuple[Reach, ...]
-    map: tuple[Errors, ...]
+    reach: tuple[SurfaceValidity, ...]
+    map: tuple[ModelErrors, ...]
     runs: int
     cpu_s: float
     failed: Mapping[str, str]
 
     @property
-    def random(self) -> list[Compared]:
+    def random(self) -> list[GapComparison]:
         """Made random surfaces."""
         return [one for one in self.surfaces if not one.measured]
 
     @property
-    def milled(self) -> list[Compared]:
+    def milled(self) -> list[GapComparison]:
         """The measured window over its mean gaps."""
         return [one for one in self.surfaces if one.measured]
 
@@ -72,7 +72,7 @@ class Study:
         return [off.error / one.slope**2 for one in self.reach if one.slope < STEEP for off in one.found]
 
 
-def mesh_meets_exact(waves: Sequence[Wave]) -> Meeting:
+def mesh_meets_exact(waves: Sequence[Wave]) -> Agreement:
     """OpenFOAM beside exact flow."""
     pairs = [
         (found.value, exact, found.uncertainty)
@@ -80,10 +80,10 @@ def mesh_meets_exact(waves: Sequence[Wave]) -> Meeting:
         for name, exact in wave.exact.items()
         if (found := wave.found.resolved.get(name)) is not None
     ]
-    return _meeting(pairs)
+    return _agreement(pairs)
 
 
-def theory_meets_mesh(gaps: Sequence[Compared], names: Sequence[str] = ("A11", "A22")) -> Meeting:
+def theory_meets_mesh(gaps: Sequence[GapComparison], names: Sequence[str] = ("A11", "A22")) -> Agreement:
     """Slope correction beside OpenFOAM."""
     pairs = [
         (one.theory[name].corrected, found.value, one.theory[name].bar + found.uncertainty)
@@ -91,10 +91,10 @@ def theory_meets_mesh(gaps: Sequence[Compared], names: Sequence[str] = ("A11", "
         for name in names
         if (found := one.resolved.get(name)) is not None
     ]
-    return _meeting(pairs)
+    return _agreement(pairs)
 
 
-def bounds_hold(gaps: Sequence[Compared], names: Sequence[str] = ("A11", "A22")) -> Meeting:
+def bounds_hold(gaps: Sequence[GapComparison], names: Sequence[str] = ("A11", "A22")) -> Agreement:
     """How many resolved factors lie between both bounds, but for their error bars; ``worst``: how far one is beyond."""
     past, count, within = 0.0, 0, 0
     for one in gaps:
@@ -103,10 +103,10 @@ def bounds_hold(gaps: Sequence[Compared], names: Sequence[str] = ("A11", "A22"))
                 continue
             outside = max(one.theory[name].bound - found.value, found.value - 1.0)
             count, within, past = count + 1, within + (outside <= found.uncertainty), max(past, outside)
-    return Meeting(worst=past, within=within, count=count)
+    return Agreement(worst=past, within=within, count=count)
 
 
-def _meeting(pairs: Sequence[tuple[float, float, float]]) -> Meeting:
+def _agreement(pairs: Sequence[tuple[float, float, float]]) -> Agreement:
     differences = [abs(one / other - 1) for one, other, _ in pairs]
     within = sum(abs(one - other) <= bar for one, other, bar in pairs)
-    return Meeting(worst=float(np.max(differences, initial=0.0)), within=within, count=len(pairs))
+    return Agreement(worst=float(np.max(differences, initial=0.0)), within=within, count=len(pairs))

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from roughfilm.rom.rough_gap.scene import RoughGap
-from scripts.studies.rough_gaps.data import Compared, asked_of, compare
-from scripts.studies.rough_gaps.runs import Answers, Asked
+from scripts.studies.rough_gaps.data import GapComparison, asked_of, compare
+from scripts.studies.rough_gaps.runs import Answers, ModelRun
 from scripts.studies.rough_gaps.scenes import MILLED, gap, over_random, peak_over_rms
 
 GRIDS = (24, 32, 48)
@@ -27,7 +27,7 @@ LAYERS = 8
 
 
 @dataclass(frozen=True, kw_only=True)
-class Case:
+class ResolvedGap:
     """A gap that is resolved in three dimensions."""
 
     name: str
@@ -41,17 +41,17 @@ def cases(
     roughnesses: Sequence[float] = ROUGHNESSES,
     wavelengths: Sequence[float] = WAVELENGTHS,
     above: Sequence[float] = ABOVE_PEAK,
-) -> list[Case]:
+) -> list[ResolvedGap]:
     """Random gaps, one with a lay, and those over the milled window if it is there."""
     found = [
-        Case(
+        ResolvedGap(
             name=f"Sq/h̄ {roughness:g}, λ/h̄ {wavelength:g}", group="isotropic", scene=over_random(roughness, wavelength)
         )
         for roughness in roughnesses
         for wavelength in wavelengths
     ]
     found += [
-        Case(
+        ResolvedGap(
             name=f"Sq/h̄ {roughness:g}, λ/h̄ {wavelength:g}, ridges along x",
             group="with a lay",
             scene=over_random(roughness, wavelength, lay=True),
@@ -62,7 +62,7 @@ def cases(
         surface = gap({"surface": str(window)}, mean_gap=1e-3).surface()
         peak = peak_over_rms(surface) * float(surface.heights.std())
         found += [
-            Case(
+            ResolvedGap(
                 name=f"h̄ = {part:g} times the highest point",
                 group=MILLED,
                 scene=gap({"surface": str(window)}, mean_gap=part * peak, layers=LAYERS),
@@ -73,11 +73,11 @@ def cases(
     return found
 
 
-def asked(all_cases: Sequence[Case]) -> list[Asked]:
+def asked(all_cases: Sequence[ResolvedGap]) -> list[ModelRun]:
     """The runs of OpenFOAM that :func:`surfaces` looks for."""
     return [one for case in all_cases for one in asked_of(case.scene, case.grids)]
 
 
-def surfaces(all_cases: Sequence[Case], answers: Answers) -> tuple[Compared, ...]:
+def surfaces(all_cases: Sequence[ResolvedGap], answers: Answers) -> tuple[GapComparison, ...]:
     """All of them, compared."""
     return tuple(compare(case.name, case.group, case.scene, case.grids, answers) for case in all_cases)

@@ -8,9 +8,10 @@ import numpy as np
 
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.rom.rough_gap.flow.exact import sinusoidal_ridge_flow
-from scripts.studies.rough_gaps.data import Compared, asked_of, compare
-from scripts.studies.rough_gaps.runs import Answers, Asked, kept
+from scripts.studies.rough_gaps.data import GapComparison, asked_of, compare
+from scripts.studies.rough_gaps.runs import Answers, ModelRun
 from scripts.studies.rough_gaps.scenes import over_waves
+from scripts.studies.study import kept
 
 AMPLITUDES = (0.1, 0.3, 0.5)
 MARKED = (20.0, 5.0, 2.5)
@@ -34,7 +35,7 @@ class Wave:
     amplitude: float
     length: float
     exact: dict[str, float]
-    found: Compared
+    found: GapComparison
 
     @property
     def slope(self) -> float:
@@ -91,7 +92,7 @@ def thin_ratios(amplitude: float) -> dict[str, float]:
     return {"A11": 1 / m3, "A22": 1 + 1.5 * amplitude**2, "B1": m2 / m3, "friction": 4 * m1 - 3 * m2**2 / m3}
 
 
-def asked(amplitudes: Sequence[float] = AMPLITUDES, lengths: Sequence[float] = LENGTHS) -> list[Asked]:
+def asked(amplitudes: Sequence[float] = AMPLITUDES, lengths: Sequence[float] = LENGTHS) -> list[ModelRun]:
     """The runs of OpenFOAM that :func:`waves` looks for."""
     return [one for a in amplitudes for length in lengths for one in asked_of(over_waves(a, length), GRIDS)]
 

@@ -1,4 +1,4 @@
-"""Rough films with every wave followed, beside the same with all of them averaged, over the length of the waves."""
+"""Rough films with every wave resolved and with all waves averaged, for waves of many lengths."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -20,16 +20,16 @@ from roughfilm.rom.ladder.scene import load_scene, read_scene, scene_entries
 SCENES = Path(__file__).parents[2] / "examples" / "scenes"
 SURFACE = "ground_striated.x3p"
 ROUGHNESS = 0.1
-"""Rms height of the measured surface over the least film, to which its heights are scaled."""
+"""Rms height of the scaled measured surface over the smallest film thickness."""
 
 MODULUS = "1 GPa"
-"""The source prints 10⁹ GPa; with 1 GPa pressures are those of its figure, with 10 GPa a fifth higher."""
+"""The source prints 10⁹ GPa; with 1 GPa the pressures are those of its figure, with 10 GPa they are a fifth higher."""
 
 NEVER = "-0.2 GPa"
-"""A pressure of cavitation that no film here comes to; a constant bulk modulus knows no zero of pressure."""
+"""A pressure of cavitation below every pressure here; a constant bulk modulus has no zero of pressure."""
 
 NARROW_INLET = 270.0
-"""The phase that puts the narrowest place of a wave at the inlet, degrees."""
+"""Phase of the waves, degrees, at which the gap is narrowest at the inlet."""
 
 RATIOS = tuple(2.0**-k for k in range(9))
 IN_PLANE = tuple(2.0**-k for k in range(1, 6))
@@ -37,17 +37,17 @@ OF_SURFACE = tuple(2.0**-k for k in range(4))
 """Lengths of the waves, or of the measured cell, over the bearing."""
 
 PHASES = (0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0)
-"""Of the waves, degrees: what stands at the inlet is not known of a real surface."""
+"""Phases of the waves, degrees; that of a real surface at the inlet is unknown."""
 
 DRAWN = RATIOS[4:]
-"""Of Fig. C.3."""
+"""Ratios of Fig. C.3."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Pair:
-    """Errors of the averaged film against the followed one, each a part of the followed one's.
+    """Relative errors of the averaged film against the resolved one.
 
-    ``pressure`` is the largest difference over the largest pressure; None in the plane, where waves cross lines.
+    ``pressure`` is the largest difference over the largest pressure; None for films in the plane.
     """
 
     ratio: float
@@ -61,8 +61,8 @@ class Pair:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Study:
-    """One kind of roughness over its lengths."""
+class WaveErrors:
+    """Errors of averaging one kind of roughness, for waves of many lengths and phases."""
 
     title: str
     pairs: tuple[Pair, ...]
@@ -81,39 +81,39 @@ class Study:
         return np.array([abs(np.mean([getattr(p, name) for p in self.pairs if p.ratio == r])) for r in self.ratios])
 
     def rate(self, name: str, shortest: int = 4) -> float:
-        """The power of ε by which the largest error falls over the shortest waves."""
+        """Return the power of ε with which the largest error falls for the shortest waves."""
         worst = self.worst(name)[-shortest:]
         return float(np.polyfit(np.log(self.ratios[-shortest:]), np.log(worst), 1)[0])
 
     @property
     def cost(self) -> float:
-        """CPU time of following the shortest waves over that of averaging them."""
+        """CPU time of resolving the shortest waves divided by that of averaging them."""
         last = [pair for pair in self.pairs if pair.ratio == self.ratios[-1]]
         return float(np.median([pair.cpu_direct / pair.cpu_homogenized for pair in last]))
 
 
 def solve(scene: Any, name: str) -> Result:
-    """A bearing by a rung; a surface, whose pixels say what there is, on the coarsest grid that follows it."""
-    rung = find("bearing", name)
+    """Solve a bearing; ``direct`` takes a measured surface on the coarsest grid that has its pixels."""
+    model = find("bearing", name)
     coarse = name == "direct" and scene.roughness.kind == "surface"
-    return rung.solve(scene, Request(resolution=rung.resolutions_of(scene)[0] if coarse else None))
+    return model.solve(scene, Request(resolution=model.resolutions_of(scene)[0] if coarse else None))
 
 
 def slider(ratio: float, phase: float, cavitation: str = NEVER) -> Any:
-    """The film of Fig. C.3; the source's bears any tension."""
+    """Return the film of Fig. C.3; in the source it sustains any tension."""
     waves = [f"roughness.wavelength={0.1 * ratio!r} m", f"roughness.phase={phase!r} deg"]
     oil = [f"lubricant.compressibility.bulk_modulus={MODULUS}", f"lubricant.cavitation_pressure={cavitation}"]
     return load_scene(SCENES / "rough_slider.toml", [*oil, *waves])
 
 
 def pad(ratio: float, phase: float) -> Any:
-    """A converging pad with sides, its ridges at 45 degrees."""
+    """Return a converging pad of finite width with ridges at 45 degrees."""
     changes = ["geometry.shape=linear", f"roughness.wavelength={20e-3 * ratio!r} m", f"roughness.phase={phase!r} deg"]
     return load_scene(SCENES / "rough_pad.toml", changes)
 
 
 def over(surface: Path, ratio: float, phase: float) -> Any:
-    """The converging pad under a measured surface, whose cell is ``ratio`` of it; a phase means nothing here."""
+    """Return the converging pad with a measured surface whose cell is ``ratio`` of its length; the phase must be 0."""
     assert phase == 0
     read = read_surface(surface)
     entries = scene_entries(pad(1.0, 0.0))
@@ -124,50 +124,52 @@ def over(surface: Path, ratio: float, phase: float) -> Any:
     return read_scene({**entries, "roughness": rough})
 
 
-def pairs(make: Callable[[float, float], Any], title: str, ratios: Sequence[float], phases: Sequence[float]) -> Study:
+def pairs(
+    make: Callable[[float, float], Any], title: str, ratios: Sequence[float], phases: Sequence[float]
+) -> WaveErrors:
     """Both rungs over the lengths of the waves and their phases."""
     found = []
     averaged = solve(make(ratios[-1], 0.0), "homogenized")
     for ratio in ratios:
         for phase in phases:
-            followed = solve(make(ratio, phase), "direct")
-            found.append(_pair(ratio, phase, averaged, followed))
-    return Study(title=title, pairs=tuple(found))
+            resolved = solve(make(ratio, phase), "direct")
+            found.append(_pair(ratio, phase, averaged, resolved))
+    return WaveErrors(title=title, pairs=tuple(found))
 
 
-def _pair(ratio: float, phase: float, averaged: Result, followed: Result) -> Pair:
+def _pair(ratio: float, phase: float, averaged: Result, resolved: Result) -> Pair:
     def error(name: str) -> float:
-        return averaged.quantities[name].value / followed.quantities[name].value - 1
+        return averaged.quantities[name].value / resolved.quantities[name].value - 1
 
-    load = followed["load_per_width"]
+    load = resolved["load_per_width"]
     assert load.uncertainty is not None
     return Pair(
         ratio=ratio,
         phase=phase,
-        pressure=pressure_error(averaged, followed),
+        pressure=pressure_error(averaged, resolved),
         load=error("load_per_width"),
         friction=error("friction_per_width"),
-        cpu_direct=followed.numerics.cpu_s,
+        cpu_direct=resolved.numerics.cpu_s,
         cpu_homogenized=averaged.numerics.cpu_s,
-        uncertainty=load.uncertainty / load.value,
+        uncertainty=resolved.provenance["uncertainty"]["load_per_width"] / resolved.quantities["load_per_width"].value,
     )
 
 
-def pressure_error(averaged: Result, followed: Result) -> float | None:
-    """The largest difference on a line over the largest pressure; None in the plane."""
-    (x, p), (there, waves) = (line(result) for result in (averaged, followed))
-    if followed.fields["pressure"].values.shape[1] > 1:
+def pressure_error(averaged: Result, resolved: Result) -> float | None:
+    """Return the largest difference on a line over the largest pressure; None for films in the plane."""
+    (x, p), (there, waves) = (line(result) for result in (averaged, resolved))
+    if resolved.fields["pressure"].values.shape[1] > 1:
         return None
     return float(np.abs(np.interp(there, x, p) - waves).max() / waves.max())
 
 
 def line(found: Result) -> tuple[Array, Array]:
-    """Position, m, and pressure, Pa, on the first line along the sliding."""
+    """Return position, m, and pressure, Pa, on the first line along the sliding."""
     return found.fields["x"].values[:, 0], found.fields["pressure"].values[:, 0]
 
 
 def measured(surfaces: Path | None, directory: Path, name: str = SURFACE, points: int = 64) -> Path | None:
-    """A measured surface as a periodic cell of so many points a side, in a file; None where it is absent."""
+    """Write a measured surface as a periodic cell and return its file; None where the surface is absent."""
     source = surfaces and surfaces / name
     if source is None or not source.is_file():
         return None

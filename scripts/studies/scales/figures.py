@@ -1,4 +1,4 @@
-"""The figures of averaged against followed roughness, as SVG text."""
+"""Figures of averaged and of resolved roughness."""
 
 from collections.abc import Mapping, Sequence
 
@@ -6,21 +6,20 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
-from roughfilm.figures.base import svg
+from roughfilm.figures.base import new_figure
 from roughfilm.rom.ladder.result import Result
-from scripts.studies.scales.data import Study, line
+from scripts.studies.scales.data import WaveErrors, line
 
 ZOOM = (0.065, 0.075)
-"""The part of Fig. C.3 that the source magnifies, m."""
+"""The magnified section of Fig. C.3, m."""
 
 
-def curves(averaged: Result, followed: Mapping[float, Result]) -> str:
-    """Fig. C.3: pressure along the film by every length of the waves, and a part of it magnified."""
-    figure = Figure(figsize=(10, 4.2), layout="constrained")
-    whole, part = figure.subplots(1, 2)
-    colours = mpl.colormaps["viridis"](np.linspace(0.85, 0.1, len(followed)))
+def curves(averaged: Result, resolved: Mapping[float, Result]) -> Figure:
+    """Fig. C.3: pressure along the film for every length of the waves, and a magnified section."""
+    figure, (whole, part) = new_figure((10, 4.2), 1, 2)
+    colours = mpl.colormaps["viridis"](np.linspace(0.85, 0.1, len(resolved)))
     for axes in (whole, part):
-        for colour, (ratio, result) in zip(colours, followed.items(), strict=True):
+        for colour, (ratio, result) in zip(colours, resolved.items(), strict=True):
             x, p = line(result)
             label = f"ε = 2$^{{{round(np.log2(ratio))}}}$"
             axes.plot(x, p * 1e-6, color=colour, linewidth=1.1, label=label)
@@ -28,15 +27,14 @@ def curves(averaged: Result, followed: Mapping[float, Result]) -> str:
         axes.plot(x, p * 1e-6, color="#b2182b", linewidth=2, linestyle="--", label="homogenized")
         axes.set_xlabel("position, m")
     inside = (x > ZOOM[0]) & (x < ZOOM[1])
-    part.set_xlim(*ZOOM)
-    part.set_ylim(0.97 * p[inside].min() * 1e-6, 1.05 * p[inside].max() * 1e-6)
+    part.set(xlim=ZOOM, ylim=(0.97 * p[inside].min() * 1e-6, 1.05 * p[inside].max() * 1e-6))
     whole.set_ylabel("pressure, MPa")
     whole.legend(fontsize=8)
-    return svg(figure)
+    return figure
 
 
-def errors(studies: Sequence[Study]) -> str:
-    """Error of the averaged film over the length of the waves: worst of all phases, and their spread."""
+def errors(studies: Sequence[WaveErrors]) -> Figure:
+    """Error of the averaged film for waves of many lengths: the worst phase, and all phases."""
     figure = Figure(figsize=(10, 3.9), layout="constrained")
     panels = figure.subplots(1, len(studies), sharey=True, squeeze=False)[0]
     looks = {"pressure": ("#762a83", "^"), "load": ("#b2182b", "o"), "friction": ("#2166ac", "s")}
@@ -51,10 +49,8 @@ def errors(studies: Sequence[Study]) -> str:
         slope = 100 * study.worst("load")[-1] * ratios / ratios[-1]
         axes.plot(ratios, slope, ":", color="black", linewidth=1, label="in proportion to ε")
         axes.set_xscale("log", base=2)
-        axes.set_yscale("log")
-        axes.set_ylim(1e-3, 300)
         axes.set_title(study.title, fontsize=9)
-        axes.set_xlabel("ε: length of the waves over that of the film")
+        axes.set(yscale="log", ylim=(1e-3, 300), xlabel="ε: length of the waves over that of the film")
     panels[0].set_ylabel("homogenized against direct, %")
     panels[0].legend(fontsize=8)
-    return svg(figure)
+    return figure

@@ -11,7 +11,7 @@ from roughfilm.rom.ladder.model import best
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import scene_entries
 from scripts.studies.advice.check import Trial, score, tried
-from scripts.studies.advice.fit import Case, cases, fit, fitted, written
+from scripts.studies.advice.fit import SolvedScene, cases, fit, fitted, written
 from scripts.studies.advice.runs import PARTS, Drawn, Run
 from scripts.studies.advice.scenes import DRAWN, random_scene
 
@@ -105,7 +105,7 @@ def test_a_trial_compares_what_was_advised_with_the_best_rung():
         for n in (16, 32, 64, 128)
         for model, area in (("elastic_plastic", 0.1), ("elastic", 0.13), ("persson", 0.08))
     }
-    case = Case(
+    case = SolvedScene(
         seed=surface.seed,
         scene=scene,
         numbers=kind.numbers(scene),

@@ -18,7 +18,7 @@ from scripts.studies.paper_b.data import (
     MODULUS,
     ORIGINAL,
     SOFT,
-    Sweep,
+    SpeedSweep,
     compute,
     difference,
 )
@@ -122,7 +122,7 @@ def test_both_readings_of_the_difference():
 
 def test_how_far_a_law_reaches():
     peaks = np.geomspace(1e6, 1e8, 5)
-    sweep = Sweep(speeds=peaks, peaks=peaks, differences={CONSTANT: (peaks / 1e9) ** 2})
+    sweep = SpeedSweep(speeds=peaks, peaks=peaks, differences={CONSTANT: (peaks / 1e9) ** 2})
     assert sweep.reach(CONSTANT, 1e-3) == pytest.approx(1e9 * np.sqrt(1e-3))
     assert sweep.reach(CONSTANT, 0.1) is None
     assert sweep.reach(CONSTANT, 1e-7) == 0

@@ -13,8 +13,8 @@ from scripts.studies.paper_f import __main__ as paper_f
 from scripts.studies.paper_f.claims import LEAKAGE, SEALING, areas_differ, judge
 from scripts.studies.paper_f.data import MODULUS, NEAR, Pressed, Series, press, press_all, sealed_contacts
 from scripts.studies.paper_f.fits import SLOPE, ratios, read_formulas, sealing_law
+from scripts.studies.paper_f.laws import SealStudy, fit, fit_groups
 from scripts.studies.paper_f.sizes import Sizes
-from scripts.studies.paper_f.study import Study, fit, fit_groups
 from scripts.studies.paper_f.surfaces import (
     HEIGHTS,
     LEAST,
@@ -163,7 +163,7 @@ def lawful(number, *, k=SEALING, a=LEAKAGE[0], b=LEAKAGE[1], area=0.44, more=1.0
 
 def study_of(sample):
     sizes = Sizes(area={5.0: np.full((3, 4), 0.44)}, load={5.0: np.full((3, 4), 0.2)})
-    return Study(sample=sample, finer=[], measured=[], sizes=sizes, laws=fit_groups(sample))
+    return SealStudy(sample=sample, finer=[], measured=[], sizes=sizes, laws=fit_groups(sample))
 
 
 def verdicts(sample):

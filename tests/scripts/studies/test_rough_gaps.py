@@ -20,11 +20,11 @@ from scripts.studies.rough_gaps import inertia as rough_gaps_inertia
 from scripts.studies.rough_gaps import runs as rough_gaps_runs
 from scripts.studies.rough_gaps.claims import judge, words
 from scripts.studies.rough_gaps.data import asked_of, compare, resolved, values_of
-from scripts.studies.rough_gaps.map import Errors, serves
-from scripts.studies.rough_gaps.range_of_validity import Off, Reach, coarse, off, reach
-from scripts.studies.rough_gaps.runs import Asked, answers, kept
+from scripts.studies.rough_gaps.map import ModelErrors, serves
+from scripts.studies.rough_gaps.range_of_validity import ReynoldsError, SurfaceValidity, coarse, off, reach
+from scripts.studies.rough_gaps.runs import ModelRun, answers
 from scripts.studies.rough_gaps.scenes import over_random, over_waves, peak_over_rms
-from scripts.studies.rough_gaps.study import Study, bounds_hold, mesh_meets_exact
+from scripts.studies.rough_gaps.study import RoughGapStudy, bounds_hold, mesh_meets_exact
 from scripts.studies.rough_gaps.waves import Waves, bare_coefficient, thin_ratios, waves
 
 DESCRIPTION = """
@@ -149,10 +149,10 @@ def test_reynolds_over_ridges_is_off_by_what_the_exact_flow_says():
 
 def made(name, error, *, measured=True):
     gaps = tuple(
-        Off(thickness=t, wavelength=5.0, error=error / t, bar=0.1 * error / t, bound=error, direction=0)
+        ReynoldsError(thickness=t, wavelength=5.0, error=error / t, bar=0.1 * error / t, bound=error, direction=0)
         for t in (2.0, 4.0, 8.0)
     )
-    return Reach(
+    return SurfaceValidity(
         name=name, measured=measured, shape=(8, 8), spacing=(1e-6, 1e-6), rms_height=1e-6, slope=0.1, peak=2.0,
         mismatch=0.0, found=gaps, coarser=(),
     )  # fmt: skip
@@ -166,7 +166,7 @@ def test_a_surface_is_good_from_the_thinnest_film_on_above_which_all_are():
 
 def study(reached):
     nothing = rough_gaps_inertia.Inertia(flows=(), laws=())
-    return Study(
+    return RoughGapStudy(
         waves=Waves(resolved=(), drawn=()), surfaces=(), inertia=nothing, reach=tuple(reached), map=(), runs=0,
         cpu_s=0.0, failed={},
     )  # fmt: skip
@@ -182,7 +182,7 @@ def test_the_claim_is_judged_by_measured_surfaces_alone(errors, verdict):
 
 
 def test_the_cheapest_rung_within_a_level():
-    one = Errors(slope=0.2, length=5.0, smooth_gap=0.2, homogenized=0.03, slope_corrected=0.002)
+    one = ModelErrors(slope=0.2, length=5.0, smooth_gap=0.2, homogenized=0.03, slope_corrected=0.002)
     assert [one.cheapest(level) for level in (0.3, 0.05, 0.01, 0.001)] == [
         "smooth_gap", "homogenized", "slope_corrected", "stokes",
     ]  # fmt: skip
@@ -191,23 +191,8 @@ def test_the_cheapest_rung_within_a_level():
     assert serves([one, steeper], "homogenized", 0.01) == 0
 
 
-def test_what_is_kept_is_made_once_for_the_same_inputs(tmp_path):
-    path, made_times = tmp_path / "one.json", []
-
-    def make():
-        made_times.append(1)
-        return {"value": 2.5}
-
-    for inputs in ({"a": 1}, {"a": 1}, {"a": 2}):
-        assert kept(path, inputs, make) == {"value": 2.5}
-    assert len(made_times) == 2
-    path.write_text("{", encoding="utf-8")
-    kept(path, {"a": 2}, make)
-    assert len(made_times) == 3
-
-
 def test_answers_are_used_again_and_failures_are_told(tmp_path, monkeypatch):
-    asked = [Asked(scene=over_waves(0.3, 5.0), model="homogenized", resolution=n) for n in (32, 64, 32)]
+    asked = [ModelRun(scene=over_waves(0.3, 5.0), model="homogenized", resolution=n) for n in (32, 64, 32)]
     found, failed = answers(asked, tmp_path, here)
     assert len(found) == 2
     assert not failed
@@ -216,7 +201,7 @@ def test_answers_are_used_again_and_failures_are_told(tmp_path, monkeypatch):
     again, _ = answers(asked, tmp_path, here)
     assert {key: one.quantities for key, one in again.items()} == {key: one.quantities for key, one in found.items()}
     monkeypatch.undo()
-    wrong = Asked(scene=over_waves(0.3, 5.0), model="homogenized", resolution=1)
+    wrong = ModelRun(scene=over_waves(0.3, 5.0), model="homogenized", resolution=1)
     found, failed = answers([wrong], tmp_path, here)
     assert not found
     assert "--resolution" in failed[wrong.key]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from scripts.studies.scales import __main__ as scales
-from scripts.studies.scales.data import Pair, Study, line, measured, over, pairs, slider, solve
+from scripts.studies.scales.data import Pair, WaveErrors, line, measured, over, pairs, slider, solve
 
 
 @pytest.fixture(scope="module")
@@ -33,7 +33,7 @@ def test_opposite_phases_err_in_opposite_directions_and_cancel_to_second_order(a
 def test_errors_fall_in_proportion_to_the_waves_and_their_mean_over_phases_faster(across):
     assert across.rate("pressure") == pytest.approx(1, abs=0.05)
     assert across.rate("load") == pytest.approx(1, abs=0.05)
-    opposite = Study(title="", pairs=tuple(pair for pair in across.pairs if pair.phase in (0.0, 180.0)))
+    opposite = WaveErrors(title="", pairs=tuple(pair for pair in across.pairs if pair.phase in (0.0, 180.0)))
     mean = opposite.mean("load")
     assert np.log2(mean[0] / mean[1]) == pytest.approx(2, abs=0.2)
 
@@ -45,7 +45,7 @@ def made(error):
         Pair(ratio=r, phase=0.0, pressure=error * r / ratios[-1], load=error * r / ratios[-1] / 3, **numbers)
         for r in ratios
     ]
-    return Study(title="made", pairs=tuple(parts))
+    return WaveErrors(title="made", pairs=tuple(parts))
 
 
 @pytest.mark.parametrize(("error", "verdict"), [(0.019, "true"), (0.025, "partly"), (0.04, "false")])

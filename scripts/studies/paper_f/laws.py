@@ -7,8 +7,8 @@ from scripts.studies.paper_f.data import Pressed
 from scripts.studies.paper_f.fits import (
     SLOPE,
     Collapse,
+    FormulaReading,
     LeakageLaw,
-    Reading,
     SealingLaw,
     SkewedLaw,
     collapse,
@@ -30,7 +30,7 @@ GROUPS: Mapping[str, Callable[[Pressed], bool]] = {
 
 
 @dataclass(frozen=True, kw_only=True)
-class Laws:
+class GroupLaws:
     """What is fitted to one group of surfaces.
 
     Attributes
@@ -47,11 +47,11 @@ class Laws:
     skewed: SkewedLaw
     collapses: Sequence[Collapse]
     leakage: Mapping[tuple[str, str], LeakageLaw]
-    readings: Sequence[Reading]
+    readings: Sequence[FormulaReading]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Study:
+class SealStudy:
     """All that is judged and drawn; ``measured`` is empty where the instrument files are absent.
 
     Attributes
@@ -65,12 +65,12 @@ class Study:
     finer: Sequence[Pressed]
     measured: Sequence[Pressed]
     sizes: Sizes
-    laws: Mapping[str, Laws]
+    laws: Mapping[str, GroupLaws]
 
 
-def fit(sample: Sequence[Pressed]) -> Laws:
+def fit(sample: Sequence[Pressed]) -> GroupLaws:
     """All laws of a group."""
-    return Laws(
+    return GroupLaws(
         count=len(sample),
         sealing={name: sealing_law(sample, name) for name in (*HEIGHTS, SLOPE)},
         skewed=skewed_law(sample),
@@ -81,7 +81,7 @@ def fit(sample: Sequence[Pressed]) -> Laws:
     )
 
 
-def fit_groups(sample: Sequence[Pressed]) -> dict[str, Laws]:
+def fit_groups(sample: Sequence[Pressed]) -> dict[str, GroupLaws]:
     """The laws of each group that has surfaces."""
     groups = {name: [one for one in sample if counts(one)] for name, counts in GROUPS.items()}
     return {name: fit(members) for name, members in groups.items() if members}
