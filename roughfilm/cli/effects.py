@@ -17,7 +17,7 @@ from roughfilm.contact.foundation.files import replacing
 from roughfilm.interface.curves import checked_cells
 from roughfilm.ladder import models
 from roughfilm.rom.bearing.effects.analysis import EffectAnalysis, analyse_effects
-from roughfilm.rom.bearing.effects.contributions import Study
+from roughfilm.rom.bearing.effects.contributions import EffectStudy
 from roughfilm.rom.bearing.effects.inertia import InertiaAdded
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.scene import Bearing
@@ -117,12 +117,12 @@ def entries_of(told: EffectAnalysis) -> dict[str, Any]:
     }
 
 
-def _study(one: Study) -> dict[str, Any]:
+def _study(one: EffectStudy) -> dict[str, Any]:
     return {
         "plain": {name: asdict(told) for name, told in one.plain.items()},
         "contributions": [asdict(part) for part in one.contributions],
         "full": {name: asdict(told) for name, told in one.full.items()},
-        "untold": dict(one.untold),
+        "untold": dict(one.unsolved),
     }
 
 

@@ -21,7 +21,7 @@ from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.store import is_series, load_contact, load_series
 from roughfilm.contact.read import HeightMap, parse_spacing, periodicity_warnings, read_height_map
 from roughfilm.contact.surfaces.surface import MAX_LENGTH, MIN_SPACING, Surface
-from roughfilm.rom.bearing.mixed.resume import Work, kept_table
+from roughfilm.rom.bearing.mixed.resume import Work, resumed_table
 from roughfilm.rom.bearing.mixed.tabulate import gap_of, tabulate_pressed
 from roughfilm.rom.homogenization.conductance import FaceRule
 from roughfilm.rom.homogenization.factors import NAMES, FlowFactors, relative_quantities
@@ -113,7 +113,7 @@ def command(
                 settings |= {name: series[0].settings[name] for name in ("composite_modulus", "hardness")}
                 work = _of_contacts(surface, *series, asked, rule, sharing, advance)
             inputs = Inputs(heights=rough.heights, spacing=rough.spacing, settings=settings)
-            table, known = kept_table(out, inputs, work)
+            table, known = resumed_table(out, inputs, work)
             told = _told_all(rough, settings | {"tolerance": asked}, table, known)
         told["numerics"] |= {"cpu_s": sum(os.times()[:4]) - cpu, "wall_s": time.perf_counter() - started}
         if report is not None:

@@ -14,9 +14,9 @@ from rich.table import Table
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
-from roughfilm.rom.bearing.mixed.curves import Wall, swept, wall_of
+from roughfilm.rom.bearing.mixed.curves import Wall, resumed_curves, wall_of
 from roughfilm.rom.bearing.mixed.curves_store import NUMBERS, UNITS, write_csv
-from roughfilm.rom.bearing.mixed.stribeck import COARSEST, FINEST, RESOLUTION, StribeckCurve, StribeckPoint
+from roughfilm.rom.bearing.mixed.stribeck import MAX_CELLS, MIN_CELLS, RESOLUTION, StribeckCurve, StribeckPoint
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.rom.ladder.scene import load_scene, scene_entries
@@ -82,13 +82,15 @@ def command(
     radius = read.turning_radius
     asked = loads_of(loads)
     over = speeds_of(speeds or (SLIDING if radius is None else TURNING), radius)
-    if not COARSEST <= resolution <= FINEST:
-        raise InputError(f"--resolution: got {resolution}; it must be {COARSEST} to {FINEST} cells along a side")
+    if not MIN_CELLS <= resolution <= MAX_CELLS:
+        raise InputError(f"--resolution: got {resolution}; it must be {MIN_CELLS} to {MAX_CELLS} cells along a side")
     make_directory(out)
     refuse_unwritable(out / "report.html")
     with alone(out / f"{CURVES}.h5", "sweep"), progress_bar(1.0) as advance:
         wall = wall_of(read, asked[-1], table, out / TABLE, _part(advance, 0.0, 0.5), resolution)
-        curves, known = swept(read, over, asked, wall, out / f"{CURVES}.h5", resolution, _part(advance, 0.5, 0.95))
+        curves, known = resumed_curves(
+            read, over, asked, wall, out / f"{CURVES}.h5", resolution, _part(advance, 0.5, 0.95)
+        )
         told = tell(read, curves, wall)
         told["numerics"] |= {
             "points_found": known,
@@ -142,12 +144,12 @@ def tell(scene: Bearing, curves: Sequence[StribeckCurve], wall: Wall) -> dict[st
             "balance": max(point.balance for curve in curves for point in curve.points),
             "points": sum(len(curve.points) for curve in curves),
             "table_points": wall.points,
-            "table_points_found": wall.found,
+            "table_points_found": wall.known_points,
         },
         "provenance": {
             "scene": scene_entries(scene),
             "table": dict(wall.source),
-            "warnings": [*wall.told, *_warnings(curves)],
+            "warnings": [*wall.warnings, *_warnings(curves)],
             "sources": list(SOURCES),
             **circumstances(),
         },

@@ -9,7 +9,7 @@ from roughfilm.figures import effects as effects_figures
 from roughfilm.pages.render import render, write_figures
 from roughfilm.rom.bearing.effects.ablation import Amount
 from roughfilm.rom.bearing.effects.analysis import EffectAnalysis
-from roughfilm.rom.bearing.effects.contributions import Study
+from roughfilm.rom.bearing.effects.contributions import EffectStudy
 from roughfilm.rom.ladder.kind import kind_of_name
 from roughfilm.words.effects import AT_FILM, SHOWN, UNDER_LOAD, Shown, cell, sentences, shown
 from roughfilm.words.numbers import percent
@@ -57,7 +57,7 @@ def write_page(told: EffectAnalysis, entries: Mapping[str, Any], out: Path) -> N
     )
 
 
-def _share(added: Amount, found: Study) -> str:
+def _share(added: Amount, found: EffectStudy) -> str:
     name = next(iter(shown(found, ("load",))))
     part = percent(added.value / found.full[name].value).replace("-", "−")
     return f"{cell(added, SHOWN[name], sign=True)} {SHOWN[name].unit} ({part} of the load)"
@@ -73,7 +73,7 @@ def _beside(told: EffectAnalysis) -> dict[str, Amount]:
     }
 
 
-def _view(title: str, found: Study, drawn: Sequence[str], beside: Mapping[str, Amount]) -> View:
+def _view(title: str, found: EffectStudy, drawn: Sequence[str], beside: Mapping[str, Amount]) -> View:
     columns = shown(found, (*drawn, MORE))
 
     def row(title: str, of: Mapping[str, Amount], *, sign: bool = True) -> tuple[str, list[str]]:
@@ -94,5 +94,5 @@ def _view(title: str, found: Study, drawn: Sequence[str], beside: Mapping[str, A
         tables={"Switched on one after the other": on, "Each added to all the others": alone},
         figure=effects_figures.waterfall(found, shown(found, drawn), beside),
         words={SHOWN[name].title: sentences(found, name, beside.get(name)) for name in judged},
-        untold=found.untold,
+        untold=found.unsolved,
     )

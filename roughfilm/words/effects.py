@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from roughfilm.rom.bearing.effects.ablation import Amount
-from roughfilm.rom.bearing.effects.contributions import Study
+from roughfilm.rom.bearing.effects.contributions import EffectStudy
 from roughfilm.words.numbers import percent, with_error
 
 NOTHING = 1e-9
@@ -35,7 +35,7 @@ AT_FILM = ("load", "friction", "inlet_flow_per_width", "side_leakage")
 UNDER_LOAD = ("film", "friction_coefficient", "inlet_flow_per_width", "side_leakage")
 
 
-def shown(told: Study, names: Sequence[str]) -> dict[str, Shown]:
+def shown(told: EffectStudy, names: Sequence[str]) -> dict[str, Shown]:
     """Those of the quantities that a study tells, by width where there is none of the whole."""
     names = [name if name in told.full else f"{name}_per_width" for name in names]
     return {name: SHOWN[name] for name in names if name in told.full and name in SHOWN}
@@ -51,7 +51,7 @@ def cell(one: Amount | None, how: Shown, *, sign: bool = False) -> str:
     return f"+{told}" if sign and one.value > 0 and not told.startswith("(") else told.replace("-", "−")
 
 
-def sentences(study_told: Study, name: str, inertia: Amount | None) -> list[str]:
+def sentences(study_told: EffectStudy, name: str, inertia: Amount | None) -> list[str]:
     """What each effect adds to one quantity, in words, as parts of all of it."""
     how, full = SHOWN[name], study_told.full[name]
     told = []
