@@ -63,11 +63,11 @@ class Drawn:
 
 def settings_of(scene: Scene, part: str) -> list[Setting]:
     """Return every available model at every resolution; of OpenFOAM models the check takes only the best."""
-    rungs = [model for model in models(scene.kind) if model.applies(scene).applies and model.available().available]
+    applicable = [model for model in models(scene.kind) if model.applies(scene).applies and model.available().available]
     return [
         Setting(model=model, resolution=resolution)
-        for model in rungs
-        if part == "fit" or not model.outside or model is best(rungs)
+        for model in applicable
+        if part == "fit" or not model.outside or model is best(applicable)
         for resolution in (MESHED if _is_random_gap(scene) and model.outside else model.resolutions_of(scene))
     ]
 

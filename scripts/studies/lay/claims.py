@@ -55,7 +55,7 @@ def joint_throttles(joints: Joints) -> Claim:
         "random striated windows on average": (_mean, joints.windows),
         "the worst of them": (lowest, joints.windows),
     } | {name: (lowest, row) for name, row in measured.items()}
-    told = "; ".join(
+    said = "; ".join(
         f"{name} {_all([of(row, thickness)[0] for thickness in THICKNESSES])}"
         f" (edges blended: {_all([of(row, thickness)[1] for thickness in THICKNESSES])})"
         for name, (of, row) in rows.items()
@@ -65,7 +65,7 @@ def joint_throttles(joints: Joints) -> Claim:
         text="A bad periodic joint throttles the flow",
         verdict="true" if harm and clean else "partly" if max(lost) > 0.1 else "false",
         evidence=f"flow along the lay over that without a joint, at {', '.join(f'{t:g}' for t in THICKNESSES)} Sq: "
-        f"{told}. Windows whose grooves meet pass at least {_share(min(one.passed[0] for one in good))}. The loss of "
+        f"{said}. Windows whose grooves meet pass at least {_share(min(one.passed[0] for one in good))}. The loss of "
         f"cut grooves is ordered by periodicity_mismatch (rank correlation at least {min(order):.2f}); its size "
         f"depends on the thickness of the film more than on the mismatch. Blended edges restore a small part of the "
         f"flow, a window that fits restores all",
@@ -113,7 +113,7 @@ def box_equals_cell(lay: Lay) -> Claim:
     random = [worst([o]) for o in of("random lay", straight=True)]
     as_said = straight < EQUAL and max(scatter) < SAMPLED and worst(oblique) > FAILS
     across = max(one.cell.pressure[0, 1] / one.cell.pressure[0, 0] for one in crossed_oblique)
-    told = "".join(
+    said = "".join(
         f"; {one.name} where it touches: φ₁ {row.box.pressure[0]:.3g} and φ₂ {row.box.pressure[1]:.3g}, A₁₁ "
         f"{row.cell.pressure[0, 0]:.3g}, A₂₂ {row.cell.pressure[1, 1]:.3g}, A₁₂ {row.cell.pressure[0, 1]:.3g}"
         for one in lay.measured.values()
@@ -130,7 +130,7 @@ def box_equals_cell(lay: Lay) -> Claim:
         + f". Crossed grooves as such do not fail: they are equal within {_share(crossed)} where their bisector lies "
         f"along or across the flow; turned by 45° φ₁ is {100 * min(one.short[0] for one in crossed_oblique):+.2g} % at "
         f"worst, although A₁₂, which the method lacks, is up to {across:.2g} A₁₁. The method fails because of "
-        f"A₁₂, not of crossing: φ₁φ₂ = A₁₁A₂₂ − A₁₂² in any large box{told}",
+        f"A₁₂, not of crossing: φ₁φ₂ = A₁₁A₂₂ − A₁₂² in any large box{said}",
     )
 
 

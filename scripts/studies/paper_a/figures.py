@@ -48,7 +48,7 @@ def _edges(axes: Axes, width: float) -> None:
 def _against(
     axes: Axes, paper: Paper, quantity: str, rows: NDArray[np.int64], key: str, label: str, colour: Any
 ) -> None:
-    """A quantity against w+ or d+: dots by the best rung, a line by film_slope."""
+    """A quantity against w+ or d+: dots by the best model, a line by film_slope."""
     x = paper.sweep.given[key][rows]
     axes.plot(x, paper.of(quantity, rows), "o", color=colour, ms=4, label=label)
     axes.plot(x, paper.of(quantity, rows, LINE), "-", color=colour, lw=1)

@@ -44,20 +44,20 @@ def command(out: Out, as_json: AsJson = False) -> None:
     with counted(data.PARTS) as advance:
         paper = compute(advance)
     compared = rows(paper)
-    told = numbers(paper, compared)
+    results = numbers(paper, compared)
     drawings = figures.NUMBERED | {"claim 9": figures.reach}
     publish(
         Path(__file__).parent,
         out,
         {name: draw(paper) for name, draw in drawings.items()},
-        told,
+        results,
         claims=judge(paper),
         as_json=as_json,
         captions=captions(drawings),
         rows=compared,
         maxima_apart=MAXIMA_APART,
         open=OPEN,
-        **{name: told[name] for name in ("cells", "maxima", "fronts", "readings", "moduli", "patterns")},
+        **{name: results[name] for name in ("cells", "maxima", "fronts", "readings", "moduli", "patterns")},
     )
 
 
@@ -66,7 +66,7 @@ def numbers(paper: Paper, compared: Sequence[PrintedDifference]) -> dict[str, An
     return {
         "cells": paper.cells,
         "differences": [
-            {**asdict(row.told), "reference": row.reference, "grids_apart": row.grids_apart, "agrees": row.agrees}
+            {**asdict(row.printed), "reference": row.reference, "grids_apart": row.grids_apart, "agrees": row.agrees}
             | asdict(row.found)
             for row in compared
         ],
@@ -86,7 +86,7 @@ def numbers(paper: Paper, compared: Sequence[PrintedDifference]) -> dict[str, An
         "fronts": {case: 1e3 * front_apart(paper, case, law) for case, law in FRONTS.items()},
         "maxima": {law: maxima(film) for law, film in paper.films["twin"].items()},
         "readings": {
-            told: {name: _reading(paper, name, told) for name in ("single", "twin")} for told in data.READINGS
+            inlet: {name: _reading(paper, name, inlet) for name in ("single", "twin")} for inlet in data.READINGS
         },
         "moduli": {
             law: {case: paper.found[case, law, "p"][0].integrals for case in ("starved", "gap")}
@@ -114,8 +114,8 @@ def front_apart(paper: Paper, case: str, law: str) -> float:
     return (films[law].start - reference.start) * float(reference.x[-1])
 
 
-def _reading(paper: Paper, case: str, told: str) -> dict[str, float]:
-    films = paper.readings[case, told]
+def _reading(paper: Paper, case: str, inlet: str) -> dict[str, float]:
+    films = paper.readings[case, inlet]
     reference, other = (films[law] for law in data.CASES[case].laws)
     return asdict(difference(other.pressure, reference.pressure, reference.weights))
 

@@ -43,7 +43,7 @@ MAXIMA_APART = 1.6e3
 class PrintedDifference:
     """A number of the paper beside both readings of Eq. B.11, and the difference between both grids."""
 
-    told: PrintedNumber
+    printed: PrintedNumber
     reference: str
     found: Difference
     grids_apart: float
@@ -51,21 +51,21 @@ class PrintedDifference:
     @property
     def agrees(self) -> tuple[bool, bool]:
         """Whether the paper's number is ours to its last digit, rounded or truncated: by integrals, and between."""
-        digit = self.told.digit
+        digit = self.printed.digit
         return self._to_a_digit(self.found.integrals, digit), self._to_a_digit(self.found.between, digit)
 
     def _to_a_digit(self, value: float, digit: float) -> bool:
-        return -0.5 * digit <= value - self.told.value < digit
+        return -0.5 * digit <= value - self.printed.value < digit
 
 
 def rows(paper: Paper) -> list[PrintedDifference]:
     """Return every number of the paper beside ours."""
     made = []
-    for told in PRINTED:
-        fine, coarse = paper.found[told.case, told.law, told.quantity]
+    for printed in PRINTED:
+        fine, coarse = paper.found[printed.case, printed.law, printed.quantity]
         apart = max(abs(fine.between - coarse.between), abs(fine.integrals - coarse.integrals))
-        reference = next(iter(paper.films[told.case]))
-        made.append(PrintedDifference(told=told, reference=reference, found=fine, grids_apart=apart))
+        reference = next(iter(paper.films[printed.case]))
+        made.append(PrintedDifference(printed=printed, reference=reference, found=fine, grids_apart=apart))
     return made
 
 
@@ -101,7 +101,7 @@ def laws_differ(paper: Paper) -> Claim:
 
 def constant_modulus(paper: Paper) -> Claim:
     """Claim 9."""
-    told, at_fifty = [], []
+    summary, at_fifty = [], []
     for name, sweep in paper.sweeps.items():
         reach = []
         for part in (0.01, 0.02):
@@ -109,7 +109,7 @@ def constant_modulus(paper: Paper) -> Claim:
             until = f"{sweep.peaks[-1] / 1e6:.0f} MPa at least" if peak is None else f"{peak / 1e6:.0f} MPa"
             reach.append(f"{100 * part:.0f} % up to {until}")
         at_fifty.append(sweep.at(CONSTANT, 50e6))
-        told.append(
+        summary.append(
             f"{name}: under {', under '.join(reach)}; {100 * at_fifty[-1]:.2g} % at 50 MPa and "
             f"{100 * sweep.at(CONSTANT, 100e6):.2g} % at 100 MPa "
             f"(D&H-Orig: {100 * sweep.at(ORIGINAL, 50e6):.2g} % and {100 * sweep.at(ORIGINAL, 100e6):.2g} %)"
@@ -118,7 +118,7 @@ def constant_modulus(paper: Paper) -> Claim:
         number=9,
         text="Constant bulk modulus at ambient is as good as Dowson–Higginson up to about 50–100 MPa",
         verdict="true" if max(at_fifty) < 0.02 else "partly" if min(at_fifty) < 0.02 else "false",
-        evidence="loads with constant β against D&H-MNL at rising speed: " + "; ".join(told),
+        evidence="loads with constant β against D&H-MNL at rising speed: " + "; ".join(summary),
     )
 
 

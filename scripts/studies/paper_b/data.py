@@ -249,17 +249,17 @@ def compute(advance: Advance, *, cells: int = CELLS, steps: int = STEPS) -> Pape
             films[name] = {law: film(bearing(case.scene, law, case.inlet), size) for law in case.laws}
         grids.append(films)
     readings = {}
-    for told, inlet in READINGS.items():
-        advance(told)
+    for reading, inlet in READINGS.items():
+        advance(reading)
         for name in ("single", "twin"):
             case = CASES[name]
-            readings[name, told] = {law: film(bearing(case.scene, law, inlet), cells) for law in case.laws}
+            readings[name, reading] = {law: film(bearing(case.scene, law, inlet), cells) for law in case.laws}
     advance("patterns")
     patterns = [
         {
-            (name, told): film(bearing(scene, MNL, inlet), size)
+            (name, label): film(bearing(scene, MNL, inlet), size)
             for name, scene in PATTERNS.items()
-            for told, inlet in INLETS.items()
+            for label, inlet in INLETS.items()
         }
         for size in sizes
     ]

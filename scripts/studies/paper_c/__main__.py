@@ -73,25 +73,25 @@ def command(out: Out, as_json: AsJson = False) -> None:
     make_directory(out)
     with counted(data.PARTS) as advance:
         paper = compute(advance)
-    told = numbers(paper)
+    results = numbers(paper)
     drawings = figures.NUMBERED | {"claim 14": figures.claim_14}
     publish(
         Path(__file__).parent,
         out,
         {name: draw(paper) for name, draw in drawings.items()},
-        told,
+        results,
         claims=judge(paper),
         as_json=as_json,
         captions=captions(drawings),
         table=TABLE,
         machining=MACHINING,
-        made=told["profiles"],
+        made=results["profiles"],
         seeds=len(next(iter(paper.profiles.values()))),
         peaks=paper.peaks,
-        films=told["films"],
-        spread=told["spread"],
-        until=told["order_holds_to"],
-        best=told["a_flows_best"],
+        films=results["films"],
+        spread=results["spread"],
+        until=results["order_holds_to"],
+        best=results["a_flows_best"],
         open=OPEN,
     )
 

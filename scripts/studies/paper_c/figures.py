@@ -28,7 +28,7 @@ def _panels(rows: int, columns: int, height: float = 3.5, *, same: bool = False)
 
 
 def _powers(axis: Axis, base: int) -> None:
-    """Ticks at powers, told in plain figures: 2¹⁰, 10⁻⁴."""
+    """Label ticks with powers: 2¹⁰, 10⁻⁴."""
     raised = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
     axis.set_major_formatter(lambda value, _: f"{base}{str(round(math.log(value, base))).translate(raised)}")
     axis.set_minor_formatter(NullFormatter())

@@ -27,18 +27,18 @@ def command(out: Out, as_json: AsJson = False) -> None:
         paper = compute(advance)
     model = load_model()
     again = [reload(contact) for contact in model]
-    told = numbers(paper, model, again)
+    results = numbers(paper, model, again)
     publish(
         Path(__file__).parent,
         out,
         {name: draw(paper) for name, draw in figures.NUMBERED.items()} | {"E.4": figures.e4(model)},
-        told,
+        results,
         claims=judge(paper),
         as_json=as_json,
         captions=captions({**figures.NUMBERED, "E.4": figures.e4}),
         table=STEEL_PROFILES,
         machining=MACHINING,
-        made=told["profiles"],
+        made=results["profiles"],
         seeds=len(next(iter(paper.profiles.values()))),
         model=list(zip(model, again, strict=True)),
     )

@@ -61,11 +61,11 @@ def area_by_roughness(paper: Paper) -> Claim:
     """Claim 16."""
     rough = np.array([row.average for row in STEEL_PROFILES.values()])
     bound = paper.loads[-1] / LENGTH / STEEL.hardness
-    powers, ratios, told = {}, {}, []
+    powers, ratios, said = {}, {}, []
     for spectrum in SPECTRA:
         areas = np.array([paper.pressed[spectrum, name]["area"][:, -1].mean() for name in STEEL_PROFILES])
         powers[spectrum], ratios[spectrum] = power_of(rough, areas), float(areas.max() / areas.min())
-        told.append(
+        said.append(
             f"{spectrum}: {', '.join(f'{n} {100 * a:.1f} %' for n, a in zip(STEEL_PROFILES, areas, strict=True))}"
         )
     worst = max(ratios.values())
@@ -73,7 +73,7 @@ def area_by_roughness(paper: Paper) -> Claim:
         number=16,
         text="The real area of contact hardly depends on Ra",
         verdict="true" if worst <= 1.2 else "partly" if max(abs(p) for p in powers.values()) <= 0.5 else "false",
-        evidence=f"at the highest load {'; '.join(told)}; the greatest is {_in_words(ratios, '.2f')} times the least "
+        evidence=f"at the highest load {'; '.join(said)}; the greatest is {_in_words(ratios, '.2f')} times the least "
         f"while Ra spans {rough.max() / rough.min():.1f}, A ~ Ra^n with n: {_in_words(powers, '.2f')}; this must "
         f"be so where most contact is plastic, because no surface can have less than W/H = {100 * bound:.1f} %",
     )
@@ -82,7 +82,7 @@ def area_by_roughness(paper: Paper) -> Claim:
 def plasticity(paper: Paper) -> Claim:
     """Claim 17."""
     rough = [row.average for row in STEEL_PROFILES.values()]
-    told, ranked, starts = [], [], []
+    said, ranked, starts = [], [], []
     for spectrum in SPECTRA:
         index = {
             name: float(paper.pressed[spectrum, name]["plasticity_index"][:, -1].mean()) for name in STEEL_PROFILES
@@ -91,7 +91,7 @@ def plasticity(paper: Paper) -> Claim:
         finer = {name: float(paper.finer[spectrum, name]["plasticity_index"][:, 0].mean()) for name in STEEL_PROFILES}
         ranked.append(bool((np.argsort(list(index.values())) == np.argsort(rough)).all()))
         starts += list(finer.values())
-        told.append(
+        said.append(
             f"{spectrum}: {_in_words(index, '.2f')} at the highest load; {_in_words(light, '.2f')} at the least load, "
             f"which one or two nodes carry; {_in_words(finer, '.2f')} at that load on a finer grid"
         )
@@ -105,20 +105,20 @@ def plasticity(paper: Paper) -> Claim:
         number=17,
         text="The plasticity index depends strongly on roughness and is not zero at small loads",
         verdict="true" if strong and always else "partly" if strong or always else "false",
-        evidence="; ".join(told),
+        evidence="; ".join(said),
     )
 
 
 def highest_waves(paper: Paper) -> Claim:
     """Claim 18."""
-    waves, told, kept = np.array(paper.waves), [], []
+    waves, said, kept = np.array(paper.waves), [], []
     for spectrum, state in paper.cut.items():
         for name, areas in state.items():
             mean = areas.mean(axis=0)
             fives = [settled(waves, area, 0.05) for area in areas]
             n1, n5 = settled(waves, mean, 0.01), settled(waves, mean, 0.05)
             kept.append(n5 <= waves[-1] / 2)
-            told.append(
+            said.append(
                 f"{spectrum}, {name}: within 5 % from n = {n5} on, within 1 % from {n1} on "
                 f"(single profiles 5 %: {min(fives)} to {max(fives)})"
             )
@@ -127,6 +127,6 @@ def highest_waves(paper: Paper) -> Claim:
         text="The highest frequencies do not change the real area of contact",
         verdict="true" if all(kept) else "partly" if any(kept) else "false",
         evidence=f"mean area of profile D at the highest load, of {waves[-1]} waves: "
-        + "; ".join(told)
+        + "; ".join(said)
         + f"; the smooth profiles have no waves beyond {SPECTRA['smooth']}",
     )

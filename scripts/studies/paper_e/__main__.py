@@ -117,11 +117,11 @@ def studies(leaks: Sequence[Leak]) -> list[tuple[str, str]]:
         ]
 
     whole = at("a", 1.0, LOAD)[0]
-    told = [
+    changes = [
         (f"{name} load, window a", f"{100 * (at('a', 1.0, factor * LOAD)[0] / whole - 1):+.3g} %")
         for name, factor in (("half", 0.5), ("double", 2.0))
     ]
-    told += [
+    changes += [
         (
             f"{name} the nodes, window {window}",
             f"{100 * (at(window, factor, LOAD)[0] / at(window, 1.0, LOAD)[0] - 1):+.3g} %",
@@ -131,15 +131,15 @@ def studies(leaks: Sequence[Leak]) -> list[tuple[str, str]]:
     ]
     for window in ("b", "c"):
         parts = np.array(at(window, 1.0, LOAD)) / whole - 1
-        told.append(
+        changes.append(
             (
                 f"window {window} for a, {parts.size} places",
                 f"{100 * parts.mean():+.2g} % on average, {100 * parts.min():+.2g} to {100 * parts.max():+.2g} %",
             )
         )
     line = [one for one in leaks if one.window == "a" and one.resolution == 1.0]
-    told.append(("slope d ln Q/d ln W, window a, half to double the load", f"{sensitivity(line, 1):.2f}"))
-    return told
+    changes.append(("slope d ln Q/d ln W, window a, half to double the load", f"{sensitivity(line, 1):.2f}"))
+    return changes
 
 
 def _row(name: str, one: Washer) -> dict[str, Any]:

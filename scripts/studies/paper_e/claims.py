@@ -99,7 +99,7 @@ def methods_agree(washers: Mapping[str, Washer]) -> Claim:
     bars = washers[CROSSED].lift()
     uncertainty = float((bars[:, 1] / bars[:, 0]).max())
     there = [name for name in MEASURED if name in washers]
-    told = "".join(
+    said = "".join(
         f"; {name}, measured, {' / '.join(_signed(part) for part in parted(washers[name]))}" for name in there
     )
     holds = straight < EQUAL and least > max(PARTED, uncertainty)
@@ -110,7 +110,7 @@ def methods_agree(washers: Mapping[str, Washer]) -> Claim:
         evidence=f"lift-off speeds by Patir and Cheng over the homogenized ones, at "
         f"{', '.join(f'{load / 1e6:g}' for load in LOADS)} MPa: straight lays within {_share(straight)}; marks that "
         f"cross obliquely, one of them deeper, {' / '.join(_signed(part) for part in crossed)} (± "
-        f"{_share(uncertainty)} by grids and tables), films differ by up to {_share(washers[CROSSED].apart())}{told}. "
+        f"{_share(uncertainty)} by grids and tables), films differ by up to {_share(washers[CROSSED].apart())}{said}. "
         f"The method lacks A₁₂ and B₂: such a lay pumps sideways. Marks that cross symmetrically about the sliding "
         f"have neither, and both methods agree (scripts.studies.lay)",
     )

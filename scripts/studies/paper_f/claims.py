@@ -89,12 +89,12 @@ def above_the_cell(sample: Sequence[Pressed]) -> tuple[Array, Array]:
 def cell_equals_direct(sample: Sequence[Pressed]) -> Claim:
     """Claim 19."""
     parts, more = above_the_cell(sample)
-    told, within = [], []
+    said, within = [], []
     for low, high in BINS:
         chosen = 1 + more[(parts >= low) & (parts < high)]
         if chosen.size:
             within.append(float((np.abs(chosen - 1) < FEW).mean()))
-            told.append(
+            said.append(
                 f"{low:g} to {high:g}: median {np.median(chosen):.3g}, a tenth above {np.percentile(chosen, 90):.3g}, "
                 f"{_share(within[-1])} within {_share(FEW)}"
             )
@@ -104,7 +104,7 @@ def cell_equals_direct(sample: Sequence[Pressed]) -> Claim:
         text="HNS equals DNS in leakage within a few per cent (for these surfaces)",
         verdict="true" if min(within) > 0.9 else "partly" if within[0] > 0.5 else "false",
         evidence="DNS of one period between two reservoirs is never below HNS. DNS/HNS at fractions of the "
-        f"sealing load: {'; '.join(told)}. A path between ends need not end where it began: "
+        f"sealing load: {'; '.join(said)}. A path between ends need not end where it began: "
         f"{_share(float(earlier.mean()))} of the directions are sealed by HNS at a load at which DNS still leaks. "
         "The cell assumes many waves in a period, and these surfaces have few; over the six decades of Fig. F.9 both "
         "agree at light loads",
@@ -118,10 +118,10 @@ def lost_between(study: SealStudy) -> Claim:
     directed = np.array([one.family in DIRECTED for one in study.sample])
     part = float(inside.mean())
     plain = area[~directed]
-    told = f"area at the threshold {_share(float(area.min()))} to {_share(float(area.max()))}, {_share(part)} inside"
+    said = f"area at the threshold {_share(float(area.min()))} to {_share(float(area.max()))}, {_share(part)} inside"
     if directed.any() and plain.size:
         lay = area[directed]
-        told += (
+        said += (
             f"; without a lay {_share(float(plain.min()))} to {_share(float(plain.max()))}, mean "
             f"{_share(float(plain.mean()))} ± {_share(float(plain.std()))}, {_share(float(inside[~directed].mean()))} "
             f"inside; with one {_share(float(lay.min()))} (across) to {_share(float(lay.max()))} (along)"
@@ -135,7 +135,7 @@ def lost_between(study: SealStudy) -> Claim:
         number=23,
         text="Percolation is lost between 33 and 55 % real contact area",
         verdict="true" if inside.all() else "partly" if inside[~directed].mean() > 0.5 else "false",
-        evidence=f"{told}. The range is that of small surfaces, not a law: for one kind of random surface, {sizes}",
+        evidence=f"{said}. The range is that of small surfaces, not a law: for one kind of random surface, {sizes}",
     )
 
 
@@ -177,7 +177,7 @@ def valleys_rule_leakage(study: SealStudy) -> Claim:
     best = [min((values[k], name) for name, values in apart.items())[1] for k in (0, 1)]
     rule = all(name in VALLEYS for name in best)
     law = every.leakage["Svm", "Svm"]
-    holds = [_inside(told, one.by_family) for told, one in zip(LEAKAGE, (law.a, law.b), strict=True)]
+    holds = [_inside(said, one.by_family) for said, one in zip(LEAKAGE, (law.a, law.b), strict=True)]
     spread = "; ".join(
         f"{name} {', '.join(f'{10**value:.3g}' for value in apart[name])}" for name in ("Svm", "Sq", "Spm", "Sp")
     )
@@ -248,7 +248,7 @@ def offset_is_harmless(sample: Sequence[Pressed]) -> Claim:
     """Claim 26, of Paper F's surfaces."""
     found = subtracted(sample)
     middle = float(np.sqrt(found.average.min() * found.average.max()))
-    told, medians = [], []
+    said, medians = [], []
     for low, high in BINS:
         chosen = (found.part >= low) & (found.part < high)
         if chosen.any():
@@ -259,14 +259,14 @@ def offset_is_harmless(sample: Sequence[Pressed]) -> Claim:
                 for side in sides
                 if side.any()
             ]
-            told.append(f"{low:g} to {high:g}: {' and '.join(both)}")
+            said.append(f"{low:g} to {high:g}: {' and '.join(both)}")
     slit = np.array([np.cbrt(one.sealed_offset) for one in sample])
     return Claim(
         number=26,
         text="A 10 nm offset at contact is enough and harmless (with what is left at the threshold subtracted)",
         verdict="true" if max(map(abs, medians)) < FEW else "partly" if abs(medians[0]) < 2 * FEW else "false",
         evidence="leakage over that with closed contact (and after the subtraction), medians of surfaces rougher and "
-        f"smoother than Sa {1e6 * middle:.2g} µm, at fractions of the sealing load: {'; '.join(told)}. At the "
+        f"smoother than Sa {1e6 * middle:.2g} µm, at fractions of the sealing load: {'; '.join(said)}. At the "
         f"threshold the 10 nm alone leak like a slit of {1e9 * np.nanmin(slit):.2g} to {1e9 * np.nanmax(slit):.2g} nm; "
         "subtracting this is right at one load only, and the decrease over decades becomes a gentle one",
     )

@@ -87,7 +87,7 @@ def sealing_law(sample: Sample, name: str) -> SealingLaw:
 
 
 def bootstrapped(sample: Sample, statistic: Callable[[Places], Array]) -> list[Constant]:
-    """Numbers that are told from the surfaces whose places are given, each with its intervals."""
+    """Numbers that are expected from the surfaces whose places are given, each with its intervals."""
     families = [np.array(rows) for rows in _families(sample)]
     draw = np.random.default_rng(90731)
     everyone = np.arange(len(sample))
@@ -222,15 +222,15 @@ def leakage_law(sample: Sample, height: str, load: str) -> LeakageLaw:
 
     a, b = bootstrapped(sample, line)
     x, y = np.concatenate(points, axis=1)
-    told = a.value - b.value * x
-    apart, missed = misfit(told**9 * np.sign(told), y**9)
+    expected = a.value - b.value * x
+    apart, missed = misfit(expected**9 * np.sign(expected), y**9)
     return LeakageLaw(
         scale=(height, load),
         a=a,
         b=b,
         apart=apart,
         missed=missed,
-        explained=float(1 - np.var(y - told) / np.var(y)),
+        explained=float(1 - np.var(y - expected) / np.var(y)),
     )
 
 
@@ -241,10 +241,10 @@ def _points(one: Pressed, height: str, load: str) -> Array:
     return np.concatenate([[x[y[:, i] > 0], y[y[:, i] > 0, i]] for i in (0, 1)], axis=1)
 
 
-def misfit(told: Array, found: Array) -> tuple[float, float]:
-    """The rms of log10(found/told) where told is above 0, and the part where it is not."""
-    known = told > 0
-    logs = np.log10(found[known] / told[known])
+def misfit(expected: Array, found: Array) -> tuple[float, float]:
+    """The rms of log10(found/expected) where expected is above 0, and the part where it is not."""
+    known = expected > 0
+    logs = np.log10(found[known] / expected[known])
     return float(np.sqrt(np.mean(logs**2))) if known.any() else float("nan"), float(1 - known.mean())
 
 
@@ -284,18 +284,18 @@ def read_formulas(sample: Sample) -> list[FormulaReading]:
 def _read(formula: str, law: Callable[[Array, Array], Array], sample: Sample) -> FormulaReading:
     rows = []
     for one in sample:
-        told = law(one.loads / MODULUS, np.full(one.loads.shape, one.numbers.heights["Svm"]))
+        expected = law(one.loads / MODULUS, np.full(one.loads.shape, one.numbers.heights["Svm"]))
         for i in (0, 1):
             is_open = one.direct[:, i] > 0
             part = one.loads / one.threshold[i]
-            rows.append(np.stack([told, one.valley, one.direct[:, i], part])[:, is_open])
-    told, valley, flow, part = np.concatenate(rows, axis=1)
+            rows.append(np.stack([expected, one.valley, one.direct[:, i], part])[:, is_open])
+    expected, valley, flow, part = np.concatenate(rows, axis=1)
     twice = law(np.array([0.02]), np.array([2e-6])) / law(np.array([0.01]), np.array([1e-6]))
-    cube = np.sign(told) * np.abs(told) ** 3
+    cube = np.sign(expected) * np.abs(expected) ** 3
     leaks, missed = misfit(cube, flow)
     return FormulaReading(
         formula=formula,
-        valley=misfit(told, valley)[0],
+        valley=misfit(expected, valley)[0],
         leakage=leaks,
         light=misfit(cube[part < LIGHT], flow[part < LIGHT])[0],
         missed=missed,

@@ -96,8 +96,8 @@ def _solve(
                         found[key] = answer.result
                     else:
                         failed[key] = answer.message
-                        told = f"[yellow]left out:[/] {job.setting.name}: {escape(answer.message)}"
-                        messages.print(told, soft_wrap=True)
+                        note = f"[yellow]left out:[/] {job.setting.name}: {escape(answer.message)}"
+                        messages.print(note, soft_wrap=True)
                     done += costs[job.path]
                     bar(done, f"{number} of {len(missing)} runs")
     except (KeyboardInterrupt, SystemExit) as stop:
