@@ -1,1 +1,1 @@
-"""Dry contact of a rough surface with a flat plane: elastic, elastic-plastic, and the closed forms beside them."""
+"""Dry contact of a rough surface with a rigid plane: elastic and elastic-plastic solvers, estimates, closed forms."""

@@ -1,4 +1,4 @@
-"""What the arguments of contact mechanics must be; whatever is wrong is told in one line."""
+"""Checks of the arguments of contact mechanics, which raise InputError with one line."""
 
 import math
 
@@ -10,21 +10,27 @@ from roughfilm.contact.foundation.errors import InputError
 
 
 def positive(place: str, value: float) -> float:
-    """The number, if it is finite and above 0; InputError otherwise."""
+    """The number as a float if it is finite and above 0; raises InputError otherwise."""
     if isinstance(value, bool) or not isinstance(value, int | float) or not 0 < value < math.inf:
         raise InputError(f"{place}: got {value!r}; give a finite number above 0")
     return float(value)
 
 
+def positive_fields(place: str, data: object) -> None:
+    """Raise InputError if a field of a dataclass is not finite and above 0."""
+    for name, value in vars(data).items():
+        positive(f"{place}.{name}", value)
+
+
 def not_negative(place: str, value: float) -> float:
-    """The number, if it is finite and 0 or above; InputError otherwise."""
+    """The number as a float if it is finite and 0 or above; raises InputError otherwise."""
     if isinstance(value, bool) or not isinstance(value, int | float) or not 0 <= value < math.inf:
         raise InputError(f"{place}: got {value!r}; give a finite number, 0 or above")
     return float(value)
 
 
 def finite(place: str, values: ArrayLike) -> Array:
-    """The numbers, any shape, if all are finite; InputError otherwise."""
+    """The numbers as an array of floats, any shape, if all are finite; raises InputError otherwise."""
     array = np.asarray(values, dtype=np.float64)
     if not np.isfinite(array).all():
         raise InputError(f"{place}: got a number that is not finite; give finite ones")

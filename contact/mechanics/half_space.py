@@ -1,4 +1,4 @@
-"""The elastic half-space on a grid: displacement from pressure, and pressure from displacement, by FFT."""
+"""The elastic half-space on a grid: displacement from pressure and pressure from displacement, by FFT."""
 
 import math
 from typing import Literal
@@ -14,7 +14,7 @@ Boundary = Literal["periodic", "free"]
 
 
 def periodic_response(shape: tuple[int, int], spacing: tuple[float, float]) -> Array:
-    """Modes 2/|q| of displacement over pressure for E* = 1, and 0 for the mean; shape (nx, ny // 2 + 1), m."""
+    """Transfer function 2/|q| from pressure to displacement for E* = 1, shape (nx, ny // 2 + 1), m; 0 for the mean."""
     qx, qy = 2 * np.pi * np.fft.fftfreq(shape[0], spacing[0]), 2 * np.pi * np.fft.rfftfreq(shape[1], spacing[1])
     q = np.hypot(qx[:, None], qy[None, :])
     q[0, 0] = math.inf
@@ -22,17 +22,17 @@ def periodic_response(shape: tuple[int, int], spacing: tuple[float, float]) -> A
 
 
 class HalfSpace:
-    """u = K ∗ p over a grid of nodes, periodic, or free by a convolution on a grid twice as long both ways.
+    """The convolution u = K ∗ p over a grid of nodes, periodic, or free by zero padding to twice the grid.
 
-    Transforms in single precision serve the iterations, one in double precision the residual. The former read the flat
-    arrays ``step`` and ``source`` and write ``image``.
+    Iterations use transforms in single precision, which read the flat arrays ``step`` and ``source`` and write
+    ``image``; residuals use transforms in double precision.
 
     Parameters
     ----------
-    shape : nodes (nx, ny) of the whole grid; for the free boundary at least twice those of the surface.
-    spacing : (dx, dy) in any unit of length; the displacement is for E* = 1 in the same unit.
-    boundary : "periodic": the mode of wave vector q answers 2/(E* |q|), the mean not at all; "free": uniformly loaded
-        rectangles, or strips in line contact.
+    shape : number of nodes (nx, ny) of the whole grid; for the free boundary at least twice that of the surface.
+    spacing : (dx, dy) in any unit of length; displacements are for E* = 1 in the same unit.
+    boundary : "periodic": K has the transfer function 2/(E* |q|), 0 for the mean; "free": uniformly loaded rectangles,
+        or strips in line contact.
     team : that shares a transform.
     """
 
@@ -63,22 +63,22 @@ class HalfSpace:
         self._response_single, self._inverse_single = self._single.cut(response), self._single.cut(inverse)
 
     def displace(self) -> None:
-        """``image`` = K ∗ ``step``."""
+        """Set ``image`` to K ∗ ``step``."""
         self._single.apply(0, self._response_single)
 
     def precondition(self) -> None:
-        """``image`` becomes the pressure that would make ``source`` the displacement, were every node in contact."""
+        """Set ``image`` to the pressure whose displacement is ``source`` if every node is in contact."""
         self._single.apply(1, self._inverse_single)
 
     def displacement(self, pressure: Array) -> Array:
-        """K ∗ p in double precision, of the shape of ``pressure``, which may be a part of the grid.
+        """K ∗ p in double precision, same shape as ``pressure``, which may cover a part of the grid.
 
-        It is good until the next transform in double precision, which is written over it.
+        The next transform in double precision overwrites the array returned.
         """
         return self._in_double(pressure, self._response)
 
     def pressure(self, displacement: Array) -> Array:
-        """The pressure of zero mean that makes a displacement, in double precision (periodic only); good as long."""
+        """Pressure of zero mean with a given displacement, in double precision; periodic only; overwritten likewise."""
         return self._in_double(displacement, self._inverse)
 
     def _in_double(self, values: Array, factors: list[list[Array]]) -> Array:

@@ -1,8 +1,8 @@
-"""Fused loops over the grid: each reads and writes every array once, in pieces that threads share.
+"""Fused loops over ranges of the grid, which read and write every array once; threads process separate ranges.
 
-A piece is the range of nodes [low, high). Its free nodes, those whose pressure may change, are listed at the front of
-the same range of ``index``; what belongs to them stands at the same places of ``residual``, ``held`` (their pressure),
-``move``, ``taken`` (their step s) and ``move_image`` (K∗s), so that most loops run through memory in order.
+A range holds the nodes [low, high). Its free nodes, whose pressure may change, are listed at the front of the same
+range of ``index``; the same entries of ``residual``, ``held`` (pressure), ``move``, ``taken`` (step s) and
+``move_image`` (K∗s) belong to them, so that most loops access memory in order.
 """
 
 import numpy as np
@@ -10,18 +10,18 @@ import numpy as np
 from roughfilm.contact.foundation.compiled import compiled
 
 OFF, INSIDE, HARD = 0, 1, 2
-"""What a node's ``state`` says: p = 0, 0 < p < H, p = H."""
+"""Values of ``state``: p = 0, 0 < p < H, p = H."""
 
 WORD = 8
-"""Nodes that are looked at together, as most are far from contact; pieces begin at whole words."""
+"""Number of nodes tested together, as most are far from contact; ranges begin at whole words."""
 
 LISTED = 4
-"""Added to it for a free node, whose pressure is in the list. Others have theirs in the grid, and no source or step."""
+"""Flag in ``state`` of a free node, whose pressure is in the list; other nodes have theirs in the grid."""
 
 
 @compiled
 def advance(low, high, fraction, image, gap, plane, state, touched):  # type: ignore[no-untyped-def]
-    """Let g grow by t K∗s, and mark the nodes that may be free: listed ones, p > 0, g < g00."""
+    """Add t K∗s to the gap g, and mark the nodes that may be free: listed ones, p > 0, g < g00."""
     part = np.float32(fraction)
     level = np.float32(plane)
     image, gap, state, touched = image[low:high], gap[low:high], state[low:high], touched[low:high]
@@ -33,9 +33,9 @@ def advance(low, high, fraction, image, gap, plane, state, touched):  # type: ig
 
 @compiled
 def gather(low, high, words, gap, plane, image, state, pressure, source, step, held, taken, index, residual, now_held, now_taken, move_image, out):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
-    """List the free nodes among the marked, eight of which are a word: residual g − g00, pressure, s and K∗s.
+    """List the free nodes among the marked ones with residual g − g00, pressure, s and K∗s; eight marks are a word.
 
-    Those that were free before have pressure and step in the old lists, in the same order; all others in the grids.
+    Nodes that were free before have pressure and step in the old lists, in the same order; all others in the grids.
     """
     level = np.float32(plane)
     count = before = 0
@@ -77,7 +77,7 @@ def gather(low, high, words, gap, plane, image, state, pressure, source, step, h
 
 @compiled
 def spread(low, end, index, held, pressure):  # type: ignore[no-untyped-def]
-    """Put the pressure of the free nodes into the grid."""
+    """Copy the pressure of the free nodes to the grid."""
     index, held = index[low:end], held[low:end]
     for place in range(index.size):
         pressure[index[place]] = held[place]
@@ -85,7 +85,7 @@ def spread(low, end, index, held, pressure):  # type: ignore[no-untyped-def]
 
 @compiled
 def centre(low, end, mean, source, index, residual):  # type: ignore[no-untyped-def]
-    """Take the mean from the residual of the free nodes."""
+    """Subtract the mean from the residual of the free nodes and copy it to the grid."""
     offset = np.float32(mean)
     index, residual = index[low:end], residual[low:end]
     for place in range(index.size):
@@ -96,7 +96,7 @@ def centre(low, end, mean, source, index, residual):  # type: ignore[no-untyped-
 
 @compiled
 def products(low, end, preconditioned, index, residual, taken, move_image, move, out):  # type: ignore[no-untyped-def]
-    """Gather z of the free nodes; Σz, Σs, ΣKs, ΣzKs, Σzr, Σsr."""
+    """Copy z to the list of free nodes; returns Σz, Σs, ΣKs, ΣzKs, Σzr, Σsr."""
     z_sum = s_sum = k_sum = zk = zr = sr = 0.0
     index, residual, move = index[low:end], residual[low:end], move[low:end]
     taken, move_image = taken[low:end], move_image[low:end]
@@ -122,7 +122,7 @@ def products(low, end, preconditioned, index, residual, taken, move_image, move,
 
 @compiled
 def direct(low, end, length, z_mean, conjugate, s_mean, move, taken):  # type: ignore[no-untyped-def]
-    """From z, the move along the conjugate direction, α (−(z − z̄) + b (s − s̄))."""
+    """Replace z by the move along the conjugate direction, α (−(z − z̄) + b (s − s̄))."""
     back, along = np.float32(-length), np.float32(length * conjugate)
     offset = np.float32(length * (z_mean - conjugate * s_mean))
     move, taken = move[low:end], taken[low:end]
@@ -132,7 +132,7 @@ def direct(low, end, length, z_mean, conjugate, s_mean, move, taken):  # type: i
 
 @compiled
 def descend(low, end, length, residual, move):  # type: ignore[no-untyped-def]
-    """The move down the gradient, −α r."""
+    """Set the move down the gradient, −α r."""
     residual, move = residual[low:end], move[low:end]
     for place in range(move.size):
         move[place] = -length * residual[place]
@@ -140,7 +140,7 @@ def descend(low, end, length, residual, move):  # type: ignore[no-untyped-def]
 
 @compiled
 def excess(low, end, shift, held, hardness, move, out):  # type: ignore[no-untyped-def]
-    """What clip(p + move + λ) − p adds up to, and how many nodes keep within bounds."""
+    """Return the sum of clip(p + move + λ) − p, and the number of nodes that are not clipped."""
     total = 0.0
     within = 0
     held, move = held[low:end], move[low:end]
@@ -156,7 +156,7 @@ def excess(low, end, shift, held, hardness, move, out):  # type: ignore[no-untyp
 
 @compiled
 def beyond(low, end, shift, held, hardness, move, out):  # type: ignore[no-untyped-def]
-    """Of p + move + λ, the greatest below 0 and the least above H."""
+    """Return the largest value of p + move + λ below 0 and the smallest above H."""
     below = -np.inf
     above = np.inf
     held, move = held[low:end], move[low:end]
@@ -170,7 +170,7 @@ def beyond(low, end, shift, held, hardness, move, out):  # type: ignore[no-untyp
 
 @compiled
 def displace(low, end, shift, held, hardness, index, move, residual, taken, step, out):  # type: ignore[no-untyped-def]
-    """The step s = clip(p + move + λ) − p, its Σrs, and how many times it fits between the bounds."""
+    """Compute the step s = clip(p + move + λ) − p; returns Σrs and the largest multiple of s within the bounds."""
     slope = 0.0
     room = np.inf
     index, held, move = index[low:end], held[low:end], move[low:end]
@@ -190,7 +190,7 @@ def displace(low, end, shift, held, hardness, index, move, residual, taken, step
 
 @compiled
 def curvature(low, end, image, index, taken, move_image, out):  # type: ignore[no-untyped-def]
-    """Gather Ks of the free nodes; ΣsKs and Σss."""
+    """Copy K∗s to the list of free nodes; returns ΣsKs and Σss."""
     bend = 0.0
     square = 0.0
     index, taken, move_image = index[low:end], taken[low:end], move_image[low:end]
@@ -206,7 +206,7 @@ def curvature(low, end, image, index, taken, move_image, out):  # type: ignore[n
 
 @compiled
 def press_on(low, end, fraction, shift, held, hardness, index, move, residual, move_image, state, out):  # type: ignore[no-untyped-def]  # fmt: skip
-    """Carry out a part t of the step; Σ(r + t Ks) over the nodes with 0 < p < H, and their number."""
+    """Add t times the step to the pressure; returns Σ(r + t Ks) over nodes with 0 < p < H, and their number."""
     total = 0.0
     count = 0
     index, held, move = index[low:end], held[low:end], move[low:end]
@@ -226,7 +226,7 @@ def press_on(low, end, fraction, shift, held, hardness, index, move, residual, m
 
 @compiled
 def scale_modes(spectrum, left, factors):  # type: ignore[no-untyped-def]
-    """Multiply the modes of some columns, from ``left`` on, by their real factors."""
+    """Multiply the modes of the columns from ``left`` on by real factors."""
     rows, columns = factors.shape
     for row in range(rows):
         for column in range(columns):

@@ -1,4 +1,4 @@
-"""The grid cut into pieces, one for each member of a team, and the loops run over them."""
+"""Ranges of nodes of the grid, one for each thread, and loops over them."""
 
 from collections.abc import Callable
 from typing import Any
@@ -9,25 +9,25 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.threads import Team
 from roughfilm.contact.mechanics.kernels import WORD
 
-NUMBERS = 6
-"""At most so many numbers a loop returns."""
+MAX_RESULTS = 6
+"""Largest number of results of a loop."""
 
 
 class Pieces:
-    """Ranges of nodes that a team works on side by side; ``ends`` says where each range's list of free nodes ends."""
+    """Ranges of nodes that threads process in parallel; ``ends`` holds the end of the free nodes of each range."""
 
     def __init__(self, nodes: int, team: Team) -> None:
         self.ranges = team.ranges(nodes, WORD)
         self.ends = [low for low, _ in self.ranges]
         self._team = team
-        self._out = np.zeros((team.members, NUMBERS))
+        self._out = np.zeros((team.members, MAX_RESULTS))
 
     def over_all(self, kernel: Callable[..., None], *arguments: Any, out: bool = False) -> Array:
-        """Run a loop over every node; the numbers of each piece, a row each, if it returns some."""
+        """Run a loop over all nodes; returns its results if ``out``, a row for each range."""
         return self._run(kernel, self.ranges, arguments, out)
 
     def over_free(self, kernel: Callable[..., None], *arguments: Any, out: bool = False) -> Array:
-        """Run a loop over the free nodes."""
+        """Run a loop over the free nodes; returns as `over_all`."""
         places = [(low, end) for (low, _), end in zip(self.ranges, self.ends, strict=True)]
         return self._run(kernel, places, arguments, out)
 

@@ -1,4 +1,4 @@
-"""The half-space under uniformly loaded rectangles, summed by cyclic convolution on a grid twice as long."""
+"""The response of a half-space to uniformly loaded rectangles, for cyclic convolution on a doubled grid."""
 
 import numpy as np
 import scipy
@@ -7,11 +7,11 @@ from roughfilm.contact.foundation.arrays import Array
 
 
 def influence(shape: tuple[int, int], spacing: tuple[float, float]) -> Array:
-    """Modes of the displacement that a node's pressure makes at the others, for E* = 1; (nx, ny // 2 + 1), m.
+    """Transform of the displacement due to unit pressure on one node, for E* = 1, shape (nx, ny // 2 + 1), m.
 
-    Over an area, u = 1/(π E*) ∫∫ dx dy / r over the rectangle dx dy around the node; along a line (a side of one node),
-    u = −2/(π E*) ∫ ln |x/D| dx over the strip, with D the length of the grid, as a line load needs some reference.
-    Distances go the shorter way round, so that a surface on half the grid does not meet its images.
+    In two dimensions u = 1/(π E*) ∫∫ dx dy / r over the rectangle dx dy of the node; in line contact (one side of one
+    node) u = −2/(π E*) ∫ ln |x/D| dx over the strip, with the length D of the grid as reference. Distances are cyclic,
+    so that a surface on half the grid does not interact with its images.
 
     Source: A. E. H. Love, Phil. Trans. R. Soc. A 228 (1929) 377, doi:10.1098/rsta.1929.0009; S. Liu, Q. Wang, G. Liu,
     Wear 243 (2000) 101, doi:10.1016/S0043-1648(00)00427-0.
@@ -32,10 +32,10 @@ def influence(shape: tuple[int, int], spacing: tuple[float, float]) -> Array:
 
 
 def _corner(x: Array, y: Array) -> Array:
-    """The integral of 1/r from the origin to (x, y), x arsinh(y/|x|) + y arsinh(x/|y|)."""
+    """The integral of 1/r over the rectangle from the origin to (x, y), x arsinh(y/|x|) + y arsinh(x/|y|)."""
     return np.asarray(x * np.arcsinh(y / np.abs(x)) + y * np.arcsinh(x / np.abs(y)))
 
 
 def _logarithm(x: Array, extent: float) -> Array:
-    """The integral of ln |x/D|, x (ln |x/D| − 1)."""
+    """The integral x (ln |x/D| − 1) of ln |x/D|."""
     return np.asarray(x * (np.log(np.abs(x) / extent) - 1))

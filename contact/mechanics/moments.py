@@ -12,19 +12,19 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.mechanics.checks import positive
 from roughfilm.contact.parameters.heights import deviations
 
-SUMMIT_SPREAD = 0.8968
-"""By how much, over α, the variance of summit heights is below that of all heights, relatively (McCool)."""
+SUMMIT_VARIANCE_REDUCTION = 0.8968
+"""Relative reduction of the variance of summit heights below that of all heights, times α (McCool)."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class WavePower:
-    """Mean square of the heights by wave number, in order.
+    """Mean square height by wave number, in increasing order.
 
     Attributes
     ----------
-    wave_numbers : |q|, shape (n,), rad/m, growing; one entry for each pair of opposite wave vectors.
+    wave_numbers : |q|, shape (n,), rad/m, increasing; one entry for each pair of opposite wave vectors.
     power : shape (n,), m²; the sum is the mean square of the heights.
-    line : whether it is of a profile (ridges, plane strain) and not of a surface.
+    line : true for a profile (ridges, plane strain), false for a surface.
     """
 
     wave_numbers: Array
@@ -33,7 +33,7 @@ class WavePower:
 
     @property
     def moments(self) -> "SpectralMoments":
-        """Moments of a profile; of a surface those of its profiles, averaged over all directions.
+        """Spectral moments of a profile, or of the profiles of a surface averaged over all directions.
 
         m0 = Σ |a|², m2 = s2 Σ q²|a|², m4 = s4 Σ q⁴|a|², with s2 = <cos²> = 1/2 and s4 = <cos⁴> = 3/8 for a surface,
         1 for a profile.
@@ -54,12 +54,12 @@ class SpectralMoments:
     Attributes
     ----------
     m0, m2, m4 : <z²>, m²; <z'²>, 1; <z''²>, 1/m².
-    line : whether they are of a profile (ridges, plane strain) and not of an isotropic surface.
+    line : true for a profile (ridges, plane strain), false for an isotropic surface.
 
     Raises
     ------
     InputError
-        If one is not finite and above 0, or m0 m4 < m2², which no profile has.
+        If a moment is not finite and above 0, or m0 m4 < m2², which is impossible.
 
     Notes
     -----
@@ -80,77 +80,75 @@ class SpectralMoments:
 
     @property
     def nayak(self) -> float:
-        """α = m0 m4/m2², breadth of the spectrum: 1 of one wave along a line, 3/2 of a surface of one wave number."""
+        """Nayak's parameter α = m0 m4/m2², breadth of the spectrum: 1 for one wave, 3/2 if isotropic."""
         return self.m0 / self.m2 * (self.m4 / self.m2)
 
     @property
     def rms_height(self) -> float:
-        """Sqrt(m0), m."""
+        """The rms height sqrt(m0), m."""
         return math.sqrt(self.m0)
 
     @property
     def rms_slope(self) -> float:
-        """Slope g' = sqrt(<|∇z|²>): sqrt(2 m2) of a surface, sqrt(m2) of a profile."""
+        """The rms slope g' = sqrt(<|∇z|²>): sqrt(2 m2) for a surface, sqrt(m2) for a profile."""
         return math.sqrt(self.m2 if self.line else 2 * self.m2)
 
     @property
     def rms_curvature(self) -> float:
-        """Root of the mean square curvature along a profile, sqrt(m4), 1/m."""
+        """The rms curvature along a profile, sqrt(m4), 1/m."""
         return math.sqrt(self.m4)
 
     @property
     def summit_density(self) -> float:
-        """Summits per area, m4/(6π√3 m2), 1/m²; of a profile peaks per length, sqrt(m4/m2)/(2π), 1/m. Gaussian."""
+        """Density of Gaussian summits, m4/(6π√3 m2), 1/m²; for a profile density of peaks, sqrt(m4/m2)/(2π), 1/m."""
         ratio = self.m4 / self.m2
         return math.sqrt(ratio) / (2 * math.pi) if self.line else ratio / (6 * math.pi * math.sqrt(3))
 
     @property
     def summit_radius(self) -> float:
-        """Radius of the mean summit curvature, (3/8) sqrt(π/m4), m; of profile peaks sqrt(2/(π m4)). Gaussian."""
+        """Radius of the mean curvature of Gaussian summits, (3/8) sqrt(π/m4), m; for profile peaks sqrt(2/(π m4))."""
         return math.sqrt(2 / (math.pi * self.m4)) if self.line else 0.375 * math.sqrt(math.pi / self.m4)
 
     @property
     def summit_mean(self) -> float:
-        """Mean height of summits over the mean plane, 4 sqrt(m0/(πα)), m; of profile peaks sqrt(πm0/(2α)). Gaussian."""
-        part = math.pi / 2 if self.line else 16 / math.pi
-        return math.sqrt(part * self.m0 / self.nayak)
+        """Mean height of Gaussian summits over the mean plane, 4 sqrt(m0/(πα)), m; for profile peaks sqrt(πm0/(2α))."""
+        factor = math.pi / 2 if self.line else 16 / math.pi
+        return math.sqrt(factor * self.m0 / self.nayak)
 
     @property
     def summit_spread(self) -> float:
-        """Standard deviation of summit heights, sqrt((1 − 0.8968/α) m0), m; of peaks sqrt((1 − (π/2 − 1)/α) m0)."""
-        part = math.pi / 2 - 1 if self.line else SUMMIT_SPREAD
-        return math.sqrt(max(1 - part / self.nayak, 0.0) * self.m0)
+        """Standard deviation of summit heights, sqrt((1 − 0.8968/α) m0), m; for peaks sqrt((1 − (π/2 − 1)/α) m0)."""
+        factor = math.pi / 2 - 1 if self.line else SUMMIT_VARIANCE_REDUCTION
+        return math.sqrt(max(1 - factor / self.nayak, 0.0) * self.m0)
 
 
 def wave_power(heights: ArrayLike, spacing: tuple[float, float]) -> WavePower:
-    """Power of every wave of a periodic array of heights, by Parseval's theorem.
-
-    z = Σ a exp(i q·x) through all points; opposite waves share an entry.
+    """Mean square of every wave of periodic heights z = Σ a exp(i q·x), by Parseval's theorem.
 
     Parameters
     ----------
     heights : shape (nx, ny), m; a profile has ny = 1.
-    spacing : (dx, dy), m; dy does not count for a profile.
+    spacing : (dx, dy), m; dy is ignored for a profile.
 
     Returns
     -------
-    Power and moments, exact for what is band-limited below two pixels a wave. A wave of just two pixels counts with its
-    mean square at the points, which of the wave between them would be half.
+    WavePower : exact for heights without waves shorter than two pixels. A wave of exactly two pixels counts with its
+        mean square at the points, twice that of the continuous wave.
 
     Raises
     ------
     InputError
-        If the heights have no two dimensions, are not finite or all the same, or a spacing is not above 0.
+        If the heights are not two-dimensional, not finite or all equal, or a spacing is not above 0.
 
     Notes
     -----
-    A measurement that is not periodic has steps at its edges, which count as slopes: prepare it first.
+    A measurement that is not periodic has steps at its edges, which count as slopes; prepare it first.
 
     Examples
     --------
     >>> ridges = np.cos(2 * np.pi * np.arange(16) / 16)[:, None]
-    >>> found = wave_power(ridges, (1 / 16, 1.0)).moments
-    >>> round(found.m0, 12), round(found.rms_slope / (2 * math.pi) * math.sqrt(2), 12), round(found.nayak, 12)
+    >>> moments = wave_power(ridges, (1 / 16, 1.0)).moments
+    >>> round(moments.m0, 12), round(moments.rms_slope / (2 * math.pi) * math.sqrt(2), 12), round(moments.nayak, 12)
     (0.5, 1.0, 1.0)
     """
     shape = np.shape(heights)

@@ -1,4 +1,4 @@
-"""Press a rough surface against a flat plane: elastic or elastic-plastic contact without friction or adhesion."""
+"""Elastic or elastic-plastic contact of a rough surface with a rigid plane, without friction or adhesion."""
 
 import math
 from functools import cached_property
@@ -17,51 +17,52 @@ from roughfilm.contact.mechanics.starts import refined, shifted, signed
 from roughfilm.contact.surfaces.surface import MAX_LENGTH, MAX_POINTS, MIN_SPACING
 
 COMPLEMENTARITY_TOLERANCE = 1e-8
-"""Of the complementarity, over the rms height."""
+"""Default tolerance of the complementarity, over the rms height."""
 
 SEARCH_TOLERANCE_FRACTION = 0.9
-"""The search goes to this part of the tolerance, as what it finds is rounded to the load and judged afresh."""
+"""Tolerance of the minimisation over that of the result, whose pressure is rescaled to the load afterwards."""
 
 MAX_ITERATIONS = 2000
+"""Largest number of iterations on one grid."""
 
 COARSEST_GRID_POINTS = 128
-"""Points along the shorter side of the coarsest grid that a search begins on."""
+"""Smallest number of points along the shorter side of a coarser grid that provides a start."""
 
 NODES_PER_THREAD = 1 << 18
-"""Nodes for each thread, at least: with fewer, waiting for each other costs more than is shared."""
+"""Smallest number of nodes for each thread; with fewer, synchronisation costs more than a thread saves."""
 
 COARSE_GRID_TOLERANCE = 0.03
-"""Tolerance of the coarser grids."""
+"""Tolerance of the complementarity on coarser grids."""
 
 
 class Press:
-    """A rough surface ready to be pressed, its transforms planned.
+    """A solver for the contact of one rough surface at any load.
 
-    At a load W it finds p with 0 <= p <= H and mean W such that the deformed gap h1 + K∗p − g00 is 0 where 0 < p < H,
-    >= 0 where p = 0, and <= 0 where p = H, where the surface floats to the plane by u_p = g00 − (h1 + K∗p).
+    At a load W the pressure p, 0 <= p <= H, has the mean W, and the deformed gap h1 + K∗p − g00 is 0 where 0 < p < H,
+    >= 0 where p = 0 and <= 0 where p = H, where the surface deforms plastically by u_p = g00 − (h1 + K∗p).
     h1 = max z − z is the gap of the undeformed surface under the plane that touches it.
 
     Parameters
     ----------
-    heights : z, shape (nx, ny), m, upward. A side of one node makes it line contact, in plane strain.
+    heights : z, shape (nx, ny), m, upward. A side of one node means line contact, in plane strain.
     spacing : (dx, dy), m.
     composite_modulus : E*, Pa; see ``roughfilm.contact.mechanics.solid``.
-    hardness : H, Pa.
-    boundary : "periodic": K answers 2/(E* |q|) to the wave vector q, and the mean pressure moves nothing; "free": the
-        surface stands alone on the half-space, K is Love's (a line load's displacement is then against one a grid
-        length away). It costs four times as much.
-    threads : that share the work.
+    hardness : H, Pa; infinite for an elastic solid.
+    boundary : "periodic": K has the transfer function 2/(E* |q|), 0 for the mean pressure; "free": K is that of Love
+        for a single surface on a half-space, at four times the cost; displacements in line contact are relative to a
+        point one grid length away.
+    threads : number of threads, 1 or more.
 
     Raises
     ------
     InputError
-        If something is out of range or not finite.
+        If an argument is out of range or not finite.
 
     Notes
     -----
-    Every node is a pixel of constant pressure. Against a smooth surface the area of contact converges with the first
-    order of the spacing, mean gap and approach with the second; on a rough surface pixels must resolve the shortest
-    wave. Source: thesis, E.2.2, Eqs. E.5–E.12.
+    Every node is a pixel of constant pressure. For a smooth surface the contact area converges with the first order of
+    the spacing, mean gap and approach with the second; for a rough surface pixels must resolve the shortest wave.
+    Source: thesis, E.2.2, Eqs. E.5–E.12.
     """
 
     def __init__(
@@ -101,16 +102,16 @@ class Press:
         Parameters
         ----------
         load : W, Pa, above 0 and at most H.
-        tolerance : of the complementarity, over the rms height.
-        start : the contact of this surface under another load, to begin from; by default that under this load on a grid
-            twice as coarse, roughly.
+        tolerance : largest complementarity, over the rms height, 1e-13 to 1.
+        start : contact of this surface at another load, as a start; by default the contact at this load on a grid twice
+            as coarse.
 
         Raises
         ------
         InputError
             If the load or the tolerance is out of range, or ``start`` has another shape.
         ConvergenceError
-            If the conditions of contact stay broken by more than the tolerance.
+            If the complementarity stays above the tolerance.
         """
         if not (load > 0 and math.isfinite(load)):
             raise InputError(f"contact: got a load of {load:g} Pa; it must be above 0 and finite")
@@ -133,30 +134,34 @@ class Press:
 
     @cached_property
     def _full_contact(self) -> tuple[float, float]:
-        """The least and the most that full contact adds to the mean pressure, Pa."""
+        """Smallest and largest deviation of the pressure from its mean in full contact, Pa."""
         pressure = self._full_pressure()
         return float(pressure.min()), float(pressure.max())
 
     def _full_pressure(self) -> Array:
-        """What full contact adds to the mean pressure, Pa."""
+        """Deviation of the pressure from its mean in full contact, shape (nx, ny), Pa."""
         return -self.composite_modulus * self._half_space.pressure(self._down / self._length)
 
     def _search(self, load: float, tolerance: float, start: Contact | None) -> Contact:
         unit = self._unit(load)
         pressure_unit = self.composite_modulus * unit / self._length
         hardness = self.hardness / pressure_unit
-        found, iterations = minimise(
+        if start is None:
+            initial = self._initial(load)
+        else:
+            initial = shifted(signed(start, self.composite_modulus), load, self.hardness)
+        pressure, iterations = minimise(
             self._half_space,
-            self._spread(self._down / unit, math.inf),
-            self._spread((self._begin(load) if start is None else self._moved(start, load)) / pressure_unit, 0.0),
+            self._padded(self._down / unit, math.inf),
+            self._padded(initial / pressure_unit, 0.0),
             hardness,
             tolerance=SEARCH_TOLERANCE_FRACTION * tolerance,
             most_iterations=MAX_ITERATIONS,
             pieces=Pieces(math.prod(self._grid), self._team),
         )
-        found = found.reshape(self._grid)[self._part]
-        found = np.where(found >= hardness, self.hardness, found * pressure_unit)
-        contact = self.contact_of(load, _scaled(found, load, self.hardness), iterations)
+        pressure = pressure.reshape(self._grid)[self._part]
+        pressure = np.where(pressure >= hardness, self.hardness, pressure * pressure_unit)
+        contact = self.contact_of(load, _scaled(pressure, load, self.hardness), iterations)
         if contact.complementarity > tolerance:
             raise ConvergenceError(
                 f"contact: {Outcome.STALLED} with the conditions of contact broken by {contact.complementarity:.2g} "
@@ -166,11 +171,11 @@ class Press:
             )
         return contact
 
-    def _begin(self, load: float) -> Array:
-        """Pressure to begin from: that of a grid twice as coarse, which costs a fourth; the load, on a small one."""
-        everywhere = np.full(self.heights.shape, load)
+    def _initial(self, load: float) -> Array:
+        """Start pressure, Pa: that on a grid twice as coarse, at a fourth of the cost, or the load on a small grid."""
+        uniform = np.full(self.heights.shape, load)
         if min(self.heights.shape) < 2 * COARSEST_GRID_POINTS or any(n % 2 for n in self.heights.shape):
-            return everywhere
+            return uniform
         dx, dy = self.spacing
         coarser = Press(
             self.heights[::2, ::2],
@@ -181,33 +186,29 @@ class Press:
             threads=self._threads,
         )
         try:
-            found = coarser.at(load, tolerance=COARSE_GRID_TOLERANCE)
+            contact = coarser.at(load, tolerance=COARSE_GRID_TOLERANCE)
         except ConvergenceError:
-            return everywhere
-        return shifted(refined(signed(found, self.composite_modulus)), load, self.hardness)
+            return uniform
+        return shifted(refined(signed(contact, self.composite_modulus)), load, self.hardness)
 
-    def _moved(self, start: Contact, load: float) -> Array:
-        """The pressure at another load brought to this one."""
-        return shifted(signed(start, self.composite_modulus), load, self.hardness)
-
-    def _spread(self, values: Array | float, beyond: float) -> Array:
-        """Values at the surface's nodes, and another beyond them, over the whole grid, flat."""
-        grid = np.full(self._grid, beyond)
+    def _padded(self, values: Array, padding: float) -> Array:
+        """Values at the nodes of the surface, padded to the whole grid, flat."""
+        grid = np.full(self._grid, padding)
         grid[self._part] = values
         return grid.reshape(-1)
 
     def _unit(self, load: float) -> float:
-        """The rms height, or for a flat punch what the load moves, m."""
+        """The unit of length of the minimisation, m: the rms height, or the displacement scale of a flat punch."""
         return float(self._down.std()) or load / self.composite_modulus * self._length
 
     def contact_of(self, load: float, pressure: Array, iterations: int) -> Contact:
-        """What a pressure does, and how well it keeps the conditions of contact, computed afresh."""
+        """The contact state of a pressure, shape (nx, ny), Pa, with displacement and complementarity recomputed."""
         base = load if self.boundary == "periodic" else 0.0
         elastic = self._half_space.displacement((pressure - base) / self.composite_modulus) * self._length
         deformed = self._down + elastic
         plane = plane_of(pressure, deformed, self.hardness)
         violation = violation_of(pressure, deformed, plane, self.hardness)
-        over = np.subtract(deformed, plane, out=deformed)
+        gap = np.subtract(deformed, plane, out=deformed)
         return Contact(
             load=load,
             hardness=self.hardness,
@@ -215,9 +216,9 @@ class Press:
             spacing=self.spacing,
             pressure=pressure,
             elastic_displacement=elastic,
-            plastic_displacement=np.where(pressure >= self.hardness, np.maximum(-over, 0), 0.0),
+            plastic_displacement=np.where(pressure >= self.hardness, np.maximum(-gap, 0), 0.0),
             approach=plane - float(self._down.min()),
-            gap=np.where(pressure > 0, 0.0, np.maximum(over, 0)),
+            gap=np.where(pressure > 0, 0.0, np.maximum(gap, 0)),
             complementarity=violation / self._unit(load),
             iterations=iterations,
         )
@@ -250,7 +251,7 @@ def _doubled(shape: tuple[int, ...]) -> tuple[int, int]:
 
 
 def _scaled(pressure: Array, load: float, hardness: float) -> Array:
-    """A pressure of another load brought to this one within its bounds; uniform where that cannot be done."""
+    """Pressure rescaled within its bounds to the mean ``load``; uniform if rescaling is impossible."""
     for _ in range(50):
         inside = (pressure > 0) & (pressure < hardness)
         missing = load * pressure.size - pressure.sum()

@@ -1,17 +1,16 @@
-"""Pressures between 0 and H of a given sum that cost least: projected conjugate gradients, preconditioned by |q|.
+"""Projected conjugate gradients, preconditioned by |q|, for pressures between 0 and H with a given sum.
 
-Minimise ½ p·K p + p·h under 0 ≤ p ≤ H and Σp = N W. On the free nodes, whose pressure may change, the residual
-r = h + K p − g00 must vanish. Each iteration takes z = |q| r, makes d = −z + b s conjugate to the last step s, steps
-along d within the bounds, s = clip(p + α d + λ) − p with λ such that the sum keeps, and searches the line p + t s
-exactly. K s is the only displacement computed: it serves the search, the update of the gap and the next b, so that an
-iteration costs two pairs of transforms. Where s would not go downhill, a step down the gradient itself does, of the
-length of Barzilai and Borwein.
+The method minimises ½ p·K p + p·h under 0 ≤ p ≤ H and Σp = N W. On the free nodes, whose pressure may change, the
+residual r = h + K p − g00 must vanish. Each iteration computes z = |q| r, makes d = −z + b s conjugate to the last step
+s, sets s = clip(p + α d + λ) − p with λ such that the sum stays, and minimises along p + t s. K s is the only
+displacement computed: it serves the line search, the update of the gap and the next b, so that an iteration costs two
+pairs of transforms. If s is not a descent direction, a gradient step of the length of Barzilai and Borwein replaces it.
 
-Steps shrink as they converge, and so do the errors of their images: single precision is enough for transforms as long
-as the gap is computed afresh, in double precision, now and then.
+The steps and the errors of their images shrink together, so that transforms in single precision suffice if the gap is
+recomputed in double precision from time to time.
 
 Source: I. A. Polonsky, L. M. Keer, Wear 231 (1999) 206, doi:10.1016/S0043-1648(99)00113-1, for the projection in
-elastic contact; the preconditioner, the bounds on both sides and the search are as said above.
+elastic contact without an upper bound.
 """
 
 import math
@@ -24,27 +23,27 @@ from roughfilm.contact.mechanics import kernels
 from roughfilm.contact.mechanics.half_space import HalfSpace
 from roughfilm.contact.mechanics.loop_ranges import Pieces
 
-REFRESH = 1e-4
-"""The gap is computed afresh each time its violation has fallen by this factor."""
+REFRESH_FACTOR = 1e-4
+"""Reduction of the violation after which the gap is recomputed in double precision."""
 
-WHOLE_STEP = 0.6
-"""A step that the bounds cut short is taken whole if the least energy lies beyond this part of it."""
+WHOLE_STEP_FRACTION = 0.6
+"""Fraction of a clipped step beyond which the minimum must lie for the whole step to be taken."""
 
-SUM = 1e-14
-"""The sum of pressures is kept to this part of it in every step."""
+SUM_TOLERANCE = 1e-14
+"""Relative tolerance of the sum of pressures in every step."""
 
-BETTER, PATIENCE = 0.9, 500
-"""A violation that has not fallen to this part of the least one in so many iterations has stalled."""
+IMPROVEMENT_FACTOR, STALL_ITERATIONS = 0.9, 500
+"""Required reduction of the smallest violation, and the iterations without it after which the search has stalled."""
 
-JAMMED = 10
-"""After so many iterations without a better one, as many steps go down the gradient, then conjugate ones again."""
+GRADIENT_ITERATIONS = 10
+"""Iterations without improvement after which gradient and conjugate steps alternate in blocks of this length."""
 
-SHORTEST, LONGEST = 0.2, 3.0
-"""Trial lengths α stay between these; 1 is exact where every node is in contact."""
+MIN_TRIAL_LENGTH, MAX_TRIAL_LENGTH = 0.2, 3.0
+"""Range of the trial length α; 1 is exact where every node is in contact."""
 
 
 def plane_of(pressure: Array, gap: Array, hardness: float) -> float:
-    """g00: the mean gap where 0 < p < H; with no such node, the middle between nodes at H and nodes at 0."""
+    """The plane g00: mean gap where 0 < p < H, or without such nodes the middle between nodes at H and nodes at 0."""
     inside = (pressure > 0) & (pressure < hardness)
     if inside.any():
         return float(gap[inside].mean())
@@ -55,14 +54,14 @@ def plane_of(pressure: Array, gap: Array, hardness: float) -> float:
 
 
 def violation_of(pressure: Array, gap: Array, plane: float, hardness: float) -> float:
-    """The worst of |g − g00| where 0 < p < H, g00 − g where p = 0 and g − g00 where p = H."""
+    """The largest of |g − g00| where 0 < p < H, g00 − g where p = 0 and g − g00 where p = H."""
     difference = gap - plane
     worst = np.max(-difference, where=pressure < hardness, initial=0.0)
     return float(max(worst, np.max(difference, where=pressure > 0, initial=0.0)))
 
 
 class _Search:
-    """One minimisation: the arrays it works on, and the steps of an iteration."""
+    """State of one minimisation, and the steps of an iteration."""
 
     def __init__(self, half_space: HalfSpace, heights: Array, pressure: Array, hardness: float, pieces: Pieces) -> None:
         self.half_space, self.heights, self.pressure, self.hardness = half_space, heights, pressure, hardness
@@ -87,7 +86,7 @@ class _Search:
         self.refresh()
 
     def refresh(self) -> None:
-        """The gap over its plane from the pressure, in double precision, kept in single."""
+        """Recompute the gap over its plane from the pressure in double precision and store it in single precision."""
         self.pieces.over_free(kernels.spread, self.index, self.held, self.pressure)
         displacement = self.half_space.displacement(self.pressure.reshape(self.half_space.shape)).reshape(-1)
         displacement += self.heights
@@ -96,28 +95,28 @@ class _Search:
         self.plane = self.fraction = 0.0
 
     def free_nodes(self) -> float:
-        """Bring the gap up to date, list the free nodes with their residual, and return the largest."""
+        """Update the gap, list the free nodes and their residuals, and return the largest absolute residual."""
         half_space, pieces = self.half_space, self.pieces
         image, source, step = half_space.image, half_space.source, half_space.step
         self.held, self.was_held = self.was_held, self.held
         self.taken, self.was_taken = self.was_taken, self.taken
         pieces.over_all(kernels.advance, self.fraction, image, self.gap, self.plane, self.state, self.touched)
-        found = pieces.over_all(
+        numbers = pieces.over_all(
             kernels.gather,
             *(self.touched.view(np.uint64), self.gap, self.plane, image, self.state, self.pressure, source, step),
             *(self.was_held, self.was_taken, self.index, self.residual, self.held, self.taken, self.move_image),
             out=True,
         )
-        pieces.ends = [int(end) for end in found[:, 0]]
+        pieces.ends = [int(end) for end in numbers[:, 0]]
         self.free = sum(end - low for end, (low, _) in zip(pieces.ends, pieces.ranges, strict=True))
-        worst = float(found[:, 2].max())
+        worst = float(numbers[:, 2].max())
         if self.free:
-            self.mean = float(found[:, 1].sum()) / self.free
+            self.mean = float(numbers[:, 1].sum()) / self.free
             pieces.over_free(kernels.centre, self.mean, half_space.source, self.index, self.residual)
         return worst
 
     def conjugate(self) -> bool:
-        """Point ``move`` along z = |q| r made conjugate to the last step; False if that is not downhill."""
+        """Set ``move`` along z = |q| r made conjugate to the last step; false if this is not a descent direction."""
         half_space, pieces = self.half_space, self.pieces
         half_space.precondition()
         z, s, k, zk, zr, sr = pieces.over_free(
@@ -133,60 +132,62 @@ class _Search:
         return bool(zr > 0)
 
     def descend(self) -> None:
-        """Point ``move`` down the gradient, by the length of Barzilai and Borwein."""
+        """Set ``move`` down the gradient, by the length of Barzilai and Borwein."""
         length = self.square / self.curvature if self.curvature > 0 else 1.0
         self.length = 1.0
         self.pieces.over_free(kernels.descend, length, self.residual, self.move)
 
     def step(self) -> bool:
-        """Step along ``move`` within the bounds, keeping the sum; whether that goes downhill."""
+        """Compute the step along ``move`` within the bounds that keeps the sum; true if the energy decreases."""
         half_space = self.half_space
         self.slide, self.cut = self._shift()
-        found = self.pieces.over_free(
+        numbers = self.pieces.over_free(
             kernels.displace,
             *(self.slide, self.held, self.hardness, self.index, self.move, self.residual, self.taken, half_space.step),
             out=True,
         )
-        self.slope, self.room = float(found[:, 0].sum()), float(found[:, 1].min())
+        self.slope, self.room = float(numbers[:, 0].sum()), float(numbers[:, 1].min())
         return self.slope < 0
 
     def search(self) -> None:
-        """Go along the step to the least energy and change the pressure."""
+        """Minimise the energy along the step and update the pressure."""
         half_space, pieces = self.half_space, self.pieces
         half_space.displace()
-        found = pieces.over_free(kernels.curvature, half_space.image, self.index, self.taken, self.move_image, out=True)
-        self.curvature, self.square = (float(total) for total in found[:, :2].sum(axis=0))
+        numbers = pieces.over_free(
+            kernels.curvature, half_space.image, self.index, self.taken, self.move_image, out=True
+        )
+        self.curvature, self.square = (float(total) for total in numbers[:, :2].sum(axis=0))
         best = -self.slope / self.curvature if self.curvature > 0 else 1.0
         if self.cut:
-            self.fraction = 1.0 if best > WHOLE_STEP else best
+            self.fraction = 1.0 if best > WHOLE_STEP_FRACTION else best
             best = min(max(best, 0.5), 1.5)
         else:
             self.fraction = min(best, self.room)
-        self.length = min(max(self.length * best, SHORTEST), LONGEST)
-        found = pieces.over_free(
+        self.length = min(max(self.length * best, MIN_TRIAL_LENGTH), MAX_TRIAL_LENGTH)
+        numbers = pieces.over_free(
             kernels.press_on,
             *(self.fraction, self.slide, self.held, self.hardness, self.index, self.move, self.residual),
             *(self.move_image, self.state),
             out=True,
         )
-        total, inside = found[:, :2].sum(axis=0)
+        total, inside = numbers[:, :2].sum(axis=0)
         if inside:
             self.plane += self.mean + float(total / inside)
         else:
             self.refresh()
 
     def _shift(self) -> tuple[float, bool]:
-        """λ with Σ clip(p + move + λ) = Σp over the free nodes, by Newton's method, and whether a bound cuts a node.
+        """The shift λ with Σ clip(p + move + λ) = Σp over the free nodes, and whether a node is clipped.
 
-        The sum grows with λ and is straight between kinks, so that Newton's method ends on the root itself.
+        The sum is increasing and piecewise linear in λ, so that Newton's method ends at the exact root.
         """
         shift, low, high = 0.0, -math.inf, math.inf
         while True:
-            found = self.pieces.over_free(kernels.excess, shift, self.held, self.hardness, self.move, out=True)
-            excess, within = float(found[:, 0].sum()), int(found[:, 1].sum())
+            numbers = self.pieces.over_free(kernels.excess, shift, self.held, self.hardness, self.move, out=True)
+            excess, within = float(numbers[:, 0].sum()), int(numbers[:, 1].sum())
             if within == self.free:
                 return shift - excess / within, False
-            if abs(excess) <= SUM * self.sum:
+            if abs(excess) <= SUM_TOLERANCE * self.sum:
                 return shift, True
             if excess > 0:
                 high = shift
@@ -215,42 +216,45 @@ def minimise(
     most_iterations: int,
     pieces: Pieces,
 ) -> tuple[Array, int]:
-    """The pressure of least energy from a start that keeps the bounds and has the sum to keep.
+    """The pressure that minimises the energy, from a start within the bounds that has the prescribed sum.
 
     Parameters
     ----------
     half_space : K, for E* = 1.
-    heights : h, flat, the gap of the undeformed surface; infinite where there is none.
-    start : flat; it becomes the pressure found.
+    heights : h, gap of the undeformed surface, flat; infinite outside the surface.
+    start : initial pressure, flat, for E* = 1; overwritten with the result.
     hardness : H, for E* = 1.
-    tolerance : of the violation, in the unit of h, the rms height.
+    tolerance : largest violation, in the unit of h, the rms height.
+    most_iterations : largest number of iterations.
+    pieces : ranges of nodes for the threads.
 
     Returns
     -------
-    The pressure, flat, and how many iterations it took.
+    pressure : flat, for E* = 1.
+    iterations : number of iterations.
 
     Raises
     ------
     ConvergenceError
-        If the violation stays above the tolerance, with how far it came.
+        If the violation stays above the tolerance; the message gives the smallest violation.
     """
     search = _Search(half_space, heights, start, hardness, pieces)
     violation = refreshed = best = search.free_nodes()
     since = 0
     outcome = Outcome.UNFINISHED
     for iteration in range(most_iterations + 1):
-        if violation <= max(tolerance, REFRESH * refreshed):
+        if violation <= max(tolerance, REFRESH_FACTOR * refreshed):
             search.refresh()
             violation = refreshed = search.free_nodes()
             if violation <= tolerance:
                 return search.pressure, iteration
-        if violation < BETTER * best:
+        if violation < IMPROVEMENT_FACTOR * best:
             best, since = violation, iteration
-        if iteration - since > PATIENCE:
+        if iteration - since > STALL_ITERATIONS:
             outcome = Outcome.STALLED
             break
-        jammed = (iteration - since) // JAMMED % 2 == 1
-        if jammed or not (search.conjugate() and search.step()):
+        gradient = (iteration - since) // GRADIENT_ITERATIONS % 2 == 1
+        if gradient or not (search.conjugate() and search.step()):
             search.descend()
             if not search.step():
                 outcome = Outcome.STALLED

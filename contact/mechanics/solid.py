@@ -1,4 +1,4 @@
-"""What the bodies in contact are made of."""
+"""Material of the bodies in contact, and their composite modulus."""
 
 import math
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ class Solid:
     ----------
     modulus : Young's modulus E, Pa.
     poisson : Poisson's ratio ν, 0 to 0.5.
-    hardness : the greatest pressure it bears, H, Pa; infinite for an elastic solid.
+    hardness : H, largest pressure, Pa; infinite for an elastic solid.
 
     Raises
     ------
@@ -36,7 +36,7 @@ class Solid:
 
 
 def composite_modulus(solid: Solid, counter: Solid | None = None) -> float:
-    """E* of two solids, 1/E* = (1 − ν1²)/E1 + (1 − ν2²)/E2, Pa; the counter body is rigid if there is none.
+    """Composite modulus E* of two solids, 1/E* = (1 − ν1²)/E1 + (1 − ν2²)/E2, Pa; without a counter body it is rigid.
 
     Source: thesis Eq. E.8; K. L. Johnson, Contact Mechanics (1985), Eq. 4.20.
 

@@ -1,7 +1,7 @@
-"""A series of contacts in HDF5: every finished load at once, and never a half of one.
+"""Series of contacts in HDF5 files, to which completed loads are added one by one.
 
-The HDF5 file stands behind a block of 512 bytes with the digest of all that follows, as those of surfaces do. A load is
-added to a copy, which then takes the place of the file.
+The files have a header with a digest, see `roughfilm.contact.foundation.checked_hdf5`. A load is added to a copy, which
+then replaces the file.
 """
 
 import json
@@ -37,12 +37,12 @@ REMEDY = "remove it or choose another place"
 
 @dataclass(frozen=True, kw_only=True)
 class Row:
-    """The numbers of one load, those of `Contact` among them; None where the model has none.
+    """Numbers of one load, named as in `Contact`; None where the model does not give them.
 
     Attributes
     ----------
-    pressure_max : Pa.
-    cpu_s : s.
+    pressure_max : largest pressure, Pa.
+    cpu_s : processor time, s.
     """
 
     load: float
@@ -60,11 +60,11 @@ class Row:
 NUMBERS = tuple(entry.name for entry in fields(Row))
 
 UNITS = {"load": "Pa", "mean_gap": "m", "approach": "m", "pressure_max": "Pa", "cpu_s": "s"}
-"""Of the numbers of a row; all others are pure numbers."""
+"""Units of the numbers of a row; all others are dimensionless."""
 
 
 def row_of(contact: Contact, cpu_s: float) -> Row:
-    """The numbers of a contact that took ``cpu_s`` seconds of processor time."""
+    """The row of a contact that took ``cpu_s`` seconds of processor time."""
     return Row(
         load=contact.load,
         area_fraction=contact.area_fraction,
@@ -79,17 +79,17 @@ def row_of(contact: Contact, cpu_s: float) -> Row:
     )
 
 
-def add(path: Path, inputs: Inputs, found: Sequence[tuple[Row, Contact | None]]) -> None:
-    """Write loads to a file of a series, all or none; those that it holds for these inputs stay.
+def add(path: Path, inputs: Inputs, contacts: Sequence[tuple[Row, Contact | None]]) -> None:
+    """Add loads to the file of a series, all or none; loads stored for the same inputs stay.
 
     Parameters
     ----------
-    found : the numbers of each load, and its fields, if the model has them.
+    contacts : for each load its row and, if the model has fields, its contact.
 
     Raises
     ------
     InputError
-        If ``path`` cannot be written, was damaged, or holds something else.
+        If ``path`` cannot be written, was damaged, or holds other data.
     """
     before = finished(path, inputs)
     with replacing(path) as scratch:
@@ -103,9 +103,9 @@ def add(path: Path, inputs: Inputs, found: Sequence[tuple[Row, Contact | None]])
         with h5py.File(**mode) as file:
             if not before:
                 _begin(file, inputs)
-            for row, contact in found:
+            for row, contact in contacts:
                 _put(file, row, contact)
-            _tabulate(file, before | {row.load: row for row, _ in found})
+            _tabulate(file, before | {row.load: row for row, _ in contacts})
         with scratch.open("r+b") as raw:
             raw.write(header_block(MARK, content_digest(scratch)))
             os.fsync(raw.fileno())
@@ -124,12 +124,12 @@ def _put(file: h5py.File, row: Row, contact: Contact | None) -> None:
 
 
 def finished(path: Path, inputs: Inputs) -> dict[float, Row]:
-    """The loads that a file holds for these inputs, by load; none if there is no such file, or an empty one.
+    """Rows stored in a file for these inputs, by load, Pa; empty if the file is absent or empty.
 
     Raises
     ------
     InputError
-        If the file cannot be read, was damaged or changed, or holds another series or something else.
+        If the file cannot be read, was damaged or changed, or holds another series or other data.
     """
     try:
         with path.open("rb") as raw:
@@ -154,17 +154,17 @@ def finished(path: Path, inputs: Inputs) -> dict[float, Row]:
 
 
 def is_series(path: Path) -> bool:
-    """Whether a file holds a series of contacts, whatever its name."""
+    """Whether a file holds a series of contacts, whatever its name; raises OSError if it cannot be read."""
     return has_mark(path, MARK)
 
 
 def load_series(path: Path) -> tuple[Inputs, tuple[float, ...]]:
-    """What the contacts in a file are of, and the loads at which it holds fields, rising, Pa.
+    """Inputs of the series in a file, and the loads at which it holds fields, increasing, Pa.
 
     Raises
     ------
     InputError
-        If the file cannot be read, was damaged or changed, or holds something else.
+        If the file cannot be read, was damaged or changed, or holds other data.
     """
     if not is_series(path):
         raise InputError(f"{path}: is no series of contacts; {REMEDY}")
@@ -180,7 +180,7 @@ def load_series(path: Path) -> tuple[Inputs, tuple[float, ...]]:
 
 
 def load_contact(path: Path, load: float) -> Contact:
-    """The contact at a load that a file holds; u_e = g00 − h1 − u_p + gap, which holds where the solver left it.
+    """The stored contact at a load, Pa; the elastic displacement is recomputed as u_e = g00 − h1 − u_p + gap.
 
     Raises
     ------
@@ -227,7 +227,7 @@ def _write(group: h5py.Group, name: str, values: Array, unit: str) -> None:
 
 
 def _tabulate(file: h5py.File, rows: Mapping[float, Row]) -> None:
-    """Write ``series``: every number of all loads as a column, loads rising; NaN where there is none."""
+    """Write the group ``series``: a column for each number, by increasing load; NaN where a number is missing."""
     if "series" in file:
         del file["series"]
     ordered = [_numbers(rows[load]) for load in sorted(rows)]
@@ -250,6 +250,6 @@ def _arrays(contact: Contact) -> dict[str, Array]:
 
 def _row(attributes: Mapping[str, Any]) -> Row:
     numbers = {name: float(attributes[name]) for name in NUMBERS}
-    told: dict[str, Any] = {name: None if math.isnan(number) else number for name, number in numbers.items()}
-    told["iterations"] = None if told["iterations"] is None else int(told["iterations"])
-    return Row(**told)
+    values: dict[str, Any] = {name: None if math.isnan(number) else number for name, number in numbers.items()}
+    values["iterations"] = None if values["iterations"] is None else int(values["iterations"])
+    return Row(**values)

@@ -1,4 +1,4 @@
-"""Real grids filtered by Fourier transforms; what planning finds out is kept for the next run on this machine."""
+"""Filters of real grids by Fourier transforms; plans are cached on disk for the next run."""
 
 import json
 import os
@@ -17,18 +17,18 @@ from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.threads import Team
 from roughfilm.contact.mechanics import kernels
 
-SLAB = 1 << 19
-"""Bytes of the columns that are taken forth, multiplied and taken back at a time, while the cache holds them."""
+SLAB_BYTES = 1 << 19
+"""Size of the columns that are transformed, multiplied and transformed back together, bytes; it fits the cache."""
 
-ALIGNED = 16
-"""Modes; a row of modes is a whole number of these, and one more, so that no two lie a power of two apart."""
+ALIGNMENT = 16
+"""Number of modes to which rows are padded, plus one such block, so that rows are not a power of two apart."""
 
 
 class Filter:
-    """Multiplies the modes of real grids by real factors, from some grids into another, on which it is planned.
+    """Multiplication of the Fourier modes of real grids by real factors.
 
-    Rows are transformed forth; columns forth, multiplied, and back, a slab at a time; rows back. Each member of the
-    team has its rows and its columns.
+    Rows are transformed first; then columns are transformed, multiplied and transformed back, slab by slab; then rows
+    are transformed back. Each thread processes its own rows and columns.
 
     Parameters
     ----------
@@ -42,10 +42,10 @@ class Filter:
         self._team, self._nodes = team, result.size
         rows, columns = result.shape[0], result.shape[1] // 2 + 1
         kind = np.result_type(result.dtype, np.complex64)
-        padded = (columns // ALIGNED + 2) * ALIGNED
+        padded = (columns // ALIGNMENT + 2) * ALIGNMENT
         self._spectrum = pyfftw.empty_aligned((rows, padded), kind)
         modes = self._spectrum[:, :columns]
-        width = max(SLAB // (rows * kind.itemsize * ALIGNED), 1) * ALIGNED
+        width = max(SLAB_BYTES // (rows * kind.itemsize * ALIGNMENT), 1) * ALIGNMENT
         with _planner() as planner:
             plan = planner.plan
             self._rows = [
@@ -58,11 +58,11 @@ class Filter:
                      plan(modes[:, left:right], modes[:, left:right], 0, back=True))
                     for left, right in _cut(first, last, width)
                 ]
-                for first, last in team.ranges(columns, ALIGNED)
+                for first, last in team.ranges(columns, ALIGNMENT)
             ]  # fmt: skip
 
     def cut(self, factors: Array) -> list[list[Array]]:
-        """Factors (nx, ny // 2 + 1) of the modes as ``apply`` takes them, with the normalisation of the transforms."""
+        """Factors of the modes, shape (nx, ny // 2 + 1), normalised and divided into slabs for ``apply``."""
         factors = factors / self._nodes
         return [
             [np.ascontiguousarray(factors[:, left:right], dtype=self._spectrum.real.dtype) for left, right, *_ in slabs]
@@ -70,7 +70,7 @@ class Filter:
         ]
 
     def apply(self, source: int, factors: list[list[Array]]) -> None:
-        """Filter the grid of that number into the result; the other grids keep what they hold."""
+        """Filter the source grid of index ``source`` into the result; other grids stay unchanged."""
         self._team.share(lambda member: self._rows[source][member].execute())
         self._team.share(lambda member: self._columns(self._slabs[member], factors[member]))
         self._team.share(lambda member: self._rows_back[member].execute())
@@ -83,18 +83,18 @@ class Filter:
 
 
 def _cut(first: int, last: int, width: int) -> list[tuple[int, int]]:
-    """Ranges of at most that width."""
+    """Ranges of at most ``width`` that cover first to last."""
     return list(pairwise([*range(first, last, width), last]))
 
 
 class _Planner:
-    """Plans from what is known where that suffices; ``learned`` says whether it had to measure."""
+    """Planner that uses stored plans where they exist; ``learned`` says whether it measured new ones."""
 
     def __init__(self) -> None:
         self.learned = False
 
     def plan(self, before: Any, after: Any, axis: int, *, back: bool = False) -> Any:
-        """A transform along an axis, which may overwrite what it reads if it goes back."""
+        """A transform along an axis; a backward transform may overwrite its input."""
         import pyfftw  # slow to import
 
         options = {"axes": (axis,), "direction": "FFTW_BACKWARD" if back else "FFTW_FORWARD"}
@@ -108,7 +108,7 @@ class _Planner:
 
 @contextmanager
 def _planner() -> Iterator[_Planner]:
-    """Plan with what earlier runs learned, and keep what is learned now."""
+    """Yield a planner with the plans of earlier runs, and store new plans."""
     _recall()
     planner = _Planner()
     yield planner
@@ -125,7 +125,7 @@ def _file() -> Path:
 
 @cache
 def _recall() -> None:
-    """Take up what earlier runs kept; a file that cannot be understood is as good as none."""
+    """Load the plans of earlier runs; an unreadable file is ignored."""
     import pyfftw  # slow to import
 
     try:
@@ -136,7 +136,7 @@ def _recall() -> None:
 
 
 def _keep() -> None:
-    """Keep what is known by now; where there is no place for it, the next run plans again."""
+    """Store all plans; if the file cannot be written, the next run plans again."""
     import pyfftw  # slow to import
 
     try:

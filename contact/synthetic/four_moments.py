@@ -92,7 +92,7 @@ def heights_with(moments: FourMoments, count: int) -> Array:
         highest = "" if moments.peak is None else f", Rp/Rq {moments.peak / moments.rms:.4g}"
         raise InputError(
             f"heights: got Ra/Rq {moments.average / moments.rms:.4g}, Rsk {moments.skewness:.4g}, Rku "
-            f"{moments.kurtosis:.4g}{highest}, which no smooth distribution was found for; normal ones have 0.798, 0, 3"
+            f"{moments.kurtosis:.4g}{highest}, which no smooth distribution has; normal heights have 0.798, 0, 3"
         )
     return np.asarray(moments.rms * z)
 
@@ -127,7 +127,7 @@ def heights_within(*, average: float, rms: float, peak: float, valley: float, co
     if not error < MOMENT_TOLERANCE:
         raise InputError(
             f"heights: got Sa/Sq {average / rms:.4g}, Sp/Sq {peak / rms:.4g}, Sv/Sq {valley / rms:.4g}, which no "
-            f"smooth distribution of {count} heights was found for; those of {count} normal ones are 0.798 and both "
+            f"smooth distribution of {count} heights has; those of {count} normal heights are 0.798 and both "
             f"{scipy.special.ndtri(1 - 0.5 / count):.3g}"
         )
     return np.asarray(rms * z)

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
 from roughfilm.rom.advice.laws import RESOLVING, Law, Numbers, Step, Table, on_grid, table
-from roughfilm.rom.ladder.kind import Kind, Scene, kinds
+from roughfilm.rom.ladder.kind import Kind, Scene, kind_of_name
 from roughfilm.rom.ladder.model import Model, best, find
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
@@ -145,7 +145,7 @@ def expected_errors(scene: Scene, model: Model, resolution: int, models: Sequenc
     -------
     The compared quantities for which the laws reach the scene, each with the error that 95 of 100 scenes do not exceed.
     """
-    kind = kinds()[scene.kind]
+    kind = kind_of_name(scene.kind)
     applying = [other for other in models if other.applies(scene).applies]
     errors = {}
     for quantity in kind.compared if any(other.name == model.name for other in applying) else ():

@@ -20,7 +20,15 @@ from roughfilm.rom.ladder.sweeping import Sweeping
 
 
 class Scene(Part):
-    """What is there; each kind adds its own tables."""
+    """What is solved: geometry, materials, motion and loads, frozen, in SI units; each kind adds its own tables.
+
+    Examples
+    --------
+    >>> import roughfilm as rf
+    >>> scene = rf.load_scene("scripts/examples/scenes/pocket.toml")
+    >>> isinstance(scene, rf.Scene), scene.name, scene.kind
+    (True, 'pocket', 'pocket')
+    """
 
     name: Annotated[str, Field(min_length=1, max_length=200)]
     kind: str

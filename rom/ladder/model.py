@@ -196,11 +196,11 @@ class Model(Generic[SceneT]):
         return scheme
 
     def _checked_processes(self, scene: SceneT, resolution: int, processes: int) -> int:
-        if self.most_processes is None:
-            if processes != 1:
-                raise InputError(f"--processes: got {processes}; {self.name} runs in one process, leave the option out")
-        elif not 1 <= processes <= (most := self.most_processes(scene, resolution)):
-            raise InputError(f"--processes: got {processes}; it must be 1 to {most}, two columns for each")
+        most = 1 if self.most_processes is None else self.most_processes(scene, resolution)
+        if not 1 <= processes <= most:
+            alone = f"{self.name} runs in one process, leave the option out"
+            remedy = alone if self.most_processes is None else f"it must be 1 to {most}, two columns for each"
+            raise InputError(f"--processes: got {processes}; {remedy}")
         return processes
 
     def offered(self, scene: SceneT) -> Resolutions:

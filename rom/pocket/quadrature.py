@@ -157,7 +157,7 @@ def quadrature_model(
         residual_meaning=RESIDUAL_MEANING,
         order=None,
         tolerance=TOLERANCE,
-        tolerances=(1e-16, 1.0),
+        tolerances=(1e-300, 1.0),
         cost=lambda _scene, resolution: 2e-4 + 1e-7 * resolution**2,
         applies=applies,
         compute=partial(solve, law=law),

@@ -10,8 +10,10 @@ from rich.table import Table
 
 from roughfilm.cli.advise import Want, advice_for, entries_of
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.interface.solving import with_expected_error
 from roughfilm.ladder import find
 from roughfilm.rom.advice.advise import shortfall
+from roughfilm.rom.advice.estimates import bounded
 from roughfilm.rom.ladder.kind import kind_of_name
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
@@ -68,12 +70,10 @@ def command(
         raise InputError("--model: is missing; name one from 'roughfilm models', or give --within 5%")
     rung = find(read.kind, model)
     if result is None:
+        request = Request(resolution=resolution, tolerance=tolerance, scheme=scheme, processes=processes)
         with progress_bar(1.0) as advance:
-            result = rung.solve(
-                read,
-                Request(resolution=resolution, tolerance=tolerance, scheme=scheme, processes=processes),
-                progress=advance,
-            )
+            result = rung.solve(read, request, progress=advance)
+    result = with_expected_error(result, read, rung)
     if advised is not None:
         result = replace(result, provenance={**result.provenance, "advice": entries_of(advised)})
     if out is not None:
@@ -90,6 +90,10 @@ def command(
         for run in numbers.runs:
             if run.recipe and not run.name:
                 output.print(f"first run did not converge; second run succeeded with: {run.recipe}")
+        if result.expected_error:
+            titles = kind_of_name(read.kind).compared
+            errors = (f"{titles[name]} {bounded(error)}" for name, error in result.expected_error.items())
+            output.print(f"expected error of {model} by the fitted laws: {', '.join(errors)}", soft_wrap=True)
         output.print(rung.applies(read).reason)
         for warning in result.warnings:
             output.print(f"[yellow]warning:[/] {escape(warning)}")

@@ -8,7 +8,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.interface.scenes import checked_scene
 from roughfilm.rom.advice import advise as advice
 from roughfilm.rom.advice.estimates import expected_errors
-from roughfilm.rom.ladder.kind import Scene, kinds
+from roughfilm.rom.ladder.kind import Scene, kind_names, kind_of_name
 from roughfilm.rom.ladder.model import Model, Progress, best, silent
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
@@ -39,8 +39,8 @@ def models(kind: str | None = None) -> tuple[Model, ...]:
     >>> [model.name for model in rf.models("pocket")]
     ['reynolds', 'inertial_reynolds', 'film', 'stokes', 'film_slope', 'navier_stokes']
     """
-    if kind is not None and kind not in kinds():
-        raise InputError(f"kind: got {kind!r}; it must be one of {', '.join(kinds())}")
+    if kind is not None and kind not in kind_names():
+        raise InputError(f"kind: got {kind!r}; it must be one of {', '.join(kind_names())}")
     return ladder.models(kind)
 
 
@@ -139,7 +139,7 @@ def solve(
             raise InputError(f"{name}: got {chosen[name]!r}, but within chooses how to solve; leave one of them out")
         advised = advise(scene, within=within, quantity=quantity, progress=progress)
         if advised.chosen is None:
-            title = kinds()[kind].compared[advised.quantity]
+            title = kind_of_name(kind).compared[advised.quantity]
             raise ConvergenceError(f"within: {advice.shortfall(advised, title)}")
         model, resolution, result = advised.chosen.model, advised.chosen.resolution, advised.result
     elif model is None:
@@ -152,7 +152,12 @@ def solve(
     if result is None:
         request = Request(resolution=resolution, tolerance=tolerance, scheme=scheme, processes=processes)
         result = by.solve(scene, request, progress)
-    errors = expected_errors(scene, by, result.numerics.resolution, ladder.models(kind))
+    return with_expected_error(result, scene, by)
+
+
+def with_expected_error(result: Result, scene: Scene, model: Model) -> Result:
+    """The result of a model on a scene with the errors that the fitted laws expect of it."""
+    errors = expected_errors(scene, model, result.numerics.resolution, ladder.models(scene.kind))
     return replace(result, expected_error=errors)
 
 

@@ -84,7 +84,7 @@ BAD = {
     "both model and tolerance": (lambda scene, z: rf.solve(scene, model="film", within=0.1), "leave one of them out"),
     "a quantity without tolerance": (lambda scene, z: rf.solve(scene, model="film", quantity="load"), "within"),
     "a model that is unknown": (lambda scene, z: rf.solve(scene, model="flim"), "'flim'; it must be one of"),
-    "a scheme that is not offered": (lambda scene, z: rf.solve(scene, model="film", scheme="upwind"), "no choice"),
+    "a scheme that is not offered": (lambda scene, z: rf.solve(scene, model="reynolds", scheme="upwind"), "no choice"),
     "a resolution out of range": (lambda scene, z: rf.solve(scene, model="film", resolution=-3), "-3"),
     "a tolerance as text": (lambda scene, z: rf.advise(scene, within="5%"), "within: got '5%'"),
     "a tolerance out of range": (lambda scene, z: rf.advise(scene, within=2.0), "above 0 and below 1"),

@@ -1,1 +1,1 @@
-"""Contact area, gap and pressure estimated from statistics of the heights."""
+"""Estimates of contact area, gap and pressure from statistics of the heights."""

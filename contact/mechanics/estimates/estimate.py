@@ -1,4 +1,4 @@
-"""What a statistical model tells of a rough contact under one load, and how far to trust it."""
+"""The result of a statistical contact model at one load, with its range of validity."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -11,19 +11,19 @@ from roughfilm.contact.foundation.arrays import Array
 
 @dataclass(frozen=True, kw_only=True)
 class Estimate:
-    """Contact under one load, from statistics of the surface instead of its shape.
+    """Contact at one load, estimated from statistics of the surface.
 
     Attributes
     ----------
     load : P, mean pressure over the nominal area, Pa.
-    area_fraction : A/A0, real over nominal area.
-    plastic_fraction : part of the nominal area at the hardness; 0 without a hardness.
-    mean_gap : m, from the mean height of the surface under load to the plane; None where the model has none.
-    pressure_density : f(p), 1/Pa, of shape to shape: the part of the nominal area with pressures p ... p + dp is f dp.
-        Its integral is the area that is not plastic. None where no area is.
-    trusted : whether this load and surface lie in the range of validity.
-    range_of_validity : in words.
-    cannot_say : what the model leaves out or does not know, in words.
+    area_fraction : A/A0, real over nominal contact area.
+    plastic_fraction : plastic over nominal area; 0 without a hardness.
+    mean_gap : distance from the mean height of the loaded surface to the plane, m; None if the model does not give it.
+    pressure_density : function f(p), 1/Pa, for p, Pa, of any shape: the fraction f dp of the nominal area has pressures
+        p ... p + dp. Its integral is the elastic area fraction. None if all contact is plastic.
+    trusted : whether load and surface lie in the range of validity.
+    range_of_validity : description of the range.
+    cannot_say : description of the effects and quantities that the model omits.
     """
 
     load: float
@@ -37,10 +37,10 @@ class Estimate:
 
     @property
     def mean_contact_pressure(self) -> float:
-        """P A0/A, mean pressure where there is contact, Pa; inf if there is none to double precision."""
+        """Mean pressure in contact, P A0/A, Pa; infinite if the area fraction underflows to 0."""
         return self.load / self.area_fraction if self.area_fraction else np.inf
 
     @property
     def plasticity_index(self) -> float:
-        """Plastic over real area; 0 without contact."""
+        """Plastic over real contact area; 0 without contact."""
         return self.plastic_fraction / self.area_fraction if self.area_fraction else 0.0

@@ -1,4 +1,4 @@
-"""The bearing area: a rough surface cut off where it can bear the load, and nowhere else deformed."""
+"""The bearing-area estimate: contact of a rigid, perfectly plastic surface from its bearing curve."""
 
 import math
 
@@ -10,8 +10,8 @@ from roughfilm.contact.mechanics.checks import not_negative, positive
 from roughfilm.contact.mechanics.estimates.estimate import Estimate
 from roughfilm.contact.parameters.bearing_curve import descending
 
-LARGEST_HARDNESS = 0.1
-"""Of E* g': below it hardly any contact is elastic and the rest of the surface hardly moves."""
+MAX_HARDNESS_RATIO = 0.1
+"""Largest H/(E* g') for a trusted estimate; below it nearly all contact is plastic."""
 
 
 def bearing_area(
@@ -22,34 +22,34 @@ def bearing_area(
     composite_modulus: float = math.inf,
     rms_slope: float = math.inf,
 ) -> Estimate:
-    """Contact of a rigid, perfectly plastic surface: what stands above a plane is flattened to it, and bears H.
+    """Estimate of the contact of a rigid, perfectly plastic surface, flattened above a plane with the pressure H.
 
-    A/A0 = P/H. The plane lies at the height c above which that part of the surface lies (its bearing curve), and the
-    mean gap is <max(c − z, 0)>. It is the limit H/(E* g') → 0 of elastic, perfectly plastic contact.
+    The area fraction is A/A0 = P/H. The plane lies at the height c above which this fraction of the surface lies
+    (bearing curve), and the mean gap is <max(c − z, 0)>. The model is the limit H/(E* g') → 0 of elastic, perfectly
+    plastic contact.
 
     Parameters
     ----------
-    heights : any shape, m: of a surface or of a profile.
+    heights : heights of a surface or profile, any shape, m.
     load : P, mean pressure, Pa; 0 <= P <= H.
-    hardness : H, Pa; finite. Without one nothing limits the pressure, and an elastic solid has no bearing area.
-    composite_modulus, rms_slope : E*, Pa, and g', which only decide whether the estimate is trusted, H <= 0.1 E* g';
-        without them the solid is taken as rigid.
+    hardness : H, Pa; finite, as an elastic solid has no bearing area.
+    composite_modulus, rms_slope : E*, Pa, and g'; the estimate is trusted for H <= 0.1 E* g'. By default the solid is
+        rigid.
 
     Returns
     -------
-    Area, mean gap; all of the contact is plastic, with one pressure.
+    Estimate : area and mean gap; all contact is plastic.
 
     Raises
     ------
     InputError
-        If there is no finite hardness, the load is beyond it, or the heights are none.
+        If the hardness is not finite, the load exceeds it, or the heights are invalid.
 
     Notes
     -----
-    Exact for the array of heights, each as one step of its bearing curve, which is taken as straight between their
-    middles; the material squeezed out goes nowhere. It holds for lines as for areas, since no shape enters. Beside
-    contacts solved on Gaussian self-affine surfaces the area is 2 to 6 % below theirs (in pixels) at H = 0.1 E* g',
-    and the gap 6 % (P/H = 0.01) to 18 % (0.6) above, for want of elastic displacement; at 0.03 E* g' 2 % and 3 to 5 %.
+    The bearing curve is interpolated linearly between the sorted heights; displaced material is ignored. Compared with
+    numerical solutions for Gaussian self-affine surfaces at H = 0.1 E* g', the area is 2 to 6 % smaller (in pixels) and
+    the gap 6 % (P/H = 0.01) to 18 % (0.6) larger, as elastic displacement is missing; at 0.03 E* g' 2 % and 3 to 5 %.
 
     Source: Abbott and Firestone, Mech. Eng. 55 (1933) 569; Bowden and Tabor, Friction and Lubrication of Solids (1950).
 
@@ -62,7 +62,7 @@ def bearing_area(
     if not 0 < hardness < math.inf:
         raise InputError(
             f"bearing_area.hardness: got {hardness!r}; give a finite one: without it the solid is elastic, "
-            "for which the bearing curve knows no load"
+            "for which the bearing curve gives no load"
         )
     if not_negative("bearing_area.load", load) > hardness:
         raise InputError(f"bearing_area.load: got {load:.6g} Pa, beyond the hardness of {hardness:.6g} Pa; lower it")
@@ -80,7 +80,7 @@ def bearing_area(
         plastic_fraction=ratio,
         mean_gap=float(np.maximum(plane - ordered, 0.0).mean()),
         pressure_density=None,
-        trusted=hardness <= LARGEST_HARDNESS * stiffness,
-        range_of_validity=f"hardness below {LARGEST_HARDNESS:g} E* g', where nearly all contact is plastic",
+        trusted=hardness <= MAX_HARDNESS_RATIO * stiffness,
+        range_of_validity=f"hardness below {MAX_HARDNESS_RATIO:g} E* g', where nearly all contact is plastic",
         cannot_say="elastic contact, pressures below the hardness, and where the displaced material goes",
     )

@@ -1,4 +1,4 @@
-"""An egg-box in contact: what is known in closed form of crests in a square array (Johnson, Greenwood, Higginson)."""
+"""Closed forms of the contact of a doubly sinusoidal surface at its two limits (Johnson, Greenwood, Higginson)."""
 
 import math
 from dataclasses import dataclass
@@ -8,20 +8,20 @@ from numpy.typing import ArrayLike
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.mechanics.checks import finite, positive
+from roughfilm.contact.mechanics.checks import finite, positive_fields
 
 
 @dataclass(frozen=True, kw_only=True)
 class EggBox:
     """Frictionless elastic contact of z = D cos(2πx/L) cos(2πy/L) with a rigid plane, at its two limits.
 
-    The period is L along x and along y, and has two crests and two troughs; crest to trough is 2D. In between the two
-    limits there is no closed form.
+    One period, L by L, has two crests and two troughs, with 2D from trough to crest. There is no closed form between
+    the two limits.
 
     Attributes
     ----------
     amplitude : D, m.
-    wavelength : L, m, along x and y: it is made of plane waves of length L/√2 along the diagonals.
+    wavelength : L, m, along x and y; the surface consists of plane waves of length L/√2 along the diagonals.
     composite_modulus : E*, Pa.
 
     Raises
@@ -31,7 +31,7 @@ class EggBox:
 
     Notes
     -----
-    Exact for small slopes, as far as each limit goes.
+    Each limit is exact for small slopes.
 
     Source: Johnson, Greenwood and Higginson, Int. J. Mech. Sci. 27 (1985) 383, doi:10.1016/0020-7403(85)90029-3.
 
@@ -47,22 +47,25 @@ class EggBox:
     composite_modulus: float
 
     def __post_init__(self) -> None:
-        positive("egg_box.amplitude", self.amplitude)
-        positive("egg_box.wavelength", self.wavelength)
-        positive("egg_box.composite_modulus", self.composite_modulus)
+        positive_fields("egg_box", self)
 
     @property
     def full_contact_load(self) -> float:
-        """p* = √2 πE*D/L, Pa: the least load at which contact is complete."""
+        """The smallest load of full contact, p* = √2 πE*D/L, Pa."""
         return math.sqrt(2) * math.pi * self.composite_modulus * self.amplitude / self.wavelength
 
     @property
     def crest_radius(self) -> float:
-        """R = L²/(4π²D), m, of curvature, in every direction."""
+        """Radius of curvature of the crests, R = L²/(4π²D), m, in every direction."""
         return self.wavelength**2 / (4 * math.pi**2 * self.amplitude)
 
     def full_contact_pressure(self, x: ArrayLike, y: ArrayLike, load: float) -> Array:
-        """Pressure P + p* cos(2πx/L) cos(2πy/L), Pa, for P >= p*; x, y from a crest, m, shapes that broadcast.
+        """Pressure in full contact, P + p* cos(2πx/L) cos(2πy/L), Pa, for P >= p*.
+
+        Parameters
+        ----------
+        x, y : distances from a crest, m, shapes that broadcast.
+        load : P, mean pressure, Pa.
 
         Raises
         ------
@@ -76,33 +79,32 @@ class EggBox:
         return np.asarray(load + self.full_contact_load * wave)
 
     def light_load_area_fraction(self, load: ArrayLike) -> Array:
-        """A/A0 = π (3P/(8πp*))^(2/3): two crests in a period, each a Hertzian contact of its own.
+        """Area fraction A/A0 = π (3P/(8πp*))^(2/3) at light load, with a separate Hertzian contact on each crest.
 
         Parameters
         ----------
-        load : P, mean pressure, any shape, Pa, for P << p*: solved contacts have 3 % more area at P/p* = 0.01,
+        load : P, mean pressure, Pa, any shape, with P << p*; numerical solutions have 3 % more area at P/p* = 0.01,
             6 % at 0.03 and 16 % at 0.1.
 
         Returns
         -------
-        Same shape.
+        Array : A/A0, same shape as ``load``.
         """
         return np.asarray(np.pi * np.cbrt(3 * self._ratio(load) / (8 * np.pi)) ** 2)
 
     def nearly_full_area_fraction(self, load: ArrayLike) -> Array:
-        """A/A0 = 1 − (3/(2π)) (1 − P/p*): two troughs in a period, each open as a penny-shaped crack, and closing.
+        """Area fraction A/A0 = 1 − (3/(2π)) (1 − P/p*) near full contact, with a penny-shaped crack in each trough.
 
-        The crack has the radius b at which its stress intensity is 0 under the tension (p* − P) − 2π²p* r²/L² that
-        full contact would need there, b² = 3L² (1 − P/p*)/(4π²).
+        The stress intensity of the crack is 0 under the tension (p* − P) − 2π²p* r²/L² that full contact would need;
+        its radius b is given by b² = 3L² (1 − P/p*)/(4π²).
 
         Parameters
         ----------
-        load : P, mean pressure, any shape, Pa, for 1 − P/p* << 1: to first order in it, 0.0016 too much at P/p* = 0.9;
-            1 from p* on.
+        load : P, mean pressure, Pa, any shape, with 1 − P/p* << 1.
 
         Returns
         -------
-        Same shape.
+        Array : A/A0, same shape as ``load``; 1 from p* on, and 0.0016 too large at P/p* = 0.9.
         """
         return np.asarray(1 - 1.5 / np.pi * np.maximum(1 - self._ratio(load), 0.0))
 

@@ -1,4 +1,4 @@
-"""Waves pressed flat: the pressure under a rigid plane that touches the surface everywhere."""
+"""The pressure in full contact of a sum of waves with a rigid plane."""
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,12 +20,12 @@ def full_contact_pressure(
 ) -> Array:
     """Pressure that flattens z = Σ A cos(qx x + qy y + φ): p = P + Σ (E* q/2) A cos(qx x + qy y + φ), q = |(qx, qy)|.
 
-    It holds if it is nowhere negative: from the load Σ (E* q/2) |A| on for certain, and from the depth of the deepest
-    trough of that sum on exactly. A plane wave is a line contact: z = D cos(2πx/L) is flat from πE*D/L on.
+    Contact is full if p is nowhere negative, which is certain for P >= Σ (E* q/2) |A|. A plane wave is a line contact:
+    z = D cos(2πx/L) is flat from P = πE*D/L on.
 
     Parameters
     ----------
-    x, y : shapes that broadcast to one another, m.
+    x, y : coordinates, m, shapes that broadcast.
     amplitudes : A, shape (n,), m.
     wave_vectors : (qx, qy), shape (n, 2), rad/m; not (0, 0).
     phases : φ, shape (n,) or a number, rad.
@@ -34,16 +34,16 @@ def full_contact_pressure(
 
     Returns
     -------
-    Shape of x and y broadcast, Pa; negative where the load is too low for full contact.
+    Array : p, Pa, broadcast shape of x and y; negative where the load is too low for full contact.
 
     Raises
     ------
     InputError
-        If a number is not finite, the modulus not above 0, shapes do not match, or a wave vector is 0.
+        If a number is not finite, the modulus is not above 0, shapes do not match, or a wave vector is 0.
 
     Notes
     -----
-    Exact for small slopes.
+    The pressure is exact for small slopes.
 
     Source: Johnson, Greenwood and Higginson, Int. J. Mech. Sci. 27 (1985) 383, doi:10.1016/0020-7403(85)90029-3.
 

@@ -1,4 +1,4 @@
-"""A sphere and a cylinder pressed on a plane (Hertz)."""
+"""Hertzian contact of a sphere and of a cylinder with a plane."""
 
 import math
 from dataclasses import dataclass
@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.mechanics.checks import finite, positive
+from roughfilm.contact.mechanics.checks import finite, positive_fields
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -16,7 +16,7 @@ class HertzSphere:
 
     Attributes
     ----------
-    radius : R, m; of two spheres 1/R = 1/R1 + 1/R2.
+    radius : R, m; for two spheres 1/R = 1/R1 + 1/R2.
     composite_modulus : E*, Pa.
     force : F, N.
 
@@ -43,42 +43,40 @@ class HertzSphere:
     force: float
 
     def __post_init__(self) -> None:
-        positive("hertz.radius", self.radius)
-        positive("hertz.composite_modulus", self.composite_modulus)
-        positive("hertz.force", self.force)
+        positive_fields("hertz", self)
 
     @property
     def contact_radius(self) -> float:
-        """Radius a = (3FR/(4E*))^(1/3), m."""
+        """Contact radius a = (3FR/(4E*))^(1/3), m."""
         return math.cbrt(0.75 * self.force * self.radius / self.composite_modulus)
 
     @property
     def largest_pressure(self) -> float:
-        """p0 = 3F/(2πa²) = 2E*a/(πR), Pa, in the middle."""
+        """Largest pressure p0 = 3F/(2πa²) = 2E*a/(πR), Pa, in the middle."""
         return 2 * self.composite_modulus * self.contact_radius / (math.pi * self.radius)
 
     @property
     def approach(self) -> float:
-        """δ = a²/R, m, of points far away."""
+        """Approach δ = a²/R of distant points, m."""
         return self.contact_radius**2 / self.radius
 
     def pressure(self, r: ArrayLike) -> Array:
-        """Pressure p0 sqrt(1 − r²/a²) within contact, 0 outside, Pa; r from the axis, m, any shape."""
+        """Pressure p0 sqrt(1 − r²/a²) in contact, 0 outside, Pa, at distances r from the axis, m, any shape."""
         ratio = finite("hertz.r", r) / self.contact_radius
         return np.asarray(self.largest_pressure * np.sqrt(np.maximum(1 - ratio**2, 0.0)))
 
     def displacement(self, r: ArrayLike) -> Array:
-        """Displacement of the surface into the solid, 0 far away.
+        """Displacement u of the surface into the solid, 0 at infinity, m.
 
         u = δ − r²/(2R) for r <= a, and ((2a² − r²) arcsin(a/r) + a sqrt(r² − a²))/(πR) outside.
 
         Parameters
         ----------
-        r : any shape, m, from the axis.
+        r : distance from the axis, m, any shape.
 
         Returns
         -------
-        Same shape, m.
+        Array : u, m, same shape as ``r``.
         """
         a, distance = self.contact_radius, np.abs(finite("hertz.r", r))
         far = np.maximum(distance, a)
@@ -87,7 +85,7 @@ class HertzSphere:
         return np.where(distance <= a, inside, outside / (np.pi * self.radius))
 
     def gap(self, r: ArrayLike) -> Array:
-        """Gap r²/(2R) + u − δ outside contact, 0 within, m; any shape."""
+        """Gap r²/(2R) + u − δ outside contact, 0 inside, m, at distances r from the axis, m, any shape."""
         distance = np.maximum(np.abs(finite("hertz.r", r)), self.contact_radius)
         return np.asarray(distance**2 / (2 * self.radius) + self.displacement(distance) - self.approach)
 
@@ -100,7 +98,7 @@ class HertzCylinder:
 
     Attributes
     ----------
-    radius : R, m; of two cylinders 1/R = 1/R1 + 1/R2.
+    radius : R, m; for two cylinders 1/R = 1/R1 + 1/R2.
     composite_modulus : E*, Pa.
     force_per_length : f, N/m.
 
@@ -127,32 +125,30 @@ class HertzCylinder:
     force_per_length: float
 
     def __post_init__(self) -> None:
-        positive("hertz.radius", self.radius)
-        positive("hertz.composite_modulus", self.composite_modulus)
-        positive("hertz.force_per_length", self.force_per_length)
+        positive_fields("hertz", self)
 
     @property
     def half_width(self) -> float:
-        """Half-width a = sqrt(4fR/(πE*)), m."""
+        """Half-width of contact a = sqrt(4fR/(πE*)), m."""
         return math.sqrt(4 * self.force_per_length * self.radius / (math.pi * self.composite_modulus))
 
     @property
     def largest_pressure(self) -> float:
-        """p0 = 2f/(πa) = E*a/(2R), Pa, in the middle."""
+        """Largest pressure p0 = 2f/(πa) = E*a/(2R), Pa, in the middle."""
         return self.composite_modulus * self.half_width / (2 * self.radius)
 
     def pressure(self, x: ArrayLike) -> Array:
-        """Pressure p0 sqrt(1 − x²/a²) within contact, 0 outside, Pa; x from the middle, m, any shape."""
+        """Pressure p0 sqrt(1 − x²/a²) in contact, 0 outside, Pa, at distances x from the middle, m, any shape."""
         ratio = finite("hertz.x", x) / self.half_width
         return np.asarray(self.largest_pressure * np.sqrt(np.maximum(1 - ratio**2, 0.0)))
 
     def gap(self, x: ArrayLike) -> Array:
-        """Gap (x r − a² arsinh(r/a))/(2R), r = sqrt(x² − a²), outside contact, 0 within, m; any shape."""
+        """Gap (x r − a² arsinh(r/a))/(2R), r = sqrt(x² − a²), outside contact, 0 inside, m, for x of any shape."""
         a = self.half_width
         distance = np.maximum(np.abs(finite("hertz.x", x)), a)
         r = np.sqrt((distance - a) * (distance + a))
         return np.asarray((distance * r - a**2 * np.arcsinh(r / a)) / (2 * self.radius))
 
     def displacement(self, x: ArrayLike) -> Array:
-        """Displacement of the surface into the solid less that of the middle, g − x²/(2R), m; any shape."""
+        """Displacement into the solid minus that of the middle, g − x²/(2R), m, for x of any shape."""
         return np.asarray(self.gap(x) - finite("hertz.x", x) ** 2 / (2 * self.radius))

@@ -1,4 +1,4 @@
-"""The area of an elastic rough contact at light load, which grows in proportion to it."""
+"""The contact area of an elastic rough surface at light load, where it is proportional to the load."""
 
 import math
 
@@ -9,35 +9,35 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.mechanics.checks import finite, positive
 
 BUSH_GIBSON_THOMAS = math.sqrt(2 * math.pi)
-"""κ of asperities that do not feel each other, in the limit of far separation."""
+"""κ of non-interacting asperities in the limit of large separation (Bush, Gibson and Thomas)."""
 
 PERSSON = math.sqrt(8 / math.pi)
-"""κ of Persson's theory, whose exact limit is that of full contact."""
+"""κ of Persson's theory."""
 
 
 def light_load_area_fraction(load: ArrayLike, *, composite_modulus: float, rms_slope: float, kappa: float) -> Array:
-    """A/A0 = κ P/(E* g').
+    """Area fraction A/A0 = κ P/(E* g') at light load.
 
     Parameters
     ----------
-    load : P, mean pressure, any shape, Pa.
+    load : P, mean pressure, Pa, any shape.
     composite_modulus : E*, Pa.
-    rms_slope : g' = sqrt(<|∇z|²>), of both directions together.
-    kappa : κ, `PERSSON` (1.596) to `BUSH_GIBSON_THOMAS` (2.507); solved contacts lie between, at 2.0 to 2.2.
+    rms_slope : g' = sqrt(<|∇z|²>).
+    kappa : κ, from `PERSSON` (1.596) to `BUSH_GIBSON_THOMAS` (2.507); numerical solutions give 2.0 to 2.2.
 
     Returns
     -------
-    Same shape as the load.
+    Array : A/A0, same shape as ``load``.
 
     Raises
     ------
     InputError
-        If a number is not finite, or one but the load is not above 0.
+        If a number is not finite, or an argument other than the load is not above 0.
 
     Notes
     -----
-    For isotropic Gaussian surfaces and A/A0 up to a few per cent. For ridges (line contact) Persson's holds as an
-    estimate with g' across them; that of Bush, Gibson and Thomas counts summits and does not.
+    The relation holds for isotropic Gaussian surfaces and A/A0 up to a few per cent. For ridges (line contact) the κ of
+    Persson is an estimate, with g' across them; that of Bush, Gibson and Thomas counts summits and does not apply.
 
     Source: Bush, Gibson and Thomas, Wear 35 (1975) 87, doi:10.1016/0043-1648(75)90145-3; Persson, J. Chem. Phys. 115
     (2001) 3840, doi:10.1063/1.1388626; Hyun, Pei, Molinari and Robbins, Phys. Rev. E 70 (2004) 026117,

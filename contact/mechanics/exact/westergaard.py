@@ -1,4 +1,4 @@
-"""Ridges in line contact: one sinusoid, pressed by a rigid plane into an elastic half-space (Westergaard)."""
+"""Line contact of a sinusoidal elastic surface with a rigid plane (Westergaard)."""
 
 import math
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from roughfilm.contact.mechanics.checks import finite, not_negative, positive
 class Westergaard:
     """Frictionless plane strain contact of z = D cos(2πx/L) with a rigid plane; crests at x = 0, ±L, ...
 
-    With p* = πE*D/L, contact is |x| < a in each period, sin²ψa = P/p*, ψ = πx/L; from P = p* on it is complete.
+    With p* = πE*D/L, contact is |x| < a in each period, with sin²ψa = P/p* and ψ = πx/L; it is full for P >= p*.
 
     Attributes
     ----------
@@ -30,7 +30,7 @@ class Westergaard:
 
     Notes
     -----
-    Exact for small slopes, 2πD/L << 1.
+    The solution is exact for small slopes, 2πD/L << 1.
 
     Source: Westergaard, J. Appl. Mech. 6 (1939) A49, doi:10.1115/1.4008919; Johnson, Contact Mechanics (1985), 13.2,
     doi:10.1017/CBO9781139171731.
@@ -55,7 +55,7 @@ class Westergaard:
 
     @property
     def full_contact_load(self) -> float:
-        """p* = πE*D/L, Pa: the least load at which contact is complete."""
+        """The smallest load of full contact, p* = πE*D/L, Pa."""
         return math.pi * self.composite_modulus * self.amplitude / self.wavelength
 
     @property
@@ -65,30 +65,30 @@ class Westergaard:
 
     @property
     def area_fraction(self) -> float:
-        """2a/L."""
+        """Area fraction of contact, 2a/L."""
         return 2 * self.half_width / self.wavelength
 
     @property
     def mean_gap(self) -> float:
-        """<g> = 2D (½ cos²ψa + sin²ψa ln sin ψa), m: from the mean height of the loaded surface to the plane."""
+        """Mean gap <g> = 2D (½ cos²ψa + sin²ψa ln sin ψa), m."""
         square = self._edge**2
         return 2 * self.amplitude * ((1 - square) / 2 + (square * math.log(self._edge) if square else 0.0))
 
     @property
     def approach(self) -> float:
-        """D − <g>, m: how far the plane has come since it touched, as seen by the mean of the surface."""
+        """Approach D − <g>, m: displacement of the plane since first touch, relative to the mean of the surface."""
         return self.amplitude - self.mean_gap
 
     def pressure(self, x: ArrayLike) -> Array:
-        """Pressure 2P cosψ sqrt(sin²ψa − sin²ψ)/sin²ψa within contact, 0 outside; P + p* cos 2ψ if complete.
+        """Pressure 2P cosψ sqrt(sin²ψa − sin²ψ)/sin²ψa in contact, 0 outside; P + p* cos 2ψ in full contact.
 
         Parameters
         ----------
-        x : any shape, m, from a crest.
+        x : distance from a crest, m, any shape.
 
         Returns
         -------
-        Same shape, Pa.
+        Array : p, Pa, same shape as ``x``.
         """
         phase = np.pi * finite("westergaard.x", x) / self.wavelength
         if self.load >= self.full_contact_load:
@@ -101,11 +101,11 @@ class Westergaard:
 
         Parameters
         ----------
-        x : any shape, m, from a crest.
+        x : distance from a crest, m, any shape.
 
         Returns
         -------
-        Same shape, m; next to the contact, where it grows as (x − a)^(3/2), to rounding of D.
+        Array : gap, m, same shape as ``x``; near the contact, where it grows as (x − a)^(3/2), to rounding of D.
         """
         s = np.abs(np.sin(np.pi * finite("westergaard.x", x) / self.wavelength))
         if not self.load:
@@ -115,11 +115,11 @@ class Westergaard:
         return np.asarray(np.maximum(2 * self.amplitude * (s * r - edge**2 * np.arcsinh(r / edge)), 0.0))
 
     def displacement(self, x: ArrayLike) -> Array:
-        """Displacement D cos(2πx/L) + g − <g>, m: of the surface, downwards, with a mean of 0; any shape."""
+        """Downward displacement of the surface, D cos(2πx/L) + g − <g>, m, of mean 0, for x of any shape."""
         wave = self.amplitude * np.cos(2 * np.pi * finite("westergaard.x", x) / self.wavelength)
         return np.asarray(wave + self.gap(x) - self.mean_gap)
 
     @property
     def _edge(self) -> float:
-        """Sin ψa."""
+        """Value of sin ψa, from 0 to 1."""
         return math.sqrt(min(self.load / self.full_contact_load, 1.0))

@@ -1,1 +1,1 @@
-"""The contact algorithm of the source, kept for comparison."""
+"""The contact algorithm of the thesis, kept for comparison with `roughfilm.contact.mechanics.press`."""

@@ -1,4 +1,4 @@
-"""The contact algorithm of the thesis, after Stanley and Kato: pressures corrected by the deformed gap."""
+"""The contact algorithm of the thesis, after Stanley and Kato: a fixed-point iteration on the deformed gap."""
 
 import math
 
@@ -13,13 +13,14 @@ from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.projected_gradients import plane_of, violation_of
 from roughfilm.contact.mechanics.starts import shifted
 
-TOLERANCE = 1e-6
-"""Of the plane, over the rms height."""
+PLANE_TOLERANCE = 1e-6
+"""Default tolerance of the flatness of the plane, over the rms height."""
 
-MOST_ITERATIONS = 50_000
+MAX_ITERATIONS = 50_000
+"""Default of the largest number of iterations."""
 
-STEP = 1.9
-"""The correction of the pressure, over that which undoes the longest wave at once; from 2 on it grows."""
+STEP_LENGTH = 1.9
+"""Step of the pressure, over that which removes the longest wave in one step; the iteration diverges from 2 on."""
 
 
 def stanley_kato(
@@ -29,10 +30,10 @@ def stanley_kato(
     load: float,
     *,
     hardness: float = math.inf,
-    tolerance: float = TOLERANCE,
-    most_iterations: int = MOST_ITERATIONS,
+    tolerance: float = PLANE_TOLERANCE,
+    most_iterations: int = MAX_ITERATIONS,
 ) -> Contact:
-    """The periodic contact that ``Press`` finds too, by the nine steps of Fig. E.3 of the thesis.
+    """The contact of a periodic surface at one load, by the nine steps of Fig. E.3 of the thesis.
 
     p ← clip(p − C (u_e + h1) + s, 0, H) with u_e = K∗p and with s such that the mean of p is W, until h1 + u_e is the
     plane g00 where 0 < p < H; then u_p = g00 − (h1 + u_e) where p = H. The thesis leaves C open; here it is
@@ -40,35 +41,35 @@ def stanley_kato(
 
     Parameters
     ----------
-    heights : z, shape (nx, ny), m, upward. A side of one node makes it line contact, in plane strain.
+    heights : z, shape (nx, ny), m, upward. A side of one node means line contact, in plane strain.
     spacing : (dx, dy), m.
     composite_modulus : E*, Pa.
     load : W, mean pressure over the nominal area, Pa; above 0 and at most H.
     hardness : H, Pa.
-    tolerance : of the complementarity, over the rms height.
+    tolerance : largest complementarity, over the rms height.
+    most_iterations : largest number of iterations.
 
     Returns
     -------
-    The contact, certified as that of ``Press``.
+    Contact : as that of ``Press``, with the complementarity recomputed.
 
     Raises
     ------
     InputError
-        If something is out of range or not finite.
+        If an argument is out of range or not finite.
     ConvergenceError
-        If no elastic node is left to fix the plane, or the iterations are used up.
+        If no elastic node is left, so that the plane is undetermined, or the iterations are used up.
 
     Notes
     -----
-    The shift and the cut together are the nearest pressure within the bounds of the same mean, so that this is the
-    projected gradient method with a constant step: the energy never rises, and in the end errors fall by a constant
-    factor, whose distance from 1 is about the shortest wave over the longest that a patch of contact holds. Iterations
-    grow about as the root of the number of nodes along a side: 224 and 570 for 128 and 512 of one rough profile, where
-    ``Press`` takes 8 and 14. The order of accuracy is that of ``Press``. Beyond the flatness of the thesis, a node off
-    contact must not pierce the plane nor a plastic one stay short of it: with one elastic node any plane is flat.
-    Where no node is elastic, as when the load is a whole number of nodes at the hardness, there is no plane, and the
-    algorithm fails; ``Press`` does not. Source: thesis, E.2.2, Fig. E.3; H. M. Stanley, T. Kato, J. Tribol. 119 (1997)
-    481, doi:10.1115/1.2833523.
+    Shift and clipping give the nearest pressure within the bounds with the same mean, so that this is the projected
+    gradient method with constant step. The energy never increases, and errors finally fall by a constant factor, whose
+    distance from 1 is about the shortest over the longest wave in a patch of contact. The number of iterations grows
+    about as the square root of the nodes along a side: 224 and 570 for 128 and 512 nodes of one rough profile, where
+    ``Press`` needs 8 and 14. The order of accuracy is that of ``Press``. In addition to the flatness of the thesis, the
+    gap off contact must not be negative and that of plastic nodes not positive. The algorithm fails where no node is
+    elastic, for example if the load is carried by a whole number of plastic nodes; ``Press`` does not. Source: thesis,
+    E.2.2, Fig. E.3; H. M. Stanley, T. Kato, J. Tribol. 119 (1997) 481, doi:10.1115/1.2833523.
     """
     press = Press(heights, spacing, composite_modulus, hardness=hardness)
     positive("stanley_kato.tolerance", tolerance)
@@ -87,9 +88,8 @@ def stanley_kato(
         plane = plane_of(pressure, deformed, most)
         elastic = bool(((pressure > 0) & (pressure < most)).any())
         if elastic and violation_of(pressure, deformed, plane, most) <= tolerance * unit:
-            found = np.where(pressure >= most, hardness, pressure * composite_modulus)
-            return press.contact_of(load, found, iteration)
-        corrected = shifted(pressure - STEP * np.pi * (deformed - plane), mean, most)
+            return press.contact_of(load, np.where(pressure >= most, hardness, pressure * composite_modulus), iteration)
+        corrected = shifted(pressure - STEP_LENGTH * np.pi * (deformed - plane), mean, most)
         if not elastic and np.array_equal(corrected, pressure):
             raise ConvergenceError(
                 f"stanley_kato: no elastic node is left after {iteration} iterations, so that nothing fixes the plane; "

@@ -36,7 +36,7 @@ class Lay:
 
 
 def judge(lay: Lay) -> list[Claim]:
-    """Claims 20, 21 and 26."""
+    """Judge claims 20, 21 and 26."""
     return [joint_throttles(lay.joints), box_equals_cell(lay), offset_is_harmless(lay.offsets)]
 
 
@@ -65,10 +65,10 @@ def joint_throttles(joints: Joints) -> Claim:
         text="A bad periodic joint throttles the flow",
         verdict="true" if harm and clean else "partly" if max(lost) > 0.1 else "false",
         evidence=f"flow along the lay over that without a joint, at {', '.join(f'{t:g}' for t in THICKNESSES)} Sq: "
-        f"{told}. Windows whose grooves meet pass {_share(min(one.passed[0] for one in good))} and more. What cut "
-        f"grooves lose is ordered by periodicity_mismatch (rank correlation at least {min(order):.2f}); how much it is "
-        "depends on the thickness of the film more than on the mismatch. Blending the edges takes back a small part, "
-        "a window that fits takes back all",
+        f"{told}. Windows whose grooves meet pass at least {_share(min(one.passed[0] for one in good))}. The loss of "
+        f"cut grooves is ordered by periodicity_mismatch (rank correlation at least {min(order):.2f}); its size "
+        f"depends on the thickness of the film more than on the mismatch. Blended edges restore a small part of the "
+        f"flow, a window that fits restores all",
     )
 
 
@@ -124,13 +124,13 @@ def box_equals_cell(lay: Lay) -> Claim:
         text="Patir–Cheng equals HNS for straight or isotropic lay and fails for crossed or oblique lay",
         verdict="false" if not as_said else "true" if min(crossed, worst(crossed_oblique)) > FAILS else "partly",
         evidence=f"at {', '.join(f'{t:g}' for t in THICKNESSES)} Sq: straight grooves within {straight:.0e}, "
-        f"isotropic surfaces equal but for the scatter of one box (rms {', '.join(map(_share, scatter))}), straight "
+        f"isotropic surfaces equal within the scatter of one box (rms {', '.join(map(_share, scatter))}), straight "
         f"random lay too (largest {_share(max(random))}); grooves at 45° "
         + ", ".join(f"{100 * one.short[0]:+.3g} %" for one in oblique)
-        + f". Crossed grooves do not fail as such: equal within {_share(crossed)} where their bisector lies along "
-        f"or across the flow, and turned by 45° φ₁ is {100 * min(one.short[0] for one in crossed_oblique):+.2g} % at "
-        f"worst, though A₁₂ is up to {across:.2g} A₁₁, which the method does not have. Not crossing but A₁₂ is what "
-        f"fails: φ₁φ₂ = A₁₁A₂₂ − A₁₂² in any large box{told}",
+        + f". Crossed grooves as such do not fail: they are equal within {_share(crossed)} where their bisector lies "
+        f"along or across the flow; turned by 45° φ₁ is {100 * min(one.short[0] for one in crossed_oblique):+.2g} % at "
+        f"worst, although A₁₂, which the method lacks, is up to {across:.2g} A₁₁. The method fails because of "
+        f"A₁₂, not of crossing: φ₁φ₂ = A₁₁A₂₂ − A₁₂² in any large box{told}",
     )
 
 
@@ -151,11 +151,11 @@ def offset_is_harmless(offsets: Mapping[str, Sequence[Offset]]) -> Claim:
         verdict="false" if not harmless else "partly" if invented or max(added.values()) >= HARMLESS else "true",
         evidence=f"undeformed contact; while A > {OPEN:g} ĥ³ it adds at most "
         + ", ".join(f"{_share(part)} ({name})" for name, part in added.items())
-        + f", about 3 · {1e9 * OFFSET:g} nm over the channels' height. Near sealing it adds more without bound, and "
-        "where the gap is sealed it leaks like a smooth slit of "
+        + f", about 3 · {1e9 * OFFSET:g} nm over the channels' height. Near sealing the increase has no bound, and "
+        "a sealed gap leaks like a smooth slit of "
         + ", ".join(f"{1e9 * slit:.2g} nm ({name})" for name, slit in invented.items())
-        + f", so that nothing is ever sealed. The solver gave up on {gave_up} of {questions} gaps with the offset, and "
-        "on none with closed contact",
+        + f": nothing is ever sealed. The solver failed for {gave_up} of {questions} gaps with the offset, and "
+        "for none with closed contact",
     )
 
 

@@ -1,4 +1,4 @@
-"""What Paper A claims, judged by the sweep: each with a verdict and the numbers it rests on."""
+"""The claims of Paper A, judged by the sweep."""
 
 from collections.abc import Callable
 from itertools import product
@@ -14,7 +14,7 @@ DEPTH = np.array(DEPTHS)
 
 
 def judge(paper: Paper, onsets: dict[tuple[str, float, float], float]) -> list[Claim]:
-    """Claims 1 to 7; ``onsets`` gives the depth d+ at which the flow first turns back, by shape, w+ and Re."""
+    """Judge claims 1 to 7; ``onsets`` gives the depth d+ at which back-flow begins, by shape, w+ and Re."""
     return [
         inertia_carries(paper),
         load_grows(paper),
@@ -22,7 +22,7 @@ def judge(paper: Paper, onsets: dict[tuple[str, float, float], float]) -> list[C
         optimum_at_onset(paper, onsets),
         friction_falls(paper),
         splined_against_cylindrical(paper),
-        cylindrical_rubs_less(paper),
+        cylindrical_has_less_friction(paper),
     ]
 
 
@@ -45,8 +45,9 @@ def inertia_carries(paper: Paper) -> Claim:
         text="Parallel textured surfaces carry load by inertia; Stokes gives (almost) none",
         verdict=verdict,
         evidence=f"symmetric grooves: Stokes load at most {level:.1e} of the Navier-Stokes load "
-        "(the small positive one of Fig. A.4 is a discretisation error: creeping flow is reversible); grooves with "
-        f"their lowest point aside carry or lose load without inertia too, up to {shifted:.2g} times the load with it",
+        "(the small positive load in Fig. A.4 is a discretisation error: creeping flow is reversible); grooves "
+        f"with their lowest point off centre carry or lose load without inertia too, up to {shifted:.2g} times the "
+        f"load with it",
     )
 
 
@@ -65,8 +66,8 @@ def load_grows(paper: Paper) -> Claim:
         number=2,
         text="Load grows with Re and with groove width",
         verdict=_verdict(min(by_number, by_width)),
-        evidence=f"from one Re to the next it grows in {by_number:.1%} of the steps, from one width to the next in "
-        f"{by_width:.1%}" + ("; not always with width: " + ", ".join(sorted(exceptions)) if exceptions else ""),
+        evidence=f"the load grows in {by_number:.1%} of the steps of Re and in {by_width:.1%} of the steps of width"
+        + ("; not always with width: " + ", ".join(sorted(exceptions)) if exceptions else ""),
     )
 
 
@@ -99,7 +100,8 @@ def optimum_depth(paper: Paper) -> Claim:
         number=3,
         text="Load has an optimum depth, in general at 0.5 < d+ < 0.75",
         verdict=_verdict(part, whole=0.9, some=0.4),
-        evidence=f"{part:.0%} of the {len(best)} curves have it there; {by_shape}{_with_upwind(paper, inside)}",
+        evidence=f"{part:.0%} of the {len(best)} curves have their optimum there; "
+        f"{by_shape}{_with_upwind(paper, inside)}",
     )
 
 
@@ -125,11 +127,11 @@ def optimum_at_onset(paper: Paper, onsets: dict[tuple[str, float, float], float]
         number=4,
         text=text,
         verdict="true" if near >= 0.9 else "partly" if together > 0.6 else "false",
-        evidence=f"both depths shrink with Re and grow with width (rank correlation {together:.2f}), but the load is "
-        f"greatest {np.median(ratio):.2f} times as deep as the flow first turns back (from {ratio.min():.2f} to "
+        evidence=f"both depths shrink with Re and grow with width (rank correlation {together:.2f}), but the depth "
+        f"of the greatest load is {np.median(ratio):.2f} times that of the first back-flow (from {ratio.min():.2f} to "
         f"{ratio.max():.2f}; within 20 % of each other in {near:.0%} of {len(inner)} curves), where the reverse flow "
-        f"has {np.median(turned):.1%} of the sliding speed; of the steps in depth beyond the onset "
-        f"{np.mean(falls):.0%} lower the load",
+        f"has {np.median(turned):.1%} of the sliding speed; {np.mean(falls):.0%} of the steps in depth beyond the "
+        f"onset lower the load",
     )
 
 
@@ -144,23 +146,23 @@ def friction_falls(paper: Paper) -> Claim:
             for i, j in np.argwhere(np.diff(paper.table(shape, "friction_plus", number, setting), axis=1) >= 0)
         ]
 
-    def told(found: list[tuple[float, float, float]]) -> str:
+    def in_words(found: list[tuple[float, float, float]]) -> str:
         if not found:
-            return "it falls in every step of depth"
+            return "friction falls in every step of depth"
         width, number = max(width for width, _, _ in found), min(number for *_, number in found)
-        return f"it rises in {len(found)} steps of depth, all at w+ <= {width:g} and Re >= {number:g}"
+        return f"friction rises in {len(found)} steps of depth, all at w+ <= {width:g} and Re >= {number:g}"
 
     tables = [paper.table(shape, "friction_plus", number) for shape, number in product(SHAPES.values(), NUMBERS)]
     by_width = float(np.mean([np.diff(table, axis=0) < 0 for table in tables]))
     found = exceptions(paper.best)
     narrow_only = bool(found) and max(width for width, _, _ in found) < 0.35
-    upwind = "" if paper.upwind is None else f"; with first-order upwind {told(exceptions(paper.upwind))}"
+    upwind = "" if paper.upwind is None else f"; with first-order upwind {in_words(exceptions(paper.upwind))}"
     falls = by_width > 0.99 and (narrow_only or not found)
     return Claim(
         number=5,
         text="Friction falls with depth and width, except for narrow deep grooves at high Re",
         verdict="false" if not falls else "true" if narrow_only else "partly",
-        evidence=f"{told(found)} and in {by_width:.0%} of the steps of width{upwind}",
+        evidence=f"{in_words(found)} and in {by_width:.0%} of the steps of width{upwind}",
     )
 
 
@@ -168,7 +170,7 @@ def splined_against_cylindrical(paper: Paper) -> Claim:
     """Claim 6."""
 
     def share(setting: str, number: float) -> float:
-        """In which part of the widths the splined groove carries more, each shape at its best depth."""
+        """Return the fraction of widths at which the splined groove carries more, each shape at its best depth."""
         ahead, cylindrical = (paper.table(shape, "load_plus", number, setting) for shape in (AHEAD, CYLINDRICAL))
         return float((ahead.max(axis=1) > cylindrical.max(axis=1)).mean())
 
@@ -185,7 +187,7 @@ def splined_against_cylindrical(paper: Paper) -> Claim:
     )
 
 
-def cylindrical_rubs_less(paper: Paper) -> Claim:
+def cylindrical_has_less_friction(paper: Paper) -> Claim:
     """Claim 7."""
     less = [
         (paper.table(CYLINDRICAL, "friction_plus", number) < paper.table(shape, "friction_plus", number)).ravel()
@@ -195,7 +197,7 @@ def cylindrical_rubs_less(paper: Paper) -> Claim:
     part = float(np.concatenate(less).mean())
     return Claim(
         number=7,
-        text="Cylindrical grooves rub less than splined",
+        text="Cylindrical grooves have less friction than splined",
         verdict=_verdict(part),
-        evidence=f"in {part:.1%} of the pairs of equal width, depth and Re",
+        evidence=f"true in {part:.1%} of the pairs of equal width, depth and Re",
     )

@@ -93,8 +93,9 @@ def laws_differ(paper: Paper) -> Claim:
         verdict="true" if all(near) else "partly" if any(near) and ordered else "false",
         evidence="loads with D&H-Orig and D&H-MNL differ by "
         + ", ".join(f"{100 * one.integrals:.3g} % ({case})" for case, one in found.items())
-        + f"; the paper's number of the flooded film is ∫|p* − p| dx / ∫p dx, here {100 * flooded.between:.3g} %, in "
-        "which excess upstream and lack downstream add up, while in the load they cancel; starved, both are the same",
+        + f"; the number of the paper for the flooded film is ∫|p* − p| dx / ∫p dx, here {100 * flooded.between:.3g} "
+        f"%: excess upstream and deficit downstream add up in it, while they cancel in the load; for starved "
+        f"films both agree",
     )
 
 
@@ -117,7 +118,7 @@ def constant_modulus(paper: Paper) -> Claim:
         number=9,
         text="Constant bulk modulus at ambient is as good as Dowson–Higginson up to about 50–100 MPa",
         verdict="true" if max(at_fifty) < 0.02 else "partly" if min(at_fifty) < 0.02 else "false",
-        evidence="loads with constant β and with D&H-MNL, the speed raised: " + "; ".join(told),
+        evidence="loads with constant β against D&H-MNL at rising speed: " + "; ".join(told),
     )
 
 
@@ -134,8 +135,8 @@ def inlet_matters(paper: Paper) -> Claim:
         number=10,
         text="Surface pattern and pressure at the inlet matter much for load",
         verdict="true" if by_pattern and by_pressure else "partly" if by_pattern or somewhere else "false",
-        evidence=f"inlet at pc: {loads}, where the plain parallel gap has none; inlet at 2 pc: {rises}, where the "
-        "plain gap has 5 kN/m. The pattern decides: waves about the plain gap rupture the film, and load grows with "
-        "wavelength; pockets that end in a step do not, and load does not depend on wavelength. There the pressure at "
-        "the inlet adds little more than in the plain gap",
+        evidence=f"inlet at pc: {loads}, while the plain parallel gap has no load; inlet at 2 pc: {rises}, while the "
+        "plain gap has 5 kN/m. The pattern decides: waves about the plain gap rupture the film, and the load grows "
+        "with their length; pockets that end in a step do not, and the load does not depend on their length. For "
+        "these the inlet pressure adds little more than in the plain gap",
     )

@@ -1,4 +1,4 @@
-"""What Paper C claims of flow factors and films, judged by profiles made to its table: each with its numbers."""
+"""The claims of Paper C on flow factors and films, judged by profiles made to its table."""
 
 from itertools import pairwise
 
@@ -10,26 +10,26 @@ from scripts.studies.paper_c.data import ALPHAS, BESIDE, POINTS, RANGE, TABLE, W
 from scripts.studies.paper_c.films import LOADS, MODULUS, SMOOTH, SPAN, Curve
 from scripts.studies.study import Claim
 
-CLOSE = 1e-10
-"""Relative differences below which factors are the same."""
+EQUAL_FACTORS = 1e-10
+"""Relative difference below which factors count as equal."""
 
-ERROR = 1e-3
-"""Of the factors, for which nodes are counted."""
+FACTOR_ERROR = 1e-3
+"""Relative error of the factors for which nodes are counted."""
 
-SHOWN = (1e5, 1e6)
+JUDGED_LOADS = (1e5, 1e6)
 """Loads of Fig. C.13 between which films are put in order, N/m."""
 
-ORDERED = 0.95
-"""Of all pairs of profiles, for a number to be said to order their films."""
+ORDERED_FRACTION = 0.95
+"""Fraction of all pairs of profiles from which on a number counts as ordering their films."""
 
 
 def judge(paper: Paper) -> list[Claim]:
-    """Claims 11, 12 and 14."""
+    """Judge claims 11, 12 and 14."""
     return [same_bearing_curve(paper), fewer_nodes(paper), ordered_by_roughness(paper)]
 
 
 def apart(values: Array) -> Array:
-    """By how much rearrangements differ at most, over the profile's own; shape (α, 2)."""
+    """Return the largest relative difference between rearrangements, shape (α, 2)."""
     return np.asarray(np.ptp(values, axis=0) / values[0])
 
 
@@ -43,11 +43,11 @@ def same_bearing_curve(paper: Paper) -> Claim:
     return Claim(
         number=11,
         text="Profiles with the same bearing curve have the same flow factors",
-        verdict="true" if worst[sums] < CLOSE and worst[refined] < worst[lines] else "false",
-        evidence=f"six rearrangements and the profile itself differ by: {told}. It is a theorem for flow across the "
-        f"ridges, and exact where only the heights are summed. Straight lines between rearranged points have another "
-        f"bearing curve than those before: {POINTS} heights do not tell the factors near contact, where the lines "
-        "about the highest point decide",
+        verdict="true" if worst[sums] < EQUAL_FACTORS and worst[refined] < worst[lines] else "false",
+        evidence=f"six rearrangements and the profile itself differ by: {told}. The claim is a theorem for flow across "
+        f"the ridges, and exact where only the heights are summed. Straight lines between rearranged points have "
+        f"another bearing curve: {POINTS} heights do not determine the factors near contact, where the lines next to "
+        f"the highest point decide",
     )
 
 
@@ -57,7 +57,7 @@ def fewer_nodes(paper: Paper) -> Claim:
 
     def needed(name: str, rule: Rule, left_out: int) -> float:
         study = paper.convergence[name, near]
-        return float(np.median(np.nan_to_num(study.needed(rule, left_out, ERROR), nan=2 * study.nodes[-1])))
+        return float(np.median(np.nan_to_num(study.needed(rule, left_out, FACTOR_ERROR), nan=2 * study.nodes[-1])))
 
     def ratios(left_out: int) -> list[float]:
         return [
@@ -79,12 +79,12 @@ def fewer_nodes(paper: Paper) -> Claim:
         number=12,
         text="Simpson's rule needs far fewer nodes than the trapezoid rule or the differential equation",
         verdict="true" if on and beside else "partly" if on or beside else "false",
-        evidence=f"nodes for {100 * ERROR:g} % at α = {near}, where N is a multiple of {POINTS} and every point is a "
-        f"node: {told(0)}; on {BESIDE} nodes fewer, most of them beside the points: {told(BESIDE)}: corners inside its "
-        f"pairs of steps cost Simpson's rule its order. At α = {ALPHAS[0]} all rules are within "
-        f"{_worst_at_first(paper):.0e} on {paper.convergence['A', ALPHAS[0]].nodes[0]:.0f} nodes. No nodes are needed "
-        "at all: the integrals of straight lines are closed forms. The differential equation by differences is the "
-        "midpoint rule",
+        evidence=f"nodes for {100 * FACTOR_ERROR:g} % at α = {near}, where N is a multiple of {POINTS} and every "
+        f"point is a node: {told(0)}; with {BESIDE} nodes fewer, most of them beside the points: {told(BESIDE)}: "
+        f"corners inside its pairs of steps reduce the order of Simpson's rule. At α = {ALPHAS[0]} all rules are "
+        f"within {_worst_at_first(paper):.0e} on {paper.convergence['A', ALPHAS[0]].nodes[0]:.0f} nodes. In fact "
+        f"no nodes are needed: the integrals of straight lines have closed forms. The differential equation by "
+        f"differences is the midpoint rule",
     )
 
 
@@ -95,12 +95,12 @@ def _worst_at_first(paper: Paper) -> float:
 
 def ordered_by_roughness(paper: Paper) -> Claim:
     """Claim 14."""
-    loads = [k for k, load in enumerate(LOADS) if SHOWN[0] <= load <= SHOWN[1]]
+    loads = [k for k, load in enumerate(LOADS) if JUDGED_LOADS[0] <= load <= JUDGED_LOADS[1]]
     until = order_holds_to(paper.curves)
     random, alike = paper.orderings["random"], paper.orderings["of one Ra"]
     by = {number: [random.concordance(number, k) for k in loads] for number in random.numbers}
-    four = until >= SHOWN[1]
-    general = min(by["Ra"]) >= ORDERED
+    four = until >= JUDGED_LOADS[1]
+    general = min(by["Ra"]) >= ORDERED_FRACTION
     counter = against(random.numbers["Ra"], random.clearance[:, loads[-1]])
     told = ", ".join(f"{number} {100 * min(parts):.1f} to {100 * max(parts):.1f} %" for number, parts in by.items())
     within = [alike.concordance("rmax", k) for k in loads]
@@ -111,17 +111,17 @@ def ordered_by_roughness(paper: Paper) -> Claim:
         verdict="true" if four and general else "partly" if four or general else "false",
         evidence=f"the four profiles, smooth first, keep the order of Ra for every seed up to {until / 1e6:.3g} MN/m "
         f"(mean pressure {until / SPAN / 1e6:.3g} MPa, {until / SPAN / MODULUS:.2g} of β). Their rmax has the same "
-        f"order, and decides: of the pairs of {random.clearance.shape[0]} random profiles at {SHOWN[0] / 1e6:g} to "
-        f"{SHOWN[1] / 1e6:g} MN/m the rougher has the thinner film by: {told}; in one pair the rougher has "
-        f"{counter:.2g} times the Ra and the thicker film. Of {alike.clearance.shape[0]} profiles with the same Ra, "
-        f"films at {SHOWN[1] / 1e6:g} MN/m differ by {1e6 * spread:.2g} µm, in the order of rmax in "
-        f"{100 * min(within):.1f} % of the pairs. At a load the mean film is fixed but for second order in Rq over it, "
-        "and min h0 is that less rmax",
+        f"order, and it decides: of the pairs of {random.clearance.shape[0]} random profiles at "
+        f"{JUDGED_LOADS[0] / 1e6:g} to {JUDGED_LOADS[1] / 1e6:g} MN/m the rougher has the thinner film in: {told}; in "
+        f"one pair the rougher has {counter:.2g} times the Ra and the thicker film. Of {alike.clearance.shape[0]} "
+        f"profiles with the same Ra, films at {JUDGED_LOADS[1] / 1e6:g} MN/m differ by {1e6 * spread:.2g} µm, in the "
+        f"order of rmax in {100 * min(within):.1f} % of the pairs. A load fixes the mean film except for terms of "
+        f"second order in Rq over it, and min h0 is the mean film minus rmax",
     )
 
 
 def order_holds_to(curves: dict[str, list[Curve]]) -> float:
-    """The greatest load, N/m, up to which min h0 falls as Ra grows, for every seed; 0 if there is none."""
+    """Return the greatest load, N/m, up to which min h0 falls as Ra grows, for every seed; 0 if there is none."""
     rough = [SMOOTH, *sorted(TABLE, key=lambda name: TABLE[name].average)]
     loads: Array = np.geomspace(LOADS[0], 1e9, 400)
     at = {name: [one.at(loads) for one in curves[name]] for name in rough}
@@ -133,6 +133,6 @@ def order_holds_to(curves: dict[str, list[Curve]]) -> float:
 
 
 def against(rough: Array, clearance: Array) -> float:
-    """The greatest ratio of roughness in a pair whose rougher profile has the thicker film; 1 if there is none."""
+    """Return the greatest ratio of roughness in a pair whose rougher profile has the thicker film; 1 if none has."""
     ratio = rough[:, None] / rough
     return float(ratio[clearance[:, None] > clearance].max(initial=1.0))

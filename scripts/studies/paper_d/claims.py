@@ -1,4 +1,4 @@
-"""What Paper D claims of dry contact, judged by the profiles pressed: each with a verdict and its numbers."""
+"""The claims of Paper D on dry contact, judged by pressed profiles."""
 
 import numpy as np
 
@@ -8,32 +8,32 @@ from scripts.studies.paper_d.data import LENGTH, SPECTRA, STEEL, Paper
 from scripts.studies.study import Claim
 
 LEAST_NODES = 4
-"""Fits take loads from which on the real area has at least so many nodes on average."""
+"""Least number of nodes in contact, on average, at the loads that are fitted."""
 
 
 def judge(paper: Paper) -> list[Claim]:
-    """Claims 15 to 18."""
+    """Judge claims 15 to 18."""
     return [area_grows(paper), area_by_roughness(paper), plasticity(paper), highest_waves(paper)]
 
 
 def power_of(x: Array, y: Array) -> float:
-    """The exponent of the power law through points, by least squares."""
+    """Return the exponent of the power law through points, by least squares."""
     return float(np.polyfit(np.log(x), np.log(y), 1)[0])
 
 
 def straightness(x: Array, y: Array) -> float:
-    """R² of the line through the origin."""
+    """Return R² of the line through the origin."""
     line = x * float(x @ y) / float(x @ x)
     return 1 - float(((y - line) ** 2).sum() / ((y - y.mean()) ** 2).sum())
 
 
 def settled(waves: Array, area: Array, part: float) -> int:
-    """The least n from which on the area stays within a part of its last value."""
+    """Return the least n from which on the area stays within a fraction of its last value."""
     outside = np.flatnonzero(np.abs(area / area[-1] - 1) > part)
     return int(waves[outside[-1] + 1]) if outside.size else int(waves[0])
 
 
-def _told(values: dict[str, float], form: str) -> str:
+def _in_words(values: dict[str, float], form: str) -> str:
     return ", ".join(f"{name} {value:{form}}" for name, value in values.items())
 
 
@@ -52,8 +52,8 @@ def area_grows(paper: Paper) -> Claim:
         number=15,
         text="The real area of contact grows nearly linearly with load",
         verdict="true" if worst <= 0.1 and straight >= 0.99 else "partly" if worst <= 0.25 else "false",
-        evidence=f"exponents {_told(powers, '.2f')}; R² of the line through the origin at least {straight:.3f} "
-        f"(loads from which on the area has {LEAST_NODES} nodes on average)",
+        evidence=f"exponents {_in_words(powers, '.2f')}; R² of the line through the origin at least {straight:.3f} "
+        f"(loads at which {LEAST_NODES} nodes or more are in contact on average)",
     )
 
 
@@ -73,9 +73,9 @@ def area_by_roughness(paper: Paper) -> Claim:
         number=16,
         text="The real area of contact hardly depends on Ra",
         verdict="true" if worst <= 1.2 else "partly" if max(abs(p) for p in powers.values()) <= 0.5 else "false",
-        evidence=f"at the highest load {'; '.join(told)}; the greatest is {_told(ratios, '.2f')} times the least while "
-        f"Ra spans {rough.max() / rough.min():.1f}, A ~ Ra^n with n: {_told(powers, '.2f')}; it cannot be otherwise "
-        f"where most contact is plastic, since no surface can have less than W/H = {100 * bound:.1f} %",
+        evidence=f"at the highest load {'; '.join(told)}; the greatest is {_in_words(ratios, '.2f')} times the least "
+        f"while Ra spans {rough.max() / rough.min():.1f}, A ~ Ra^n with n: {_in_words(powers, '.2f')}; this must "
+        f"be so where most contact is plastic, because no surface can have less than W/H = {100 * bound:.1f} %",
     )
 
 
@@ -92,8 +92,8 @@ def plasticity(paper: Paper) -> Claim:
         ranked.append(bool((np.argsort(list(index.values())) == np.argsort(rough)).all()))
         starts += list(finer.values())
         told.append(
-            f"{spectrum}: {_told(index, '.2f')} at the highest load; {_told(light, '.2f')} at the least, where one or "
-            f"two nodes carry it; {_told(finer, '.2f')} there on a finer grid"
+            f"{spectrum}: {_in_words(index, '.2f')} at the highest load; {_in_words(light, '.2f')} at the least load, "
+            f"which one or two nodes carry; {_in_words(finer, '.2f')} at that load on a finer grid"
         )
     spread = min(
         paper.pressed[spectrum, "A"]["plasticity_index"][:, -1].mean()
@@ -128,5 +128,5 @@ def highest_waves(paper: Paper) -> Claim:
         verdict="true" if all(kept) else "partly" if any(kept) else "false",
         evidence=f"mean area of profile D at the highest load, of {waves[-1]} waves: "
         + "; ".join(told)
-        + f"; the smooth ones have none beyond {SPECTRA['smooth']}",
+        + f"; the smooth profiles have no waves beyond {SPECTRA['smooth']}",
     )

@@ -40,7 +40,7 @@ class Paper:
 
 
 def judge(paper: Paper) -> list[Claim]:
-    """Claims 21 and 22, and 19 where the milled surface is there."""
+    """Judge claims 21 and 22, and 19 where the milled surface is there."""
     direct = [direct_is_homogenized(paper.windows, paper.rows)] if paper.windows else []
     return [*direct, methods_agree(paper.washers), lift_off(paper)]
 
@@ -65,18 +65,19 @@ def direct_is_homogenized(windows: Sequence[Leak], rows: Sequence[tuple[int, flo
         number=19,
         text="HNS equals DNS in leakage within a few per cent for measured surfaces",
         verdict="true" if within > 0.95 else "partly" if within > 0.3 else "false",
-        evidence="between two reservoirs one window lets more through than the same on and on, always, as flow comes "
-        f"in where it would have no way on: at {LOAD / 1e6:g} MPa more by (median and range) {shown}; {_share(within)} "
-        f"of all within {_share(FEW_PER_CENT)}. The worst falls with the windows in a row, not with their size alone: "
-        f"{longer} over {', '.join(str(count) for count, _ in rows)} of them. Under load few channels stay and one "
-        "window says less: window a "
+        evidence="the flow through one window between two reservoirs is always larger than through the window repeated "
+        f"without end, because flow also enters valleys that do not continue: at {LOAD / 1e6:g} MPa by (median and "
+        f"range) {shown}; {_share(within)} of all within {_share(FEW_PER_CENT)}. The largest difference falls with "
+        f"the number of windows in a row, not with their size alone: {longer} over "
+        f"{', '.join(str(count) for count, _ in rows)} of them. Under load few channels remain and one window is less "
+        f"representative: window a "
         + ", ".join(f"{_share(hard[0, axis])} along {AXES[axis]}" for axis in (0, 1))
         + f" at {crushed / 1e6:g} MPa",
     )
 
 
 def worst_cell(windows: Sequence[Leak]) -> tuple[Leak, int]:
-    """The cell and the direction in which the ends of one window count most, under the usual load."""
+    """Return the cell and the direction with the largest effect of the ends of one window, under the usual load."""
     usual = [(one, axis) for one in windows if one.resolution == 1.0 and one.load == LOAD for axis in (0, 1)]
     return max(usual, key=lambda pair: pair[0].apart(pair[1]))
 
@@ -96,22 +97,22 @@ def methods_agree(washers: Mapping[str, Washer]) -> Claim:
     crossed = parted(washers[CROSSED])
     least = float(np.abs(crossed).min())
     bars = washers[CROSSED].lift()
-    unsure = float((bars[:, 1] / bars[:, 0]).max())
+    uncertainty = float((bars[:, 1] / bars[:, 0]).max())
     there = [name for name in MEASURED if name in washers]
     told = "".join(
         f"; {name}, measured, {' / '.join(_signed(part) for part in parted(washers[name]))}" for name in there
     )
-    holds = straight < EQUAL and least > max(PARTED, unsure)
+    holds = straight < EQUAL and least > max(PARTED, uncertainty)
     return Claim(
         number=21,
         text="Patir–Cheng equals HNS for straight or isotropic lay and fails for crossed or oblique lay",
         verdict="true" if holds else "partly" if straight < EQUAL or least > PARTED else "false",
         evidence=f"lift-off speeds by Patir and Cheng over the homogenized ones, at "
         f"{', '.join(f'{load / 1e6:g}' for load in LOADS)} MPa: straight lays within {_share(straight)}; marks that "
-        f"cross obliquely, one cut deeper, {' / '.join(_signed(part) for part in crossed)} (± {_share(unsure)} by "
-        f"grids and tables), films up to {_share(washers[CROSSED].apart())} off{told}. It is A₁₂ and B₂ that the "
-        "method has not: such a lay pumps sideways. Marks that cross symmetrically about the sliding have neither, "
-        "and agree (scripts.studies.lay)",
+        f"cross obliquely, one of them deeper, {' / '.join(_signed(part) for part in crossed)} (± "
+        f"{_share(uncertainty)} by grids and tables), films differ by up to {_share(washers[CROSSED].apart())}{told}. "
+        f"The method lacks A₁₂ and B₂: such a lay pumps sideways. Marks that cross symmetrically about the sliding "
+        f"have neither, and both methods agree (scripts.studies.lay)",
     )
 
 
@@ -134,22 +135,23 @@ def lift_off(paper: Paper) -> Claim:
     order = " < ".join(sorted(names, key=lambda name: found[name][1, 0]))
     one = f"{LOADS[1] / 1e6:g} MPa"
     helps = (
-        "they lower the speed" if lowers else "they raise the speed" if raises else "which is no more than is unsure"
+        "they lower the speed" if lowers else "they raise the speed" if raises else "which is within the uncertainty"
     )
     return Claim(
         number=22,
         text="Higher load needs higher speed to lift off; ridges across the leakage direction lower that speed",
         verdict="true" if rises and lowers else "partly" if rises or lowers else "false",
-        evidence=f"at {', '.join(f'{load / 1e6:g}' for load in LOADS)} MPa walls part at "
+        evidence=f"at {', '.join(f'{load / 1e6:g}' for load in LOADS)} MPa walls lift off at "
         + "; ".join(f"{name} {_speeds(found[name])}" for name in names)
         + f" rpm: {'always later' if rises else 'not always later'} under more load ({order} at {one}). Ridges across "
         "the leakage against the same ridges along it: surface 3 "
         + ", ".join(_signed(float(change)) for change in (along / across - 1).mean(axis=1))
-        + f" ({len(SEEDS)} samples), surface 1 {_signed(float(first.mean()))}, {helps} (± {_share(bar)}): what they "
-        "hold back across they let through along the sliding. What counts is an oblique lay: at "
-        f"{one} ridges that lead outwards with the sliding wall (+45°) part at {outwards.mean(axis=0)[1]:.3g} rpm, "
-        f"inwards (−45°) at {inwards.mean(axis=0)[1]:.3g}, along the sliding at {along.mean(axis=0)[1]:.3g}. So the "
-        "late lift-off of marks that cross comes of what they pump sideways, not of leakage that is not held back",
+        + f" ({len(SEEDS)} samples), surface 1 {_signed(float(first.mean()))}, {helps} (± {_share(bar)}): they "
+        "hold back flow across and pass more along the sliding. An oblique lay matters: at "
+        f"{one} lift-off over ridges that lead outwards with the sliding wall (+45°) is at "
+        f"{outwards.mean(axis=0)[1]:.3g} rpm, inwards (−45°) at {inwards.mean(axis=0)[1]:.3g}, along the sliding at "
+        f"{along.mean(axis=0)[1]:.3g}. So the late lift-off over marks that cross comes from their sideways pumping, "
+        f"not from more leakage",
     )
 
 

@@ -1,4 +1,4 @@
-"""Claims 16, 19 and 23 to 26 of Paper F judged."""
+"""The claims of Paper F judged: 16, 19 and 23 to 26."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -40,7 +40,7 @@ VALLEYS, PEAKS = ("Sv", "Svm"), ("Sp", "Spm")
 
 
 def judge(study: SealStudy) -> list[Claim]:
-    """Claims 16, 19, 23, 24, 25 and 26."""
+    """Judge claims 16, 19, 23, 24, 25 and 26."""
     return [
         areas_differ(study),
         cell_equals_direct(study.sample),
@@ -67,10 +67,10 @@ def areas_differ(study: SealStudy) -> Claim:
         text="Area differs strongly between 3D surfaces",
         verdict="true" if apart > 2 else "partly" if apart > 1.25 else "false",
         evidence=f"at {PRESSED / 1e6:g} MPa the area is {_share(same_load.min())} to {_share(same_load.max())} "
-        f"({apart:.2g} times). It is the rms slope that differs: at W/(E* g′) = {ALIKE:g} all have "
-        f"{_share(float(alike.mean()))} ± {_share(float(alike.std()))}, a spread of {_share(left)} of it. Where "
-        "profiles hardly differ (study paper_d) they are of steel and mostly plastic, with an area of W/H "
-        "whatever the roughness; an elastomer has no such bound, in the plane or in space",
+        f"({apart:.2g} times). The rms slope makes the difference: at W/(E* g′) = {ALIKE:g} all have "
+        f"{_share(float(alike.mean()))} ± {_share(float(alike.std()))}, a relative spread of {_share(left)}. The "
+        "profiles that hardly differ (study paper_d) are of steel and mostly plastic, with an area of W/H "
+        "for every roughness; an elastomer has no such bound, in the plane or in space",
     )
 
 
@@ -103,11 +103,11 @@ def cell_equals_direct(sample: Sequence[Pressed]) -> Claim:
         number=19,
         text="HNS equals DNS in leakage within a few per cent (for these surfaces)",
         verdict="true" if min(within) > 0.9 else "partly" if within[0] > 0.5 else "false",
-        evidence="DNS of one period between two reservoirs is never below HNS. DNS/HNS by the load over the one that "
-        f"seals: {'; '.join(told)}. A path between ends need not come out where it went in: "
+        evidence="DNS of one period between two reservoirs is never below HNS. DNS/HNS at fractions of the "
+        f"sealing load: {'; '.join(told)}. A path between ends need not end where it began: "
         f"{_share(float(earlier.mean()))} of the directions are sealed by HNS at a load at which DNS still leaks. "
-        "The cell's assumption, many waves in a period, is what these surfaces lack; over the six decades of Fig. F.9 "
-        "light loads look the same",
+        "The cell assumes many waves in a period, and these surfaces have few; over the six decades of Fig. F.9 both "
+        "agree at light loads",
     )
 
 
@@ -135,7 +135,7 @@ def lost_between(study: SealStudy) -> Claim:
         number=23,
         text="Percolation is lost between 33 and 55 % real contact area",
         verdict="true" if inside.all() else "partly" if inside[~directed].mean() > 0.5 else "false",
-        evidence=f"{told}. The range is that of small surfaces, not a law: of one kind of random surface, {sizes}",
+        evidence=f"{told}. The range is that of small surfaces, not a law: for one kind of random surface, {sizes}",
     )
 
 
@@ -160,12 +160,13 @@ def peaks_rule_sealing(laws: Mapping[str, GroupLaws]) -> Claim:
         evidence=f"of the eight heights {first} orders the loads best (standard deviation of the ratio: a factor of "
         f"{spreads[first]:.3g}; Spm {spreads['Spm']:.3g}, Sq {spreads['Sq']:.3g}, {last} {spreads[last]:.3g}, the "
         f"worst). k, 1/m: {_constant(k, 3)}; the source's {SEALING:g} is "
-        f"{'inside' if holds else 'outside'}, and k holds a wavelength: the same surface twice as long has half of it. "
-        f"The pure number is W = {slope.constant.value:.3g} E* {SLOPE} ({_interval(slope.constant.by_surface, 3)}), "
-        f"spread {slope.spread:.3g}, with exp({every.skewed.skewness.value:.2g} Ssk) beside it "
-        f"{every.skewed.spread:.3g}. R² at equal Sq: Spm {every.sealing['Spm'].explained_alike:.2f}, {SLOPE} "
-        f"{slope.explained_alike:.2f}, with Ssk {every.skewed.explained_alike:.2f} (Sa from 0.06 to 0.48 µm adds "
-        f"what any height explains: {every.sealing['Spm'].explained:.2f} and {slope.explained:.2f}). {others}",
+        f"{'inside' if holds else 'outside'}, and k contains a wavelength: it is half as large for a surface twice as "
+        f"long. The dimensionless law is W = {slope.constant.value:.3g} E* {SLOPE} "
+        f"({_interval(slope.constant.by_surface, 3)}), spread {slope.spread:.3g}, with "
+        f"exp({every.skewed.skewness.value:.2g} Ssk) beside it {every.skewed.spread:.3g}. R² at equal Sq: Spm "
+        f"{every.sealing['Spm'].explained_alike:.2f}, {SLOPE} {slope.explained_alike:.2f}, with Ssk "
+        f"{every.skewed.explained_alike:.2f} (the range of Sa, 0.06 to 0.48 µm, raises R² for every height: "
+        f"{every.sealing['Spm'].explained:.2f} and {slope.explained:.2f}). {others}",
     )
 
 
@@ -193,19 +194,19 @@ def valleys_rule_leakage(study: SealStudy) -> Claim:
         verdict="true" if rule and all(holds) else "partly" if rule or all(holds) else "false",
         evidence="standard deviation of the leakage of surfaces scaled to the same height, as a factor, at "
         f"{', '.join(f'{share:g}' for share in SHARES)} of the load that seals: {spread}; best {' and '.join(best)} at "
-        "the lighter loads. It cannot be otherwise: at the first touch the mean gap is Sp, so that Q̃ → φ (Sp/Svm)³. "
+        "the lighter loads. This must be so: at the first touch the mean gap is Sp, hence Q̃ → φ (Sp/Svm)³. "
         f"F.18 read as K = (1.1 Svm^⅓ − 0.023 (W/E*)^⅓)⁹: fitted a = {_constant(law.a, 3)}, b = "
-        f"{_constant(law.b, 3)} m^⅓; the source's constants {'lie' if all(holds) else 'do not both lie'} within those "
-        "over families, "
-        f"with K off by a factor of {10**reading.light:.2g} (rms) below a tenth of the load that seals and "
-        f"{10**reading.leakage:.2g} over all{others}. b, as k, holds a wavelength. K = Sp³ ({better.a.value:.3g} − "
-        f"{better.b.value:.3g} (W/(E* {SLOPE}))^⅓)⁹ has R² {better.explained:.2f} instead of {law.explained:.2f}",
+        f"{_constant(law.b, 3)} m^⅓; the constants of the source {'lie' if all(holds) else 'do not both lie'} within "
+        f"the intervals over families, "
+        f"with an error of K by a factor of {10**reading.light:.2g} (rms) below a tenth of the load that seals and "
+        f"{10**reading.leakage:.2g} over all{others}. b, like k, contains a wavelength. K = Sp³ ({better.a.value:.3g} "
+        f"− {better.b.value:.3g} (W/(E* {SLOPE}))^⅓)⁹ has R² {better.explained:.2f} instead of {law.explained:.2f}",
     )
 
 
 @dataclass(frozen=True, kw_only=True)
 class Subtracted:
-    """What the source makes of a leakage: 10 nm let through, and what is left at the threshold subtracted.
+    """Leakage as the source computes it: with an offset of 10 nm, and less the leakage at the threshold.
 
     Attributes
     ----------
@@ -264,10 +265,10 @@ def offset_is_harmless(sample: Sequence[Pressed]) -> Claim:
         number=26,
         text="A 10 nm offset at contact is enough and harmless (with what is left at the threshold subtracted)",
         verdict="true" if max(map(abs, medians)) < FEW else "partly" if abs(medians[0]) < 2 * FEW else "false",
-        evidence="times the leakage with closed contact (and after the subtraction), medians of surfaces rougher and "
-        f"smoother than Sa {1e6 * middle:.2g} µm, by the load over the one that seals: {'; '.join(told)}. At the "
+        evidence="leakage over that with closed contact (and after the subtraction), medians of surfaces rougher and "
+        f"smoother than Sa {1e6 * middle:.2g} µm, at fractions of the sealing load: {'; '.join(told)}. At the "
         f"threshold the 10 nm alone leak like a slit of {1e9 * np.nanmin(slit):.2g} to {1e9 * np.nanmax(slit):.2g} nm; "
-        "taking that off is right at one load only, and a fall over decades becomes a gentle one",
+        "subtracting this is right at one load only, and the decrease over decades becomes a gentle one",
     )
 
 

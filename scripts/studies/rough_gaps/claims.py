@@ -1,4 +1,4 @@
-"""What the report on rough gaps finds, in sentences, and the claim of the source that it can judge."""
+"""The findings of the report on rough gaps in sentences, and the claim of the source that it can judge."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -19,16 +19,16 @@ from scripts.studies.rough_gaps.study import (
 from scripts.studies.rough_gaps.waves import MARKED, bare_coefficient
 from scripts.studies.study import Claim
 
-FEW = 0.05
-"""Parts of the flow: the claim's few per cent."""
+FEW_PER_CENT = 0.05
+"""The few per cent of the claim, as a fraction of the flow."""
 
 
 def judge(study: RoughGapStudy) -> list[Claim]:
-    """Claim 19, as far as Stokes flow can judge what both of its sides leave out."""
+    """Judge claim 19, as far as Stokes flow can judge an equation that both of its sides solve."""
     measured = [one for one in study.reach if one.measured]
     if not measured:
         return []
-    far = [one for one in measured if max(off.error for off in one.found) > FEW]
+    far = [one for one in measured if max(off.error for off in one.found) > FEW_PER_CENT]
     resolved = "; ".join(f"{_error(best(one, 'A11'))} at {one.name}" for one in study.milled if one.resolved)
     told = ", ".join(f"{one.name} {_share(max(off.error for off in one.found))} (g′ = {one.slope:.2g})" for one in far)
     rest = [max(off.error for off in one.found) for one in measured if one not in far]
@@ -37,11 +37,16 @@ def judge(study: RoughGapStudy) -> list[Claim]:
             number=19,
             text="HNS equals DNS in leakage within a few per cent for measured surfaces",
             verdict="true" if not far else "partly" if rest else "false",
-            evidence="both sides of it solve Reynolds' equation. Against Stokes flow on the same heights that equation "
-            + (f"lets through, over {MILLED} in three dimensions, {resolved}; by slope correction " if resolved else "")
+            evidence="both sides of the claim solve Reynolds' equation. Its error against Stokes flow on the same "
+            "heights "
+            + (
+                f"is, over {MILLED} in three dimensions, {resolved}; by slope correction "
+                if resolved
+                else "by slope correction "
+            )
             + f"it is within {_share(max(rest, default=math.nan))} at every mean gap for {len(rest)} of "
             + f"{len(measured)} measured surfaces"
-            + (f"; too much on steep ones: {told}" if far else ""),
+            + (f"; larger on steep ones: {told}" if far else ""),
         )
     ]
 
@@ -56,7 +61,7 @@ def _share(part: float) -> str:
 
 
 def words(study: RoughGapStudy) -> dict[str, str]:
-    """A plain sentence or two for each section."""
+    """Return one or two sentences for each section."""
     return {
         "waves": _waves(study),
         "along": _along(study),
@@ -72,8 +77,8 @@ def _waves(study: RoughGapStudy) -> str:
     marked = [wave for length in MARKED if (wave := study.wave(0.3, length)) is not None]
     exact = ", ".join(f"{wave.exact['A11']:.4f}" for wave in marked if "A11" in wave.exact)
     told = [
-        f"Waves of 0.3 of the gap, {', '.join(f'{w.length:g}' for w in marked)} gaps long, let through {exact} of"
-        " what Reynolds' equation says across their crests."
+        f"Waves of 0.3 of the gap, {', '.join(f'{w.length:g}' for w in marked)} gaps long, reduce the flow across their"
+        f" crests to {exact} of that by Reynolds' equation."
         if marked
         else ""
     ]
@@ -106,8 +111,9 @@ def _along(study: RoughGapStudy) -> str:
         return ""
     exact = wave.exact
     return (
-        f"At a = 0.3, L = 5 the flow along the crests is {exact['A22']:.4f} of Reynolds', what sliding drags along "
-        f"{exact['B1']:.4f}, and friction {exact['friction']:.4f}: slope harms pressure flow most, friction least."
+        f"At a = 0.3, L = 5 the flow along the crests is {exact['A22']:.4f} of that by Reynolds' equation, the flow "
+        f"dragged by sliding {exact['B1']:.4f}, and friction {exact['friction']:.4f}: slope reduces pressure flow "
+        f"most, friction least."
     )
 
 
@@ -143,7 +149,8 @@ def _inertia(study: RoughGapStudy) -> str:
         for one in study.inertia.laws
     )
     return (
-        f"Inertia holds back c (Re* g′)² / (1 + b Re* h̄/λ) of the flow, up to a tenth of it: {fitted}.{_crossed(study)}"
+        "Inertia reduces the flow by a fraction c (Re* g′)² / (1 + b Re* h̄/λ), up to a tenth: "
+        f"{fitted}.{_crossed(study)}"
     )
 
 
@@ -165,10 +172,10 @@ def _reach(reach: Sequence[SurfaceValidity], factors: Sequence[float]) -> str:
     group = measured or list(reach)
     counts = [sum(_within(one, level) for one in group) for level in (0.01, 0.05)]
     return (
-        f"Reynolds' equation lets too much through by about {middle:.2g} g′² ({min(factors):.2g} to "
-        f"{max(factors):.2g}), g′ being the rms slope, at nearly every mean gap: a thicker film helps little. It is "
-        f"within 1 % where g′ is below {slopes[0]:.2g} ({math.degrees(math.atan(slopes[0])):.0f}°) and within 5 % "
-        f"below {slopes[1]:.2g} ({math.degrees(math.atan(slopes[1])):.0f}°). Of {len(group)} "
+        f"The flow by Reynolds' equation is too large by about {middle:.2g} g′² ({min(factors):.2g} to "
+        f"{max(factors):.2g}), g′ being the rms slope, at nearly every mean gap: a thicker film helps little. The "
+        f"error is within 1 % where g′ is below {slopes[0]:.2g} ({math.degrees(math.atan(slopes[0])):.0f}°) and "
+        f"within 5 % below {slopes[1]:.2g} ({math.degrees(math.atan(slopes[1])):.0f}°). Of {len(group)} "
         f"{'measured' if measured else 'made'} surfaces {counts[0]} are within 1 % and {counts[1]} within 5 % at every "
         "mean gap that keeps the walls apart."
     )
@@ -185,15 +192,15 @@ def _map(study: RoughGapStudy) -> str:
     for level in (0.01, 0.05):
         plain, corrected = (serves(study.map, name, level) for name in ("homogenized", "slope_corrected"))
         told.append(
-            f"within {100 * level:.0f} % Reynolds' equation serves waves of every length up to an rms slope of "
+            f"within {100 * level:.0f} % Reynolds' equation suits waves of every length up to an rms slope of "
             f"{plain:.2g}, the slope correction up to {corrected:.2g}"
         )
     text = "; ".join(told)
-    return f"{text[0].upper()}{text[1:]}. Beyond it takes a mesh, or waves that are long or short enough."
+    return f"{text[0].upper()}{text[1:]}. Steeper waves need a mesh unless they are long or short enough."
 
 
 def cards(study: RoughGapStudy) -> list[dict[str, str]]:
-    """The numbers to take away, for the head of the page."""
+    """Return the key numbers for the head of the page."""
     told = []
     wave = study.wave(0.3, 5.0)
     if wave is not None and wave.exact:
@@ -207,19 +214,19 @@ def cards(study: RoughGapStudy) -> list[dict[str, str]]:
         told.append(
             {
                 "value": f"{np.median(study.factors):.2g} g′²",
-                "words": "of the flow is what Reynolds lets through too much over real surfaces",
+                "words": "is the excess flow by Reynolds' equation over real surfaces",
             }
         )
         slopes = [math.sqrt(level / max(study.factors)) for level in (0.01, 0.05)]
         told.append(
             {
                 "value": f"g′ < {slopes[0]:.2g} and {slopes[1]:.2g}",
-                "words": "are the rms slopes at which it is within 1 % and 5 %",
+                "words": "are the rms slopes at which its error is within 1 % and 5 %",
             }
         )
     first = study.inertia.earliest(0.01)
     if first:
         told.append(
-            {"value": f"Re* g′ = {first:.2g}", "words": "is the least at which inertia holds 1 % of a flow back"}
+            {"value": f"Re* g′ = {first:.2g}", "words": "is the least value at which inertia reduces a flow by 1 %"}
         )
     return told

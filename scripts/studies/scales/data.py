@@ -151,7 +151,7 @@ def _pair(ratio: float, phase: float, averaged: Result, resolved: Result) -> Pai
         friction=error("friction_per_width"),
         cpu_direct=resolved.numerics.cpu_s,
         cpu_homogenized=averaged.numerics.cpu_s,
-        uncertainty=resolved.provenance["uncertainty"]["load_per_width"] / resolved.quantities["load_per_width"].value,
+        uncertainty=load.uncertainty / load.value,
     )
 
 

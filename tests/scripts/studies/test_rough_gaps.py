@@ -245,7 +245,7 @@ def test_the_page_is_one_file_with_its_numbers_beside_it(small):
     assert "gentle hills (made)" in page
     numbers = json.loads((folder / "rough_gaps.json").read_text(encoding="utf-8"))
     assert numbers["claims"] == []
-    assert numbers["findings"]["reach"].startswith("Reynolds' equation lets too much through")
+    assert numbers["findings"]["reach"].startswith("The flow by Reynolds' equation is too large by about")
     rows = list(csv.DictReader((folder / "waves.csv").read_text(encoding="utf-8").splitlines()))
     flow = sinusoidal_ridge_flow(0.3, 5.0, tolerance=1e-6).across / thin_ratios(0.3)["A11"]
     assert float(rows[0]["A11_exact"]) == pytest.approx(flow, rel=1e-4)

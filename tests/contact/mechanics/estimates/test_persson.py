@@ -5,7 +5,7 @@ import pytest
 from scipy.special import erf
 
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.mechanics.estimates.persson import SOFTNESS, elastic_mean_gap, persson
+from roughfilm.contact.mechanics.estimates.persson import ENERGY_REDUCTION, elastic_mean_gap, persson
 from roughfilm.contact.mechanics.exact.light_load import PERSSON
 from roughfilm.contact.mechanics.moments import wave_power
 from roughfilm.contact.mechanics.press import Press
@@ -97,7 +97,7 @@ def test_the_gap_closes_by_the_work_of_the_load(spectrum):
 
     def energy(load):
         share = erf(load / (np.sqrt(2) * spread))
-        return np.sum(MODULUS * q / 4 * power * share * (SOFTNESS + (1 - SOFTNESS) * share**2))
+        return np.sum(MODULUS * q / 4 * power * share * (ENERGY_REDUCTION + (1 - ENERGY_REDUCTION) * share**2))
 
     for ratio in (1e-3, 0.03, 0.3, 1.0):
         low, high = ratio * STIFFNESS * (1 - 1e-3), ratio * STIFFNESS * (1 + 1e-3)
