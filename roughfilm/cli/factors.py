@@ -28,7 +28,7 @@ from roughfilm.rom.homogenization.factors import NAMES, FlowFactors, relative_qu
 from roughfilm.rom.homogenization.flow_factors import Estimated, flow_factors
 from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
 from roughfilm.rom.homogenization.table.separation import Separations
-from roughfilm.rom.homogenization.table.tabulate import TOLERANCE, tabulate
+from roughfilm.rom.homogenization.table.tabulate import INTERPOLATION_TOLERANCE, tabulate
 from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.ladder.provenance import circumstances, code
 from roughfilm.terminal.console import AsJson, Threads, in_one_line, messages, output, print_json, progress_bar
@@ -53,7 +53,8 @@ def command(
         str | None, typer.Option(metavar="D", help="Between the points of an array of heights: 1um, or 1um,2um.")
     ] = None,
     tolerance: Annotated[
-        float | None, typer.Option(help=f"Of a table's interpolation between its points; {TOLERANCE:g} by default.")
+        float | None,
+        typer.Option(help=f"Of a table's interpolation between its points; {INTERPOLATION_TOLERANCE:g} by default."),
     ] = None,
     rule: Annotated[FaceRule, typer.Option(help="How the gap runs between two nodes.")] = FaceRule.LINEAR,
     offset: Annotated[
@@ -82,7 +83,7 @@ def command(
         raise InputError("--offset: got one for a table, in which contact is closed; give --gap, or leave it out")
     if mean_gap is not None and tolerance is not None:
         raise InputError("--tolerance: is of a table; leave it or --gap out")
-    asked, sharing = TOLERANCE if tolerance is None else tolerance, checked_threads(threads)
+    asked, sharing = INTERPOLATION_TOLERANCE if tolerance is None else tolerance, checked_threads(threads)
     for path in filter(None, (out, report)):
         refuse_unwritable(path)
     with alone(out, "table"), progress_bar(1.0) as advance:

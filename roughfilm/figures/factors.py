@@ -9,7 +9,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures.base import svg
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.homogenization.flux import flux
-from roughfilm.rom.homogenization.table.factor_table import FactorTable, relative_row, told_rows
+from roughfilm.rom.homogenization.table.factor_table import FactorTable, relative_row, relative_rows
 
 COLOURS = ("#2166ac", "#b2182b", "#e08214")
 GAPS = mpl.colormaps["cividis"].with_extremes(bad="#b2182b")
@@ -36,7 +36,7 @@ def curves(table: FactorTable) -> str:
     rows = np.array([relative_row(point.factors) for point in table.points])
     doubts = np.array([_doubt(table, row) for row in range(gaps.size)])
     fine = np.geomspace(gaps[0], 1.6 * gaps[-1], BETWEEN)
-    between = told_rows(table, fine)
+    between = relative_rows(table, fine)
     for axes, (title, drawn) in zip(figure.subplots(1, len(PANELS)), PANELS.items(), strict=True):
         for (index, label), colour in zip(drawn, COLOURS, strict=False):
             axes.plot(1e6 * fine, between[:, index], color=colour, linewidth=1.2, label=label)
