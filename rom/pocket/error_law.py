@@ -38,11 +38,6 @@ class ErrorLaw:
         number = self.number(scene)
         return min((t for t, limit in self.thresholds.items() if number <= limit), default=None)
 
-    def expected_error(self, scene: Pocket) -> dict[str, float]:
-        """The tolerance of :meth:`within`, by the quantities that measure the load; empty where there is none."""
-        within = self.within(scene)
-        return {} if within is None else {"load_plus": within, "load_per_area": within}
-
     def told(self, scene: Pocket) -> str:
         """What is to be expected, in words."""
         if beyond := _beyond(scene):
