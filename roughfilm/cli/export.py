@@ -1,6 +1,5 @@
 """roughfilm export: a gap, a surface or a result as a mesh that other tools read."""
 
-from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -56,7 +55,7 @@ def command(
     if as_json:
         print_json(
             {
-                "quantities": {name: asdict(size)},
+                "quantities": {name: {"value": size.value, "unit": size.unit}},
                 "numerics": {
                     "cells": len(written.cells),
                     "points": len(written.points),
