@@ -8,7 +8,7 @@ from scipy.stats import spearmanr
 
 from scripts.studies.lay.data import THICKNESSES, FactorPair, Turned, angle
 from scripts.studies.lay.joint import Joint, Joints, lowest
-from scripts.studies.lay.measured import OBLIQUE, Measured
+from scripts.studies.lay.measured import OBLIQUE, MeasuredLay
 from scripts.studies.lay.offset import MADE, OFFSET, Offset
 from scripts.studies.study import Claim
 
@@ -27,10 +27,10 @@ GOOD_JOINT = 0.1
 
 @dataclass(frozen=True, kw_only=True)
 class Lay:
-    """All that is judged and drawn; ``measured`` is empty where the instrument files are absent."""
+    """Everything that is judged and drawn; ``measured`` is empty where the instrument files are absent."""
 
     turned: Turned
-    measured: Mapping[str, Measured]
+    measured: Mapping[str, MeasuredLay]
     joints: Joints
     offsets: Mapping[str, Sequence[Offset]]
 
@@ -160,5 +160,5 @@ def offset_is_harmless(offsets: Mapping[str, Sequence[Offset]]) -> Claim:
 
 
 def _added(one: Offset) -> float:
-    """What is added to the entries of an open gap; 0 where there are none."""
+    """Return the largest relative increase in an open gap; 0 where there is none."""
     return float(np.nanmax(np.where(one.relative > OPEN, one.added, 0.0), initial=0.0))

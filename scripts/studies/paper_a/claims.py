@@ -5,7 +5,7 @@ from itertools import product
 
 import numpy as np
 
-from scripts.studies.paper_a.data import DEPTHS, NUMBERS, SHAPES, WIDTHS, Paper, highest
+from scripts.studies.paper_a.data import DEPTHS, NUMBERS, SHAPES, WIDTHS, PaperA, highest
 from scripts.studies.study import Claim
 
 CYLINDRICAL, AHEAD, LEVEL, BEHIND = SHAPES.values()
@@ -13,7 +13,7 @@ NEGLIGIBLE = 0.01
 DEPTH = np.array(DEPTHS)
 
 
-def judge(paper: Paper, onsets: dict[tuple[str, float, float], float]) -> list[Claim]:
+def judge(paper: PaperA, onsets: dict[tuple[str, float, float], float]) -> list[Claim]:
     """Judge claims 1 to 7; ``onsets`` gives the depth d+ at which back-flow begins, by shape, w+ and Re."""
     return [
         inertia_carries(paper),
@@ -30,7 +30,7 @@ def _verdict(part: float, *, whole: float = 0.99, some: float = 0.5) -> str:
     return "true" if part >= whole else "partly" if part >= some else "false"
 
 
-def inertia_carries(paper: Paper) -> Claim:
+def inertia_carries(paper: PaperA) -> Claim:
     """Claim 1."""
     worst = {}
     for name, shape in SHAPES.items():
@@ -51,7 +51,7 @@ def inertia_carries(paper: Paper) -> Claim:
     )
 
 
-def load_grows(paper: Paper) -> Claim:
+def load_grows(paper: PaperA) -> Claim:
     """Claim 2."""
     grows_with_number, grows_with_width, exceptions = [], [], set()
     for name, shape in SHAPES.items():
@@ -71,11 +71,11 @@ def load_grows(paper: Paper) -> Claim:
     )
 
 
-def _with_upwind(paper: Paper, part: Callable[[str], float]) -> str:
+def _with_upwind(paper: PaperA, part: Callable[[str], float]) -> str:
     return "" if paper.upwind is None else f"; with first-order upwind {part(paper.upwind):.0%}"
 
 
-def _optima(paper: Paper, setting: str) -> dict[tuple[str, float, float], float]:
+def _optima(paper: PaperA, setting: str) -> dict[tuple[str, float, float], float]:
     return {
         (name, width, number): highest(DEPTH, loads)
         for (name, shape), number in product(SHAPES.items(), NUMBERS)
@@ -83,7 +83,7 @@ def _optima(paper: Paper, setting: str) -> dict[tuple[str, float, float], float]
     }
 
 
-def optimum_depth(paper: Paper) -> Claim:
+def optimum_depth(paper: PaperA) -> Claim:
     """Claim 3."""
 
     def inside(setting: str) -> float:
@@ -105,7 +105,7 @@ def optimum_depth(paper: Paper) -> Claim:
     )
 
 
-def optimum_at_onset(paper: Paper, onsets: dict[tuple[str, float, float], float]) -> Claim:
+def optimum_at_onset(paper: PaperA, onsets: dict[tuple[str, float, float], float]) -> Claim:
     """Claim 4."""
     best = _optima(paper, paper.best)
     inner = [key for key in best if 0 < onsets[key] < DEPTHS[-1] and best[key] < DEPTHS[-1]]
@@ -135,7 +135,7 @@ def optimum_at_onset(paper: Paper, onsets: dict[tuple[str, float, float], float]
     )
 
 
-def friction_falls(paper: Paper) -> Claim:
+def friction_falls(paper: PaperA) -> Claim:
     """Claim 5."""
 
     def exceptions(setting: str) -> list[tuple[float, float, float]]:
@@ -166,7 +166,7 @@ def friction_falls(paper: Paper) -> Claim:
     )
 
 
-def splined_against_cylindrical(paper: Paper) -> Claim:
+def splined_against_cylindrical(paper: PaperA) -> Claim:
     """Claim 6."""
 
     def share(setting: str, number: float) -> float:
@@ -187,7 +187,7 @@ def splined_against_cylindrical(paper: Paper) -> Claim:
     )
 
 
-def cylindrical_has_less_friction(paper: Paper) -> Claim:
+def cylindrical_has_less_friction(paper: PaperA) -> Claim:
     """Claim 7."""
     less = [
         (paper.table(CYLINDRICAL, "friction_plus", number) < paper.table(shape, "friction_plus", number)).ravel()

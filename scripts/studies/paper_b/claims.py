@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from scripts.studies.paper_b.data import CONSTANT, DOUBLE, HALF, ORIGINAL, SOFT, Difference, Film, Paper
+from scripts.studies.paper_b.data import CONSTANT, DOUBLE, HALF, ORIGINAL, SOFT, CavitatingFilm, FilmDifference, PaperB
 from scripts.studies.study import Claim
 
 
@@ -45,7 +45,7 @@ class PrintedDifference:
 
     printed: PrintedNumber
     reference: str
-    found: Difference
+    found: FilmDifference
     grids_apart: float
 
     @property
@@ -58,7 +58,7 @@ class PrintedDifference:
         return -0.5 * digit <= value - self.printed.value < digit
 
 
-def rows(paper: Paper) -> list[PrintedDifference]:
+def rows(paper: PaperB) -> list[PrintedDifference]:
     """Return every number of the paper beside ours."""
     made = []
     for printed in PRINTED:
@@ -69,18 +69,18 @@ def rows(paper: Paper) -> list[PrintedDifference]:
     return made
 
 
-def maxima(film: Film) -> tuple[float, float]:
+def maxima(film: CavitatingFilm) -> tuple[float, float]:
     """Return the greatest pressures of the left and the right half, Pa."""
     left = film.x <= film.x[-1] / 2
     return float(film.pressure[left].max()), float(film.pressure[~left].max())
 
 
-def judge(paper: Paper) -> list[Claim]:
+def judge(paper: PaperB) -> list[Claim]:
     """Judge claims 8 to 10."""
     return [laws_differ(paper), constant_modulus(paper), inlet_matters(paper)]
 
 
-def laws_differ(paper: Paper) -> Claim:
+def laws_differ(paper: PaperB) -> Claim:
     """Claim 8."""
     said = {"flooded": 0.017, "starved": 0.074, "gap": 0.22}
     found = {case: paper.found[case, ORIGINAL, "p"][0] for case in said}
@@ -99,7 +99,7 @@ def laws_differ(paper: Paper) -> Claim:
     )
 
 
-def constant_modulus(paper: Paper) -> Claim:
+def constant_modulus(paper: PaperB) -> Claim:
     """Claim 9."""
     summary, at_fifty = [], []
     for name, sweep in paper.sweeps.items():
@@ -122,7 +122,7 @@ def constant_modulus(paper: Paper) -> Claim:
     )
 
 
-def inlet_matters(paper: Paper) -> Claim:
+def inlet_matters(paper: PaperB) -> Claim:
     """Claim 10."""
     full = {name: film.load for (name, inlet), film in paper.patterns.items() if inlet == "pc"}
     pressed = {name: film.load for (name, inlet), film in paper.patterns.items() if inlet == "2 pc"}

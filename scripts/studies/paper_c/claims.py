@@ -6,7 +6,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.homogenization.line_rules import Rule
-from scripts.studies.paper_c.data import ALPHAS, BESIDE, POINTS, RANGE, TABLE, WAYS, Paper
+from scripts.studies.paper_c.data import ALPHAS, BESIDE, POINTS, RANGE, TABLE, WAYS, PaperC
 from scripts.studies.paper_c.films import LOADS, MODULUS, SMOOTH, SPAN, Curve
 from scripts.studies.study import Claim
 
@@ -23,7 +23,7 @@ ORDERED_FRACTION = 0.95
 """Fraction of all pairs of profiles from which on a number counts as ordering their films."""
 
 
-def judge(paper: Paper) -> list[Claim]:
+def judge(paper: PaperC) -> list[Claim]:
     """Judge claims 11, 12 and 14."""
     return [same_bearing_curve(paper), fewer_nodes(paper), ordered_by_roughness(paper)]
 
@@ -33,7 +33,7 @@ def apart(values: Array) -> Array:
     return np.asarray(np.ptp(values, axis=0) / values[0])
 
 
-def same_bearing_curve(paper: Paper) -> Claim:
+def same_bearing_curve(paper: PaperC) -> Claim:
     """Claim 11."""
     near = int(np.argmin(np.abs(RANGE - ALPHAS[0])))
     worst = {way: max(float(apart(paper.shuffled[name, way]).max()) for name in TABLE) for way in WAYS}
@@ -51,7 +51,7 @@ def same_bearing_curve(paper: Paper) -> Claim:
     )
 
 
-def fewer_nodes(paper: Paper) -> Claim:
+def fewer_nodes(paper: PaperC) -> Claim:
     """Claim 12."""
     near = ALPHAS[-1]
 
@@ -88,12 +88,12 @@ def fewer_nodes(paper: Paper) -> Claim:
     )
 
 
-def _worst_at_first(paper: Paper) -> float:
+def _worst_at_first(paper: PaperC) -> float:
     studies = [paper.convergence[name, ALPHAS[0]] for name in TABLE]
     return max(float(study.errors(rule, left_out)[:, 0].max()) for study in studies for rule, left_out in study.found)
 
 
-def ordered_by_roughness(paper: Paper) -> Claim:
+def ordered_by_roughness(paper: PaperC) -> Claim:
     """Claim 14."""
     loads = [k for k, load in enumerate(LOADS) if JUDGED_LOADS[0] <= load <= JUDGED_LOADS[1]]
     until = order_holds_to(paper.curves)

@@ -4,14 +4,14 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.synthetic.profile import STEEL_PROFILES
-from scripts.studies.paper_d.data import LENGTH, SPECTRA, STEEL, Paper
+from scripts.studies.paper_d.data import LENGTH, SPECTRA, STEEL, PaperD
 from scripts.studies.study import Claim
 
 LEAST_NODES = 4
 """Least number of nodes in contact, on average, at the loads that are fitted."""
 
 
-def judge(paper: Paper) -> list[Claim]:
+def judge(paper: PaperD) -> list[Claim]:
     """Judge claims 15 to 18."""
     return [area_grows(paper), area_by_roughness(paper), plasticity(paper), highest_waves(paper)]
 
@@ -37,7 +37,7 @@ def _in_words(values: dict[str, float], form: str) -> str:
     return ", ".join(f"{name} {value:{form}}" for name, value in values.items())
 
 
-def area_grows(paper: Paper) -> Claim:
+def area_grows(paper: PaperD) -> Claim:
     """Claim 15."""
     loads, powers, fits = np.array(paper.loads), {}, {}
     for (spectrum, name), state in paper.pressed.items():
@@ -57,7 +57,7 @@ def area_grows(paper: Paper) -> Claim:
     )
 
 
-def area_by_roughness(paper: Paper) -> Claim:
+def area_by_roughness(paper: PaperD) -> Claim:
     """Claim 16."""
     rough = np.array([row.average for row in STEEL_PROFILES.values()])
     bound = paper.loads[-1] / LENGTH / STEEL.hardness
@@ -79,7 +79,7 @@ def area_by_roughness(paper: Paper) -> Claim:
     )
 
 
-def plasticity(paper: Paper) -> Claim:
+def plasticity(paper: PaperD) -> Claim:
     """Claim 17."""
     rough = [row.average for row in STEEL_PROFILES.values()]
     said, ranked, starts = [], [], []
@@ -109,7 +109,7 @@ def plasticity(paper: Paper) -> Claim:
     )
 
 
-def highest_waves(paper: Paper) -> Claim:
+def highest_waves(paper: PaperD) -> Claim:
     """Claim 18."""
     waves, said, kept = np.array(paper.waves), [], []
     for spectrum, state in paper.cut.items():

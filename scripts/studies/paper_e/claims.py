@@ -23,8 +23,8 @@ AXES = "xy"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Paper:
-    """All that is judged and drawn; ``windows`` is empty where the instrument files are absent.
+class PaperE:
+    """Everything that is judged and drawn; ``windows`` is empty where the instrument files are absent.
 
     Attributes
     ----------
@@ -39,7 +39,7 @@ class Paper:
     lays: Mapping[str, Washer]
 
 
-def judge(paper: Paper) -> list[Claim]:
+def judge(paper: PaperE) -> list[Claim]:
     """Judge claims 21 and 22, and 19 where the milled surface is there."""
     direct = [direct_is_homogenized(paper.windows, paper.rows)] if paper.windows else []
     return [*direct, methods_agree(paper.washers), lift_off(paper)]
@@ -121,7 +121,7 @@ def lay_lifts(lays: Mapping[str, Washer], lay: str) -> Array:
     return np.array([lays[f"{lay}, {seed}"].lift()[:, 0] for seed in SEEDS])
 
 
-def lift_off(paper: Paper) -> Claim:
+def lift_off(paper: PaperE) -> Claim:
     """Claim 22."""
     found = {name: one.lift() for name, one in (*paper.washers.items(), *paper.lays.items())}
     rises = all((np.diff(lift[:, 0]) > lift[:-1, 1] + lift[1:, 1]).all() for lift in found.values())

@@ -28,13 +28,13 @@ LEAKAGE = (1.1, 0.023)
 """a, and b in m^(1/3), of F.18."""
 
 FEW = 0.05
-"""What counts as a few per cent."""
+"""The few per cent of the claims, as a fraction."""
 
 BINS = ((0.0, 0.1), (0.1, 0.5), (0.5, 0.9), (0.9, 1.0))
-"""Of the load that seals, in which DNS and HNS are compared, and the offset."""
+"""Fractions of the sealing load between which DNS and HNS, and the offset, are compared."""
 
 ROUNDING = 1e-9
-"""Of an interval's ends."""
+"""Relative tolerance of the ends of an interval."""
 
 VALLEYS, PEAKS = ("Sv", "Svm"), ("Sp", "Spm")
 
@@ -223,7 +223,7 @@ class Subtracted:
 
 
 def subtracted(sample: Sequence[Pressed]) -> Subtracted:
-    """Of all open gaps of cells for which the solver did not give up."""
+    """Return the values of all open gaps of cells for which the solver converged."""
     rows = []
     for one in sample:
         for i in (0, 1):
@@ -288,7 +288,7 @@ def _interval(interval: tuple[float, float], digits: int) -> str:
 
 
 def _digits(value: float, digits: int) -> str:
-    """So many figures, without an exponent."""
+    """Return a number with so many figures, without an exponent."""
     return f"{float(f'{value:.{digits}g}'):.10g}"
 
 

@@ -1,4 +1,4 @@
-"""Every surface of Paper F pressed until it is sealed: thresholds, area, leakage; each kept in a file of its own."""
+"""Surfaces of Paper F pressed until they seal: thresholds, area and leakage, each surface kept in its own file."""
 
 import hashlib
 from collections.abc import Callable, Sequence
@@ -29,20 +29,20 @@ PARTS = (*np.geomspace(1e-4, 0.3, 9).tolist(), 0.45, 0.6, 0.75, 0.85, 0.92, 0.97
 """Loads at which leakage is found, over the one that seals both directions."""
 
 NEAR = 2e-3
-"""Of a load, between the last that leaves a path open and the first that does not."""
+"""Relative difference between the last load with an open path and the first without."""
 
 TOLERANCE = 1e-6
-"""Of contacts, as ``Press.at`` takes it."""
+"""Tolerance of contacts, see ``Press.at``."""
 
 OFFSET = 1e-8
 """m; the source lets this much through where it is closed."""
 
 FIRST, MOST = 0.3, 10.0
-"""Of E* g′: the first load that is tried for sealing, and the last."""
+"""First and last load of the search for sealing, in units of E* g′."""
 
 
 OWN = hashlib.sha256(Path(__file__).read_bytes()).hexdigest()[:16]
-"""Of this file: what is kept was found by the same code."""
+"""Digest of this file: kept surfaces are those of the same code."""
 
 
 @dataclass(frozen=True, kw_only=True)
