@@ -33,12 +33,6 @@ TABLE = {
     "surface 3": Heights(peak=6.189e-6, valley=5.405e-6, average=1.663e-6, rms=2.021e-6),
 }
 
-MEANING = {
-    "surface 1": "milled in one direction, marks along the sliding",
-    "surface 2": "milled in two directions, one deeper, marks that cross",
-    "surface 3": "ground in one direction, marks along the sliding",
-}
-
 FEEDS = 12
 """Marks across the period of surface 1."""
 

@@ -2,10 +2,10 @@
 
 import hashlib
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any, Self
+from typing import Any
 
 import numpy as np
 
@@ -91,24 +91,6 @@ class Pressed:
     def name(self) -> str:
         """Family and seed."""
         return f"{self.family} {self.seed}"
-
-    def scaled(self, factor: float) -> Self:
-        """The surface ``factor`` times as high, by linear elasticity; the offset does not scale, and is lost."""
-        heights = {name: value * factor for name, value in self.numbers.heights.items()}
-        return replace(
-            self,
-            numbers=replace(self.numbers, heights=heights, slope=self.numbers.slope * factor),
-            loads=self.loads * factor,
-            mean_gap=self.mean_gap * factor,
-            valley=self.valley * factor,
-            flow=self.flow * factor**3,
-            doubt=self.doubt * factor**3,
-            direct=self.direct * factor**3,
-            offset=np.full_like(self.offset, np.nan),
-            threshold=self.threshold * factor,
-            round_threshold=self.round_threshold * factor,
-            sealed_offset=np.full_like(self.sealed_offset, np.nan),
-        )
 
 
 class Series:
