@@ -6,7 +6,7 @@ from itertools import product
 import numpy as np
 
 from scripts.studies.paper_a.data import DEPTHS, NUMBERS, SHAPES, WIDTHS, PaperA, highest
-from scripts.studies.study import Claim
+from scripts.studies.study import Claim, verdict
 
 CYLINDRICAL, AHEAD, LEVEL, BEHIND = SHAPES.values()
 NEGLIGIBLE = 0.01
@@ -27,7 +27,7 @@ def judge(paper: PaperA, onsets: dict[tuple[str, float, float], float]) -> list[
 
 
 def _verdict(part: float, *, whole: float = 0.99, some: float = 0.5) -> str:
-    return "true" if part >= whole else "partly" if part >= some else "false"
+    return verdict(part >= whole, partly=part >= some)
 
 
 def inertia_carries(paper: PaperA) -> Claim:
@@ -39,11 +39,10 @@ def inertia_carries(paper: PaperA) -> Claim:
         worst[name] = float(np.nanmax(np.abs(stokes) / np.abs(loads)))
     level = max(worst["cylindrical"], worst["splined, xd+ = 0"])
     shifted = max(worst["splined, xd+ = -0.3"], worst["splined, xd+ = 0.3"])
-    verdict = "false" if level > NEGLIGIBLE else "true" if shifted <= NEGLIGIBLE else "partly"
     return Claim(
         number=1,
         text="Parallel textured surfaces carry load by inertia; Stokes gives (almost) none",
-        verdict=verdict,
+        verdict=verdict(max(level, shifted) <= NEGLIGIBLE, partly=level <= NEGLIGIBLE),
         evidence=f"symmetric grooves: Stokes load at most {level:.1e} of the Navier-Stokes load "
         "(the small positive load in Fig. A.4 is a discretisation error: creeping flow is reversible); grooves "
         f"with their lowest point off centre carry or lose load without inertia too, up to {shifted:.2g} times the "
@@ -126,7 +125,7 @@ def optimum_at_onset(paper: PaperA, onsets: dict[tuple[str, float, float], float
     return Claim(
         number=4,
         text=text,
-        verdict="true" if near >= 0.9 else "partly" if together > 0.6 else "false",
+        verdict=verdict(near >= 0.9, partly=together > 0.6),
         evidence=f"both depths shrink with Re and grow with width (rank correlation {together:.2f}), but the depth "
         f"of the greatest load is {np.median(ratio):.2f} times that of the first back-flow (from {ratio.min():.2f} to "
         f"{ratio.max():.2f}; within 20 % of each other in {near:.0%} of {len(inner)} curves), where the reverse flow "
@@ -161,7 +160,7 @@ def friction_falls(paper: PaperA) -> Claim:
     return Claim(
         number=5,
         text="Friction falls with depth and width, except for narrow deep grooves at high Re",
-        verdict="false" if not falls else "true" if narrow_only else "partly",
+        verdict=verdict(falls and narrow_only, partly=falls),
         evidence=f"{in_words(found)} and in {by_width:.0%} of the steps of width{upwind}",
     )
 

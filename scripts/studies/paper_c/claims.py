@@ -8,7 +8,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.homogenization.line_rules import Rule
 from scripts.studies.paper_c.data import ALPHAS, BESIDE, POINTS, RANGE, TABLE, WAYS, PaperC
 from scripts.studies.paper_c.films import LOADS, MODULUS, SMOOTH, SPAN, Curve
-from scripts.studies.study import Claim
+from scripts.studies.study import Claim, verdict
 
 EQUAL_FACTORS = 1e-10
 """Relative difference below which factors count as equal."""
@@ -78,7 +78,7 @@ def fewer_nodes(paper: PaperC) -> Claim:
     return Claim(
         number=12,
         text="Simpson's rule needs far fewer nodes than the trapezoid rule or the differential equation",
-        verdict="true" if on and beside else "partly" if on or beside else "false",
+        verdict=verdict(on and beside, partly=on or beside),
         evidence=f"nodes for {100 * FACTOR_ERROR:g} % at α = {near}, where N is a multiple of {POINTS} and every "
         f"point is a node: {in_words(0)}; with {BESIDE} nodes fewer, most of them beside the points: "
         f"{in_words(BESIDE)}: corners inside its pairs of steps reduce the order of Simpson's rule. At α = "
@@ -108,7 +108,7 @@ def ordered_by_roughness(paper: PaperC) -> Claim:
     return Claim(
         number=14,
         text="The minimum film at a load follows Ra",
-        verdict="true" if four and general else "partly" if four or general else "false",
+        verdict=verdict(four and general, partly=four or general),
         evidence=f"the four profiles, smooth first, keep the order of Ra for every seed up to {until / 1e6:.3g} MN/m "
         f"(mean pressure {until / SPAN / 1e6:.3g} MPa, {until / SPAN / MODULUS:.2g} of β). Their rmax has the same "
         f"order, and it decides: of the pairs of {random.clearance.shape[0]} random profiles at "
