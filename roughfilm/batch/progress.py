@@ -41,7 +41,7 @@ class Account:
 
 
 @dataclass(kw_only=True)
-class Tally:
+class BatchProgress:
     """Accounts by setting; the jobs that failed, with the reason; how many results carry a warning."""
 
     accounts: dict[str, Account] = field(default_factory=lambda: defaultdict(Account))

@@ -22,7 +22,7 @@ from roughfilm.contact.surfaces.store import save_surface
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.figures.rendering import probe
 from roughfilm.rom.ladder.model import Availability
-from roughfilm.terminal.load_range import loads_of
+from roughfilm.terminal.ranges import loads_of
 
 ABSENT = Availability(available=False, detail="left out in a test")
 STEEL = ("--modulus", "210GPa", "--poisson", "0.3")
