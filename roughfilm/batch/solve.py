@@ -41,7 +41,7 @@ def finished(study: Study, tasks: Tasks, counts: BatchProgress) -> tuple[dict[Pa
             continue
         rows[path] = row_of(study.keys, case, job, answer)
         if fits.applies:
-            counts.find(job, answer)
+            counts.reuse(job, answer)
         else:
             counts.leave_out(job)
     return rows, missing

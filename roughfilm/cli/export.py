@@ -1,13 +1,12 @@
 """roughfilm export: a gap, a surface or a result as a mesh that other tools read."""
 
-from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.foundation.units import Quantity, to_si
+from roughfilm.contact.foundation.units import to_si
 from roughfilm.contact.meshes.files import mesh_format, write_mesh
 from roughfilm.contact.meshes.mesh import CellType, Mesh
 from roughfilm.contact.meshes.surface import surface_mesh
@@ -51,12 +50,11 @@ def command(
     mesh, origin = _mesh(file, what, resolution, layers, _metres(spacing), set_)
     written = write_mesh(mesh, out)
     name, unit = CONTENT.get(written.cell_type, ("area", "m^2"))
-    size = Quantity(value=written.content, unit=unit)
     origin["left_out"] = sorted({*origin["left_out"], *_data(mesh)} - set(_data(written)))
     if as_json:
         print_json(
             {
-                "quantities": {name: asdict(size)},
+                "quantities": {name: {"value": written.content, "unit": unit}},
                 "numerics": {
                     "cells": len(written.cells),
                     "points": len(written.points),
@@ -66,7 +64,7 @@ def command(
             }
         )
         return
-    content = f"{len(written.cells)} cells ({written.cell_type}), {name} {size.value:.6g} {unit}"
+    content = f"{len(written.cells)} cells ({written.cell_type}), {name} {written.content:.6g} {unit}"
     print_all((f"written: {out}: {content}", *(f"  data: {known}" for known in _data(written))))
     if origin["left_out"]:
         messages.print(f"left out: {', '.join(origin['left_out'])}", soft_wrap=True, markup=False)
