@@ -18,7 +18,7 @@ from roughfilm.rom.ladder.kind import kind_of_name
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import load_scene
-from roughfilm.rom.ladder.store import as_entries, save
+from roughfilm.rom.ladder.store import as_entries, refuse_other_file, save
 from roughfilm.terminal.console import (
     AsJson,
     Overrides,
@@ -33,6 +33,7 @@ from roughfilm.terminal.console import (
     print_json,
     progress_bar,
 )
+from roughfilm.terminal.output_file import refuse_unwritable
 
 
 @in_one_line
@@ -53,6 +54,9 @@ def command(
 ) -> None:
     """Solve a scene with one model, or with the cheapest that is enough."""
     read = load_scene(scene, set_ or ())
+    if out is not None:
+        refuse_other_file(out)
+        refuse_unwritable(out)
     result, advised = None, None
     if within is not None:
         own = {"model": model, "resolution": resolution, "tolerance": tolerance, "scheme": scheme}
