@@ -66,7 +66,8 @@ def speed_against_accuracy(
         axes.set_yscale("log")
         axes.set_xlabel("CPU time, s")
         axes.set_ylabel(f"error in {title} relative to the reference, %")
-    panels[0].legend(fontsize=8, loc="upper right")
+    handles, labels = panels[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=4, fontsize=8)
     return svg(figure)
 
 
@@ -90,13 +91,13 @@ def grid_convergence(studies: Mapping[str, Mapping[str, Convergence]], titles: M
             axes.plot(sizes, slope, ":", color=style.colour, linewidth=1)
         grids = sorted({grid for one in drawn.values() for grid in one.grids})
         axes.set_xscale("log")
-        axes.set_xticks([1 / grid for grid in grids], [f"1/{grid}" for grid in grids])
+        axes.set_xticks([1 / grid for grid in grids], [f"1/{grid}" for grid in grids], rotation=45)
         axes.xaxis.minorticks_off()
         axes.set_yscale("log")
         low, high = axes.get_ylim()
         axes.set_ylim(10 ** np.floor(np.log10(low)), 10 ** np.ceil(np.log10(high)))
         axes.set_xlabel("mean length of a cell, periods (dotted: slope 2)")
-        axes.set_ylabel(f"{title}: difference from the extrapolated value, %")
+        axes.set_ylabel(f"{title}: difference from\nthe extrapolated value, %")
         axes.legend(fontsize=8)
     return svg(figure)
 
