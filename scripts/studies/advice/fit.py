@@ -27,7 +27,7 @@ from roughfilm.rom.studies.convergence import Kind as Way
 from roughfilm.rom.studies.convergence import converge
 from roughfilm.rom.studies.ordering import CERTAINTY
 from roughfilm.terminal.console import in_one_line, make_directory, output, run_alone
-from scripts.studies.advice.runs import PARTS, Drawn, Run, draw, read
+from scripts.studies.advice.runs import PARTS, DrawnScene, Run, draw, read
 from scripts.studies.advice.scenes import random_scene
 from scripts.studies.advice.steps import GRIDS, KINDS, STEPS, PlannedStep
 
@@ -92,7 +92,7 @@ def truths(kind: Kind, top: Model, runs: Sequence[Run]) -> tuple[dict[str, float
     return value, bar
 
 
-def cases(kind: str, drawn: Sequence[Drawn]) -> list[SolvedScene]:
+def cases(kind: str, drawn: Sequence[DrawnScene]) -> list[SolvedScene]:
     """Return the scenes whose best model has an answer."""
     found, ladder, own_kind = [], models(kind), kinds()[kind]
     for one in drawn:

@@ -19,7 +19,7 @@ POINTS, SIDE, ROUGHNESS = 256, 1e-3, 1e-6
 """Nodes a side, its length, m, and Sq, m, of the made surfaces."""
 
 TURNS = ((5, 0), (5, 1), (5, 2), (4, 3), (4, 4), (3, 4), (2, 5), (1, 5), (0, 5))
-"""By p + iq all wave vectors are multiplied, which turns a periodic pattern by the angle of p + iq and scales it."""
+"""Pairs p, q: wave vectors multiplied by p + iq turn a periodic pattern by the angle of p + iq and scale it."""
 
 WAVES = {"grooves": ((0, 2, 0.4),), "crossed grooves": ((1, 2, 0.4), (-1, 2, 1.3))}
 """Before turning: whole wave vectors of the families of grooves, and phases that put no mirror line on a side."""

@@ -20,7 +20,7 @@ from scripts.studies.lay.measured import STRIATED, along, lay_of
 
 GROOVES, NODES = 4, 192
 SHIFTS = tuple(np.linspace(0, 1, 11).tolist())
-"""Of grooves from end to end of the window, over their distance: at 0 and 1 they meet themselves at the joint."""
+"""Shift of grooves from end to end of the window over their distance; at 0 and 1 they meet at the joint."""
 
 WINDOWS, SEEDS, LAYS = 4, (811, 823), (0.0, 0.06)
 """A window is a quarter of a random periodic surface along its lay, which is turned by so much, rad."""
@@ -44,7 +44,7 @@ class Joint:
 
 @dataclass(frozen=True, kw_only=True)
 class Joints:
-    """All of them: sinusoidal grooves by shift, random windows, and measured surfaces by name."""
+    """All joints: sinusoidal grooves by shift, random windows, and measured surfaces by name."""
 
     cut: Mapping[float, Sequence[Joint]]
     windows: Sequence[Joint]

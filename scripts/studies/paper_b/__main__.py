@@ -12,7 +12,7 @@ from typing import Any
 from roughfilm.terminal.console import AsJson, in_one_line, make_directory, run_alone
 from scripts.studies.paper_b import data, figures
 from scripts.studies.paper_b.claims import MAXIMA_APART, PrintedDifference, judge, maxima, rows
-from scripts.studies.paper_b.data import COARSE, CONSTANT, HALF, MODULUS, ORIGINAL, ROUNDED, Paper, compute, difference
+from scripts.studies.paper_b.data import COARSE, CONSTANT, HALF, MODULUS, ORIGINAL, ROUNDED, PaperB, compute, difference
 from scripts.studies.study import Out, captions, counted, publish
 
 OPEN = (
@@ -61,7 +61,7 @@ def command(out: Out, as_json: AsJson = False) -> None:
     )
 
 
-def numbers(paper: Paper, compared: Sequence[PrintedDifference]) -> dict[str, Any]:
+def numbers(paper: PaperB, compared: Sequence[PrintedDifference]) -> dict[str, Any]:
     """Return the numbers of the page in SI units; differences are relative."""
     return {
         "cells": paper.cells,
@@ -107,14 +107,14 @@ def numbers(paper: Paper, compared: Sequence[PrintedDifference]) -> dict[str, An
     }
 
 
-def front_apart(paper: Paper, case: str, law: str) -> float:
+def front_apart(paper: PaperB, case: str, law: str) -> float:
     """Return how far downstream of the reference a film begins, m."""
     films = paper.films[case]
     reference = next(iter(films.values()))
     return (films[law].start - reference.start) * float(reference.x[-1])
 
 
-def _reading(paper: Paper, case: str, inlet: str) -> dict[str, float]:
+def _reading(paper: PaperB, case: str, inlet: str) -> dict[str, float]:
     films = paper.readings[case, inlet]
     reference, other = (films[law] for law in data.CASES[case].laws)
     return asdict(difference(other.pressure, reference.pressure, reference.weights))

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from scripts.studies.paper_b.data import CONSTANT, DOUBLE, HALF, ORIGINAL, SOFT, Difference, Film, Paper
-from scripts.studies.study import Claim
+from scripts.studies.paper_b.data import CONSTANT, DOUBLE, HALF, ORIGINAL, SOFT, CavitatingFilm, FilmDifference, PaperB
+from scripts.studies.study import Claim, verdict
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,7 +45,7 @@ class PrintedDifference:
 
     printed: PrintedNumber
     reference: str
-    found: Difference
+    found: FilmDifference
     grids_apart: float
 
     @property
@@ -58,7 +58,7 @@ class PrintedDifference:
         return -0.5 * digit <= value - self.printed.value < digit
 
 
-def rows(paper: Paper) -> list[PrintedDifference]:
+def rows(paper: PaperB) -> list[PrintedDifference]:
     """Return every number of the paper beside ours."""
     made = []
     for printed in PRINTED:
@@ -69,18 +69,18 @@ def rows(paper: Paper) -> list[PrintedDifference]:
     return made
 
 
-def maxima(film: Film) -> tuple[float, float]:
+def maxima(film: CavitatingFilm) -> tuple[float, float]:
     """Return the greatest pressures of the left and the right half, Pa."""
     left = film.x <= film.x[-1] / 2
     return float(film.pressure[left].max()), float(film.pressure[~left].max())
 
 
-def judge(paper: Paper) -> list[Claim]:
+def judge(paper: PaperB) -> list[Claim]:
     """Judge claims 8 to 10."""
     return [laws_differ(paper), constant_modulus(paper), inlet_matters(paper)]
 
 
-def laws_differ(paper: Paper) -> Claim:
+def laws_differ(paper: PaperB) -> Claim:
     """Claim 8."""
     said = {"flooded": 0.017, "starved": 0.074, "gap": 0.22}
     found = {case: paper.found[case, ORIGINAL, "p"][0] for case in said}
@@ -90,7 +90,7 @@ def laws_differ(paper: Paper) -> Claim:
     return Claim(
         number=8,
         text="Two compressibility laws differ by 1.7 % in load flooded, 7.4 % and 22 % starved",
-        verdict="true" if all(near) else "partly" if any(near) and ordered else "false",
+        verdict=verdict(all(near), partly=any(near) and ordered),
         evidence="loads with D&H-Orig and D&H-MNL differ by "
         + ", ".join(f"{100 * one.integrals:.3g} % ({case})" for case, one in found.items())
         + f"; the number of the paper for the flooded film is ∫|p* − p| dx / ∫p dx, here {100 * flooded.between:.3g} "
@@ -99,7 +99,7 @@ def laws_differ(paper: Paper) -> Claim:
     )
 
 
-def constant_modulus(paper: Paper) -> Claim:
+def constant_modulus(paper: PaperB) -> Claim:
     """Claim 9."""
     summary, at_fifty = [], []
     for name, sweep in paper.sweeps.items():
@@ -117,12 +117,12 @@ def constant_modulus(paper: Paper) -> Claim:
     return Claim(
         number=9,
         text="Constant bulk modulus at ambient is as good as Dowson–Higginson up to about 50–100 MPa",
-        verdict="true" if max(at_fifty) < 0.02 else "partly" if min(at_fifty) < 0.02 else "false",
+        verdict=verdict(max(at_fifty) < 0.02, partly=min(at_fifty) < 0.02),
         evidence="loads with constant β against D&H-MNL at rising speed: " + "; ".join(summary),
     )
 
 
-def inlet_matters(paper: Paper) -> Claim:
+def inlet_matters(paper: PaperB) -> Claim:
     """Claim 10."""
     full = {name: film.load for (name, inlet), film in paper.patterns.items() if inlet == "pc"}
     pressed = {name: film.load for (name, inlet), film in paper.patterns.items() if inlet == "2 pc"}
@@ -134,7 +134,7 @@ def inlet_matters(paper: Paper) -> Claim:
     return Claim(
         number=10,
         text="Surface pattern and pressure at the inlet matter much for load",
-        verdict="true" if by_pattern and by_pressure else "partly" if by_pattern or somewhere else "false",
+        verdict=verdict(by_pattern and by_pressure, partly=by_pattern or somewhere),
         evidence=f"inlet at pc: {loads}, while the plain parallel gap has no load; inlet at 2 pc: {rises}, while the "
         "plain gap has 5 kN/m. The pattern decides: waves about the plain gap rupture the film, and the load grows "
         "with their length; pockets that end in a step do not, and the load does not depend on their length. For "

@@ -6,9 +6,9 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.homogenization.line_rules import Rule
-from scripts.studies.paper_c.data import ALPHAS, BESIDE, POINTS, RANGE, TABLE, WAYS, Paper
+from scripts.studies.paper_c.data import ALPHAS, BESIDE, POINTS, RANGE, TABLE, WAYS, PaperC
 from scripts.studies.paper_c.films import LOADS, MODULUS, SMOOTH, SPAN, Curve
-from scripts.studies.study import Claim
+from scripts.studies.study import Claim, verdict
 
 EQUAL_FACTORS = 1e-10
 """Relative difference below which factors count as equal."""
@@ -23,7 +23,7 @@ ORDERED_FRACTION = 0.95
 """Fraction of all pairs of profiles from which on a number counts as ordering their films."""
 
 
-def judge(paper: Paper) -> list[Claim]:
+def judge(paper: PaperC) -> list[Claim]:
     """Judge claims 11, 12 and 14."""
     return [same_bearing_curve(paper), fewer_nodes(paper), ordered_by_roughness(paper)]
 
@@ -33,7 +33,7 @@ def apart(values: Array) -> Array:
     return np.asarray(np.ptp(values, axis=0) / values[0])
 
 
-def same_bearing_curve(paper: Paper) -> Claim:
+def same_bearing_curve(paper: PaperC) -> Claim:
     """Claim 11."""
     near = int(np.argmin(np.abs(RANGE - ALPHAS[0])))
     worst = {way: max(float(apart(paper.shuffled[name, way]).max()) for name in TABLE) for way in WAYS}
@@ -51,7 +51,7 @@ def same_bearing_curve(paper: Paper) -> Claim:
     )
 
 
-def fewer_nodes(paper: Paper) -> Claim:
+def fewer_nodes(paper: PaperC) -> Claim:
     """Claim 12."""
     near = ALPHAS[-1]
 
@@ -78,7 +78,7 @@ def fewer_nodes(paper: Paper) -> Claim:
     return Claim(
         number=12,
         text="Simpson's rule needs far fewer nodes than the trapezoid rule or the differential equation",
-        verdict="true" if on and beside else "partly" if on or beside else "false",
+        verdict=verdict(on and beside, partly=on or beside),
         evidence=f"nodes for {100 * FACTOR_ERROR:g} % at α = {near}, where N is a multiple of {POINTS} and every "
         f"point is a node: {in_words(0)}; with {BESIDE} nodes fewer, most of them beside the points: "
         f"{in_words(BESIDE)}: corners inside its pairs of steps reduce the order of Simpson's rule. At α = "
@@ -88,12 +88,12 @@ def fewer_nodes(paper: Paper) -> Claim:
     )
 
 
-def _worst_at_first(paper: Paper) -> float:
+def _worst_at_first(paper: PaperC) -> float:
     studies = [paper.convergence[name, ALPHAS[0]] for name in TABLE]
     return max(float(study.errors(rule, left_out)[:, 0].max()) for study in studies for rule, left_out in study.found)
 
 
-def ordered_by_roughness(paper: Paper) -> Claim:
+def ordered_by_roughness(paper: PaperC) -> Claim:
     """Claim 14."""
     loads = [k for k, load in enumerate(LOADS) if JUDGED_LOADS[0] <= load <= JUDGED_LOADS[1]]
     until = order_holds_to(paper.curves)
@@ -108,7 +108,7 @@ def ordered_by_roughness(paper: Paper) -> Claim:
     return Claim(
         number=14,
         text="The minimum film at a load follows Ra",
-        verdict="true" if four and general else "partly" if four or general else "false",
+        verdict=verdict(four and general, partly=four or general),
         evidence=f"the four profiles, smooth first, keep the order of Ra for every seed up to {until / 1e6:.3g} MN/m "
         f"(mean pressure {until / SPAN / 1e6:.3g} MPa, {until / SPAN / MODULUS:.2g} of β). Their rmax has the same "
         f"order, and it decides: of the pairs of {random.clearance.shape[0]} random profiles at "

@@ -21,7 +21,7 @@ from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.terminal.console import AsJson, in_one_line, make_directory, progress_bar, run_alone
 from roughfilm.words.numbers import with_error
 from scripts.studies.paper_e import data, figures, windows
-from scripts.studies.paper_e.claims import Paper, judge, worst_cell
+from scripts.studies.paper_e.claims import PaperE, judge, worst_cell
 from scripts.studies.paper_e.data import LOADS, Washer, washer
 from scripts.studies.paper_e.made import POINTS, made
 from scripts.studies.paper_e.windows import LOAD, MILLED, STEEL, Leak, sensitivity
@@ -61,7 +61,7 @@ def compute(
     points: int = POINTS,
     cells: int = data.CELLS,
     speeds: Sequence[float] = data.SPEEDS,
-) -> Paper:
+) -> PaperE:
     """Compute everything the page shows; tables, curves and leaks are kept in ``out`` for the next run."""
     jobs = [(name, body, True, speeds) for name, body in data.surfaces(surfaces, points).items()]
     jobs += [(f"lays/{name}", body, False, data.FEW) for name, body in data.lays(points).items()]
@@ -80,7 +80,7 @@ def compute(
             leaks, rows = _leaks(out / "windows.json", milled, advance)
     lays = {name.removeprefix("lays/"): one for name, one in done.items() if name.startswith("lays/")}
     washers = {name: one for name, one in done.items() if not name.startswith("lays/")}
-    return Paper(windows=leaks, rows=rows, washers=washers, lays=lays)
+    return PaperE(windows=leaks, rows=rows, washers=washers, lays=lays)
 
 
 def _leaks(
@@ -148,7 +148,7 @@ def _row(name: str, one: Washer) -> dict[str, Any]:
     return {"name": name, "lifts": lifts, "share": figures.point_at(one, 1, data.SHOWN[0]).contact_share}
 
 
-def numbers(paper: Paper) -> dict[str, Any]:
+def numbers(paper: PaperE) -> dict[str, Any]:
     """Return the numbers of the page; speeds in revolutions per minute."""
 
     def lifts(one: Washer, *, boxed: bool = False) -> list[dict[str, float]]:

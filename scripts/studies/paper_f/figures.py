@@ -23,7 +23,7 @@ COLOURS = (
     *("#08519c", "#4292c6", "#d94801", "#fdae6b", "#8c6d31", "#238b45", "#74c476"),
     *("#6a51a3", "#9e9ac8", "#c51b8a", "#f768a1"),
 )
-"""Of the families: random blue, skewed orange and brown, with a lay green, self-affine violet."""
+"""Colours of the families: random blue, skewed orange and brown, with a lay green, self-affine violet."""
 
 FOUND, SOURCE = "#1d2530", "#b42318"
 DENSITY, VISCOSITY, DROP, LENGTH = 1e3, 1e-3, 1e6, 1e-3
@@ -134,7 +134,7 @@ def _thresholds(axes: Axes, study: SealStudy, name: str, unit: float) -> None:
 
 
 def pure(study: SealStudy) -> Figure:
-    """What k of F.14 hides (left): it falls as the length Sq/g′ of a surface grows; red: the source's.
+    """Left: k of F.14 falls as the length Sq/g′ of a surface grows; red: k of the source.
 
     Middle: load over the rms slope, whose ratio is a pure number; line: geometric mean. Right: that number over the
     skewness, with the fitted law.

@@ -1,4 +1,4 @@
-"""What sealing loads and leakages are proportional to: constants with intervals, and how far surfaces scatter."""
+"""Laws of sealing load and leakage: constants with intervals, and the scatter of surfaces."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -19,10 +19,10 @@ CONFIDENCE = (2.5, 97.5)
 """Per cent."""
 
 SHARES = (0.003, 0.03, 0.3)
-"""Of the median load that seals, at which leakages of surfaces are compared."""
+"""Fractions of the median sealing load at which leakages of surfaces are compared."""
 
 LIGHT = 0.1
-"""Of the load that seals: below it a load counts as light."""
+"""Fraction of the sealing load below which a load counts as light."""
 
 Sample = Sequence[Pressed]
 Places = NDArray[np.int64]
@@ -166,7 +166,7 @@ class Collapse:
 
 
 def collapse(sample: Sample, height: str, load: str) -> Collapse:
-    """Of direct solutions, ``height`` and ``load`` being names of scales; "" leaves them as they are."""
+    """Return the collapse of direct solutions; ``height`` and ``load`` are names of scales, "" leaves them unscaled."""
     middle = (
         float(np.median(ratios(sample, load))) if load else float(np.median([o.threshold for o in sample])) / MODULUS
     )
@@ -277,7 +277,7 @@ class FormulaReading:
 
 
 def read_formulas(sample: Sample) -> list[FormulaReading]:
-    """All of ``READINGS``, with the source's constants."""
+    """Judge all of ``READINGS`` with the constants of the source."""
     return [_read(formula, law, sample) for formula, law in READINGS.items()]
 
 

@@ -17,7 +17,7 @@ from scripts.studies.rough_gaps.study import (
     theory_meets_mesh,
 )
 from scripts.studies.rough_gaps.waves import MARKED, bare_coefficient
-from scripts.studies.study import Claim
+from scripts.studies.study import Claim, verdict
 
 FEW_PER_CENT = 0.05
 """The few per cent of the claim, as a fraction of the flow."""
@@ -36,7 +36,7 @@ def judge(study: RoughGapStudy) -> list[Claim]:
         Claim(
             number=19,
             text="HNS equals DNS in leakage within a few per cent for measured surfaces",
-            verdict="true" if not far else "partly" if rest else "false",
+            verdict=verdict(not far, partly=bool(rest)),
             evidence="both sides of the claim solve Reynolds' equation. Its error against Stokes flow on the same "
             "heights "
             + (
