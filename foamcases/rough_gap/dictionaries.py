@@ -4,8 +4,6 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from foamlib import DimensionSet
-
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.foamcases.openfoam.block_mesh import Patch
 from roughfilm.foamcases.openfoam.dictionaries import Dictionary, control, liquid, schemes, solution
@@ -128,6 +126,8 @@ def gap_dictionaries(
     patches : of the mesh.
     moving : the fields in which there is anything, as :class:`roughfilm.foamcases.openfoam.residuals.Judged` has them.
     """
+    from foamlib import DimensionSet  # slow to import
+
     viscosity = 1 / reynolds_number
     force = [12 * viscosity * part for part in drive.gradient]
     still = {"type": "noSlip"}

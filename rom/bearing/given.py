@@ -15,7 +15,7 @@ from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.rom.bearing.pad import CELLS_PER_FEATURE, Pad
 from roughfilm.rom.bearing.texture import pocketed
 from roughfilm.rom.cavitation.shape import Shape
-from roughfilm.rom.parts.surface_geometry import PLAIN, digest_of
+from roughfilm.rom.parts.surface_geometry import PLAIN_FORMATS, digest_of
 
 
 class Given(Pad):
@@ -51,7 +51,7 @@ class Given(Pad):
     def _read(self) -> tuple[Array, str]:
         """The thickness above its minimum, m, shape (nx, ny), and the digest of the file."""
         path = Path(self.thickness).expanduser()
-        if path.suffix.lower() not in PLAIN:
+        if path.suffix.lower() not in PLAIN_FORMATS:
             raise InputError(f"{path}: is neither NPY nor CSV; save the film thickness as one of them")
         try:
             state = path.stat()

@@ -156,7 +156,7 @@ class RoughSurface(SurfaceGeometry):
 
     def factor_uncertainty(self, narrowest: float) -> float:
         """The largest relative uncertainty of the flow factors."""
-        return self.factors(narrowest).doubt
+        return self.factors(narrowest).relative_uncertainty
 
     def scaled_heights(self) -> Array:
         """The heights above their mean, m, shape (nx, ny)."""
@@ -245,7 +245,7 @@ class StoredTable(Part):
 
     def factor_uncertainty(self, narrowest: float) -> float:
         """The largest relative uncertainty of the flow factors at mean gaps of at least ``narrowest``, m."""
-        return self.read().doubt_above(narrowest)
+        return self.read().relative_uncertainty_above(narrowest)
 
 
 @lru_cache(maxsize=4)

@@ -21,7 +21,7 @@ from roughfilm.rom.ladder.model import Model, Progress
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun, with_uncertainties
-from roughfilm.rom.pocket.validity import NOTHING_COARSER
+from roughfilm.rom.pocket.validity import NO_COARSER_GRID
 
 WARM_UP_CELLS = 40
 """Number of cells of a film on which every compiled loop runs once."""
@@ -70,9 +70,9 @@ def solve(
         *load_warnings(scene, solution, quantities),
     ]
     if not uncertainty:
-        warnings.append(NOTHING_COARSER)
+        warnings.append(NO_COARSER_GRID)
     if unknown := [name for name, value in uncertainty.items() if not math.isfinite(value)]:
-        warnings.append(f"{', '.join(unknown)}: {NOTHING_COARSER}, as the roughness has too few points")
+        warnings.append(f"{', '.join(unknown)}: {NO_COARSER_GRID}, as the roughness has too few points")
     return Result(
         model=solver.name,
         quantities=with_uncertainties(quantities, uncertainty),

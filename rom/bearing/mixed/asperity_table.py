@@ -70,11 +70,11 @@ class AsperityTable:
 
     def factor_uncertainty(self, separation: float) -> float:
         """The relative uncertainty of A₁₁, A₂₂ and B₁ at separations of at least this, m."""
-        return self.factors.doubt_above(float(self.mean_gap(np.array(separation))))
+        return self.factors.relative_uncertainty_above(float(self.mean_gap(np.array(separation))))
 
     def friction_uncertainty(self, separation: float) -> float:
         """The relative uncertainty of the friction factor d + 3e, which depends on the grid in contact."""
-        return self.factors.friction_doubt(float(self.mean_gap(np.array(separation))))
+        return self.factors.friction_uncertainty(float(self.mean_gap(np.array(separation))))
 
     def __call__(self, separation: Array, /) -> GapFactors:
         """The flow factors at separations, m, of any shape; raises InputError below the smallest."""

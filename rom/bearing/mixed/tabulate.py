@@ -18,7 +18,7 @@ from roughfilm.rom.homogenization.conductance import FaceRule
 from roughfilm.rom.homogenization.table.bisection import bisected
 from roughfilm.rom.homogenization.table.factor_table import Point
 from roughfilm.rom.homogenization.table.separation import Separations
-from roughfilm.rom.homogenization.table.tabulate import TOLERANCE, beyond, point_of, tabulate
+from roughfilm.rom.homogenization.table.tabulate import INTERPOLATION_TOLERANCE, point_of, table_error, tabulate
 from roughfilm.rom.ladder.model import Progress, silent
 
 CONTACT_TOLERANCE = 1e-6
@@ -57,7 +57,7 @@ def tabulate_pressed(
     hardness: float = math.inf,
     loads: Sequence[float] | None = None,
     reach: float = 0.0,
-    tolerance: float = TOLERANCE,
+    tolerance: float = INTERPOLATION_TOLERANCE,
     rule: FaceRule = FaceRule.LINEAR,
     known: Iterable[Point] = (),
     keep: Callable[[Point], object] = lambda _point: None,
@@ -140,7 +140,7 @@ def tabulate_pressed(
 
     def errors(table: AsperityTable, point: Point) -> tuple[float, float]:
         separation = table.separation_at(point.load)
-        return beyond(table.factors, point), abs(separation - point.separation) / body.rms
+        return table_error(table.factors, point), abs(separation - point.separation) / body.rms
 
     def later(done: float, words: str) -> None:
         progress(0.4 + 0.6 * done, words)
@@ -149,7 +149,7 @@ def tabulate_pressed(
         _series(solve, press, loads, reach, threads, later),
         half_way=half_way,
         made=made,
-        off=errors,
+        errors=errors,
         tolerance=tolerance,
         threads=threads,
         progress=later,

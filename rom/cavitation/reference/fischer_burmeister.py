@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.compiled import compiled
+from roughfilm.contact.foundation.compiled import allocating
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED, along
 from roughfilm.rom.cavitation.fluid import Fluid
@@ -133,7 +133,7 @@ def _step(
     return change, opened
 
 
-@compiled
+@allocating
 def reduced(balance, centre_p, west_p, east_p, centre_f, west_f, east_f, by_p, by_c, merit, unit, lower, centre, upper, right):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
     """The Schur complement, by columns; returns where the pressure is kept and the cavity eliminated.
 

@@ -166,7 +166,10 @@ def test_what_it_cannot_know_is_refused(tips):
             {"roughness": {"kind": "sinusoid", "amplitude": "0.1 um", "wavelength": "1 mm"}},
             "asperities: got a table for sinusoidal ridges",
         ),
-        ({"asperities": {"solid": {"modulus": "1 GPa", "poisson": 0.3}}}, r"asperities\.solid: got one, but the stored table"),
+        (
+            {"asperities": {"solid": {"modulus": "1 GPa", "poisson": 0.3}}},
+            r"asperities\.solid: got one, but the stored",
+        ),
         ({"asperities": {"counter": {"modulus": "1 GPa", "poisson": 0.3}}}, r"asperities\.solid: is missing, but"),
         ({"asperities": {"friction": -1}}, r"asperities\.friction: got -1\.0; it must be 0 to 10"),
         ({"asperities": {"frictions": 1}}, r"asperities\.frictions: unknown key; did you mean 'friction'"),
