@@ -72,7 +72,7 @@ def solve(
     if not uncertainty:
         warnings.append(NO_COARSER_GRID)
     if unknown := [name for name, value in uncertainty.items() if not math.isfinite(value)]:
-        warnings.append(f"{', '.join(unknown)}: {NO_COARSER_GRID}, as the roughness has too few points")
+        warnings.append(f"{', '.join(unknown)}: uncertainty unknown, the roughness has too few points for a coarser grid")
     return Result(
         model=solver.name,
         quantities=with_uncertainties(quantities, uncertainty),
