@@ -72,7 +72,7 @@ def solve(
     if not uncertainty:
         warnings.append(NO_COARSER_GRID)
     if unknown := [name for name, value in uncertainty.items() if not math.isfinite(value)]:
-        warnings.append(f"{', '.join(unknown)}: uncertainty unknown, the roughness has too few points for a coarser grid")
+        warnings.append(f"{', '.join(unknown)}: unknown uncertainty, as the roughness has too few points")
     return Result(
         model=solver.name,
         quantities=with_uncertainties(quantities, uncertainty),

@@ -140,7 +140,7 @@ def _tabulated(
             spacing,
             stiffness,
             hardness=bound,
-            reach=load,
+            required_load=load,
             known=known,
             keep=keep,
             threads=checked_threads(None),

@@ -150,7 +150,7 @@ def test_a_table_is_extended_and_nothing_known_is_solved_again(elastic):
         SPACING,
         MODULUS,
         loads=[1e7, 1e8, 1e9],
-        reach=2e9,
+        required_load=2e9,
         tolerance=0.05,
         known=elastic.factors.points,
         keep=solved.append,

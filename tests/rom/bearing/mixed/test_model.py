@@ -234,4 +234,4 @@ def test_roughness_of_few_points_has_no_error_bar_and_says_so(changes):
     assert all(math.isfinite(uncertainty) for uncertainty in known.values())
     assert "contact_load_per_width" not in known
     assert value(found, "contact_load_per_width") > 0
-    assert any("contact_load_per_width" in told and "too few points for a coarser grid" in told for told in found.warnings)
+    assert any("contact_load_per_width" in told and "too few points" in told for told in found.warnings)
