@@ -4,6 +4,7 @@ import functools
 import io
 import json
 import os
+import re
 import signal
 import sys
 from collections.abc import Callable, Iterator
@@ -37,11 +38,22 @@ messages = Console(stderr=True, highlight=False)
 output = Console(highlight=False)
 
 
-def fail(error: Exception, code: int) -> typer.Exit:
-    """Say one line (and the log's last lines, where there are some) and return the exit."""
-    messages.print(f"[bold red]error:[/] {escape(str(error))}", soft_wrap=True)
+def fail(error: Exception, code: int, command: Callable[..., None] | None = None) -> typer.Exit:
+    """Say one line (and the log's last lines, where there are some) and return the exit.
+
+    Where the line begins with the name of a parameter of the command, its option takes the place of the name.
+    """
+    options = {} if command is None else _options(command)
+    line = re.sub(r"^\w+(?=:? )", lambda place: options.get(place[0], place[0]), str(error))
+    messages.print(f"[bold red]error:[/] {escape(line)}", soft_wrap=True)
     print_notes(error, style="dim")
     return typer.Exit(code)
+
+
+def _options(command: Callable[..., None]) -> dict[str, str]:
+    """The options of a command by the names of its parameters, such as ``--counter-modulus`` by counter_modulus."""
+    parameters = typer.main.get_command(_app(command)).params
+    return {str(one.name).rstrip("_"): one.opts[0] for one in parameters if one.opts[0].startswith("--")}
 
 
 def print_notes(error: BaseException, style: str | None = None) -> None:
@@ -58,11 +70,11 @@ def in_one_line(command: Callable[..., None]) -> Callable[..., None]:
         try:
             command(*arguments, **options)
         except InputError as error:
-            raise fail(error, BAD_INPUT) from None
+            raise fail(error, BAD_INPUT, command) from None
         except ConvergenceError as error:
             raise fail(error, NOT_CONVERGED) from None
         except UnavailableError as error:
-            raise fail(error, MISSING) from None
+            raise fail(error, MISSING, command) from None
         except (KeyboardInterrupt, SystemExit) as stop:
             print_notes(stop)
             raise
@@ -94,9 +106,13 @@ def launch(app: typer.Typer, arguments: list[str]) -> None:
 
 def run_alone(command: Callable[..., None]) -> None:
     """Run one command as a program of its own, as ``python scripts/x.py`` does."""
+    launch(_app(command), sys.argv[1:])
+
+
+def _app(command: Callable[..., None]) -> typer.Typer:
     app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
     app.command()(command)
-    launch(app, sys.argv[1:])
+    return app
 
 
 def _stop(number: int, _frame: FrameType | None) -> None:
