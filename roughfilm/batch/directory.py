@@ -36,7 +36,7 @@ def alone(out: Path) -> Iterator[Path]:
 
     The lock ends with this process, however it ends. Raises InputError if another process holds it.
     """
-    told = f"--out {out}: another batch works here (process {{process}}); wait for it or choose another place"
+    told = f"out {out}: another batch works here (process {{process}}); wait for it or choose another place"
     with locked(out / LOCK, told):
         scratch = out / SCRATCH
         _tidy(out)

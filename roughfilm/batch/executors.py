@@ -106,7 +106,7 @@ def dask(address: str) -> Iterator[Executor]:
     try:
         import distributed
     except ImportError:
-        told = "--executor dask: needs the library distributed; install it with: pip install 'roughfilm[cluster]'"
+        told = "executor dask: needs the library distributed; install it with: pip install 'roughfilm[cluster]'"
         raise UnavailableError(told) from None
     logging.disable()  # dask and tornado would say in many lines what we say in one
     try:
@@ -114,7 +114,7 @@ def dask(address: str) -> Iterator[Executor]:
         client = distributed.Client(address, set_as_default=False)
     except Exception as error:  # whatever answers there may send anything
         reason = " ".join(str(error).split()) or f"silent for {SCHEDULER_TIMEOUT_S} s"
-        told = f"--scheduler {address}: is no dask scheduler that answers ({reason}); start one with: dask scheduler"
+        told = f"scheduler {address}: is no dask scheduler that answers ({reason}); start one with: dask scheduler"
         raise UnavailableError(told) from None
     with client:
         if not client.nthreads():

@@ -25,20 +25,22 @@ from roughfilm.terminal.console import (
     progress_bar,
 )
 
-Want = Annotated[str | None, typer.Option(help="The quantity that counts, such as load; by default the kind's first.")]
+Want = Annotated[
+    str | None, typer.Option("--want", help="The quantity that counts, such as load; by default the kind's first.")
+]
 
 
 @in_one_line
 def command(
     scene: ScenePath,
     within: Annotated[str, typer.Option(help="How far off it may be, for example 5%.")],
-    want: Want = None,
+    quantity: Want = None,
     set_: Overrides = None,
     as_json: AsJson = False,
 ) -> None:
     """Say which model and resolution are enough, how far off they are and what they cost."""
     read = load_scene(scene, set_ or ())
-    found = advice_for(read, want, within)
+    found = advice_for(read, quantity, within)
     if as_json:
         print_json({**entries_of(found), "composition": list(kind_of_name(read.kind).composed(read))})
     else:
@@ -56,11 +58,11 @@ def tolerance_of(text: str) -> float:
         raise InputError(f"--within: got {text!r}; write a part such as 5% or 0.05") from None
 
 
-def advice_for(scene: Scene, want: str | None, within: str) -> Advice:
+def advice_for(scene: Scene, quantity: str | None, within: str) -> Advice:
     """Advise with a bar of progress; InputError for what cannot be asked."""
-    quantity, part = wanted(scene, want), tolerance_of(within)
+    compared, part = wanted(scene, quantity), tolerance_of(within)
     with progress_bar(1.0) as advance:
-        return advise(scene, models(scene.kind), quantity=quantity, within=part, progress=advance)
+        return advise(scene, models(scene.kind), quantity=compared, within=part, progress=advance)
 
 
 def tell(scene: Scene, found: Advice) -> None:
