@@ -1,8 +1,12 @@
 """What the terminal makes of exceptions that end a command."""
 
-import pytest
+from typing import Annotated
 
-from roughfilm.terminal.console import in_one_line
+import pytest
+import typer
+
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.terminal.console import Overrides, in_one_line
 
 
 @pytest.mark.parametrize("kind", [KeyboardInterrupt, SystemExit])
@@ -24,3 +28,30 @@ def test_a_stop_without_a_note_prints_nothing(capsys):
     with pytest.raises(KeyboardInterrupt):
         in_one_line(command)()
     assert capsys.readouterr().err == ""
+
+
+@pytest.mark.parametrize(
+    ("message", "line"),
+    [
+        ("counter_modulus: got 0", "--counter-modulus: got 0"),
+        ("quantity: got 'lift'", "--want: got 'lift'"),
+        ("set geometry.depth: got no key=value", "--set geometry.depth: got no key=value"),
+        ("scene: got 3", "scene: got 3"),
+        ("set.depth: got 3", "set.depth: got 3"),
+        ("model: got 'x'", "model: got 'x'"),
+    ],
+    ids=lambda text: text.partition(":")[0],
+)
+def test_an_error_that_begins_with_a_parameter_begins_with_its_option(capsys, message, line):
+    def command(
+        scene: str,
+        quantity: Annotated[str | None, typer.Option("--want")] = None,
+        counter_modulus: Annotated[str | None, typer.Option()] = None,
+        set_: Overrides = None,
+    ) -> None:
+        raise InputError(message)
+
+    with pytest.raises(typer.Exit) as stop:
+        in_one_line(command)("film.toml")
+    assert stop.value.exit_code == 2
+    assert capsys.readouterr().err == f"error: {line}\n"
