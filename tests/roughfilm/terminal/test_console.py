@@ -1,12 +1,11 @@
 """What the terminal makes of exceptions that end a command."""
 
-from typing import Annotated
-
 import pytest
 import typer
 
+from roughfilm.cli.advise import Want
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.terminal.console import Overrides, in_one_line
+from roughfilm.terminal.console import Overrides, Tolerance, in_one_line
 
 
 @pytest.mark.parametrize("kind", [KeyboardInterrupt, SystemExit])
@@ -33,7 +32,7 @@ def test_a_stop_without_a_note_prints_nothing(capsys):
 @pytest.mark.parametrize(
     ("message", "line"),
     [
-        ("counter_modulus: got 0", "--counter-modulus: got 0"),
+        ("step_length: got 0", "--step-length: got 0"),
         ("quantity: got 'lift'", "--want: got 'lift'"),
         ("set geometry.depth: got no key=value", "--set geometry.depth: got no key=value"),
         ("scene: got 3", "scene: got 3"),
@@ -43,15 +42,10 @@ def test_a_stop_without_a_note_prints_nothing(capsys):
     ids=lambda text: text.partition(":")[0],
 )
 def test_an_error_that_begins_with_a_parameter_begins_with_its_option(capsys, message, line):
-    def command(
-        scene: str,
-        quantity: Annotated[str | None, typer.Option("--want")] = None,
-        counter_modulus: Annotated[str | None, typer.Option()] = None,
-        set_: Overrides = None,
-    ) -> None:
+    def command(scene: str, quantity: Want, step_length: Tolerance, set_: Overrides) -> None:  # noqa: ARG001
         raise InputError(message)
 
     with pytest.raises(typer.Exit) as stop:
-        in_one_line(command)("film.toml")
+        in_one_line(command)("film.toml", None, None, None)
     assert stop.value.exit_code == 2
     assert capsys.readouterr().err == f"error: {line}\n"
