@@ -215,7 +215,7 @@ class RoughGap(RoughScene):
         """
         own = max(self.surface().shape)
         if not 2 <= resolution <= own:
-            raise InputError(f"--resolution: got {resolution}; the surface has {own} points, take 2 to {own}")
+            raise InputError(f"resolution: got {resolution}; the surface has {own} points, take 2 to {own}")
         walls = self._walls(resolution).closed_below(self.smallest_gap)
         if not walls.gap.any():
             raise InputError("scene: the walls touch everywhere; there is no film, lower the load or the smallest gap")
@@ -264,6 +264,6 @@ def _walls(geometry_text: str, pressing: tuple[float, float, float] | None, reso
     walls = Walls(lower=lower, upper=upper + geometry.mean_gap, spacing=spacing)
     if walls.gap.min() < 0:
         raise InputError(
-            f"--resolution: got {resolution}; without the waves that it cannot hold the walls cross, take more nodes"
+            f"resolution: got {resolution}; without the waves that it cannot hold the walls cross, take more nodes"
         )
     return walls
