@@ -9,7 +9,7 @@ from matplotlib.patches import Patch
 
 from roughfilm.figures.base import svg
 from roughfilm.rom.bearing.effects.ablation import Amount
-from roughfilm.rom.bearing.effects.contributions import Study
+from roughfilm.rom.bearing.effects.contributions import EffectStudy
 from roughfilm.words.effects import Shown
 
 MORE, LESS, WHOLE, BESIDE = "#2166ac", "#b2182b", "#5b6675", "#b07d2b"
@@ -17,7 +17,7 @@ HIGH, LOW = 0.34, 0.18
 """Heights of the bars of steps and of effects switched off alone, in rows."""
 
 
-def waterfall(told: Study, columns: Mapping[str, Shown], beside: Mapping[str, Amount]) -> str:
+def waterfall(told: EffectStudy, columns: Mapping[str, Shown], beside: Mapping[str, Amount]) -> str:
     """A panel for each quantity, a row for each effect; ``beside`` is what inertia would add to some of them."""
     rows = ["plain film", *(one.name for one in told.contributions), "all of it", *(["inertia"] if beside else [])]
     figure = Figure(figsize=(3.1 + 2.6 * len(columns), 1.3 + 0.42 * len(rows)), layout="constrained")
@@ -38,7 +38,7 @@ def waterfall(told: Study, columns: Mapping[str, Shown], beside: Mapping[str, Am
     return svg(figure)
 
 
-def _panel(axes: Axes, told: Study, name: str, how: Shown, beside: Amount | None) -> None:
+def _panel(axes: Axes, told: EffectStudy, name: str, how: Shown, beside: Amount | None) -> None:
     full = how.factor * told.full[name].value
     axes.axvline(full, color=WHOLE, linewidth=0.8, linestyle=":")
     if (plain := told.plain.get(name)) is not None:
