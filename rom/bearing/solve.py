@@ -98,7 +98,7 @@ def solve(
     cells, tolerance, scheme = request.resolution, request.tolerance, request.scheme
     fits = solver.applies(scene)
     if not fits.applies:
-        raise InputError(f"--model: got {model!r}; {fits.reason}")
+        raise InputError(f"model: got {model!r}; {fits.reason}")
     problem = film(scene)
     load_loops(problem.shape.wide)
     wall, cpu = time.perf_counter(), time.process_time()

@@ -41,11 +41,6 @@ class ErrorLaw:
         number = self.number(scene)
         return min((t for t, limit in self.thresholds.items() if number <= limit), default=None)
 
-    def expected_error(self, scene: Pocket) -> dict[str, float]:
-        """The tolerance of :meth:`within` for the quantities that measure the load; empty if it is None."""
-        within = self.within(scene)
-        return {} if within is None else {"load_plus": within, "load_per_area": within}
-
     def described(self, scene: Pocket) -> str:
         """The expected load error in words."""
         if outside := _outside_sweep(scene):

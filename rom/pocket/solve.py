@@ -196,7 +196,6 @@ def solve(
             scheme=scheme,
         ),
         warnings=tuple(warnings),
-        expected_error=law.expected_error(scene) if law else {},
     )
 
 

@@ -5,7 +5,7 @@ from functools import lru_cache
 from typing import Annotated, Literal, Self
 
 import numpy as np
-from pydantic import AfterValidator, BeforeValidator, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from roughfilm.contact.foundation.entries import InUnit, Length, Part, PositiveNumber
 from roughfilm.contact.foundation.errors import InputError
@@ -86,7 +86,11 @@ class RoughGap(RoughScene):
     solid: RoughBody | None = None
     counter: Counter | None = None
     load: Load | None = None
+<<<<<<< HEAD
     mesh: GapMesh = GapMesh()
+=======
+    mesh: Mesh = Field(default_factory=Mesh)
+>>>>>>> f527995c5b60173f28ac44d4bfee383b69807789
 
     @model_validator(mode="after")
     def _is_a_gap(self) -> Self:
@@ -220,7 +224,7 @@ class RoughGap(RoughScene):
         """
         own = max(self.surface().shape)
         if not 2 <= resolution <= own:
-            raise InputError(f"--resolution: got {resolution}; the surface has {own} points, take 2 to {own}")
+            raise InputError(f"resolution: got {resolution}; the surface has {own} points, take 2 to {own}")
         walls = self._walls(resolution).closed_below(self.smallest_gap)
         if not walls.gap.any():
             raise InputError("scene: the walls touch everywhere; there is no film, lower the load or the smallest gap")
@@ -269,6 +273,10 @@ def _walls(geometry_text: str, pressing: tuple[float, float, float] | None, reso
     walls = Walls(lower=lower, upper=upper + geometry.mean_gap, spacing=spacing)
     if walls.gap.min() < 0:
         raise InputError(
+<<<<<<< HEAD
             f"--resolution: got {resolution}; the walls cross without the waves that it cannot represent, raise it"
+=======
+            f"resolution: got {resolution}; without the waves that it cannot hold the walls cross, take more nodes"
+>>>>>>> f527995c5b60173f28ac44d4bfee383b69807789
         )
     return walls

@@ -119,7 +119,7 @@ def sealing(body: Ready, advance: Advance) -> dict[str, Threshold]:
 def chosen_loads(body: Ready, found: dict[str, Threshold]) -> tuple[float, ...]:
     """The default loads, from half a per cent of contact to just above all thresholds, with the last open ones."""
     if float(np.ptp(body.surface.heights)) == 0:
-        raise InputError("geometry.surface: is flat and sealed under any load; give --loads for its numbers")
+        raise InputError("geometry.surface: is flat and sealed under any load; give loads for its numbers")
     at, load = _pressed(body), FIRST_AREA / LIGHT_CONTACT_RATIO * body.spread
     for _ in range(4):
         area = at(load, None).area_fraction

@@ -129,18 +129,6 @@ def test_cautions_beyond_the_range_of_a_model(make_scene, name, reynolds_number,
     assert all(word in warning for word, warning in zip(words, warnings, strict=True))
 
 
-def test_the_error_that_a_law_expects_covers_the_error_and_is_given_only_where_the_law_holds(make_scene):
-    model = find("pocket", "inertial_reynolds")
-    scene = make_scene(0.3, 0.25, 10)
-    found, reference = model.solve(scene), find("pocket", "film_slope").solve(scene)
-    expected = found.expected_error["load_plus"]
-    assert 0 < expected <= 0.1
-    assert abs(found["load_plus"].value / reference["load_plus"].value - 1) <= expected
-    assert found.expected_error["load_per_area"] == expected
-    assert model.solve(make_scene(0.3, 0.25, 200)).expected_error == {}
-    assert find("pocket", "reynolds").solve(scene).expected_error == {}
-
-
 @pytest.mark.parametrize(("option", "value"), [("resolution", 1), ("resolution", 10**9), ("tolerance", 0.0)])
 def test_options_out_of_range(make_scene, option, value):
     with pytest.raises(InputError, match=f"--{option}: got"):
