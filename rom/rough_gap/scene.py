@@ -86,11 +86,7 @@ class RoughGap(RoughScene):
     solid: RoughBody | None = None
     counter: Counter | None = None
     load: Load | None = None
-<<<<<<< HEAD
-    mesh: GapMesh = GapMesh()
-=======
-    mesh: Mesh = Field(default_factory=Mesh)
->>>>>>> f527995c5b60173f28ac44d4bfee383b69807789
+    mesh: GapMesh = Field(default_factory=GapMesh)
 
     @model_validator(mode="after")
     def _is_a_gap(self) -> Self:
@@ -273,10 +269,6 @@ def _walls(geometry_text: str, pressing: tuple[float, float, float] | None, reso
     walls = Walls(lower=lower, upper=upper + geometry.mean_gap, spacing=spacing)
     if walls.gap.min() < 0:
         raise InputError(
-<<<<<<< HEAD
-            f"--resolution: got {resolution}; the walls cross without the waves that it cannot represent, raise it"
-=======
-            f"resolution: got {resolution}; without the waves that it cannot hold the walls cross, take more nodes"
->>>>>>> f527995c5b60173f28ac44d4bfee383b69807789
+            f"resolution: got {resolution}; the walls cross without the waves that it cannot represent, raise it"
         )
     return walls
