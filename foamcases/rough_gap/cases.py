@@ -19,7 +19,7 @@ from roughfilm.foamcases.rough_gap.uncertainty import error_bars
 from roughfilm.rom.ladder.model import Model, Resolutions
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun, with_uncertainties
-from roughfilm.rom.parts.pressed_surface import COARSEST
+from roughfilm.rom.parts.pressed_surface import MIN_SIDE_POINTS
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors
 from roughfilm.rom.rough_gap.quantities import coefficients, gap_quantities
 from roughfilm.rom.rough_gap.scene import RoughGap
@@ -49,7 +49,7 @@ def resolutions(scene: RoughGap) -> Resolutions:
     """Those of ``RESOLUTIONS`` for which the surface has points enough, or all that it has."""
     own = max(scene.surface().shape)
     series = tuple(n for n in RESOLUTIONS if n <= own) or (own,)
-    return Resolutions(least=min(own, COARSEST), most=own, default=min(own, RESOLUTIONS[-1]), series=series)
+    return Resolutions(least=min(own, MIN_SIDE_POINTS), most=own, default=min(own, RESOLUTIONS[-1]), series=series)
 
 
 def most_processes(scene: RoughGap, resolution: int) -> int:

@@ -155,7 +155,7 @@ class RoughSurface(SurfaceGeometry):
 
     def doubt(self, narrowest: float) -> float:
         """The largest part by which the factors may be off."""
-        return self.factors(narrowest).doubt
+        return self.factors(narrowest).relative_uncertainty
 
     def scaled_heights(self) -> Array:
         """Above their mean, m, shape (nx, ny)."""
@@ -240,7 +240,7 @@ class StoredTable(Part):
 
     def doubt(self, narrowest: float) -> float:
         """The largest part by which the factors may be off from the narrowest mean gap on, m."""
-        return self.read().doubt_above(narrowest)
+        return self.read().relative_uncertainty_above(narrowest)
 
 
 @lru_cache(maxsize=4)

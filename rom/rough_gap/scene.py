@@ -14,7 +14,7 @@ from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.rom.parts.pressed_surface import Load, RoughScene
 from roughfilm.rom.parts.restriction import restricted
 from roughfilm.rom.parts.solids import Counter, RoughBody, composite_modulus, hardness
-from roughfilm.rom.pocket.scene import Lubricant
+from roughfilm.rom.pocket.scene import NewtonianLubricant
 from roughfilm.rom.rough_gap.flow.range_of_validity import ROUGHEST, expected_excess
 from roughfilm.rom.rough_gap.geometry import GapGeometry
 from roughfilm.rom.rough_gap.walls import Walls
@@ -79,7 +79,7 @@ class RoughGap(RoughScene):
 
     kind: Literal["rough_gap"]
     geometry: GapGeometry
-    lubricant: Lubricant
+    lubricant: NewtonianLubricant
     flow: Drive
     solid: RoughBody | None = None
     counter: Counter | None = None

@@ -26,7 +26,7 @@ from roughfilm.rom.homogenization.factors import NAMES, FlowFactors, relative_qu
 from roughfilm.rom.homogenization.flow_factors import Estimated, flow_factors
 from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
 from roughfilm.rom.homogenization.table.separation import Separations
-from roughfilm.rom.homogenization.table.tabulate import TOLERANCE, tabulate
+from roughfilm.rom.homogenization.table.tabulate import INTERPOLATION_TOLERANCE, tabulate
 from roughfilm.rom.ladder.provenance import code
 from roughfilm.terminal.console import AsJson, ReportFile, Spacing, Threads, progress_bar
 from roughfilm.terminal.output_file import alone, refuse_same, refuse_unwritable
@@ -52,7 +52,8 @@ def command(
     ] = None,
     spacing: Spacing = None,
     tolerance: Annotated[
-        float | None, typer.Option(help=f"Relative interpolation error of the table (default {TOLERANCE:g}).")
+        float | None,
+        typer.Option(help=f"Relative interpolation error of the table (default {INTERPOLATION_TOLERANCE:g})."),
     ] = None,
     rule: Annotated[FaceRule, typer.Option(help="Course of the gap between two nodes.")] = FaceRule.LINEAR,
     offset: Annotated[
@@ -81,7 +82,7 @@ def command(
         raise InputError("--offset: got one for a table, in which contact is closed; give --gap, or leave it out")
     if mean_gap is not None and tolerance is not None:
         raise InputError("--tolerance: belongs to a table; leave it or --gap out")
-    accuracy, workers = TOLERANCE if tolerance is None else tolerance, checked_threads(threads)
+    accuracy, workers = INTERPOLATION_TOLERANCE if tolerance is None else tolerance, checked_threads(threads)
     refuse_unwritable(out, report)
     with alone(out, "table"), progress_bar(1.0) as advance:
         advance(0, f"reading {surface.name}")

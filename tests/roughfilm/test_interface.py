@@ -153,6 +153,12 @@ def test_the_uncertainty_of_flow_factors_covers_the_closed_form_of_ridges(ridges
         assert abs(factors[name].value - value) <= factors[name].uncertainty + 1e-12, name
 
 
+def test_numbers_of_numpy_are_numbers(ridges):
+    surface = rf.Surface(heights=ridges, spacing=(1e-6, 1e-6))
+    given = [rf.press(surface, modulus=np.int64(10**9), load=load).mean_gap for load in (np.float32(1e6), 1e6)]
+    assert given[0] == given[1]
+
+
 def test_flow_factors_turn_with_the_surface(ridges):
     along, across = (rf.flow_factors(z, spacing=1e-6, gap=3e-6) for z in (ridges, ridges.T))
     assert along["A11"].value == pytest.approx(across["A22"].value, rel=1e-6)

@@ -17,8 +17,9 @@ from roughfilm.foamcases.openfoam.program import execute, succeed
 
 SOLVE = """
 from roughfilm.foamcases.pocket.models.navier_stokes import MODEL
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import load_scene
-MODEL.solve(load_scene({scene!r}), resolution=600, processes={processes})
+MODEL.solve(load_scene({scene!r}), Request(resolution=600, processes={processes}))
 """
 
 

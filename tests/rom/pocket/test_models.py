@@ -116,8 +116,8 @@ def test_a_given_resolution_that_misses_the_tolerance_is_a_warning(make_scene):
 @pytest.mark.parametrize(
     ("name", "reynolds_number", "words"),
     [
-        ("inertial_reynolds", 200, ["load more than 10% off"]),
-        ("inertial_reynolds", 5000, ["turbulent", "load more than 10% off"]),
+        ("inertial_reynolds", 200, ["load error above 10%"]),
+        ("inertial_reynolds", 5000, ["turbulent", "load error above 10%"]),
         ("reynolds", 5000, ["turbulent"]),
         ("inertial_reynolds", 10, []),
         ("reynolds", 200, []),
@@ -127,18 +127,6 @@ def test_cautions_beyond_the_range_of_a_model(make_scene, name, reynolds_number,
     warnings = find("pocket", name).solve(make_scene(0.3, 0.25, reynolds_number)).warnings
     assert len(warnings) == len(words)
     assert all(word in warning for word, warning in zip(words, warnings, strict=True))
-
-
-def test_the_error_that_a_law_expects_covers_the_error_and_is_given_only_where_the_law_holds(make_scene):
-    model = find(MODELS, "inertial_reynolds")
-    scene = make_scene(0.3, 0.25, 10)
-    found, reference = model.solve(scene), find(MODELS, "film_slope").solve(scene)
-    expected = found.expected_error["load_plus"]
-    assert 0 < expected <= 0.1
-    assert abs(found["load_plus"].value / reference["load_plus"].value - 1) <= expected
-    assert found.expected_error["load_per_area"] == expected
-    assert model.solve(make_scene(0.3, 0.25, 200)).expected_error == {}
-    assert find(MODELS, "reynolds").solve(scene).expected_error == {}
 
 
 @pytest.mark.parametrize(("option", "value"), [("resolution", 1), ("resolution", 10**9), ("tolerance", 0.0)])
