@@ -33,10 +33,10 @@ def write_page(
     """Write report.html of a series and of the object of ``--json``; InputError if the file cannot be written."""
     ordered, spectrum, stiffness = list(rows.values()), scene.spectrum(), scene.composite_modulus
     depth = _valley_depth(body) if np.ptp(body.surface.heights) > 0 else 0.0
-    loads = () if spectrum is None else rows
-    estimated = {
-        load: effective_medium(spectrum, composite_modulus=stiffness, load=load).permeability for load in loads
-    }
+    estimated = {}
+    if spectrum is not None:
+        films = {load: effective_medium(spectrum, composite_modulus=stiffness, load=load) for load in rows}
+        estimated = {load: film.permeability for load, film in films.items()}
     shown = _shown(ordered, scene.axis)
     contacts = [load_contact(body.contacts, load) for load in shown]
     picture, why = view_picture([gap_map(contact) for contact in contacts])
