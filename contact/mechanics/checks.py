@@ -1,6 +1,7 @@
 """Checks of the arguments of contact mechanics, which raise InputError with one line."""
 
 import math
+from numbers import Real
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,7 +12,7 @@ from roughfilm.contact.foundation.errors import InputError
 
 def positive(place: str, value: float) -> float:
     """The number as a float if it is finite and above 0; raises InputError otherwise."""
-    if isinstance(value, bool) or not isinstance(value, int | float) or not 0 < value < math.inf:
+    if not _is_number(value) or not 0 < value < math.inf:
         raise InputError(f"{place}: got {value!r}; give a finite number above 0")
     return float(value)
 
@@ -24,7 +25,7 @@ def positive_fields(place: str, data: object) -> None:
 
 def not_negative(place: str, value: float) -> float:
     """The number as a float if it is finite and 0 or above; raises InputError otherwise."""
-    if isinstance(value, bool) or not isinstance(value, int | float) or not 0 <= value < math.inf:
+    if not _is_number(value) or not 0 <= value < math.inf:
         raise InputError(f"{place}: got {value!r}; give a finite number, 0 or above")
     return float(value)
 
@@ -35,3 +36,7 @@ def finite(place: str, values: ArrayLike) -> Array:
     if not np.isfinite(array).all():
         raise InputError(f"{place}: got a number that is not finite; give finite ones")
     return array
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, Real) and not isinstance(value, bool)

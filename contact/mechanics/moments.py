@@ -94,11 +94,6 @@ class SpectralMoments:
         return math.sqrt(self.m2 if self.line else 2 * self.m2)
 
     @property
-    def rms_curvature(self) -> float:
-        """The rms curvature along a profile, sqrt(m4), 1/m."""
-        return math.sqrt(self.m4)
-
-    @property
     def summit_density(self) -> float:
         """Density of Gaussian summits, m4/(6π√3 m2), 1/m²; for a profile density of peaks, sqrt(m4/m2)/(2π), 1/m."""
         ratio = self.m4 / self.m2

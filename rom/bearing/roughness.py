@@ -16,8 +16,6 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap
 from roughfilm.rom.homogenization.ridges import sinusoidal_ridges
 from roughfilm.rom.homogenization.table.factor_table import FactorTable
-from roughfilm.rom.homogenization.table.store import load_table
-from roughfilm.rom.homogenization.table.tabulate import tabulate
 from roughfilm.rom.parts.surface_geometry import SurfaceGeometry
 
 LEVEL = 1e-12
@@ -155,7 +153,7 @@ class RoughSurface(SurfaceGeometry):
 
     def doubt(self, narrowest: float) -> float:
         """The largest part by which the factors may be off."""
-        return self.factors(narrowest).doubt
+        return self.factors(narrowest).relative_uncertainty
 
     def scaled_heights(self) -> Array:
         """Above their mean, m, shape (nx, ny)."""
@@ -170,6 +168,8 @@ class RoughSurface(SurfaceGeometry):
 
 @lru_cache(maxsize=4)
 def _factors(surface: str, narrowest: float) -> FactorTable:
+    from roughfilm.rom.homogenization.table.tabulate import tabulate  # whose loops are slow to import
+
     read = SurfaceGeometry.model_validate_json(surface).read()
     return tabulate(read.heights, read.spacing, tolerance=TOLERANCE, narrowest=BELOW * narrowest)
 
@@ -240,11 +240,13 @@ class StoredTable(Part):
 
     def doubt(self, narrowest: float) -> float:
         """The largest part by which the factors may be off from the narrowest mean gap on, m."""
-        return self.read().doubt_above(narrowest)
+        return self.read().relative_uncertainty_above(narrowest)
 
 
 @lru_cache(maxsize=4)
 def _stored(path: str, _modified: int, _size: int) -> FactorTable:
+    from roughfilm.rom.homogenization.table.store import load_table  # h5py is slow to import
+
     return load_table(Path(path))
 
 

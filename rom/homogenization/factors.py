@@ -1,7 +1,7 @@
 """Flow factors: the averaged coefficients of a rough gap."""
 
 from dataclasses import dataclass, replace
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -13,7 +13,32 @@ NAMES = ("A11", "A12", "A21", "A22", "B1", "B2", "d", "e")
 
 
 @dataclass(frozen=True, kw_only=True)
-class FlowFactors:
+class GapCoefficients:
+    """Coefficients A and B of a gap, which scale with its size; subclasses name theirs that are inverse lengths."""
+
+    inverse_lengths: ClassVar[tuple[str, ...]] = ()
+    mean_gap: float
+    pressure: Array
+    shear: Array
+
+    @property
+    def relative(self) -> Self:
+        """The coefficients over those of a smooth film of the mean gap: A/ĥ³, B/ĥ and inverse lengths times ĥ."""
+        return self.scaled(1 / self.mean_gap)
+
+    def scaled(self, factor: float) -> Self:
+        """The coefficients of the gap and its period multiplied by ``factor``."""
+        return replace(
+            self,
+            mean_gap=self.mean_gap * factor,
+            pressure=self.pressure * factor**3,
+            shear=self.shear * factor,
+            **{name: getattr(self, name) / factor for name in self.inverse_lengths},
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class FlowFactors(GapCoefficients):
     """Homogenized coefficients of a gap between a rough wall at rest and a smooth wall sliding along x at u.
 
     Flow per width q = (u/2) B − A∇p/(12η), friction on the sliding wall τ = ηu (d + 3e) + C·∇p/2, p the pressure
@@ -33,28 +58,10 @@ class FlowFactors:
     Sources: Sahlin 2008, E.2.3 to E.2.5 (whose C, d and e have the factors 1/2 and 6η u left out in print).
     """
 
-    mean_gap: float
-    pressure: Array
-    shear: Array
+    inverse_lengths = ("couette", "shear_couette")
     couette: float
     shear_couette: float
     sealed: tuple[bool, bool] = (False, False)
-
-    @property
-    def relative(self) -> Self:
-        """The factors over those of a smooth film of the mean gap: A/ĥ³, B/ĥ, d ĥ, e ĥ, with mean gap 1."""
-        return self.scaled(1 / self.mean_gap)
-
-    def scaled(self, factor: float) -> Self:
-        """The factors of the gap multiplied by ``factor``."""
-        return replace(
-            self,
-            mean_gap=self.mean_gap * factor,
-            pressure=self.pressure * factor**3,
-            shear=self.shear * factor,
-            couette=self.couette / factor,
-            shear_couette=self.shear_couette / factor,
-        )
 
 
 def relative_quantities(factors: FlowFactors, uncertainty: FlowFactors) -> dict[str, Quantity]:

@@ -39,7 +39,7 @@ class Claim:
     evidence: str
 
 
-def verdict(holds: bool, *, partly: bool) -> str:
+def verdict(holds: bool | np.bool, *, partly: bool | np.bool) -> str:
     """Return ``true`` where a claim holds, else ``partly`` or ``false``."""
     return "true" if holds else "partly" if partly else "false"
 

@@ -77,25 +77,28 @@ BAD = {
         lambda scene, z: rf.load_scene(SCENES / "pocket.toml", set={"geometry.depth": object()}),
         "set: got <object",
     ),
+    "values that are no dict": (lambda scene, z: rf.load_scene(SCENES / "pocket.toml", set="x"), "set: got 'x'"),
     "entries that are none": (lambda scene, z: rf.read_scene([1]), "scene: got list"),
     "a kind that is unknown": (lambda scene, z: rf.models("pockets"), "it must be one of"),
     "a scene that is none": (lambda scene, z: rf.solve("pocket.toml", model="film"), "scene: got str"),
     "neither model nor tolerance": (lambda scene, z: rf.solve(scene), "model: missing"),
     "both model and tolerance": (lambda scene, z: rf.solve(scene, model="film", within=0.1), "leave one of them out"),
     "a quantity without tolerance": (lambda scene, z: rf.solve(scene, model="film", quantity="load"), "within"),
-    "a model that is unknown": (lambda scene, z: rf.solve(scene, model="flim"), "'flim'; it must be one of"),
+    "a model that is unknown": (lambda scene, z: rf.solve(scene, model="flim"), "model: got 'flim'; it must"),
     "a scheme that is not offered": (lambda scene, z: rf.solve(scene, model="reynolds", scheme="upwind"), "no choice"),
-    "a resolution out of range": (lambda scene, z: rf.solve(scene, model="film", resolution=-3), "-3"),
+    "a resolution out of range": (lambda scene, z: rf.solve(scene, model="film", resolution=-3), "resolution: got -3"),
+    "a resolution as text": (lambda scene, z: rf.solve(scene, model="film", resolution="x"), "resolution: got 'x'"),
     "a tolerance as text": (lambda scene, z: rf.advise(scene, within="5%"), "within: got '5%'"),
     "a tolerance out of range": (lambda scene, z: rf.advise(scene, within=2.0), "above 0 and below 1"),
-    "a quantity that is unknown": (lambda scene, z: rf.advise(scene, within=0.1, quantity="lift"), "'lift'"),
+    "a quantity that is unknown": (lambda scene, z: rf.advise(scene, within=0.1, quantity="lift"), "quantity: got"),
     "models as text": (lambda scene, z: rf.compare(scene, models="film"), "give a list of names"),
     "a sweep over one value": (lambda scene, z: rf.sweep(scene, {"geometry.depth": "5 um"}), "give a list"),
+    "a sweep over a list": (lambda scene, z: rf.sweep(scene, ["geometry.depth"]), "values: got"),
     "a sweep over no key": (lambda scene, z: rf.sweep(scene, {"geometry.dep": ["5 um"]}), "geometry.dep"),
     "heights in a row": (lambda scene, z: rf.press(z[0], spacing=1e-6, modulus=1e9, load=1e5), "shape (64,)"),
     "heights of ragged rows": (lambda scene, z: rf.parameters([[1.0], [1.0, 2.0]], spacing=1e-6), "heights: got"),
     "heights as text": (lambda scene, z: rf.parameters([["a", "b"]], spacing=1e-6), "give real numbers"),
-    "heights not finite": (lambda scene, z: rf.press(z * np.nan, spacing=1e-6, modulus=1e9, load=1e5), "not finite"),
+    "heights not finite": (lambda scene, z: rf.press(z * np.nan, spacing=1, modulus=1, load=1), "are not finite"),
     "masked heights": (lambda scene, z: rf.flow_factors(np.ma.masked_array(z), spacing=1e-6, gap=3e-6), "masked"),
     "no spacing": (lambda scene, z: rf.flow_factors(z, gap=3e-6), "spacing: missing"),
     "a negative spacing": (lambda scene, z: rf.flow_factors(z, spacing=-1e-6, gap=3e-6), "spacing"),
@@ -110,6 +113,7 @@ BAD = {
         lambda scene, z: rf.press(z, spacing=1e-6, modulus=1e9, load=1e6, boundary="open"),
         "periodic or free",
     ),
+    "an array to read": (lambda scene, z: rf.read_surface(z), "path: got ndarray"),
     "an array to prepare": (lambda scene, z: rf.prepare(z), "surface: got ndarray"),
     "a model without cases": (lambda scene, z: rf.write_case(scene, "case", model="film"), "navier_stokes"),
     "a pocket for a bearing": (lambda scene, z: rf.stribeck(scene, [1.0], [1e6]), "kind 'pocket'"),
@@ -151,6 +155,12 @@ def test_the_uncertainty_of_flow_factors_covers_the_closed_form_of_ridges(ridges
     for name, value in exact.items():
         assert factors[name].uncertainty < 0.01
         assert abs(factors[name].value - value) <= factors[name].uncertainty + 1e-12, name
+
+
+def test_numbers_of_numpy_are_numbers(ridges):
+    surface = rf.Surface(heights=ridges, spacing=(1e-6, 1e-6))
+    given = [rf.press(surface, modulus=np.int64(10**9), load=load).mean_gap for load in (np.float32(1e6), 1e6)]
+    assert given[0] == given[1]
 
 
 def test_flow_factors_turn_with_the_surface(ridges):

@@ -71,15 +71,15 @@ class AsperityTable:
     @property
     def doubt(self) -> float:
         """By which part A₁₁, A₂₂ and B₁ may be off anywhere."""
-        return self.factors.doubt
+        return self.factors.relative_uncertainty
 
     def doubt_above(self, separation: float) -> float:
         """The same where no separation is below this, m."""
-        return self.factors.doubt_above(float(self.mean_gap(np.array(separation))))
+        return self.factors.relative_uncertainty_above(float(self.mean_gap(np.array(separation))))
 
     def friction_doubt(self, separation: float) -> float:
         """By which part the film's friction factor d + 3e may be off: in contact the grid's nodes have a say in it."""
-        return self.factors.friction_doubt(float(self.mean_gap(np.array(separation))))
+        return self.factors.friction_uncertainty(float(self.mean_gap(np.array(separation))))
 
     def __call__(self, separation: Array, /) -> GapFactors:
         """The factors at separations, m, of any shape; InputError below the closest."""

@@ -18,7 +18,7 @@ from roughfilm.rom.homogenization.conductance import FaceRule
 from roughfilm.rom.homogenization.table.bisection import bisected
 from roughfilm.rom.homogenization.table.factor_table import Point
 from roughfilm.rom.homogenization.table.separation import Separations
-from roughfilm.rom.homogenization.table.tabulate import TOLERANCE, beyond, point_of, tabulate
+from roughfilm.rom.homogenization.table.tabulate import INTERPOLATION_TOLERANCE, point_of, table_error, tabulate
 from roughfilm.rom.ladder.model import Progress, silent
 
 COMPLEMENTARITY = 1e-6
@@ -48,7 +48,7 @@ def tabulate_pressed(
     hardness: float = math.inf,
     loads: Sequence[float] | None = None,
     reach: float = 0.0,
-    tolerance: float = TOLERANCE,
+    tolerance: float = INTERPOLATION_TOLERANCE,
     rule: FaceRule = FaceRule.LINEAR,
     known: Iterable[Point] = (),
     keep: Callable[[Point], object] = lambda _point: None,
@@ -133,13 +133,15 @@ def tabulate_pressed(
         return abs(table.separation_at(point.load) - point.separation) / body.rms
 
     def off(table: AsperityTable, point: Point) -> tuple[float, float]:
-        return beyond(table.factors, point), missed(table, point)
+        return table_error(table.factors, point), missed(table, point)
 
     def told(part: float, words: str) -> None:
         progress(0.4 + 0.6 * part, words)
 
     points = _series(solve, press, loads, reach, threads, told)
-    found = bisected(points, half_way=half_way, made=made, off=off, tolerance=tolerance, threads=threads, progress=told)
+    found = bisected(
+        points, half_way=half_way, made=made, errors=off, tolerance=tolerance, threads=threads, progress=told
+    )
     progress(1.0, f"{len(found) + len(open_table.points)} points")
     return made(found)
 

@@ -1,1 +1,1 @@
-"""Tables of flow factors over the mean gap: placing their points, interpolation between these, and files."""
+"""Tables of flow factors over the mean gap: choice of their points, interpolation, and files."""

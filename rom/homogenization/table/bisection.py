@@ -1,4 +1,4 @@
-"""Placing the points of a table: half-way between two, wherever interpolation is not good enough there."""
+"""Refinement of a table by bisection, wherever interpolation is not accurate enough."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -11,8 +11,8 @@ from roughfilm.rom.ladder.model import Progress
 
 Table = TypeVar("Table")
 
-MOST = 400
-"""Points; where factors jump, as over a plateau, more help nothing."""
+MAX_POINTS = 400
+"""Largest number of points of a table; where factors jump, as over a plateau, more do not reduce the error."""
 
 
 def bisected(
@@ -20,39 +20,39 @@ def bisected(
     *,
     half_way: Callable[[Point, Point], Point | None],
     made: Callable[[Sequence[Point]], Table],
-    off: Callable[[Table, Point], tuple[float, float]],
+    errors: Callable[[Table, Point], tuple[float, float]],
     tolerance: float,
     threads: int,
     progress: Progress,
 ) -> list[Point]:
-    """All points, each with the errors that were last seen beside it: ``missed`` and ``separation_missed``.
+    """All points of the refined table, each with its last interpolation errors ``missed`` and ``separation_missed``.
 
     Parameters
     ----------
-    points : in order.
-    half_way : the point half-way between two; None where they are next to each other.
-    made : the table of some points.
-    off : by how much a table that does not have a point misses it, in factors and in the separation, in one measure.
-    threads : in which points are made at once.
-    tolerance : where one of them exceeds it, both sides of the point are tried.
+    points : initial points in order.
+    half_way : half_way(one, two), the point between two points; None if they are adjacent.
+    made : made(points), the table of these points.
+    errors : errors(table, point), the interpolation errors at a point that the table lacks: factors, separation.
+    tolerance : largest of both errors for which the intervals on both sides of a point are not bisected.
+    threads : number of threads that compute points.
     """
-    found = list(points)
+    all_points = list(points)
     missed = {point.mean_gap: (0.0, 0.0) for point in points}
     intervals = [(one, two, (0.0, 0.0)) for one, two in pairwise(points)]
     with workers(threads) as pool:
         while intervals:
-            table = made(found)
+            table = made(all_points)
             wider = []
-            begun = intervals[: max(0, MOST - len(found))]
+            begun = intervals[: max(0, MAX_POINTS - len(all_points))]
             middles = pool.map(half_way, *zip(*((one, two) for one, two, _ in begun), strict=True)) if begun else ()
             for (one, two, before), middle in zip_longest(intervals, middles):
-                progress(len(found) / (len(found) + len(intervals)), f"{len(found)} points")
+                progress(len(all_points) / (len(all_points) + len(intervals)), f"{len(all_points)} points")
                 if middle is None:
                     for end in (one, two):
                         missed[end.mean_gap] = _larger(missed[end.mean_gap], before)
                     continue
-                found.append(middle)
-                error = off(table, middle)
+                all_points.append(middle)
+                error = errors(table, middle)
                 if max(error) > tolerance:
                     wider += [(one, middle, error), (middle, two, error)]
                     error = (0.0, 0.0)
@@ -60,7 +60,7 @@ def bisected(
             intervals = wider
     return [
         replace(point, missed=factors, separation_missed=separation)
-        for point in found
+        for point in all_points
         for factors, separation in [missed[point.mean_gap]]
     ]
 

@@ -1,4 +1,4 @@
-"""Flow factors over the mean gap: points, and what lies between and beyond them."""
+"""Flow factors over the mean gap: points, interpolation between them and extrapolation to thick films."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -13,8 +13,8 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.homogenization.factors import FlowFactors
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap, GapFactors
 
-SMOOTH = np.array([1.0, 1, 0, 1, 0, 1, 0])
-"""What :func:`relative_row` tells of a smooth film."""
+SMOOTH_ROW = np.array([1.0, 1, 0, 1, 0, 1, 0])
+"""The :func:`relative_row` of a smooth film."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -23,16 +23,17 @@ class Point:
 
     Attributes
     ----------
-    separation : of the mean planes of the undeformed walls, m: how the rigid bodies lie.
-    contact : the part of the surface that is closed.
-    factors, uncertainty, unsolved, iterations, residual : of :class:`rom.homogenization.flow_factors.Estimated`.
-    cpu_s : what it cost, s.
-    load : what presses the walls together, Pa over the nominal area; 0 of walls that nothing deforms.
-    area_fraction, plastic_fraction : of a pressed surface, as :class:`contact.mechanics.contact.Contact` has them.
-    separation_uncertainty : by how much the grid may have the separation at the load off, m.
-    missed, separation_missed : what interpolation was off by here, or next to here, before the point was there: of the
-        factors, in the measure of the tolerance of :func:`rom.homogenization.table.tabulate.tabulate`, and of the
-        separation at the load, over the rms height.
+    separation : distance of the mean planes of the undeformed walls, m.
+    contact : fraction of the surface where the gap is closed.
+    factors, uncertainty, unsolved, iterations, residual : those of
+        :class:`roughfilm.rom.homogenization.flow_factors.Estimated`.
+    cpu_s : CPU time, s.
+    load : mean pressure on the nominal area, Pa; 0 for undeformed walls.
+    area_fraction, plastic_fraction : those of :class:`roughfilm.contact.mechanics.contact.Contact`.
+    separation_uncertainty : discretisation uncertainty of the separation at the load, m.
+    missed : interpolation error of the factors here, or next to here, before the point was added, in the measure of
+        the tolerance of :func:`roughfilm.rom.homogenization.table.tabulate.tabulate`.
+    separation_missed : the same error of the separation at the load, over the rms height.
     """
 
     separation: float
@@ -60,16 +61,16 @@ class Point:
 class FactorTable:
     """Points in order of their mean gaps ĥ, with monotone cubic interpolation (Fritsch and Carlson) over ln ĥ.
 
-    Interpolated are ∛A₁₁/ĥ, ∛A₂₂/ĥ, A₁₂/√(A₁₁A₂₂), B/ĥ, d ĥ and e ĥ, so that A stays positive semidefinite and has no
-    extremes but those of the points. The friction of streamers is taken as d − e, exact for ridges along and across.
-    Beyond the widest gap what roughness does falls with ĥ², as perturbation theory has it.
+    The table interpolates ∛A₁₁/ĥ, ∛A₂₂/ĥ, A₁₂/√(A₁₁A₂₂), B/ĥ, d ĥ and e ĥ, so that A is positive semidefinite and has
+    no extrema except at points. The friction of streamers is d − e, exact for ridges along and across the sliding.
+    Above the widest gap the effect of roughness decreases as ĥ⁻², the limit of perturbation theory.
 
     Attributes
     ----------
-    points : two or more.
-    peak : the highest point of the roughness above its mean, m.
-    rms : of its heights, m.
-    scale : all lengths across the film are multiplied by it: the table of the surface with its heights multiplied.
+    points : two or more points.
+    peak : highest point of the roughness above its mean, m.
+    rms : rms height, m.
+    scale : factor that multiplies the heights of the surface and all gaps.
     """
 
     points: Sequence[Point]
@@ -78,7 +79,7 @@ class FactorTable:
     scale: float = 1.0
 
     def scaled(self, factor: float) -> Self:
-        """Of the surface with its heights multiplied."""
+        """The table of the surface with its heights multiplied by ``factor``."""
         return replace(self, scale=self.scale * factor)
 
     @property
@@ -93,43 +94,42 @@ class FactorTable:
 
     @property
     def interpolation_error(self) -> float:
-        """The largest seen half-way between points: of A and B, and of d and e where nothing touches."""
+        """The largest interpolation error half-way between points: of A and B, and without contact of d and e."""
         return max(point.missed for point in self.points)
 
     @property
-    def doubt(self) -> float:
-        """By which part A₁₁, A₂₂ and B₁ may be off: what interpolation was seen to be, and the worst point's grid."""
-        return self.doubt_above(0.0)
+    def relative_uncertainty(self) -> float:
+        """The relative uncertainty of A₁₁, A₂₂ and B₁: interpolation plus discretisation of the worst point."""
+        return self.relative_uncertainty_above(0.0)
 
-    def doubt_above(self, mean_gap: float) -> float:
-        """The same where no mean gap is below this, m."""
+    def relative_uncertainty_above(self, mean_gap: float) -> float:
+        """The relative uncertainty of A₁₁, A₂₂ and B₁ at mean gaps above this one, m."""
         above = [point for point in self.points if self.scale * point.mean_gap >= mean_gap]
         below = self.points[: len(self.points) - len(above)][-1:]
         worst, near = 0.0, (*below, *above)
         for point in near:
-            a, b = point.factors.pressure, point.factors.shear
-            doubt = point.uncertainty
-            pairs = ((a[0, 0], doubt.pressure[0, 0]), (a[1, 1], doubt.pressure[1, 1]), (b[0], doubt.shear[0]))
-            worst = max([worst, *(float(unsure / abs(value)) for value, unsure in pairs if value != 0)])
+            (a, b), (da, db) = ((one.pressure, one.shear) for one in (point.factors, point.uncertainty))
+            pairs = ((a[0, 0], da[0, 0]), (a[1, 1], da[1, 1]), (b[0], db[0]))
+            worst = max([worst, *(float(uncertainty / abs(value)) for value, uncertainty in pairs if value != 0)])
         return max(point.missed for point in near) + worst
 
-    def friction_doubt(self, mean_gap: float) -> float:
-        """By which part d + 3e may be off at a mean gap, m, as the grid has it; 1 at most."""
-        own, unsure = (
+    def friction_uncertainty(self, mean_gap: float) -> float:
+        """The relative discretisation uncertainty of d + 3e at a mean gap, m; at most 1."""
+        own, uncertainty = (
             np.array([part.couette + 3 * part.shear_couette for part in parts])
             for parts in zip(*((point.factors, point.uncertainty) for point in self.points), strict=True)
         )
         gaps = [self.scale * point.mean_gap for point in self.points]
-        doubts = np.divide(np.minimum(unsure, own), own, out=np.ones_like(own), where=own > 0)
-        return float(np.interp(mean_gap, gaps, doubts))
+        relative = np.divide(np.minimum(uncertainty, own), own, out=np.ones_like(own), where=own > 0)
+        return float(np.interp(mean_gap, gaps, relative))
 
     def __call__(self, mean_gap: Array, /) -> GapFactors:
-        """The factors at mean gaps, m, of any shape.
+        """The factors at mean gaps, m, of any shape; A = B = 0 below a narrowest gap that is sealed both ways.
 
         Raises
         ------
         InputError
-            Below the narrowest gap, unless the film is sealed there already, in both directions: then A = B = 0.
+            If a mean gap is below the narrowest one, and the surface is not sealed there in both directions.
         """
         h = np.asarray(mean_gap, dtype=np.float64)
         if h.size and h.min() < self.narrowest * (1 - 1e-12) and not all(self.points[0].factors.sealed):
@@ -138,9 +138,9 @@ class FactorTable:
                 "make a table that reaches further"
             )
         inside = np.clip(h, self.narrowest, self.widest)
-        share = np.minimum(self.widest / np.maximum(h, self.widest), 1.0) ** 2
+        decay = np.minimum(self.widest / np.maximum(h, self.widest), 1.0) ** 2
         between = self._between(np.log(inside / self.scale))
-        far = SMOOTH + (self._last - SMOOTH) * share[..., None]
+        far = SMOOTH_ROW + (self._last - SMOOTH_ROW) * decay[..., None]
         row = np.where((h > self.widest)[..., None], far, _uncubed(between))
         along, across, cross, drag, drag_across, couette, shear_couette = np.moveaxis(row, -1, 0)
         return GapFactors(
@@ -170,27 +170,27 @@ class FactorTable:
 
 
 def relative_row(factors: FlowFactors) -> Array:
-    """A₁₁/ĥ³, A₂₂/ĥ³, A₁₂/ĥ³, B₁/ĥ, B₂/ĥ, d ĥ, e ĥ."""
+    """The numbers A₁₁/ĥ³, A₂₂/ĥ³, A₁₂/ĥ³, B₁/ĥ, B₂/ĥ, d ĥ, e ĥ of the factors."""
     own = factors.relative
     a = own.pressure
     return np.array([a[0, 0], a[1, 1], a[0, 1], *own.shear, own.couette, own.shear_couette])
 
 
-def told_rows(factors: FactorsOverGap, mean_gap: Array) -> Array:
-    """The same of what a table or a closed form tells at mean gaps, m, shape (n,): shape (n, 7)."""
-    told, h = factors(mean_gap), mean_gap
-    columns = (told.along, told.across, told.cross, told.drag, told.drag_across, told.couette, told.shear_couette)
+def relative_rows(factors: FactorsOverGap, mean_gap: Array) -> Array:
+    """The numbers of :func:`relative_row` at mean gaps ĥ, m, shape (n,), of a table or a closed form; shape (n, 7)."""
+    own, h = factors(mean_gap), mean_gap
+    columns = (own.along, own.across, own.cross, own.drag, own.drag_across, own.couette, own.shear_couette)
     powers = (3, 3, 3, 1, 1, -1, -1)
     return np.stack([column / h**power for column, power in zip(columns, powers, strict=True)], axis=-1)
 
 
 def _cubed(row: Array) -> Array:
-    """The row with ∛A₁₁/ĥ, ∛A₂₂/ĥ and A₁₂/√(A₁₁A₂₂) in the place of A; the last NaN where nothing tells it."""
+    """The row with ∛A₁₁/ĥ, ∛A₂₂/ĥ and A₁₂/√(A₁₁A₂₂) instead of A; the last is NaN if A₁₁ or A₂₂ is 0."""
     mean = np.sqrt(row[0] * row[1])
     return np.array([np.cbrt(row[0]), np.cbrt(row[1]), row[2] / mean if mean > 0 else np.nan, *row[3:]])
 
 
 def _uncubed(rows: Array) -> Array:
-    """Back from :func:`_cubed`, shape (..., 7)."""
+    """The inverse of :func:`_cubed`, shape (..., 7)."""
     first, second = rows[..., :1] ** 3, rows[..., 1:2] ** 3
     return np.concatenate([first, second, rows[..., 2:3] * np.sqrt(first * second), rows[..., 3:]], axis=-1)

@@ -1,4 +1,4 @@
-"""The gap between an undeformed rough surface and a flat one, by how far apart their mean planes are."""
+"""The gap between an undeformed rough surface and a flat one, over the separation of their mean planes."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,41 +13,39 @@ from roughfilm.rom.homogenization.paths import sealed
 
 @dataclass(frozen=True, kw_only=True)
 class Separations:
-    """A rough surface and a flat one that come together without deforming.
-
-    At a separation α of their mean planes h = max(α − z, 0): heights that would reach into the flat one are cut off.
+    """The gap h = max(α − z, 0) between an undeformed rough surface and a flat one, for separations α of mean planes.
 
     Attributes
     ----------
-    heights : shape (nx, ny), m, upward, towards the flat one.
+    heights : heights, m, shape (nx, ny), positive towards the flat surface.
     """
 
     heights: Array
 
     @cached_property
     def _above(self) -> Array:
-        """z: heights above their mean."""
+        """Heights z above their mean, m."""
         return np.asarray(self.heights - self.heights.mean())
 
     @cached_property
     def _sorted(self) -> tuple[Array, Array]:
-        """Heights in order, and the mean gap where the separation is each of them."""
+        """Heights z in increasing order, and the mean gap at the separation of each of them."""
         z = np.sort(self._above, axis=None)
         below = np.arange(z.size)
         return z, (below * z - np.concatenate([[0.0], np.cumsum(z)[:-1]])) / z.size
 
     @property
     def peak(self) -> float:
-        """Sp, m."""
+        """Highest point above the mean, Sp, m."""
         return float(self._above.max())
 
     @property
     def rms(self) -> float:
-        """Sq, m."""
+        """Rms height Sq, m."""
         return float(self._above.std())
 
     def gap(self, separation: float) -> Array:
-        """h, m, shape (nx, ny)."""
+        """The gap h at a separation, m, shape (nx, ny)."""
         return np.maximum(separation - self._above, 0.0)
 
     def at_mean_gap(self, mean_gap: float) -> float:
@@ -56,7 +54,7 @@ class Separations:
         Raises
         ------
         InputError
-            For a mean gap that is not between 1e-15 m and 1000 km.
+            If the mean gap is not between 1e-15 m and 1000 km.
         """
         if not MIN_SPACING <= mean_gap <= MAX_LENGTH:
             raise InputError(f"mean gap: got {mean_gap!r} m; give {MIN_SPACING:g} to {MAX_LENGTH:g} m")
@@ -65,12 +63,13 @@ class Separations:
         return float(z[below - 1] + (mean_gap - means[below - 1]) * z.size / below)
 
     def sealing(self) -> tuple[float, float]:
-        """The largest of the heights z at which, as separation, nothing gets through: in x and in y, m.
+        """The largest heights z at which, as separation, the gap is sealed in x and in y, m.
 
-        The second lowest at least, as at the lowest nothing is open. (At it a valley along a whole side may be open.)
+        They are at least the second lowest height, since at the lowest the gap is closed everywhere; at the second
+        lowest a valley along a whole side may be open.
         """
         z = np.unique(self._above)
-        found = []
+        heights = []
         for direction in (0, 1):
             shut, open_at = 1, z.size - 1
             if sealed(self.gap(z[-1]))[direction]:
@@ -81,5 +80,5 @@ class Separations:
                     shut = middle
                 else:
                     open_at = middle
-            found.append(float(z[shut]))
-        return found[0], found[1]
+            heights.append(float(z[shut]))
+        return heights[0], heights[1]

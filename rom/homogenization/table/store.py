@@ -1,4 +1,4 @@
-"""Tables of flow factors in HDF5: every finished point at once, keyed by what they are computed from."""
+"""Tables of flow factors in HDF5 files with a digest of their inputs."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -37,7 +37,7 @@ NUMBERS = {
 
 
 def save_table(path: Path, inputs: Inputs, table: FactorTable) -> None:
-    """Write a table whole: ``points/`` has a column for each number, narrowest gap first, ``uncertainty/`` of them.
+    """Write a table: ``points/`` has one column per number, narrowest gap first; ``uncertainty/`` has their errors.
 
     Raises
     ------
@@ -66,25 +66,25 @@ def save_table(path: Path, inputs: Inputs, table: FactorTable) -> None:
 
 @dataclass(frozen=True, kw_only=True)
 class Source:
-    """What a table was computed from, but for its heights: ``spacing`` (dx, dy), m, and the settings of its inputs."""
+    """The inputs of a table without its heights: ``spacing`` (dx, dy), m, and settings."""
 
     spacing: tuple[float, float]
     settings: Mapping[str, Any]
 
 
 def load_table(path: Path) -> FactorTable:
-    """Read a table back.
+    """The table in a file.
 
     Raises
     ------
     InputError
-        If it cannot be read, was damaged or changed, is of another version, or no table.
+        If the file cannot be read, was changed, has another version, or is not a table.
     """
     return load_table_and_source(path)[0]
 
 
 def load_table_and_source(path: Path) -> tuple[FactorTable, Source]:
-    """Read a table back, and what it was computed from; InputError as :func:`load_table` raises it."""
+    """The table in a file and its inputs; errors are those of :func:`load_table`."""
     try:
         _refuse_others(path)
         with open_checked(path, MARK, SCHEMA, REMEDY) as file:
@@ -95,12 +95,12 @@ def load_table_and_source(path: Path) -> tuple[FactorTable, Source]:
 
 
 def known_points(path: Path, inputs: Inputs) -> Sequence[Point]:
-    """The points that a file holds for these inputs; none if there is no such file, or an empty one.
+    """The points in a file for these inputs; none if the file does not exist or is empty.
 
     Raises
     ------
     InputError
-        If the file cannot be read, was damaged or changed, or holds a table of other inputs or something else.
+        If the file cannot be read, was changed, has a table of other inputs, or is not a table.
     """
     try:
         if path.stat().st_size == 0:
@@ -128,11 +128,11 @@ def _write(file: h5py.File, name: str, values: Array, unit: str) -> None:
 def _table(file: h5py.File) -> FactorTable:
     numbers = {name: file[f"points/{name}"][()] for name in NUMBERS}
     sealed = file["points/sealed"][()]
-    own, doubt = ({name: file[f"{group}/{name}"][()] for name in FACTORS} for group in ("points", "uncertainty"))
+    own, uncertainty = ({name: file[f"{group}/{name}"][()] for name in FACTORS} for group in ("points", "uncertainty"))
     points = [
         Point(
             factors=_factors(own, row, sealed[row]),
-            uncertainty=_factors(doubt, row, sealed[row]),
+            uncertainty=_factors(uncertainty, row, sealed[row]),
             iterations=int(numbers["iterations"][row]),
             **{name: float(numbers[name][row]) for name in NUMBERS if name != "iterations"},
         )

@@ -1,52 +1,33 @@
-"""What any model of a rough gap tells of it: what it lets through, drags along and how it rubs."""
+"""Permeability, shear flow and friction of a rough gap in Stokes flow."""
 
-from dataclasses import dataclass, replace
-from typing import Self
+from dataclasses import dataclass
 
 import numpy as np
 
-from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.homogenization.factors import FlowFactors
+from roughfilm.rom.homogenization.factors import FlowFactors, GapCoefficients
 
 
 @dataclass(frozen=True, kw_only=True)
-class RoughGapFactors:
-    """Factors of a gap, lower wall at rest and a flat upper one sliding along x at u.
+class RoughGapFactors(GapCoefficients):
+    """Factors of a gap between a lower wall at rest and a flat upper wall that slides along x at u.
 
     Flow per width q = (u/2) B - A∇p/(12η), friction on the sliding wall τ = ηu f + B·∇p/2, p averaged. In Stokes flow A
-    is symmetric, and the B of flow and friction are one, by the reciprocal theorem.
+    is symmetric, and by the reciprocal theorem B is the same in flow and friction.
 
     Attributes
     ----------
     mean_gap : h̄, m.
     pressure : A, shape (2, 2), m³.
-    shear : B, shape (2,), m; NaN where the upper wall is not flat.
-    friction : f, 1/m; NaN likewise. It is d + 3e of thin-film theory.
+    shear : B, shape (2,), m; NaN if the upper wall is not flat.
+    friction : f, 1/m, the d + 3e of thin-film theory; NaN if the upper wall is not flat.
     """
 
-    mean_gap: float
-    pressure: Array
-    shear: Array
+    inverse_lengths = ("friction",)
     friction: float
-
-    @property
-    def relative(self) -> Self:
-        """Over those of a smooth film as thick as the mean gap: A/h̄³, B/h̄, f h̄."""
-        return self.scaled(1 / self.mean_gap)
-
-    def scaled(self, factor: float) -> Self:
-        """Of the gap and its period ``factor`` times as large."""
-        return replace(
-            self,
-            mean_gap=self.mean_gap * factor,
-            pressure=self.pressure * factor**3,
-            shear=self.shear * factor,
-            friction=self.friction / factor,
-        )
 
 
 def of_thin_film(factors: FlowFactors, *, slides: bool = True) -> RoughGapFactors:
-    """Those of thin-film theory, with f = d + 3e; of uncertainties likewise, as those of both parts add up."""
+    """The factors of thin-film theory with f = d + 3e, or their uncertainties, which add up in the same way."""
     return RoughGapFactors(
         mean_gap=factors.mean_gap,
         pressure=factors.pressure,

@@ -27,7 +27,7 @@ from roughfilm.rom.studies.convergence import Kind as Way
 from roughfilm.rom.studies.convergence import converge
 from roughfilm.rom.studies.ordering import CERTAINTY
 from roughfilm.terminal.console import in_one_line, make_directory, output, run_alone
-from scripts.studies.advice.runs import PARTS, Drawn, Run, draw, read
+from scripts.studies.advice.runs import PARTS, DrawnScene, Run, draw, read
 from scripts.studies.advice.scenes import random_scene
 from scripts.studies.advice.steps import GRIDS, KINDS, STEPS, PlannedStep
 
@@ -71,7 +71,7 @@ class SolvedScene:
         return sorted(own, key=lambda run: run.resolution)
 
 
-def truths(kind: Kind, rung: Model, runs: Sequence[Run]) -> tuple[dict[str, float], dict[str, float]]:
+def truths(kind: Kind, top: Model, runs: Sequence[Run]) -> tuple[dict[str, float], dict[str, float]]:
     """Return the best model's value and uncertainty of every compared quantity, extrapolated where possible."""
     value, bar = {}, {}
     for quantity in kind.compared:
@@ -79,11 +79,11 @@ def truths(kind: Kind, rung: Model, runs: Sequence[Run]) -> tuple[dict[str, floa
         if not known:
             continue
         value[quantity], bar[quantity] = known[-1].values[quantity], known[-1].uncertainty.get(quantity, 0.0)
-        if rung.order and len(known) > 1 and rung.outside:
+        if top.order and len(known) > 1 and top.outside:
             found = converge(
                 [run.resolution for run in known],
                 [run.values[quantity] for run in known],
-                formal_order=rung.order,
+                formal_order=top.order,
                 noise=1e-12,
             )
             bar[quantity] = found.uncertainty
@@ -92,24 +92,24 @@ def truths(kind: Kind, rung: Model, runs: Sequence[Run]) -> tuple[dict[str, floa
     return value, bar
 
 
-def cases(kind: str, drawn: Sequence[Drawn]) -> list[SolvedScene]:
+def cases(kind: str, drawn: Sequence[DrawnScene]) -> list[SolvedScene]:
     """Return the scenes whose best model has an answer."""
-    found, ladder, told = [], models(kind), kinds()[kind]
+    found, ladder, own_kind = [], models(kind), kinds()[kind]
     for one in drawn:
         scene = random_scene(kind, one.seed)
-        rung = best([model for model in ladder if model.applies(scene).applies])
-        own = (run for run in one.runs if run.model == rung.name and not run.failure)
+        top = best([model for model in ladder if model.applies(scene).applies])
+        own = (run for run in one.runs if run.model == top.name and not run.failure)
         runs = sorted(own, key=lambda run: run.resolution)
         if not runs:
             continue
-        value, bar = truths(told, rung, runs)
+        value, bar = truths(own_kind, top, runs)
         found.append(
             SolvedScene(
                 seed=one.seed,
                 scene=scene,
-                numbers=told.numbers(scene),
+                numbers=own_kind.numbers(scene),
                 runs={(run.model, run.resolution): run for run in one.runs},
-                best=rung.name,
+                best=top.name,
                 truth=value,
                 bar=bar,
             )
@@ -215,8 +215,8 @@ def fit_step(kind: Kind, plan: PlannedStep, found: Sequence[SolvedScene]) -> Ste
         if (law := fitted(rows, plan.features)) is not None:
             left_out[quantity] = law
         if plan.seen_from:
-            told = fitted(seen_rows(kind, plan, found, quantity), ("correction", *plan.seen))
-            seen |= {} if told is None else {quantity: told}
+            law = fitted(seen_rows(kind, plan, found, quantity), ("correction", *plan.seen))
+            seen |= {} if law is None else {quantity: law}
     return Step(
         kind=kind.name,
         model=plan.model,
@@ -243,8 +243,8 @@ def settles_itself(model: Model) -> bool:
 
 def fit(kind: Kind, found: Sequence[SolvedScene]) -> tuple[list[Step], list[Grid]]:
     """Return all steps of a kind and the grids of its models."""
-    rungs = [model.name for model in models(kind.name) if not settles_itself(model)]
-    grids = [fit_grid(kind, model, found) for model in rungs]
+    names = [model.name for model in models(kind.name) if not settles_itself(model)]
+    grids = [fit_grid(kind, model, found) for model in names]
     return [fit_step(kind, plan, found) for plan in STEPS if plan.kind == kind.name], [
         grid for grid in grids if grid.laws
     ]
@@ -294,7 +294,7 @@ def command(
         own_steps, own_grids = fit(kinds()[name], solved)
         steps += own_steps
         grids += own_grids
-        output.print(told(name, own_steps, own_grids))
+        output.print(table_of(name, own_steps, own_grids))
     origin = {
         "command": "python -m scripts.studies.advice.fit --out OUT",
         "certainty": CERTAINTY,
@@ -308,7 +308,7 @@ def command(
         scratch_file.write_text(written(steps, grids, origin), encoding="utf-8")
 
 
-def told(kind: str, steps: Sequence[Step], grids: Sequence[Grid]) -> Table:
+def table_of(kind: str, steps: Sequence[Step], grids: Sequence[Grid]) -> Table:
     """Return the laws of a kind as a printed table."""
     shown = Table("model", "law", "quantity", "bound", "scenes", "bound over middle", title=kind)
     laws = [(step.model, f"to {step.towards}", step.left_out) for step in steps]

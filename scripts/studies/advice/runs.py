@@ -53,7 +53,7 @@ class Run:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Drawn:
+class DrawnScene:
     """A random scene and its runs."""
 
     kind: str
@@ -63,11 +63,11 @@ class Drawn:
 
 def settings_of(scene: Scene, part: str) -> list[Setting]:
     """Return every available model at every resolution; of OpenFOAM models the check takes only the best."""
-    rungs = [model for model in models(scene.kind) if model.applies(scene).applies and model.available().available]
+    applicable = [model for model in models(scene.kind) if model.applies(scene).applies and model.available().available]
     return [
         Setting(model=model, resolution=resolution)
-        for model in rungs
-        if part == "fit" or not model.outside or model is best(rungs)
+        for model in applicable
+        if part == "fit" or not model.outside or model is best(applicable)
         for resolution in (MESHED if _is_random_gap(scene) and model.outside else model.resolutions_of(scene))
     ]
 
@@ -96,7 +96,7 @@ def run_of(job: Job, answer: Result | Failure) -> Run:
     )
 
 
-def draw(part: str, kind: str, out: Path, processes: int, scratch: Path) -> tuple[Drawn, ...]:
+def draw(part: str, kind: str, out: Path, processes: int, scratch: Path) -> tuple[DrawnScene, ...]:
     """Solve what is missing and write the table ``out``/part-kind.json."""
     scenes = {seed: random_scene(kind, seed) for seed in PARTS[part][kind]}
     jobs = {
@@ -108,7 +108,7 @@ def draw(part: str, kind: str, out: Path, processes: int, scratch: Path) -> tupl
     }
     answers = answers_to([job for own in jobs.values() for job in own], processes, scratch)
     drawn = tuple(
-        Drawn(kind=kind, seed=seed, runs=tuple(run_of(job, answers[job.path]) for job in own))
+        DrawnScene(kind=kind, seed=seed, runs=tuple(run_of(job, answers[job.path]) for job in own))
         for seed, own in jobs.items()
     )
     entries = {"part": part, "kind": kind, "scenes": [asdict(one) for one in drawn], "provenance": circumstances()}
@@ -117,11 +117,11 @@ def draw(part: str, kind: str, out: Path, processes: int, scratch: Path) -> tupl
     return drawn
 
 
-def read(part: str, kind: str, out: Path) -> tuple[Sequence[Drawn], Mapping[str, Any]]:
+def read(part: str, kind: str, out: Path) -> tuple[Sequence[DrawnScene], Mapping[str, Any]]:
     """Return the table that :func:`draw` wrote, and its provenance."""
     entries = json.loads((out / f"{part}-{kind}.json").read_text(encoding="utf-8"))
     scenes = [
-        Drawn(kind=one["kind"], seed=one["seed"], runs=tuple(Run(**run) for run in one["runs"]))
+        DrawnScene(kind=one["kind"], seed=one["seed"], runs=tuple(Run(**run) for run in one["runs"]))
         for one in entries["scenes"]
     ]
     return scenes, entries["provenance"]

@@ -15,10 +15,10 @@ Entries = dict[str, Any]
 
 SHAPES = ("linear", "parabolic", "step", "journal", "squared_cosine_inlet", "sector", "washer")
 CHANCES = (0.2, 0.2, 0.15, 0.2, 0.1, 0.05, 0.1)
-"""Of bearings."""
+"""Probabilities of the shapes of bearings."""
 
 SIDE = 1e-3
-"""Of surfaces that are pressed, m."""
+"""Side of the pressed surfaces, m."""
 
 
 def between(rng: Generator, low: float, high: float) -> float:
@@ -32,7 +32,7 @@ def chance(rng: Generator, part: float) -> bool:
 
 
 def length(metres: float) -> str:
-    """As a scene file has it."""
+    """Return a length as a scene file has it."""
     return with_unit(metres, "m")
 
 

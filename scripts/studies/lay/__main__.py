@@ -26,16 +26,16 @@ def command(out: Out, surfaces: Surfaces = None, as_json: AsJson = False) -> Non
     """Turn grooves against the flow, cut them at joints, add an offset at contact, and judge the source's claims."""
     make_directory(out)
     lay = compute(surfaces)
-    told = numbers(lay)
+    results = numbers(lay)
     publish(
         Path(__file__).parent,
         out,
         {name: draw(lay) for name, draw in figures.drawings(lay).items()},
-        told,
+        results,
         claims=judge(lay),
         as_json=as_json,
         measured=lay.measured.get(OBLIQUE),
-        shown=[row for row in told["measured"] if row["name"] == OBLIQUE and row["separation"] in SHOWN],
+        shown=[row for row in results["measured"] if row["name"] == OBLIQUE and row["separation"] in SHOWN],
         directions=DIRECTIONS,
         offset=offset.OFFSET,
     )

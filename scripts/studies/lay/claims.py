@@ -8,9 +8,9 @@ from scipy.stats import spearmanr
 
 from scripts.studies.lay.data import THICKNESSES, FactorPair, Turned, angle
 from scripts.studies.lay.joint import Joint, Joints, lowest
-from scripts.studies.lay.measured import OBLIQUE, Measured
+from scripts.studies.lay.measured import OBLIQUE, MeasuredLay
 from scripts.studies.lay.offset import MADE, OFFSET, Offset
-from scripts.studies.study import Claim
+from scripts.studies.study import Claim, verdict
 
 EQUAL, SAMPLED, FAILS = 0.02, 0.1, 0.2
 """Parts of A: what counts as equal, as the scatter of one finite box, and as failing."""
@@ -27,10 +27,10 @@ GOOD_JOINT = 0.1
 
 @dataclass(frozen=True, kw_only=True)
 class Lay:
-    """All that is judged and drawn; ``measured`` is empty where the instrument files are absent."""
+    """Everything that is judged and drawn; ``measured`` is empty where the instrument files are absent."""
 
     turned: Turned
-    measured: Mapping[str, Measured]
+    measured: Mapping[str, MeasuredLay]
     joints: Joints
     offsets: Mapping[str, Sequence[Offset]]
 
@@ -55,7 +55,7 @@ def joint_throttles(joints: Joints) -> Claim:
         "random striated windows on average": (_mean, joints.windows),
         "the worst of them": (lowest, joints.windows),
     } | {name: (lowest, row) for name, row in measured.items()}
-    told = "; ".join(
+    said = "; ".join(
         f"{name} {_all([of(row, thickness)[0] for thickness in THICKNESSES])}"
         f" (edges blended: {_all([of(row, thickness)[1] for thickness in THICKNESSES])})"
         for name, (of, row) in rows.items()
@@ -63,9 +63,9 @@ def joint_throttles(joints: Joints) -> Claim:
     return Claim(
         number=20,
         text="A bad periodic joint throttles the flow",
-        verdict="true" if harm and clean else "partly" if max(lost) > 0.1 else "false",
+        verdict=verdict(harm and clean, partly=max(lost) > 0.1),
         evidence=f"flow along the lay over that without a joint, at {', '.join(f'{t:g}' for t in THICKNESSES)} Sq: "
-        f"{told}. Windows whose grooves meet pass at least {_share(min(one.passed[0] for one in good))}. The loss of "
+        f"{said}. Windows whose grooves meet pass at least {_share(min(one.passed[0] for one in good))}. The loss of "
         f"cut grooves is ordered by periodicity_mismatch (rank correlation at least {min(order):.2f}); its size "
         f"depends on the thickness of the film more than on the mismatch. Blended edges restore a small part of the "
         f"flow, a window that fits restores all",
@@ -113,7 +113,7 @@ def box_equals_cell(lay: Lay) -> Claim:
     random = [worst([o]) for o in of("random lay", straight=True)]
     as_said = straight < EQUAL and max(scatter) < SAMPLED and worst(oblique) > FAILS
     across = max(one.cell.pressure[0, 1] / one.cell.pressure[0, 0] for one in crossed_oblique)
-    told = "".join(
+    said = "".join(
         f"; {one.name} where it touches: φ₁ {row.box.pressure[0]:.3g} and φ₂ {row.box.pressure[1]:.3g}, A₁₁ "
         f"{row.cell.pressure[0, 0]:.3g}, A₂₂ {row.cell.pressure[1, 1]:.3g}, A₁₂ {row.cell.pressure[0, 1]:.3g}"
         for one in lay.measured.values()
@@ -122,7 +122,7 @@ def box_equals_cell(lay: Lay) -> Claim:
     return Claim(
         number=21,
         text="Patir–Cheng equals HNS for straight or isotropic lay and fails for crossed or oblique lay",
-        verdict="false" if not as_said else "true" if min(crossed, worst(crossed_oblique)) > FAILS else "partly",
+        verdict=verdict(as_said and min(crossed, worst(crossed_oblique)) > FAILS, partly=as_said),
         evidence=f"at {', '.join(f'{t:g}' for t in THICKNESSES)} Sq: straight grooves within {straight:.0e}, "
         f"isotropic surfaces equal within the scatter of one box (rms {', '.join(map(_share, scatter))}), straight "
         f"random lay too (largest {_share(max(random))}); grooves at 45° "
@@ -130,7 +130,7 @@ def box_equals_cell(lay: Lay) -> Claim:
         + f". Crossed grooves as such do not fail: they are equal within {_share(crossed)} where their bisector lies "
         f"along or across the flow; turned by 45° φ₁ is {100 * min(one.short[0] for one in crossed_oblique):+.2g} % at "
         f"worst, although A₁₂, which the method lacks, is up to {across:.2g} A₁₁. The method fails because of "
-        f"A₁₂, not of crossing: φ₁φ₂ = A₁₁A₂₂ − A₁₂² in any large box{told}",
+        f"A₁₂, not of crossing: φ₁φ₂ = A₁₁A₂₂ − A₁₂² in any large box{said}",
     )
 
 
@@ -148,7 +148,7 @@ def offset_is_harmless(offsets: Mapping[str, Sequence[Offset]]) -> Claim:
     return Claim(
         number=26,
         text="A 10 nm offset at contact is enough and harmless",
-        verdict="false" if not harmless else "partly" if invented or max(added.values()) >= HARMLESS else "true",
+        verdict=verdict(not invented and max(added.values()) < HARMLESS, partly=harmless),
         evidence=f"undeformed contact; while A > {OPEN:g} ĥ³ it adds at most "
         + ", ".join(f"{_share(part)} ({name})" for name, part in added.items())
         + f", about 3 · {1e9 * OFFSET:g} nm over the channels' height. Near sealing the increase has no bound, and "
@@ -160,5 +160,5 @@ def offset_is_harmless(offsets: Mapping[str, Sequence[Offset]]) -> Claim:
 
 
 def _added(one: Offset) -> float:
-    """What is added to the entries of an open gap; 0 where there are none."""
+    """Return the largest relative increase in an open gap; 0 where there is none."""
     return float(np.nanmax(np.where(one.relative > OPEN, one.added, 0.0), initial=0.0))

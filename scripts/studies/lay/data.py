@@ -1,4 +1,4 @@
-"""Grooves of a made or measured surface turned against the flow: flow factors of the cell beside those of the box."""
+"""Made and measured surfaces turned against the flow: flow factors of the cell and of the box."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -19,14 +19,14 @@ POINTS, SIDE, ROUGHNESS = 256, 1e-3, 1e-6
 """Nodes a side, its length, m, and Sq, m, of the made surfaces."""
 
 TURNS = ((5, 0), (5, 1), (5, 2), (4, 3), (4, 4), (3, 4), (2, 5), (1, 5), (0, 5))
-"""By p + iq all wave vectors are multiplied, which turns a periodic pattern by the angle of p + iq and scales it."""
+"""Pairs p, q: wave vectors multiplied by p + iq turn a periodic pattern by the angle of p + iq and scale it."""
 
 WAVES = {"grooves": ((0, 2, 0.4),), "crossed grooves": ((1, 2, 0.4), (-1, 2, 1.3))}
 """Before turning: whole wave vectors of the families of grooves, and phases that put no mirror line on a side."""
 
 RANDOM = "random lay"
 CORRELATION, STRETCH = 30e-6, 6.0
-"""Of the random surfaces, m and along the lay over across it."""
+"""Correlation length of the random surfaces, m, and its ratio along and across the lay."""
 
 TEXTURES = (*WAVES, RANDOM)
 THICKNESSES = (3.0, 2.0, 1.0)
@@ -34,10 +34,10 @@ THICKNESSES = (3.0, 2.0, 1.0)
 
 SEEDS = tuple(range(811, 819))
 LENGTHS = (1 / 8, 1 / 4, 1 / 2, 1, 2, 4, 8)
-"""Of boxes over their widths."""
+"""Lengths of boxes divided by their widths."""
 
 RESOLVED = 1e-3
-"""Of A₁₁A₂₂: below it det A is no more than what discretisation makes of it."""
+"""Fraction of A₁₁A₂₂ below which det A is only a discretisation error."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,7 +47,7 @@ class FactorPair:
     Attributes
     ----------
     contact : the part of the nodes where the gap is closed.
-    error : how far off A may be, over its largest entry.
+    error : uncertainty of A divided by its largest entry.
     """
 
     cell: FlowFactors
@@ -57,7 +57,7 @@ class FactorPair:
 
     @property
     def short(self) -> tuple[float, float]:
-        """By how much φ₁ and φ₂ are above A₁₁ and A₂₂, over these; nan where these are 0."""
+        """Relative differences of φ₁ and φ₂ to A₁₁ and A₂₂; nan where these are 0."""
         own = np.diag(self.cell.pressure)
         with np.errstate(divide="ignore", invalid="ignore"):
             first, second = np.where(own > 0, self.box.pressure / own - 1, np.nan)
@@ -70,7 +70,7 @@ def gap_at(heights: Array, separation: float) -> Array:
 
 
 def compare(gap: Array, spacing: tuple[float, float]) -> FactorPair:
-    """Both kinds of factors of a gap."""
+    """Return both kinds of factors of a gap."""
     found = flow_factors(gap, spacing)
     pressure = found.factors.pressure
     return FactorPair(
@@ -82,12 +82,12 @@ def compare(gap: Array, spacing: tuple[float, float]) -> FactorPair:
 
 
 def angle(turn: tuple[int, int]) -> float:
-    """Of the lay from x towards y, rad."""
+    """Return the angle of the lay from x towards y, rad."""
     return atan2(turn[1], turn[0])
 
 
 def heights_of(texture: str, turn: tuple[int, int], points: int = POINTS, seed: int = SEEDS[0]) -> Array:
-    """A made surface whose lay is turned, of mean 0 and rms ``ROUGHNESS``."""
+    """Return a made surface with turned lay, of mean 0 and rms ``ROUGHNESS``."""
     if texture == RANDOM:
         return gaussian(
             size=(SIDE, SIDE),
@@ -109,7 +109,7 @@ def heights_of(texture: str, turn: tuple[int, int], points: int = POINTS, seed: 
 
 
 def isotropic(seed: int, points: int = POINTS) -> Surface:
-    """A random surface without lay."""
+    """Return a random surface without lay."""
     return gaussian(
         size=(SIDE, SIDE),
         points=(points, points),
@@ -141,7 +141,7 @@ def box_of(tensor: Array, size: tuple[float, float]) -> Array:
 
 @dataclass(frozen=True, kw_only=True)
 class Turned:
-    """The made surfaces over their turns.
+    """Flow factors of the made surfaces at all turns.
 
     Attributes
     ----------
@@ -157,16 +157,16 @@ class Turned:
     boxes: tuple[Array, Array]
 
     def tensor(self, texture: str, thickness: float, turn: float) -> Array:
-        """A of the lay along x, turned."""
+        """Return A of the lay along x, rotated."""
         return turned(self.straight[texture, thickness][0], turn)
 
     def drag(self, texture: str, thickness: float, turn: float) -> Array:
-        """B, likewise."""
+        """Return B of the lay along x, rotated."""
         return turned(self.straight[texture, thickness][1], turn)[:, 0]
 
 
 def turn_all(advance: Callable[[str], None], *, points: int = POINTS, coarser: int = 1) -> Turned:
-    """Every texture, with each turn and seed or every so many only; ``advance`` is told of ``PARTS``."""
+    """Compute every texture at every turn and seed, or every n-th only; ``advance`` is called ``PARTS`` times."""
     found = {}
     chosen = TURNS[::coarser]
     spacing = (SIDE / points, SIDE / points)

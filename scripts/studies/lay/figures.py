@@ -1,4 +1,4 @@
-"""The figures of the lay against the flow."""
+"""Figures of the study of the lay."""
 
 from collections.abc import Callable
 from typing import Any
@@ -22,7 +22,7 @@ THIN = 2.0
 
 
 def drawings(lay: Lay) -> dict[str, Callable[[Lay], Figure]]:
-    """What can be drawn, by name."""
+    """Return the functions that draw, by name of the figure."""
     made: dict[str, Callable[[Lay], Figure]] = {
         "pressure": pressure,
         "shear": shear,
@@ -78,7 +78,7 @@ def _dots(
     *,
     full: bool = True,
 ) -> None:
-    """What is found at each turn of a texture at a thickness."""
+    """Draw a value at each turn of a texture at a thickness."""
     found = {
         np.degrees(angle(turn)): of(one)
         for (own, thick, turn), one in lay.turned.found.items()
@@ -91,7 +91,7 @@ def _dots(
 
 
 def shear(lay: Lay) -> Figure:
-    """B and what Patir and Cheng put beside B₁, over the angle of the lay, at 2 Sq."""
+    """B and Patir and Cheng's counterpart of B₁ over the angle of the lay, at 2 Sq."""
     figure, panels = new_figure((10, 3.4), 1, len(TEXTURES), sharey=True)
     turns = np.linspace(1e-3, np.pi / 2 - 1e-3, 91)
     for axes, texture in zip(panels, TEXTURES, strict=True):
@@ -155,7 +155,7 @@ def measured(lay: Lay) -> Figure:
 
 
 def joints(lay: Lay) -> Figure:
-    """Two periods of a cut surface, and what a joint lets through, by shift and by mismatch."""
+    """Two periods of a cut surface, and the flow through a joint, by shift and by mismatch."""
     figure, (picture, shifted, scattered) = new_figure((10, 3.8), 1, 3)
     heights = cut_grooves(0.5).heights
     picture.imshow(np.tile(heights, (2, 1)).T, cmap="Greys", origin="lower", extent=(0, 2, 0, 1), aspect="auto")

@@ -1,4 +1,4 @@
-"""What a periodic joint at which valleys end does to the flow along them, where the truth is known."""
+"""The effect of a periodic joint at which valleys end on the flow along them, where the true flow is known."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ from scripts.studies.lay.measured import STRIATED, along, lay_of
 
 GROOVES, NODES = 4, 192
 SHIFTS = tuple(np.linspace(0, 1, 11).tolist())
-"""Of grooves from end to end of the window, over their distance: at 0 and 1 they meet themselves at the joint."""
+"""Shift of grooves from end to end of the window over their distance; at 0 and 1 they meet at the joint."""
 
 WINDOWS, SEEDS, LAYS = 4, (811, 823), (0.0, 0.06)
 """A window is a quarter of a random periodic surface along its lay, which is turned by so much, rad."""
@@ -34,7 +34,7 @@ class Joint:
     ----------
     thickness : separation over Sq.
     mismatch : ``periodicity_mismatch`` of the raw window, and of the window with edges joined.
-    passed : A along the lay over the truth, likewise; nan where both are 0.
+    passed : A along the lay divided by the true value, likewise; nan where both are 0.
     """
 
     thickness: float
@@ -44,7 +44,7 @@ class Joint:
 
 @dataclass(frozen=True, kw_only=True)
 class Joints:
-    """All of them: sinusoidal grooves by shift, random windows, and measured surfaces by name."""
+    """All joints: sinusoidal grooves by shift, random windows, and measured surfaces by name."""
 
     cut: Mapping[float, Sequence[Joint]]
     windows: Sequence[Joint]
@@ -65,7 +65,7 @@ def judged(window: Surface, joined: Surface, truth: Mapping[float, float], lay: 
 
 
 def passed(surface: Surface, separation: float, lay: float) -> float:
-    """A along the lay, m³, as if the surface were periodic; nan where the solver gave up."""
+    """A along the lay, m³, with the surface taken as periodic; nan where the solver failed."""
     gap = gap_at(surface.heights - surface.heights.mean(), separation)
     try:
         return along(flow_factors(gap, surface.spacing).factors.pressure, lay)
@@ -112,9 +112,9 @@ def _turned_to_x(surface: Surface) -> Surface:
 
 
 def _measured(name: str, prepared: Prepared) -> list[Joint]:
-    """Of grinding marks along y the truth is the window with its mirror image; of oblique ones that with joined edges.
+    """Judge a measured joint: against the window with its mirror image for marks along y, else against joined edges.
 
-    An oblique lay would meet its mirror image in chevrons, which let nothing across.
+    An oblique lay and its mirror image form chevrons, through which nothing flows across.
     """
     raw, after = prepared.cell, prepared.joined
     if name == STRIATED:
@@ -129,7 +129,7 @@ def _measured(name: str, prepared: Prepared) -> list[Joint]:
 def join_all(
     prepared: Mapping[str, Prepared], advance: Callable[[str], None], *, nodes: int = NODES, coarser: int = 1
 ) -> Joints:
-    """All joints, with each shift, seed and lay or every so many only; ``advance`` is told of ``PARTS``."""
+    """Compute all joints, or every n-th shift, seed and lay only; ``advance`` is called ``PARTS`` times."""
     advance("cut grooves")
     cut = {shift: _cut(shift, nodes) for shift in SHIFTS[::coarser]}
     advance("random windows")
@@ -142,7 +142,7 @@ PARTS = 3
 
 
 def lowest(joints: Sequence[Joint], thickness: float) -> tuple[float, float]:
-    """The least that raw and joined windows let through over the truth, at a thickness."""
+    """Return the least relative flow of raw and joined windows at a thickness."""
     both: Array = np.array([one.passed for one in joints if one.thickness == thickness])
     raw, after = np.nanmin(both, axis=0)
     return float(raw), float(after)

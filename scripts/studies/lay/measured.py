@@ -19,11 +19,11 @@ SEPARATIONS = (4, 3, 2.5, 2, 1.7, 1.4, 1.2, 1.1, 1, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4
 """Over the highest point; below 1 the surfaces touch."""
 
 SHOWN = (4, 2, 1.4, 1, 0.8, 0.6, 0.4, 0.2, 0, -0.2, -0.4)
-"""Those in the table."""
+"""Separations in the table."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Measured:
+class MeasuredLay:
     """A prepared surface over its separations.
 
     Attributes
@@ -54,12 +54,12 @@ def lay_of(prepared: Prepared) -> float:
     return texture_direction(power_spectrum(prepared.surface))
 
 
-def over_separations(name: str, prepared: Prepared, separations: Sequence[float] = SEPARATIONS) -> Measured:
-    """Both kinds of factors, from thick film to deep contact."""
+def over_separations(name: str, prepared: Prepared, separations: Sequence[float] = SEPARATIONS) -> MeasuredLay:
+    """Compute both kinds of factors, from thick films to deep contact."""
     surface = prepared.surface
     heights = surface.heights - surface.heights.mean()
     found = {one: compare(gap_at(heights, one * float(heights.max())), surface.spacing) for one in separations}
-    return Measured(
+    return MeasuredLay(
         name=name,
         lay=lay_of(prepared),
         roughness=float(heights.std()),

@@ -1,4 +1,4 @@
-"""Contact let through by a small offset of the gap, against closed contact, until the gap is sealed."""
+"""Flow with a small offset added to the gap, against closed contact, until the gap is sealed."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -26,7 +26,7 @@ SEPARATIONS = (3.0, 2.5, 2.0, 1.5, 1.25, 1.0, 0.75, 0.5, 0.25, 0.0, -0.25, -0.5)
 
 @dataclass(frozen=True, kw_only=True)
 class Offset:
-    """A separation: diagonals of A, m³, with closed contact and with the offset; nan where the solver gave up.
+    """A separation: diagonals of A, m³, with closed contact and with the offset; nan where the solver failed.
 
     Attributes
     ----------
@@ -43,13 +43,13 @@ class Offset:
 
     @property
     def added(self) -> Array:
-        """What the offset adds to A₁₁ and A₂₂, over these; inf where these are 0."""
+        """Relative increase of A₁₁ and A₂₂ by the offset; inf where these are 0."""
         with np.errstate(divide="ignore", invalid="ignore"):
             return np.where(self.closed > 0, self.offset / self.closed - 1, np.inf)
 
     @property
     def slit(self) -> Array:
-        """The smooth slit that leaks as much as the gap with the offset, m."""
+        """Height of the smooth slit with the same leakage as the gap with the offset, m."""
         return np.asarray(np.cbrt(self.offset))
 
 
@@ -60,7 +60,7 @@ def offset_all(
     points: int = POINTS,
     coarser: int = 1,
 ) -> dict[str, list[Offset]]:
-    """Made and measured surfaces over all separations, or every so many; ``advance`` is told each surface."""
+    """Made and measured surfaces over all separations, or every so many; ``advance`` is called for each surface."""
     surfaces = {name: _made(roughness, points) for name, roughness in MADE.items()}
     surfaces |= {name: one.surface for name, one in prepared.items()}
     found = {}
@@ -75,7 +75,7 @@ def offset_all(
 
 
 def at(gap: Array, spacing: tuple[float, float], *, separation: float) -> Offset:
-    """One gap both ways."""
+    """Return the flow through one gap with closed contact and with the offset."""
     closed = flow_factors(gap, spacing)
     try:
         raised = np.diag(flow_factors(gap, spacing, offset=OFFSET).factors.pressure)

@@ -20,7 +20,7 @@ from roughfilm.rom.studies.table import read_table
 from roughfilm.terminal.console import AsJson, in_one_line, make_directory, run_alone
 from scripts.studies.paper_a import figures
 from scripts.studies.paper_a.claims import judge
-from scripts.studies.paper_a.data import DEPTHS, NUMBERS, SHAPES, WIDTHS, Paper, first_zero, still_wall_shear
+from scripts.studies.paper_a.data import DEPTHS, NUMBERS, SHAPES, WIDTHS, PaperA, first_zero, still_wall_shear
 from scripts.studies.study import Out, captions, counted, publish
 
 
@@ -56,7 +56,7 @@ def command(
     )
 
 
-def read_paper(directory: Path) -> Paper:
+def read_paper(directory: Path) -> PaperA:
     """Return the sweep with its settings for Navier-Stokes (second order and upwind) and for Stokes flow."""
     sweep = read_sweep(read_table(directory / "table.h5"), "pocket")
 
@@ -69,10 +69,10 @@ def read_paper(directory: Path) -> Paper:
     if best is None or stokes is None or "film_slope" not in sweep.found:
         raise InputError(f"{directory}: lacks results of navier_stokes, stokes or film_slope; run paper_a.toml there")
     upwind = setting("navier_stokes", "upwind")
-    return Paper(sweep=sweep, directory=directory, best=best, stokes=stokes, upwind=upwind)
+    return PaperA(sweep=sweep, directory=directory, best=best, stokes=stokes, upwind=upwind)
 
 
-def find_onsets(paper: Paper) -> dict[tuple[str, float, float], float]:
+def find_onsets(paper: PaperA) -> dict[tuple[str, float, float], float]:
     """Return the depth d+ at which the shear on the still wall first reverses, by shape, w+ and Re."""
     onsets = {}
     keys = list(product(SHAPES.items(), WIDTHS, NUMBERS))
@@ -87,7 +87,7 @@ def find_onsets(paper: Paper) -> dict[tuple[str, float, float], float]:
     return onsets
 
 
-def upwind_effect(paper: Paper) -> list[dict[str, Any]]:
+def upwind_effect(paper: PaperA) -> list[dict[str, Any]]:
     """Return the relative difference of load and friction between first-order upwind and second order, for each Re."""
     if paper.upwind is None:
         return []
@@ -103,7 +103,7 @@ def upwind_effect(paper: Paper) -> list[dict[str, Any]]:
     return rows
 
 
-def _streamlines(paper: Paper, out: Path) -> Mapping[str, list[tuple[str, str]]]:
+def _streamlines(paper: PaperA, out: Path) -> Mapping[str, list[tuple[str, str]]]:
     """Return title and data of every picture; without data, and with the reason in the title, where drawing failed."""
     wanted = figures.STREAMLINES
 

@@ -5,15 +5,15 @@ from itertools import product
 
 import numpy as np
 
-from scripts.studies.paper_a.data import DEPTHS, NUMBERS, SHAPES, WIDTHS, Paper, highest
-from scripts.studies.study import Claim
+from scripts.studies.paper_a.data import DEPTHS, NUMBERS, SHAPES, WIDTHS, PaperA, highest
+from scripts.studies.study import Claim, verdict
 
 CYLINDRICAL, AHEAD, LEVEL, BEHIND = SHAPES.values()
 NEGLIGIBLE = 0.01
 DEPTH = np.array(DEPTHS)
 
 
-def judge(paper: Paper, onsets: dict[tuple[str, float, float], float]) -> list[Claim]:
+def judge(paper: PaperA, onsets: dict[tuple[str, float, float], float]) -> list[Claim]:
     """Judge claims 1 to 7; ``onsets`` gives the depth d+ at which back-flow begins, by shape, w+ and Re."""
     return [
         inertia_carries(paper),
@@ -27,10 +27,10 @@ def judge(paper: Paper, onsets: dict[tuple[str, float, float], float]) -> list[C
 
 
 def _verdict(part: float, *, whole: float = 0.99, some: float = 0.5) -> str:
-    return "true" if part >= whole else "partly" if part >= some else "false"
+    return verdict(part >= whole, partly=part >= some)
 
 
-def inertia_carries(paper: Paper) -> Claim:
+def inertia_carries(paper: PaperA) -> Claim:
     """Claim 1."""
     worst = {}
     for name, shape in SHAPES.items():
@@ -39,11 +39,10 @@ def inertia_carries(paper: Paper) -> Claim:
         worst[name] = float(np.nanmax(np.abs(stokes) / np.abs(loads)))
     level = max(worst["cylindrical"], worst["splined, xd+ = 0"])
     shifted = max(worst["splined, xd+ = -0.3"], worst["splined, xd+ = 0.3"])
-    verdict = "false" if level > NEGLIGIBLE else "true" if shifted <= NEGLIGIBLE else "partly"
     return Claim(
         number=1,
         text="Parallel textured surfaces carry load by inertia; Stokes gives (almost) none",
-        verdict=verdict,
+        verdict=verdict(max(level, shifted) <= NEGLIGIBLE, partly=level <= NEGLIGIBLE),
         evidence=f"symmetric grooves: Stokes load at most {level:.1e} of the Navier-Stokes load "
         "(the small positive load in Fig. A.4 is a discretisation error: creeping flow is reversible); grooves "
         f"with their lowest point off centre carry or lose load without inertia too, up to {shifted:.2g} times the "
@@ -51,7 +50,7 @@ def inertia_carries(paper: Paper) -> Claim:
     )
 
 
-def load_grows(paper: Paper) -> Claim:
+def load_grows(paper: PaperA) -> Claim:
     """Claim 2."""
     grows_with_number, grows_with_width, exceptions = [], [], set()
     for name, shape in SHAPES.items():
@@ -71,11 +70,11 @@ def load_grows(paper: Paper) -> Claim:
     )
 
 
-def _with_upwind(paper: Paper, part: Callable[[str], float]) -> str:
+def _with_upwind(paper: PaperA, part: Callable[[str], float]) -> str:
     return "" if paper.upwind is None else f"; with first-order upwind {part(paper.upwind):.0%}"
 
 
-def _optima(paper: Paper, setting: str) -> dict[tuple[str, float, float], float]:
+def _optima(paper: PaperA, setting: str) -> dict[tuple[str, float, float], float]:
     return {
         (name, width, number): highest(DEPTH, loads)
         for (name, shape), number in product(SHAPES.items(), NUMBERS)
@@ -83,7 +82,7 @@ def _optima(paper: Paper, setting: str) -> dict[tuple[str, float, float], float]
     }
 
 
-def optimum_depth(paper: Paper) -> Claim:
+def optimum_depth(paper: PaperA) -> Claim:
     """Claim 3."""
 
     def inside(setting: str) -> float:
@@ -105,7 +104,7 @@ def optimum_depth(paper: Paper) -> Claim:
     )
 
 
-def optimum_at_onset(paper: Paper, onsets: dict[tuple[str, float, float], float]) -> Claim:
+def optimum_at_onset(paper: PaperA, onsets: dict[tuple[str, float, float], float]) -> Claim:
     """Claim 4."""
     best = _optima(paper, paper.best)
     inner = [key for key in best if 0 < onsets[key] < DEPTHS[-1] and best[key] < DEPTHS[-1]]
@@ -126,7 +125,7 @@ def optimum_at_onset(paper: Paper, onsets: dict[tuple[str, float, float], float]
     return Claim(
         number=4,
         text=text,
-        verdict="true" if near >= 0.9 else "partly" if together > 0.6 else "false",
+        verdict=verdict(near >= 0.9, partly=together > 0.6),
         evidence=f"both depths shrink with Re and grow with width (rank correlation {together:.2f}), but the depth "
         f"of the greatest load is {np.median(ratio):.2f} times that of the first back-flow (from {ratio.min():.2f} to "
         f"{ratio.max():.2f}; within 20 % of each other in {near:.0%} of {len(inner)} curves), where the reverse flow "
@@ -135,7 +134,7 @@ def optimum_at_onset(paper: Paper, onsets: dict[tuple[str, float, float], float]
     )
 
 
-def friction_falls(paper: Paper) -> Claim:
+def friction_falls(paper: PaperA) -> Claim:
     """Claim 5."""
 
     def exceptions(setting: str) -> list[tuple[float, float, float]]:
@@ -161,12 +160,12 @@ def friction_falls(paper: Paper) -> Claim:
     return Claim(
         number=5,
         text="Friction falls with depth and width, except for narrow deep grooves at high Re",
-        verdict="false" if not falls else "true" if narrow_only else "partly",
+        verdict=verdict(falls and narrow_only, partly=falls),
         evidence=f"{in_words(found)} and in {by_width:.0%} of the steps of width{upwind}",
     )
 
 
-def splined_against_cylindrical(paper: Paper) -> Claim:
+def splined_against_cylindrical(paper: PaperA) -> Claim:
     """Claim 6."""
 
     def share(setting: str, number: float) -> float:
@@ -187,7 +186,7 @@ def splined_against_cylindrical(paper: Paper) -> Claim:
     )
 
 
-def cylindrical_has_less_friction(paper: Paper) -> Claim:
+def cylindrical_has_less_friction(paper: PaperA) -> Claim:
     """Claim 7."""
     less = [
         (paper.table(CYLINDRICAL, "friction_plus", number) < paper.table(shape, "friction_plus", number)).ravel()

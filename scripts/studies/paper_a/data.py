@@ -27,7 +27,7 @@ NUMBERS = (40.0, 80.0, 120.0, 160.0)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Paper:
+class PaperA:
     """A sweep, where its results lie, and the settings that stand for each model."""
 
     sweep: Sweep

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from roughfilm.figures.base import new_figure
 from roughfilm.rom.ladder.result import Result
-from scripts.studies.paper_a.data import DEPTHS, NUMBERS, SHAPES, WIDTHS, Paper, Shape, highest
+from scripts.studies.paper_a.data import DEPTHS, NUMBERS, SHAPES, WIDTHS, PaperA, Shape, highest
 
 CYLINDRICAL, AHEAD, LEVEL, BEHIND = SHAPES.values()
 LINE = "film_slope"
@@ -46,15 +46,15 @@ def _edges(axes: Axes, width: float) -> None:
 
 
 def _against(
-    axes: Axes, paper: Paper, quantity: str, rows: NDArray[np.int64], key: str, label: str, colour: Any
+    axes: Axes, paper: PaperA, quantity: str, rows: NDArray[np.int64], key: str, label: str, colour: Any
 ) -> None:
-    """A quantity against w+ or d+: dots by the best rung, a line by film_slope."""
+    """A quantity against w+ or d+: dots by the best model, a line by film_slope."""
     x = paper.sweep.given[key][rows]
     axes.plot(x, paper.of(quantity, rows), "o", color=colour, ms=4, label=label)
     axes.plot(x, paper.of(quantity, rows, LINE), "-", color=colour, lw=1)
 
 
-def a3(paper: Paper) -> Figure:
+def a3(paper: PaperA) -> Figure:
     """Pressure by Navier-Stokes and Stokes, cylindrical, w+ = 0.2, d+ = 0.25, Re = 10 and 160."""
     figure, panels = _panels(2)
     for axes, number in zip(panels, (10.0, 160.0), strict=True):
@@ -67,7 +67,7 @@ def a3(paper: Paper) -> Figure:
     return figure
 
 
-def a4(paper: Paper) -> Figure:
+def a4(paper: PaperA) -> Figure:
     """Load against w+ by Navier-Stokes and Stokes, cylindrical, d+ = 0.25, Re = 10 and 160; logarithmic."""
     figure, panels = _panels(2)
     for axes, number in zip(panels, (10.0, 160.0), strict=True):
@@ -81,7 +81,7 @@ def a4(paper: Paper) -> Figure:
     return figure
 
 
-def _pressures(paper: Paper, cases: Sequence[tuple[str, Shape, float, float]]) -> Figure:
+def _pressures(paper: PaperA, cases: Sequence[tuple[str, Shape, float, float]]) -> Figure:
     figure, panels = _panels(3)
     for axes, (title, shape, width, depth) in zip(panels, cases, strict=True):
         for number, colour in zip(NUMBERS, _colours(4), strict=True):
@@ -93,17 +93,17 @@ def _pressures(paper: Paper, cases: Sequence[tuple[str, Shape, float, float]]) -
     return figure
 
 
-def a5(paper: Paper) -> Figure:
+def a5(paper: PaperA) -> Figure:
     """Pressure, cylindrical, w+ = 0.3, three depths, four Re."""
     return _pressures(paper, [(f"d+ = {depth:g}", CYLINDRICAL, 0.3, depth) for depth in (0.25, 0.75, 1.25)])
 
 
-def a6(paper: Paper) -> Figure:
+def a6(paper: PaperA) -> Figure:
     """Pressure, splined, w+ = 0.5, d+ = 0.25, three xd+, four Re."""
     return _pressures(paper, [(f"xd+ = {shape[1]:g}", shape, 0.5, 0.25) for shape in (AHEAD, LEVEL, BEHIND)])
 
 
-def a11(paper: Paper) -> Figure:
+def a11(paper: PaperA) -> Figure:
     """Load against w+ at d+ = 0.25: cylindrical, and splined with xd+ = 0."""
     figure, panels = _panels(2)
     for axes, (title, shape) in zip(panels, (("cylindrical", CYLINDRICAL), ("splined, xd+ = 0", LEVEL)), strict=True):
@@ -114,7 +114,7 @@ def a11(paper: Paper) -> Figure:
     return figure
 
 
-def a12(paper: Paper) -> Figure:
+def a12(paper: PaperA) -> Figure:
     """Load of the splined grooves at Re = 40: against w+ at d+ = 0.25, and against d+ at w+ = 0.15."""
     figure, panels = _panels(2)
     for shape, colour in zip((AHEAD, LEVEL, BEHIND), _colours(3), strict=True):
@@ -127,7 +127,7 @@ def a12(paper: Paper) -> Figure:
     return figure
 
 
-def a13(paper: Paper) -> Figure:
+def a13(paper: PaperA) -> Figure:
     """Friction against d+ for every w+: full at Re = 40, dashed at Re = 160."""
     figure, panels = _panels(2)
     for axes, (title, shape) in zip(panels, (("cylindrical", CYLINDRICAL), ("splined, xd+ = 0", LEVEL)), strict=True):
@@ -141,7 +141,7 @@ def a13(paper: Paper) -> Figure:
     return figure
 
 
-def _loads(paper: Paper, number: float) -> Figure:
+def _loads(paper: PaperA, number: float) -> Figure:
     figure, panels = _panels(2, height=4.6)
     shapes = (("cylindrical", CYLINDRICAL), ("splined, xd+ = -0.3", AHEAD))
     for axes, (title, shape) in zip(panels, shapes, strict=True):
@@ -159,17 +159,17 @@ def _loads(paper: Paper, number: float) -> Figure:
     return figure
 
 
-def a14(paper: Paper) -> Figure:
+def a14(paper: PaperA) -> Figure:
     """Load against d+ at Re = 40 for every w+: cylindrical, and splined with xd+ = -0.3."""
     return _loads(paper, 40.0)
 
 
-def a15(paper: Paper) -> Figure:
+def a15(paper: PaperA) -> Figure:
     """Load against d+ at Re = 160 for every w+: cylindrical, and splined with xd+ = -0.3."""
     return _loads(paper, 160.0)
 
 
-def onset(paper: Paper, onsets: Onsets) -> Figure:
+def onset(paper: PaperA, onsets: Onsets) -> Figure:
     """The depth at which back-flow begins, and the depth of the greatest load, over w+ for each Re and shape."""
     figure, panels = new_figure((15, 3.9), 1, len(SHAPES), sharey=True)
     for axes, (name, shape) in zip(panels, SHAPES.items(), strict=True):
@@ -184,7 +184,7 @@ def onset(paper: Paper, onsets: Onsets) -> Figure:
     return figure
 
 
-def scheme(paper: Paper) -> Figure:
+def scheme(paper: PaperA) -> Figure:
     """How much more load first-order upwind gives than second order, per cent, against d+, for three w+."""
     figure, panels = _panels(2)
     if paper.upwind is None:
@@ -204,7 +204,7 @@ def _labels(axes: Axes, x: str, y: str, title: str) -> None:
     axes.legend(fontsize=8)
 
 
-NUMBERED: dict[str, Callable[[Paper], Figure]] = {
+NUMBERED: dict[str, Callable[[PaperA], Figure]] = {
     "A.3": a3,
     "A.4": a4,
     "A.5": a5,

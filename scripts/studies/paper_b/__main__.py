@@ -12,7 +12,7 @@ from typing import Any
 from roughfilm.terminal.console import AsJson, in_one_line, make_directory, run_alone
 from scripts.studies.paper_b import data, figures
 from scripts.studies.paper_b.claims import MAXIMA_APART, PrintedDifference, judge, maxima, rows
-from scripts.studies.paper_b.data import COARSE, CONSTANT, HALF, MODULUS, ORIGINAL, ROUNDED, Paper, compute, difference
+from scripts.studies.paper_b.data import COARSE, CONSTANT, HALF, MODULUS, ORIGINAL, ROUNDED, PaperB, compute, difference
 from scripts.studies.study import Out, captions, counted, publish
 
 OPEN = (
@@ -44,29 +44,29 @@ def command(out: Out, as_json: AsJson = False) -> None:
     with counted(data.PARTS) as advance:
         paper = compute(advance)
     compared = rows(paper)
-    told = numbers(paper, compared)
+    results = numbers(paper, compared)
     drawings = figures.NUMBERED | {"claim 9": figures.reach}
     publish(
         Path(__file__).parent,
         out,
         {name: draw(paper) for name, draw in drawings.items()},
-        told,
+        results,
         claims=judge(paper),
         as_json=as_json,
         captions=captions(drawings),
         rows=compared,
         maxima_apart=MAXIMA_APART,
         open=OPEN,
-        **{name: told[name] for name in ("cells", "maxima", "fronts", "readings", "moduli", "patterns")},
+        **{name: results[name] for name in ("cells", "maxima", "fronts", "readings", "moduli", "patterns")},
     )
 
 
-def numbers(paper: Paper, compared: Sequence[PrintedDifference]) -> dict[str, Any]:
+def numbers(paper: PaperB, compared: Sequence[PrintedDifference]) -> dict[str, Any]:
     """Return the numbers of the page in SI units; differences are relative."""
     return {
         "cells": paper.cells,
         "differences": [
-            {**asdict(row.told), "reference": row.reference, "grids_apart": row.grids_apart, "agrees": row.agrees}
+            {**asdict(row.printed), "reference": row.reference, "grids_apart": row.grids_apart, "agrees": row.agrees}
             | asdict(row.found)
             for row in compared
         ],
@@ -86,7 +86,7 @@ def numbers(paper: Paper, compared: Sequence[PrintedDifference]) -> dict[str, An
         "fronts": {case: 1e3 * front_apart(paper, case, law) for case, law in FRONTS.items()},
         "maxima": {law: maxima(film) for law, film in paper.films["twin"].items()},
         "readings": {
-            told: {name: _reading(paper, name, told) for name in ("single", "twin")} for told in data.READINGS
+            inlet: {name: _reading(paper, name, inlet) for name in ("single", "twin")} for inlet in data.READINGS
         },
         "moduli": {
             law: {case: paper.found[case, law, "p"][0].integrals for case in ("starved", "gap")}
@@ -107,15 +107,15 @@ def numbers(paper: Paper, compared: Sequence[PrintedDifference]) -> dict[str, An
     }
 
 
-def front_apart(paper: Paper, case: str, law: str) -> float:
+def front_apart(paper: PaperB, case: str, law: str) -> float:
     """Return how far downstream of the reference a film begins, m."""
     films = paper.films[case]
     reference = next(iter(films.values()))
     return (films[law].start - reference.start) * float(reference.x[-1])
 
 
-def _reading(paper: Paper, case: str, told: str) -> dict[str, float]:
-    films = paper.readings[case, told]
+def _reading(paper: PaperB, case: str, inlet: str) -> dict[str, float]:
+    films = paper.readings[case, inlet]
     reference, other = (films[law] for law in data.CASES[case].laws)
     return asdict(difference(other.pressure, reference.pressure, reference.weights))
 

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from scripts.studies.paper_b.data import CONSTANT, DOUBLE, HALF, ORIGINAL, SOFT, Difference, Film, Paper
-from scripts.studies.study import Claim
+from scripts.studies.paper_b.data import CONSTANT, DOUBLE, HALF, ORIGINAL, SOFT, CavitatingFilm, FilmDifference, PaperB
+from scripts.studies.study import Claim, verdict
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,44 +43,44 @@ MAXIMA_APART = 1.6e3
 class PrintedDifference:
     """A number of the paper beside both readings of Eq. B.11, and the difference between both grids."""
 
-    told: PrintedNumber
+    printed: PrintedNumber
     reference: str
-    found: Difference
+    found: FilmDifference
     grids_apart: float
 
     @property
     def agrees(self) -> tuple[bool, bool]:
         """Whether the paper's number is ours to its last digit, rounded or truncated: by integrals, and between."""
-        digit = self.told.digit
+        digit = self.printed.digit
         return self._to_a_digit(self.found.integrals, digit), self._to_a_digit(self.found.between, digit)
 
     def _to_a_digit(self, value: float, digit: float) -> bool:
-        return -0.5 * digit <= value - self.told.value < digit
+        return -0.5 * digit <= value - self.printed.value < digit
 
 
-def rows(paper: Paper) -> list[PrintedDifference]:
+def rows(paper: PaperB) -> list[PrintedDifference]:
     """Return every number of the paper beside ours."""
     made = []
-    for told in PRINTED:
-        fine, coarse = paper.found[told.case, told.law, told.quantity]
+    for printed in PRINTED:
+        fine, coarse = paper.found[printed.case, printed.law, printed.quantity]
         apart = max(abs(fine.between - coarse.between), abs(fine.integrals - coarse.integrals))
-        reference = next(iter(paper.films[told.case]))
-        made.append(PrintedDifference(told=told, reference=reference, found=fine, grids_apart=apart))
+        reference = next(iter(paper.films[printed.case]))
+        made.append(PrintedDifference(printed=printed, reference=reference, found=fine, grids_apart=apart))
     return made
 
 
-def maxima(film: Film) -> tuple[float, float]:
+def maxima(film: CavitatingFilm) -> tuple[float, float]:
     """Return the greatest pressures of the left and the right half, Pa."""
     left = film.x <= film.x[-1] / 2
     return float(film.pressure[left].max()), float(film.pressure[~left].max())
 
 
-def judge(paper: Paper) -> list[Claim]:
+def judge(paper: PaperB) -> list[Claim]:
     """Judge claims 8 to 10."""
     return [laws_differ(paper), constant_modulus(paper), inlet_matters(paper)]
 
 
-def laws_differ(paper: Paper) -> Claim:
+def laws_differ(paper: PaperB) -> Claim:
     """Claim 8."""
     said = {"flooded": 0.017, "starved": 0.074, "gap": 0.22}
     found = {case: paper.found[case, ORIGINAL, "p"][0] for case in said}
@@ -90,7 +90,7 @@ def laws_differ(paper: Paper) -> Claim:
     return Claim(
         number=8,
         text="Two compressibility laws differ by 1.7 % in load flooded, 7.4 % and 22 % starved",
-        verdict="true" if all(near) else "partly" if any(near) and ordered else "false",
+        verdict=verdict(all(near), partly=any(near) and ordered),
         evidence="loads with D&H-Orig and D&H-MNL differ by "
         + ", ".join(f"{100 * one.integrals:.3g} % ({case})" for case, one in found.items())
         + f"; the number of the paper for the flooded film is ∫|p* − p| dx / ∫p dx, here {100 * flooded.between:.3g} "
@@ -99,9 +99,9 @@ def laws_differ(paper: Paper) -> Claim:
     )
 
 
-def constant_modulus(paper: Paper) -> Claim:
+def constant_modulus(paper: PaperB) -> Claim:
     """Claim 9."""
-    told, at_fifty = [], []
+    summary, at_fifty = [], []
     for name, sweep in paper.sweeps.items():
         reach = []
         for part in (0.01, 0.02):
@@ -109,7 +109,7 @@ def constant_modulus(paper: Paper) -> Claim:
             until = f"{sweep.peaks[-1] / 1e6:.0f} MPa at least" if peak is None else f"{peak / 1e6:.0f} MPa"
             reach.append(f"{100 * part:.0f} % up to {until}")
         at_fifty.append(sweep.at(CONSTANT, 50e6))
-        told.append(
+        summary.append(
             f"{name}: under {', under '.join(reach)}; {100 * at_fifty[-1]:.2g} % at 50 MPa and "
             f"{100 * sweep.at(CONSTANT, 100e6):.2g} % at 100 MPa "
             f"(D&H-Orig: {100 * sweep.at(ORIGINAL, 50e6):.2g} % and {100 * sweep.at(ORIGINAL, 100e6):.2g} %)"
@@ -117,12 +117,12 @@ def constant_modulus(paper: Paper) -> Claim:
     return Claim(
         number=9,
         text="Constant bulk modulus at ambient is as good as Dowson–Higginson up to about 50–100 MPa",
-        verdict="true" if max(at_fifty) < 0.02 else "partly" if min(at_fifty) < 0.02 else "false",
-        evidence="loads with constant β against D&H-MNL at rising speed: " + "; ".join(told),
+        verdict=verdict(max(at_fifty) < 0.02, partly=min(at_fifty) < 0.02),
+        evidence="loads with constant β against D&H-MNL at rising speed: " + "; ".join(summary),
     )
 
 
-def inlet_matters(paper: Paper) -> Claim:
+def inlet_matters(paper: PaperB) -> Claim:
     """Claim 10."""
     full = {name: film.load for (name, inlet), film in paper.patterns.items() if inlet == "pc"}
     pressed = {name: film.load for (name, inlet), film in paper.patterns.items() if inlet == "2 pc"}
@@ -134,7 +134,7 @@ def inlet_matters(paper: Paper) -> Claim:
     return Claim(
         number=10,
         text="Surface pattern and pressure at the inlet matter much for load",
-        verdict="true" if by_pattern and by_pressure else "partly" if by_pattern or somewhere else "false",
+        verdict=verdict(by_pattern and by_pressure, partly=by_pattern or somewhere),
         evidence=f"inlet at pc: {loads}, while the plain parallel gap has no load; inlet at 2 pc: {rises}, while the "
         "plain gap has 5 kN/m. The pattern decides: waves about the plain gap rupture the film, and the load grows "
         "with their length; pockets that end in a step do not, and the load does not depend on their length. For "

@@ -100,7 +100,7 @@ RANGES = {
 
 
 @dataclass(frozen=True, kw_only=True)
-class Film:
+class CavitatingFilm:
     """A film in balance at the nodes: m, Pa above pc; ``weights`` integrate over the length.
 
     ``start`` and ``rupture`` are where the first film begins and the last one ends, x/L.
@@ -126,18 +126,18 @@ class Film:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Difference:
+class FilmDifference:
     """Relative difference to a reference ψ: between the integrals, and the integral of |ψ - ψ_reference|."""
 
     integrals: float
     between: float
 
 
-def difference(values: Array, reference: Array, weights: Array) -> Difference:
+def difference(values: Array, reference: Array, weights: Array) -> FilmDifference:
     """Return Eq. B.11 in its two readings."""
     whole = float(weights @ reference)
     apart = values - reference
-    return Difference(integrals=abs(float(weights @ apart)) / whole, between=float(weights @ np.abs(apart)) / whole)
+    return FilmDifference(integrals=abs(float(weights @ apart)) / whole, between=float(weights @ np.abs(apart)) / whole)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -166,19 +166,19 @@ class SpeedSweep:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Paper:
+class PaperB:
     """Everything the page shows; ``coarser`` is ``films`` on half as many cells."""
 
     cells: int
-    films: dict[str, dict[str, Film]]
-    coarser: dict[str, dict[str, Film]]
-    readings: dict[tuple[str, str], dict[str, Film]]
-    patterns: dict[tuple[str, str], Film]
-    coarser_patterns: dict[tuple[str, str], Film]
+    films: dict[str, dict[str, CavitatingFilm]]
+    coarser: dict[str, dict[str, CavitatingFilm]]
+    readings: dict[tuple[str, str], dict[str, CavitatingFilm]]
+    patterns: dict[tuple[str, str], CavitatingFilm]
+    coarser_patterns: dict[tuple[str, str], CavitatingFilm]
     sweeps: dict[str, SpeedSweep]
 
     @cached_property
-    def found(self) -> dict[tuple[str, str, str], tuple[Difference, Difference]]:
+    def found(self) -> dict[tuple[str, str, str], tuple[FilmDifference, FilmDifference]]:
         """Differences to the first law of each case on both grids, by case, law and "p" or "θ"."""
         return {
             (case, law, quantity): (
@@ -191,7 +191,7 @@ class Paper:
         }
 
 
-def _apart(films: dict[str, Film], law: str, quantity: str) -> Difference:
+def _apart(films: dict[str, CavitatingFilm], law: str, quantity: str) -> FilmDifference:
     name = {"p": "pressure", "θ": "theta"}[quantity]
     reference = next(iter(films.values()))
     return difference(getattr(films[law], name), getattr(reference, name), reference.weights)
@@ -209,11 +209,11 @@ def bearing(scene: str, law: str, inlet: Inlet, speed: float | None = None) -> B
     return made
 
 
-def film(scene: Bearing, cells: int) -> Film:
+def film(scene: Bearing, cells: int) -> CavitatingFilm:
     """Return the film of a scene."""
     found = solve(scene.problem(), (cells, 1))
     start, rupture = film_ends(found, 0)
-    return Film(
+    return CavitatingFilm(
         x=found.grid.x,
         thickness=found.faces.thickness[:, 0],
         pressure=found.state.pressure[:, 0],
@@ -238,10 +238,10 @@ def sweep(scene: str, inlet: Inlet, speeds: Array, cells: int) -> SpeedSweep:
 PARTS = 2 * len(CASES) + len(READINGS) + 1 + len(RANGES)
 
 
-def compute(advance: Advance, *, cells: int = CELLS, steps: int = STEPS) -> Paper:
+def compute(advance: Advance, *, cells: int = CELLS, steps: int = STEPS) -> PaperB:
     """Solve every film; ``advance`` is called ``PARTS`` times."""
     sizes = (cells, cells // 2)
-    grids: list[dict[str, dict[str, Film]]] = []
+    grids: list[dict[str, dict[str, CavitatingFilm]]] = []
     for size in sizes:
         films = {}
         for name, case in CASES.items():
@@ -249,17 +249,17 @@ def compute(advance: Advance, *, cells: int = CELLS, steps: int = STEPS) -> Pape
             films[name] = {law: film(bearing(case.scene, law, case.inlet), size) for law in case.laws}
         grids.append(films)
     readings = {}
-    for told, inlet in READINGS.items():
-        advance(told)
+    for reading, inlet in READINGS.items():
+        advance(reading)
         for name in ("single", "twin"):
             case = CASES[name]
-            readings[name, told] = {law: film(bearing(case.scene, law, inlet), cells) for law in case.laws}
+            readings[name, reading] = {law: film(bearing(case.scene, law, inlet), cells) for law in case.laws}
     advance("patterns")
     patterns = [
         {
-            (name, told): film(bearing(scene, MNL, inlet), size)
+            (name, label): film(bearing(scene, MNL, inlet), size)
             for name, scene in PATTERNS.items()
-            for told, inlet in INLETS.items()
+            for label, inlet in INLETS.items()
         }
         for size in sizes
     ]
@@ -267,7 +267,7 @@ def compute(advance: Advance, *, cells: int = CELLS, steps: int = STEPS) -> Pape
     for name, (scene, inlet, ends) in RANGES.items():
         advance(f"speeds, {name}")
         sweeps[name] = sweep(scene, inlet, np.geomspace(*ends, steps), cells // 4)
-    return Paper(
+    return PaperB(
         cells=cells,
         films=grids[0],
         coarser=grids[1],

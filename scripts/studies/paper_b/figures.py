@@ -18,8 +18,8 @@ from scripts.studies.paper_b.data import (
     ORIGINAL,
     PATTERNS,
     SOFT,
-    Film,
-    Paper,
+    CavitatingFilm,
+    PaperB,
     bearing,
 )
 
@@ -36,7 +36,7 @@ POINTS = 2048
 """About so many of a film are drawn."""
 
 
-def _thin(film: Film) -> slice:
+def _thin(film: CavitatingFilm) -> slice:
     return slice(None, None, max(1, film.x.size // POINTS))
 
 
@@ -44,7 +44,7 @@ def _axes(height: float = 3.4) -> tuple[Figure, Axes]:
     return new_figure((8, height))
 
 
-def _compared(paper: Paper, case: str, quantity: str, laws: tuple[str, ...], *, relative: bool = False) -> Figure:
+def _compared(paper: PaperB, case: str, quantity: str, laws: tuple[str, ...], *, relative: bool = False) -> Figure:
     figure, axes = _axes()
     for law in laws:
         film = paper.films[case][law]
@@ -59,13 +59,13 @@ def _compared(paper: Paper, case: str, quantity: str, laws: tuple[str, ...], *, 
     return figure
 
 
-def _film(axes: Axes, film: Film, colour: str, label: str = "") -> None:
+def _film(axes: Axes, film: CavitatingFilm, colour: str, label: str = "") -> None:
     kept = _thin(film)
     axes.plot(film.x[kept], 1e6 * film.thickness[kept], color=colour, lw=1.6, label=label)
     axes.set(xlabel="x, m", ylabel="h, µm")
 
 
-def _geometry(film: Film) -> Figure:
+def _geometry(film: CavitatingFilm) -> Figure:
     figure, axes = _axes(2.8)
     _film(axes, film, "#1d2530")
     axes.fill_between([0, film.x[-1]], -1.6, 0, color="#dde2e8")
@@ -82,7 +82,7 @@ def _geometry(film: Film) -> Figure:
     return figure
 
 
-def b1(paper: Paper) -> Figure:  # noqa: ARG001
+def b1(paper: PaperB) -> Figure:  # noqa: ARG001
     """Compressibility: the original law of Dowson and Higginson, their law fitted to the mineral oil (MNL), constant β.
 
     β = 3.364 GPa is dp/dθ of the fitted law at θ = 1. The measured points of the paper are not printed: left out.
@@ -103,62 +103,62 @@ def b1(paper: Paper) -> Figure:  # noqa: ARG001
     return figure
 
 
-def b2(paper: Paper) -> Figure:
+def b2(paper: PaperB) -> Figure:
     """The single parabola: H0 = A = 25.4 µm (the paper rounds to 25 µm; its axis says 25.4)."""
     return _geometry(paper.films["single"][MNL])
 
 
-def b3(paper: Paper) -> Figure:
+def b3(paper: PaperB) -> Figure:
     """Pressure over the single parabola, θ = 1.0001 at the inlet; η = 0.039 Pa s, u = 4.57 m/s."""
     return _compared(paper, "single", "p", CASES["single"].laws, relative=True)
 
 
-def b4(paper: Paper) -> Figure:
+def b4(paper: PaperB) -> Figure:
     """The twin parabola."""
     return _geometry(paper.films["twin"][MNL])
 
 
-def b5(paper: Paper) -> Figure:
+def b5(paper: PaperB) -> Figure:
     """Pressure over the twin parabola, θ = 1.0001 at the inlet; η = 0.039 Pa s, u = 4.57 m/s."""
     return _compared(paper, "twin", "p", CASES["twin"].laws, relative=True)
 
 
-def b6(paper: Paper) -> Figure:
+def b6(paper: PaperB) -> Figure:
     """Density over the thin parabola, H0 = A = 2 µm, flooded; η = 0.04 Pa s, u = 0.25 m/s."""
     return _compared(paper, "flooded", "θ", (MNL, ORIGINAL))
 
 
-def b7(paper: Paper) -> Figure:
+def b7(paper: PaperB) -> Figure:
     """Pressure over the thin parabola, flooded."""
     return _compared(paper, "flooded", "p", (MNL, ORIGINAL))
 
 
-def b8(paper: Paper) -> Figure:
+def b8(paper: PaperB) -> Figure:
     """Density over the thin parabola, starved: θ = 0.55 at the inlet."""
     return _compared(paper, "starved", "θ", (MNL, ORIGINAL))
 
 
-def b9(paper: Paper) -> Figure:
+def b9(paper: PaperB) -> Figure:
     """Pressure over the thin parabola, starved; constant β lies on D&H-MNL."""
     return _compared(paper, "starved", "p", (MNL, ORIGINAL, CONSTANT))
 
 
-def b10(paper: Paper) -> Figure:
+def b10(paper: PaperB) -> Figure:
     """Pressure over the thin parabola, starved, for three bulk moduli."""
     return _compared(paper, "starved, moduli", "p", CASES["starved, moduli"].laws)
 
 
-def b11(paper: Paper) -> Figure:
+def b11(paper: PaperB) -> Figure:
     """Pressure in the converging gap, 1.25 to 1 µm, θ = 0.85 at the inlet."""
     return _compared(paper, "gap", "p", (MNL, ORIGINAL, CONSTANT))
 
 
-def b12(paper: Paper) -> Figure:
+def b12(paper: PaperB) -> Figure:
     """Pressure in the converging gap, starved, for three bulk moduli."""
     return _compared(paper, "gap, moduli", "p", CASES["gap, moduli"].laws)
 
 
-def _patterns(paper: Paper, kind: str, inlet: str) -> list[tuple[str, str, Film]]:
+def _patterns(paper: PaperB, kind: str, inlet: str) -> list[tuple[str, str, CavitatingFilm]]:
     """Number, colour and film of each wavelength."""
     return [
         (number, colour, paper.patterns[name, inlet])
@@ -168,7 +168,7 @@ def _patterns(paper: Paper, kind: str, inlet: str) -> list[tuple[str, str, Film]
     ]
 
 
-def _wavy(paper: Paper, kind: str) -> Figure:
+def _wavy(paper: PaperB, kind: str) -> Figure:
     figure = Figure(figsize=(8, 4.2), layout="constrained")
     panels: list[Axes] = list(figure.subplots(2, 1, sharex=True))
     for axes, (number, colour, film) in zip(panels, _patterns(paper, kind, "pc"), strict=True):
@@ -179,12 +179,12 @@ def _wavy(paper: Paper, kind: str) -> Figure:
     return figure
 
 
-def b13(paper: Paper) -> Figure:
+def b13(paper: PaperB) -> Figure:
     """Parallel gaps with sine waves at x < L/2: 1 of 10 mm and 2 of 5 mm; H0 = 10 µm, A = 5 µm (our choice)."""
     return _wavy(paper, "sinusoidal")
 
 
-def b14(paper: Paper) -> Figure:
+def b14(paper: PaperB) -> Figure:
     """Pressure over the sine waves, flooded at pc (our choice): the film ruptures in every wave."""
     figure, axes = _axes()
     for number, colour, film in _patterns(paper, "sinusoidal", "pc"):
@@ -194,7 +194,7 @@ def b14(paper: Paper) -> Figure:
     return figure
 
 
-def b15(paper: Paper) -> Figure:
+def b15(paper: PaperB) -> Figure:
     """Density over the first sine waves: the liquid above, on a scale of its own, and the cavities below.
 
     The paper shows the first 8 mm; the first cavity of 1 ends at 10 mm.
@@ -212,12 +212,12 @@ def b15(paper: Paper) -> Figure:
     return figure
 
 
-def b16(paper: Paper) -> Figure:
+def b16(paper: PaperB) -> Figure:
     """Parallel gaps with cos² pockets at x < L/2: 1 of 10 mm and 2 of 5 mm (our choice); H0 = 10 µm, A = 5 µm."""
     return _wavy(paper, "cos²")
 
 
-def b17(paper: Paper) -> Figure:
+def b17(paper: PaperB) -> Figure:
     """Pressure over the cos² pockets, with the inlet at pc and at 2 pc (0.1 MPa above ambient)."""
     figure, axes = _axes(4)
     for inlet, style in zip(INLETS, ("-", "--"), strict=True):
@@ -235,8 +235,8 @@ NUMBERED = {
 }
 
 
-def reach(paper: Paper) -> Figure:
-    """By how much the load differs from that with D&H-MNL, while the speed takes the greatest pressure up."""
+def reach(paper: PaperB) -> Figure:
+    """Relative difference of the load to that with D&H-MNL; the greatest pressure rises with the speed."""
     figure, axes = _axes(4)
     for (name, sweep), colour in zip(paper.sweeps.items(), ("#2166ac", "#5aae61", "#b2182b"), strict=True):
         axes.plot(sweep.peaks / 1e6, 100 * sweep.differences[CONSTANT], color=colour, label=f"{name}: constant β")

@@ -16,7 +16,7 @@ from roughfilm.contact.parameters.heights import height_statistics
 from roughfilm.terminal.console import AsJson, in_one_line, make_directory, run_alone
 from scripts.studies.paper_c import data, figures
 from scripts.studies.paper_c.claims import apart, judge, order_holds_to
-from scripts.studies.paper_c.data import ALPHAS, RANGE, TABLE, WAYS, Paper, compute
+from scripts.studies.paper_c.data import ALPHAS, RANGE, TABLE, WAYS, PaperC, compute
 from scripts.studies.paper_c.films import LOADS
 from scripts.studies.paper_d.data import MACHINING
 from scripts.studies.study import Out, captions, counted, publish
@@ -73,30 +73,30 @@ def command(out: Out, as_json: AsJson = False) -> None:
     make_directory(out)
     with counted(data.PARTS) as advance:
         paper = compute(advance)
-    told = numbers(paper)
+    results = numbers(paper)
     drawings = figures.NUMBERED | {"claim 14": figures.claim_14}
     publish(
         Path(__file__).parent,
         out,
         {name: draw(paper) for name, draw in drawings.items()},
-        told,
+        results,
         claims=judge(paper),
         as_json=as_json,
         captions=captions(drawings),
         table=TABLE,
         machining=MACHINING,
-        made=told["profiles"],
+        made=results["profiles"],
         seeds=len(next(iter(paper.profiles.values()))),
         peaks=paper.peaks,
-        films=told["films"],
-        spread=told["spread"],
-        until=told["order_holds_to"],
-        best=told["a_flows_best"],
+        films=results["films"],
+        spread=results["spread"],
+        until=results["order_holds_to"],
+        best=results["a_flows_best"],
         open=OPEN,
     )
 
 
-def numbers(paper: Paper) -> dict[str, Any]:
+def numbers(paper: PaperC) -> dict[str, Any]:
     """Return the numbers of the page in SI units; differences are relative."""
     return {
         "profiles": {name: _mean_statistics(made) for name, made in paper.profiles.items()},
@@ -153,7 +153,7 @@ def numbers(paper: Paper) -> dict[str, Any]:
     }
 
 
-def _a_flows_best(paper: Paper, factor: int) -> NDArray[np.bool_]:
+def _a_flows_best(paper: PaperC, factor: int) -> NDArray[np.bool_]:
     """Return where a factor of profile A exceeds those of all others of the same seed, shape (seeds, α)."""
     others = [values[:, :, factor] for name, values in paper.factors.items() if name != "A"]
     return np.asarray(paper.factors["A"][:, :, factor] > np.max(others, axis=0))

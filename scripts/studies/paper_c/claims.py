@@ -6,9 +6,9 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.homogenization.line_rules import Rule
-from scripts.studies.paper_c.data import ALPHAS, BESIDE, POINTS, RANGE, TABLE, WAYS, Paper
+from scripts.studies.paper_c.data import ALPHAS, BESIDE, POINTS, RANGE, TABLE, WAYS, PaperC
 from scripts.studies.paper_c.films import LOADS, MODULUS, SMOOTH, SPAN, Curve
-from scripts.studies.study import Claim
+from scripts.studies.study import Claim, verdict
 
 EQUAL_FACTORS = 1e-10
 """Relative difference below which factors count as equal."""
@@ -23,7 +23,7 @@ ORDERED_FRACTION = 0.95
 """Fraction of all pairs of profiles from which on a number counts as ordering their films."""
 
 
-def judge(paper: Paper) -> list[Claim]:
+def judge(paper: PaperC) -> list[Claim]:
     """Judge claims 11, 12 and 14."""
     return [same_bearing_curve(paper), fewer_nodes(paper), ordered_by_roughness(paper)]
 
@@ -33,25 +33,25 @@ def apart(values: Array) -> Array:
     return np.asarray(np.ptp(values, axis=0) / values[0])
 
 
-def same_bearing_curve(paper: Paper) -> Claim:
+def same_bearing_curve(paper: PaperC) -> Claim:
     """Claim 11."""
     near = int(np.argmin(np.abs(RANGE - ALPHAS[0])))
     worst = {way: max(float(apart(paper.shuffled[name, way]).max()) for name in TABLE) for way in WAYS}
     thick = {way: max(float(apart(paper.shuffled[name, way])[near].max()) for name in TABLE) for way in WAYS}
     sums, lines, refined = WAYS
-    told = "; ".join(f"{way}: {thick[way]:.1e} at α = {RANGE[near]:.2f}, {worst[way]:.1e} at most" for way in WAYS)
+    said = "; ".join(f"{way}: {thick[way]:.1e} at α = {RANGE[near]:.2f}, {worst[way]:.1e} at most" for way in WAYS)
     return Claim(
         number=11,
         text="Profiles with the same bearing curve have the same flow factors",
         verdict="true" if worst[sums] < EQUAL_FACTORS and worst[refined] < worst[lines] else "false",
-        evidence=f"six rearrangements and the profile itself differ by: {told}. The claim is a theorem for flow across "
+        evidence=f"six rearrangements and the profile itself differ by: {said}. The claim is a theorem for flow across "
         f"the ridges, and exact where only the heights are summed. Straight lines between rearranged points have "
         f"another bearing curve: {POINTS} heights do not determine the factors near contact, where the lines next to "
         f"the highest point decide",
     )
 
 
-def fewer_nodes(paper: Paper) -> Claim:
+def fewer_nodes(paper: PaperC) -> Claim:
     """Claim 12."""
     near = ALPHAS[-1]
 
@@ -66,7 +66,7 @@ def fewer_nodes(paper: Paper) -> Claim:
             for rule in (Rule.TRAPEZOID, Rule.DIFFERENCES)
         ]
 
-    def told(left_out: int) -> str:
+    def in_words(left_out: int) -> str:
         return ", ".join(
             f"{rule} {min(counts):,.0f} to {max(counts):,.0f} (order "
             f"{np.median([paper.convergence[name, near].order(rule, left_out) for name in TABLE]):.1f})"
@@ -78,22 +78,22 @@ def fewer_nodes(paper: Paper) -> Claim:
     return Claim(
         number=12,
         text="Simpson's rule needs far fewer nodes than the trapezoid rule or the differential equation",
-        verdict="true" if on and beside else "partly" if on or beside else "false",
+        verdict=verdict(on and beside, partly=on or beside),
         evidence=f"nodes for {100 * FACTOR_ERROR:g} % at α = {near}, where N is a multiple of {POINTS} and every "
-        f"point is a node: {told(0)}; with {BESIDE} nodes fewer, most of them beside the points: {told(BESIDE)}: "
-        f"corners inside its pairs of steps reduce the order of Simpson's rule. At α = {ALPHAS[0]} all rules are "
-        f"within {_worst_at_first(paper):.0e} on {paper.convergence['A', ALPHAS[0]].nodes[0]:.0f} nodes. In fact "
-        f"no nodes are needed: the integrals of straight lines have closed forms. The differential equation by "
-        f"differences is the midpoint rule",
+        f"point is a node: {in_words(0)}; with {BESIDE} nodes fewer, most of them beside the points: "
+        f"{in_words(BESIDE)}: corners inside its pairs of steps reduce the order of Simpson's rule. At α = "
+        f"{ALPHAS[0]} all rules are within {_worst_at_first(paper):.0e} on "
+        f"{paper.convergence['A', ALPHAS[0]].nodes[0]:.0f} nodes. In fact no nodes are needed: the integrals of "
+        f"straight lines have closed forms. The differential equation by differences is the midpoint rule",
     )
 
 
-def _worst_at_first(paper: Paper) -> float:
+def _worst_at_first(paper: PaperC) -> float:
     studies = [paper.convergence[name, ALPHAS[0]] for name in TABLE]
     return max(float(study.errors(rule, left_out)[:, 0].max()) for study in studies for rule, left_out in study.found)
 
 
-def ordered_by_roughness(paper: Paper) -> Claim:
+def ordered_by_roughness(paper: PaperC) -> Claim:
     """Claim 14."""
     loads = [k for k, load in enumerate(LOADS) if JUDGED_LOADS[0] <= load <= JUDGED_LOADS[1]]
     until = order_holds_to(paper.curves)
@@ -102,17 +102,17 @@ def ordered_by_roughness(paper: Paper) -> Claim:
     four = until >= JUDGED_LOADS[1]
     general = min(by["Ra"]) >= ORDERED_FRACTION
     counter = against(random.numbers["Ra"], random.clearance[:, loads[-1]])
-    told = ", ".join(f"{number} {100 * min(parts):.1f} to {100 * max(parts):.1f} %" for number, parts in by.items())
+    said = ", ".join(f"{number} {100 * min(parts):.1f} to {100 * max(parts):.1f} %" for number, parts in by.items())
     within = [alike.concordance("rmax", k) for k in loads]
     spread = np.ptp(alike.clearance[:, loads[-1]])
     return Claim(
         number=14,
         text="The minimum film at a load follows Ra",
-        verdict="true" if four and general else "partly" if four or general else "false",
+        verdict=verdict(four and general, partly=four or general),
         evidence=f"the four profiles, smooth first, keep the order of Ra for every seed up to {until / 1e6:.3g} MN/m "
         f"(mean pressure {until / SPAN / 1e6:.3g} MPa, {until / SPAN / MODULUS:.2g} of β). Their rmax has the same "
         f"order, and it decides: of the pairs of {random.clearance.shape[0]} random profiles at "
-        f"{JUDGED_LOADS[0] / 1e6:g} to {JUDGED_LOADS[1] / 1e6:g} MN/m the rougher has the thinner film in: {told}; in "
+        f"{JUDGED_LOADS[0] / 1e6:g} to {JUDGED_LOADS[1] / 1e6:g} MN/m the rougher has the thinner film in: {said}; in "
         f"one pair the rougher has {counter:.2g} times the Ra and the thicker film. Of {alike.clearance.shape[0]} "
         f"profiles with the same Ra, films at {JUDGED_LOADS[1] / 1e6:g} MN/m differ by {1e6 * spread:.2g} µm, in the "
         f"order of rmax in {100 * min(within):.1f} % of the pairs. A load fixes the mean film except for terms of "

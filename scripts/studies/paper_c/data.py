@@ -15,8 +15,8 @@ from roughfilm.rom.homogenization.line import line_factors, profile_over_gap
 from roughfilm.rom.homogenization.line_rules import Rule, line_factors_on
 from scripts.studies.paper_c.films import (
     Curve,
-    Film,
-    Ordering,
+    FilmOrdering,
+    HomogenizedFilm,
     films,
     load_curves,
     loads_by_nodes,
@@ -53,7 +53,7 @@ PARTS = 7
 
 
 @dataclass(frozen=True, kw_only=True)
-class Convergence:
+class RuleConvergence:
     """φx and φs of profiles on N nodes: ``found`` by rule and number of nodes left out, shape (seeds, N, 2).
 
     ``exact`` is that of the same straight lines, shape (seeds, 2).
@@ -86,7 +86,7 @@ class Convergence:
         return found
 
     def order(self, rule: Rule, left_out: int) -> float:
-        """Of the error of φx over the last four doublings above rounding, by least squares; the median over seeds."""
+        """Return the order of the error of φx over the last four doublings above round-off, the median over seeds."""
         errors = self.errors(rule, left_out)[:, :, 0]
         slopes = []
         for one in errors:
@@ -96,7 +96,7 @@ class Convergence:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Paper:
+class PaperC:
     """Everything the page shows.
 
     ``factors``: φx and φs over ``RANGE``, shape (seeds, α, 2). ``shuffled``: the same of the first seed and of its six
@@ -104,15 +104,15 @@ class Paper:
     """
 
     profiles: dict[str, list[Array]]
-    convergence: dict[tuple[str, float], Convergence]
+    convergence: dict[tuple[str, float], RuleConvergence]
     factors: dict[str, Array]
     shuffled: dict[tuple[str, str], Array]
     loads: dict[tuple[str, Rule, int], Array]
     powers: tuple[int, ...]
-    films: dict[str, dict[str, Film]]
+    films: dict[str, dict[str, HomogenizedFilm]]
     peaks: dict[float, tuple[float, float]]
     curves: dict[str, list[Curve]]
-    orderings: dict[str, Ordering]
+    orderings: dict[str, FilmOrdering]
 
 
 def make(name: str, seed: int) -> Array:
@@ -131,10 +131,10 @@ def both(factors: FlowFactors) -> tuple[float, float]:
     return float(relative.pressure[0, 0]), float(relative.shear[0])
 
 
-def convergence(profiles: Sequence[Array], alpha: float, powers: Sequence[int]) -> Convergence:
-    """Every rule on 2ᵏ nodes, and on ``BESIDE`` fewer."""
+def convergence(profiles: Sequence[Array], alpha: float, powers: Sequence[int]) -> RuleConvergence:
+    """Apply every rule on 2ᵏ nodes and on ``BESIDE`` fewer."""
     gaps = [gap(heights, alpha) for heights in profiles]
-    return Convergence(
+    return RuleConvergence(
         nodes=2.0 ** np.array(powers),
         exact=np.array([both(line_factors(h).factors) for h in gaps]),
         found={
@@ -176,7 +176,7 @@ def compute(
     powers: Sequence[int] = POWERS,
     refined: int = REFINED,
     random: int = 100,
-) -> Paper:
+) -> PaperC:
     """Compute everything the page shows; ``advance`` is called ``PARTS`` times."""
     profiles = {name: [make(name, seed) for seed in seeds] for name in TABLE}
     study, factors, orders = {}, {}, {}
@@ -199,7 +199,7 @@ def compute(
     shown, by_modulus = films(first), peaks(first)
     curves = load_curves(profiles)
     advance("films of random profiles")
-    return Paper(
+    return PaperC(
         profiles=profiles,
         convergence=study,
         factors=factors,

@@ -12,7 +12,7 @@ from matplotlib.ticker import NullFormatter
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.parameters.bearing_curve import bearing_curve
 from roughfilm.rom.homogenization.line_rules import Rule
-from scripts.studies.paper_c.data import ALPHAS, BESIDE, RANGE, WAYS, Paper
+from scripts.studies.paper_c.data import ALPHAS, BESIDE, RANGE, WAYS, PaperC
 from scripts.studies.paper_c.films import LOADS, SMOOTH
 from scripts.studies.paper_d.figures import COLOURS as PROFILE_COLOURS
 
@@ -28,7 +28,7 @@ def _panels(rows: int, columns: int, height: float = 3.5, *, same: bool = False)
 
 
 def _powers(axis: Axis, base: int) -> None:
-    """Ticks at powers, told in plain figures: 2¹⁰, 10⁻⁴."""
+    """Label ticks with powers: 2¹⁰, 10⁻⁴."""
     raised = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
     axis.set_major_formatter(lambda value, _: f"{base}{str(round(math.log(value, base))).translate(raised)}")
     axis.set_minor_formatter(NullFormatter())
@@ -46,7 +46,7 @@ def _nodes(axes: Axes) -> None:
     axes.set_xlabel("nodes N")
 
 
-def c4(paper: Paper) -> Figure:
+def c4(paper: PaperC) -> Figure:
     """Bearing curves: r in µm, and G = 1 − r/rmax, whose mean is 1 and whose least is 0."""
     figure, (left, right) = _panels(1, 2)
     for name, made in paper.profiles.items():
@@ -62,7 +62,7 @@ def c4(paper: Paper) -> Figure:
     return figure
 
 
-def c5(paper: Paper) -> Figure:
+def c5(paper: PaperC) -> Figure:
     """Profile A at α = 0.98: change from N/2 to N nodes (above), and error against the closed form (below).
 
     The paper's figure is the upper one. Dashed: four nodes fewer, so that they lie beside the points of the profile.
@@ -83,7 +83,7 @@ def c5(paper: Paper) -> Figure:
     return figure
 
 
-def c6(paper: Paper) -> Figure:
+def c6(paper: PaperC) -> Figure:
     """Change from N/2 to N nodes by Simpson's rule at α = 0.49 (above), 0.98 (below); dashed: nodes beside points."""
     figure, panels = _panels(2, 2, same=True)
     for row, alpha in enumerate(ALPHAS):
@@ -102,7 +102,7 @@ def c6(paper: Paper) -> Figure:
     return figure
 
 
-def c7(paper: Paper) -> Figure:
+def c7(paper: PaperC) -> Figure:
     """Standard deviation of φx over a profile and six rearrangements of it, integrated in three ways.
 
     Sums over the 512 heights are the same to rounding; straight lines between them are not, unless the profile was
@@ -121,7 +121,7 @@ def c7(paper: Paper) -> Figure:
     return figure
 
 
-def c8(paper: Paper) -> Figure:
+def c8(paper: PaperC) -> Figure:
     """Flow factors over α; bands: from the least to the greatest of the seeds, visible near contact only (insets)."""
     figure, panels = _panels(1, 2, 4.2)
     for i, (axes, factor) in enumerate(zip(panels, FACTORS, strict=True)):
@@ -139,7 +139,7 @@ def c8(paper: Paper) -> Figure:
     return figure
 
 
-def c9(paper: Paper) -> Figure:
+def c9(paper: PaperC) -> Figure:
     """Change of the load from N/2 to N nodes, ĥ = 6 to 5 µm; the paper has below 2.8·10⁻⁵ at 2¹⁶ (grey)."""
     figure, panels = _panels(1, 2, 3.8, same=True)
     nodes = 2.0 ** np.array(paper.powers)
@@ -158,7 +158,7 @@ def c9(paper: Paper) -> Figure:
     return figure
 
 
-def _pressures(paper: Paper, figure_name: str) -> Figure:
+def _pressures(paper: PaperC, figure_name: str) -> Figure:
     figure, (axes,) = _panels(1, 1, 3.9)
     figure.set_size_inches(8, 3.9)
     for name, film in paper.films[figure_name].items():
@@ -168,22 +168,22 @@ def _pressures(paper: Paper, figure_name: str) -> Figure:
     return figure
 
 
-def c10(paper: Paper) -> Figure:
+def c10(paper: PaperC) -> Figure:
     """Pressure at equal h0 = 3.4 to 3.0 µm, from the highest points."""
     return _pressures(paper, "C.10")
 
 
-def c11(paper: Paper) -> Figure:
+def c11(paper: PaperC) -> Figure:
     """Pressure at equal mean ĥ = 4.4 to 4.0 µm."""
     return _pressures(paper, "C.11")
 
 
-def c12(paper: Paper) -> Figure:
+def c12(paper: PaperC) -> Figure:
     """Pressure at equal Λ = min h0/Rq = 10, narrowing by 0.4 µm."""
     return _pressures(paper, "C.12")
 
 
-def c13(paper: Paper) -> Figure:
+def c13(paper: PaperC) -> Figure:
     """Films min h0 and Λ over load, the film narrowing by 1 µm: on the paper's axes, and beyond them (right)."""
     figure, (left, middle, right) = _panels(1, 3, 3.9)
     loads = np.geomspace(LOADS[0], 1e8, 200)
@@ -212,7 +212,7 @@ NUMBERED = {
 }
 
 
-def claim_14(paper: Paper) -> Figure:
+def claim_14(paper: PaperC) -> Figure:
     """Films min h0 of random profiles at 5·10⁵ N/m over Ra, Rq and rmax: only the last one orders them."""
     figure, panels = _panels(1, 3, 3.9, same=True)
     load = LOADS.index(5e5)
@@ -224,7 +224,7 @@ def claim_14(paper: Paper) -> Figure:
     return figure
 
 
-def _scatter(axes: Axes, values: Sequence[Array], paper: Paper, load: int) -> None:
+def _scatter(axes: Axes, values: Sequence[Array], paper: PaperC, load: int) -> None:
     marks = zip(paper.orderings.items(), values, ("#2166ac", "#b2182b"), strict=True)
     for (kind, ordering), rough, colour in marks:
         axes.plot(1e6 * rough, 1e6 * ordering.clearance[:, load], ".", color=colour, label=kind, ms=5, alpha=0.8)

@@ -29,7 +29,7 @@ MODULI = (1e9, 1e10)
 
 CELLS = 512
 DROP = {"C.9": 1e-6, "C.10": 0.4e-6, "C.11": 0.4e-6, "C.12": 0.4e-6, "C.13": 1e-6}
-"""By how much the film narrows from inlet to outlet, m."""
+"""Decrease of the film from inlet to outlet, m."""
 
 SMOOTH = "S"
 LAMBDA = 10.0
@@ -40,11 +40,11 @@ LOADS = (5e4, 1e5, 2e5, 5e5, 1e6, 2e6, 5e6, 1e7)
 """At which films are put in order, N/m; C.13 of the paper shows up to 10⁶."""
 
 DEGREE, LOW = 24, 8
-"""Of the polynomials: from near contact to thick films, and over the one micrometre of C.9."""
+"""Degrees of the polynomials: from near contact to thick films, and over the one micrometre of C.9."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Film:
+class HomogenizedFilm:
     """A film in balance at the nodes: m, Pa above pc."""
 
     x: Array
@@ -68,7 +68,7 @@ class Curve:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Ordering:
+class FilmOrdering:
     """Random profiles: numbers of each, m, shape (profiles,), and min h0 at ``LOADS``, shape (profiles, loads)."""
 
     numbers: dict[str, Array]
@@ -87,13 +87,13 @@ def solved(
     *,
     cells: int = CELLS,
     modulus: float = MODULUS,
-) -> Film:
+) -> HomogenizedFilm:
     """Eq. C.19 with p = pc at both ends, by the solver of films that may cavitate: here none does."""
     law = ConstantBulkModulus.model_validate({"law": "constant_bulk_modulus", "bulk_modulus": f"{modulus!r} Pa"})
     shape = Shape(thickness=lambda x, y: thickness(x) + 0 * y, breaks=(0.0, SPAN), roughness=roughness)
     problem = Problem(shape=shape, ends=Ends(inlet=0.0), speed=SPEED, viscosity=VISCOSITY, compressibility=law)
     found = solve(problem, (cells, 1))
-    return Film(
+    return HomogenizedFilm(
         x=found.grid.x,
         mean_gap=found.faces.thickness[:, 0],
         pressure=found.state.pressure[:, 0],
@@ -107,7 +107,7 @@ def wedge(outlet: float, drop: float) -> Callable[[Array], Array]:
 
 
 def over_gap(factors: Sequence[FlowFactors], mean_gap: Array, highest: float) -> GapFactors:
-    """Of many mean gaps, m, from those of each; ``highest`` of the profile, m."""
+    """Return the factors over many mean gaps, m, from those at each; ``highest`` is the highest point, m."""
     return GapFactors(
         along=np.array([one.pressure[0, 0] for one in factors]),
         across=np.array([one.pressure[1, 1] for one in factors]),
@@ -182,9 +182,9 @@ def loads_by_nodes(heights: Array, nodes: Sequence[int], rule: Rule) -> Array:
     )
 
 
-def films(profiles: Mapping[str, Array]) -> dict[str, dict[str, Film]]:
+def films(profiles: Mapping[str, Array]) -> dict[str, dict[str, HomogenizedFilm]]:
     """Films of C.10 (equal h0), C.11 (equal mean) and C.12 (equal Λ), by profile; "S" is smooth."""
-    found: dict[str, dict[str, Film]] = {
+    found: dict[str, dict[str, HomogenizedFilm]] = {
         "C.10": {SMOOTH: solved(wedge(3e-6, DROP["C.10"]), None)},
         "C.11": {SMOOTH: solved(wedge(4e-6, DROP["C.11"]), None)},
         "C.12": {},
@@ -220,7 +220,7 @@ def curve(heights: Array | None, *, cells: int = CELLS // 2) -> Curve:
 
 
 def load_curves(profiles: Mapping[str, Sequence[Array]]) -> dict[str, list[Curve]]:
-    """Of every seed of every profile, and of a smooth wall."""
+    """Return the curves of every seed of every profile, and that of a smooth wall."""
     return {SMOOTH: [curve(None)]} | {name: [curve(heights) for heights in made] for name, made in profiles.items()}
 
 
@@ -239,15 +239,15 @@ def random_profile(seed: int, *, points: int = 512, roll_off: int = 4) -> Array:
     return np.asarray(heights / np.abs(heights).mean() * 10 ** random.uniform(-7, -6))
 
 
-def random_ordering(count: int) -> dict[str, Ordering]:
+def random_ordering(count: int) -> dict[str, FilmOrdering]:
     """Films of random profiles: of all Ra, and all scaled to Ra = 0.4 µm."""
     made = [random_profile(seed) for seed in range(1001, 1001 + count)]
     alike = [0.4e-6 * heights / np.abs(heights).mean() for heights in made[: count // 2]]
     return {"random": _ordered(made), "of one Ra": _ordered(alike)}
 
 
-def _ordered(profiles: Sequence[Array]) -> Ordering:
-    return Ordering(
+def _ordered(profiles: Sequence[Array]) -> FilmOrdering:
+    return FilmOrdering(
         numbers={
             "Ra": np.array([np.abs(heights).mean() for heights in profiles]),
             "Rq": np.array([heights.std() for heights in profiles]),

@@ -14,7 +14,7 @@ from roughfilm.contact.synthetic.profile import STEEL_PROFILES
 from roughfilm.terminal.console import AsJson, in_one_line, make_directory, run_alone
 from scripts.studies.paper_d import figures
 from scripts.studies.paper_d.claims import judge
-from scripts.studies.paper_d.data import MACHINING, SPECTRA, Paper, State, compute
+from scripts.studies.paper_d.data import MACHINING, SPECTRA, PaperD, State, compute
 from scripts.studies.paper_e.surface import Reloading, load_model, reload
 from scripts.studies.study import Out, captions, counted, publish
 
@@ -27,24 +27,24 @@ def command(out: Out, as_json: AsJson = False) -> None:
         paper = compute(advance)
     model = load_model()
     again = [reload(contact) for contact in model]
-    told = numbers(paper, model, again)
+    results = numbers(paper, model, again)
     publish(
         Path(__file__).parent,
         out,
         {name: draw(paper) for name, draw in figures.NUMBERED.items()} | {"E.4": figures.e4(model)},
-        told,
+        results,
         claims=judge(paper),
         as_json=as_json,
         captions=captions({**figures.NUMBERED, "E.4": figures.e4}),
         table=STEEL_PROFILES,
         machining=MACHINING,
-        made=told["profiles"],
+        made=results["profiles"],
         seeds=len(next(iter(paper.profiles.values()))),
         model=list(zip(model, again, strict=True)),
     )
 
 
-def numbers(paper: Paper, model: list[Contact], again: list[Reloading]) -> dict[str, Any]:
+def numbers(paper: PaperD, model: list[Contact], again: list[Reloading]) -> dict[str, Any]:
     """Return the numbers of the page: means and standard deviations over seeds."""
 
     def spread(state: State) -> dict[str, Any]:

@@ -4,14 +4,14 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.synthetic.profile import STEEL_PROFILES
-from scripts.studies.paper_d.data import LENGTH, SPECTRA, STEEL, Paper
-from scripts.studies.study import Claim
+from scripts.studies.paper_d.data import LENGTH, SPECTRA, STEEL, PaperD
+from scripts.studies.study import Claim, verdict
 
 LEAST_NODES = 4
 """Least number of nodes in contact, on average, at the loads that are fitted."""
 
 
-def judge(paper: Paper) -> list[Claim]:
+def judge(paper: PaperD) -> list[Claim]:
     """Judge claims 15 to 18."""
     return [area_grows(paper), area_by_roughness(paper), plasticity(paper), highest_waves(paper)]
 
@@ -37,7 +37,7 @@ def _in_words(values: dict[str, float], form: str) -> str:
     return ", ".join(f"{name} {value:{form}}" for name, value in values.items())
 
 
-def area_grows(paper: Paper) -> Claim:
+def area_grows(paper: PaperD) -> Claim:
     """Claim 15."""
     loads, powers, fits = np.array(paper.loads), {}, {}
     for (spectrum, name), state in paper.pressed.items():
@@ -51,38 +51,38 @@ def area_grows(paper: Paper) -> Claim:
     return Claim(
         number=15,
         text="The real area of contact grows nearly linearly with load",
-        verdict="true" if worst <= 0.1 and straight >= 0.99 else "partly" if worst <= 0.25 else "false",
+        verdict=verdict(worst <= 0.1 and straight >= 0.99, partly=worst <= 0.25),
         evidence=f"exponents {_in_words(powers, '.2f')}; R² of the line through the origin at least {straight:.3f} "
         f"(loads at which {LEAST_NODES} nodes or more are in contact on average)",
     )
 
 
-def area_by_roughness(paper: Paper) -> Claim:
+def area_by_roughness(paper: PaperD) -> Claim:
     """Claim 16."""
     rough = np.array([row.average for row in STEEL_PROFILES.values()])
     bound = paper.loads[-1] / LENGTH / STEEL.hardness
-    powers, ratios, told = {}, {}, []
+    powers, ratios, said = {}, {}, []
     for spectrum in SPECTRA:
         areas = np.array([paper.pressed[spectrum, name]["area"][:, -1].mean() for name in STEEL_PROFILES])
         powers[spectrum], ratios[spectrum] = power_of(rough, areas), float(areas.max() / areas.min())
-        told.append(
+        said.append(
             f"{spectrum}: {', '.join(f'{n} {100 * a:.1f} %' for n, a in zip(STEEL_PROFILES, areas, strict=True))}"
         )
     worst = max(ratios.values())
     return Claim(
         number=16,
         text="The real area of contact hardly depends on Ra",
-        verdict="true" if worst <= 1.2 else "partly" if max(abs(p) for p in powers.values()) <= 0.5 else "false",
-        evidence=f"at the highest load {'; '.join(told)}; the greatest is {_in_words(ratios, '.2f')} times the least "
+        verdict=verdict(worst <= 1.2, partly=max(abs(p) for p in powers.values()) <= 0.5),
+        evidence=f"at the highest load {'; '.join(said)}; the greatest is {_in_words(ratios, '.2f')} times the least "
         f"while Ra spans {rough.max() / rough.min():.1f}, A ~ Ra^n with n: {_in_words(powers, '.2f')}; this must "
         f"be so where most contact is plastic, because no surface can have less than W/H = {100 * bound:.1f} %",
     )
 
 
-def plasticity(paper: Paper) -> Claim:
+def plasticity(paper: PaperD) -> Claim:
     """Claim 17."""
     rough = [row.average for row in STEEL_PROFILES.values()]
-    told, ranked, starts = [], [], []
+    said, ranked, starts = [], [], []
     for spectrum in SPECTRA:
         index = {
             name: float(paper.pressed[spectrum, name]["plasticity_index"][:, -1].mean()) for name in STEEL_PROFILES
@@ -91,7 +91,7 @@ def plasticity(paper: Paper) -> Claim:
         finer = {name: float(paper.finer[spectrum, name]["plasticity_index"][:, 0].mean()) for name in STEEL_PROFILES}
         ranked.append(bool((np.argsort(list(index.values())) == np.argsort(rough)).all()))
         starts += list(finer.values())
-        told.append(
+        said.append(
             f"{spectrum}: {_in_words(index, '.2f')} at the highest load; {_in_words(light, '.2f')} at the least load, "
             f"which one or two nodes carry; {_in_words(finer, '.2f')} at that load on a finer grid"
         )
@@ -104,29 +104,29 @@ def plasticity(paper: Paper) -> Claim:
     return Claim(
         number=17,
         text="The plasticity index depends strongly on roughness and is not zero at small loads",
-        verdict="true" if strong and always else "partly" if strong or always else "false",
-        evidence="; ".join(told),
+        verdict=verdict(strong and always, partly=strong or always),
+        evidence="; ".join(said),
     )
 
 
-def highest_waves(paper: Paper) -> Claim:
+def highest_waves(paper: PaperD) -> Claim:
     """Claim 18."""
-    waves, told, kept = np.array(paper.waves), [], []
+    waves, said, kept = np.array(paper.waves), [], []
     for spectrum, state in paper.cut.items():
         for name, areas in state.items():
             mean = areas.mean(axis=0)
             fives = [settled(waves, area, 0.05) for area in areas]
             n1, n5 = settled(waves, mean, 0.01), settled(waves, mean, 0.05)
             kept.append(n5 <= waves[-1] / 2)
-            told.append(
+            said.append(
                 f"{spectrum}, {name}: within 5 % from n = {n5} on, within 1 % from {n1} on "
                 f"(single profiles 5 %: {min(fives)} to {max(fives)})"
             )
     return Claim(
         number=18,
         text="The highest frequencies do not change the real area of contact",
-        verdict="true" if all(kept) else "partly" if any(kept) else "false",
+        verdict=verdict(all(kept), partly=any(kept)),
         evidence=f"mean area of profile D at the highest load, of {waves[-1]} waves: "
-        + "; ".join(told)
+        + "; ".join(said)
         + f"; the smooth profiles have no waves beyond {SPECTRA['smooth']}",
     )

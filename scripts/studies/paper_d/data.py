@@ -32,7 +32,7 @@ FINER = 8
 TOLERANCE = 1e-7
 
 State = dict[str, Array]
-"""By quantity: shape (seeds, loads), or (seeds, waves)."""
+"""Values by quantity, shape (seeds, loads) or (seeds, waves)."""
 
 
 MACHINING = {
@@ -44,15 +44,15 @@ MACHINING = {
 
 
 @dataclass(frozen=True, kw_only=True)
-class Paper:
-    """All that is drawn and judged, by spectrum and profile."""
+class PaperD:
+    """Everything that is drawn and judged, by spectrum and profile."""
 
     loads: Sequence[float]
     waves: Sequence[int]
     profiles: dict[tuple[str, str], list[Array]]
     pressed: dict[tuple[str, str], State]
     cut: dict[str, State]
-    """Of profile D at the highest load, by spectrum: "elastic" and "elastic-plastic" area."""
+    """Area of profile D at the highest load, "elastic" and "elastic-plastic", by spectrum."""
     shown: Contact
     """Self-affine profile D of the first seed at the highest load."""
     finer: dict[tuple[str, str], State]
@@ -90,7 +90,7 @@ QUANTITIES: dict[str, Callable[[Contact], float]] = {
 
 
 def press_all(profiles: Sequence[Array], loads: Sequence[float]) -> State:
-    """Every quantity of every profile under every load."""
+    """Return every quantity of every profile under every load."""
     state = {name: np.empty((len(profiles), len(loads))) for name in QUANTITIES}
     for i, heights in enumerate(profiles):
         for j, contact in enumerate(line_contacts(heights, loads)):
@@ -114,7 +114,7 @@ def compute(
     seeds: Sequence[int] = SEEDS,
     loads: Sequence[float] = LOADS,
     waves: Sequence[int] = WAVES,
-) -> Paper:
+) -> PaperD:
     """Compute everything the page shows; ``advance`` is called 5 times for each spectrum."""
     profiles, pressed, cut, finer = {}, {}, {}, {}
     for spectrum, highest in SPECTRA.items():
@@ -130,7 +130,7 @@ def compute(
         advance(f"cutting off waves, {spectrum}")
         made = profiles[spectrum, "D"]
         cut[spectrum] = area_by_waves(made, waves, loads[-1])
-    return Paper(
+    return PaperD(
         loads=tuple(loads),
         waves=tuple(waves),
         profiles=profiles,

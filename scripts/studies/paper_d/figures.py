@@ -11,7 +11,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.contact.parameters.bearing_curve import bearing_curve
 from roughfilm.figures.base import new_figure
-from scripts.studies.paper_d.data import LENGTH, SPECTRA, Paper
+from scripts.studies.paper_d.data import LENGTH, SPECTRA, PaperD
 
 COLOURS = {"A": "#b2182b", "B": "#2166ac", "C": "#5aae61", "D": "#762a83"}
 DASHES = {"self-affine": "-", "smooth": "--"}
@@ -30,7 +30,7 @@ def _band(axes: Axes, x: Array, values: Array, colour: str, style: str, label: s
         axes.fill_between(x, mean - spread, mean + spread, color=colour, alpha=0.15, lw=0)
 
 
-def d1(paper: Paper) -> Figure:
+def d1(paper: PaperD) -> Figure:
     """Real area of contact of profile D at the highest load with waves 1 to n only."""
     figure, panels = _panels(2)
     for axes, spectrum in zip(panels, SPECTRA, strict=True):
@@ -44,7 +44,7 @@ def d1(paper: Paper) -> Figure:
     return figure
 
 
-def d2(paper: Paper) -> Figure:
+def d2(paper: PaperD) -> Figure:
     """Bearing curves and height distributions of the four profiles, all seeds together."""
     figure, (left, right) = _panels(2)
     for name, colour in COLOURS.items():
@@ -59,7 +59,7 @@ def d2(paper: Paper) -> Figure:
     return figure
 
 
-def d3(paper: Paper) -> Figure:
+def d3(paper: PaperD) -> Figure:
     """A profile D (first seed) and what the highest load takes off it for good (shaded, and below by itself)."""
     figure, (above, below) = new_figure((10, 4.6), 2, 1, sharex=True, height_ratios=(3, 1))
     contact = paper.shown
@@ -73,7 +73,7 @@ def d3(paper: Paper) -> Figure:
     return figure
 
 
-def _against_load(paper: Paper, wanted: Sequence[tuple[str, str, float]]) -> Figure:
+def _against_load(paper: PaperD, wanted: Sequence[tuple[str, str, float]]) -> Figure:
     figure, panels = _panels(len(wanted))
     for axes, (quantity, label, factor) in zip(panels, wanted, strict=True):
         for name, colour in COLOURS.items():
@@ -85,22 +85,22 @@ def _against_load(paper: Paper, wanted: Sequence[tuple[str, str, float]]) -> Fig
     return figure
 
 
-def d4(paper: Paper) -> Figure:
+def d4(paper: PaperD) -> Figure:
     """Real area of contact and plasticity index against load."""
     return _against_load(paper, [("area", "Ar/An, %", 100), ("plasticity_index", "Ap/Ar", 1)])
 
 
-def d5(paper: Paper) -> Figure:
+def d5(paper: PaperD) -> Figure:
     """Ra and Rq of the loaded profiles."""
     return _against_load(paper, [("Ra", "Ra, µm", 1e6), ("Rq", "Rq, µm", 1e6)])
 
 
-def d6(paper: Paper) -> Figure:
+def d6(paper: PaperD) -> Figure:
     """Skewness and kurtosis of the loaded profiles."""
     return _against_load(paper, [("skewness", "skewness", 1), ("kurtosis", "kurtosis", 1)])
 
 
-def d7(paper: Paper) -> Figure:
+def d7(paper: PaperD) -> Figure:
     """Mean separation: from the plane to the mean of the loaded profile."""
     return _against_load(paper, [("separation", "mean separation, µm", 1e6)])
 

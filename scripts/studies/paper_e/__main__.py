@@ -21,7 +21,7 @@ from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.terminal.console import AsJson, in_one_line, make_directory, progress_bar, run_alone
 from roughfilm.words.numbers import with_error
 from scripts.studies.paper_e import data, figures, windows
-from scripts.studies.paper_e.claims import Paper, judge, worst_cell
+from scripts.studies.paper_e.claims import PaperE, judge, worst_cell
 from scripts.studies.paper_e.data import LOADS, Washer, washer
 from scripts.studies.paper_e.made import POINTS, made
 from scripts.studies.paper_e.windows import LOAD, MILLED, STEEL, Leak, sensitivity
@@ -61,7 +61,7 @@ def compute(
     points: int = POINTS,
     cells: int = data.CELLS,
     speeds: Sequence[float] = data.SPEEDS,
-) -> Paper:
+) -> PaperE:
     """Compute everything the page shows; tables, curves and leaks are kept in ``out`` for the next run."""
     jobs = [(name, body, True, speeds) for name, body in data.surfaces(surfaces, points).items()]
     jobs += [(f"lays/{name}", body, False, data.FEW) for name, body in data.lays(points).items()]
@@ -80,7 +80,7 @@ def compute(
             leaks, rows = _leaks(out / "windows.json", milled, advance)
     lays = {name.removeprefix("lays/"): one for name, one in done.items() if name.startswith("lays/")}
     washers = {name: one for name, one in done.items() if not name.startswith("lays/")}
-    return Paper(windows=leaks, rows=rows, washers=washers, lays=lays)
+    return PaperE(windows=leaks, rows=rows, washers=washers, lays=lays)
 
 
 def _leaks(
@@ -117,11 +117,11 @@ def studies(leaks: Sequence[Leak]) -> list[tuple[str, str]]:
         ]
 
     whole = at("a", 1.0, LOAD)[0]
-    told = [
+    changes = [
         (f"{name} load, window a", f"{100 * (at('a', 1.0, factor * LOAD)[0] / whole - 1):+.3g} %")
         for name, factor in (("half", 0.5), ("double", 2.0))
     ]
-    told += [
+    changes += [
         (
             f"{name} the nodes, window {window}",
             f"{100 * (at(window, factor, LOAD)[0] / at(window, 1.0, LOAD)[0] - 1):+.3g} %",
@@ -131,15 +131,15 @@ def studies(leaks: Sequence[Leak]) -> list[tuple[str, str]]:
     ]
     for window in ("b", "c"):
         parts = np.array(at(window, 1.0, LOAD)) / whole - 1
-        told.append(
+        changes.append(
             (
                 f"window {window} for a, {parts.size} places",
                 f"{100 * parts.mean():+.2g} % on average, {100 * parts.min():+.2g} to {100 * parts.max():+.2g} %",
             )
         )
     line = [one for one in leaks if one.window == "a" and one.resolution == 1.0]
-    told.append(("slope d ln Q/d ln W, window a, half to double the load", f"{sensitivity(line, 1):.2f}"))
-    return told
+    changes.append(("slope d ln Q/d ln W, window a, half to double the load", f"{sensitivity(line, 1):.2f}"))
+    return changes
 
 
 def _row(name: str, one: Washer) -> dict[str, Any]:
@@ -148,7 +148,7 @@ def _row(name: str, one: Washer) -> dict[str, Any]:
     return {"name": name, "lifts": lifts, "share": figures.point_at(one, 1, data.SHOWN[0]).contact_share}
 
 
-def numbers(paper: Paper) -> dict[str, Any]:
+def numbers(paper: PaperE) -> dict[str, Any]:
     """Return the numbers of the page; speeds in revolutions per minute."""
 
     def lifts(one: Washer, *, boxed: bool = False) -> list[dict[str, float]]:

@@ -9,7 +9,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.words.numbers import with_error
 from scripts.studies.paper_e.data import LOADS, SEEDS, Washer
 from scripts.studies.paper_e.windows import LOAD, PARTS, Leak
-from scripts.studies.study import Claim
+from scripts.studies.study import Claim, verdict
 
 FEW_PER_CENT = 0.05
 """Within which two leakages count as equal."""
@@ -23,8 +23,8 @@ AXES = "xy"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Paper:
-    """All that is judged and drawn; ``windows`` is empty where the instrument files are absent.
+class PaperE:
+    """Everything that is judged and drawn; ``windows`` is empty where the instrument files are absent.
 
     Attributes
     ----------
@@ -39,7 +39,7 @@ class Paper:
     lays: Mapping[str, Washer]
 
 
-def judge(paper: Paper) -> list[Claim]:
+def judge(paper: PaperE) -> list[Claim]:
     """Judge claims 21 and 22, and 19 where the milled surface is there."""
     direct = [direct_is_homogenized(paper.windows, paper.rows)] if paper.windows else []
     return [*direct, methods_agree(paper.washers), lift_off(paper)]
@@ -64,7 +64,7 @@ def direct_is_homogenized(windows: Sequence[Leak], rows: Sequence[tuple[int, flo
     return Claim(
         number=19,
         text="HNS equals DNS in leakage within a few per cent for measured surfaces",
-        verdict="true" if within > 0.95 else "partly" if within > 0.3 else "false",
+        verdict=verdict(within > 0.95, partly=within > 0.3),
         evidence="the flow through one window between two reservoirs is always larger than through the window repeated "
         f"without end, because flow also enters valleys that do not continue: at {LOAD / 1e6:g} MPa by (median and "
         f"range) {shown}; {_share(within)} of all within {_share(FEW_PER_CENT)}. The largest difference falls with "
@@ -99,18 +99,18 @@ def methods_agree(washers: Mapping[str, Washer]) -> Claim:
     bars = washers[CROSSED].lift()
     uncertainty = float((bars[:, 1] / bars[:, 0]).max())
     there = [name for name in MEASURED if name in washers]
-    told = "".join(
+    said = "".join(
         f"; {name}, measured, {' / '.join(_signed(part) for part in parted(washers[name]))}" for name in there
     )
     holds = straight < EQUAL and least > max(PARTED, uncertainty)
     return Claim(
         number=21,
         text="Patir–Cheng equals HNS for straight or isotropic lay and fails for crossed or oblique lay",
-        verdict="true" if holds else "partly" if straight < EQUAL or least > PARTED else "false",
+        verdict=verdict(holds, partly=straight < EQUAL or least > PARTED),
         evidence=f"lift-off speeds by Patir and Cheng over the homogenized ones, at "
         f"{', '.join(f'{load / 1e6:g}' for load in LOADS)} MPa: straight lays within {_share(straight)}; marks that "
         f"cross obliquely, one of them deeper, {' / '.join(_signed(part) for part in crossed)} (± "
-        f"{_share(uncertainty)} by grids and tables), films differ by up to {_share(washers[CROSSED].apart())}{told}. "
+        f"{_share(uncertainty)} by grids and tables), films differ by up to {_share(washers[CROSSED].apart())}{said}. "
         f"The method lacks A₁₂ and B₂: such a lay pumps sideways. Marks that cross symmetrically about the sliding "
         f"have neither, and both methods agree (scripts.studies.lay)",
     )
@@ -121,7 +121,7 @@ def lay_lifts(lays: Mapping[str, Washer], lay: str) -> Array:
     return np.array([lays[f"{lay}, {seed}"].lift()[:, 0] for seed in SEEDS])
 
 
-def lift_off(paper: Paper) -> Claim:
+def lift_off(paper: PaperE) -> Claim:
     """Claim 22."""
     found = {name: one.lift() for name, one in (*paper.washers.items(), *paper.lays.items())}
     rises = all((np.diff(lift[:, 0]) > lift[:-1, 1] + lift[1:, 1]).all() for lift in found.values())
@@ -140,7 +140,7 @@ def lift_off(paper: Paper) -> Claim:
     return Claim(
         number=22,
         text="Higher load needs higher speed to lift off; ridges across the leakage direction lower that speed",
-        verdict="true" if rises and lowers else "partly" if rises or lowers else "false",
+        verdict=verdict(rises and lowers, partly=rises or lowers),
         evidence=f"at {', '.join(f'{load / 1e6:g}' for load in LOADS)} MPa walls lift off at "
         + "; ".join(f"{name} {_speeds(found[name])}" for name in names)
         + f" rpm: {'always later' if rises else 'not always later'} under more load ({order} at {one}). Ridges across "

@@ -151,17 +151,17 @@ def washer(
     )
     assert isinstance(scene, Bearing)
 
-    def told(_part: float, words: str) -> None:
+    def report(_part: float, words: str) -> None:
         advance(f"{folder.name}: {words}")
 
     asked = sorted({speed_of(scene, turns) for turns in (*speeds, *SHOWN)})
-    wall = wall_of(scene, LOADS[-1], None, folder / "table.h5", told, cells)
-    curves, _ = swept(scene, asked, LOADS, wall, folder / "stribeck.h5", cells, told)
+    wall = wall_of(scene, LOADS[-1], None, folder / "table.h5", report, cells)
+    curves, _ = swept(scene, asked, LOADS, wall, folder / "stribeck.h5", cells, report)
     if not boxed:
         return Washer(scene=scene, wall=wall, boxes=None, curves=curves, boxed=())
     boxes = _boxes(surface, wall.asperities, folder / "patir_cheng.h5")
     other = Wall(asperities=boxes, told=(), points=0, found=0, source={**wall.source, "factors": "Patir and Cheng"})
-    found, _ = swept(scene, asked, LOADS, other, folder / "patir_cheng_curves.h5", cells, told)
+    found, _ = swept(scene, asked, LOADS, other, folder / "patir_cheng_curves.h5", cells, report)
     return Washer(scene=scene, wall=wall, boxes=boxes, curves=curves, boxed=found)
 
 

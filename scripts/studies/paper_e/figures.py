@@ -10,7 +10,7 @@ from roughfilm.figures.base import new_figure
 from roughfilm.pages.stribeck import drawn_film
 from roughfilm.rom.bearing.mixed.film import MixedFilm
 from roughfilm.rom.bearing.mixed.stribeck import StribeckPoint
-from scripts.studies.paper_e.claims import Paper
+from scripts.studies.paper_e.claims import PaperE
 from scripts.studies.paper_e.data import CELLS, LOADS, SEEDS, SHOWN, Washer
 from scripts.studies.paper_e.windows import LOAD, PARTS, Leak
 from scripts.studies.paper_e.windows import LOADS as PRESSED
@@ -152,7 +152,7 @@ def friction(washers: dict[str, Washer]) -> Figure:
     return figure
 
 
-def lays(paper: Paper) -> Figure:
+def lays(paper: PaperE) -> Figure:
     """Lift-off over the load for every lay of surface 3, and of surface 1 along and across."""
     figure, (turned, first) = new_figure((11.4, 3.8), 1, 2)
     loads = np.array(LOADS) / 1e6
@@ -191,8 +191,8 @@ def textures(washers: dict[str, Washer]) -> Figure:
     return figure
 
 
-def drawings(paper: Paper) -> dict[str, Figure]:
-    """What can be drawn, by name."""
+def drawings(paper: PaperE) -> dict[str, Figure]:
+    """Return the figures by name."""
     washers = dict(paper.washers)
     made = {
         "textures": textures(washers),

@@ -33,23 +33,17 @@ TABLE = {
     "surface 3": Heights(peak=6.189e-6, valley=5.405e-6, average=1.663e-6, rms=2.021e-6),
 }
 
-MEANING = {
-    "surface 1": "milled in one direction, marks along the sliding",
-    "surface 2": "milled in two directions, one deeper, marks that cross",
-    "surface 3": "ground in one direction, marks along the sliding",
-}
-
 FEEDS = 12
 """Marks across the period of surface 1."""
 
 LAYS = (35.0, -65.0)
-"""Of the two directions of surface 2, degrees from the sliding."""
+"""Directions of the two lays of surface 2, degrees from the sliding."""
 
 LIFT = 0.5
-"""By how many rms heights the second cut of surface 2 lies higher."""
+"""Height of the second cut of surface 2 above the first, in rms heights."""
 
 RIDGES = 0.06e-3, 20.0
-"""Of surface 3: the correlation length across them, m, and that along over it."""
+"""Ridges of surface 3: correlation length across them, m, and its ratio along and across."""
 
 SEEDS = {"surface 1": (501,), "surface 2": (502, 503), "surface 3": (504,)}
 

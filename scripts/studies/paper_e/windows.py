@@ -1,4 +1,4 @@
-"""How much a leakage hangs on the window, the resolution and the load (Figs. E.19 to E.21), on a milled surface."""
+"""Dependence of a leakage on the window, the resolution and the load (Figs. E.19 to E.21), on a milled surface."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ from roughfilm.rom.seal.leakage.direct import direct_flow, direct_leakage
 MILLED = "milled_NT1100.opd"
 STEEL = Solid(modulus=210e9, poisson=0.3, hardness=5e9)
 VISCOSITY, DENSITY = 1.26e-3, 789.0
-"""Of the ethanol in the source's rig, Pa s and kg/m³."""
+"""Viscosity, Pa s, and density, kg/m³, of the ethanol in the rig of the source."""
 
 DROP, LENGTH, WIDTH, DURATION = 1e6, 15e-3, 60e-3, 300.0
 """Pressure, Pa (the rig's is not published), length of the leak and width of the middle part, m, and time, s."""
@@ -45,7 +45,7 @@ TOLERANCE = 1e-6
 
 @dataclass(frozen=True, kw_only=True)
 class Leak:
-    """What leaks through one cell at one load.
+    """Leakage through one cell at one load.
 
     Attributes
     ----------
@@ -70,11 +70,11 @@ class Leak:
     direct_uncertainty: tuple[float, float]
 
     def apart(self, direction: int) -> float:
-        """By which part the direct solution is above the homogenized one."""
+        """Return the relative excess of the direct solution over the homogenized one."""
         return self.direct[direction] / self.homogenized[direction] - 1
 
     def volume(self, direction: int, *, direct: bool = False) -> float:
-        """That leaks through the rig's middle part in 300 s, m³, along x (0) or y (1)."""
+        """Return the volume that leaks through the middle part of the rig in 300 s, m³, along x (0) or y (1)."""
         passed = (self.direct if direct else self.homogenized)[direction]
         return passed * DROP / (12 * VISCOSITY * LENGTH) * WIDTH * DURATION
 
@@ -86,7 +86,7 @@ def study(
     coarser: int = 1,
     advance: Callable[[str], None] = lambda _words: None,
 ) -> tuple[Leak, ...]:
-    """All windows at the usual resolution; windows a and b in the middle at half of it and at double.
+    """Compute all windows at the usual resolution; windows a and b in the middle at half of it and at double.
 
     ``coarser`` divides the nodes along each side.
     """
@@ -119,7 +119,7 @@ def leaks(
     loads: Sequence[float],
     coarser: int = 1,
 ) -> list[Leak]:
-    """What leaks through one window at every load, from one load to the next."""
+    """Compute the leakage through one window at every load, each contact started from the one before."""
     prepared = prepare(measured, read_recipe(recipe(measured, window, start, resolution, coarser)))
     surface = prepared.surface
     press = Press(surface.heights, surface.spacing, composite_modulus(STEEL), hardness=STEEL.hardness)
@@ -152,7 +152,7 @@ def leaks(
 def recipe(
     measured: Surface, window: str, start: tuple[float, float], resolution: float, coarser: int = 1
 ) -> Mapping[str, Any]:
-    """As ``roughfilm surface`` prepares it; double resolution is smoothed over five points, as in the source.
+    """Return the recipe of ``roughfilm surface`` for a window; double resolution is smoothed over 5 points.
 
     The usual nodes are the least powers of two that are not fewer than the window's pixels.
     """
@@ -171,7 +171,7 @@ def recipe(
 
 
 def in_a_row(measured: Surface, cell: Leak, direction: int, *, coarser: int = 2) -> tuple[tuple[int, float], ...]:
-    """Of one cell, by which part more passes directly than on and on, over how many periods one after the other.
+    """Return the relative excess of the direct flow over the homogenized one for several periods in a row.
 
     ``coarser`` divides the nodes along each side.
     """

@@ -29,19 +29,19 @@ def command(out: Out, surfaces: Surfaces = None, as_json: AsJson = False) -> Non
     """Press families of surfaces until they seal, fit sealing load and leakage, and judge the claims of Paper F."""
     make_directory(out)
     study = compute(out / "found", surfaces)
-    told = numbers(study)
+    results = numbers(study)
     publish(
         Path(__file__).parent,
         out,
         {name: draw(study) for name, draw in figures.NUMBERED.items()},
-        told,
+        results,
         claims=judge(study),
         as_json=as_json,
         captions=captions(figures.NUMBERED),
         count=len(study.sample),
         laws=study.laws,
         slope=SLOPE,
-        **{name: told[name] for name in ("families", "measured", "finer")},
+        **{name: results[name] for name in ("families", "measured", "finer")},
     )
 
 

@@ -10,7 +10,7 @@ from scripts.studies.paper_f.data import MODULUS, Pressed
 from scripts.studies.paper_f.fits import SHARES, SLOPE, Constant
 from scripts.studies.paper_f.laws import DIRECTED, GroupLaws, SealStudy
 from scripts.studies.paper_f.surfaces import HEIGHTS
-from scripts.studies.study import Claim
+from scripts.studies.study import Claim, verdict
 
 PRESSED = 1e5
 """W, Pa, at which areas are compared."""
@@ -28,13 +28,13 @@ LEAKAGE = (1.1, 0.023)
 """a, and b in m^(1/3), of F.18."""
 
 FEW = 0.05
-"""What counts as a few per cent."""
+"""The few per cent of the claims, as a fraction."""
 
 BINS = ((0.0, 0.1), (0.1, 0.5), (0.5, 0.9), (0.9, 1.0))
-"""Of the load that seals, in which DNS and HNS are compared, and the offset."""
+"""Fractions of the sealing load between which DNS and HNS, and the offset, are compared."""
 
 ROUNDING = 1e-9
-"""Of an interval's ends."""
+"""Relative tolerance of the ends of an interval."""
 
 VALLEYS, PEAKS = ("Sv", "Svm"), ("Sp", "Spm")
 
@@ -65,7 +65,7 @@ def areas_differ(study: SealStudy) -> Claim:
     return Claim(
         number=16,
         text="Area differs strongly between 3D surfaces",
-        verdict="true" if apart > 2 else "partly" if apart > 1.25 else "false",
+        verdict=verdict(apart > 2, partly=apart > 1.25),
         evidence=f"at {PRESSED / 1e6:g} MPa the area is {_share(same_load.min())} to {_share(same_load.max())} "
         f"({apart:.2g} times). The rms slope makes the difference: at W/(E* g′) = {ALIKE:g} all have "
         f"{_share(float(alike.mean()))} ± {_share(float(alike.std()))}, a relative spread of {_share(left)}. The "
@@ -89,12 +89,12 @@ def above_the_cell(sample: Sequence[Pressed]) -> tuple[Array, Array]:
 def cell_equals_direct(sample: Sequence[Pressed]) -> Claim:
     """Claim 19."""
     parts, more = above_the_cell(sample)
-    told, within = [], []
+    said, within = [], []
     for low, high in BINS:
         chosen = 1 + more[(parts >= low) & (parts < high)]
         if chosen.size:
             within.append(float((np.abs(chosen - 1) < FEW).mean()))
-            told.append(
+            said.append(
                 f"{low:g} to {high:g}: median {np.median(chosen):.3g}, a tenth above {np.percentile(chosen, 90):.3g}, "
                 f"{_share(within[-1])} within {_share(FEW)}"
             )
@@ -102,9 +102,9 @@ def cell_equals_direct(sample: Sequence[Pressed]) -> Claim:
     return Claim(
         number=19,
         text="HNS equals DNS in leakage within a few per cent (for these surfaces)",
-        verdict="true" if min(within) > 0.9 else "partly" if within[0] > 0.5 else "false",
+        verdict=verdict(min(within) > 0.9, partly=within[0] > 0.5),
         evidence="DNS of one period between two reservoirs is never below HNS. DNS/HNS at fractions of the "
-        f"sealing load: {'; '.join(told)}. A path between ends need not end where it began: "
+        f"sealing load: {'; '.join(said)}. A path between ends need not end where it began: "
         f"{_share(float(earlier.mean()))} of the directions are sealed by HNS at a load at which DNS still leaks. "
         "The cell assumes many waves in a period, and these surfaces have few; over the six decades of Fig. F.9 both "
         "agree at light loads",
@@ -118,10 +118,10 @@ def lost_between(study: SealStudy) -> Claim:
     directed = np.array([one.family in DIRECTED for one in study.sample])
     part = float(inside.mean())
     plain = area[~directed]
-    told = f"area at the threshold {_share(float(area.min()))} to {_share(float(area.max()))}, {_share(part)} inside"
+    said = f"area at the threshold {_share(float(area.min()))} to {_share(float(area.max()))}, {_share(part)} inside"
     if directed.any() and plain.size:
         lay = area[directed]
-        told += (
+        said += (
             f"; without a lay {_share(float(plain.min()))} to {_share(float(plain.max()))}, mean "
             f"{_share(float(plain.mean()))} ± {_share(float(plain.std()))}, {_share(float(inside[~directed].mean()))} "
             f"inside; with one {_share(float(lay.min()))} (across) to {_share(float(lay.max()))} (along)"
@@ -134,8 +134,8 @@ def lost_between(study: SealStudy) -> Claim:
     return Claim(
         number=23,
         text="Percolation is lost between 33 and 55 % real contact area",
-        verdict="true" if inside.all() else "partly" if inside[~directed].mean() > 0.5 else "false",
-        evidence=f"{told}. The range is that of small surfaces, not a law: for one kind of random surface, {sizes}",
+        verdict=verdict(inside.all(), partly=bool(plain.size) and inside[~directed].mean() > 0.5),
+        evidence=f"{said}. The range is that of small surfaces, not a law: for one kind of random surface, {sizes}",
     )
 
 
@@ -156,7 +156,7 @@ def peaks_rule_sealing(laws: Mapping[str, GroupLaws]) -> Claim:
     return Claim(
         number=24,
         text="Peak parameters (Spm) rule the sealing load: W = 3.6e4 E Spm",
-        verdict="true" if rule and holds else "partly" if rule or holds else "false",
+        verdict=verdict(rule and holds, partly=rule or holds),
         evidence=f"of the eight heights {first} orders the loads best (standard deviation of the ratio: a factor of "
         f"{spreads[first]:.3g}; Spm {spreads['Spm']:.3g}, Sq {spreads['Sq']:.3g}, {last} {spreads[last]:.3g}, the "
         f"worst). k, 1/m: {_constant(k, 3)}; the source's {SEALING:g} is "
@@ -177,7 +177,7 @@ def valleys_rule_leakage(study: SealStudy) -> Claim:
     best = [min((values[k], name) for name, values in apart.items())[1] for k in (0, 1)]
     rule = all(name in VALLEYS for name in best)
     law = every.leakage["Svm", "Svm"]
-    holds = [_inside(told, one.by_family) for told, one in zip(LEAKAGE, (law.a, law.b), strict=True)]
+    holds = [_inside(said, one.by_family) for said, one in zip(LEAKAGE, (law.a, law.b), strict=True)]
     spread = "; ".join(
         f"{name} {', '.join(f'{10**value:.3g}' for value in apart[name])}" for name in ("Svm", "Sq", "Spm", "Sp")
     )
@@ -191,7 +191,7 @@ def valleys_rule_leakage(study: SealStudy) -> Claim:
     return Claim(
         number=25,
         text="Valley parameters (Svm) rule the leakage and collapse it",
-        verdict="true" if rule and all(holds) else "partly" if rule or all(holds) else "false",
+        verdict=verdict(rule and all(holds), partly=rule or all(holds)),
         evidence="standard deviation of the leakage of surfaces scaled to the same height, as a factor, at "
         f"{', '.join(f'{share:g}' for share in SHARES)} of the load that seals: {spread}; best {' and '.join(best)} at "
         "the lighter loads. This must be so: at the first touch the mean gap is Sp, hence Q̃ → φ (Sp/Svm)³. "
@@ -223,7 +223,7 @@ class Subtracted:
 
 
 def subtracted(sample: Sequence[Pressed]) -> Subtracted:
-    """Of all open gaps of cells for which the solver did not give up."""
+    """Return the values of all open gaps of cells for which the solver converged."""
     rows = []
     for one in sample:
         for i in (0, 1):
@@ -248,7 +248,7 @@ def offset_is_harmless(sample: Sequence[Pressed]) -> Claim:
     """Claim 26, of Paper F's surfaces."""
     found = subtracted(sample)
     middle = float(np.sqrt(found.average.min() * found.average.max()))
-    told, medians = [], []
+    said, medians = [], []
     for low, high in BINS:
         chosen = (found.part >= low) & (found.part < high)
         if chosen.any():
@@ -259,14 +259,14 @@ def offset_is_harmless(sample: Sequence[Pressed]) -> Claim:
                 for side in sides
                 if side.any()
             ]
-            told.append(f"{low:g} to {high:g}: {' and '.join(both)}")
+            said.append(f"{low:g} to {high:g}: {' and '.join(both)}")
     slit = np.array([np.cbrt(one.sealed_offset) for one in sample])
     return Claim(
         number=26,
         text="A 10 nm offset at contact is enough and harmless (with what is left at the threshold subtracted)",
-        verdict="true" if max(map(abs, medians)) < FEW else "partly" if abs(medians[0]) < 2 * FEW else "false",
+        verdict=verdict(max(map(abs, medians)) < FEW, partly=abs(medians[0]) < 2 * FEW),
         evidence="leakage over that with closed contact (and after the subtraction), medians of surfaces rougher and "
-        f"smoother than Sa {1e6 * middle:.2g} µm, at fractions of the sealing load: {'; '.join(told)}. At the "
+        f"smoother than Sa {1e6 * middle:.2g} µm, at fractions of the sealing load: {'; '.join(said)}. At the "
         f"threshold the 10 nm alone leak like a slit of {1e9 * np.nanmin(slit):.2g} to {1e9 * np.nanmax(slit):.2g} nm; "
         "subtracting this is right at one load only, and the decrease over decades becomes a gentle one",
     )
@@ -288,7 +288,7 @@ def _interval(interval: tuple[float, float], digits: int) -> str:
 
 
 def _digits(value: float, digits: int) -> str:
-    """So many figures, without an exponent."""
+    """Return a number with so many figures, without an exponent."""
     return f"{float(f'{value:.{digits}g}'):.10g}"
 
 

@@ -1,11 +1,11 @@
-"""Every surface of Paper F pressed until it is sealed: thresholds, area, leakage; each kept in a file of its own."""
+"""Surfaces of Paper F pressed until they seal: thresholds, area and leakage, each surface kept in its own file."""
 
 import hashlib
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any, Self
+from typing import Any
 
 import numpy as np
 
@@ -29,20 +29,20 @@ PARTS = (*np.geomspace(1e-4, 0.3, 9).tolist(), 0.45, 0.6, 0.75, 0.85, 0.92, 0.97
 """Loads at which leakage is found, over the one that seals both directions."""
 
 NEAR = 2e-3
-"""Of a load, between the last that leaves a path open and the first that does not."""
+"""Relative difference between the last load with an open path and the first without."""
 
 TOLERANCE = 1e-6
-"""Of contacts, as ``Press.at`` takes it."""
+"""Tolerance of contacts, see ``Press.at``."""
 
 OFFSET = 1e-8
 """m; the source lets this much through where it is closed."""
 
 FIRST, MOST = 0.3, 10.0
-"""Of E* g′: the first load that is tried for sealing, and the last."""
+"""First and last load of the search for sealing, in units of E* g′."""
 
 
 OWN = hashlib.sha256(Path(__file__).read_bytes()).hexdigest()[:16]
-"""Of this file: what is kept was found by the same code."""
+"""Digest of this file: kept surfaces are those of the same code."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,24 +91,6 @@ class Pressed:
     def name(self) -> str:
         """Family and seed."""
         return f"{self.family} {self.seed}"
-
-    def scaled(self, factor: float) -> Self:
-        """The surface ``factor`` times as high, by linear elasticity; the offset does not scale, and is lost."""
-        heights = {name: value * factor for name, value in self.numbers.heights.items()}
-        return replace(
-            self,
-            numbers=replace(self.numbers, heights=heights, slope=self.numbers.slope * factor),
-            loads=self.loads * factor,
-            mean_gap=self.mean_gap * factor,
-            valley=self.valley * factor,
-            flow=self.flow * factor**3,
-            doubt=self.doubt * factor**3,
-            direct=self.direct * factor**3,
-            offset=np.full_like(self.offset, np.nan),
-            threshold=self.threshold * factor,
-            round_threshold=self.round_threshold * factor,
-            sealed_offset=np.full_like(self.sealed_offset, np.nan),
-        )
 
 
 class Series:

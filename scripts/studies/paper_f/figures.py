@@ -23,7 +23,7 @@ COLOURS = (
     *("#08519c", "#4292c6", "#d94801", "#fdae6b", "#8c6d31", "#238b45", "#74c476"),
     *("#6a51a3", "#9e9ac8", "#c51b8a", "#f768a1"),
 )
-"""Of the families: random blue, skewed orange and brown, with a lay green, self-affine violet."""
+"""Colours of the families: random blue, skewed orange and brown, with a lay green, self-affine violet."""
 
 FOUND, SOURCE = "#1d2530", "#b42318"
 DENSITY, VISCOSITY, DROP, LENGTH = 1e3, 1e-3, 1e6, 1e-3
@@ -94,8 +94,8 @@ def spots(study: SealStudy) -> Figure:
         for i, sign in ((0, "→"), (1, "↑")):
             axes = panels[2 * number + i]
             axes.imshow(one.spots[i].T, cmap=shades, origin="lower", interpolation="nearest")
-            told = f"{sign} {one.threshold[i] / 1e6:.2g} MPa, {100 * one.sealed_area[i]:.0f} %"
-            axes.set_title(f"{one.family} {told}" if i == 0 else told, fontsize=7)
+            label = f"{sign} {one.threshold[i] / 1e6:.2g} MPa, {100 * one.sealed_area[i]:.0f} %"
+            axes.set_title(f"{one.family} {label}" if i == 0 else label, fontsize=7)
     return figure
 
 
@@ -134,7 +134,7 @@ def _thresholds(axes: Axes, study: SealStudy, name: str, unit: float) -> None:
 
 
 def pure(study: SealStudy) -> Figure:
-    """What k of F.14 hides (left): it falls as the length Sq/g′ of a surface grows; red: the source's.
+    """Left: k of F.14 falls as the length Sq/g′ of a surface grows; red: k of the source.
 
     Middle: load over the rms slope, whose ratio is a pure number; line: geometric mean. Right: that number over the
     skewness, with the fitted law.
@@ -208,8 +208,8 @@ def same_heights(study: SealStudy) -> Figure:
                 flow = kilograms(one.direct[:, i] * factor**3)
                 axes.plot(one.loads * factor, np.where(flow > LEAST, flow, np.nan), color=colours[one.family], lw=0.5)
         axes.set(xscale="log", yscale="log", ylim=(LEAST, 1e2), xlim=(1e1, 2e6))
-        told = ", ".join(f"{10**value:.2g}" for value in apart[name][:2])
-        axes.set_title(f"{name} = {1e6 * mean:.3g} µm; spread {told}", fontsize=8)
+        label = ", ".join(f"{10**value:.2g}" for value in apart[name][:2])
+        axes.set_title(f"{name} = {1e6 * mean:.3g} µm; spread {label}", fontsize=8)
     for axes in panels[::4]:
         axes.set_ylabel("kg/(h m)")
     for axes in panels[4:]:
@@ -289,8 +289,8 @@ def _line(axes: Axes, study: SealStudy, law: LeakageLaw) -> None:
             y = (one.direct[:, i] / scale_of(one, height) ** 3) ** (1 / 9)
             axes.plot(x, np.where(y > 0, y, np.nan), ".", color=colours[one.family], ms=3, alpha=0.7)
     ends = np.array([0.0, axes.get_xlim()[1]])
-    told = f"{law.a.value:.3g} − {law.b.value:.3g} x, R² {law.explained:.2f}"
-    axes.plot(ends, law.a.value - law.b.value * ends, color=FOUND, lw=1.4, label=told)
+    label = f"{law.a.value:.3g} − {law.b.value:.3g} x, R² {law.explained:.2f}"
+    axes.plot(ends, law.a.value - law.b.value * ends, color=FOUND, lw=1.4, label=label)
     axes.set(xlim=ends, ylim=(0, 1.9))
 
 

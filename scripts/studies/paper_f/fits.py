@@ -1,4 +1,4 @@
-"""What sealing loads and leakages are proportional to: constants with intervals, and how far surfaces scatter."""
+"""Laws of sealing load and leakage: constants with intervals, and the scatter of surfaces."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -19,10 +19,10 @@ CONFIDENCE = (2.5, 97.5)
 """Per cent."""
 
 SHARES = (0.003, 0.03, 0.3)
-"""Of the median load that seals, at which leakages of surfaces are compared."""
+"""Fractions of the median sealing load at which leakages of surfaces are compared."""
 
 LIGHT = 0.1
-"""Of the load that seals: below it a load counts as light."""
+"""Fraction of the sealing load below which a load counts as light."""
 
 Sample = Sequence[Pressed]
 Places = NDArray[np.int64]
@@ -87,7 +87,7 @@ def sealing_law(sample: Sample, name: str) -> SealingLaw:
 
 
 def bootstrapped(sample: Sample, statistic: Callable[[Places], Array]) -> list[Constant]:
-    """Numbers that are told from the surfaces whose places are given, each with its intervals."""
+    """Numbers that are expected from the surfaces whose places are given, each with its intervals."""
     families = [np.array(rows) for rows in _families(sample)]
     draw = np.random.default_rng(90731)
     everyone = np.arange(len(sample))
@@ -166,7 +166,7 @@ class Collapse:
 
 
 def collapse(sample: Sample, height: str, load: str) -> Collapse:
-    """Of direct solutions, ``height`` and ``load`` being names of scales; "" leaves them as they are."""
+    """Return the collapse of direct solutions; ``height`` and ``load`` are names of scales, "" leaves them unscaled."""
     middle = (
         float(np.median(ratios(sample, load))) if load else float(np.median([o.threshold for o in sample])) / MODULUS
     )
@@ -222,15 +222,15 @@ def leakage_law(sample: Sample, height: str, load: str) -> LeakageLaw:
 
     a, b = bootstrapped(sample, line)
     x, y = np.concatenate(points, axis=1)
-    told = a.value - b.value * x
-    apart, missed = misfit(told**9 * np.sign(told), y**9)
+    expected = a.value - b.value * x
+    apart, missed = misfit(expected**9 * np.sign(expected), y**9)
     return LeakageLaw(
         scale=(height, load),
         a=a,
         b=b,
         apart=apart,
         missed=missed,
-        explained=float(1 - np.var(y - told) / np.var(y)),
+        explained=float(1 - np.var(y - expected) / np.var(y)),
     )
 
 
@@ -241,10 +241,10 @@ def _points(one: Pressed, height: str, load: str) -> Array:
     return np.concatenate([[x[y[:, i] > 0], y[y[:, i] > 0, i]] for i in (0, 1)], axis=1)
 
 
-def misfit(told: Array, found: Array) -> tuple[float, float]:
-    """The rms of log10(found/told) where told is above 0, and the part where it is not."""
-    known = told > 0
-    logs = np.log10(found[known] / told[known])
+def misfit(expected: Array, found: Array) -> tuple[float, float]:
+    """The rms of log10(found/expected) where expected is above 0, and the part where it is not."""
+    known = expected > 0
+    logs = np.log10(found[known] / expected[known])
     return float(np.sqrt(np.mean(logs**2))) if known.any() else float("nan"), float(1 - known.mean())
 
 
@@ -277,25 +277,25 @@ class FormulaReading:
 
 
 def read_formulas(sample: Sample) -> list[FormulaReading]:
-    """All of ``READINGS``, with the source's constants."""
+    """Judge all of ``READINGS`` with the constants of the source."""
     return [_read(formula, law, sample) for formula, law in READINGS.items()]
 
 
 def _read(formula: str, law: Callable[[Array, Array], Array], sample: Sample) -> FormulaReading:
     rows = []
     for one in sample:
-        told = law(one.loads / MODULUS, np.full(one.loads.shape, one.numbers.heights["Svm"]))
+        expected = law(one.loads / MODULUS, np.full(one.loads.shape, one.numbers.heights["Svm"]))
         for i in (0, 1):
             is_open = one.direct[:, i] > 0
             part = one.loads / one.threshold[i]
-            rows.append(np.stack([told, one.valley, one.direct[:, i], part])[:, is_open])
-    told, valley, flow, part = np.concatenate(rows, axis=1)
+            rows.append(np.stack([expected, one.valley, one.direct[:, i], part])[:, is_open])
+    expected, valley, flow, part = np.concatenate(rows, axis=1)
     twice = law(np.array([0.02]), np.array([2e-6])) / law(np.array([0.01]), np.array([1e-6]))
-    cube = np.sign(told) * np.abs(told) ** 3
+    cube = np.sign(expected) * np.abs(expected) ** 3
     leaks, missed = misfit(cube, flow)
     return FormulaReading(
         formula=formula,
-        valley=misfit(told, valley)[0],
+        valley=misfit(expected, valley)[0],
         leakage=leaks,
         light=misfit(cube[part < LIGHT], flow[part < LIGHT])[0],
         missed=missed,

@@ -1,4 +1,4 @@
-"""All that the page of Paper F shows: surfaces, and the laws fitted to groups of them."""
+"""Laws fitted to groups of surfaces, and everything that the page of Paper F shows."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -26,12 +26,12 @@ GROUPS: Mapping[str, Callable[[Pressed], bool]] = {
     "isotropic": lambda one: one.family not in DIRECTED,
     "isotropic, symmetric heights": lambda one: one.family not in DIRECTED + SKEWED,
 }
-"""Of the families."""
+"""Groups of the families."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class GroupLaws:
-    """What is fitted to one group of surfaces.
+    """Laws fitted to one group of surfaces.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ class GroupLaws:
 
 @dataclass(frozen=True, kw_only=True)
 class SealStudy:
-    """All that is judged and drawn; ``measured`` is empty where the instrument files are absent.
+    """Everything that is judged and drawn; ``measured`` is empty where the instrument files are absent.
 
     Attributes
     ----------
@@ -69,7 +69,7 @@ class SealStudy:
 
 
 def fit(sample: Sequence[Pressed]) -> GroupLaws:
-    """All laws of a group."""
+    """Fit all laws of a group."""
     return GroupLaws(
         count=len(sample),
         sealing={name: sealing_law(sample, name) for name in (*HEIGHTS, SLOPE)},

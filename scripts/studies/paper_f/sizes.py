@@ -18,7 +18,7 @@ CORRELATION = 4e-6
 """Sal, m."""
 
 NODES_PER_SIDE = 128
-"""Of a surface of ``SIDE``."""
+"""Nodes along ``SIDE``."""
 
 COUNTS: Mapping[int, int] = {64: 32, 128: 24, 256: 12, 512: 6}
 """Surfaces by nodes a side."""
@@ -39,7 +39,7 @@ class Sizes:
 
 
 def grow(folder: Path | None, advance: Callable[[str], None], counts: Mapping[int, int] = COUNTS) -> Sizes:
-    """All sizes, read from the folder where they were found before; ``advance`` is told each."""
+    """Compute all sizes or read them from the folder where they are kept; ``advance`` is called for each."""
     area, load = {}, {}
     for nodes, count in counts.items():
         advance(f"{nodes} × {nodes} nodes")

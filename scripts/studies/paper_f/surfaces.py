@@ -31,7 +31,7 @@ LEAST, MOST = 0.06e-6, 0.48e-6
 SEEDS = tuple(range(501, 509))
 
 HEIGHTS = ("Sa", "Sq", "St", "Sz", "Sp", "Spm", "Sv", "Svm")
-"""Of Fig. F.7 and F.10. St is the whole height and Sz = Spm + Svm, as the source has them."""
+"""Heights of Figs. F.7 and F.10. St is the whole height and Sz = Spm + Svm, as the source has them."""
 
 MEASURED = ("isotropic.al3d", "ground_striated.x3p", "oblique_grooves.x3p", "milled_NT1100.opd")
 MEASURED_AVERAGE = 0.17e-6
@@ -155,7 +155,7 @@ def measured_surfaces(folder: Path | None, points: int = POINTS, names: Sequence
 
 @dataclass(frozen=True, kw_only=True)
 class Numbers:
-    """What a surface is told by.
+    """Parameters of a surface.
 
     Attributes
     ----------
@@ -175,7 +175,7 @@ class Numbers:
 
 
 def numbers_of(surface: Surface) -> Numbers:
-    """All numbers of one surface."""
+    """Return all parameters of one surface."""
     found = {name: one.value for name, one in parameters(surface).items()}
     heights = {name: found[name] for name in HEIGHTS} | {"Sz": found["Spm"] + found["Svm"]}
     return Numbers(

@@ -17,7 +17,7 @@ from scripts.studies.rough_gaps.study import (
     theory_meets_mesh,
 )
 from scripts.studies.rough_gaps.waves import MARKED, bare_coefficient
-from scripts.studies.study import Claim
+from scripts.studies.study import Claim, verdict
 
 FEW_PER_CENT = 0.05
 """The few per cent of the claim, as a fraction of the flow."""
@@ -30,13 +30,13 @@ def judge(study: RoughGapStudy) -> list[Claim]:
         return []
     far = [one for one in measured if max(off.error for off in one.found) > FEW_PER_CENT]
     resolved = "; ".join(f"{_error(best(one, 'A11'))} at {one.name}" for one in study.milled if one.resolved)
-    told = ", ".join(f"{one.name} {_share(max(off.error for off in one.found))} (g′ = {one.slope:.2g})" for one in far)
+    said = ", ".join(f"{one.name} {_share(max(off.error for off in one.found))} (g′ = {one.slope:.2g})" for one in far)
     rest = [max(off.error for off in one.found) for one in measured if one not in far]
     return [
         Claim(
             number=19,
             text="HNS equals DNS in leakage within a few per cent for measured surfaces",
-            verdict="true" if not far else "partly" if rest else "false",
+            verdict=verdict(not far, partly=bool(rest)),
             evidence="both sides of the claim solve Reynolds' equation. Its error against Stokes flow on the same "
             "heights "
             + (
@@ -46,7 +46,7 @@ def judge(study: RoughGapStudy) -> list[Claim]:
             )
             + f"it is within {_share(max(rest, default=math.nan))} at every mean gap for {len(rest)} of "
             + f"{len(measured)} measured surfaces"
-            + (f"; larger on steep ones: {told}" if far else ""),
+            + (f"; larger on steep ones: {said}" if far else ""),
         )
     ]
 
@@ -76,7 +76,7 @@ def words(study: RoughGapStudy) -> dict[str, str]:
 def _waves(study: RoughGapStudy) -> str:
     marked = [wave for length in MARKED if (wave := study.wave(0.3, length)) is not None]
     exact = ", ".join(f"{wave.exact['A11']:.4f}" for wave in marked if "A11" in wave.exact)
-    told = [
+    said = [
         f"Waves of 0.3 of the gap, {', '.join(f'{w.length:g}' for w in marked)} gaps long, reduce the flow across their"
         f" crests to {exact} of that by Reynolds' equation."
         if marked
@@ -84,7 +84,7 @@ def _waves(study: RoughGapStudy) -> str:
     ]
     mesh = mesh_meets_exact(study.waves.resolved)
     if mesh.count:
-        told.append(
+        said.append(
             f"OpenFOAM meets the exact flow within {_share(mesh.worst)}, and within its error bars in {mesh.within} of "
             f"{mesh.count} coefficients."
         )
@@ -92,11 +92,11 @@ def _waves(study: RoughGapStudy) -> str:
     good = _up_to({wave.slope: wave.found.theory["A11"].corrected / wave.exact["A11"] - 1 for wave in drawn})
     bare = _up_to({w.slope: (1 - bare_coefficient(w.amplitude) * w.slope**2) / w.exact["A11"] - 1 for w in drawn})
     if good and bare:
-        told.append(
+        said.append(
             f"The slope correction is within 1 % of it up to an rms slope of {good:.2g} for all of these waves, the "
             f"bare law 1 − c⟨h′²⟩ up to {bare:.2g}."
         )
-    return " ".join(filter(None, told))
+    return " ".join(filter(None, said))
 
 
 def _up_to(errors: Mapping[float, float]) -> float:
@@ -125,9 +125,9 @@ def _surfaces(study: RoughGapStudy, *, study_random: bool) -> str:
     ratios = [best(one, name)[0] for one in gaps for name in ("A11", "A22")]
     slopes = list(dict.fromkeys(f"{slope:.2g}" for slope in sorted(one.slope for one in gaps)))
     steepness = f"rms slopes of {slopes[0]} to {slopes[-1]}" if len(slopes) > 1 else f"an rms slope of {slopes[0]}"
-    told = f"In {len(gaps)} gaps over {steepness} Stokes flow is {max(ratios):.3f} to {min(ratios):.3f} of Reynolds'."
+    said = f"In {len(gaps)} gaps over {steepness} Stokes flow is {max(ratios):.3f} to {min(ratios):.3f} of Reynolds'."
     if not meeting.count:
-        return told
+        return said
     gentle = theory_meets_mesh([one for one in gaps if one.slope < STEEP])
     where = (
         f"{_share(gentle.worst)} where the rms slope is below {STEEP:g} and within {_share(meeting.worst)} everywhere"
@@ -135,7 +135,7 @@ def _surfaces(study: RoughGapStudy, *, study_random: bool) -> str:
         else _share(meeting.worst)
     )
     return (
-        f"{told} The slope correction, without a mesh, meets it within {where}; {meeting.within} of {meeting.count} "
+        f"{said} The slope correction, without a mesh, meets it within {where}; {meeting.within} of {meeting.count} "
         f"within the error bars of both. {bounds.within} of {bounds.count} lie between the bounds."
     )
 
@@ -155,12 +155,12 @@ def _inertia(study: RoughGapStudy) -> str:
 
 
 def _crossed(study: RoughGapStudy) -> str:
-    told = []
+    said = []
     for level in (0.01, 0.05):
         places = [x for _, x in study.inertia.crossings(level).values()]
         if places:
-            told.append(f"{100 * level:.0f} % at Re* g′ = {min(places):.2g} to {max(places):.2g}")
-    return f" Gap by gap, {' and '.join(told)}." if told else ""
+            said.append(f"{100 * level:.0f} % at Re* g′ = {min(places):.2g} to {max(places):.2g}")
+    return f" Gap by gap, {' and '.join(said)}." if said else ""
 
 
 def _reach(reach: Sequence[SurfaceValidity], factors: Sequence[float]) -> str:
@@ -188,37 +188,37 @@ def _within(one: SurfaceValidity, level: float) -> bool:
 def _map(study: RoughGapStudy) -> str:
     if not study.map:
         return ""
-    told = []
+    said = []
     for level in (0.01, 0.05):
         plain, corrected = (serves(study.map, name, level) for name in ("homogenized", "slope_corrected"))
-        told.append(
+        said.append(
             f"within {100 * level:.0f} % Reynolds' equation suits waves of every length up to an rms slope of "
             f"{plain:.2g}, the slope correction up to {corrected:.2g}"
         )
-    text = "; ".join(told)
+    text = "; ".join(said)
     return f"{text[0].upper()}{text[1:]}. Steeper waves need a mesh unless they are long or short enough."
 
 
 def cards(study: RoughGapStudy) -> list[dict[str, str]]:
     """Return the key numbers for the head of the page."""
-    told = []
+    said = []
     wave = study.wave(0.3, 5.0)
     if wave is not None and wave.exact:
-        told.append(
+        said.append(
             {
                 "value": f"{wave.exact['A11']:.3f}",
                 "words": "Stokes over Reynolds across waves of 0.3 of the gap, 5 gaps long",
             }
         )
     if study.factors:
-        told.append(
+        said.append(
             {
                 "value": f"{np.median(study.factors):.2g} g′²",
                 "words": "is the excess flow by Reynolds' equation over real surfaces",
             }
         )
         slopes = [math.sqrt(level / max(study.factors)) for level in (0.01, 0.05)]
-        told.append(
+        said.append(
             {
                 "value": f"g′ < {slopes[0]:.2g} and {slopes[1]:.2g}",
                 "words": "are the rms slopes at which its error is within 1 % and 5 %",
@@ -226,7 +226,7 @@ def cards(study: RoughGapStudy) -> list[dict[str, str]]:
         )
     first = study.inertia.earliest(0.01)
     if first:
-        told.append(
+        said.append(
             {"value": f"Re* g′ = {first:.2g}", "words": "is the least value at which inertia reduces a flow by 1 %"}
         )
-    return told
+    return said

@@ -16,7 +16,7 @@ from scripts.studies.rough_gaps.scenes import MILLED
 NAMES = ("A11", "A22", "B1", "friction")
 
 ORDER = 2
-"""Of the meshes."""
+"""Formal order of the meshes."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,7 +74,7 @@ def values_of(factors: RoughGapFactors) -> dict[str, float]:
 
 
 def theory_of(walls: Walls, found: SlopeCorrected | None = None) -> dict[str, Theory]:
-    """All theories of a gap; of walls that both are rough, those of A alone."""
+    """Return all theories of a gap; only those of A where both walls are rough."""
     found = slope_corrected(walls) if found is None else found
     thin, corrected, bar, bound = (
         values_of(one) for one in (found.thin, found.corrected, found.uncertainty, found.bound)

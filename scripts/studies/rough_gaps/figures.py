@@ -41,7 +41,7 @@ LINES: dict[str, dict[str, Any]] = {
 
 
 def drawings(study: RoughGapStudy) -> Mapping[str, Callable[[RoughGapStudy], Figure]]:
-    """Those for which there are numbers, by name."""
+    """Return the functions that draw, by name, for which there are numbers."""
     shown: dict[str, Callable[[RoughGapStudy], Figure]] = {"waves": waves, "others": others}
     if study.random:
         shown["random"] = partial(surfaces, measured=False)
@@ -200,7 +200,7 @@ def _row(axes: Axes, place: float, one: GapComparison, name: str) -> None:
 
 
 def inertia(study: RoughGapStudy) -> Figure:
-    """What inertia holds back, over Re and over what the law of its group says."""
+    """Loss of flow by inertia over Re and over the law of its group."""
     figure = Figure(figsize=(11, 4.8), layout="constrained")
     flows, laws = study.inertia.flows, {law.group: law for law in study.inertia.laws}
     measures: dict[str, Callable[[InertialLoss], float]] = {"Re": lambda one: one.reynolds_number}

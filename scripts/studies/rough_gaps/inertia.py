@@ -1,4 +1,4 @@
-"""What inertia holds back: Navier–Stokes over Stokes on the same mesh, over the Reynolds number."""
+"""Loss of flow by inertia: Navier–Stokes over Stokes on the same mesh, over the Reynolds number."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -71,7 +71,7 @@ class InertialLoss:
 
 @dataclass(frozen=True, kw_only=True)
 class InertiaLaw:
-    """What inertia holds back, 1 - NS/Stokes = c (Re* g')² / (1 + b Re* h̄/λ), fitted to gaps of one group.
+    """Loss of flow by inertia, 1 - NS/Stokes = c (Re* g')² / (1 + b Re* h̄/λ), fitted to gaps of one group.
 
     A square at first, as nothing odd in Re can be, then near linear in Re.
 
@@ -98,7 +98,7 @@ class InertiaLaw:
 
 @dataclass(frozen=True, kw_only=True)
 class Inertia:
-    """All flows, and the law of each group of gaps."""
+    """All flows and the law of each group of gaps."""
 
     flows: tuple[InertialLoss, ...]
     laws: tuple[InertiaLaw, ...]
@@ -157,7 +157,7 @@ def _over_random(shape: tuple[float, float]) -> Callable[[float], RoughGap]:
 
 
 def _flows(shapes: Sequence[tuple[float, float]], reynolds: Sequence[float], random: Random) -> list[_Flow]:
-    """Of sinusoids, and of random surfaces."""
+    """Return the flows over sinusoids and over random surfaces."""
     return [
         *(
             _flow(RIDGES, f"a = {shape[0]:g}, L = {shape[1]:g}", _over(shape), one, GRIDS)
@@ -185,7 +185,7 @@ def inertia(
     reynolds: Sequence[float] = REYNOLDS,
     random: Random = RANDOM,
 ) -> Inertia:
-    """All flows that were solved on every mesh, and fits over them."""
+    """Return all flows that were solved on every mesh, and the laws fitted to them."""
     found = [
         _held(flow, answers)
         for flow in _flows(shapes, reynolds, random)

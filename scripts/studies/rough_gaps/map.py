@@ -26,7 +26,7 @@ SURE = 1e-3
 
 @dataclass(frozen=True, kw_only=True)
 class ModelErrors:
-    """Of the cheaper rungs, in the flow across or along a wave, the worse; infinite where the exact is not known."""
+    """Errors of the cheaper models in the worse flow, across or along a wave; infinite without an exact flow."""
 
     slope: float
     length: float
@@ -45,7 +45,7 @@ class ModelErrors:
 def errors(
     folder: Path, slopes: Sequence[float] = SLOPES, lengths: Sequence[float] = LENGTHS
 ) -> tuple[ModelErrors, ...]:
-    """All that fit into the gap."""
+    """Return the errors for all waves that fit into the gap."""
     return tuple(one for length in lengths for slope in slopes if (one := _errors(slope, length, folder)) is not None)
 
 

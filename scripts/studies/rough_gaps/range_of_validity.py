@@ -31,10 +31,10 @@ POINTS = 256
 """Nodes along each side, and pixels that a window of a measured surface has at least, if there are a third more."""
 
 BELOW = 0.75
-"""Of the sides of a measurement: windows are looked for that are at most so large."""
+"""Largest side of a window divided by that of the measurement."""
 
 JUST_ABOVE = 1.05
-"""Of the highest point: the smallest mean gap."""
+"""Smallest mean gap divided by the highest point."""
 
 THICKNESSES = (3.5, 5.0, 7.0, 10.0, 15.0, 20.0, 30.0)
 """h̄/Sq; those at which the walls would touch are left out."""
@@ -51,7 +51,7 @@ LEVELS = (0.01, 0.05)
 
 @dataclass(frozen=True, kw_only=True)
 class ReynoldsError:
-    """What Reynolds' theory lets too much through at one mean gap, in the worse direction, over Stokes flow.
+    """Relative excess of the flow by Reynolds' theory over Stokes flow at one mean gap, in the worse direction.
 
     Attributes
     ----------

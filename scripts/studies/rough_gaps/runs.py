@@ -1,4 +1,4 @@
-"""What the report on rough gaps asks of the ladder: each answer solved once, in parallel, and stored as it comes."""
+"""Runs of the models for the report on rough gaps: each solved once, in parallel, and stored when it is done."""
 
 import hashlib
 import json
@@ -48,7 +48,7 @@ Place = Callable[[int, Path], AbstractContextManager[Executor]]
 
 
 def answers(asked: Sequence[ModelRun], folder: Path, place: Place = local) -> tuple[Answers, dict[str, str]]:
-    """What is stored, and what is not yet, solved; and of each failure why, likewise by key.
+    """Return stored results, solve the missing ones, and return the reason of each failure, both by key.
 
     A rung that is not on this machine fails in all that is asked of it.
     """
@@ -96,8 +96,8 @@ def _solve(
                         found[key] = answer.result
                     else:
                         failed[key] = answer.message
-                        told = f"[yellow]left out:[/] {job.setting.name}: {escape(answer.message)}"
-                        messages.print(told, soft_wrap=True)
+                        note = f"[yellow]left out:[/] {job.setting.name}: {escape(answer.message)}"
+                        messages.print(note, soft_wrap=True)
                     done += costs[job.path]
                     bar(done, f"{number} of {len(missing)} runs")
     except (KeyboardInterrupt, SystemExit) as stop:

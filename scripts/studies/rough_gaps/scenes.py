@@ -35,7 +35,7 @@ WINDOW = 50e-6
 """Side of the milled window that is resolved in three dimensions, m."""
 
 WAVES = 8
-"""Of that window along each side; finer ones are left out, so that every mesh has the same surface."""
+"""Waves of that window along each side; finer ones are left out, so that every mesh has the same surface."""
 
 
 def gap(

@@ -1,4 +1,4 @@
-"""All that the report on rough gaps shows, and the numbers that sum it up."""
+"""Everything that the report on rough gaps shows, and its summary numbers."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -32,7 +32,7 @@ class Agreement:
 
 @dataclass(frozen=True, kw_only=True)
 class RoughGapStudy:
-    """All that is told.
+    """Everything that the report shows.
 
     Attributes
     ----------
@@ -68,7 +68,7 @@ class RoughGapStudy:
 
     @property
     def factors(self) -> list[float]:
-        """What Reynolds is off by over g'², for every surface that is not steep, at each of its mean gaps."""
+        """Relative error of Reynolds' equation divided by g'², for every gentle surface and mean gap."""
         return [off.error / one.slope**2 for one in self.reach if one.slope < STEEP for off in one.found]
 
 

@@ -16,7 +16,7 @@ WAVELENGTHS = (10.0, 5.0, 2.5)
 """Sq and λ over the mean gap."""
 
 STRIATED = ((0.2, 5.0),)
-"""Of the surface with a lay."""
+"""Sq and λ over the mean gap of the surface with a lay."""
 
 ABOVE_PEAK = (1.5, 2.5, 5.0)
 """Mean gaps of the milled window, over its highest point."""
@@ -79,5 +79,5 @@ def asked(all_cases: Sequence[ResolvedGap]) -> list[ModelRun]:
 
 
 def surfaces(all_cases: Sequence[ResolvedGap], answers: Answers) -> tuple[GapComparison, ...]:
-    """All of them, compared."""
+    """Compare all gaps."""
     return tuple(compare(case.name, case.group, case.scene, case.grids, answers) for case in all_cases)

@@ -22,7 +22,7 @@ DRAWN = tuple(float(length) for length in np.geomspace(1, 40, 15))
 GRIDS = (32, 48, 64)
 
 TOLERANCE = 1e-5
-"""Of the exact flow, which is far below every error here, and quick."""
+"""Tolerance of the exact flow, far below every error here."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,7 +45,7 @@ class Wave:
 
 @dataclass(frozen=True, kw_only=True)
 class Waves:
-    """All of them: ``resolved`` in OpenFOAM too, ``drawn`` by theory alone."""
+    """All waves: ``resolved`` in OpenFOAM too, ``drawn`` by theory alone."""
 
     resolved: tuple[Wave, ...]
     drawn: tuple[Wave, ...]

@@ -127,7 +127,7 @@ def over(surface: Path, ratio: float, phase: float) -> Any:
 def pairs(
     make: Callable[[float, float], Any], title: str, ratios: Sequence[float], phases: Sequence[float]
 ) -> WaveErrors:
-    """Both rungs over the lengths of the waves and their phases."""
+    """Solve films by both models for all lengths of the waves and all phases."""
     found = []
     averaged = solve(make(ratios[-1], 0.0), "homogenized")
     for ratio in ratios:

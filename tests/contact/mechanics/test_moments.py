@@ -77,7 +77,7 @@ def test_of_a_gaussian_autocorrelation_they_have_closed_forms():
     assert found.m4 == pytest.approx(12 * whole / length**4, rel=1e-4)
 
 
-def test_summits_of_gaussian_surfaces_are_as_many_and_as_high_as_told():
+def test_summits_of_gaussian_surfaces_are_as_many_and_as_high_as_predicted():
     """Counted on 8 surfaces of some 1000 summits together."""
     surfaces = [gaussian_surface(seed) for seed in range(3041, 3049)]
     moments = [wave_power(s.heights, s.spacing).moments for s in surfaces]
@@ -96,7 +96,7 @@ def test_summits_of_gaussian_surfaces_are_as_many_and_as_high_as_told():
     assert 1 / curvatures.mean() == pytest.approx(np.mean([m.summit_radius for m in moments]), rel=0.04)
 
 
-def test_peaks_of_gaussian_profiles_are_as_many_and_as_high_as_told():
+def test_peaks_of_gaussian_profiles_are_as_many_and_as_high_as_predicted():
     """Counted on a profile of some 4500 peaks."""
     count, band = 1 << 17, 6000
     random = np.random.default_rng(3061)

@@ -222,7 +222,7 @@ def test_units_change_nothing():
     assert b.area_fraction == a.area_fraction
 
 
-def test_a_load_at_the_hardness_is_borne_everywhere():
+def test_a_load_at_the_hardness_is_carried_everywhere():
     contact = Press(rough(64), (SIDE / 64,) * 2, MODULUS, hardness=1e9).at(1e9)
     assert (contact.pressure == 1e9).all()
     assert contact.plastic_fraction == contact.area_fraction == 1

@@ -74,7 +74,7 @@ def test_an_elastic_contact_keeps_its_hardness(tmp_path, heights):
 
 
 @pytest.mark.parametrize(
-    ("change", "told"),
+    ("change", "difference"),
     [
         ({"spacing": (1e-6, 2.0000001e-6)}, "of another surface"),
         ({"settings": {**SETTINGS, "hardness": 3e9}}, r"with hardness 4000000000\.0, not 3000000000\.0"),
@@ -85,11 +85,11 @@ def test_an_elastic_contact_keeps_its_hardness(tmp_path, heights):
         ({"heights": lambda z: z.reshape(18, 24)}, "of another surface"),
     ],
 )
-def test_another_series_is_refused_and_kept(file, inputs, contacts, change, told):
+def test_another_series_is_refused_and_kept(file, inputs, contacts, change, difference):
     changed = {name: value(inputs.heights) if callable(value) else value for name, value in change.items()}
     other = Inputs(**{**vars(inputs), **changed})
     before = file.read_bytes()
-    with pytest.raises(InputError, match=f"holds another series, {told}; remove it"):
+    with pytest.raises(InputError, match=f"holds another series, {difference}; remove it"):
         finished(file, other)
     with pytest.raises(InputError, match="holds another series"):
         add(file, other, [(row_of(contacts[0], 0.0), contacts[0])])

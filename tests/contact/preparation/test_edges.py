@@ -82,7 +82,7 @@ def test_the_widest_filter_leaves_the_middle_alone_and_a_wider_one_is_refused(co
         make_periodic(given, "x", width=(largest_width(count) * 1.01, 0.0))
 
 
-def test_too_few_pixels_are_told():
+def test_too_few_pixels_are_refused():
     with pytest.raises(InputError, match=r"^edges: got 10 pixels along y; joining edges needs 11 and more"):
         make_periodic(rough(828, shape=(40, 10)), "y", width=(1.0, 1.0))
 

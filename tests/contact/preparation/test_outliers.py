@@ -18,32 +18,32 @@ def body_with_spikes():
 
 def test_spikes_and_pits_come_down_to_the_body():
     given = body_with_spikes()
-    cut, told = cut_outliers(given, bins=1000, points=10)
+    clipped, cut = cut_outliers(given, bins=1000, points=10)
     bin_width = 10e-6 / 1000
-    assert (told.above, told.below) == (1, 3)
-    assert 0.998e-6 <= told.highest <= 0.998e-6 + bin_width
-    assert 0.002e-6 - bin_width <= told.lowest <= 0.002e-6
-    assert cut.heights.max() == told.highest
-    assert cut.heights.min() == told.lowest
-    inside = (given.heights <= told.highest) & (given.heights >= told.lowest)
+    assert (cut.above, cut.below) == (1, 3)
+    assert 0.998e-6 <= cut.highest <= 0.998e-6 + bin_width
+    assert 0.002e-6 - bin_width <= cut.lowest <= 0.002e-6
+    assert clipped.heights.max() == cut.highest
+    assert clipped.heights.min() == cut.lowest
+    inside = (given.heights <= cut.highest) & (given.heights >= cut.lowest)
     assert inside.sum() == 10_000 - 4
-    assert np.array_equal(cut.heights[inside], given.heights[inside])
+    assert np.array_equal(clipped.heights[inside], given.heights[inside])
 
 
 def test_no_points_wanted_cuts_nothing():
     given = body_with_spikes()
-    cut, told = cut_outliers(given, points=0)
-    assert np.array_equal(cut.heights, given.heights)
-    assert (told.above, told.below) == (0, 0)
+    clipped, cut = cut_outliers(given, points=0)
+    assert np.array_equal(clipped.heights, given.heights)
+    assert (cut.above, cut.below) == (0, 0)
 
 
 def test_invalid_points_neither_count_nor_change():
     given = body_with_spikes()
     invalid = np.zeros(given.shape, bool)
     invalid[7, 7] = True
-    cut, told = cut_outliers(given.with_heights(given.heights, invalid=invalid))
-    assert told.above == 0
-    assert cut.heights[7, 7] == 0
+    clipped, cut = cut_outliers(given.with_heights(given.heights, invalid=invalid))
+    assert cut.above == 0
+    assert clipped.heights[7, 7] == 0
 
 
 def test_bins_finer_than_the_digits_of_the_heights_are_refused():

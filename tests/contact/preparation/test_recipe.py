@@ -86,7 +86,7 @@ def test_a_fault_is_one_line_that_names_its_key(override, message):
     assert "Coordinate" not in str(raised.value)
 
 
-def test_a_recipe_that_is_no_toml_is_told(tmp_path):
+def test_a_recipe_that_is_no_toml_is_refused(tmp_path):
     (tmp_path / "r.toml").write_text("form = ")
     with pytest.raises(InputError, match=r"r\.toml: is not TOML \(.*\); write lines such as: form = \"quadratic\""):
         load_recipe(tmp_path / "r.toml")

@@ -1,4 +1,4 @@
-"""Surfaces come back from files as they were, and damaged files are told in one line."""
+"""Surfaces come back from files as they were, and damaged files are refused in one line."""
 
 from pathlib import Path
 
@@ -47,7 +47,7 @@ def test_csv_has_a_line_for_each_y(tmp_path, newline):
     assert np.allclose(read.spacing, SPACING)
 
 
-def test_csv_without_header_takes_what_it_is_told(tmp_path):
+def test_csv_without_header_takes_the_spacing_and_unit_given(tmp_path):
     (tmp_path / "s.csv").write_text("1,2\n3,nan\n")
     read = read_surface(tmp_path / "s.csv", spacing=SPACING, height_unit="mm")
     assert read.heights[1, 0] == 2e-3
@@ -116,14 +116,14 @@ def test_a_bad_csv_is_one_line(tmp_path, text):
     assert "\n" not in str(raised.value)
 
 
-def test_text_that_is_not_utf8_is_told(tmp_path):
+def test_text_that_is_not_utf8_is_refused(tmp_path):
     (tmp_path / "s.csv").write_bytes(b"1,2\n\xff,4\n")
     with pytest.raises(InputError, match="byte 4 is not UTF-8"):
         read_surface(tmp_path / "s.csv")
 
 
 @pytest.mark.parametrize("kept", [0, 5, 60, 127, 200])
-def test_a_truncated_npy_is_told(tmp_path, kept):
+def test_a_truncated_npy_is_refused(tmp_path, kept):
     np.save(tmp_path / "whole.npy", np.zeros((20, 20)))
     (tmp_path / "s.npy").write_bytes((tmp_path / "whole.npy").read_bytes()[:kept])
     with pytest.raises(InputError, match=r"is no whole NPY array|is empty"):
@@ -142,7 +142,7 @@ def test_an_npy_header_beyond_its_file_takes_no_memory(tmp_path):
 @pytest.mark.parametrize(
     "array", [np.zeros(5), np.zeros((2, 2, 2)), np.zeros((3, 3), complex), np.array([["a"] * 2] * 2)]
 )
-def test_an_npy_that_is_no_map_of_heights_is_told(tmp_path, array):
+def test_an_npy_that_is_no_map_of_heights_is_refused(tmp_path, array):
     np.save(tmp_path / "s.npy", array)
     with pytest.raises(InputError, match=r"save numbers of shape \(nx, ny\)"):
         read_surface(tmp_path / "s.npy", spacing=SPACING)
@@ -167,7 +167,7 @@ def test_our_own_file_is_hdf5_for_others_too(tmp_path):
 
 
 @pytest.mark.parametrize("part", [0.02, 0.1, 0.5, 0.9, 0.999])
-def test_our_own_file_truncated_is_told(tmp_path, part):
+def test_our_own_file_truncated_is_refused(tmp_path, part):
     heights = np.random.default_rng(832).normal(size=(64, 64))
     save_surface(Surface(heights=heights, spacing=SPACING), tmp_path / "s.h5")
     whole = (tmp_path / "s.h5").read_bytes()
@@ -176,7 +176,7 @@ def test_our_own_file_truncated_is_told(tmp_path, part):
         read_surface(tmp_path / "s.h5")
 
 
-def test_our_own_file_with_any_bit_turned_is_told(tmp_path):
+def test_our_own_file_with_any_bit_turned_is_refused(tmp_path):
     """The library that reads HDF5 can crash or hang on such a file, so it never sees one."""
     save_surface(Surface(heights=np.random.default_rng(833).normal(size=(16, 16)), spacing=SPACING), tmp_path / "s.h5")
     whole = (tmp_path / "s.h5").read_bytes()
@@ -188,7 +188,7 @@ def test_our_own_file_with_any_bit_turned_is_told(tmp_path):
             read_surface(tmp_path / "s.h5")
 
 
-def test_our_own_file_of_another_version_is_told(tmp_path, monkeypatch):
+def test_our_own_file_of_another_version_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(surface_store, "SCHEMA", 99)
     save_surface(Surface(heights=np.eye(4), spacing=SPACING), tmp_path / "s.h5")
     monkeypatch.undo()
@@ -196,25 +196,25 @@ def test_our_own_file_of_another_version_is_told(tmp_path, monkeypatch):
         read_surface(tmp_path / "s.h5")
 
 
-@pytest.mark.parametrize("told", [{"spacing": SPACING}, {"height_unit": "um"}, {"channel": "Raw"}])
-def test_our_own_file_is_not_contradicted(tmp_path, told):
+@pytest.mark.parametrize("given", [{"spacing": SPACING}, {"height_unit": "um"}, {"channel": "Raw"}])
+def test_our_own_file_is_not_contradicted(tmp_path, given):
     save_surface(Surface(heights=np.eye(4), spacing=SPACING), tmp_path / "s.h5")
     with pytest.raises(InputError, match="holds its own spacing and unit; leave out"):
-        read_surface(tmp_path / "s.h5", **told)
+        read_surface(tmp_path / "s.h5", **given)
 
 
-def test_a_link_that_leads_in_circles_is_told(tmp_path):
+def test_a_link_that_leads_in_circles_is_refused(tmp_path):
     (tmp_path / "loop.csv").symlink_to(tmp_path / "loop.csv")
     with pytest.raises(InputError, match="no such file"):
         read_surface(tmp_path / "loop.csv")
 
 
-def test_a_home_that_is_not_known_is_told():
+def test_a_home_that_is_not_known_is_refused():
     with pytest.raises(InputError, match="leads nowhere"):
         read_surface(Path("~nobody-of-this-name/s.opd"))
 
 
-def test_what_is_no_file_is_told(tmp_path):
+def test_what_is_no_file_is_refused(tmp_path):
     with pytest.raises(InputError, match="no such file; name a measured surface"):
         read_surface(tmp_path / "absent.opd")
     with pytest.raises(InputError, match="is no file; name a measured surface"):

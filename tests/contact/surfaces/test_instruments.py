@@ -36,12 +36,12 @@ FILES = {
 
 
 def child(path, channel=None):
-    """What the child would send, without starting one: (told, heights or None)."""
+    """The header and the heights, or None, that a child process would send."""
     out = io.BytesIO()
     instrument_reader.main({"path": str(path), "channel": channel, "most": instruments.MAX_POINTS}, out)
     head, _, rest = out.getvalue().partition(b"\n")
-    told = json.loads(head)
-    return told, None if "shape" not in told else np.frombuffer(rest).reshape(told["shape"])
+    header = json.loads(head)
+    return header, None if "shape" not in header else np.frombuffer(rest).reshape(header["shape"])
 
 
 @pytest.mark.measured
@@ -60,11 +60,11 @@ def test_an_instrument_file_is_read(measured_file, name):
 @pytest.mark.parametrize("name", FILES)
 def test_every_kind_of_file_says_what_is_known_of_it(measured_file, name):
     format_, points, size, invalid = FILES[name]
-    told, heights = child(measured_file(name))
+    header, heights = child(measured_file(name))
     assert heights.shape == points
-    assert told["size"] == pytest.approx(size, rel=5e-4)
+    assert header["size"] == pytest.approx(size, rel=5e-4)
     assert np.isnan(heights).mean() == pytest.approx(invalid, abs=5e-5)
-    assert told["format"] == format_
+    assert header["format"] == format_
 
 
 @pytest.mark.measured
@@ -76,11 +76,11 @@ def test_a_truncated_file_is_refused_or_still_holds_all_its_heights(measured_fil
     for kept in (8, 100, 1000, *(int(part * len(whole)) for part in (0.1, 0.5, 0.8))):
         path = tmp_path / name
         path.write_bytes(whole[:kept])
-        told, heights = child(path)
-        if "fault" in told:
+        header, heights = child(path)
+        if "fault" in header:
             refused += 1
-            assert "\n" not in told["fault"]
-            assert len(told["fault"]) < 250
+            assert "\n" not in header["fault"]
+            assert len(header["fault"]) < 250
         else:
             assert np.array_equal(heights, expected, equal_nan=True)
     assert refused >= 4
@@ -92,11 +92,11 @@ def test_a_sur_header_of_thirty_thousand_squared_is_refused_in_little_memory(mea
     data[108:116] = struct.pack("<ii", 30_000, 30_000)
     (tmp_path / "large.sur").write_bytes(data)
     tracemalloc.start()
-    told, heights = child(tmp_path / "large.sur")
+    header, heights = child(tmp_path / "large.sur")
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert heights is None
-    assert re.match(r"claims 30000 x 30000 points|cannot be read|is in no format", told["fault"])
+    assert re.match(r"claims 30000 x 30000 points|cannot be read|is in no format", header["fault"])
     assert peak < 100e6
 
 
@@ -116,10 +116,10 @@ def test_a_text_header_of_thirty_thousand_squared_is_refused(tmp_path):
         "h=30000 w=30000\npixel size=3.7e-007 m\nheight conversion factor (-> m)=6e-008\n1 2 3 4\n5 6 7 8\n"
     )
     tracemalloc.start()
-    told, _ = child(path)
+    header, _ = child(path)
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
-    assert re.match(r"is in no format|cannot be read", told["fault"])
+    assert re.match(r"is in no format|cannot be read", header["fault"])
     assert peak < 100e6
 
 
@@ -129,12 +129,12 @@ def test_a_text_header_of_thirty_thousand_squared_is_refused(tmp_path):
 def test_what_is_no_surface_is_one_line(tmp_path, content):
     path = tmp_path / "letter.dat"
     path.write_bytes(content)
-    told, _ = child(path)
-    assert "\n" not in told["fault"]
-    assert told["fault"].endswith(("export it again from the instrument", "it may be damaged"))
+    header, _ = child(path)
+    assert "\n" not in header["fault"]
+    assert header["fault"].endswith(("export it again from the instrument", "it may be damaged"))
 
 
-def test_a_matrix_in_text_needs_to_be_told_its_spacing_and_unit(tmp_path):
+def test_a_matrix_in_text_needs_a_spacing_and_unit(tmp_path):
     path = tmp_path / "plain.txt"
     path.write_text("1 2 3 4\n5 6 7 8\n9 10 11 12\n")
     with pytest.raises(InputError, match=r"plain\.txt: gives no spacing of its points; set read\.spacing"):
@@ -146,10 +146,10 @@ def test_a_matrix_in_text_needs_to_be_told_its_spacing_and_unit(tmp_path):
 
 @pytest.mark.measured
 def test_a_channel_is_chosen_by_name(measured_file):
-    told, _ = child(measured_file("polished.opd"), "Raw")
-    assert told["channel"] == "Raw"
-    told, _ = child(measured_file("polished.opd"), "nonsense")
-    assert told["fault"].startswith("has no channel 'nonsense'; its channels are 'Raw'")
+    header, _ = child(measured_file("polished.opd"), "Raw")
+    assert header["channel"] == "Raw"
+    header, _ = child(measured_file("polished.opd"), "nonsense")
+    assert header["fault"].startswith("has no channel 'nonsense'; its channels are 'Raw'")
 
 
 @pytest.mark.parametrize(("greedy", "end"), [("bytearray(3 << 30)", 1), ("while True: pass", -signal.SIGKILL)])
@@ -160,13 +160,13 @@ def test_a_child_gets_no_more_memory_and_time_than_it_is_given(greedy, end):
     assert ("MemoryError" in done.stderr) == (end == 1)
 
 
-def test_a_reader_that_takes_all_memory_is_told(tmp_path, monkeypatch):
+def test_a_reader_that_takes_all_memory_is_reported(tmp_path, monkeypatch):
     def greedy(*_):
         raise MemoryError
 
     monkeypatch.setattr(instrument_reader, "_read", greedy)
-    told, _ = child(tmp_path / "s.opd")
-    assert told["fault"] == "needs more memory than a file of its length should; it may be damaged"
+    header, _ = child(tmp_path / "s.opd")
+    assert header["fault"] == "needs more memory than a file of its length should; it may be damaged"
 
 
 def test_a_library_that_does_not_load_is_no_fault_of_the_file(tmp_path, monkeypatch):
@@ -174,8 +174,8 @@ def test_a_library_that_does_not_load_is_no_fault_of_the_file(tmp_path, monkeypa
         raise ImportError("no module named scipy")
 
     monkeypatch.setattr(instrument_reader, "_read", broken)
-    told, _ = child(tmp_path / "s.opd")
-    assert told == {"missing": "no module named scipy"}
+    header, _ = child(tmp_path / "s.opd")
+    assert header == {"missing": "no module named scipy"}
 
 
 def test_a_reader_that_never_ends_is_stopped(tmp_path, monkeypatch):
@@ -190,7 +190,7 @@ def test_a_reader_that_never_ends_is_stopped(tmp_path, monkeypatch):
 
 @pytest.mark.skipif(not terminate_with_parent(), reason="no setpriv (util-linux) on this machine")
 def test_a_killed_parent_leaves_no_reader(tmp_path):
-    """The reader is a stand-in that tells its number and then sleeps."""
+    """The reader is a stand-in that prints its process id and then sleeps."""
     (tmp_path / "python").write_text(
         f"#!/bin/sh\necho $$ > {tmp_path}/number.part\nmv {tmp_path}/number.part {tmp_path}/number\nexec sleep 60\n"
     )

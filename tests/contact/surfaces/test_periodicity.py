@@ -1,4 +1,4 @@
-"""The mismatch tells true periods from windows, and does not depend on where or how a surface is cut up."""
+"""The mismatch distinguishes true periods from windows, and does not depend on where a surface is cut."""
 
 import numpy as np
 import pytest

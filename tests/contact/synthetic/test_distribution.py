@@ -57,11 +57,11 @@ def test_skewness_is_met_and_the_spectrum_kept(surface, skewness):
     assert stats.kurtosis(heights) == pytest.approx(1.5 * skewness**2, rel=0.03, abs=0.01)
     assert heights.std() == pytest.approx(surface.heights.std(), rel=1e-12)
     assert heights.mean() == pytest.approx(surface.heights.mean(), abs=1e-12 * heights.std())
-    told = made.source["distribution"]
+    results = made.source["distribution"]
     error = spectral_error(made, surface)
-    assert told["spectral_error"] == pytest.approx(error, rel=1e-6)
-    assert told["skewness"] == pytest.approx(stats.skew(heights), rel=1e-9, abs=1e-12)
-    assert told["kurtosis"] == pytest.approx(3 + stats.kurtosis(heights), rel=1e-9)
+    assert results["spectral_error"] == pytest.approx(error, rel=1e-6)
+    assert results["skewness"] == pytest.approx(stats.skew(heights), rel=1e-9, abs=1e-12)
+    assert results["kurtosis"] == pytest.approx(3 + stats.kurtosis(heights), rel=1e-9)
     assert error < 0.02 + 0.01 * skewness**2
 
 

@@ -44,7 +44,7 @@ def test_sinusoids(wavelengths, combination, rms_height, rms_slope, points):
     assert math.sqrt(slope) == pytest.approx(1e-3 * rms_slope, rel=1e-9)
 
 
-def test_a_wavelength_that_nearly_fits_is_fitted_and_told():
+def test_a_wavelength_that_nearly_fits_is_rounded_and_recorded():
     made = sinusoid(size=(MM, MM), points=(60, 4), amplitude=1e-6, wavelength_x=0.3333 * MM)
     assert metres(made.source["achieved"]["wavelength_x"]) == pytest.approx(MM / 3, rel=1e-14)
     assert made.source["synthetic"]["wavelength_x"] == f"{0.3333 * MM!r} m"
@@ -69,7 +69,7 @@ def test_cross_hatch_leaves_the_land_that_its_grooves_leave(half_angle):
     assert made.heights[0, 0] == made.heights.min() == -3e-6
 
 
-def test_cross_hatch_grooves_run_at_the_angle_and_spacing_that_are_told():
+def test_cross_hatch_grooves_run_at_the_angle_and_spacing_that_are_recorded():
     made = cross_hatch(
         size=(2 * MM, 1.3 * MM), points=(600, 400), spacing=0.1 * MM, half_angle=0.5, depth=1e-6, width=0.05 * MM
     )
@@ -99,7 +99,7 @@ def arc_phase(surface, feeds):
 
 @pytest.mark.parametrize("offset", [0.0, 0.7 * MM, -0.7 * MM])
 def test_milled_marks_lie_on_circles_of_the_mill(offset):
-    """The least squares circle through the lowest places of a mark has the radius and the centre that are told."""
+    """The least squares circle through the lowest places of a mark has the radius and the centre that are recorded."""
     made = milled(size=(MM, MM), points=(400, 257), radius=3 * MM, feed=0.1 * MM, depth=2e-6, offset=offset)
     x = arc_phase(made, 10) * 0.1 * MM
     y = (np.arange(257) / 257 - 0.5) * MM

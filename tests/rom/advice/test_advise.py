@@ -11,7 +11,7 @@ from roughfilm.rom.advice.advise import Verdict, advise, wanted
 from roughfilm.rom.advice.estimates import near
 from roughfilm.rom.advice.laws import RESOLVING, Grid, Law, Step, Table, read_table, table
 from roughfilm.rom.ladder.kind import Omission, kinds
-from roughfilm.rom.ladder.model import Applicability, Availability, Effect, Model, best, ladder, of_kind
+from roughfilm.rom.ladder.model import Applicability, Availability, Effect, Model, Resolutions, best, ladder, of_kind
 from roughfilm.rom.ladder.result import Numerics, Result
 
 ALL = ladder(rom, foamcases)
@@ -53,20 +53,20 @@ class Fakes:
             summary=name,
             keeps=keeps,
             sources=(),
-            resolution=8,
-            resolutions=(8,),
+            resolutions=Resolutions(least=1, most=100, default=8, series=(8,)),
             resolution_meaning="",
             residual_meaning="",
             order=None,
+            tolerance=1e-9,
             cost=lambda _scene, _resolution: self.costs[name],
             applies=lambda _scene: Applicability(applies=True, reason=""),
-            solve=self.solve(name),
-            write=(lambda _scene, _directory, **_options: None) if name == "navier_stokes" else None,
+            compute=self.compute(name),
+            outside=name == "navier_stokes",
             available=lambda: Availability(available=available or name != "navier_stokes", detail="install it"),
         )
 
-    def solve(self, name):
-        def solved(scene, **_options):
+    def compute(self, name):
+        def solved(_model, scene, _request, _progress):
             self.ran.append(name)
             if self.loads[name] is None:
                 raise ConvergenceError("no")
@@ -260,7 +260,7 @@ def test_a_rung_that_was_tried_in_vain_is_not_advised(scene):
     assert found.chosen.model == "film"
     assert (found.considered[0].verdict, found.considered[0].reason) == (Verdict.IN_VAIN, "no")
     top = Fakes({"reynolds": 0.5, "film": 0.2}, {"navier_stokes": None})
-    top.models = [replace(one, write=None) for one in top.models]
+    top.models = [replace(one, outside=False) for one in top.models]
     found = top.advise(scene, 0.01)
     assert found.considered[-1].verdict is Verdict.IN_VAIN
     assert (found.chosen, found.nearest.model) == (None, "film")
@@ -288,7 +288,7 @@ def test_what_every_rung_leaves_out_counts_too(scene, monkeypatch):
 
 @pytest.mark.parametrize("within", [0.0, 1.0, -0.1, float("nan")])
 def test_a_tolerance_out_of_range_is_refused(scene, within):
-    with pytest.raises(InputError, match="--within"):
+    with pytest.raises(InputError, match=r"^within: got"):
         Fakes({}).advise(scene, within)
 
 

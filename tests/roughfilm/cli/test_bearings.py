@@ -59,7 +59,7 @@ def test_solve_shows_how_sure_it_is():
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["--model", "film"], "--model: got 'film'; it must be one of direct, homogenized"),
+        (["--model", "film"], "--model: got 'film'; it must be one of reynolds, infinitely_wide"),
         (["--model", "reynolds", "--resolution", "4"], "--resolution: got 4; reynolds takes 8 to"),
         (["--model", "reynolds", "--set", "geometry.shape=oval"], "scene.geometry.shape: got 'oval'"),
         (["--model", "reynolds", "--scheme", "upwind"], "--scheme: got 'upwind' for reynolds; it offers no choice"),

@@ -12,7 +12,7 @@ from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import scene_entries
 from scripts.studies.advice.check import Trial, score, tried
 from scripts.studies.advice.fit import SolvedScene, cases, fit, fitted, written
-from scripts.studies.advice.runs import PARTS, Drawn, Run
+from scripts.studies.advice.runs import PARTS, DrawnScene, Run
 from scripts.studies.advice.scenes import DRAWN, random_scene
 
 
@@ -74,7 +74,7 @@ def values(load):
 
 @pytest.fixture
 def drawn():
-    return [Drawn(kind="pocket", seed=seed, runs=runs_of(4.0, 1e-3 * (seed - 2990))) for seed in range(3000, 3020)]
+    return [DrawnScene(kind="pocket", seed=seed, runs=runs_of(4.0, 1e-3 * (seed - 2990))) for seed in range(3000, 3020)]
 
 
 def test_the_best_rung_is_extrapolated_from_its_grids(drawn):
@@ -96,7 +96,7 @@ def test_the_table_is_read_back_as_it_was_fitted(drawn):
 
 
 def test_a_trial_compares_what_was_advised_with_the_best_rung():
-    surface = Drawn(kind="dry_contact", seed=7003, runs=())
+    surface = DrawnScene(kind="dry_contact", seed=7003, runs=())
     scene = random_scene("dry_contact", 7003)
     kind = kinds()["dry_contact"]
     own = {"area_fraction": 0.1, "mean_gap": 1e-6, "rms_height": 1e-6}

@@ -141,7 +141,7 @@ def test_the_page(monkeypatch, tmp_path, found):
     lay.command(tmp_path)
     page = (tmp_path / "lay.html").read_text(encoding="utf-8")
     assert page.count("<svg") == 5
-    assert "are not here" in page
+    assert "are absent" in page
     assert not re.search(
         r"""(src|href)\s*=\s*["'](?!#|data:|https://doi)|url\(\s*["']?(?!#|data:)|<script|@import""", page
     )

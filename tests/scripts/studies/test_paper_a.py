@@ -9,7 +9,7 @@ import pytest
 from roughfilm.rom.pocket.kind import KIND
 from roughfilm.rom.studies.sweep import Sweep
 from scripts.studies.paper_a.claims import judge
-from scripts.studies.paper_a.data import DEPTHS, NUMBERS, SHAPES, WIDTHS, Paper, first_zero, highest
+from scripts.studies.paper_a.data import DEPTHS, NUMBERS, SHAPES, WIDTHS, PaperA, first_zero, highest
 
 KEYS = list(product(SHAPES.values(), WIDTHS, DEPTHS, NUMBERS))
 
@@ -35,7 +35,7 @@ def paper(load, friction, stokes=lambda *_: 0.0):
         cpu_s={},
         failures=(),
     )
-    return Paper(sweep=sweep, directory=Path("nowhere"), best="navier_stokes", stokes="stokes", upwind=None)
+    return PaperA(sweep=sweep, directory=Path("nowhere"), best="navier_stokes", stokes="stokes", upwind=None)
 
 
 def falling(profile, _shift, width, depth, _number):

@@ -14,7 +14,7 @@ from roughfilm.rom.homogenization.line import line_factors, profile_over_gap
 from roughfilm.rom.homogenization.line_rules import Rule
 from scripts.studies.paper_c import __main__ as paper_c
 from scripts.studies.paper_c.claims import against, judge, order_holds_to
-from scripts.studies.paper_c.data import BESIDE, RANGE, TABLE, WAYS, Convergence, compute, gap, make
+from scripts.studies.paper_c.data import BESIDE, RANGE, TABLE, WAYS, RuleConvergence, compute, gap, make
 from scripts.studies.paper_c.films import (
     CLEARANCES,
     LOADS,
@@ -24,7 +24,7 @@ from scripts.studies.paper_c.films import (
     SPEED,
     VISCOSITY,
     Curve,
-    Ordering,
+    FilmOrdering,
     by_rule,
     curve,
     films,
@@ -137,7 +137,7 @@ def test_a_curve_goes_through_its_films():
 
 def test_nodes_and_orders_of_a_known_error():
     nodes = 2.0 ** np.arange(8, 14)
-    made = Convergence(
+    made = RuleConvergence(
         nodes=nodes,
         exact=np.ones((1, 2)),
         found={(Rule.SIMPSON, 0): (1 + 1e4 / nodes**2)[None, :, None] * np.ones(2)},
@@ -185,7 +185,7 @@ def test_pairs_against_the_order():
     rough, thin = np.array([1.0, 2.0, 8.0]), np.array([3.0, 2.0, 1.0])
     assert against(rough, thin) == 1
     assert against(rough, np.array([3.0, 1.0, 2.0])) == pytest.approx(4)
-    made = Ordering(numbers={"Ra": rough}, clearance=np.array([[3.0], [1.0], [2.0]]))
+    made = FilmOrdering(numbers={"Ra": rough}, clearance=np.array([[3.0], [1.0], [2.0]]))
     assert made.concordance("Ra", 0) == pytest.approx(2 / 3)
 
 
@@ -196,7 +196,7 @@ def verdicts(made):
 def orderings(sign):
     rough = np.linspace(1, 2, 8)
     numbers = dict.fromkeys(("Ra", "Rq", "rmax"), rough)
-    one = Ordering(numbers=numbers, clearance=np.tile((10 - sign * rough)[:, None], len(LOADS)))
+    one = FilmOrdering(numbers=numbers, clearance=np.tile((10 - sign * rough)[:, None], len(LOADS)))
     return {"random": one, "of one Ra": one}
 
 
@@ -211,7 +211,7 @@ def studies(simpson, others):
         for rule in Rule
         for left_out in (0, BESIDE)
     }
-    return Convergence(nodes=nodes, exact=np.ones((1, 2)), found=found)
+    return RuleConvergence(nodes=nodes, exact=np.ones((1, 2)), found=found)
 
 
 def test_verdicts_on_what_the_paper_says_and_on_the_opposite(paper):

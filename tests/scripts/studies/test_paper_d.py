@@ -8,7 +8,7 @@ import pytest
 
 from scripts.studies.paper_d import __main__ as paper_d
 from scripts.studies.paper_d.claims import judge, power_of, settled, straightness
-from scripts.studies.paper_d.data import QUANTITIES, SPECTRA, Paper, compute, line_contacts, low_pass, refined
+from scripts.studies.paper_d.data import QUANTITIES, SPECTRA, PaperD, compute, line_contacts, low_pass, refined
 from scripts.studies.paper_e.surface import load_model, reload
 
 LOADS = np.array([2e3, 1e4, 3e4, 1e5])
@@ -26,7 +26,7 @@ def paper(area, index, by_waves):
             state["plasticity_index"] = np.tile(index(LOADS, average), (2, 1))
             pressed[spectrum, name] = state
     cut = {spectrum: dict.fromkeys(("elastic", "elastic-plastic"), by_waves(WAVES)[None, :]) for spectrum in SPECTRA}
-    return Paper(
+    return PaperD(
         loads=tuple(LOADS),
         waves=tuple(WAVES),
         profiles={key: [np.zeros(512)] for key in pressed},

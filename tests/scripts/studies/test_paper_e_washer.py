@@ -8,7 +8,7 @@ import pytest
 from roughfilm.figures.base import svg
 from scripts.studies.paper_e import data as paper_e_data
 from scripts.studies.paper_e.__main__ import studies
-from scripts.studies.paper_e.claims import Paper, direct_is_homogenized, judge, lift_off, methods_agree, worst_cell
+from scripts.studies.paper_e.claims import PaperE, direct_is_homogenized, judge, lift_off, methods_agree, worst_cell
 from scripts.studies.paper_e.data import LOADS, SEEDS, Washer, washer
 from scripts.studies.paper_e.figures import drawings
 from scripts.studies.paper_e.made import made
@@ -46,7 +46,7 @@ def paper(straight=1.0, crossed=0.8, across=1.2, oblique=2.0, loads=LOADS):
     }
     factors = dict(zip(LAYS, (1.0, across, oblique, 1 / oblique), strict=True))
     lays = {f"{lay}, {seed}": lifted(factor, loads=loads) for lay, factor in factors.items() for seed in SEEDS}
-    return Paper(windows=(), rows=(), washers=washers, lays=lays | {"surface 1, across": lifted(across, loads=loads)})
+    return PaperE(windows=(), rows=(), washers=washers, lays=lays | {"surface 1, across": lifted(across, loads=loads)})
 
 
 @pytest.mark.parametrize(
@@ -137,7 +137,7 @@ def test_everything_is_drawn(small):
     _, one = small
     washers = dict.fromkeys(("surface 1", "surface 2", "surface 3"), one)
     lays = dict.fromkeys([f"{lay}, {seed}" for lay in LAYS for seed in SEEDS] + ["surface 1, across"], one)
-    whole = Paper(windows=windows(0.01), rows=((1, 0.01),), washers=washers, lays=lays)
+    whole = PaperE(windows=windows(0.01), rows=((1, 0.01),), washers=washers, lays=lays)
     assert [claim.number for claim in judge(whole)] == [19, 21, 22]
     plots = drawings(whole)
     assert set(plots) == {"textures", "friction", "films", "pressures", "lays", "leakages"}

@@ -35,7 +35,7 @@ def test_gaussian_heights_are_cut_where_their_bearing_curve_says(ratio, gaussian
     assert found.mean_gap == pytest.approx(expected, rel=1e-3)
 
 
-def test_nothing_and_everything_is_borne():
+def test_no_load_and_the_hardness_are_limits():
     z = stats.norm.rvs(size=(30, 20), random_state=5119) * 1e-6
     untouched, flat = (bearing_area(z, load=load, hardness=2e9) for load in (0.0, 2e9))
     assert untouched.area_fraction == 0

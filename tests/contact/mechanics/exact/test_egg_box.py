@@ -67,7 +67,7 @@ def test_full_contact_is_that_of_its_two_waves():
     assert BOX.full_contact_pressure(LENGTH / 2, 0.0, FULL) == pytest.approx(0, abs=1e-9 * FULL)
 
 
-def test_light_load_is_borne_by_two_spheres_in_a_period():
+def test_light_load_is_carried_by_two_spheres_in_a_period():
     step = 1e-4 * LENGTH
     curvature = (2 * heights(0, 0) - heights(step, 0) - heights(0, step)) / step**2
     assert 1 / BOX.crest_radius == pytest.approx(curvature, rel=1e-6)

@@ -37,7 +37,7 @@ def test_a_sum_of_waves_is_flat_under_it():
 
 
 def test_the_mean_square_of_the_pressure_is_that_of_the_slope():
-    """<(p − P)²> = (E*/2)² <|∇z|²> of any surface; here that of a self-affine one, told by its maker."""
+    """<(p − P)²> = (E*/2)² <|∇z|²> of any surface; here that of a self-affine one, recorded in its source."""
     surface = self_affine(
         size=(1e-3, 1e-3), points=(48, 48), seed=4211, hurst=0.8, roll_off=3e-4, cut_off=7e-5, rms_slope=0.05
     )

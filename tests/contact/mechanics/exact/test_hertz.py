@@ -1,4 +1,4 @@
-"""A sphere and a cylinder: pressures that bear the force and deform the solid to the gap told, by quadrature."""
+"""A sphere and a cylinder: pressures that bear the force and deform the solid to the stated gap, by quadrature."""
 
 import dataclasses
 

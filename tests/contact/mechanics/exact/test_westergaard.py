@@ -44,7 +44,7 @@ def test_pressure_is_above_0_in_contact_and_bears_the_load(ratio):
 
 
 @pytest.mark.parametrize("ratio", [0.0, 0.003, 0.1, 0.3, 0.8, 0.999, 1.0, 2.5])
-def test_gap_opens_outside_contact_and_has_the_mean_told(ratio):
+def test_gap_opens_outside_contact_and_has_the_stated_mean(ratio):
     contact = ridges(ratio)
     a = contact.half_width
     assert (contact.gap(np.linspace(-1, 1, 501) * a * (1 - 1e-12)) == 0).all()

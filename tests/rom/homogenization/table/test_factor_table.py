@@ -1,4 +1,4 @@
-"""Tables of flow factors: between, beyond and below their points, and in their files."""
+"""Tables of flow factors: interpolation, thick films, sealing, and files."""
 
 import dataclasses
 
@@ -8,7 +8,7 @@ import pytest
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.rom.homogenization.flow_factors import flow_factors
-from roughfilm.rom.homogenization.table.factor_table import told_rows
+from roughfilm.rom.homogenization.table.factor_table import relative_rows
 from roughfilm.rom.homogenization.table.separation import Separations
 from roughfilm.rom.homogenization.table.store import known_points, load_table, save_table
 from roughfilm.rom.homogenization.table.tabulate import tabulate
@@ -43,11 +43,11 @@ def cell(mean_gap):
     return flow_factors(body.gap(body.at_mean_gap(mean_gap)), SPACING, tolerance=1e-9)
 
 
-def test_the_mean_gap_and_the_separation_belong_together():
+def test_the_gap_at_a_separation_has_the_mean_gap_asked_for():
     body = Separations(heights=HEIGHTS)
     for mean_gap in (1e-9, 1e-7, 1e-6, 2.5e-6, 4e-5):
         assert body.gap(body.at_mean_gap(mean_gap)).mean() == pytest.approx(mean_gap, rel=1e-9)
-    assert body.at_mean_gap(1e-4) == pytest.approx(1e-4, rel=1e-9)  # without contact they are one
+    assert body.at_mean_gap(1e-4) == pytest.approx(1e-4, rel=1e-9)  # without contact they are equal
     with pytest.raises(InputError, match="give 1e-15"):
         body.at_mean_gap(0.0)
 
@@ -62,47 +62,47 @@ def test_sealing_separations_are_the_last_heights_without_a_path():
             assert flow_factors(body.gap(height), SPACING).factors.sealed[direction] is shut
 
 
-def test_between_points_it_is_as_near_as_it_says(table):
+def test_interpolation_keeps_its_tolerance_between_points(table):
     assert table.interpolation_error <= 0.005
     for mean_gap in np.exp(RANDOM.uniform(np.log(table.narrowest), np.log(4 * table.widest), 30)):
         one = cell(float(mean_gap))
-        own, doubt = one.factors.relative, one.uncertainty
-        row = told_rows(table, np.array([mean_gap]))[0]
+        own, uncertainty = one.factors.relative, one.uncertainty
+        row = relative_rows(table, np.array([mean_gap]))[0]
         off = np.abs(row[:4] - [own.pressure[0, 0], own.pressure[1, 1], own.pressure[0, 1], own.shear[0]])
-        a = doubt.pressure / mean_gap**3
+        a = uncertainty.pressure / mean_gap**3
         allowed = 0.0075 * np.array([own.pressure[0, 0], own.pressure[1, 1], own.pressure[0, 0], own.shear[0]]) + 2e-4
-        unsure = np.array([a[0, 0], a[1, 1], a[0, 1], doubt.shear[0] / mean_gap])
-        assert (off <= allowed + unsure).all()
+        uncertain = np.array([a[0, 0], a[1, 1], a[0, 1], uncertainty.shear[0] / mean_gap])
+        assert (off <= allowed + uncertain).all()
 
 
 def test_flow_falls_as_the_gap_closes_and_ends_where_it_is_sealed(table):
     gaps = np.geomspace(0.5 * table.narrowest, 3 * table.widest, 400)
-    told = table(gaps)
-    assert (np.diff(told.along) >= 0).all()
-    assert (np.diff(told.across) >= 0).all()
+    factors = table(gaps)
+    assert (np.diff(factors.along) >= 0).all()
+    assert (np.diff(factors.across) >= 0).all()
     below = gaps < table.narrowest
-    assert not told.along[below].any()
-    assert not told.across[below].any()
-    assert not told.drag[below].any()
-    assert (told.along * told.across - told.cross**2 >= -1e-12 * told.along * told.across).all()
+    assert not factors.along[below].any()
+    assert not factors.across[below].any()
+    assert not factors.drag[below].any()
+    assert (factors.along * factors.across - factors.cross**2 >= -1e-12 * factors.along * factors.across).all()
 
 
-def test_thick_films_lose_roughness_with_the_square_of_the_gap(table):
-    row = told_rows(table, 1e-6 * np.array([1e3, 2e3]))
+def test_the_effect_of_roughness_falls_with_the_square_of_thick_gaps(table):
+    row = relative_rows(table, 1e-6 * np.array([1e3, 2e3]))
     assert (1 - row[0, 0]) / (1 - row[1, 0]) == pytest.approx(4, rel=1e-6)
     one = cell(3e-4).factors.relative
-    assert 1 - told_rows(table, np.array([3e-4]))[0, 0] == pytest.approx(1 - one.pressure[0, 0], rel=0.05)
+    assert 1 - relative_rows(table, np.array([3e-4]))[0, 0] == pytest.approx(1 - one.pressure[0, 0], rel=0.05)
 
 
 def test_the_surface_with_its_heights_multiplied(table):
     twice = table.scaled(2.0)
     gaps = np.array([1.1e-6, 3e-6])
-    assert np.allclose(told_rows(twice, 2 * gaps), told_rows(table, gaps), rtol=1e-12)
+    assert np.allclose(relative_rows(twice, 2 * gaps), relative_rows(table, gaps), rtol=1e-12)
     assert twice(2 * gaps).along == pytest.approx(8 * table(gaps).along)
     assert twice(np.array([1e-5])).least == pytest.approx(1e-5 - 2 * (HEIGHTS.max() - HEIGHTS.mean()))
 
 
-def test_below_a_table_that_is_open_nothing_is_guessed(table):
+def test_gaps_below_an_open_table_are_refused(table):
     cut = dataclasses.replace(table, points=table.points[len(table.points) // 2 :])
     with pytest.raises(InputError, match="reaches further"):
         cut(np.array([0.5 * cut.narrowest]))
@@ -115,10 +115,10 @@ def test_smaller_tolerances_only_add_points(table):
     assert len(before & {point.separation for point in finer.points}) >= 0.9 * len(before)
 
 
-def test_a_smooth_wall_and_a_senseless_tolerance_are_refused():
+def test_a_smooth_wall_and_an_invalid_tolerance_are_refused():
     with pytest.raises(InputError, match="all the same"):
         tabulate(np.ones((8, 8)), SPACING)
-    with pytest.raises(InputError, match="--tolerance"):
+    with pytest.raises(InputError, match=r"^tolerance: got"):
         tabulate(HEIGHTS, SPACING, tolerance=0.0)
     with pytest.raises(InputError, match="nan"):
         tabulate(np.where(np.arange(HEIGHTS.size).reshape(HEIGHTS.shape) == 7, np.nan, HEIGHTS), SPACING)
@@ -128,7 +128,7 @@ def test_a_file_gives_the_table_back(table, inputs, tmp_path):
     path = tmp_path / "F.h5"
     save_table(path, inputs, table)
     gaps = np.geomspace(table.narrowest, 2 * table.widest, 50)
-    assert np.array_equal(told_rows(load_table(path), gaps), told_rows(table, gaps))
+    assert np.array_equal(relative_rows(load_table(path), gaps), relative_rows(table, gaps))
     known = known_points(path, inputs)
     assert len(known) == len(table.points)
     pairs = zip(known, table.points, strict=True)
@@ -145,7 +145,7 @@ def test_points_already_known_are_not_solved_again(table, inputs, tmp_path):
     assert len(again.points) == len(table.points)
 
 
-def test_files_of_others_and_damaged_ones_are_told(table, inputs, tmp_path):
+def test_files_of_other_tables_and_damaged_files_are_errors(table, inputs, tmp_path):
     path = tmp_path / "F.h5"
     assert not known_points(path, inputs)
     path.touch()
@@ -170,7 +170,7 @@ def test_files_of_others_and_damaged_ones_are_told(table, inputs, tmp_path):
             load_table(missing)
 
 
-def made(kind):
+def heights_of(kind):
     place = np.arange(24) / 24
     random = np.random.default_rng(31).normal(size=(24, 24))
     return (
@@ -188,45 +188,45 @@ def made(kind):
 
 
 @pytest.mark.parametrize("kind", ["plateau", "pit", "spike", "two levels", "lines", "crossed", "one deep pit"])
-def test_awkward_surfaces_have_tables_that_say_how_far_off_they_are(kind):
-    heights = made(kind)
+def test_tables_of_awkward_surfaces_stay_within_their_errors(kind):
+    heights = heights_of(kind)
     table = tabulate(heights, (1e-6, 1e-6), tolerance=0.02)
     assert len(table.points) <= 401
     assert np.isfinite(table.interpolation_error)
-    assert table.doubt >= table.interpolation_error
+    assert table.relative_uncertainty >= table.interpolation_error
     body = Separations(heights=heights)
     gaps = np.exp(RANDOM.uniform(np.log(2 * table.narrowest), np.log(table.widest), 12))
     for mean_gap in gaps:
         one = flow_factors(body.gap(body.at_mean_gap(float(mean_gap))), (1e-6, 1e-6), tolerance=1e-9)
-        own, doubt = one.factors.relative, one.uncertainty
-        row = told_rows(table, np.array([mean_gap]))[0]
-        for index, value, unsure in (
-            (0, own.pressure[0, 0], doubt.pressure[0, 0]),
-            (1, own.pressure[1, 1], doubt.pressure[1, 1]),
+        own, uncertainty = one.factors.relative, one.uncertainty
+        row = relative_rows(table, np.array([mean_gap]))[0]
+        for index, value, uncertain in (
+            (0, own.pressure[0, 0], uncertainty.pressure[0, 0]),
+            (1, own.pressure[1, 1], uncertainty.pressure[1, 1]),
         ):
-            room = 3 * max(table.interpolation_error, 0.02) * (value + 1e-4) + unsure / mean_gap**3
+            room = 3 * max(table.interpolation_error, 0.02) * (value + 1e-4) + uncertain / mean_gap**3
             assert abs(row[index] - value) <= room
 
 
-def test_slanting_grooves_leak_nothing_across_between_their_points():
+def test_oblique_grooves_have_no_flow_across_them_between_points():
     place = 2 * np.pi * np.arange(32) / 32
     table = tabulate(1e-6 * np.sin(np.add.outer(place, place)), (1e-6, 1e-6))
     gaps = np.geomspace(table.narrowest, 1e-7, 60)[1:]
-    told = table(gaps)
-    across = (told.along + told.across + 2 * told.cross) / 2  # of grooves along (1, -1) what flows along (1, 1)
-    assert (np.abs(across) <= 0.01 * told.along).all()
+    factors = table(gaps)
+    across = (factors.along + factors.across + 2 * factors.cross) / 2  # flow along (1, 1) for grooves along (1, -1)
+    assert (np.abs(across) <= 0.01 * factors.along).all()
 
 
-def test_a_film_that_is_too_thin_to_count_is_open_and_unsure():
+def test_a_negligible_film_is_open_and_its_uncertainty_covers_its_flow():
     gap = np.full((32, 32), 1e-8)
     gap[8:16, 8:16] = 1e-3
-    found = flow_factors(gap, (1e-6, 1e-6))
-    assert found.factors.sealed == (False, False)
+    flow = flow_factors(gap, (1e-6, 1e-6))
+    assert flow.factors.sealed == (False, False)
     truth = (
         flow_factors(1e5 * np.minimum(gap, 1e-6), (1e-6, 1e-6)).factors.pressure[0, 0] / 1e15
     )  # a shallower pit: less
-    assert found.factors.pressure[0, 0] == 0
-    assert truth < 2e-24 < found.uncertainty.pressure[0, 0]
+    assert flow.factors.pressure[0, 0] == 0
+    assert truth < 2e-24 < flow.uncertainty.pressure[0, 0]
 
 
 @pytest.mark.parametrize(
@@ -239,12 +239,12 @@ def test_a_film_that_is_too_thin_to_count_is_open_and_unsure():
         (np.ma.masked_array(np.ones((8, 8)), mask=np.eye(8)), {}, "masked"),
     ],
 )
-def test_numbers_that_make_no_sense_are_refused(gap, options, words):
+def test_invalid_gaps_and_tolerances_are_refused(gap, options, words):
     with pytest.raises(InputError, match=words):
         flow_factors(gap, (1.0, 1.0), **options)
 
 
 @pytest.mark.parametrize("spacing", [1.0, (1.0, 1e9), (1.0,)])
-def test_spacings_that_make_no_sense_are_refused(spacing):
+def test_invalid_spacings_are_refused(spacing):
     with pytest.raises(InputError, match="spacing"):
         flow_factors(np.ones((8, 8)), spacing)
