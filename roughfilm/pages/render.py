@@ -71,7 +71,11 @@ def _digits(value: float) -> str:
 def _quantity(found: Quantity) -> str:
     """A quantity with its unit, in µm and MPa where these fit."""
     known = {"1": _number, "m": _micro, "Pa": _si}
-    return known[found.unit](found.value) if found.unit in known else f"{found.value:.4g} {found.unit}"
+    return known[found.unit](found.value) if found.unit in known else f"{found.value:.4g} {_typeset(found.unit)}"
+
+
+def _typeset(unit: str) -> str:
+    return unit.replace("^2", "²").replace("^3", "³").replace("*", " ")
 
 
 def _difference(value: float, unit: str) -> str:
