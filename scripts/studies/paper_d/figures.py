@@ -98,7 +98,8 @@ DRAWINGS: dict[str, Callable[[PaperD], Figure]] = {
 def e4(contacts: Sequence[Contact]) -> Figure:
     """The model surface loaded, and its elastic and plastic parts; dots: nodes of purely elastic contact."""
     figure, panels = new_figure((10, 9), 3, 2, sharex=True)
-    corner, loaded, elastic, plastic, elastic_move, plastic_move = panels.ravel()
+    corner, *shown = panels.ravel()
+    loaded, elastic, plastic, elastic_move, plastic_move = shown
     first = contacts[0]
     x = 1e3 * first.spacing[0] * np.arange(first.heights.shape[0])
     for axes in (loaded, elastic, plastic):
@@ -112,14 +113,7 @@ def e4(contacts: Sequence[Contact]) -> Figure:
         u_e = u_e - u_e.min()
         only = (contact.in_contact & ~contact.plastic)[:, 0]
         corner.plot([], [], color=colour, label=f"{contact.load / 1e6:g} MPa")
-        lines = (
-            (loaded, z - u_e - u_p),
-            (elastic, z - u_e),
-            (plastic, z - u_p),
-            (elastic_move, u_e),
-            (plastic_move, u_p),
-        )
-        for axes, y in lines:
+        for axes, y in zip(shown, (z - u_e - u_p, z - u_e, z - u_p, u_e, u_p), strict=True):
             axes.plot(x, y, color=colour, lw=1.2)
             if axes in (elastic, elastic_move):
                 axes.plot(x[only], y[only], ".", color="black", ms=4)
@@ -130,7 +124,7 @@ def e4(contacts: Sequence[Contact]) -> Figure:
         "elastic displacement from its least, µm",
         "plastic displacement, µm",
     )
-    for axes, title in zip((loaded, elastic, plastic, elastic_move, plastic_move), titles, strict=True):
+    for axes, title in zip(shown, titles, strict=True):
         axes.set_title(title, fontsize=10)
     for axes in (elastic_move, plastic_move):
         axes.set_xlabel("x, mm")

@@ -33,7 +33,7 @@ def command(out: Out, surfaces: Surfaces = None, as_json: AsJson = False) -> Non
     publish(
         Path(__file__).parent,
         out,
-        {name: draw(study) for name, draw in figures.NUMBERED.items()},
+        {name: draw(study) for name, draw in figures.DRAWINGS.items()},
         results,
         claims=judge(study),
         as_json=as_json,
