@@ -45,8 +45,12 @@ class BearingLubricant(Part):
     viscosity: Viscosity
     density: Density | None = None
     cavitation_pressure: GaugePressure = 0.0
-    compressibility: Annotated[Compressibility, Field(discriminator="law"), BeforeValidator(_law)] = Incompressible()
-    piezoviscosity: Annotated[Piezoviscosity, Field(discriminator="law"), BeforeValidator(_law)] = ConstantViscosity()
+    compressibility: Annotated[Compressibility, Field(discriminator="law"), BeforeValidator(_law)] = Field(
+        default_factory=Incompressible
+    )
+    piezoviscosity: Annotated[Piezoviscosity, Field(discriminator="law"), BeforeValidator(_law)] = Field(
+        default_factory=ConstantViscosity
+    )
 
 
 class BearingMotion(Part):
@@ -87,9 +91,9 @@ class Sides(Part):
 class BearingBoundary(Part):
     """The boundary conditions of the film."""
 
-    inlet: Inlet = Inlet()
-    outlet: Outlet = Outlet()
-    sides: Sides = Sides()
+    inlet: Inlet = Field(default_factory=Inlet)
+    outlet: Outlet = Field(default_factory=Outlet)
+    sides: Sides = Field(default_factory=Sides)
 
 
 class Bearing(Scene):
@@ -108,7 +112,7 @@ class Bearing(Scene):
     geometry: Annotated[AnyShape, Field(discriminator="shape")]
     lubricant: BearingLubricant
     motion: BearingMotion
-    boundary: BearingBoundary = BearingBoundary()
+    boundary: BearingBoundary = Field(default_factory=BearingBoundary)
     roughness: AnyRoughness | None = None
     asperities: AsperityContact | None = None
     load: Load | None = None

@@ -42,7 +42,7 @@ def command(
     within: Annotated[
         str | None, typer.Option(help="Instead of a model: take the cheapest within this error, for example 5%.")
     ] = None,
-    want: Want = None,
+    quantity: Want = None,
     out: Annotated[Path | None, typer.Option(help="Write the result with its fields here (HDF5).")] = None,
     set_: Overrides = None,
     resolution: Resolution = None,
@@ -62,12 +62,12 @@ def command(
         own["processes"] = processes if processes != 1 else None
         if given := [name for name, value in own.items() if value is not None]:
             raise InputError(f"--{given[0]}: --within chooses the model and how it is run; leave one of them out")
-        advice = advice_for(read, want, within)
+        advice = advice_for(read, quantity, within)
         if advice.chosen is None:
             raise ConvergenceError(f"--within: {shortfall(advice, kind_of_name(read.kind).compared[advice.quantity])}")
         model, resolution, result = advice.chosen.model, advice.chosen.resolution, advice.result
         messages.print(f"{model} at resolution {resolution}: {advice.chosen.reason}", soft_wrap=True, markup=False)
-    elif want is not None:
+    elif quantity is not None:
         raise InputError("--want: names the quantity of --within; give that too")
     if model is None:
         raise InputError("--model: is missing; name one from 'roughfilm models', or give --within 5%")

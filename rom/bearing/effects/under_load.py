@@ -157,7 +157,7 @@ def under_load(variant: Variant, pressure: float, cells: int, progress: Progress
         If a film or the load does not converge.
     """
     if not 0 < pressure < float("inf"):
-        raise InputError(f"--load: got {pressure!r} Pa; it must be above 0 and finite")
+        raise InputError(f"pressure: got {pressure!r} Pa; it must be above 0 and finite")
     load_loops(variant.scene.wide)
     cpu, guess, speed = time.process_time(), variant.scene.geometry.film, variant.scene.motion.speed
     states: list[VariantState] = []

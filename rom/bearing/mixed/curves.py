@@ -191,8 +191,8 @@ def _given(path: Path, surface: RoughSurface | None, scene: Bearing) -> FactorTa
         if not math.isclose(there, here, rel_tol=MATCH_TOLERANCE):
             what = "surface" if unit == "m" else "pair of solids"
             raise InputError(
-                f"--table {path}: belongs to another {what}, with {name} of {there:.6g} {unit}; the scene has "
-                f"{here:.6g} {unit}, leave --table out or take another scene"
+                f"table {path}: belongs to another {what}, with {name} of {there:.6g} {unit}; the scene has "
+                f"{here:.6g} {unit}, leave the table out or take another scene"
             )
     return table
 
@@ -208,7 +208,7 @@ def _check_capacity(scene: Bearing, asperities: AsperityTable, largest: float, c
     capacity = _capacity(scene, asperities, cells)
     if capacity < largest:
         raise InputError(
-            f"--loads: got {largest / 1e6:.6g} MPa over the nominal area; at rest the surface carries at most "
+            f"loads: got {largest / 1e6:.6g} MPa over the nominal area; at rest the surface carries at most "
             f"{capacity / 1e6:.6g} MPa, at the end of its table; lower the load"
         )
 

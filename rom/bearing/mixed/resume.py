@@ -69,7 +69,7 @@ def resumed_table(out: Path | None, inputs: Inputs, work: Work) -> tuple[FactorT
             save_table(out, inputs, FactorTable(points=ordered, peak=body.peak, rms=body.rms))
 
     def note() -> str:
-        end = "; the same command goes on" if out is not None else ", none kept without --out"
+        end = "; the same command goes on" if out is not None else ", none kept, as no file was named"
         return f"stopped: {len(points)} points{end}"
 
     with regular_saves(save, note) as save_regularly:

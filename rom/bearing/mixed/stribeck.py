@@ -219,10 +219,10 @@ def mixed_film(scene: Bearing, asperities: Asperities | None, resolution: int, t
     if scene.asperities is None:
         raise InputError("scene.asperities: is missing; give the solids of the walls")
     if not MIN_CELLS <= resolution <= MAX_CELLS:
-        raise InputError(f"--resolution: got {resolution}; it must be {MIN_CELLS} to {MAX_CELLS} cells along a side")
+        raise InputError(f"resolution: got {resolution}; it must be {MIN_CELLS} to {MAX_CELLS} cells along a side")
     if not MIN_TOLERANCE <= tolerance < MAX_TOLERANCE:
         raise InputError(
-            f"--tolerance: got {tolerance!r}; it must be at least {MIN_TOLERANCE:g} and below {MAX_TOLERANCE:g}"
+            f"tolerance: got {tolerance!r}; it must be at least {MIN_TOLERANCE:g} and below {MAX_TOLERANCE:g}"
         )
     wall = asperities_of(scene) if asperities is None else asperities
     return MixedFilm(scene=scene, asperities=wall, cells=resolution, accuracy=tolerance)
