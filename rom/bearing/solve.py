@@ -56,7 +56,7 @@ def solve(
     cells = request.resolution
     fits = solver.applies(scene)
     if not fits.applies:
-        raise InputError(f"--model: got {solver.name!r}; {fits.reason}")
+        raise InputError(f"model: got {solver.name!r}; {fits.reason}")
     problem = film(scene)
     load_loops(problem.shape.wide)
     wall, cpu = time.perf_counter(), time.process_time()
