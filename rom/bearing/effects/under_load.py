@@ -10,8 +10,8 @@ import numpy as np
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.effects.ablation import Variant, VariantSolution
-from roughfilm.rom.bearing.mixed.asperity_load import asperity_load
 from roughfilm.rom.bearing.mixed.balance import FilmsAtSpeed, balanced
+from roughfilm.rom.bearing.mixed.contact_load import asperity_load
 from roughfilm.rom.bearing.mixed.film import MixedFilm, widest_film
 from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.quantities import load_of, nominal_area, scene_positions

@@ -8,7 +8,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.mixed.asperities import Asperities
-from roughfilm.rom.bearing.mixed.asperity_load import AsperityLoad, asperity_load, quarters
+from roughfilm.rom.bearing.mixed.contact_load import AsperityLoad, asperity_load, quarters
 from roughfilm.rom.bearing.quantities import friction, load_of, nominal_area, scene_positions
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shapes import Journal

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.rom.bearing.mixed.asperity_load import AsperityLoad, asperity_load
+from roughfilm.rom.bearing.mixed.contact_load import AsperityLoad, asperity_load
 from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.quantities import Fields, Outputs, bearing_quantities, load_of, scene_positions
 from roughfilm.rom.bearing.scene import Bearing
