@@ -88,9 +88,9 @@ def sizes(most: int) -> list[int]:
 
 
 def _switch(theta: float, beta: float, nodes: int) -> tuple[int, float]:
-    from roughfilm.rom.cavitation.reference.switch import LIMIT, switched
+    from roughfilm.rom.cavitation.reference.switch import MAX_STEPS, switched
 
-    found = switched(slider(theta, liquid(beta)), nodes, limit=min(LIMIT, WORK // nodes))
+    found = switched(slider(theta, liquid(beta)), nodes, limit=min(MAX_STEPS, WORK // nodes))
     return found.iterations, found.load
 
 
