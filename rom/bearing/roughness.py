@@ -16,8 +16,6 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap
 from roughfilm.rom.homogenization.ridges import sinusoidal_ridges
 from roughfilm.rom.homogenization.table.factor_table import FactorTable
-from roughfilm.rom.homogenization.table.store import load_table
-from roughfilm.rom.homogenization.table.tabulate import tabulate
 from roughfilm.rom.parts.surface_geometry import SurfaceGeometry
 
 LEVEL = 1e-12
@@ -170,6 +168,8 @@ class RoughSurface(SurfaceGeometry):
 
 @lru_cache(maxsize=4)
 def _factors(surface: str, narrowest: float) -> FactorTable:
+    from roughfilm.rom.homogenization.table.tabulate import tabulate  # whose loops are slow to import
+
     read = SurfaceGeometry.model_validate_json(surface).read()
     return tabulate(read.heights, read.spacing, tolerance=TOLERANCE, narrowest=BELOW * narrowest)
 
@@ -245,6 +245,8 @@ class StoredTable(Part):
 
 @lru_cache(maxsize=4)
 def _stored(path: str, _modified: int, _size: int) -> FactorTable:
+    from roughfilm.rom.homogenization.table.store import load_table  # h5py is slow to import
+
     return load_table(Path(path))
 
 

@@ -41,8 +41,12 @@ class Lubricant(Part):
     viscosity: Viscosity
     density: Density | None = None
     cavitation_pressure: GaugePressure = 0.0
-    compressibility: Annotated[Compressibility, Field(discriminator="law"), BeforeValidator(_law)] = Incompressible()
-    piezoviscosity: Annotated[Piezoviscosity, Field(discriminator="law"), BeforeValidator(_law)] = ConstantViscosity()
+    compressibility: Annotated[Compressibility, Field(discriminator="law"), BeforeValidator(_law)] = Field(
+        default_factory=Incompressible
+    )
+    piezoviscosity: Annotated[Piezoviscosity, Field(discriminator="law"), BeforeValidator(_law)] = Field(
+        default_factory=ConstantViscosity
+    )
 
 
 class Motion(Part):
@@ -83,9 +87,9 @@ class Sides(Part):
 class Boundary(Part):
     """What holds where the film ends."""
 
-    inlet: Inlet = Inlet()
-    outlet: Outlet = Outlet()
-    sides: Sides = Sides()
+    inlet: Inlet = Field(default_factory=Inlet)
+    outlet: Outlet = Field(default_factory=Outlet)
+    sides: Sides = Field(default_factory=Sides)
 
 
 class Bearing(Scene):
@@ -105,7 +109,7 @@ class Bearing(Scene):
     geometry: Annotated[AnyShape, Field(discriminator="shape")]
     lubricant: Lubricant
     motion: Motion
-    boundary: Boundary = Boundary()
+    boundary: Boundary = Field(default_factory=Boundary)
     roughness: AnyRoughness | None = None
     asperities: AsperityContact | None = None
     load: Load | None = None

@@ -5,7 +5,7 @@ from functools import lru_cache
 from typing import Annotated, Literal, Self
 
 import numpy as np
-from pydantic import AfterValidator, BeforeValidator, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from roughfilm.contact.foundation.entries import InUnit, Length, Part, PositiveNumber
 from roughfilm.contact.foundation.errors import InputError
@@ -84,7 +84,7 @@ class RoughGap(RoughScene):
     solid: RoughBody | None = None
     counter: Counter | None = None
     load: Load | None = None
-    mesh: Mesh = Mesh()
+    mesh: Mesh = Field(default_factory=Mesh)
 
     @model_validator(mode="after")
     def _is_a_gap(self) -> Self:

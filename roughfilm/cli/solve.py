@@ -19,7 +19,7 @@ from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import load_scene
-from roughfilm.rom.ladder.store import as_entries, save
+from roughfilm.rom.ladder.store import as_entries, refuse_other_file, save
 from roughfilm.terminal.console import (
     AsJson,
     Overrides,
@@ -32,6 +32,7 @@ from roughfilm.terminal.console import (
     print_json,
     progress_bar,
 )
+from roughfilm.terminal.output_file import refuse_unwritable
 from roughfilm.terminal.results import print_all, table_of
 
 
@@ -52,6 +53,9 @@ def command(
 ) -> None:
     """Solve a scene by one model, or by the cheapest that is accurate enough."""
     read = load_scene(scene, set_ or ())
+    if out is not None:
+        refuse_other_file(out)
+        refuse_unwritable(out)
     result, advice = None, None
     if within is not None:
         own = {"model": model, "resolution": resolution, "tolerance": tolerance, "scheme": scheme}

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 from roughfilm import ladder
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.interface.arguments import argument_names
 from roughfilm.interface.scenes import checked_scene
 from roughfilm.rom.advice import advise as advice
 from roughfilm.rom.advice.estimates import expected_errors
@@ -44,6 +45,7 @@ def models(kind: str | None = None) -> tuple[Model, ...]:
     return ladder.models(kind)
 
 
+@argument_names()
 def advise(scene: Scene, *, within: float, quantity: str | None = None, progress: Progress = silent) -> advice.Advice:
     """Choose the cheapest model, at the coarsest resolution, whose error in a quantity stays within a tolerance.
 
@@ -76,12 +78,13 @@ def advise(scene: Scene, *, within: float, quantity: str | None = None, progress
     'inertial_reynolds'
     """
     kind = checked_scene(scene).kind
-    if isinstance(within, bool) or not isinstance(within, int | float):
+    if isinstance(within, bool) or not isinstance(within, int | float) or not 0 < within < 1:
         raise InputError(f"within: got {within!r}; give a number above 0 and below 1, for example 0.05")
     wanted = advice.wanted(scene, quantity)
     return advice.advise(scene, ladder.models(kind), quantity=wanted, within=within, progress=progress)
 
 
+@argument_names()
 def solve(
     scene: Scene,
     *,
@@ -179,6 +182,7 @@ class Comparison:
     left_out: Mapping[str, str]
 
 
+@argument_names()
 def compare(scene: Scene, *, models: Sequence[str] | None = None, progress: Progress = silent) -> Comparison:
     """Solve a scene by every model that applies, each at its default resolution, and compare with the best.
 

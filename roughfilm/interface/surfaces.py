@@ -1,6 +1,7 @@
 """Rough surfaces from arrays and files: roughness parameters, dry contact and flow factors."""
 
 import math
+import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -21,6 +22,7 @@ from roughfilm.contact.preparation.recipe import AS_IT_IS, load_recipe, read_rec
 from roughfilm.contact.surfaces import files
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.description import make, read_description
+from roughfilm.interface.arguments import argument_names
 from roughfilm.rom.homogenization.conductance import FaceRule
 from roughfilm.rom.homogenization.factors import relative_quantities
 from roughfilm.rom.homogenization.flow_factors import flow_factors as factors_of
@@ -47,6 +49,11 @@ def surface_of(heights: Heights, spacing: float | Sequence[float] | None) -> Sur
         raise InputError("heights: got rows of different lengths; give an array of shape (nx, ny)") from None
     if array.dtype.kind not in "fiu":
         raise InputError(f"heights: got an array of {array.dtype}; give real numbers in m")
+    if len(places := np.argwhere(~np.isfinite(array))):
+        remedy = "give finite heights, or a Surface with these points as invalid to prepare()"
+        raise InputError(
+            f"heights: {len(places)} of {array.size} points are not finite, the first at {places[0].tolist()}; {remedy}"
+        )
     if spacing is None:
         raise InputError("spacing: missing; give the distance of neighbouring points in m, or a pair (dx, dy)")
     return Surface(heights=array, spacing=_pair(spacing))
@@ -95,6 +102,8 @@ def read_surface(
     >>> surface.shape, surface.periodic
     ((512, 384), True)
     """
+    if not isinstance(path, str | os.PathLike):
+        raise InputError(f"path: got {type(path).__name__}; name a file; heights in an array need no reading")
     file = Path(path)
     if file.suffix.lower() == ".toml":
         given = {"spacing": spacing, "channel": channel, "height_unit": height_unit}
@@ -183,6 +192,7 @@ def parameters(heights: Heights, *, spacing: float | Sequence[float] | None = No
     return roughness_parameters.parameters(surface_of(heights, spacing))
 
 
+@argument_names()
 def press(
     heights: Heights,
     *,

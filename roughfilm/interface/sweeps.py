@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.interface.arguments import argument_names
 from roughfilm.interface.rows import Rows
 from roughfilm.interface.scenes import checked_scene, with_entries
 from roughfilm.interface.solving import answer_of, chosen_models
@@ -15,6 +16,7 @@ from roughfilm.rom.ladder.model import Progress, silent
 from roughfilm.rom.ladder.scene import scene_entries
 
 
+@argument_names()
 def sweep(
     scene: Scene,
     values: Mapping[str, Sequence[object]],
@@ -55,6 +57,8 @@ def sweep(
     ('m', 'Pa')
     """
     known = chosen_models(checked_scene(scene).kind, models)
+    if not isinstance(values, Mapping):
+        raise InputError(f"values: got {values!r:.60}; give a dict such as {{'geometry.depth': ['5 um', '10 um']}}")
     for key, taken in values.items():
         if isinstance(taken, str) or not isinstance(taken, Sequence | np.ndarray) or not len(taken):
             raise InputError(f"values: got {taken!r:.60} for {key}; give a list of the values that it takes")

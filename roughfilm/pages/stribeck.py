@@ -75,7 +75,7 @@ def drawn_film(film: MixedFilm, point: StribeckPoint, title: str) -> Drawn:
     pressure = found.solution.state.pressure + film.scene.lubricant.cavitation_pressure
     contact = found.contact.force / grid.areas
     share = point.contact_share
-    told = f"{title}, {100 * share:.3g} % by contact" if share > 0 else f"{title}, parted"
+    told = f"{title}, {100 * share:.3g} % by contact" if share > 0 else f"{title}, no contact"
     x, y = np.meshgrid(grid.x, grid.y, indexing="ij")
     if not isinstance(geometry, Ring):
         return Drawn(title=told, x=x, y=y, film=pressure, contact=contact)

@@ -6,7 +6,6 @@ from functools import lru_cache
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.bearing.asperity_contact import AsperityContact
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
-from roughfilm.rom.bearing.mixed.tabulate import tabulate_pressed
 from roughfilm.rom.bearing.roughness import RoughSurface, StoredTable
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.model import Progress, silent
@@ -46,6 +45,8 @@ class _Order:
 
 @lru_cache(maxsize=4)
 def _tabulated(order: _Order) -> AsperityTable:
+    from roughfilm.rom.bearing.mixed.tabulate import tabulate_pressed  # whose solvers are slow to import
+
     roughness = RoughSurface.model_validate_json(order.roughness)
     contact = AsperityContact.model_validate_json(order.asperities)
     assert contact.solid is not None
