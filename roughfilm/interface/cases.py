@@ -9,7 +9,6 @@ import numpy as np
 from roughfilm import ladder
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.foamcases.openfoam.model import CaseModel
-from roughfilm.interface.arguments import argument_names
 from roughfilm.interface.scenes import checked_scene
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.model import Progress, silent
@@ -70,7 +69,6 @@ class OpenFOAMCase:
         return mesh
 
 
-@argument_names()
 def write_case(
     scene: Scene,
     directory: str | os.PathLike[str],

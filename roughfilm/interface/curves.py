@@ -11,7 +11,6 @@ from roughfilm import ladder
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.threads import checked_threads
 from roughfilm.contact.mechanics.checks import not_negative, positive
-from roughfilm.interface.arguments import argument_names
 from roughfilm.interface.rows import Rows
 from roughfilm.rom.bearing.effects.analysis import EffectAnalysis, analyse_effects
 from roughfilm.rom.bearing.mixed import stribeck as mixed
@@ -28,7 +27,6 @@ WIDE_CELLS, CELLS = 1024, 128
 FEWEST_CELLS, MOST_WIDE_CELLS, MOST_CELLS = 16, 65_536, 1024
 
 
-@argument_names()
 def stribeck(
     scene: Scene,
     speeds: Sequence[float],
@@ -103,7 +101,6 @@ class LeakageCurve:
     sealing: Mapping[str, Threshold]
 
 
-@argument_names()
 def leakage_curve(
     scene: Scene,
     loads: Sequence[float] | None = None,
@@ -174,7 +171,6 @@ def leakage_curve(
     return LeakageCurve(rows=rows, sealing=found)
 
 
-@argument_names()
 def effects(scene: Scene, *, resolution: int | None = None, progress: Progress = silent) -> EffectAnalysis:
     """Switch the effects of a bearing on one at a time: what each adds to load, friction, flow and film.
 

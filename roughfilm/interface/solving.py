@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 
 from roughfilm import ladder
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
-from roughfilm.interface.arguments import argument_names
 from roughfilm.interface.scenes import checked_scene
 from roughfilm.rom.advice import advise as advice
 from roughfilm.rom.advice.estimates import expected_errors
@@ -45,7 +44,6 @@ def models(kind: str | None = None) -> tuple[Model, ...]:
     return ladder.models(kind)
 
 
-@argument_names()
 def advise(scene: Scene, *, within: float, quantity: str | None = None, progress: Progress = silent) -> advice.Advice:
     """Choose the cheapest model, at the coarsest resolution, whose error in a quantity stays within a tolerance.
 
@@ -84,7 +82,6 @@ def advise(scene: Scene, *, within: float, quantity: str | None = None, progress
     return advice.advise(scene, ladder.models(kind), quantity=wanted, within=within, progress=progress)
 
 
-@argument_names()
 def solve(
     scene: Scene,
     *,
@@ -182,7 +179,6 @@ class Comparison:
     left_out: Mapping[str, str]
 
 
-@argument_names()
 def compare(scene: Scene, *, models: Sequence[str] | None = None, progress: Progress = silent) -> Comparison:
     """Solve a scene by every model that applies, each at its default resolution, and compare with the best.
 

@@ -22,7 +22,6 @@ from roughfilm.contact.preparation.recipe import AS_IT_IS, load_recipe, read_rec
 from roughfilm.contact.surfaces import files
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.description import make, read_description
-from roughfilm.interface.arguments import argument_names
 from roughfilm.rom.homogenization.conductance import FaceRule
 from roughfilm.rom.homogenization.factors import relative_quantities
 from roughfilm.rom.homogenization.flow_factors import flow_factors as factors_of
@@ -192,7 +191,6 @@ def parameters(heights: Heights, *, spacing: float | Sequence[float] | None = No
     return roughness_parameters.parameters(surface_of(heights, spacing))
 
 
-@argument_names()
 def press(
     heights: Heights,
     *,

@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.interface.arguments import argument_names
 from roughfilm.interface.rows import Rows
 from roughfilm.interface.scenes import checked_scene, with_entries
 from roughfilm.interface.solving import answer_of, chosen_models
@@ -16,7 +15,6 @@ from roughfilm.rom.ladder.model import Progress, silent
 from roughfilm.rom.ladder.scene import scene_entries
 
 
-@argument_names()
 def sweep(
     scene: Scene,
     values: Mapping[str, Sequence[object]],
