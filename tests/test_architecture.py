@@ -153,3 +153,12 @@ def test_folders_stay_small_and_shallow(package):
         count[path.parent] += path.name != "__init__.py"
         assert len(path.relative_to(ROOT / package).parts) <= 4, path
     assert {str(folder): n for folder, n in count.items() if n > 20} == {}
+
+
+@pytest.mark.parametrize("package", ORDER)
+def test_two_files_with_one_prefix_are_a_folder(package):
+    names = defaultdict(set)
+    for path in files_of(package):
+        if path.name != "__init__.py" and path.parent.name != "models":
+            names[path.parent, path.stem.split("_")[0]].add(path.name)
+    assert [sorted(pair) for pair in names.values() if len(pair) > 1] == []
