@@ -145,7 +145,7 @@ def reduced(balance, centre_p, west_p, east_p, centre_f, west_f, east_f, by_p, b
         right[i] = -balance[i]
         lower[i] = upper[i] = 0.0
     for j in range(n):
-        kept = 0.0
+        entry = 0.0
         if keeps[j]:
             ratio, known = by_p[j] / by_c[j], merit[j] / by_c[j]
         else:
@@ -162,15 +162,15 @@ def reduced(balance, centre_p, west_p, east_p, centre_f, west_f, east_f, by_p, b
             else:
                 p, c = west_p[i] * unit, -west_f[i]
             if keeps[j]:
-                kept = p - c * ratio
+                entry = p - c * ratio
                 right[i] += c * known
             else:
-                kept = c - p * ratio
+                entry = c - p * ratio
                 right[i] += p * known
             if side == 0:
-                upper[i] = kept
+                upper[i] = entry
             elif side == 1:
-                centre[i] = kept
+                centre[i] = entry
             else:
-                lower[i] = kept
+                lower[i] = entry
     return keeps
