@@ -8,6 +8,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.files import replacing
+from roughfilm.figures.rendering import scalar_bar
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.store import load
 
@@ -46,17 +47,6 @@ def draw(result: Result, picture: Path) -> None:
         plotter.add_mesh(touching, color=CONTACT)
     open_film = film.threshold(0.5, scalars="kept").cell_data_to_point_data()
     bounds = film.bounds
-    bar: pyvista.ScalarBarArgs = {
-        "title": "",
-        "n_labels": 5,
-        "fmt": "%.1f",
-        "color": "#222222",
-        "label_font_size": 18,
-        "position_x": 0.3,
-        "position_y": 0.005,
-        "width": 0.4,
-        "height": 0.07,
-    }
     top = float(np.percentile(open_film[SPEED], 99.9))
     for number, (normal, place) in enumerate((("x", bounds[1] - 1e-3 * length), ("y", bounds[3] - 1e-3 * length))):
         origin = [bounds[0], bounds[2], low]
@@ -70,7 +60,7 @@ def draw(result: Result, picture: Path) -> None:
                 clim=(0, top),
                 lighting=False,
                 show_scalar_bar=number == 0,
-                scalar_bar_args=bar,
+                scalar_bar_args=scalar_bar((0.3, 0.005), (0.4, 0.07), labels=5),
             )
     seeds = pyvista.PolyData(_seeds(film))
     lines = open_film.streamlines_from_source(
