@@ -83,10 +83,12 @@ def film_of(result: Result) -> "pyvista.StructuredGrid":
     import pyvista
 
     vertices = result.fields["vertices"].values * 1e6
-    velocity, kept = result.fields["cell_velocity"].values, result.fields["kept"].values
+    velocity, open_cells = result.fields["cell_velocity"].values, result.fields["kept"].values
     length, width = (float(np.ptp(vertices[..., axis])) for axis in range(2))
     repeats = max(1, round(MIN_WIDTH * length / width))
-    points, flow, there = _repeated(vertices, velocity, kept, repeats, width)
+    shifts = [vertices[:, (0 if n == 0 else 1) :] + [0.0, n * width, 0.0] for n in range(repeats)]
+    points, flow = np.concatenate(shifts, axis=1), np.tile(velocity, (1, repeats, 1, 1))
+    there = np.tile(open_cells, (1, repeats))
     stretch = max(1.0, MIN_HEIGHT * max(length, width * repeats) / float(np.ptp(points[..., 2])))
     grid = pyvista.StructuredGrid(points[..., 0], points[..., 1], points[..., 2] * stretch)
     shown = flow * [1.0, 1.0, stretch]
@@ -110,11 +112,6 @@ def contact_of(film: "pyvista.StructuredGrid") -> "pyvista.UnstructuredGrid | No
     nx, ny, nz = film.dimensions
     patch = film.extract_subset((0, nx - 1, 0, ny - 1, nz - 1, nz - 1)).threshold(0.5, scalars="kept", invert=True)
     return patch if patch.n_cells else None
-
-
-def _repeated(vertices: Array, velocity: Array, kept: Array, repeats: int, width: float) -> tuple[Array, Array, Array]:
-    shifts = [vertices[:, (0 if n == 0 else 1) :] + [0.0, n * width, 0.0] for n in range(repeats)]
-    return np.concatenate(shifts, axis=1), np.tile(velocity, (1, repeats, 1, 1)), np.tile(kept, (1, repeats))
 
 
 def _seeds(film: "pyvista.StructuredGrid") -> Array:
