@@ -6,22 +6,24 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any, Generic, Unpack
+from typing import TYPE_CHECKING, Any, Generic, Unpack
 
 from typing_extensions import TypeVar
 
 from roughfilm.foamcases.openfoam.case_directory import TOLERANCES
 from roughfilm.foamcases.openfoam.installation import availability
-from roughfilm.foamcases.openfoam.run import CaseRun
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.model import About, Applicability, Model, Progress, Resolutions, SceneT, silent
 from roughfilm.rom.ladder.request import CheckedRequest, Request
 from roughfilm.rom.ladder.result import Result
 
+if TYPE_CHECKING:
+    from roughfilm.foamcases.openfoam.run import CaseRun
+
 CREEPING = 1e-6
 """Reynolds number of Stokes flow: advection is then a millionth of viscous stress (there is no scheme "none")."""
 
-RunT = TypeVar("RunT", bound=CaseRun, default=Any)
+RunT = TypeVar("RunT", bound="CaseRun", default=Any)
 
 CaseWriter = Callable[[SceneT, Path, CheckedRequest, float], None]
 """write(scene, directory, request, reynolds_number)."""

@@ -26,7 +26,7 @@ from roughfilm.foamcases.rough_gap.mesh import Columns, columns_between
 from roughfilm.foamcases.rough_gap.start import Start
 from roughfilm.rom.homogenization.paths import sealed
 from roughfilm.rom.ladder.request import CheckedRequest
-from roughfilm.rom.rough_gap.scene import FEWEST_LAYERS, RoughGap
+from roughfilm.rom.rough_gap.scene import MIN_LAYERS, RoughGap
 from roughfilm.rom.rough_gap.walls import Walls
 
 SLACK = 300.0
@@ -96,7 +96,7 @@ class GapCard:
 
 def layers_of(scene: RoughGap, resolution: int) -> int:
     """Cells across the gap: those that the scene asks for, or a quarter of those along its longer side."""
-    return scene.layers or max(FEWEST_LAYERS, round(resolution * LAYERS_PER_COLUMN))
+    return scene.layers or max(MIN_LAYERS, round(resolution * LAYERS_PER_COLUMN))
 
 
 def columns_of(scene: RoughGap, resolution: int) -> tuple[int, int]:

@@ -1,36 +1,26 @@
-"""A rough gap by OpenFOAM: what its cases cost, and their result."""
+"""A rough gap by OpenFOAM: the result of a case that was run."""
 
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.foamcases.openfoam.case_directory import read_card
-from roughfilm.foamcases.openfoam.model import Cases
 from roughfilm.foamcases.rough_gap.balance import imbalance
-from roughfilm.foamcases.rough_gap.case import GapCard, columns_of, layers_of, mesh_of, write_gap_case
+from roughfilm.foamcases.rough_gap.case import GapCard, mesh_of
 from roughfilm.foamcases.rough_gap.dictionaries import DRIVES, SLIDING_SPEED
 from roughfilm.foamcases.rough_gap.fields import GapFlow, read_gap_flow
 from roughfilm.foamcases.rough_gap.mesh import Columns
-from roughfilm.foamcases.rough_gap.run import GapRun, run_gap
+from roughfilm.foamcases.rough_gap.run import GapRun
 from roughfilm.foamcases.rough_gap.uncertainty import error_bars
-from roughfilm.rom.ladder.model import Model, Resolutions
+from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun, with_uncertainties
-from roughfilm.rom.parts.pressed_surface import MIN_SIDE_POINTS
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors
 from roughfilm.rom.rough_gap.quantities import coefficients, gap_quantities
 from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.rough_gap.validity import cautions
-
-SOURCES = ("10.1063/1.168744", "10.1080/01495728408961817")
-RESOLUTIONS = (16, 32, 64)
-"""Columns along the longer side; the last are the default."""
-
-TOLERANCE = 1e-5
-"""By what part of itself a flow may still change; or the residuals at which simpleFoam stops by itself."""
 
 UNBALANCED = 0.02
 """Of the drag of a smooth gap: what the walls do not hold of the drive more than that is told."""
@@ -43,30 +33,6 @@ INERTIAL = 1.0
 
 CLOSED_IN = 1e-3
 """Of the open volume: what is left out more than that is told."""
-
-
-def resolutions(scene: RoughGap) -> Resolutions:
-    """Those of ``RESOLUTIONS`` for which the surface has points enough, or all that it has."""
-    own = max(scene.surface().shape)
-    series = tuple(n for n in RESOLUTIONS if n <= own) or (own,)
-    return Resolutions(least=min(own, MIN_SIDE_POINTS), most=own, default=min(own, RESOLUTIONS[-1]), series=series)
-
-
-def most_processes(scene: RoughGap, resolution: int) -> int:
-    """One for every two columns."""
-    nx, ny = columns_of(scene, resolution)
-    return max(1, nx * ny // 2)
-
-
-def cost(scene: RoughGap, resolution: int) -> float:
-    """CPU seconds of all drives, measured over 8 to 128 columns: start-up, then cells times iterations.
-
-    Of the latter there are some four for each layer, up to twice as many between walls as short as the gap is high.
-    """
-    nx, ny = scene.surface().shape
-    layers = layers_of(scene, resolution)
-    cells = resolution**2 * min(nx, ny) / max(nx, ny) * layers
-    return float(2 + 3 * 6e-6 * cells * layers)
 
 
 def factors_of(flows: dict[str, GapFlow], *, slides: bool) -> tuple[RoughGapFactors, dict[str, float]]:
@@ -198,21 +164,6 @@ def read(solver: Model[RoughGap], scene: RoughGap, directory: Path, run: GapRun)
                 **{f"reciprocal_{name}": value for name, value in pulled.items()},
             },
         ),
-        provenance=provenance(scene, model=model, keeps=tuple(keeps), sources=SOURCES, openfoam=run.version),
+        provenance=provenance(scene, model=model, keeps=tuple(keeps), sources=solver.sources, openfoam=run.version),
         warnings=tuple(warnings),
     )
-
-
-CASES = Cases(
-    kind="rough_gap",
-    resolutions=resolutions,
-    resolution_meaning="mesh columns along the longer side, by default with a quarter as many layers across",
-    residual_meaning="largest part of a flow by which iterating on would change it, by what a new process does to it",
-    tolerance=TOLERANCE,
-    most_processes=most_processes,
-    cost=cost,
-    write=write_gap_case,
-    write_to_run=partial(write_gap_case, run=True),
-    run=run_gap,
-    read=read,
-)

@@ -25,8 +25,8 @@ from roughfilm.foamcases.openfoam.installation import REMEDY
 from roughfilm.foamcases.openfoam.program import succeed
 from roughfilm.foamcases.openfoam.residuals import FIELDS, Judged
 from roughfilm.foamcases.openfoam.run import check_mesh, converge, ready, remarks
-from roughfilm.foamcases.rough_gap.cases import TOLERANCE
 from roughfilm.foamcases.rough_gap.dictionaries import CONTACT, SIDES, Drive, gap_dictionaries, relaxation
+from roughfilm.foamcases.rough_gap.model import TOLERANCE
 from roughfilm.foamcases.rough_gap.run import mean_velocity, settled_within, unsettled
 from roughfilm.foamcases.snappy.dictionary import SURFACE, snappy_dictionary
 from roughfilm.foamcases.snappy.solid import Carved

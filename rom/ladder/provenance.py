@@ -8,7 +8,6 @@ import subprocess
 from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from functools import cache
-from importlib import metadata
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +24,8 @@ BLOCKS = (ast.stmt, ast.ExceptHandler, ast.match_case)
 @cache
 def versions() -> dict[str, str]:
     """Versions of roughfilm, of Python and of the libraries that compute."""
+    from importlib import metadata  # slow to import
+
     names = ("roughfilm", "numpy", "scipy", "h5py", "foamlib", "pydantic", "pint", "numba", "pyfftw")
     return {"python": platform.python_version(), **{name: metadata.version(name) for name in names}}
 

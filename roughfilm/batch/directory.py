@@ -34,7 +34,7 @@ def alone(out: Path) -> Iterator[Path]:
 
     The lock ends with this process. Raises InputError if another process holds it.
     """
-    message = f"--out {out}: another batch works here (process {{process}}); wait for it or choose another place"
+    message = f"out {out}: another batch works here (process {{process}}); wait for it or choose another place"
     with locked(out / ".lock", message):
         scratch = out / ".scratch"
         shutil.rmtree(scratch, ignore_errors=True)  # left by a batch that was killed, as are the files

@@ -106,7 +106,7 @@ def dask(address: str) -> Iterator[Executor]:
     try:
         import distributed
     except ImportError:
-        message = "--executor dask: needs the library distributed; install it with: pip install 'roughfilm[cluster]'"
+        message = "executor dask: needs the library distributed; install it with: pip install 'roughfilm[cluster]'"
         raise UnavailableError(message) from None
     logging.disable()  # dask and tornado would print many lines beside the error
     try:
@@ -114,7 +114,7 @@ def dask(address: str) -> Iterator[Executor]:
         client = distributed.Client(address, set_as_default=False)
     except Exception as error:  # whatever answers there may send anything
         reason = " ".join(str(error).split()) or f"silent for {SCHEDULER_TIMEOUT_S} s"
-        message = f"--scheduler {address}: no dask scheduler answers there ({reason}); start one with: dask scheduler"
+        message = f"scheduler {address}: no dask scheduler answers there ({reason}); start one with: dask scheduler"
         raise UnavailableError(message) from None
     with client:
         if not client.nthreads():

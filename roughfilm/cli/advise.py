@@ -9,7 +9,7 @@ from rich.table import Table
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.ladder import models
-from roughfilm.rom.advice.advise import Advice, Considered, Verdict, advise, shortfall, wanted
+from roughfilm.rom.advice.advise import Advice, ModelVerdict, Verdict, advise, shortfall, wanted
 from roughfilm.rom.advice.estimates import Estimate, percent
 from roughfilm.rom.advice.laws import table as laws_table
 from roughfilm.rom.ladder.kind import Scene, kind_of_name
@@ -25,19 +25,21 @@ from roughfilm.terminal.console import (
 from roughfilm.terminal.results import print_all, table_of
 from roughfilm.words.numbers import finite
 
-Want = Annotated[str | None, typer.Option(help="Quantity of --within, such as load (default: the first of the kind).")]
+Want = Annotated[
+    str | None, typer.Option("--want", help="Quantity of --within, such as load (default: the first of the kind).")
+]
 
 
 def command(
     scene: ScenePath,
     within: Annotated[str, typer.Option(help="Tolerated error, for example 5%.")],
-    want: Want = None,
+    quantity: Want = None,
     set_: Overrides = None,
     as_json: AsJson = False,
 ) -> None:
     """Choose the cheapest model and resolution that are accurate enough, with their expected error and cost."""
     read = load_scene(scene, set_ or ())
-    advice = advice_for(read, want, within)
+    advice = advice_for(read, quantity, within)
     if as_json:
         print_json({**entries_of(advice), "composition": list(kind_of_name(read.kind).composed(read))})
     else:
@@ -55,11 +57,11 @@ def tolerance_of(text: str) -> float:
         raise InputError(f"--within: got {text!r}; write a fraction such as 5% or 0.05") from None
 
 
-def advice_for(scene: Scene, want: str | None, within: str) -> Advice:
+def advice_for(scene: Scene, quantity: str | None, within: str) -> Advice:
     """The advice for a quantity of a scene, with a progress bar; InputError for an unknown quantity or tolerance."""
-    quantity, fraction = wanted(scene, want), tolerance_of(within)
+    compared, fraction = wanted(scene, quantity), tolerance_of(within)
     with progress_bar(1.0) as advance:
-        return advise(scene, models(scene.kind), quantity=quantity, within=fraction, progress=advance)
+        return advise(scene, models(scene.kind), quantity=compared, within=fraction, progress=advance)
 
 
 def _shown(scene: Scene, advice: Advice) -> Iterator[Table | str]:
@@ -131,7 +133,7 @@ def entries_of(advice: Advice) -> dict[str, Any]:
     }
 
 
-def _entries(one: Considered) -> dict[str, Any]:
+def _entries(one: ModelVerdict) -> dict[str, Any]:
     return {
         "model": one.model,
         "resolution": one.resolution,

@@ -19,7 +19,7 @@ from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import load_scene
-from roughfilm.rom.ladder.store import as_entries, save
+from roughfilm.rom.ladder.store import as_entries, refuse_other_file, save
 from roughfilm.terminal.console import (
     AsJson,
     Overrides,
@@ -32,6 +32,7 @@ from roughfilm.terminal.console import (
     print_json,
     progress_bar,
 )
+from roughfilm.terminal.output_file import refuse_unwritable
 from roughfilm.terminal.results import print_all, table_of
 
 
@@ -41,7 +42,7 @@ def command(
     within: Annotated[
         str | None, typer.Option(help="Instead of a model: take the cheapest within this error, for example 5%.")
     ] = None,
-    want: Want = None,
+    quantity: Want = None,
     out: Annotated[Path | None, typer.Option(help="Write the result with its fields here (HDF5).")] = None,
     set_: Overrides = None,
     resolution: Resolution = None,
@@ -52,18 +53,21 @@ def command(
 ) -> None:
     """Solve a scene by one model, or by the cheapest that is accurate enough."""
     read = load_scene(scene, set_ or ())
+    if out is not None:
+        refuse_other_file(out)
+        refuse_unwritable(out)
     result, advice = None, None
     if within is not None:
         own = {"model": model, "resolution": resolution, "tolerance": tolerance, "scheme": scheme}
         own["processes"] = processes if processes != 1 else None
         if given := [name for name, value in own.items() if value is not None]:
             raise InputError(f"--{given[0]}: --within chooses the model and how it is run; leave one of them out")
-        advice = advice_for(read, want, within)
+        advice = advice_for(read, quantity, within)
         if advice.chosen is None:
             raise ConvergenceError(f"--within: {shortfall(advice, kind_of_name(read.kind).compared[advice.quantity])}")
         model, resolution, result = advice.chosen.model, advice.chosen.resolution, advice.result
         messages.print(f"{model} at resolution {resolution}: {advice.chosen.reason}", soft_wrap=True, markup=False)
-    elif want is not None:
+    elif quantity is not None:
         raise InputError("--want: names the quantity of --within; give that too")
     if model is None:
         raise InputError("--model: is missing; name one from 'roughfilm models', or give --within 5%")

@@ -72,7 +72,8 @@ def speed_against_accuracy(
         axes.set(
             xscale="log", yscale="log", xlabel="CPU time, s", ylabel=f"error in {title} relative to the reference, %"
         )
-    panels[0].legend(fontsize=8, loc="upper right")
+    handles, labels = panels[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=4, fontsize=8)
     return svg(figure)
 
 
@@ -95,14 +96,14 @@ def grid_convergence(studies: Mapping[str, Mapping[str, Convergence]], titles: M
             axes.plot(sizes, slope, ":", color=style.colour, linewidth=1)
         grids = sorted({grid for one in drawn.values() for grid in one.grids})
         axes.set_xscale("log")
-        axes.set_xticks([1 / grid for grid in grids], [f"1/{grid}" for grid in grids])
+        axes.set_xticks([1 / grid for grid in grids], [f"1/{grid}" for grid in grids], rotation=45)
         axes.xaxis.minorticks_off()
         axes.set_yscale("log")
         low, high = axes.get_ylim()
         axes.set(
             ylim=(10 ** np.floor(np.log10(low)), 10 ** np.ceil(np.log10(high))),
             xlabel="mean length of a cell, periods (dotted: slope 2)",
-            ylabel=f"{title}: difference from the extrapolated value, %",
+            ylabel=f"{title}: difference from\nthe extrapolated value, %",
         )
         axes.legend(fontsize=8)
     return svg(figure)

@@ -71,9 +71,7 @@ def draw(file: Path, picture: Path) -> None:
             smooth_shading=True,
             specular=0.3,
             show_scalar_bar=number == 0,
-            scalar_bar_args=scalar_bar(
-                (0.25, 0.01), (0.5, 0.06), title="gap, µm (red: contact)", labels=4, digits=2, size=16
-            ),
+            scalar_bar_args=scalar_bar((0.25, 0.01), (0.5, 0.06), labels=4, digits=2, size=16),
         )
         plotter.add_text(title, position=(20, PANEL[1] - 44), font_size=12, color="#222222")
         middle = (length / 2, width / 2, -RELIEF / 2 * away)

@@ -9,7 +9,7 @@ from matplotlib.patches import Patch
 
 from roughfilm.figures.base import svg
 from roughfilm.rom.bearing.effects.ablation import Amount
-from roughfilm.rom.bearing.effects.contributions import Study
+from roughfilm.rom.bearing.effects.contributions import EffectStudy
 from roughfilm.words.effects import Shown
 
 MORE, LESS, WHOLE, BESIDE = "#2166ac", "#b2182b", "#5b6675", "#b07d2b"
@@ -20,7 +20,7 @@ ALONE_HEIGHT = 0.18
 """Height of the bars of effects that are switched off alone, in rows."""
 
 
-def waterfall(study: Study, columns: Mapping[str, Shown], beside: Mapping[str, Amount]) -> str:
+def waterfall(study: EffectStudy, columns: Mapping[str, Shown], beside: Mapping[str, Amount]) -> str:
     """A panel for each quantity, a row for each effect; ``beside`` has the contributions of inertia."""
     rows = ["plain film", *(one.name for one in study.contributions), "all of it", *(["inertia"] if beside else [])]
     figure = Figure(figsize=(3.1 + 2.6 * len(columns), 1.3 + 0.42 * len(rows)), layout="constrained")
@@ -41,7 +41,7 @@ def waterfall(study: Study, columns: Mapping[str, Shown], beside: Mapping[str, A
     return svg(figure)
 
 
-def _panel(axes: Axes, study: Study, name: str, how: Shown, beside: Amount | None) -> None:
+def _panel(axes: Axes, study: EffectStudy, name: str, how: Shown, beside: Amount | None) -> None:
     full = how.factor * study.full[name].value
     axes.axvline(full, color=WHOLE, linewidth=0.8, linestyle=":")
     if (plain := study.plain.get(name)) is not None:

@@ -33,17 +33,15 @@ def scalar_bar(
     extent: tuple[float, float],
     *,
     labels: int,
-    title: str = "",
     digits: int = 1,
     size: int = 18,
 ) -> "pyvista.ScalarBarArgs":
     """The options of a horizontal colour bar in pyvista; its place and extent are fractions of the window."""
     return {
-        "title": title,
+        "title": "",
         "n_labels": labels,
         "fmt": f"%.{digits}f",
         "color": "#222222",
-        "title_font_size": 18,
         "label_font_size": size,
         "vertical": False,
         "position_x": place[0],

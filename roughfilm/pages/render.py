@@ -72,7 +72,11 @@ def _quantity(quantity: Quantity) -> str:
     """A quantity with its unit, in µm and MPa where these fit."""
     known = {"1": _number, "m": _micro, "Pa": _si}
     value, unit = quantity.value, quantity.unit
-    return known[unit](value) if unit in known else f"{value:.4g} {unit}"
+    return known[unit](value) if unit in known else f"{value:.4g} {_typeset(unit)}"
+
+
+def _typeset(unit: str) -> str:
+    return unit.replace("^2", "²").replace("^3", "³").replace("*", " ")
 
 
 def _difference(value: float, unit: str) -> str:

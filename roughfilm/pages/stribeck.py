@@ -75,7 +75,7 @@ def drawn_film(film: MixedFilm, point: StribeckPoint, title: str) -> Drawn:
     pressure = solution.solution.state.pressure + film.scene.lubricant.cavitation_pressure
     contact = solution.contact.force / grid.areas
     fraction = point.contact_share
-    title += f", {100 * fraction:.3g} % by contact" if fraction > 0 else ", parted"
+    title += f", {100 * fraction:.3g} % by contact" if fraction > 0 else ", no contact"
     x, y = np.meshgrid(grid.x, grid.y, indexing="ij")
     if not isinstance(geometry, Ring):
         return Drawn(title=title, x=x, y=y, film=pressure, contact=contact)

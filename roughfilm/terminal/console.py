@@ -4,6 +4,7 @@ import functools
 import io
 import json
 import os
+import re
 import signal
 import sys
 from collections.abc import Callable, Iterator
@@ -43,11 +44,22 @@ messages = Console(stderr=True, highlight=False)
 output = Console(highlight=False)
 
 
-def fail(error: Exception, code: int) -> typer.Exit:
-    """Print an error in one line, and the notes that it carries, and return the exit with this code."""
-    messages.print(f"[bold red]error:[/] {escape(str(error))}", soft_wrap=True)
+def fail(error: Exception, code: int, command: Callable[..., None] | None = None) -> typer.Exit:
+    """Print an error in one line, and the notes that it carries, and return the exit with this code.
+
+    Where the line begins with the name of a parameter of the command, its option takes the place of the name.
+    """
+    options = {} if command is None else _options(command)
+    line = re.sub(r"^\w+(?=:? )", lambda place: options.get(place[0], place[0]), str(error))
+    messages.print(f"[bold red]error:[/] {escape(line)}", soft_wrap=True)
     print_notes(error, style="dim")
     return typer.Exit(code)
+
+
+def _options(command: Callable[..., None]) -> dict[str, str]:
+    """The options of a command by the names of its parameters, such as ``--counter-modulus`` by counter_modulus."""
+    parameters = typer.main.get_command(_app(command)).params
+    return {str(one.name).rstrip("_"): one.opts[0] for one in parameters if one.opts[0].startswith("--")}
 
 
 def print_notes(error: BaseException, style: str | None = None) -> None:
@@ -65,7 +77,8 @@ def in_one_line(command: Callable[..., None]) -> Callable[..., None]:
             command(*arguments, **options)
         except (InputError, ConvergenceError, UnavailableError) as error:
             codes = {InputError: BAD_INPUT, ConvergenceError: NOT_CONVERGED, UnavailableError: MISSING}
-            raise fail(error, next(code for kind, code in codes.items() if isinstance(error, kind))) from None
+            code = next(code for kind, code in codes.items() if isinstance(error, kind))
+            raise fail(error, code, command) from None
         except (KeyboardInterrupt, SystemExit) as stop:
             print_notes(stop)
             raise
@@ -97,9 +110,13 @@ def launch(app: typer.Typer, arguments: list[str]) -> None:
 
 def run_alone(command: Callable[..., None]) -> None:
     """Run one command as a program of its own."""
+    launch(_app(command), sys.argv[1:])
+
+
+def _app(command: Callable[..., None]) -> typer.Typer:
     app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
     app.command()(command)
-    launch(app, sys.argv[1:])
+    return app
 
 
 def _stop(number: int, _frame: FrameType | None) -> None:

@@ -43,9 +43,10 @@ def pressures(scene: DryContact, results: Mapping[str, Result]) -> str:
         axes.set(yscale="log", xlabel="pressure, GPa" + (" (dotted: hardness)" if scene.solid.hardness else ""))
         if scene.solid.hardness and scene.solid.hardness * 1e-9 <= axes.get_xlim()[1]:
             axes.axvline(scene.solid.hardness * 1e-9, color="black", linewidth=0.8, linestyle=":")
-    density.set(
-        ylim=(DENSITY_RANGE * density.get_ylim()[1], None), ylabel="density of pressures below the hardness, 1/GPa"
-    )
+    highest = max(float(result.fields["pressure_density"].values.max()) for result in results.values()) * 1e9
+    if highest > 0:
+        density.set_ylim(DENSITY_RANGE * highest, 2 * highest)
+    density.set_ylabel("density of pressures below the hardness, 1/GPa")
     above.set_ylabel("fraction of the nominal area\nat a higher pressure")
     above.legend(fontsize=8)
     return svg(figure)
