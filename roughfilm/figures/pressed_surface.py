@@ -1,4 +1,4 @@
-"""A surface in space under a few loads, by pyvista: python -m roughfilm.figures.contact_view VIEWS.npz PICTURE.png."""
+"""A surface in space under a few loads, by pyvista: python -m roughfilm.figures.pressed_surface VIEWS.npz PICTURE.png."""
 
 import sys
 import tempfile
@@ -32,7 +32,7 @@ def view_picture(views: Sequence[GapMap]) -> tuple[str | None, str]:
             spacing=np.array(first.spacing),
             relief=first.relief,
         )
-        drawn = draw_apart("roughfilm.figures.contact_view", file, picture)
+        drawn = draw_apart("roughfilm.figures.pressed_surface", file, picture)
         return (embedded(picture), "") if drawn.available else (None, drawn.detail)
 
 
