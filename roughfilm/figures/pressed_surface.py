@@ -1,4 +1,4 @@
-"""A surface in space under a few loads, by pyvista: python -m roughfilm.figures.pressed_surface VIEWS.npz PICTURE.png."""
+"""A surface in space under loads, by pyvista: python -m roughfilm.figures.pressed_surface VIEWS.npz PICTURE.png."""
 
 import sys
 import tempfile

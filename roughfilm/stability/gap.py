@@ -30,7 +30,7 @@ from roughfilm.stability.form import (
     in_rows,
 )
 from roughfilm.stability.pocket import available_models
-from roughfilm.stability.questions.gap import CUT, CUTS, GapRun, gap_runs
+from roughfilm.stability.questions.gap import CUT, CUTS, GapProbe, gap_runs
 
 MIN_COLUMNS, MAX_COLUMNS = 32, 64
 
@@ -57,7 +57,7 @@ NOT_REPORTED = "not reported"
 
 
 def spot_of(
-    run: GapRun, answer: Result | Failure, truth: Coefficients | None, thin: Coefficients | None = None
+    run: GapProbe, answer: Result | Failure, truth: Coefficients | None, thin: Coefficients | None = None
 ) -> Spot:
     """The judged answer to a run.
 
@@ -137,14 +137,14 @@ def _impossible(values: Mapping[str, float], uncertainties: Mapping[str, float],
     return ""
 
 
-def _cell_shape(run: GapRun) -> str:
+def _cell_shape(run: GapProbe) -> str:
     """The length of the cells over their thickness, in words."""
     if run.wave is None or run.setting.resolution is None or run.scene.layers is None:
         return ""
     return f"(cells {run.wave.wavelength / run.setting.resolution * run.scene.layers:.3g} times as long as thick)"
 
 
-GapAnswer = tuple[GapRun, Result | Failure]
+GapAnswer = tuple[GapProbe, Result | Failure]
 
 
 def solve(resolution: int, out: Path, processes: int, scratch: Path) -> Spots:
@@ -192,7 +192,7 @@ def _two_meshes(answers: Sequence[GapAnswer]) -> dict[tuple[str, str], Coefficie
     return {key: extrapolated(own[min(own)], own[max(own)]) for key, own in results.items() if len(own) == 2}
 
 
-def _at_least_cut(run: GapRun, answers: Sequence[GapAnswer]) -> Coefficients | None:
+def _at_least_cut(run: GapProbe, answers: Sequence[GapAnswer]) -> Coefficients | None:
     """A of the same setting at the smallest cut, so that the error is that of cutting out more.
 
     Uncertainties of the model do not count here, as they are common to both answers.

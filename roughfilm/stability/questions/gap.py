@@ -61,7 +61,7 @@ CELLS, INERTIA = "shape of cells", "inertia"
 
 
 @dataclass(frozen=True, kw_only=True)
-class GapRun:
+class GapProbe:
     """One run: its place on the map, the directory and the scene, the setting, and the wave if there is one."""
 
     group: str
@@ -73,7 +73,7 @@ class GapRun:
     wave: Wave | None = None
 
 
-def gap_runs(models: Sequence[Model], columns: int) -> Iterator[GapRun]:
+def gap_runs(models: Sequence[Model], columns: int) -> Iterator[GapProbe]:
     """All runs of these models; the finest mesh has ``columns`` columns for bumps, and twice as many for ridges."""
     by_name = {model.name: model for model in models}
 
@@ -106,7 +106,7 @@ def gap_runs(models: Sequence[Model], columns: int) -> Iterator[GapRun]:
         yield from _inertia(model, Wave(amplitude=0.5, wavelength=5.0, bumps=True), half, columns)
 
 
-def _inertia(model: Model, wave: Wave, coarse: int, fine: int) -> Iterator[GapRun]:
+def _inertia(model: Model, wave: Wave, coarse: int, fine: int) -> Iterator[GapProbe]:
     settings = ((coarse, "linear_upwind"), (fine, "linear_upwind"), (coarse, "upwind"))
     for (resolution, scheme), number in product(settings, REYNOLDS_NUMBERS):
         if wave.bumps and resolution == fine and number > MAX_STEADY_REYNOLDS:
@@ -125,10 +125,10 @@ def _over_wave(
     *,
     layers: int | None = None,
     reynolds_number: float = CREEPING,
-) -> GapRun:
+) -> GapProbe:
     place = wave.name + (f"-{layers}" if layers else "") + (f"-Re{reynolds_number:g}" * (reynolds_number != CREEPING))
     scene = wave_scene(wave, layers=layers, reynolds_number=reynolds_number)
-    return GapRun(group=group, row=row, column=column, place=place, scene=scene, setting=setting, wave=wave)
+    return GapProbe(group=group, row=row, column=column, place=place, scene=scene, setting=setting, wave=wave)
 
 
 def wave_scene(wave: Wave, *, layers: int | None = None, reynolds_number: float = CREEPING) -> RoughGap:
@@ -161,7 +161,7 @@ def _bumps(size: str, amplitude: str) -> dict[str, Any]:
     return {"kind": "sinusoid", "size": [size, size], "points": [64, 64], "amplitude": amplitude, **periods}
 
 
-def _pressed(settings: Sequence[Setting]) -> Iterator[GapRun]:
+def _pressed(settings: Sequence[Setting]) -> Iterator[GapProbe]:
     """Pressed walls, which touch where they are nearer than a fraction of the mean gap."""
     size = "100 um"
     surfaces = {
@@ -193,7 +193,7 @@ def _pressed(settings: Sequence[Setting]) -> Iterator[GapRun]:
             trials += [(f"{THIN}: {kind}", *trial) for trial in product(coarse, THIN_CUTS, THIN_LAYERS)]
         for group, setting, cut, layers in trials:
             place = f"pressed-{kind.replace(',', '').replace(' ', '-')}-{cut:g}" + (f"-{layers}" if layers else "")
-            yield GapRun(
+            yield GapProbe(
                 group=group,
                 row=f"{layers} layers" if layers else setting.name,
                 column=f"{cut:g}",

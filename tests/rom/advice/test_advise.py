@@ -360,7 +360,7 @@ def test_steep_fast_grooves_need_more_than_shallow_slow_ones(make_scene):
     assert steep.chosen is None or steep.chosen.cpu_s > shallow.chosen.cpu_s
 
 
-def test_inertia_that_no_rung_of_a_bearing_keeps_is_that_of_a_wide_wedge_to_first_order():
+def test_inertia_that_no_model_of_a_bearing_includes_is_that_of_a_wide_wedge_to_first_order():
     """Half the density, half the part: to first order; without a density nothing is said."""
     entries = {
         "name": "wedge",
@@ -374,6 +374,6 @@ def test_inertia_that_no_rung_of_a_bearing_keeps_is_that_of_a_wide_wedge_to_firs
     half = kind.read({**entries, "lubricant": {"viscosity": "0.01 Pa*s", "density": "400 kg/m^3"}})
     assert whole.part == pytest.approx(2 * kind.omitted(half, "load_per_width").part, rel=1e-9)
     assert whole.reason.startswith(
-        "Re·h/L = 0.064: inertia, which no rung of a bearing keeps, changes the load by about "
+        "Re·h/L = 0.064: inertia, which no model of a bearing includes, changes the load by about "
     )
     assert kind.omitted(kind.read({**entries, "lubricant": {"viscosity": "0.01 Pa*s"}}), "load_per_width") is None
