@@ -9,7 +9,7 @@ import numpy as np
 
 from roughfilm.contact.mechanics.load_series import Series
 from roughfilm.figures import contact as contact_figures
-from roughfilm.figures.contact_view import view_picture
+from roughfilm.figures.pressed_surface import view_picture
 from roughfilm.pages.render import render
 from roughfilm.words.numbers import digits
 

@@ -11,7 +11,7 @@ from roughfilm.contact.mechanics.store import load_contact
 from roughfilm.contact.parameters.autocorrelation import autocorrelation, decay_lengths
 from roughfilm.contact.parameters.peaks import lowest_valleys
 from roughfilm.figures import leakage as leakage_figures
-from roughfilm.figures.contact_view import view_picture
+from roughfilm.figures.pressed_surface import view_picture
 from roughfilm.pages.render import render
 from roughfilm.rom.seal.leakage.curve import Ready
 from roughfilm.rom.seal.leakage.effective_medium import effective_medium
