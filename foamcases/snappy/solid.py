@@ -6,7 +6,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.meshes.mesh import Mesh, in_triangles
-from roughfilm.rom.meshes.walls_mesh import Part, wall_mesh
+from roughfilm.rom.meshes.walls_mesh import GapPart, wall_mesh
 from roughfilm.rom.rough_gap.walls import Walls
 
 MARGIN_FRACTION = 0.25
@@ -96,7 +96,7 @@ def carved(walls: Walls, unit: float, layers: int) -> Carved:
         upper=walls.upper,
         spacing=walls.spacing,
     )
-    parts = (Part.LOWER,) if walls.slides else (Part.LOWER, Part.UPPER)
+    parts = (GapPart.LOWER,) if walls.slides else (GapPart.LOWER, GapPart.UPPER)
     sheets = [repeated(wall_mesh(raised, part), walls.size) for part in parts]
     i, j = np.unravel_index(walls.gap.argmax(), walls.gap.shape)
     middle = (walls.lower[i, j] + walls.upper[i, j]) / 2

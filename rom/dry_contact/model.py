@@ -92,7 +92,7 @@ def solve(
     answer = work(task)
     warnings = list(answer.warnings)
     if not surface.periodic:
-        warnings.append("the surface is not marked as periodic; it is treated as one period")
+        warnings.append("the surface is not marked as periodic; it is taken as one period")
     return Result(
         model=model,
         quantities={"rms_height": Quantity(value=float(heights.std()), unit="m"), **answer.quantities},

@@ -19,13 +19,13 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.pocket import periodic_solve as ring
 from roughfilm.rom.pocket.basis import Basis
-from roughfilm.rom.pocket.thin_film import Flow, Strip, all_amplitudes, stream_function, velocity
+from roughfilm.rom.pocket.thin_film import Strip, StripFlow, all_amplitudes, stream_function, velocity
 
 DECAY_LENGTH = 1 / np.pi
 """Decay length of a disturbance along the film, in film thicknesses: the slowest mode is sin(πY) exp(-πx/h)."""
 
 
-def velocities(film: Strip, across: Basis, state: Flow) -> tuple[Array, Array]:
+def velocities(film: Strip, across: Basis, state: StripFlow) -> tuple[Array, Array]:
     """The velocity u along and v = -∂ψ/∂x across the film in each cell, shape (cells, points)."""
     u = velocity(film, across, state)
     psi = stream_function(film, across, state)
@@ -33,7 +33,7 @@ def velocities(film: Strip, across: Basis, state: Flow) -> tuple[Array, Array]:
     return u, np.asarray(-rise - u * (1 - across.nodes) * _wall_slope(film)[:, None])
 
 
-def imbalance(film: Strip, across: Basis, reynolds_number: float, state: Flow) -> Array:
+def imbalance(film: Strip, across: Basis, reynolds_number: float, state: StripFlow) -> Array:
     """The imbalance -∫∫ φ_k ∂T/∂x dy dx of every cell, shape (cells, n), for :func:`rom.pocket.thin_film.step`."""
     u, v = velocities(film, across, state)
     below, slope = 1 - across.nodes, _wall_slope(film)[:, None]

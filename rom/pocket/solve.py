@@ -17,7 +17,7 @@ from roughfilm.rom.pocket import slope, thin_film
 from roughfilm.rom.pocket.basis import Basis, even_basis, gauss_basis, sliding_wall_slope
 from roughfilm.rom.pocket.error_law import ErrorLaw
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
-from roughfilm.rom.pocket.thin_film import Flow, Strip
+from roughfilm.rom.pocket.thin_film import Strip, StripFlow
 from roughfilm.rom.pocket.validity import cautions
 
 MODES = 10
@@ -69,8 +69,8 @@ def _residual(film: Strip, across: Basis, linear: thin_film.Linearised) -> float
 
 
 def _newton(
-    film: Strip, across: Basis, reynolds_number: float, state: Flow, tolerance: float
-) -> tuple[Flow, thin_film.Linearised | None, int]:
+    film: Strip, across: Basis, reynolds_number: float, state: StripFlow, tolerance: float
+) -> tuple[StripFlow, thin_film.Linearised | None, int]:
     """The flow at one Reynolds number, its linearisation (None without convergence), and the number of steps."""
     least = np.inf
     for steps in range(NEWTON_STEPS):
@@ -85,13 +85,13 @@ def _newton(
             change, _ = thin_film.step(film, across, linear, linear.imbalance)
         except np.linalg.LinAlgError:
             return state, None, steps
-        state = Flow(amplitudes=state.amplitudes + change.amplitudes, flow=state.flow + change.flow)
+        state = StripFlow(amplitudes=state.amplitudes + change.amplitudes, flow=state.flow + change.flow)
     return state, None, NEWTON_STEPS
 
 
 def _continued(
     film: Strip, modes: int, reynolds_number: float, tolerance: float, progress: Progress
-) -> tuple[Flow, thin_film.Linearised, int]:
+) -> tuple[StripFlow, thin_film.Linearised, int]:
     """The flow at a Reynolds number, if necessary by continuation from creeping flow in steps of adapted size."""
     across, total = gauss_basis(modes), 0
     state, reached, stride = thin_film.creeping(film, modes), 0.0, 1.0
@@ -115,8 +115,8 @@ def _continued(
 
 
 def _with_slope(
-    film: Strip, across: Basis, reynolds_number: float, state: Flow, linear: thin_film.Linearised, rise: Array
-) -> tuple[Flow, Array]:
+    film: Strip, across: Basis, reynolds_number: float, state: StripFlow, linear: thin_film.Linearised, rise: Array
+) -> tuple[StripFlow, Array]:
     """The flow and its pressure rise along each cell, corrected for slope; ConvergenceError if that is not finite."""
     try:
         change, more = thin_film.step(film, across, linear, slope.imbalance(film, across, reynolds_number, state))
@@ -124,7 +124,7 @@ def _with_slope(
         more = np.full_like(rise, np.nan)
     if not np.isfinite(more).all():
         raise ConvergenceError("the slope correction of the film is not finite here; take film or navier_stokes")
-    return Flow(amplitudes=state.amplitudes + change.amplitudes, flow=state.flow + change.flow), rise + more
+    return StripFlow(amplitudes=state.amplitudes + change.amplitudes, flow=state.flow + change.flow), rise + more
 
 
 def solve(

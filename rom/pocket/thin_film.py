@@ -45,7 +45,7 @@ class Strip:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Flow:
+class StripFlow:
     """The amplitudes a_1 .. a_{n-1} of each cell, shape (cells, n-1), and the volume flow q."""
 
     amplitudes: Array
@@ -89,10 +89,10 @@ def strip(gap: Gap, resolution: int, *, second_order: bool = True) -> Strip:
     )
 
 
-def creeping(film: Strip, modes: int) -> Flow:
+def creeping(film: Strip, modes: int) -> StripFlow:
     """The flow of the Reynolds equation on these cells, without inertia."""
     h, dx = film.thickness, film.lengths
-    return Flow(amplitudes=np.zeros((h.size, modes - 1)), flow=float((dx / h**2).sum() / (2 * (dx / h**3).sum())))
+    return StripFlow(amplitudes=np.zeros((h.size, modes - 1)), flow=float((dx / h**2).sum() / (2 * (dx / h**3).sum())))
 
 
 def first_amplitude(across: Basis, h: Array, flow: float) -> Array:
@@ -100,30 +100,30 @@ def first_amplitude(across: Basis, h: Array, flow: float) -> Array:
     return np.asarray((flow / h - 0.5) / across.flow)
 
 
-def all_amplitudes(film: Strip, across: Basis, state: Flow) -> Array:
+def all_amplitudes(film: Strip, across: Basis, state: StripFlow) -> Array:
     """The amplitudes a_0 .. a_{n-1} of each cell, shape (cells, n)."""
     return np.column_stack([first_amplitude(across, film.thickness, state.flow), state.amplitudes])
 
 
-def velocity(film: Strip, across: Basis, state: Flow) -> Array:
+def velocity(film: Strip, across: Basis, state: StripFlow) -> Array:
     """The velocity u along each cell, shape (cells, points)."""
     return np.asarray(across.nodes + all_amplitudes(film, across, state) @ across.shape)
 
 
-def face_amplitudes(film: Strip, across: Basis, state: Flow) -> Array:
+def face_amplitudes(film: Strip, across: Basis, state: StripFlow) -> Array:
     """The amplitudes at each face, a_0 exact and the others interpolated, shape (cells, n)."""
     inner = np.einsum("fo,fok->fk", film.middle, _around(state.amplitudes))
     return np.column_stack([first_amplitude(across, film.face_thickness, state.flow), inner])
 
 
-def stream_function(film: Strip, across: Basis, state: Flow) -> Array:
+def stream_function(film: Strip, across: Basis, state: StripFlow) -> Array:
     """The stream function ψ at each face and point across, shape (cells, points)."""
     return np.asarray(
         film.face_thickness[:, None] * (across.nodes**2 / 2 + face_amplitudes(film, across, state) @ across.primitive)
     )
 
 
-def linearise(film: Strip, across: Basis, reynolds_number: float, state: Flow) -> Linearised:
+def linearise(film: Strip, across: Basis, reynolds_number: float, state: StripFlow) -> Linearised:
     """The imbalance of momentum of each cell and test function, and its derivatives."""
     h, h_face, dx = film.thickness, film.face_thickness, film.lengths
     weighted, inner = across.weights * across.shape, across.shape[1:]
@@ -169,7 +169,7 @@ def pressure_rise(film: Strip, across: Basis, imbalance: Array) -> Array:
     return np.asarray(-imbalance[:, 0] / (film.thickness * across.flow))
 
 
-def step(film: Strip, across: Basis, linear: Linearised, imbalance: Array) -> tuple[Flow, Array]:
+def step(film: Strip, across: Basis, linear: Linearised, imbalance: Array) -> tuple[StripFlow, Array]:
     """The changes of flow, and of pressure rise along each cell, that remove an imbalance with periodic pressure."""
     known = np.stack([imbalance[:, 1:], linear.by_flow[:, 1:]], axis=2)
     answer = ring.solve(linear.blocks[:, :, 1:], known)
@@ -178,7 +178,7 @@ def step(film: Strip, across: Basis, linear: Linearised, imbalance: Array) -> tu
     lever = -1 / (film.thickness * across.flow)
     rise, by_flow = lever * (imbalance[:, 0] - first[:, 0]), lever * (linear.by_flow[:, 0] - first[:, 1])
     flow = float(rise.sum() / by_flow.sum())
-    change = Flow(amplitudes=answer[:, :, 1] * flow - answer[:, :, 0], flow=-flow)
+    change = StripFlow(amplitudes=answer[:, :, 1] * flow - answer[:, :, 0], flow=-flow)
     return change, np.asarray(rise - by_flow * flow)
 
 

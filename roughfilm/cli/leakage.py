@@ -111,7 +111,7 @@ def _entries(
     quantities: dict[str, Any] = {}
     for name, threshold in thresholds.items():
         quantities[f"seals_{name}"] = {"value": float(threshold.sealed is not None), "unit": "1"}
-        if threshold.found:
+        if threshold.bracketed:
             quantities[f"sealing_load_{name}"] = {"value": threshold.load, "unit": "Pa"}
             quantities[f"sealing_area_{name}"] = {"value": threshold.area_fraction, "unit": "1"}
     entries = {

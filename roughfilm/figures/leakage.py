@@ -45,7 +45,7 @@ def areas(rows: Sequence[Row], thresholds: Mapping[str, Threshold]) -> str:
     )
     for axis in "xy":
         threshold = thresholds[f"direct_{axis}"]
-        if threshold.found:
+        if threshold.bracketed:
             axes.plot(
                 threshold.load / 1e6,
                 100 * threshold.area_fraction,
@@ -86,7 +86,7 @@ def leakages(
             label=f"{axis}, {NAMES[kind]}",
         )
         threshold = thresholds[name]
-        if kind == "direct" and threshold.found:
+        if kind == "direct" and threshold.bracketed:
             axes.axvline(threshold.load / 1e6, color=COLOURS[axis], linewidth=0.9, linestyle=":")
     drawn = {load: value for load, value in estimated.items() if value > lowest}
     if drawn:

@@ -73,9 +73,9 @@ def _error(
 
 
 def _switch(theta: float, beta: float, nodes: int) -> tuple[int, float]:
-    from roughfilm.rom.cavitation.reference.switch import LIMIT, switched
+    from roughfilm.rom.cavitation.reference.switch import MAX_STEPS, switched
 
-    solution = switched(slider(theta, liquid(beta)), nodes, limit=min(LIMIT, MAX_NODE_STEPS // nodes))
+    solution = switched(slider(theta, liquid(beta)), nodes, limit=min(MAX_STEPS, MAX_NODE_STEPS // nodes))
     return solution.iterations, solution.load
 
 

@@ -87,7 +87,7 @@ def test_a_series_from_the_first_touch_to_sealed(found):
     ordered = list(rows.values())
     assert ordered[0].area_fraction < 0.01
     for name in SOUGHT:
-        assert thresholds[name].found
+        assert thresholds[name].bracketed
         assert [getattr(row, name) == 0 for row in ordered] == [
             row.load > thresholds[name].open.load for row in ordered
         ]

@@ -65,7 +65,7 @@ def save_table(path: Path, inputs: Inputs, table: FactorTable) -> None:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Source:
+class TableSource:
     """The inputs of a table without its heights: ``spacing`` (dx, dy), m, and settings."""
 
     spacing: tuple[float, float]
@@ -83,13 +83,13 @@ def load_table(path: Path) -> FactorTable:
     return load_table_and_source(path)[0]
 
 
-def load_table_and_source(path: Path) -> tuple[FactorTable, Source]:
+def load_table_and_source(path: Path) -> tuple[FactorTable, TableSource]:
     """The table in a file and its inputs; errors are those of :func:`load_table`."""
     try:
         _refuse_others(path)
         with open_checked(path, MARK, SCHEMA, REMEDY) as file:
             dx, dy = map(float, file.attrs["spacing"])
-            return _table(file), Source(spacing=(dx, dy), settings=json.loads(file.attrs["settings"]))
+            return _table(file), TableSource(spacing=(dx, dy), settings=json.loads(file.attrs["settings"]))
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror or error}); name a table of flow factors") from error
 

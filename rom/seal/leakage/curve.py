@@ -116,7 +116,7 @@ def sealing(body: Ready, advance: Advance) -> dict[str, Threshold]:
     return named
 
 
-def chosen_loads(body: Ready, found: dict[str, Threshold]) -> tuple[float, ...]:
+def chosen_loads(body: Ready, by_flow: dict[str, Threshold]) -> tuple[float, ...]:
     """The default loads, from half a per cent of contact to just above all thresholds, with the last open ones."""
     if float(np.ptp(body.surface.heights)) == 0:
         raise InputError("geometry.surface: is flat and sealed under any load; give loads for its numbers")
@@ -126,10 +126,10 @@ def chosen_loads(body: Ready, found: dict[str, Threshold]) -> tuple[float, ...]:
         if 0.8 < area / FIRST_AREA < 1.25:
             break
         load *= min(max(FIRST_AREA / area, 0.1), 10.0)
-    sealed = [threshold.sealed.load for threshold in found.values() if threshold.sealed is not None]
-    last = max(sealed) * LAST_LOAD_RATIO if len(sealed) == len(found) else body.most
+    sealed = [threshold.sealed.load for threshold in by_flow.values() if threshold.sealed is not None]
+    last = max(sealed) * LAST_LOAD_RATIO if len(sealed) == len(by_flow) else body.most
     last = max(min(last, body.most), load * LAST_LOAD_RATIO)
-    opened = [found[name].open for name in SOUGHT[:2]]
+    opened = [by_flow[name].open for name in SOUGHT[:2]]
     more = {side.load for side in opened if side is not None and load < side.load < last}
     return tuple(sorted({*(float(one) for one in np.geomspace(load, last, DEFAULT_LOADS)), *more}))
 

@@ -46,7 +46,7 @@ class Threshold:
     sealed: Side | None
 
     @property
-    def found(self) -> bool:
+    def bracketed(self) -> bool:
         """Whether the bracket has both ends."""
         return self.open is not None and self.sealed is not None
 

@@ -70,10 +70,10 @@ def test_contract(model, tips):
     assert model.applies(scene).reason
     assert model.cost(scene, 64) > 0
     for options, words in (
-        ({"resolution": 7}, "--resolution: got 7"),
-        ({"tolerance": 2.0}, "--tolerance: got 2.0"),
+        ({"resolution": 7}, "resolution: got 7"),
+        ({"tolerance": 2.0}, "tolerance: got 2.0"),
         ({"scheme": "upwind"}, "offers no choice"),
-        ({"processes": 2}, "--processes: got 2"),
+        ({"processes": 2}, "processes: got 2"),
     ):
         with pytest.raises(InputError, match=words):
             model.solve(scene, Request(**options))

@@ -131,7 +131,7 @@ def test_cautions_beyond_the_range_of_a_model(make_scene, name, reynolds_number,
 
 @pytest.mark.parametrize(("option", "value"), [("resolution", 1), ("resolution", 10**9), ("tolerance", 0.0)])
 def test_options_out_of_range(make_scene, option, value):
-    with pytest.raises(InputError, match=f"--{option}: got"):
+    with pytest.raises(InputError, match=f"{option}: got"):
         MODELS[0].solve(make_scene(0.3, 0.25, 1), Request(**{option: value}))
 
 

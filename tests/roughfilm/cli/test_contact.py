@@ -375,7 +375,7 @@ def test_no_output_replaces_an_input(rough, tmp_path):
 def test_an_array_without_spacing_is_refused(wave):
     done = run(wave, *STEEL, "--loads", "1MPa")
     assert done.exit_code == 2
-    assert "--spacing: " in done.stderr
+    assert f"--spacing: {wave} holds none" in done.stderr
 
 
 def test_ranges_of_loads():

@@ -267,7 +267,7 @@ def test_a_film_given_by_points_goes_the_same_way(tips, tmp_path):
         ([math.nan], [1e6], 32, "speeds: got nan"),
         ([1.0, 1.0], [1e6], 32, "speeds: got the same number twice"),
         ([1.0], [0.0], 32, r"loads: got 0\.0; give finite numbers that are above 0"),
-        ([1.0], [1e6], 8, "--resolution: got 8"),
+        ([1.0], [1e6], 8, "resolution: got 8"),
     ],
 )
 def test_sweeps_that_make_no_sense_are_refused(tips, speeds, pressures, resolution, words):

@@ -82,7 +82,7 @@ def test_an_egg_box_cut_off_seals_at_half_of_contact():
     found = thresholds(truncated(1.5 + np.add.outer(x, x) / 2), 0.7, 3.0, precision=1e-4)
     assert len(found) == 4
     for threshold in found:
-        assert threshold.found
+        assert threshold.bracketed
         assert threshold.load == pytest.approx(1.5, rel=2e-3)
         assert threshold.area_fraction == pytest.approx(0.5, abs=2 / n)
         assert threshold.open.load < threshold.sealed.load <= 1.0001 * threshold.open.load
@@ -106,7 +106,7 @@ def test_ridges_seal_across_at_the_first_touch_and_along_in_full_contact():
     assert along.sealed is None
     assert along.open.load == 0.5 * full
     assert along.load == math.inf
-    assert not along.found
+    assert not along.bracketed
 
 
 def test_a_flat_surface_is_sealed_under_any_load():
