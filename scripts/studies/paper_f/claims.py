@@ -7,8 +7,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from scripts.studies.paper_f.data import MODULUS, Pressed
-from scripts.studies.paper_f.fits import SHARES, SLOPE, Constant
-from scripts.studies.paper_f.laws import DIRECTED, GroupLaws, SealStudy
+from scripts.studies.paper_f.fits import DIRECTED, SHARES, SLOPE, Constant, GroupLaws, SealStudy
 from scripts.studies.paper_f.surfaces import HEIGHTS
 from scripts.studies.study import Claim, Judgement, claims_of, verdict
 

@@ -53,15 +53,15 @@ class Pressed:
     ----------
     size : m, along x and y.
     loads : W, Pa.
-    area : real over nominal area, corrected for whole pixels; ``pixels`` is not.
+    area : real over nominal area, corrected for whole pixels.
     mean_gap : m.
     valley : Svm of the surface under load, m.
-    flow : A₁₁ and A₂₂ of the cell, m³: HNS; ``doubt`` is how far off they may be.
+    flow : A₁₁ and A₂₂ of the cell, m³: HNS.
     direct : K between two reservoirs one period apart, in x and in y, m³: DNS.
     offset : as ``flow``, with 10 nm let through everywhere; nan where the solver gave up.
     threshold : the least load that leaves no path from end to end, Pa, in x and in y; sides are joined.
     round_threshold : the least load that leaves none round the cell, as ``flow`` has it; never above the other.
-    sealed_area, sealed_pixels, round_area : area there.
+    sealed_area, round_area : area at ``threshold`` and at ``round_threshold``.
     sealed_offset : as ``offset`` at ``threshold``, in its direction, m³.
     spots : contact at ``threshold``, shape (2, nx, ny).
     """
@@ -72,17 +72,14 @@ class Pressed:
     numbers: Numbers
     loads: Array
     area: Array
-    pixels: Array
     mean_gap: Array
     valley: Array
     flow: Array
-    doubt: Array
     direct: Array
     offset: Array
     threshold: Array
     round_threshold: Array
     sealed_area: Array
-    sealed_pixels: Array
     round_area: Array
     sealed_offset: Array
     spots: Array
@@ -140,17 +137,14 @@ def press(made: Made, parts: Sequence[float] = PARTS) -> Pressed:
         numbers=numbers,
         loads=np.array(loads),
         area=np.array([one.area_fraction for one in contacts]),
-        pixels=np.array([one.area_fraction_pixel for one in contacts]),
         mean_gap=np.array([one.mean_gap for one in contacts]),
         valley=np.array([valley(one) for one in contacts]),
         flow=np.array([np.diag(one.factors.pressure) for one in flows]),
-        doubt=np.array([np.diag(one.uncertainty.pressure) for one in flows]),
         direct=np.array([direct_leakage(one.gap, surface.spacing).permeability for one in contacts]),
         offset=np.array([_with_offset(one) for one in contacts]),
         threshold=np.array([one.load for one in ends]),
         round_threshold=np.array([first_round.load, second_round.load]),
         sealed_area=np.array([one.area_fraction for one in ends]),
-        sealed_pixels=np.array([one.area_fraction_pixel for one in ends]),
         round_area=np.array([first_round.area_fraction, second_round.area_fraction]),
         sealed_offset=np.array([_with_offset(one)[i] for i, one in enumerate(ends)]),
         spots=np.array([one.in_contact for one in ends]),

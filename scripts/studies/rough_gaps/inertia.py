@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -130,10 +131,8 @@ class _Flow:
     asked: tuple[tuple[ModelRun, ModelRun], ...]
 
 
-def _flow(
-    group: str, name: str, make: Callable[[float], RoughGap], reynolds_number: float, grids: Sequence[int]
-) -> _Flow:
-    scene, creeping = make(reynolds_number), make(CREEPING)
+def _flow(group: str, name: str, make: Callable[..., RoughGap], reynolds_number: float, grids: Sequence[int]) -> _Flow:
+    scene, creeping = (make(reynolds_number=number) for number in (reynolds_number, CREEPING))
     return _Flow(
         group=group,
         name=name,
@@ -148,28 +147,17 @@ def _flow(
     )
 
 
-def _over(shape: tuple[float, float]) -> Callable[[float], RoughGap]:
-    return lambda reynolds_number: over_waves(*shape, reynolds_number)
-
-
-def _over_random(shape: tuple[float, float]) -> Callable[[float], RoughGap]:
-    return lambda reynolds_number: over_random(*shape, reynolds_number=reynolds_number)
-
-
 def _flows(shapes: Sequence[tuple[float, float]], reynolds: Sequence[float], random: Random) -> list[_Flow]:
     """Return the flows over sinusoids and over random surfaces."""
-    return [
-        *(
-            _flow(RIDGES, f"a = {shape[0]:g}, L = {shape[1]:g}", _over(shape), one, GRIDS)
-            for shape in shapes
-            for one in reynolds
-        ),
-        *(
-            _flow(SURFACES, f"random, Sq = {shape[0]:g}, λ = {shape[1]:g}", _over_random(shape), one, RANDOM_GRIDS)
-            for shape, own in random.items()
-            for one in own
-        ),
+    flows = [
+        _flow(RIDGES, f"a = {a:g}, L = {length:g}", partial(over_waves, a, length), number, GRIDS)
+        for a, length in shapes
+        for number in reynolds
     ]
+    for (roughness, length), numbers in random.items():
+        name, make = f"random, Sq = {roughness:g}, λ = {length:g}", partial(over_random, roughness, length)
+        flows += [_flow(SURFACES, name, make, number, RANDOM_GRIDS) for number in numbers]
+    return flows
 
 
 def asked(
