@@ -14,16 +14,16 @@ from scripts.studies.paper_f.surfaces import HEIGHTS
 SLOPE = "g′"
 """The rms slope as a scale of loads: W/(E* g′) is a pure number, and the same for a surface stretched along or up."""
 
-TIMES = 1000
+RESAMPLES = 1000
 """Resamples of a bootstrap."""
 
 CONFIDENCE = (2.5, 97.5)
 """Per cent."""
 
-SHARES = (0.003, 0.03, 0.3)
+LOAD_FRACTIONS = (0.003, 0.03, 0.3)
 """Fractions of the median sealing load at which leakages of surfaces are compared."""
 
-LIGHT = 0.1
+LIGHT_LOAD_FRACTION = 0.1
 """Fraction of the sealing load below which a load counts as light."""
 
 Sample = Sequence[Pressed]
@@ -93,9 +93,9 @@ def bootstrapped(sample: Sample, statistic: Callable[[Places], Array]) -> list[C
     families = [np.array(rows) for rows in _families(sample)]
     draw = np.random.default_rng(90731)
     everyone = np.arange(len(sample))
-    once = [statistic(draw.choice(everyone, everyone.size)) for _ in range(TIMES)]
+    once = [statistic(draw.choice(everyone, everyone.size)) for _ in range(RESAMPLES)]
     twice = []
-    for _ in range(TIMES):
+    for _ in range(RESAMPLES):
         drawn = draw.integers(len(families), size=len(families))
         twice.append(statistic(np.concatenate([draw.choice(families[one], families[one].size) for one in drawn])))
     low, high = np.percentile(once, CONFIDENCE, axis=0)
@@ -157,9 +157,9 @@ class Collapse:
 
     Attributes
     ----------
-    scale : what heights are measured in, and loads in: two names.
-    apart : the standard deviation of log10 K over surfaces and directions, at ``SHARES`` of the median load that seals.
-    sealed : part of them that let nothing through there, and do not count.
+    scale : names of the scales of heights and of loads.
+    apart : standard deviation of log10 K over surfaces and directions, for each of ``LOAD_FRACTIONS``.
+    sealed : fraction of them that are sealed there and do not count.
     """
 
     scale: tuple[str, str]
@@ -173,8 +173,8 @@ def collapse(sample: Sample, height: str, load: str) -> Collapse:
         float(np.median(ratios(sample, load))) if load else float(np.median([o.threshold for o in sample])) / MODULUS
     )
     apart, shut = [], []
-    for share in SHARES:
-        logs = np.array([leakage_at(one, share * middle, height, load) for one in sample])
+    for fraction in LOAD_FRACTIONS:
+        logs = np.array([leakage_at(one, fraction * middle, height, load) for one in sample])
         shut.append(float(np.isnan(logs).mean()))
         apart.append(float(np.std(logs[~np.isnan(logs)])) if not np.isnan(logs).all() else float("nan"))
     return Collapse(scale=(height, load), apart=tuple(apart), sealed=tuple(shut))
@@ -299,7 +299,7 @@ def _read(formula: str, law: Callable[[Array, Array], Array], sample: Sample) ->
         formula=formula,
         valley=misfit(expected, valley)[0],
         leakage=leaks,
-        light=misfit(cube[part < LIGHT], flow[part < LIGHT])[0],
+        light=misfit(cube[part < LIGHT_LOAD_FRACTION], flow[part < LIGHT_LOAD_FRACTION])[0],
         missed=missed,
         scales=bool(abs(twice[0] - 2) < 1e-9),
     )

@@ -18,9 +18,9 @@ from roughfilm.figures.base import new_figure
 from roughfilm.figures.views.rough_gap import STYLES
 from scripts.studies.rough_gaps.data import NAMES, GapComparison, best
 from scripts.studies.rough_gaps.inertia import LEVELS, RIDGES, InertialLoss
-from scripts.studies.rough_gaps.map import RUNGS
+from scripts.studies.rough_gaps.map import MODELS
 from scripts.studies.rough_gaps.range_of_validity import SurfaceValidity
-from scripts.studies.rough_gaps.study import STEEP, RoughGapStudy
+from scripts.studies.rough_gaps.study import MAX_FITTED_SLOPE, RoughGapStudy
 from scripts.studies.rough_gaps.waves import MARKED, Wave, bare_coefficient
 
 COLOURS = ("#2166ac", "#e08214", "#762a83", "#1b7837", "#b2182b", "#01665e", "#8c510a", "#c51b7d")
@@ -59,7 +59,7 @@ def drawings(study: RoughGapStudy) -> Mapping[str, Callable[[RoughGapStudy], Fig
     if study.reach:
         shown |= {"reach": reach, "pixels": pixels}
     if study.map:
-        shown["map"] = map_of_rungs
+        shown["map"] = map_of_models
     return shown
 
 
@@ -253,7 +253,7 @@ def reach(study: RoughGapStudy) -> Figure:
         by_slope.errorbar(one.slope, middle, yerr=ends, markersize=6, linestyle="", label=one.name, **look)
         gaps = [off.thickness for off in one.found]
         by_gap.plot(gaps, errors, markersize=4, linewidth=1, **look)
-        if one.slope < STEEP:
+        if one.slope < MAX_FITTED_SLOPE:
             by_gap.fill_between(gaps, np.maximum(errors - bars, 1e-7), errors + bars, color=colour, alpha=0.12)
     x = np.geomspace(min(one.slope for one in study.reach) / 2, 1, 30)
     if study.factors:
@@ -285,18 +285,18 @@ def pixels(study: RoughGapStudy) -> Figure:
     return figure
 
 
-def map_of_rungs(study: RoughGapStudy) -> Figure:
-    """The cheapest rung that is good enough, over slope and wavelength."""
+def map_of_models(study: RoughGapStudy) -> Figure:
+    """The cheapest model that is accurate enough, over slope and wavelength."""
     figure, panels = new_figure((11, 4.4), 1, 2, sharey=True)
     slopes, lengths = (sorted({getattr(one, name) for one in study.map}) for name in ("slope", "length"))
-    colours = ListedColormap([STYLES[name].colour or "black" for name in RUNGS])
+    colours = ListedColormap([STYLES[name].colour or "black" for name in MODELS])
     for axes, level in zip(panels, LEVELS, strict=True):
         cheapest = np.full((len(slopes), len(lengths)), np.nan)
         for one in study.map:
-            cheapest[slopes.index(one.slope), lengths.index(one.length)] = RUNGS.index(one.cheapest(level))
+            cheapest[slopes.index(one.slope), lengths.index(one.length)] = MODELS.index(one.cheapest(level))
         axes.pcolormesh(
             _edges(lengths), _edges(slopes), cheapest, cmap=colours, alpha=0.75,
-            norm=BoundaryNorm(np.arange(len(RUNGS) + 1) - 0.5, len(RUNGS)), rasterized=True,
+            norm=BoundaryNorm(np.arange(len(MODELS) + 1) - 0.5, len(MODELS)), rasterized=True,
         )  # fmt: skip
         axes.grid(visible=False)
         axes.set_facecolor("#f0f2f5")
@@ -305,7 +305,7 @@ def map_of_rungs(study: RoughGapStudy) -> Figure:
         axes.set_title(f"within {100 * level:.0f} %", fontsize=10)
         axes.set_xlabel("wavelength over mean gap, λ/h̄")
     panels[0].set_ylabel("rms slope g′")
-    keys = [Patch(color=STYLES[name].colour, alpha=0.75, label=name) for name in RUNGS]
+    keys = [Patch(color=STYLES[name].colour, alpha=0.75, label=name) for name in MODELS]
     keys.append(Patch(color="#f0f2f5", label="waves as high as the gap"))
     figure.legend(handles=keys, loc="outside lower center", ncols=5, fontsize=9)
     return figure

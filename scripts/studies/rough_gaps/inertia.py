@@ -32,16 +32,16 @@ RANDOM: Random = {
 GRIDS, RANDOM_GRIDS = (48, 64), (32, 48, 64)
 """Columns of the waves and of random surfaces."""
 
-LARGEST, FEWEST = 0.1, 4
-"""Part of the flow up to which what is held back is fitted, and how many flows that takes."""
+MAX_FITTED_LOSS, MIN_FITTED_FLOWS = 0.1, 4
+"""Largest relative loss of flow that is fitted, and least number of flows for a fit."""
 
 RIDGES, SURFACES = "waves", "random surfaces"
 
 NOISE = 1e-4
-"""Part of the flow that the solver's tolerance may hold back."""
+"""Relative loss of flow that the tolerance of the solver may cause."""
 
-KNOWN = 0.4
-"""Error bar, over what is held back, up to which it is fitted."""
+MAX_RELATIVE_UNCERTAINTY = 0.4
+"""Largest uncertainty of a fitted loss, relative to the loss."""
 
 LEVELS = (0.01, 0.05)
 
@@ -203,8 +203,12 @@ def _held(flow: _Flow, answers: Answers) -> InertialLoss:
 
 
 def _fit(group: str, found: Sequence[InertialLoss]) -> InertiaLaw | None:
-    own = [one for one in found if one.group == group and 0 < one.lost < LARGEST and one.bar < KNOWN * one.lost]
-    if len(own) < FEWEST:
+    own = [
+        one
+        for one in found
+        if one.group == group and 0 < one.lost < MAX_FITTED_LOSS and one.bar < MAX_RELATIVE_UNCERTAINTY * one.lost
+    ]
+    if len(own) < MIN_FITTED_FLOWS:
         return None
     reynolds = np.array([one.flow_reynolds_number for one in own])
     squares = np.log((reynolds * np.array([one.slope for one in own])) ** 2)

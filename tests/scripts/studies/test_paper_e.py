@@ -16,11 +16,11 @@ from scripts.studies.paper_e.data import LOADS, SEEDS, Washer, washer
 from scripts.studies.paper_e.figures import drawings
 from scripts.studies.paper_e.made import LAYS, TABLE, made, turned
 from scripts.studies.paper_e.windows import (
-    DROP,
     DURATION,
     LENGTH,
     LOAD,
     PARTS,
+    PRESSURE_DROP,
     STEEL,
     VISCOSITY,
     WIDTH,
@@ -85,7 +85,7 @@ def slit(load, height):
 def test_a_slit_leaks_as_poiseuille_says():
     """Mean speed h²Δp/(12ηL) through the area h w, for 300 s; as thin as W^(-1/10) it leaks as W^(-3/10)."""
     height = 4e-6
-    speed = height**2 * DROP / (12 * VISCOSITY * LENGTH)
+    speed = height**2 * PRESSURE_DROP / (12 * VISCOSITY * LENGTH)
     assert slit(1e6, height).volume(1) == pytest.approx(speed * height * WIDTH * DURATION)
     assert slit(1e6, height).volume(1, direct=True) == pytest.approx(1.2 * speed * height * WIDTH * DURATION)
     loads = (1e6, 2e6, 4e6)

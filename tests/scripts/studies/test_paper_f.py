@@ -11,14 +11,22 @@ from roughfilm.contact.synthetic.sinusoids import sinusoid
 from roughfilm.figures import base as figures
 from scripts.studies.paper_f import __main__ as paper_f
 from scripts.studies.paper_f.claims import LEAKAGE, SEALING, areas_differ, judge
-from scripts.studies.paper_f.data import MODULUS, NEAR, Pressed, Series, press, press_all, sealed_contacts
+from scripts.studies.paper_f.data import (
+    MODULUS,
+    THRESHOLD_PRECISION,
+    Pressed,
+    Series,
+    press,
+    press_all,
+    sealed_contacts,
+)
 from scripts.studies.paper_f.fits import SLOPE, SealStudy, fit, fit_groups, ratios, read_formulas, sealing_law
 from scripts.studies.paper_f.sizes import Sizes
 from scripts.studies.paper_f.surfaces import (
     HEIGHTS,
-    LEAST,
+    MAX_AVERAGE,
     MEASURED_AVERAGE,
-    MOST,
+    MIN_AVERAGE,
     SIDE,
     Numbers,
     made_surfaces,
@@ -33,7 +41,7 @@ SMALL = {"families": ("smooth", "valley-rich"), "seeds": (503, 504), "points": 3
 @pytest.fixture(autouse=True, scope="module")
 def few_resamples():
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("scripts.studies.paper_f.fits.TIMES", 200)
+        patch.setattr("scripts.studies.paper_f.fits.RESAMPLES", 200)
         yield
 
 
@@ -73,8 +81,8 @@ def test_families_span_the_heights_of_the_source():
     for one in made:
         averages.setdefault(one.family, []).append(float(np.abs(one.surface.heights).mean()))
     for row in averages.values():
-        assert min(row) == pytest.approx(LEAST)
-        assert max(row) == pytest.approx(MOST)
+        assert min(row) == pytest.approx(MIN_AVERAGE)
+        assert max(row) == pytest.approx(MAX_AVERAGE)
 
 
 def test_a_surface_twice_as_high_is_solved_by_scaling():
@@ -98,7 +106,7 @@ def test_what_is_found_is_in_order(small):
         assert (np.diff(one.area) > 0).all()
         assert (np.diff(one.mean_gap) < 0).all()
         assert (one.threshold >= one.round_threshold).all()
-        assert one.loads[-1] < one.threshold.max() * (1 + NEAR)
+        assert one.loads[-1] < one.threshold.max() * (1 + THRESHOLD_PRECISION)
         for i in (0, 1):
             assert ((one.direct[:, i] > 0) == (one.loads < one.threshold[i])).all()
             assert (one.offset[:, i] > one.flow[:, i]).all()
