@@ -9,11 +9,13 @@ import io
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-
-import h5py
+from typing import TYPE_CHECKING
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
+
+if TYPE_CHECKING:
+    import h5py
 
 HEADER_BYTES = 512
 """Length of the header, bytes: the smallest user block of HDF5."""
@@ -50,7 +52,7 @@ def refuse_damaged(path: Path, mark: bytes, remedy: str) -> None:
             raise InputError(f"{path}: was damaged or changed since it was written; {remedy}")
 
 
-def write_checked(path: Path, mark: bytes, fill: Callable[[h5py.File], None]) -> None:
+def write_checked(path: Path, mark: bytes, fill: "Callable[[h5py.File], None]") -> None:
     """Write an HDF5 file with its header, completely or not at all; equal contents give equal bytes.
 
     Parameters
@@ -62,6 +64,8 @@ def write_checked(path: Path, mark: bytes, fill: Callable[[h5py.File], None]) ->
     InputError
         If ``path`` cannot be written.
     """
+    import h5py  # slow to import
+
     memory = io.BytesIO()
     with h5py.File(memory, "w", userblock_size=HEADER_BYTES) as file:
         fill(file)
@@ -71,7 +75,7 @@ def write_checked(path: Path, mark: bytes, fill: Callable[[h5py.File], None]) ->
 
 
 @contextmanager
-def open_checked(path: Path, mark: bytes, schema: int, remedy: str) -> Iterator[h5py.File]:
+def open_checked(path: Path, mark: bytes, schema: int, remedy: str) -> "Iterator[h5py.File]":
     """Open a file after checking its digest and that its attribute ``schema`` has the given value.
 
     Raises
@@ -79,6 +83,8 @@ def open_checked(path: Path, mark: bytes, schema: int, remedy: str) -> Iterator[
     InputError
         If it was damaged or changed, or has another schema; the message ends with ``remedy``.
     """
+    import h5py  # slow to import
+
     refuse_damaged(path, mark, remedy)
     with h5py.File(path, "r") as file:
         if file.attrs["schema"] != schema:

@@ -68,4 +68,4 @@ def _njit() -> Any:
 
 @cache
 def _announce() -> None:
-    logging.getLogger(__name__).warning("compiling numerical kernels, once after installation ...")
+    logging.getLogger(__name__).warning("compiling numerical kernels; later runs use the compiled ones ...")

@@ -2,13 +2,16 @@
 
 import json
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import h5py
 import numpy as np
 
 from roughfilm.contact.foundation.checked_hdf5 import has_mark, open_checked, write_checked
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.surfaces.surface import MAX_POINTS, Surface
+
+if TYPE_CHECKING:
+    import h5py
 
 SCHEMA = 1
 MARK = b"roughfilm surface, HDF5 behind 512 bytes, sha256 "
@@ -25,7 +28,7 @@ def save_surface(surface: Surface, path: Path) -> None:
         If ``path`` cannot be written.
     """
 
-    def fill(file: h5py.File) -> None:
+    def fill(file: "h5py.File") -> None:
         file.attrs["schema"] = SCHEMA
         file.attrs["spacing"] = surface.spacing
         file.attrs["spacing_unit"] = "m"

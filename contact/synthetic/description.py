@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, BeforeValidator, Field, TypeAdapter, ValidationError
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, TypeAdapter, ValidationError
 
 from roughfilm.contact.foundation.entries import Angle, Coordinate, Length, Part, PositiveNumber, plain_number
 from roughfilm.contact.foundation.errors import InputError
@@ -127,7 +127,9 @@ KINDS: Mapping[str, tuple[type[BaseModel], Callable[..., Surface]]] = {
     "plateau_honed": (PlateauHoned, plateau_honed),
 }
 
-_READER: TypeAdapter[Description] = TypeAdapter(Annotated[Description, Field(discriminator="kind")])
+_READER: TypeAdapter[Description] = TypeAdapter(
+    Annotated[Description, Field(discriminator="kind")], config=ConfigDict(defer_build=True)
+)
 
 
 def read_description(path: Path) -> Description:

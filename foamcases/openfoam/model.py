@@ -1,4 +1,4 @@
-"""What the models that run OpenFOAM share: a case is written, run and read, in one go or each apart."""
+"""Models that run OpenFOAM: a case is written, run and read, together or separately."""
 
 import tempfile
 import time
@@ -6,22 +6,24 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any, Generic, Unpack
+from typing import TYPE_CHECKING, Any, Generic, Unpack
 
 from typing_extensions import TypeVar
 
 from roughfilm.foamcases.openfoam.case_directory import TOLERANCES
 from roughfilm.foamcases.openfoam.installation import availability
-from roughfilm.foamcases.openfoam.run import CaseRun
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.model import About, Applicability, Model, Progress, Resolutions, SceneT, silent
 from roughfilm.rom.ladder.request import CheckedRequest, Request
 from roughfilm.rom.ladder.result import Result
 
+if TYPE_CHECKING:
+    from roughfilm.foamcases.openfoam.run import CaseRun
+
 CREEPING = 1e-6
 """Reynolds number of Stokes flow: advection is then a millionth of viscous stress (there is no scheme "none")."""
 
-RunT = TypeVar("RunT", bound=CaseRun, default=Any)
+RunT = TypeVar("RunT", bound="CaseRun", default=Any)
 
 CaseWriter = Callable[[SceneT, Path, CheckedRequest, float], None]
 """write(scene, directory, request, reynolds_number)."""
@@ -29,7 +31,7 @@ CaseWriter = Callable[[SceneT, Path, CheckedRequest, float], None]
 
 @dataclass(frozen=True, kw_only=True)
 class Cases(Generic[SceneT, RunT]):
-    """How the cases of one kind of scene are written, run and read, and the numbers of its models.
+    """The functions that write, run and read the cases of one kind of scene, and the options of its models.
 
     Attributes
     ----------

@@ -1,26 +1,17 @@
-"""A pocket scene by OpenFOAM: what its cases cost, and their result."""
+"""A pocket scene by OpenFOAM: the result of a case that was run."""
 
 from pathlib import Path
 
 from roughfilm.foamcases.openfoam.case_directory import read_card
 from roughfilm.foamcases.openfoam.dictionaries import VELOCITY_RELAXATION
-from roughfilm.foamcases.openfoam.model import Cases
-from roughfilm.foamcases.pocket.case import Card, write_case
+from roughfilm.foamcases.pocket.case import Card
 from roughfilm.foamcases.pocket.fields import read_channel
-from roughfilm.foamcases.pocket.run import Run, run_case
-from roughfilm.rom.ladder.model import Model, Resolutions
+from roughfilm.foamcases.pocket.run import Run
+from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
 from roughfilm.rom.pocket.validity import cautions
-
-SOURCES = ("10.1115/1.1828067", "10.1063/1.168744", "10.1080/01495728408961817")
-RESOLUTIONS = Resolutions(least=12, most=4000, default=240, series=(30, 60, 120, 240))
-
-
-def cost(_scene: Pocket, resolution: int) -> float:
-    """CPU seconds of one run, measured over 60 to 480 columns: start-up, then cells times iterations."""
-    return float(0.3 + 2.4 * (resolution / 240) ** 2.4)
 
 
 def read(solver: Model[Pocket], scene: Pocket, directory: Path, run: Run) -> Result:
@@ -61,21 +52,6 @@ def read(solver: Model[Pocket], scene: Pocket, directory: Path, run: Run) -> Res
             runs=tuple(SolverRun(outcome=str(t.outcome), iterations=t.iterations, recipe=t.recipe) for t in run.tries),
             details={"velocity_relaxation": VELOCITY_RELAXATION, "reynolds_number": card.reynolds_number},
         ),
-        provenance=provenance(scene, model=model, keeps=tuple(keeps), sources=SOURCES, openfoam=run.version),
+        provenance=provenance(scene, model=model, keeps=tuple(keeps), sources=solver.sources, openfoam=run.version),
         warnings=(*cautions(scene), *run.warnings),
     )
-
-
-CASES = Cases(
-    kind="pocket",
-    resolutions=RESOLUTIONS,
-    resolution_meaning="mesh columns along the film, with a fifth as many layers across",
-    residual_meaning="largest initial residual of velocity and pressure that a new process finds in the fields on disk",
-    tolerance=1e-7,
-    most_processes=lambda _scene, resolution: resolution // 2,
-    cost=cost,
-    write=write_case,
-    write_to_run=write_case,
-    run=run_case,
-    read=read,
-)

@@ -1,72 +1,38 @@
-"""A rough gap by OpenFOAM: what its cases cost, and their result."""
+"""A rough gap by OpenFOAM: the result of a case that was run."""
 
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.foamcases.openfoam.case_directory import read_card
-from roughfilm.foamcases.openfoam.model import Cases
 from roughfilm.foamcases.rough_gap.balance import imbalance
-from roughfilm.foamcases.rough_gap.case import GapCard, columns_of, layers_of, mesh_of, write_gap_case
+from roughfilm.foamcases.rough_gap.case import GapCard, mesh_of
 from roughfilm.foamcases.rough_gap.dictionaries import DRIVES, SLIDING_SPEED
 from roughfilm.foamcases.rough_gap.fields import GapFlow, read_gap_flow
 from roughfilm.foamcases.rough_gap.mesh import Columns
-from roughfilm.foamcases.rough_gap.run import GapRun, run_gap
-from roughfilm.foamcases.rough_gap.uncertainty import error_bars
-from roughfilm.rom.ladder.model import Model, Resolutions
+from roughfilm.foamcases.rough_gap.run import GapRun
+from roughfilm.foamcases.rough_gap.uncertainty import uncertainties
+from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun, with_uncertainties
-from roughfilm.rom.parts.pressed_surface import COARSEST
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors
 from roughfilm.rom.rough_gap.quantities import coefficients, gap_quantities
 from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.rough_gap.validity import cautions
 
-SOURCES = ("10.1063/1.168744", "10.1080/01495728408961817")
-RESOLUTIONS = (16, 32, 64)
-"""Columns along the longer side; the last are the default."""
+MAX_IMBALANCE = 0.02
+"""Imbalance of forces over the drag of a smooth gap above which there is a warning."""
 
-TOLERANCE = 1e-5
-"""By what part of itself a flow may still change; or the residuals at which simpleFoam stops by itself."""
+MAX_LOST_SHEAR = 0.05
+"""Fraction of the shear across a thin film that the columns may miss without a warning."""
 
-UNBALANCED = 0.02
-"""Of the drag of a smooth gap: what the walls do not hold of the drive more than that is told."""
+MAX_CREEPING = 1.0
+"""Re g' above which the error of inertia counts, which one mesh cannot estimate."""
 
-LOST = 0.05
-"""Of the shear across a thin film: what columns do not see more than that is told."""
-
-INERTIAL = 1.0
-"""Re g' above which inertia counts enough for its own error to be told, which one mesh cannot."""
-
-CLOSED_IN = 1e-3
-"""Of the open volume: what is left out more than that is told."""
-
-
-def resolutions(scene: RoughGap) -> Resolutions:
-    """Those of ``RESOLUTIONS`` for which the surface has points enough, or all that it has."""
-    own = max(scene.surface().shape)
-    series = tuple(n for n in RESOLUTIONS if n <= own) or (own,)
-    return Resolutions(least=min(own, COARSEST), most=own, default=min(own, RESOLUTIONS[-1]), series=series)
-
-
-def most_processes(scene: RoughGap, resolution: int) -> int:
-    """One for every two columns."""
-    nx, ny = columns_of(scene, resolution)
-    return max(1, nx * ny // 2)
-
-
-def cost(scene: RoughGap, resolution: int) -> float:
-    """CPU seconds of all drives, measured over 8 to 128 columns: start-up, then cells times iterations.
-
-    Of the latter there are some four for each layer, up to twice as many between walls as short as the gap is high.
-    """
-    nx, ny = scene.surface().shape
-    layers = layers_of(scene, resolution)
-    cells = resolution**2 * min(nx, ny) / max(nx, ny) * layers
-    return float(2 + 3 * 6e-6 * cells * layers)
+MAX_CLOSED_IN = 1e-3
+"""Fraction of the open volume that contact may close in without a warning."""
 
 
 def factors_of(flows: dict[str, GapFlow], *, slides: bool) -> tuple[RoughGapFactors, dict[str, float]]:
@@ -115,7 +81,7 @@ def lost_shear(scene: RoughGap, columns: Columns) -> float:
 
 
 def _shear(columns: Columns) -> float:
-    """<1/h>, h in mean gaps, over the columns that are open."""
+    """The mean of 1/h over the open columns, h in mean gaps."""
     return float(np.divide(1.0, columns.height, out=np.zeros(columns.kept.shape), where=columns.kept).mean())
 
 
@@ -125,38 +91,38 @@ def read(solver: Model[RoughGap], scene: RoughGap, directory: Path, run: GapRun)
     card = read_card(directory, GapCard)
     walls, columns = mesh_of(scene, card.resolution)
     flows = {name: read_gap_flow(directory / name, card, columns) for name in card.judged}
-    found, pulled = factors_of(flows, slides=walls.slides)
+    factors, reciprocal = factors_of(flows, slides=walls.slides)
     shape = (*columns.kept.shape, card.layers)
     along = flows.get("along") or GapFlow(columns=columns, velocity=np.zeros((*shape, 3)), pressure=np.zeros(shape))
     speed = scene.nominal_flow / scene.mean_gap
-    bars, thin = error_bars(found, scene, walls, card.layers)
+    errors, thin = uncertainties(factors, scene, walls, card.layers)
     reynolds = {
-        f"A{i}{i}_over_reynolds": Quantity(value=float(found.pressure[i - 1, i - 1] / of), unit="1")
+        f"A{i}{i}_over_reynolds": Quantity(value=float(factors.pressure[i - 1, i - 1] / of), unit="1")
         for i in (1, 2)
         if (of := thin.pressure[i - 1, i - 1]) > 0
     }
     warnings = [*cautions(scene, walls), *run.warnings]
     missed = {drive.name: imbalance(flows[drive.name], drive) for drive in DRIVES if drive.name in flows}
-    if max(missed.values(), default=0.0) > UNBALANCED:
+    if max(missed.values(), default=0.0) > MAX_IMBALANCE:
         warnings.append(
-            f"the walls do not hold {max(missed.values()):.1%} of what drives the flow; the mesh is too coarse or skew"
+            f"the forces on the walls miss {max(missed.values()):.1%} of the drive; the mesh is too coarse or skew"
         )
-    blind = card.reynolds_number * scene.rms_slope > INERTIAL
-    if blind:
-        warnings.append("no error bars: what one mesh does to inertia is not known, refine it to see")
-    if columns.closed_in > CLOSED_IN:
+    inertial = card.reynolds_number * scene.rms_slope > MAX_CREEPING
+    if inertial:
+        warnings.append("no uncertainty: one mesh cannot estimate the error of inertia; compare with a finer mesh")
+    if columns.closed_in > MAX_CLOSED_IN:
         warnings.append(f"contact closes in {columns.closed_in:.1%} of the open volume, which is left out")
-    if walls.slides and (lost := lost_shear(scene, columns)) > LOST:
+    if walls.slides and (lost := lost_shear(scene, columns)) > MAX_LOST_SHEAR:
         warnings.append(
-            f"the walls come nearer between these columns than at them: {lost:.0%} of the shear across a thin film is "
-            "not seen, and friction is too small by as much; take more columns"
+            f"the walls are nearer between the columns than at them: the mesh misses {lost:.0%} of the shear across a "
+            "thin film, and friction is too small by as much; take more columns"
         )
     for name, checked in run.flows.items():
         warnings += [f"{name}: {again}" for again in map(str, checked.tries[1:])]
     return Result(
         model=model,
         quantities=with_uncertainties(
-            gap_quantities(scene, walls, found) | reynolds, {} if blind else coefficients(bars)
+            gap_quantities(scene, walls, factors) | reynolds, {} if inertial else coefficients(errors)
         ),
         fields={
             "gap": Field(values=walls.gap, unit="m"),
@@ -195,24 +161,9 @@ def read(solver: Model[RoughGap], scene: RoughGap, directory: Path, run: GapRun)
                 "reynolds_number": card.reynolds_number,
                 "layers": card.layers,
                 "closed_in": columns.closed_in,
-                **{f"reciprocal_{name}": value for name, value in pulled.items()},
+                **{f"reciprocal_{name}": value for name, value in reciprocal.items()},
             },
         ),
-        provenance=provenance(scene, model=model, keeps=tuple(keeps), sources=SOURCES, openfoam=run.version),
+        provenance=provenance(scene, model=model, keeps=tuple(keeps), sources=solver.sources, openfoam=run.version),
         warnings=tuple(warnings),
     )
-
-
-CASES = Cases(
-    kind="rough_gap",
-    resolutions=resolutions,
-    resolution_meaning="mesh columns along the longer side, by default with a quarter as many layers across",
-    residual_meaning="largest part of a flow by which iterating on would change it, by what a new process does to it",
-    tolerance=TOLERANCE,
-    most_processes=most_processes,
-    cost=cost,
-    write=write_gap_case,
-    write_to_run=partial(write_gap_case, run=True),
-    run=run_gap,
-    read=read,
-)

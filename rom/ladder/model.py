@@ -1,4 +1,4 @@
-"""The ladder: models as data, found in their packages, ordered by what they keep."""
+"""The ladder: models as data, listed from their packages, ordered by the effects that they keep."""
 
 import importlib
 import importlib.util
@@ -6,6 +6,7 @@ import pkgutil
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from numbers import Integral, Real
 from types import ModuleType
 from typing import Any, Generic, NotRequired, TypedDict
 
@@ -23,24 +24,24 @@ class Effect(StrEnum):
     SLOPE = "slope"
     INERTIA = "inertia"
     DEFORMATION = "deformation"
-    """Elastic, of the whole solid: where it is pressed, and around."""
+    """Elastic deformation of the whole solid."""
     PLASTICITY = "plasticity"
-    """Pressure that the hardness bounds."""
+    """Contact pressure limited by the hardness."""
     SIDE_FLOW = "side flow"
-    """Across the sliding, and through the sides of a film."""
+    """Flow across the sliding direction and through the sides of a film."""
     CAVITATION = "cavitation"
-    """Films that rupture where pressure would fall below what the liquid bears, mass kept."""
+    """Films that rupture at the cavitation pressure, with conservation of mass."""
     PRESSURE_DEPENDENCE = "pressure dependence"
     """Density and viscosity that grow with pressure."""
     ROUGHNESS = "roughness"
-    """Averaged over its waves, as if these were infinitely short."""
+    """Roughness averaged over its waves, as if these were infinitely short."""
     FINITE_WAVES = "finite waves"
-    """Of roughness: each is there, as long as it is and where it is."""
+    """Roughness with every wave resolved."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Applicability:
-    """Whether a model can say something of a scene, and why or with what left out, in words."""
+    """Whether a model applies to a scene, with the reason or the effects that it leaves out in words."""
 
     applies: bool
     reason: str
@@ -48,14 +49,18 @@ class Applicability:
 
 @dataclass(frozen=True, kw_only=True)
 class Availability:
-    """Whether what a model needs is on this machine: which version, or what to do."""
+    """Whether the programs that a model needs are on this machine: their version, or the remedy."""
 
     available: bool
     detail: str = ""
 
 
+def _between(least: float, value: Any, most: float, numbers: Any) -> bool:
+    return isinstance(value, numbers) and bool(least <= value <= most)
+
+
 def always() -> Availability:
-    """For models that need nothing but this package."""
+    """The availability of models that need nothing but this package."""
     return Availability(available=True, detail="built in")
 
 
@@ -64,7 +69,7 @@ Progress = Callable[[float, str], None]
 
 
 def silent(fraction: float, words: str) -> None:
-    """Progress that nobody looks at."""
+    """Report no progress."""
 
 
 SceneT = TypeVar("SceneT", bound=Scene, default=Any)
@@ -98,7 +103,7 @@ class Model(Generic[SceneT]):
     ----------
     name : name of its module, ``<kind>/models/<name>.py``.
     kind : kind of the scenes that it solves.
-    summary : half a line for people.
+    summary : its description in half a line.
     keeps : the physical effects that it keeps.
     complete : whether it keeps them in full, not to some order of smallness.
     sources : DOIs of its equations and method.
@@ -168,15 +173,15 @@ class Model(Generic[SceneT]):
         """The request with the model's defaults filled in; InputError for an option that the model does not allow."""
         offered = self.offered(scene)
         resolution = offered.default if request.resolution is None else request.resolution
-        if not offered.least <= resolution <= offered.most:
+        if not _between(offered.least, resolution, offered.most, Integral):
             raise InputError(
-                f"--resolution: got {resolution}; {self.name} takes {offered.least} to {offered.most} "
+                f"resolution: got {resolution!r}; {self.name} takes {offered.least} to {offered.most} "
                 f"{self.resolution_meaning}"
             )
         tolerance = self.tolerance if request.tolerance is None else request.tolerance
         least, most = self.tolerances
-        if not least <= tolerance <= most:
-            raise InputError(f"--tolerance: got {tolerance}; {self.name} takes {least:g} to {most:g}")
+        if not _between(least, tolerance, most, Real):
+            raise InputError(f"tolerance: got {tolerance!r}; {self.name} takes {least:g} to {most:g}")
         return CheckedRequest(
             resolution=resolution,
             tolerance=tolerance,
@@ -191,16 +196,16 @@ class Model(Generic[SceneT]):
             return self.schemes[0] if self.schemes else ""
         if scheme not in self.schemes:
             names = ", ".join(self.schemes)
-            remedy = f"it must be one of {names}" if names else "it offers no choice, leave the option out"
-            raise InputError(f"--scheme: got {scheme!r} for {self.name}; {remedy}")
+            remedy = f"it must be one of {names}" if names else "it offers no choice, leave it out"
+            raise InputError(f"scheme: got {scheme!r} for {self.name}; {remedy}")
         return scheme
 
     def _checked_processes(self, scene: SceneT, resolution: int, processes: int) -> int:
         most = 1 if self.most_processes is None else self.most_processes(scene, resolution)
-        if not 1 <= processes <= most:
-            alone = f"{self.name} runs in one process, leave the option out"
+        if not _between(1, processes, most, Integral):
+            alone = f"{self.name} runs in one process, leave it out"
             remedy = alone if self.most_processes is None else f"it must be 1 to {most}, two columns for each"
-            raise InputError(f"--processes: got {processes}; {remedy}")
+            raise InputError(f"processes: got {processes!r}; {remedy}")
         return processes
 
     def offered(self, scene: SceneT) -> Resolutions:
@@ -255,12 +260,12 @@ def find(models: Sequence[Model], kind: str, name: str) -> Model:
     """The model of that kind of scene and name; InputError if there is none."""
     named = {model.name: model for model in of_kind(models, kind)}
     if name not in named:
-        raise InputError(f"--model: got {name!r}; it must be one of {', '.join(named)}")
+        raise InputError(f"model: got {name!r}; it must be one of {', '.join(named)}")
     return named[name]
 
 
 def best(models: Sequence[Model]) -> Model:
-    """The rung of one kind that keeps the most, and in full; every other model's error is measured against it."""
+    """The model that keeps the most effects, and in full; the errors of the others are measured against it."""
     return max(models, key=lambda model: (len(model.keeps), model.complete))
 
 

@@ -7,8 +7,9 @@ import pytest
 
 from roughfilm.foamcases.openfoam.case_directory import CARD, read_card
 from roughfilm.foamcases.rough_gap.case import GapCard, mesh_of, write_gap_case
-from roughfilm.foamcases.rough_gap.cases import TOLERANCE, factors_of
+from roughfilm.foamcases.rough_gap.cases import factors_of
 from roughfilm.foamcases.rough_gap.fields import read_gap_flow
+from roughfilm.foamcases.rough_gap.model import TOLERANCE
 from roughfilm.foamcases.rough_gap.run import run_gap
 from roughfilm.rom.ladder.request import CheckedRequest, Request
 

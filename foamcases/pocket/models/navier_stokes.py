@@ -1,7 +1,7 @@
 """The steady Navier-Stokes equations in OpenFOAM: slope and inertia in full."""
 
 from roughfilm.foamcases.openfoam.model import openfoam_model
-from roughfilm.foamcases.pocket.cases import CASES, SOURCES
+from roughfilm.foamcases.pocket.model import CASES, SOURCES
 from roughfilm.rom.ladder.model import Applicability, Effect
 from roughfilm.rom.pocket.scene import Pocket
 
@@ -16,7 +16,7 @@ def applies(scene: Pocket) -> Applicability:
 MODEL = openfoam_model(
     CASES,
     name="navier_stokes",
-    summary="adds slope and inertia in full: the best rung",
+    summary="adds slope and inertia in full: the most complete model",
     keeps=frozenset({Effect.SLOPE, Effect.INERTIA}),
     sources=SOURCES,
     applies=applies,

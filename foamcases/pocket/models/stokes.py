@@ -1,7 +1,7 @@
 """The Stokes equations in OpenFOAM: all of the shape, no inertia."""
 
 from roughfilm.foamcases.openfoam.model import creeping, openfoam_model
-from roughfilm.foamcases.pocket.cases import CASES, SOURCES
+from roughfilm.foamcases.pocket.model import CASES, SOURCES
 from roughfilm.rom.ladder.model import Applicability, Effect
 from roughfilm.rom.pocket.scene import Pocket
 

@@ -1,7 +1,7 @@
 """The steady Navier-Stokes equations between rough walls in OpenFOAM: slope and inertia in full."""
 
 from roughfilm.foamcases.openfoam.model import openfoam_model
-from roughfilm.foamcases.rough_gap.cases import CASES, SOURCES
+from roughfilm.foamcases.rough_gap.model import CASES, SOURCES
 from roughfilm.rom.ladder.model import Applicability, Effect
 from roughfilm.rom.rough_gap.scene import RoughGap
 
@@ -16,7 +16,7 @@ def applies(scene: RoughGap) -> Applicability:
 MODEL = openfoam_model(
     CASES,
     name="navier_stokes",
-    summary="adds slope and inertia in full: the best rung",
+    summary="adds slope and inertia in full: the most complete model",
     keeps=frozenset({Effect.ROUGHNESS, Effect.SLOPE, Effect.INERTIA}),
     sources=SOURCES,
     applies=applies,

@@ -1,7 +1,7 @@
 """The Stokes equations between rough walls in OpenFOAM: all of their shape, no inertia."""
 
 from roughfilm.foamcases.openfoam.model import creeping, openfoam_model
-from roughfilm.foamcases.rough_gap.cases import CASES, SOURCES
+from roughfilm.foamcases.rough_gap.model import CASES, SOURCES
 from roughfilm.rom.ladder.model import Applicability, Effect
 from roughfilm.rom.rough_gap.scene import RoughGap
 

@@ -30,7 +30,13 @@ LINE_OF_SQUARES: dict[str, Any] = {"marker": "s", "ms": 4, "mfc": "white", "lw":
 
 def drawings(lay: Lay) -> Mapping[str, Callable[[Lay], Figure]]:
     """Return the functions that draw, by name of the figure."""
-    made = {"pressure": pressure, "shear": shear, "boxes": boxes, "joints": joints, "offsets": offsets}
+    made: dict[str, Callable[[Lay], Figure]] = {
+        "pressure": pressure,
+        "shear": shear,
+        "boxes": boxes,
+        "joints": joints,
+        "offsets": offsets,
+    }
     return made | ({"measured": measured} if OBLIQUE in lay.measured else {})
 
 

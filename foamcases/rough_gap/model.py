@@ -1,0 +1,59 @@
+"""The cases of a rough gap in OpenFOAM as data: their resolutions and cost, and how they are written, run and read."""
+
+from functools import partial
+
+from roughfilm.contact.foundation.deferred import deferred
+from roughfilm.foamcases.openfoam.model import Cases
+from roughfilm.rom.ladder.model import Resolutions
+from roughfilm.rom.parts.pressed_surface import MIN_SIDE_POINTS
+from roughfilm.rom.rough_gap.scene import RoughGap
+
+SOURCES = ("10.1063/1.168744", "10.1080/01495728408961817")
+RESOLUTIONS = (16, 32, 64)
+"""Numbers of columns along the longer side; the last is the default."""
+
+TOLERANCE = 1e-5
+"""Remaining relative change of a flow, or residual, at which a run ends."""
+
+
+def resolutions(scene: RoughGap) -> Resolutions:
+    """Those of ``RESOLUTIONS`` for which the surface has points enough, or all that it has."""
+    own = max(scene.surface().shape)
+    series = tuple(n for n in RESOLUTIONS if n <= own) or (own,)
+    return Resolutions(least=min(own, MIN_SIDE_POINTS), most=own, default=min(own, RESOLUTIONS[-1]), series=series)
+
+
+def most_processes(scene: RoughGap, resolution: int) -> int:
+    """One for every two columns."""
+    from roughfilm.foamcases.rough_gap.case import columns_of  # slow to import
+
+    nx, ny = columns_of(scene, resolution)
+    return max(1, nx * ny // 2)
+
+
+def cost(scene: RoughGap, resolution: int) -> float:
+    """CPU seconds of all drives, measured over 8 to 128 columns: start-up, then cells times iterations.
+
+    Of the latter there are some four for each layer, up to twice as many between walls as short as the gap is high.
+    """
+    from roughfilm.foamcases.rough_gap.case import layers_of  # slow to import
+
+    nx, ny = scene.surface().shape
+    layers = layers_of(scene, resolution)
+    cells = resolution**2 * min(nx, ny) / max(nx, ny) * layers
+    return float(2 + 3 * 6e-6 * cells * layers)
+
+
+CASES = Cases(
+    kind="rough_gap",
+    resolutions=resolutions,
+    resolution_meaning="mesh columns along the longer side, by default with a quarter as many layers across",
+    residual_meaning="largest part of a flow by which iterating on would change it, by what a new process does to it",
+    tolerance=TOLERANCE,
+    most_processes=most_processes,
+    cost=cost,
+    write=deferred("foamcases.rough_gap.case", "write_gap_case"),
+    write_to_run=partial(deferred("foamcases.rough_gap.case", "write_gap_case"), run=True),
+    run=deferred("foamcases.rough_gap.run", "run_gap"),
+    read=deferred("foamcases.rough_gap.cases", "read"),
+)

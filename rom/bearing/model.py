@@ -1,0 +1,93 @@
+"""The models of a bearing as data: allowed grids, cost, and the factory that the models share."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+from typing import Unpack
+
+from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Outputs
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.solve import solve
+from roughfilm.rom.cavitation.problem import Problem
+from roughfilm.rom.cavitation.solve import RESIDUAL_TOLERANCE
+from roughfilm.rom.ladder.model import About, Applicability, Effect, Model, Resolutions
+
+RESOLUTION_MEANING = "cells along the sliding direction, and as many across if the bearing has a width"
+RESIDUAL_MEANING = "largest net flow into a node over the largest flow through a face"
+SOURCES = ("10.1115/1.3251669", "10.1016/j.triboint.2007.02.021")
+
+LINE_CELLS = (64, 256, 1024, 4096)
+"""Numbers of cells from coarse to fine along an infinitely wide film."""
+
+PLANE_CELLS = (32, 64, 128, 256)
+"""Numbers of cells from coarse to fine along a side of a film with a width."""
+
+MIN_CELLS = 8
+"""Smallest number of cells along a side."""
+
+MAX_CELLS = {True: 4_000_000, False: 2048}
+"""Largest number of cells along a side, for an infinitely wide film (True) and for others."""
+
+
+def cost(scene: Bearing, cells: int, *, wide: bool, in_plane: float) -> float:
+    """The expected CPU seconds; ``in_plane`` is the time for each cell of a film with a width."""
+    return 4e-3 + 8e-7 * cells if wide or scene.wide else 1e-2 + in_plane * cells**2
+
+
+def smooth_wall_applies(scene: Bearing, *, applies: Callable[[Bearing], Applicability]) -> Applicability:
+    """Whether a model without roughness applies, with the roughness that it leaves out."""
+    fits = applies(scene)
+    if not fits.applies or scene.roughness is None:
+        return fits
+    ratio = scene.roughness.rms / scene.geometry.film
+    return replace(fits, reason=f"{fits.reason}; treats the wall as smooth: rms height over film = {ratio:.2g}")
+
+
+def smooth_resolutions(scene: Bearing) -> tuple[int, ...]:
+    """The numbers of cells from coarse to fine for a smooth wall."""
+    return LINE_CELLS if scene.wide else PLANE_CELLS
+
+
+def bearing_model(
+    *,
+    applies: Callable[[Bearing], Applicability],
+    film: Callable[[Bearing], Problem] = Bearing.problem,
+    resolutions: Callable[[Bearing], tuple[int, ...]] = smooth_resolutions,
+    ruptures: bool = True,
+    outputs: Outputs = FILM_OUTPUTS,
+    wide: bool = False,
+    in_plane: float = 2e-6,
+    **about: Unpack[About],
+) -> Model[Bearing]:
+    """A model of a bearing.
+
+    Parameters
+    ----------
+    applies : applies(scene), whether the model applies.
+    film : film(scene), the problem that the model solves.
+    resolutions : numbers of cells from coarse to fine, the finest of which is the default.
+    ruptures : whether the film cavitates.
+    outputs : the functions that evaluate the film.
+    wide : whether the model solves a single line of any film.
+    in_plane : expected CPU seconds for each cell of a film with a width.
+    about : name, summary, effects and sources of the model.
+    """
+
+    def offered(scene: Bearing) -> Resolutions:
+        series = LINE_CELLS if wide else resolutions(scene)
+        return Resolutions(least=MIN_CELLS, most=MAX_CELLS[wide or scene.wide], default=series[-1], series=series)
+
+    if Effect.ROUGHNESS not in about["keeps"]:
+        applies = partial(smooth_wall_applies, applies=applies)
+    return Model(
+        **about,
+        kind="bearing",
+        resolutions=offered,
+        resolution_meaning=RESOLUTION_MEANING,
+        residual_meaning=RESIDUAL_MEANING,
+        order=2,
+        tolerance=RESIDUAL_TOLERANCE,
+        cost=partial(cost, wide=wide, in_plane=in_plane),
+        applies=applies,
+        compute=partial(solve, film=film, ruptures=ruptures, outputs=outputs),
+    )
