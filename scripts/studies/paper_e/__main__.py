@@ -64,7 +64,7 @@ def compute(
 ) -> PaperE:
     """Compute everything the page shows; tables, curves and leaks are kept in ``out`` for the next run."""
     jobs = [(name, body, True, speeds) for name, body in data.surfaces(surfaces, points).items()]
-    jobs += [(f"lays/{name}", body, False, data.FEW) for name, body in data.lays(points).items()]
+    jobs += [(f"lays/{name}", body, False, data.FEW_SPEEDS) for name, body in data.lays(points).items()]
     milled = None if surfaces is None else surfaces / MILLED
     with progress_bar(len(jobs) + 1) as bar:
         done: dict[str, Washer] = {}
