@@ -11,10 +11,8 @@ from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.rom.cavitation.discretise import Faces, faces, network
 from roughfilm.rom.cavitation.grid import Grid, grid
 from roughfilm.rom.cavitation.interpolation import carried, interpolated
-from roughfilm.rom.cavitation.line import line_step
 from roughfilm.rom.cavitation.network import Network, State
 from roughfilm.rom.cavitation.newton import UnsettledError, settle
-from roughfilm.rom.cavitation.plane import plane_step
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.homogenization.gap_factors import mirrored_factors
 
@@ -186,7 +184,10 @@ def on_grid(
         ruptures=ruptures,
     )
     state = start or State(pressure=np.zeros(net.shape), fill=np.ones(net.shape))
-    step = line_step if problem.shape.wide else plane_step
+    if problem.shape.wide:  # each step is slow to import
+        from roughfilm.rom.cavitation.line import line_step as step
+    else:
+        from roughfilm.rom.cavitation.plane import plane_step as step
     with np.errstate(over="ignore", invalid="ignore"):  # an overflow gives a residual that is not finite
         settled = settle(net, problem, state, step, sweeps=sweeps, tolerance=tolerance, ruptures=ruptures)
     load = float((nodes.areas * settled.state.pressure).sum())
