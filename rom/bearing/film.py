@@ -2,17 +2,20 @@
 
 import math
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.bearing.model import MOST, PLANE, RESOLVED, WIDE
 from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.roughness import StoredTable
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.solve import MOST, PLANE, RESOLVED, WIDE
-from roughfilm.rom.cavitation.problem import Problem
-from roughfilm.rom.cavitation.shape import Shape
 from roughfilm.rom.ladder.model import Applicability
+
+if TYPE_CHECKING:
+    from roughfilm.rom.cavitation.problem import Problem
+    from roughfilm.rom.cavitation.shape import Shape
 
 FINER = {True: (1, 2, 4, 8), False: (1, 2, 4)}
 """Times the cells that resolve the waves, of an infinitely wide film and of others."""
@@ -21,7 +24,7 @@ ENOUGH = {True: 4_000_000, False: 512}
 """Cells along a side beyond which twice those that resolve the waves are the finest grid by default."""
 
 
-def averaged_film(scene: Bearing) -> Problem:
+def averaged_film(scene: Bearing) -> "Problem":
     """The smooth film's mean gap, with the flow factors of the roughness."""
     assert scene.roughness is not None
     problem, film = scene.problem(), scene.geometry.film
@@ -40,7 +43,7 @@ def averaged_film(scene: Bearing) -> Problem:
     return replace(problem, shape=replace(problem.shape, roughness=factors))
 
 
-def rough_film(scene: Bearing) -> Problem:
+def rough_film(scene: Bearing) -> "Problem":
     """The film with every wave of the roughness."""
     problem, roughness = scene.problem(), scene.roughness
     assert roughness is not None

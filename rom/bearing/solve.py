@@ -3,76 +3,38 @@
 import math
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
-from functools import cache, partial
-from typing import Unpack
+from functools import cache
 
 import numpy as np
 
-from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.rom.bearing.quantities import bearing_quantities, density_ratio, nominal_area
+from roughfilm.rom.bearing.model import RESOLVED, Reading, Values
+from roughfilm.rom.bearing.quantities import density_ratio, nominal_area
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.balance import CAVITY, FILM
 from roughfilm.rom.cavitation.discretise import Ends
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.shape import Shape
-from roughfilm.rom.cavitation.solve import RESIDUAL_TOLERANCE, Solution
+from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.cavitation.solve import solve as balance
-from roughfilm.rom.ladder.model import About, Applicability, Effect, Model, Progress, Resolutions
+from roughfilm.rom.ladder.model import Model, Progress
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun, with_uncertainties
 from roughfilm.rom.pocket.validity import NOTHING_COARSER
 
-RESOLUTION_MEANING = "cells along the sliding, and as many across where the bearing has a width"
-RESIDUAL_MEANING = "largest net flow into a node over the largest flow through a face"
-WIDE, PLANE = (64, 256, 1024, 4096), (32, 64, 128, 256)
-"""Cells, for infinitely wide bearings and for others."""
-
-LEAST, MOST = 8, {True: 4_000_000, False: 2048}
 WARM_UP = 40
 """Cells of a film on which every loop is run once."""
 
 PLACES = ("film_start", "rupture", "cavitated_fraction")
 """Quantities that follow the nodes."""
 
-RESOLVED = 8
-"""Cells that a wave or a pocket needs for its load to be within a few per cent."""
-
 BALANCED = 0.01
 """How near a given film's load is to that of the scene, as a part of it, not to be told."""
 
 SAFETY = 3.0
 """Of an error estimated from two grids: Roache 1994, doi:10.1115/1.2910291."""
-
-SOURCES = ("10.1115/1.3251669", "10.1016/j.triboint.2007.02.021")
-
-
-Values = dict[str, tuple[Array, str]]
-"""Fields over the grid, shape (nx, ny), with their units."""
-
-
-def _film_alone(scene: Bearing, _found: Solution, quantities: Mapping[str, Quantity]) -> dict[str, float]:
-    doubt = 0.0 if scene.roughness is None else scene.roughness.doubt(scene.geometry.film)
-    return {name: abs(quantity.value) * doubt for name, quantity in quantities.items()}
-
-
-@dataclass(frozen=True, kw_only=True)
-class Reading:
-    """What is read off a film in balance.
-
-    Attributes
-    ----------
-    quantities : quantities(scene, solution).
-    doubt : doubt(scene, solution, quantities): by how much each may be off as factors are, in its unit.
-    fields : fields(scene, solution), beside those that every film has.
-    """
-
-    quantities: Callable[[Bearing, Solution], dict[str, Quantity]] = bearing_quantities
-    doubt: Callable[[Bearing, Solution, Mapping[str, Quantity]], Mapping[str, float]] = _film_alone
-    fields: Callable[[Bearing, Solution], Values] = lambda _scene, _found: {}
 
 
 def solve(
@@ -239,64 +201,3 @@ def _fields(scene: Bearing, found: Solution, more: Values) -> dict[str, Field]:
         values = {name: (field[::-1], told) for name, (field, told) in values.items()}
         values["x"] = (shape.breaks[0] + shape.breaks[-1] - x[::-1], unit)
     return {name: Field(values=np.ascontiguousarray(field), unit=unit) for name, (field, unit) in values.items()}
-
-
-def cost(scene: Bearing, cells: int, *, wide: bool, in_plane: float) -> float:
-    """Expected CPU seconds; ``in_plane`` for each cell of a film with a width."""
-    return 4e-3 + 8e-7 * cells if wide or scene.wide else 1e-2 + in_plane * cells**2
-
-
-def roughness_left_out(scene: Bearing, *, told: Callable[[Bearing], Applicability]) -> Applicability:
-    """What a rung says of itself, and how rough the wall is that it takes for smooth."""
-    fits = told(scene)
-    if not fits.applies or scene.roughness is None:
-        return fits
-    part = scene.roughness.rms / scene.geometry.film
-    return replace(fits, reason=f"{fits.reason}; takes the wall for smooth: rms height over film = {part:.2g}")
-
-
-def smooth_resolutions(scene: Bearing) -> tuple[int, ...]:
-    """Cells from coarse to fine, for a wall without roughness."""
-    return WIDE if scene.wide else PLANE
-
-
-def line_resolutions(scene: Bearing) -> tuple[int, ...]:  # noqa: ARG001
-    """The same where one line is all that is solved."""
-    return WIDE
-
-
-def bearing_model(
-    *,
-    applies: Callable[[Bearing], Applicability],
-    film: Callable[[Bearing], Problem] = Bearing.problem,
-    resolutions: Callable[[Bearing], tuple[int, ...]] = smooth_resolutions,
-    ruptures: bool = True,
-    reading: Reading = Reading(),
-    wide: bool = False,
-    in_plane: float = 2e-6,
-    **about: Unpack[About],
-) -> Model[Bearing]:
-    """A model of a bearing: ``film`` gives the equations that it solves; one that is ``wide`` solves a single line.
-
-    ``resolutions`` go from coarse to fine; the finest is the default. ``in_plane``: expected CPU seconds for each cell
-    of a film with a width. ``reading``: the quantities and fields that it reads off the film.
-    """
-
-    def offered(scene: Bearing) -> Resolutions:
-        series = resolutions(scene)
-        return Resolutions(least=LEAST, most=MOST[wide or scene.wide], default=series[-1], series=series)
-
-    if Effect.ROUGHNESS not in about["keeps"]:
-        applies = partial(roughness_left_out, told=applies)
-    return Model(
-        **about,
-        kind="bearing",
-        resolutions=offered,
-        resolution_meaning=RESOLUTION_MEANING,
-        residual_meaning=RESIDUAL_MEANING,
-        order=2,
-        tolerance=RESIDUAL_TOLERANCE,
-        cost=partial(cost, wide=wide, in_plane=in_plane),
-        applies=applies,
-        compute=partial(solve, film=film, ruptures=ruptures, reading=reading),
-    )

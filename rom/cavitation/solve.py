@@ -14,6 +14,7 @@ from roughfilm.rom.cavitation.interpolation import carried, interpolated
 from roughfilm.rom.cavitation.network import Network, State
 from roughfilm.rom.cavitation.newton import UnsettledError, settle
 from roughfilm.rom.cavitation.problem import Problem
+from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
 from roughfilm.rom.homogenization.gap_factors import mirrored_factors
 
 COARSEST_CELLS = 16
@@ -24,9 +25,6 @@ COLD_SWEEPS = 400
 
 WARM_SWEEPS = 6
 """Relaxation sweeps before Newton's method from the solution of a coarser grid or of a time step."""
-
-RESIDUAL_TOLERANCE = 1e-9
-"""Residual at which the solver stops by default."""
 
 NEGATIVE_FILL_TOLERANCE = 1e-6
 """Tolerated negative filling fraction (round-off)."""

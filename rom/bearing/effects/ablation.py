@@ -12,11 +12,12 @@ from roughfilm.rom.bearing.film import averaged_film
 from roughfilm.rom.bearing.mixed.film import Seeping, mixed_problem
 from roughfilm.rom.bearing.mixed.reading import mixed_doubt, mixed_quantities
 from roughfilm.rom.bearing.mixed.wall import asperities_of
+from roughfilm.rom.bearing.model import Reading
 from roughfilm.rom.bearing.numbers import without_texture
 from roughfilm.rom.bearing.quantities import bearing_quantities
 from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.solve import Reading, load_loops, odd, unresolved
+from roughfilm.rom.bearing.solve import load_loops, odd, unresolved
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.cavitation.solve import solve as balance

@@ -1,7 +1,7 @@
 """The Reynolds equation with cavitation over every wave of the roughness."""
 
 from roughfilm.rom.bearing.film import follows, rough_film, rough_resolutions
-from roughfilm.rom.bearing.solve import SOURCES, bearing_model
+from roughfilm.rom.bearing.model import SOURCES, bearing_model
 from roughfilm.rom.ladder.model import Effect
 
 MODEL = bearing_model(

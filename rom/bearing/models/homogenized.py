@@ -1,7 +1,7 @@
 """The Reynolds equation with cavitation, its coefficients averaged over the roughness."""
 
 from roughfilm.rom.bearing.film import averaged_film, averages_film
-from roughfilm.rom.bearing.solve import SOURCES, bearing_model
+from roughfilm.rom.bearing.model import SOURCES, bearing_model
 from roughfilm.rom.ladder.model import Effect
 
 MODEL = bearing_model(

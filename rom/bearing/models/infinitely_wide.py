@@ -1,15 +1,18 @@
 """A bearing of finite width as if nothing flowed out at its sides: one line of the film stands for all."""
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
+from roughfilm.rom.bearing.model import SOURCES, bearing_model, line_resolutions
 from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.solve import SOURCES, bearing_model, line_resolutions
-from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.ladder.model import Applicability, Effect
 
+if TYPE_CHECKING:
+    from roughfilm.rom.cavitation.problem import Problem
 
-def one_line(scene: Bearing) -> Problem:
+
+def one_line(scene: Bearing) -> "Problem":
     """The film along its middle, infinitely wide."""
     problem = scene.problem()
     return replace(problem, shape=replace(problem.shape, wide=True), ends=replace(problem.ends, sides=None))

@@ -1,7 +1,7 @@
 """The Reynolds equation with cavitation, averaged over a roughness whose asperities reach through the film."""
 
-from roughfilm.rom.bearing.mixed.reading import mixed_doubt, mixed_fields, mixed_quantities, touches, touching_film
-from roughfilm.rom.bearing.solve import SOURCES, Reading, bearing_model
+from roughfilm.contact.foundation.deferred import deferred
+from roughfilm.rom.bearing.model import SOURCES, Reading, bearing_model
 from roughfilm.rom.ladder.model import Effect
 
 MODEL = bearing_model(
@@ -18,8 +18,12 @@ MODEL = bearing_model(
         }
     ),
     sources=(*SOURCES, "Sahlin 2008, Paper E"),
-    applies=touches,
-    film=touching_film,
-    reading=Reading(quantities=mixed_quantities, doubt=mixed_doubt, fields=mixed_fields),
+    applies=deferred("rom.bearing.mixed.reading", "touches"),
+    film=deferred("rom.bearing.mixed.reading", "touching_film"),
+    reading=Reading(
+        quantities=deferred("rom.bearing.mixed.reading", "mixed_quantities"),
+        doubt=deferred("rom.bearing.mixed.reading", "mixed_doubt"),
+        fields=deferred("rom.bearing.mixed.reading", "mixed_fields"),
+    ),
     in_plane=6e-6,
 )

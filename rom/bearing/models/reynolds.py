@@ -1,8 +1,7 @@
 """The Reynolds equation of a bearing: an incompressible liquid that bears any tension."""
 
+from roughfilm.rom.bearing.model import bearing_model, unchanging_film
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.solve import bearing_model
-from roughfilm.rom.cavitation.problem import unchanging
 from roughfilm.rom.ladder.model import Applicability, Effect
 
 
@@ -21,6 +20,6 @@ MODEL = bearing_model(
     keeps=frozenset({Effect.SIDE_FLOW}),
     sources=("10.1098/rstl.1886.0005",),
     applies=applies,
-    film=lambda scene: unchanging(scene.problem()),
+    film=unchanging_film,
     ruptures=False,
 )

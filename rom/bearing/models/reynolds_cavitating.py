@@ -1,7 +1,7 @@
 """The Reynolds equation with cavitation, for any law of compressibility and viscosity."""
 
+from roughfilm.rom.bearing.model import SOURCES, bearing_model
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.solve import SOURCES, bearing_model
 from roughfilm.rom.ladder.model import Applicability, Effect
 
 
