@@ -50,9 +50,9 @@ def parse_spacing(text: str | None) -> tuple[float, float] | None:
     try:
         lengths = [to_si(part.strip(), "m") for part in parts]
     except ValueError as error:
-        raise InputError(f"--spacing {text}: {error}") from None
+        raise InputError(f"spacing {text}: {error}") from None
     if len(lengths) > 2 or not min(lengths) > 0:
-        raise InputError(f"--spacing {text}: give one length above 0 or two, such as 1um or 1um,2um")
+        raise InputError(f"spacing {text}: give one length above 0 or two, such as 1um or 1um,2um")
     return lengths[0], lengths[-1]
 
 
@@ -82,9 +82,9 @@ def read_height_map(
         raise InputError(f"{file}: there is no such file; name a surface")
     described = suffix == ".toml" or (file.is_file() and is_surface(file))
     if described and spacing is not None:
-        raise InputError(f"{file}: says its spacing itself; leave out --spacing")
+        raise InputError(f"spacing: {file} says its spacing itself; leave it out")
     if suffix == ".npy" and spacing is None:
-        raise InputError(f"{file}: tells no spacing of its points; give --spacing, such as 1um")
+        raise InputError(f"spacing: {file} holds none; give that of its points, such as 1um")
     if suffix == ".npy":
         profile = _read_profile(file)
         if profile is not None and spacing is not None:
@@ -95,7 +95,7 @@ def read_height_map(
         try:
             surface = read_surface(file, spacing=spacing)
         except InputError as error:
-            remedy = " in a recipe of roughfilm surface, and take its --out"
+            remedy = " in a recipe of roughfilm surface, and take the surface that it writes"
             raise InputError(str(error).replace(" in the recipe", remedy)) from None
     if surface.invalid.any():
         count = int(surface.invalid.sum())

@@ -33,6 +33,6 @@ def find(kind: str, name: str) -> Model:
     """
     modules = model_modules(rom, foamcases, kind=kind)
     if (kind, name) not in modules:
-        raise InputError(f"--model: got {name!r}; it must be one of {', '.join(model.name for model in models(kind))}")
+        raise InputError(f"model: got {name!r}; it must be one of {', '.join(model.name for model in models(kind))}")
     model: Model = importlib.import_module(modules[kind, name]).MODEL
     return model

@@ -136,6 +136,16 @@ def test_the_library_neither_prints_nor_draws(package):
         assert not [call for call in calls if isinstance(call, ast.Name) and call.id == "print"], path
 
 
+@pytest.mark.parametrize("folder", [*LIBRARY, "roughfilm/interface", "roughfilm/batch", "roughfilm/ladder.py"])
+def test_the_library_names_parameters_and_no_options_of_commands(folder):
+    of_programs = {"--always", "--abbrev=12", "--dirty=+changes", "--pdeathsig"}
+    path = ROOT / folder
+    for file in [path] if path.is_file() else path.rglob("*.py"):
+        nodes = ast.walk(ast.parse(file.read_text(encoding="utf-8")))
+        texts = {node.value for node in nodes if isinstance(node, ast.Constant) and isinstance(node.value, str)}
+        assert not {text for text in texts if text.startswith("--")} - of_programs, file
+
+
 @pytest.mark.parametrize("package", ORDER)
 def test_folders_stay_small_and_shallow(package):
     count = defaultdict(int)
@@ -143,3 +153,12 @@ def test_folders_stay_small_and_shallow(package):
         count[path.parent] += path.name != "__init__.py"
         assert len(path.relative_to(ROOT / package).parts) <= 4, path
     assert {str(folder): n for folder, n in count.items() if n > 20} == {}
+
+
+@pytest.mark.parametrize("package", ORDER)
+def test_two_files_with_one_prefix_are_a_folder(package):
+    names = defaultdict(set)
+    for path in files_of(package):
+        if path.name != "__init__.py" and path.parent.name != "models":
+            names[path.parent, path.stem.split("_")[0]].add(path.name)
+    assert [sorted(pair) for pair in names.values() if len(pair) > 1] == []

@@ -1,11 +1,13 @@
 """Files written completely or not at all, by renaming a temporary file, and locks that end with their process."""
 
 import fcntl
+import json
 import os
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from roughfilm.contact.foundation.errors import InputError
 
@@ -49,6 +51,20 @@ def replacing(path: Path) -> Iterator[Path]:
     finally:
         if scratch is not None:
             scratch.unlink(missing_ok=True)
+
+
+def write_json(entries: Mapping[str, Any], path: Path) -> None:
+    """Write entries as a JSON file, whole or not at all.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written.
+    ValueError
+        If a number is infinite or NaN, which JSON does not have.
+    """
+    with replacing(path) as scratch:
+        scratch.write_text(json.dumps(entries, indent=1, allow_nan=False) + "\n", encoding="utf-8")
 
 
 @contextmanager

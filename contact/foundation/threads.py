@@ -16,7 +16,7 @@ def checked_threads(threads: int | None) -> int:
     if threads is None:
         return min(DEFAULT_THREADS, os.cpu_count() or 1)
     if not 1 <= threads <= MOST_THREADS:
-        raise InputError(f"--threads: got {threads} threads; it must be 1 to {MOST_THREADS}")
+        raise InputError(f"threads: got {threads} threads; it must be 1 to {MOST_THREADS}")
     return threads
 
 

@@ -76,7 +76,7 @@ def set_entry(
     key = key.strip()
     *path, last = key.split(".")
     if not equals or not all([*path, last]):
-        raise InputError(f"--set {override}: got no key=value; write for example {example}")
+        raise InputError(f"set {override}: got no key=value; write for example {example}")
     table: Any = entries
     for part in path:
         if isinstance(table, list):
@@ -86,7 +86,7 @@ def set_entry(
         if not isinstance(table, dict | list):
             break
     if not isinstance(table, dict):
-        raise InputError(f"--set {override}: {path[-1]!r} is not a table; write for example {example}")
+        raise InputError(f"set {override}: {path[-1]!r} is not a table; write for example {example}")
     for other in (replaces or {}).get(key, ()):
         table.pop(other, None)
     table[last] = _value(text.strip())

@@ -98,7 +98,7 @@ def solved(
                 spreads += _spread(before)
                 gap_maps.append(gap_map(before))
     except (KeyboardInterrupt, SystemExit) as stop:
-        kept = "; the same command goes on" if out is not None else ", none kept without --out"
+        kept = "; the same command goes on" if out is not None else ", none kept, as no file was named"
         stop.add_note(f"stopped: {len(rows)} of {len(loads)} loads{kept}")
         raise
     return Series(rows=tuple(rows), found=found, spreads=tuple(spreads), last=before, gap_maps=tuple(gap_maps))

@@ -53,7 +53,7 @@ def chosen_model(model: ContactModel | None, hardness: float) -> ContactModel:
     """The model asked for, or the best one that the hardness, Pa, allows; InputError if the model needs one."""
     found = model or (ContactModel.ELASTIC if math.isinf(hardness) else ContactModel.ELASTIC_PLASTIC)
     if math.isinf(hardness) and found in (ContactModel.ELASTIC_PLASTIC, ContactModel.BEARING_AREA):
-        raise InputError(f"--hardness: {found} needs one; give it, such as --hardness 4GPa, or choose --model elastic")
+        raise InputError(f"hardness: {found} needs one; give it, such as 4GPa, or choose the model elastic")
     return found
 
 

@@ -33,7 +33,7 @@ def check_memory(columns: tuple[int, int], layers: int, *, run: bool) -> None:
     needed, there = memory_estimate(columns[0] * columns[1], layers, run=run), memory_available()
     if needed > there:
         raise InputError(
-            f"--resolution: a mesh of {columns[0]} × {columns[1]} × {layers} cells would take about "
+            f"resolution: a mesh of {columns[0]} × {columns[1]} × {layers} cells would take about "
             f"{needed / 2**30:.3g} GiB of memory to be {'run' if run else 'written'}, and {there / 2**30:.3g} GiB are "
             "available; take fewer nodes or layers, or another machine"
         )

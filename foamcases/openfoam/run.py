@@ -14,9 +14,9 @@ from roughfilm.rom.ladder.model import Progress
 
 REMEDIES = {
     Outcome.DIVERGED: "lower the Reynolds number or change the resolution",
-    Outcome.UNSTEADY: "lower the Reynolds number, change the resolution or take --scheme upwind",
-    Outcome.STALLED: "loosen --tolerance, or take a model without slope where the wall is nearly flat",
-    Outcome.UNFINISHED: "loosen --tolerance or change the resolution",
+    Outcome.UNSTEADY: "lower the Reynolds number, change the resolution or take the scheme upwind",
+    Outcome.STALLED: "loosen the tolerance, or take a model without slope where the wall is nearly flat",
+    Outcome.UNFINISHED: "loosen the tolerance or change the resolution",
 }
 
 
@@ -36,7 +36,7 @@ def ready(processes: int) -> str:
     if not found.available:
         raise UnavailableError(found.detail)
     if processes > 1 and shutil.which("mpirun") is None:
-        raise UnavailableError("no mpirun on the PATH; leave --processes out, or: sudo apt-get install openmpi-bin")
+        raise UnavailableError("no mpirun on the PATH; take one process, or: sudo apt-get install openmpi-bin")
     return found.detail
 
 

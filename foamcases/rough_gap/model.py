@@ -5,7 +5,7 @@ from functools import partial
 from roughfilm.contact.foundation.deferred import deferred
 from roughfilm.foamcases.openfoam.model import Cases
 from roughfilm.rom.ladder.model import Resolutions
-from roughfilm.rom.parts.pressed_surface import COARSEST
+from roughfilm.rom.parts.pressed_surface import MIN_SIDE_POINTS
 from roughfilm.rom.rough_gap.scene import RoughGap
 
 SOURCES = ("10.1063/1.168744", "10.1080/01495728408961817")
@@ -20,7 +20,7 @@ def resolutions(scene: RoughGap) -> Resolutions:
     """Those of ``RESOLUTIONS`` for which the surface has points enough, or all that it has."""
     own = max(scene.surface().shape)
     series = tuple(n for n in RESOLUTIONS if n <= own) or (own,)
-    return Resolutions(least=min(own, COARSEST), most=own, default=min(own, RESOLUTIONS[-1]), series=series)
+    return Resolutions(least=min(own, MIN_SIDE_POINTS), most=own, default=min(own, RESOLUTIONS[-1]), series=series)
 
 
 def most_processes(scene: RoughGap, resolution: int) -> int:

@@ -101,7 +101,7 @@ def wanted(scene: Scene, name: str | None) -> str:
         if name in (quantity, title):
             return quantity
     told = ", ".join(repr(title) for title in compared.values())
-    raise InputError(f"--want: got {name!r}; of a {scene.kind} it must be one of {told}")
+    raise InputError(f"quantity: got {name!r}; of a {scene.kind} it must be one of {told}")
 
 
 def shortfall(found: Advice, title: str) -> str:
@@ -149,7 +149,7 @@ def advise(
         For a tolerance out of range, or a scene to which no rung applies.
     """
     if not 0 < within < 1:
-        raise InputError(f"--within: got {within!r}; it must be above 0 and below 1, for example 5%")
+        raise InputError(f"within: got {within!r}; it must be above 0 and below 1, for example 5%")
     kind = kind_of_name(scene.kind)
     known: dict[tuple[str, int], Result] = {}
     failed: dict[tuple[str, int], Exception] = {}

@@ -15,7 +15,7 @@ from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.rom.bearing.pad import Pad
 from roughfilm.rom.bearing.texture import pocketed
 from roughfilm.rom.cavitation.shape import Shape
-from roughfilm.rom.parts.surface_geometry import PLAIN, digest_of
+from roughfilm.rom.parts.surface_geometry import PLAIN_FORMATS, digest_of
 
 FEWEST = 8
 """Cells to the shortest feature; here each point of the file is to have one."""
@@ -50,7 +50,7 @@ class Given(Pad):
     def _read(self) -> tuple[Array, str]:
         """The numbers above the least of them, m, shape (nx, ny), and their digest."""
         path = Path(self.thickness).expanduser()
-        if path.suffix.lower() not in PLAIN:
+        if path.suffix.lower() not in PLAIN_FORMATS:
             raise InputError(f"{path}: is neither NPY nor CSV; save the film thickness as one of them")
         try:
             state = path.stat()

@@ -22,7 +22,7 @@ from roughfilm.rom.ladder.model import Model, Progress
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun, with_uncertainties
-from roughfilm.rom.pocket.validity import NOTHING_COARSER
+from roughfilm.rom.pocket.validity import NO_COARSER_GRID
 
 WARM_UP = 40
 """Cells of a film on which every loop is run once."""
@@ -60,7 +60,7 @@ def solve(
     cells, tolerance, scheme = request.resolution, request.tolerance, request.scheme
     fits = solver.applies(scene)
     if not fits.applies:
-        raise InputError(f"--model: got {model!r}; {fits.reason}")
+        raise InputError(f"model: got {model!r}; {fits.reason}")
     problem = film(scene)
     load_loops(problem.shape.wide)
     wall, cpu = time.perf_counter(), time.process_time()
@@ -69,9 +69,9 @@ def solve(
     warnings = [*unresolved(found), *beyond(found), *odd(scene, found), *unbalanced(scene, found, quantities)]
     uncertainty = uncertainties(scene, found, quantities, reading)
     if not uncertainty:
-        warnings.append(NOTHING_COARSER)
+        warnings.append(NO_COARSER_GRID)
     if unknown := [name for name, bar in uncertainty.items() if not math.isfinite(bar)]:
-        warnings.append(f"{', '.join(unknown)}: {NOTHING_COARSER}, as the roughness has too few points")
+        warnings.append(f"{', '.join(unknown)}: {NO_COARSER_GRID}, as the roughness has too few points")
     return Result(
         model=model,
         quantities=with_uncertainties(quantities, uncertainty),

@@ -13,7 +13,7 @@ from roughfilm.rom.ladder.model import About, Applicability, Model, Progress, Re
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.ladder.result import Field, Numerics, Result
-from roughfilm.rom.parts.pressed_surface import COARSEST, RoughScene
+from roughfilm.rom.parts.pressed_surface import MIN_SIDE_POINTS, RoughScene
 from roughfilm.rom.parts.restriction import restricted
 from roughfilm.rom.parts.surface_geometry import digest_of
 
@@ -122,7 +122,7 @@ def solve(
 def own_resolutions(scene: RoughScene) -> Resolutions:
     """Points along the longer side of a scene's surface: from a coarse grid to its own, which is the default."""
     own = max(scene.surface().shape)
-    return Resolutions(least=min(own, COARSEST), most=own, default=own, series=scene.resolutions)
+    return Resolutions(least=min(own, MIN_SIDE_POINTS), most=own, default=own, series=scene.resolutions)
 
 
 def contact_model(

@@ -6,6 +6,7 @@ import pkgutil
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from numbers import Integral, Real
 from types import ModuleType
 from typing import Any, Generic, NotRequired, TypedDict
 
@@ -52,6 +53,10 @@ class Availability:
 
     available: bool
     detail: str = ""
+
+
+def _between(least: float, value: Any, most: float, numbers: Any) -> bool:
+    return isinstance(value, numbers) and bool(least <= value <= most)
 
 
 def always() -> Availability:
@@ -168,15 +173,15 @@ class Model(Generic[SceneT]):
         """The request with the model's defaults filled in; InputError for an option that the model does not allow."""
         offered = self.offered(scene)
         resolution = offered.default if request.resolution is None else request.resolution
-        if not offered.least <= resolution <= offered.most:
+        if not _between(offered.least, resolution, offered.most, Integral):
             raise InputError(
-                f"--resolution: got {resolution}; {self.name} takes {offered.least} to {offered.most} "
+                f"resolution: got {resolution!r}; {self.name} takes {offered.least} to {offered.most} "
                 f"{self.resolution_meaning}"
             )
         tolerance = self.tolerance if request.tolerance is None else request.tolerance
         least, most = self.tolerances
-        if not least <= tolerance <= most:
-            raise InputError(f"--tolerance: got {tolerance}; {self.name} takes {least:g} to {most:g}")
+        if not _between(least, tolerance, most, Real):
+            raise InputError(f"tolerance: got {tolerance!r}; {self.name} takes {least:g} to {most:g}")
         return CheckedRequest(
             resolution=resolution,
             tolerance=tolerance,
@@ -191,16 +196,16 @@ class Model(Generic[SceneT]):
             return self.schemes[0] if self.schemes else ""
         if scheme not in self.schemes:
             names = ", ".join(self.schemes)
-            remedy = f"it must be one of {names}" if names else "it offers no choice, leave the option out"
-            raise InputError(f"--scheme: got {scheme!r} for {self.name}; {remedy}")
+            remedy = f"it must be one of {names}" if names else "it offers no choice, leave it out"
+            raise InputError(f"scheme: got {scheme!r} for {self.name}; {remedy}")
         return scheme
 
     def _checked_processes(self, scene: SceneT, resolution: int, processes: int) -> int:
         most = 1 if self.most_processes is None else self.most_processes(scene, resolution)
-        if not 1 <= processes <= most:
-            alone = f"{self.name} runs in one process, leave the option out"
+        if not _between(1, processes, most, Integral):
+            alone = f"{self.name} runs in one process, leave it out"
             remedy = alone if self.most_processes is None else f"it must be 1 to {most}, two columns for each"
-            raise InputError(f"--processes: got {processes}; {remedy}")
+            raise InputError(f"processes: got {processes!r}; {remedy}")
         return processes
 
     def offered(self, scene: SceneT) -> Resolutions:
@@ -255,7 +260,7 @@ def find(models: Sequence[Model], kind: str, name: str) -> Model:
     """The model of that kind of scene and name; InputError if there is none."""
     named = {model.name: model for model in of_kind(models, kind)}
     if name not in named:
-        raise InputError(f"--model: got {name!r}; it must be one of {', '.join(named)}")
+        raise InputError(f"model: got {name!r}; it must be one of {', '.join(named)}")
     return named[name]
 
 

@@ -59,7 +59,7 @@ def load_scene(path: Path, overrides: Iterable[str] = ()) -> Scene:
         table = key.rpartition(".")[0]
         for other in replaces.get(key, ()):
             if (taken := f"{table}.{other}") in given:
-                raise InputError(f"--set {override}: it takes the place of {taken}, which is set too; set one of them")
+                raise InputError(f"set {override}: it takes the place of {taken}, which is set too; set one of them")
         given.add(key)
     return read_scene(entries)
 

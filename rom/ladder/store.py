@@ -20,9 +20,24 @@ ENTRIES = ("numerics", "warnings", "expected_error", "provenance")
 
 
 def save(result: Result, path: Path) -> None:
-    """Write :func:`as_bytes` to a file; InputError if ``path`` cannot be written."""
+    """Write :func:`as_bytes` to a file; InputError if ``path`` cannot be written or holds anything but a result."""
+    refuse_other_file(path)
     with replacing(path) as scratch:
         scratch.write_bytes(as_bytes(result))
+
+
+def refuse_other_file(path: Path) -> None:
+    """Raise InputError if ``path`` is a file that is not a result, such as a scene or a surface."""
+    path = path.expanduser()
+    if not path.is_file():
+        return
+    try:
+        with h5py.File(path) as file:
+            known = "quantities" in file
+    except OSError:
+        known = False
+    if not known:
+        raise InputError(f"{path}: is a file that holds no result and would be replaced; choose another name")
 
 
 def as_bytes(result: Result) -> bytes:
@@ -49,8 +64,12 @@ def as_bytes(result: Result) -> bytes:
 
 def load(path: Path, *, with_fields: bool = True) -> Result:
     """Read a result, or all of it but its fields; raises InputError if the file is missing or is not one."""
+    if not path.is_file():
+        raise InputError(f"{path}: no such file; name an .h5 file that roughfilm wrote")
     try:
         with h5py.File(path) as file:
+            if "quantities" not in file:
+                raise LookupError("quantities")
             if (schema := file.attrs["schema"]) not in (2, SCHEMA):
                 raise InputError(f"{path}: has schema {schema}; this version reads 2 and {SCHEMA}, solve again")
             entries = _of_schema_2(file) if schema == 2 else {name: json.loads(file.attrs[name]) for name in ENTRIES}

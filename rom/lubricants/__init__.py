@@ -1,1 +1,1 @@
-"""How density and viscosity of a lubricant grow with pressure."""
+"""Density and viscosity of lubricants over pressure."""

@@ -1,4 +1,4 @@
-"""Laws of compressibility as data: θ = ρ/ρc over p, the pressure above that of cavitation."""
+"""Compressibility laws: θ = ρ/ρc over p, the pressure above cavitation pressure."""
 
 from typing import Annotated, Literal, Self
 
@@ -8,18 +8,18 @@ from pydantic import model_validator
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import InUnit, PositiveNumber
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.rom.lubricants.law import Law
+from roughfilm.rom.lubricants.law import LubricantLaw
 
 Pressure = Annotated[float, InUnit("Pa")]
 
 
-class Incompressible(Law):
-    """θ = 1."""
+class Incompressible(LubricantLaw):
+    """The law θ = 1."""
 
     law: Literal["incompressible"] = "incompressible"
 
     def compression(self, pressure: Array) -> tuple[Array, Array]:
-        """ϑ = θ - 1 and dθ/dp, 1/Pa, where p >= 0; shape of ``pressure``."""
+        """The compression ϑ = θ - 1 and dθ/dp, 1/Pa, at p >= 0; shape of ``pressure``."""
         nothing = np.zeros_like(pressure)
         return nothing, nothing
 
@@ -30,19 +30,19 @@ class Incompressible(Law):
         return 0.0
 
 
-class ConstantBulkModulus(Law):
-    """p = β ln θ: for pressures below about a tenth of β, Pa. Source: Vijayaraghavan and Keith 1989."""
+class ConstantBulkModulus(LubricantLaw):
+    """The law p = β ln θ, for pressures below about β/10, Pa. Source: Vijayaraghavan and Keith 1989."""
 
     law: Literal["constant_bulk_modulus"]
     bulk_modulus: Pressure
 
     @property
     def valid_to(self) -> float:
-        """A tenth of β, Pa."""
+        """The pressure β/10, Pa."""
         return self.bulk_modulus / 10
 
     def compression(self, pressure: Array) -> tuple[Array, Array]:
-        """ϑ = θ - 1 and dθ/dp, 1/Pa, where p >= 0; shape of ``pressure``."""
+        """The compression ϑ = θ - 1 and dθ/dp, 1/Pa, at p >= 0; shape of ``pressure``."""
         excess = np.expm1(pressure / self.bulk_modulus)
         return excess, (1 + excess) / self.bulk_modulus
 
@@ -51,10 +51,10 @@ class ConstantBulkModulus(Law):
         return self.bulk_modulus * float(np.log(theta))
 
 
-class DowsonHigginson(Law):
-    """θ = (C1 + C2 p)/(C1 + p), with C1 in Pa; by default Dowson and Higginson's mineral oil (1966).
+class DowsonHigginson(LubricantLaw):
+    """The law θ = (C1 + C2 p)/(C1 + p), C1 in Pa; the default is Dowson and Higginson's mineral oil (1966).
 
-    Paper B of the source fits C1 = 2.22 GPa, C2 = 1.66 to another.
+    Another oil has C1 = 2.22 GPa and C2 = 1.66 (Sahlin 2008, Paper B).
     """
 
     law: Literal["dowson_higginson"]
@@ -68,13 +68,13 @@ class DowsonHigginson(Law):
         return self
 
     def compression(self, pressure: Array) -> tuple[Array, Array]:
-        """ϑ = θ - 1 and dθ/dp, 1/Pa, where p >= 0; shape of ``pressure``."""
+        """The compression ϑ = θ - 1 and dθ/dp, 1/Pa, at p >= 0; shape of ``pressure``."""
         below = self.c1 + pressure
         rise = (self.c2 - 1) / below
         return rise * pressure, rise * self.c1 / below
 
     def pressure_at(self, theta: float) -> float:
-        """The pressure, Pa, of a density θ >= 1; InputError from θ = C2 on, which no pressure reaches."""
+        """The pressure, Pa, of a density θ >= 1; InputError for θ >= C2, the limit of high pressure."""
         if theta >= self.c2:
             raise InputError(f"theta: got {theta!r}; the lubricant cannot be denser than c2 = {self.c2!r}")
         return self.c1 * (theta - 1) / (self.c2 - theta)

@@ -1,14 +1,14 @@
-"""What all laws of a lubricant have in common."""
+"""The base class of the laws of a lubricant."""
 
 import math
 
 from roughfilm.contact.foundation.entries import Part
 
 
-class Law(Part):
-    """A law over the pressure above that of cavitation; ``valid_to`` is the highest for which it is meant, Pa."""
+class LubricantLaw(Part):
+    """A law over the pressure above cavitation pressure."""
 
     @property
     def valid_to(self) -> float:
-        """Beyond it an answer comes with a warning."""
+        """The highest valid pressure, Pa; above it a result has a warning."""
         return math.inf

@@ -1,4 +1,4 @@
-"""All laws that a scene may name."""
+"""The laws of compressibility and viscosity that a scene may name."""
 
 from roughfilm.contact.foundation.entries import Part
 from roughfilm.rom.lubricants.compressibility import ConstantBulkModulus, DowsonHigginson, Incompressible

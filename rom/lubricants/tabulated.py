@@ -1,6 +1,5 @@
-"""Measured compressibility: a table, interpolated without overshoot, or the law that fits it."""
+"""Measured compressibility: a table with monotone interpolation, or a law fitted to it."""
 
-import math
 from functools import cached_property
 from itertools import pairwise
 from pathlib import Path
@@ -10,57 +9,54 @@ import numpy as np
 from pydantic import BeforeValidator, PlainSerializer, model_validator
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.entries import plain_number
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.rom.lubricants.compressibility import DowsonHigginson
-from roughfilm.rom.lubricants.law import Law
-from roughfilm.rom.parts.columns_file import MOST, read_rows
+from roughfilm.rom.lubricants.law import LubricantLaw
+from roughfilm.rom.parts.columns_file import MAX_ROWS, number_pairs, read_rows
 
-FEWEST = 3
+MIN_ROWS = 3
+"""Smallest number of rows of a table."""
+
 COLUMNS = {"pressure": "Pa", "density": "kg/m^3"}
 HEADER = "pressure (MPa), density (kg/m^3)"
 
 Table = tuple[tuple[float, float], ...]
-"""(pressure above that of cavitation, Pa; density, kg/m³ or over anything else)."""
+"""Rows (pressure above cavitation pressure, Pa; density, kg/m³ or relative)."""
 
 
 def checked(table: object) -> Table:
-    """The rows of a table, from rows of two numbers in SI units or from a file of that name.
+    """The rows of a table from rows of two numbers in SI units, or from the file of that name.
 
-    Raises ValueError that says which row is wrong, and how: both columns must grow from row to row.
+    Raises
+    ------
+    ValueError
+        If a row is invalid, a column does not increase, or the file cannot be read.
     """
     if isinstance(table, str):
         try:
             return checked(read_rows(Path(table), COLUMNS, header=HEADER))
         except ValueError as error:
             raise ValueError(f"file {table!r:.200}: {error}") from error
-    if not isinstance(table, list | tuple) or not FEWEST <= len(table) <= MOST:
+    if not isinstance(table, list | tuple) or not MIN_ROWS <= len(table) <= MAX_ROWS:
         got = f"{len(table)} rows" if isinstance(table, list | tuple) else f"{table!r:.60}"
-        raise ValueError(f"got {got}; name a file, or give {FEWEST} to {MOST} rows [pressure, density] in Pa, kg/m^3")
-    rows = tuple(_row(row, number) for number, row in enumerate(table, 1))
+        raise ValueError(
+            f"got {got}; name a file, or give {MIN_ROWS} to {MAX_ROWS} rows [pressure, density] in Pa, kg/m^3"
+        )
+    rows = number_pairs(table, name="row", columns="pressure and density in Pa and kg/m^3")
     if rows[0][0] != 0 or rows[0][1] <= 0:
-        raise ValueError(f"got {rows[0]!r} as row 1; it must be the density at pressure 0, that of cavitation")
+        raise ValueError(f"got {rows[0]!r} as row 1; it must be the density at pressure 0 (cavitation pressure)")
     for number, (before, after) in enumerate(pairwise(rows), 2):
         if not (after[0] > before[0] and after[1] > before[1]):
-            raise ValueError(f"got {after!r} at row {number} after {before!r}; pressure and density must both grow")
+            raise ValueError(f"got {after!r} at row {number} after {before!r}; pressure and density must both increase")
     return rows
 
 
-def _row(row: Any, number: int) -> tuple[float, float]:
-    if not isinstance(row, list | tuple) or len(row) != 2:
-        raise ValueError(f"got {row!r:.60} as row {number}; write pressure and density in Pa and kg/m^3")
-    pressure, density = (plain_number(value) for value in row)
-    if not (math.isfinite(pressure) and math.isfinite(density)):
-        raise ValueError(f"got {row!r} as row {number}; both numbers must be finite")
-    return pressure, density
+class Tabulated(LubricantLaw):
+    """θ by monotone cubics (PCHIP) through measured points and linear beyond the last one, or by a fitted law.
 
-
-class Tabulated(Law):
-    """θ through measured points by monotone cubics (PCHIP), straight on beyond the last; or a law fitted to them.
-
-    ``table``: a CSV file (``pressure (MPa), density (kg/m^3)``), pressure from that of cavitation on. Source: Fritsch
-    and Carlson 1980, doi:10.1137/0717021.
+    ``table`` names a CSV file (``pressure (MPa), density (kg/m^3)``) of pressures above cavitation pressure. Source:
+    Fritsch and Carlson 1980, doi:10.1137/0717021.
     """
 
     law: Literal["tabulated"]
@@ -83,7 +79,7 @@ class Tabulated(Law):
 
     @cached_property
     def fitted(self) -> DowsonHigginson:
-        """The law nearest to the points by least squares; InputError if none is near."""
+        """The law fitted to the points; InputError if none fits."""
         return fitted(self.table)
 
     @cached_property
@@ -94,7 +90,7 @@ class Tabulated(Law):
         return PchipInterpolator(pressure, density / density[0] - 1)
 
     def compression(self, pressure: Array) -> tuple[Array, Array]:
-        """ϑ = θ - 1 and dθ/dp, 1/Pa, where p >= 0; shape of ``pressure``."""
+        """The compression ϑ = θ - 1 and dθ/dp, 1/Pa, at p >= 0; shape of ``pressure``."""
         if self.fit is not None:
             return self.fitted.compression(pressure)
         inside = np.minimum(pressure, self.valid_to)
@@ -102,7 +98,7 @@ class Tabulated(Law):
         return self._curve(inside) + slope * (pressure - inside), slope
 
     def pressure_at(self, theta: float) -> float:
-        """The pressure, Pa, of a density θ >= 1; InputError beyond the table."""
+        """The pressure, Pa, of a density θ >= 1; InputError above the last density of the table."""
         if self.fit is not None:
             return self.fitted.pressure_at(theta)
         from scipy.optimize import brentq  # slow to import
@@ -114,7 +110,7 @@ class Tabulated(Law):
 
 
 def fitted(table: Table) -> DowsonHigginson:
-    """C1 and C2 of Dowson and Higginson's law by least squares in θ; InputError if the points are not of that shape."""
+    """Dowson and Higginson's law fitted by least squares in θ; InputError if the points have another shape."""
     from scipy.optimize import least_squares  # slow to import
 
     pressure, density = np.array(table).T
@@ -125,9 +121,9 @@ def fitted(table: Table) -> DowsonHigginson:
         c1, rise = np.exp(numbers)
         return np.asarray((rise * pressure / scale / (c1 + pressure / scale) - excess) / excess[-1])
 
-    found = least_squares(misfit, np.log([1.0, 2 * excess[-1]]), xtol=1e-14, ftol=1e-14, gtol=1e-14)
-    c1, rise = np.exp(found.x)
-    if not (found.success and 1e-4 < c1 < 1e6):
-        raise InputError("the points bend the wrong way for Dowson and Higginson's law; leave fit out")
+    optimum = least_squares(misfit, np.log([1.0, 2 * excess[-1]]), xtol=1e-14, ftol=1e-14, gtol=1e-14)
+    c1, rise = np.exp(optimum.x)
+    if not (optimum.success and 1e-4 < c1 < 1e6):
+        raise InputError("Dowson and Higginson's law does not fit the curvature of the points; leave fit out")
     numbers = {"law": "dowson_higginson", "c1": with_unit(float(scale * c1), "Pa"), "c2": 1 + float(rise)}
     return DowsonHigginson.model_validate(numbers)

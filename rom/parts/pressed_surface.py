@@ -1,4 +1,4 @@
-"""A rough surface pressed on a flat one: what scenes of dry contacts and of seals share."""
+"""Scenes of a rough surface pressed on a flat one, for dry contacts and seals."""
 
 from abc import abstractmethod
 from typing import Self
@@ -12,15 +12,15 @@ from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.parts.solids import Counter, Pressure, RoughBody, composite_modulus, hardness
 from roughfilm.rom.parts.surface_geometry import SurfaceGeometry
 
-COARSEST = 8
-"""Points along the longer side, at least."""
+MIN_SIDE_POINTS = 8
+"""Smallest number of points along the longer side."""
 
-COARSER = (8, 4, 2, 1)
-"""For charts, the surface's own points are divided by these."""
+COARSENING_RATIOS = (8, 4, 2, 1)
+"""Ratios of the surface's own number of points to those of a convergence study."""
 
 
 class Load(Part):
-    """Mean pressure over the nominal area, Pa."""
+    """The mean pressure on the nominal area, Pa."""
 
     pressure: Pressure
 
@@ -35,17 +35,18 @@ class RoughScene(Scene):
     @property
     @abstractmethod
     def rms_slope(self) -> float:
-        """Rms slope of the surface, 0 if it is flat."""
+        """Rms slope of the surface; 0 if it is flat."""
 
     @property
     def resolutions(self) -> tuple[int, ...]:
-        """Points along the longer side, from coarse grids to the surface's own."""
+        """Numbers of points along the longer side of a convergence study, up to the surface's own."""
         own = max(self.surface().shape)
-        return tuple(dict.fromkeys(own // part for part in COARSER if own // part >= COARSEST or part == 1))
+        ratios = (ratio for ratio in COARSENING_RATIOS if own // ratio >= MIN_SIDE_POINTS or ratio == 1)
+        return tuple(dict.fromkeys(own // ratio for ratio in ratios))
 
 
 class RoughContact(RoughScene):
-    """A periodic rough surface under a flat one, without friction or adhesion; a counter body not given is rigid."""
+    """A periodic rough surface under a flat one, without friction or adhesion; the default counter body is rigid."""
 
     geometry: SurfaceGeometry
     solid: RoughBody
@@ -53,22 +54,22 @@ class RoughContact(RoughScene):
     load: Load
 
     @model_validator(mode="after")
-    def _can_be_borne(self) -> Self:
+    def _below_hardness(self) -> Self:
         if self.load.pressure > self.hardness:
             raise ValueError(
-                f"load.pressure: got {self.load.pressure:.6g} Pa, above the hardness of {self.hardness:.6g} Pa, "
-                "which is all that the whole area can bear; lower the load"
+                f"load.pressure: got {self.load.pressure:.6g} Pa; it must be at most the hardness of "
+                f"{self.hardness:.6g} Pa, lower the load"
             )
         return self
 
     @property
     def hardness(self) -> float:
-        """H, Pa; infinite for an elastic solid."""
+        """Hardness H, Pa; infinite for an elastic solid."""
         return hardness(self.solid)
 
     @property
     def composite_modulus(self) -> float:
-        """E*, Pa."""
+        """Composite modulus E*, Pa."""
         return composite_modulus(self.solid, self.counter)
 
     def surface(self) -> Surface:
@@ -76,16 +77,16 @@ class RoughContact(RoughScene):
         return self.geometry.read()
 
     def spectrum(self) -> WavePower | None:
-        """Its waves; None if it is flat."""
+        """The spectrum of the surface; None if it is flat."""
         return self.geometry.spectrum()
 
     @property
     def rms_slope(self) -> float:
-        """Slope g' = sqrt(<|∇z|²>) of the surface, 0 if it is flat."""
+        """Rms slope g' = sqrt(<|∇z|²>) of the surface; 0 if it is flat."""
         spectrum = self.spectrum()
         return 0.0 if spectrum is None else spectrum.moments.rms_slope
 
     @property
     def pressure_unit(self) -> float:
-        """E* g', Pa; E* for a flat surface. In full elastic contact pressure spreads by half of it."""
+        """The unit of contact pressure: E* g', Pa, or E* for a flat surface."""
         return self.composite_modulus * (self.rms_slope or 1.0)

@@ -1,4 +1,4 @@
-"""The two solids of a contact, as a scene file writes them."""
+"""The scene entries of the two solids of a contact."""
 
 import math
 from typing import Annotated
@@ -18,28 +18,28 @@ def _ratio(value: float) -> float:
 
 
 class Counter(Part):
-    """An elastic body: Young's modulus, Pa, and Poisson's ratio."""
+    """An elastic body with Young's modulus, Pa, and Poisson's ratio."""
 
     modulus: Pressure
     poisson: Annotated[float, BeforeValidator(plain_number), AfterValidator(_ratio)]
 
     @property
     def solid(self) -> solid.Solid:
-        """What it is to contact mechanics."""
+        """The body as a solid of contact mechanics."""
         return solid.Solid(modulus=self.modulus, poisson=self.poisson)
 
 
 class RoughBody(Counter):
-    """The rough body: elastic, and plastic where pressure reaches its hardness, Pa; elastic alone if it has none."""
+    """The rough body, plastic where the pressure reaches its hardness, Pa, and elastic without one."""
 
     hardness: Pressure | None = None
 
 
 def composite_modulus(body: RoughBody, counter: Counter | None) -> float:
-    """E*, Pa; the counter body is rigid if not given."""
+    """The composite modulus E*, Pa; the default counter body is rigid."""
     return solid.composite_modulus(body.solid, None if counter is None else counter.solid)
 
 
 def hardness(body: RoughBody) -> float:
-    """H, Pa; infinite for an elastic solid."""
+    """The hardness H, Pa; infinite for an elastic solid."""
     return math.inf if body.hardness is None else body.hardness

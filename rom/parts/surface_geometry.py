@@ -1,4 +1,4 @@
-"""The surface of a scene: a file beside it, or the description of a synthetic one."""
+"""The surface of a scene: a file, or the description of a synthetic surface."""
 
 import hashlib
 import json
@@ -16,12 +16,12 @@ from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.store import is_surface
 from roughfilm.contact.surfaces.surface import Surface
 
-PLAIN = (".npy", ".csv")
-"""Files that say nothing of periods; what they hold is taken as one."""
+PLAIN_FORMATS = (".npy", ".csv")
+"""Suffixes of files without metadata; their heights are taken as one period."""
 
 
 def _described(value: object) -> object:
-    """A file's name as it is; a description, in a table or in a file of its own, with every default written out."""
+    """The name of a file of heights, or a description from a table or TOML file with all defaults."""
     from roughfilm.contact.synthetic.description import description_entries, read_description, read_entries
 
     if isinstance(value, str):
@@ -44,11 +44,11 @@ def _pair(value: object) -> object:
 
 
 class SurfaceGeometry(Part):
-    """A rough surface, one period of it.
+    """One period of a rough surface.
 
-    ``surface`` names a file of heights (HDF5 of our own, NPY or CSV) or describes a synthetic surface; the description
-    may stand in a TOML file. ``spacing`` is for files that do not tell it: a length, or two, along x and y. ``digest``
-    is that of the heights in the file: a scene that was written back is not read over another surface.
+    ``surface`` names a file of heights (HDF5 of roughfilm, NPY or CSV) or describes a synthetic surface; the
+    description may be a TOML file. ``spacing`` is a length, or two along x and y, for files without it. ``digest`` is
+    that of the heights in the file, so that a saved scene is not read with a changed surface.
     """
 
     surface: Annotated[str | dict[str, Any], BeforeValidator(_described)]
@@ -64,64 +64,65 @@ class SurfaceGeometry(Part):
         try:
             surface = self.read()
         except InputError as error:
-            told = str(error).removeprefix(f"{self._kind}: ")
-            inner = told.removeprefix(f"{self._kind}.")
-            raise ValueError(f"surface: {told}" if inner == told or not self._kind else f"surface.{inner}") from None
+            message = str(error).removeprefix(f"{self._kind}: ")
+            key = message.removeprefix(f"{self._kind}.")
+            raise ValueError(f"surface: {message}" if key == message or not self._kind else f"surface.{key}") from None
         if surface.invalid.any():
             count = int(surface.invalid.sum())
             raise ValueError(f"surface: has {count} invalid points; fill them by preparing it: roughfilm surface")
         if self._kind:
             return self if self.digest is None else self.model_copy(update={"digest": None})
-        found = digest_of(surface)
-        if self.digest not in (None, found):
+        digest = digest_of(surface)
+        if self.digest not in (None, digest):
             raise ValueError(
-                f"digest: got {self.digest!r:.40}, but {self.surface} holds other heights by now, {found!r}; "
+                f"digest: got {self.digest!r:.40}, but {self.surface} holds other heights by now, {digest!r}; "
                 "leave the digest out to take them"
             )
-        return self.model_copy(update={"digest": found})
+        return self.model_copy(update={"digest": digest})
 
     @property
     def _kind(self) -> str:
-        """Of a described surface; "" for a file."""
+        """The kind of a described surface; "" for a file."""
         return "" if isinstance(self.surface, str) else str(self.surface["kind"])
 
     @property
     def described(self) -> bool:
-        """Whether it is made from a description, and so repeats itself without a joint."""
+        """Whether a description defines the surface, which is then periodic."""
         return bool(self._kind)
 
     @property
     def name(self) -> str:
-        """What people call the surface: the file's name, or the kind of a described one."""
+        """The name of the file, or the kind of a described surface."""
         return Path(self.surface).name if isinstance(self.surface, str) else self._kind
 
     def read(self) -> Surface:
-        """The surface; the latest are kept. Raises InputError if the file cannot be read or the description made."""
+        """The surface, cached; InputError if the file cannot be read or the description is invalid."""
         if not isinstance(self.surface, str):
             return _made(json.dumps(self.surface, sort_keys=True))
         path = Path(self.surface).expanduser()
         try:
-            found = path.stat()
-            ours = path.is_file() and is_surface(path)
+            status = path.stat()
+            native = path.is_file() and is_surface(path)
         except OSError as error:
-            told = "no such file" if isinstance(error, FileNotFoundError) else f"cannot be read ({error.strerror})"
-            raise InputError(f"in {path}: {told}; name a file of heights") from None
-        if ours and self.spacing is not None:
-            raise InputError(f"in {path}: it tells its spacing itself; leave the key spacing out")
-        if not ours and path.suffix.lower() not in PLAIN:
-            told = "neither a surface of roughfilm nor NPY nor CSV; prepare it with: roughfilm surface"
-            raise InputError(f"in {path}: it is {told}")
-        if path.suffix.lower() == ".npy" and not ours and self.spacing is None:
+            fault = "no such file" if isinstance(error, FileNotFoundError) else f"cannot be read ({error.strerror})"
+            raise InputError(f"in {path}: {fault}; name a file of heights") from None
+        if native and self.spacing is not None:
+            raise InputError(f"in {path}: it contains its spacing; leave the key spacing out")
+        if not native and path.suffix.lower() not in PLAIN_FORMATS:
+            raise InputError(
+                f"in {path}: it is neither a surface of roughfilm nor NPY nor CSV; prepare it with: roughfilm surface"
+            )
+        if path.suffix.lower() == ".npy" and not native and self.spacing is None:
             raise InputError(f'in {path}: it gives no spacing of its points; add spacing = "1 um"')
-        return _read(str(path), self.spacing, found.st_mtime_ns, found.st_size)
+        return _read(str(path), self.spacing, status.st_mtime_ns, status.st_size)
 
     def spectrum(self) -> WavePower | None:
-        """Mean square of the heights by wave; None of a flat surface."""
+        """The mean square of the heights by wave; None for a flat surface."""
         return _spectrum(self.model_dump_json(exclude_none=True))
 
 
 def digest_of(surface: Surface) -> str:
-    """A digest of heights and spacing: equal ones are the same surface to the last bit."""
+    """The digest of heights and spacing, equal only for surfaces that are equal bit for bit."""
     digest = hashlib.sha256(repr((surface.shape, surface.spacing)).encode())
     digest.update(surface.heights.tobytes())
     return digest.hexdigest()[:32]

@@ -1,1 +1,1 @@
-"""A film over one period of a textured wall: Reynolds, inertia and slope."""
+"""Models of a film over one period of a grooved wall, with inertia and slope effects."""

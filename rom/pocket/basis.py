@@ -9,17 +9,18 @@ from numpy.polynomial import legendre
 from roughfilm.contact.foundation.arrays import Array
 
 STIFFNESS = 2.0
+"""The integral ∫φ_k'² of every polynomial."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Basis:
-    """φ_k(Y), k = 0 .. n-1, between the still wall (Y = 0) and the sliding one (Y = 1), at some points.
+    """The polynomials φ_k(Y), k = 0 .. n-1, between the fixed wall (Y = 0) and the sliding one (Y = 1), at points.
 
-    φ_k ∝ P_k - P_{k+2} of s = 2Y - 1, so that ∫φ_j'φ_k' = 0 for j ≠ k and ∫φ_k = 0 for k > 0: viscosity does not mix
-    them, and of flow and pressure gradient, which is the same all across, only the first one knows.
+    φ_k ∝ P_k - P_{k+2} of s = 2Y - 1, so that ∫φ_j'φ_k' = 0 for j ≠ k and ∫φ_k = 0 for k > 0: viscosity does not
+    couple them, and only φ_0 contributes to the flow and couples to the pressure gradient, which is uniform across.
 
-    Scaled so that ∫φ_k'² = ``STIFFNESS``. ``shape``, ``slope`` and ``primitive`` (zero at Y = 0): shape (n, points);
-    ``flow`` is ∫φ_0. At Gauss points f @ ``weights`` is ∫f and f @ ``above`` is the integral from each point to Y = 1.
+    The scale is ∫φ_k'² = ``STIFFNESS``. ``shape`` (φ), ``slope`` (φ') and ``primitive`` (∫φ from Y = 0) have the shape
+    (n, points); ``flow`` is ∫φ_0. At Gauss points f @ ``weights`` is ∫f, and f @ ``above`` the integral to Y = 1.
     """
 
     nodes: Array
@@ -33,13 +34,13 @@ class Basis:
 
 @lru_cache(maxsize=8)
 def gauss_basis(modes: int) -> Basis:
-    """The first ``modes`` polynomials at as many Gauss points as integrate a product of three of them exactly."""
+    """The first ``modes`` polynomials at the Gauss points that integrate products of three of them exactly."""
     return _basis(modes, *legendre.leggauss((3 * modes + 5) // 2))
 
 
 @lru_cache(maxsize=8)
 def even_basis(modes: int, layers: int) -> Basis:
-    """The same in the middles of equal layers, with the midpoint rule."""
+    """The first ``modes`` polynomials at the middles of equal layers, with the midpoint rule."""
     return _basis(modes, (2 * np.arange(layers) + 1) / layers - 1, np.full(layers, 2 / layers))
 
 
@@ -62,6 +63,6 @@ def _basis(modes: int, s: Array, weights: Array) -> Basis:
 
 
 def sliding_wall_slope(modes: int) -> Array:
-    """φ_k'(1), shape (modes,)."""
+    """The slopes φ_k'(1) at the sliding wall, shape (modes,)."""
     k = np.arange(modes)
     return np.asarray(-2 * np.sqrt((2 * k + 3) / 2))

@@ -1,11 +1,11 @@
-r"""Flow in a thin film between a still and a sliding wall, in closed form.
+r"""Closed forms of the flow in a thin film between a fixed and a sliding wall.
 
-All in units of film thickness Ly, sliding speed u and viscous stress η u / Ly. Across a film of thickness h, with
-Y = 0 on the still wall and Y = 1 on the sliding one, the velocity is
+Units are the film thickness Ly, the sliding speed u and the viscous stress η u / Ly. Across a film of thickness h, with
+Y = 0 on the fixed wall and Y = 1 on the sliding one, the velocity is
 
     u(Y) = Y + 6 a Y (1 - Y),    a = q / h - 1/2,
 
-for the volume flow q per width. Exact for parallel walls; first order in slope otherwise.
+for the volume flow q per width. It is exact for parallel walls, and first-order accurate in slope otherwise.
 Source: Reynolds 1886, doi:10.1098/rstl.1886.0005.
 """
 
@@ -15,29 +15,29 @@ from roughfilm.contact.foundation.arrays import Array
 
 
 def excess_flow(h: Array, q: float) -> Array:
-    """By how much the mean velocity exceeds that of pure shear, a = q/h - 1/2; shape of ``h``."""
+    """The mean velocity minus that of pure shear, a = q/h - 1/2; shape of ``h``."""
     return np.asarray(q / h - 0.5)
 
 
 def pressure_gradient(h: Array, q: float) -> Array:
-    """dp/dx = 12 (h/2 - q) / h³ of the Reynolds equation; shape of ``h``."""
+    """The pressure gradient dp/dx = 12 (h/2 - q) / h³ of the Reynolds equation; shape of ``h``."""
     return np.asarray((6 - 12 * q / h) / h**2)
 
 
 def inertia_pressure(h: Array, q: float) -> Array:
-    """Pressure per Reynolds number that first-order inertia adds to the Reynolds equation; shape of ``h``.
+    """The pressure that first-order inertia adds, per Reynolds number; shape of ``h``.
 
     The x-momentum weighted with Y(1-Y), which removes the unknown first-order profile, gives
 
         dp/dx = 6/h² - 12 q/h³ - (6 Re/h) N,    N = h' [-(q/h)(1/10 + 36a/140) + 1/60 - a/70].
 
-    The last term has the factor h', so it integrates to a function of h alone, here with its zero at h = 1:
+    The last term has the factor h', so its integral is a function of h alone, zero at h = 1:
 
         p = -6 Re [ c0 ln h + c1 (1 - 1/h) + c2 (1 - 1/h²)/2 ],   c0 = 1/60 + 1/140,
                                                                   c1 = -q (1/10 - 18/140 + 1/70), c2 = -36 q²/140.
 
-    It returns to its start after a period, so first-order inertia changes neither the flow nor the friction.
-    Exact to first order in Re and to lowest order in slope.
+    It is periodic, so first-order inertia changes neither the flow nor the friction. The result is exact to first order
+    in Re and to lowest order in slope.
     """
     c0 = 1 / 60 + 1 / 140
     c1 = -q * (1 / 10 - 18 / 140 + 1 / 70)
@@ -46,24 +46,21 @@ def inertia_pressure(h: Array, q: float) -> Array:
 
 
 def inertia_pressure_gradient(h: Array, slope: Array, q: float) -> Array:
-    """d/dx of :func:`inertia_pressure` for a film of the given slope dh/dx: -(6/h) N; shape of ``h``."""
+    """The gradient -(6/h) N of :func:`inertia_pressure` for a film of slope dh/dx; shape of ``h``."""
     a = excess_flow(h, q)
     return np.asarray(-6 / h * slope * (-(q / h) * (1 / 10 + 36 * a / 140) + 1 / 60 - a / 70))
 
 
 def sliding_wall_shear(h: Array, q: float) -> Array:
-    """Shear stress on the sliding wall, (1 - 6a) / h; shape of ``h``."""
+    """The shear stress (1 - 6a) / h on the sliding wall; shape of ``h``."""
     return np.asarray((1 - 6 * excess_flow(h, q)) / h)
 
 
 def back_flow(h: Array, q: float) -> float:
-    """The fastest reverse flow anywhere, as a fraction of the sliding speed; 0 where there is none.
+    """The largest reverse velocity over the sliding speed; 0 without reverse flow.
 
-    The profile turns back at the still wall where 1 + 6a < 0 and is then slowest at Y = (1 + 6a) / 12a.
+    The flow reverses at the fixed wall where 1 + 6a < 0; its minimum is then at Y = (1 + 6a) / 12a.
     """
     steepness = 1 + 6 * excess_flow(h, q)
-    reversed_ = steepness < 0
-    if not reversed_.any():
-        return 0.0
-    s = steepness[reversed_]
-    return float(np.max(s**2 / (4 * (1 - s))))
+    s = steepness[steepness < 0]
+    return float(np.max(s**2 / (4 * (1 - s)), initial=0.0))

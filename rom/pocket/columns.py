@@ -1,4 +1,4 @@
-"""Where the columns of a mesh stand along a gap: close where its walls bend."""
+"""Positions of mesh columns along a gap, denser where its walls bend."""
 
 import numpy as np
 
@@ -6,31 +6,31 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.pocket.gap import Gap
 
 CORNER_DENSITY = 10.0
-"""How many times denser the columns stand at a corner of the gap than far from one."""
+"""Density of columns at a corner of the gap over that far from one."""
 
 BEND_DENSITY = 4.0
-"""The same for the other breaks of the gap, where the slope is continuous."""
+"""Density of columns at the other breaks of the gap, where the slope is continuous, over that far from one."""
 
-REACH = 1.0
-"""How far from a break the columns stay dense, in film thicknesses: about as far as the flow feels it."""
+DENSITY_DECAY_LENGTH = 1.0
+"""Decay length of the density beside a break, in film thicknesses: about the decay length of the flow."""
 
-NARROWEST = 1e-3
-"""Corners nearer to each other than this, in film thicknesses, share one column: a sliver of land is none."""
+MIN_CORNER_DISTANCE = 1e-3
+"""Distance in film thicknesses below which two corners share one column."""
 
 
 def columns(gap: Gap, resolution: int) -> Array:
-    """Positions of about ``resolution`` + 1 mesh columns over the period, in film thicknesses.
+    """The positions of about ``resolution`` + 1 mesh columns over the period, in film thicknesses.
 
-    With the distances s to the corners and b to the nearest other break, here and in the neighbouring periods, in
-    REACH, the density is
+    The density of columns is
 
-        1 + (CORNER_DENSITY - 1) Σ 1 / (1 + s²) + (BEND_DENSITY - 1) / (1 + b²).
+        1 + (CORNER_DENSITY - 1) Σ 1 / (1 + s²) + (BEND_DENSITY - 1) / (1 + b²)
 
-    Each piece between corners gets a whole number of cells, so that every corner is a column.
+    with the distances s to the corners and b to the nearest other break, in this period and its neighbours, in units of
+    DENSITY_DECAY_LENGTH. Each piece between corners has a whole number of cells, so that every corner is a column.
     """
     start, end = gap.breaks[0] / gap.film, gap.breaks[-1] / gap.film
     inner = np.array(gap.corners) / gap.film
-    inner = inner[(inner - start > NARROWEST) & (np.diff(inner, append=end) > NARROWEST)]
+    inner = inner[(inner - start > MIN_CORNER_DISTANCE) & (np.diff(inner, append=end) > MIN_CORNER_DISTANCE)]
     anchors = np.array([start, *inner, end])
     periods = np.array([-1.0, 0.0, 1.0]) * gap.length
     corners = np.add.outer(periods, gap.corners).ravel() / gap.film
@@ -38,8 +38,8 @@ def columns(gap: Gap, resolution: int) -> Array:
     bends = np.add.outer(periods, smooth).ravel() / gap.film
 
     def cells_up_to(x: Array) -> Array:
-        at_corners = REACH * np.arctan((x[:, None] - corners) / REACH).sum(axis=1)
-        at_bends = _to_the_nearest(bends, x) if smooth else np.zeros_like(x)
+        at_corners = DENSITY_DECAY_LENGTH * np.arctan((x[:, None] - corners) / DENSITY_DECAY_LENGTH).sum(axis=1)
+        at_bends = _nearest_integral(bends, x) if smooth else np.zeros_like(x)
         return np.asarray(x + (CORNER_DENSITY - 1) * at_corners + (BEND_DENSITY - 1) * at_bends)
 
     ends = cells_up_to(anchors)
@@ -52,9 +52,10 @@ def columns(gap: Gap, resolution: int) -> Array:
     return np.append(np.concatenate(pieces), anchors[-1])
 
 
-def _to_the_nearest(places: Array, x: Array) -> Array:
-    """The integral up to ``x`` of 1 / (1 + b²), with b the distance to the nearest of the places, in REACH."""
+def _nearest_integral(places: Array, x: Array) -> Array:
+    """The integral up to ``x`` of 1 / (1 + b²), b the distance to the nearest place over DENSITY_DECAY_LENGTH."""
     nearest = np.searchsorted((places[1:] + places[:-1]) / 2, x)
-    half_way = np.arctan(np.diff(places) / 2 / REACH)
+    half_way = np.arctan(np.diff(places) / 2 / DENSITY_DECAY_LENGTH)
     before = np.concatenate([[0.0], 2 * np.cumsum(half_way)])
-    return np.asarray(REACH * (before[nearest] + np.arctan((x - places[nearest]) / REACH)))
+    beside = np.arctan((x - places[nearest]) / DENSITY_DECAY_LENGTH)
+    return np.asarray(DENSITY_DECAY_LENGTH * (before[nearest] + beside))

@@ -1,4 +1,4 @@
-"""The gap between the walls, along the sliding direction: what every model of a line scene solves on."""
+"""The gap between two walls along the sliding direction."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -10,18 +10,18 @@ from roughfilm.contact.foundation.arrays import Array
 class Gap:
     """One period of a gap h(x), smooth on each piece between neighbouring ``breaks``.
 
-    The upper wall is flat at y = ``film`` and slides; the lower one stands still at y = ``film`` - h(x).
+    The upper wall is flat at y = ``film`` and slides; the lower one is fixed at y = ``film`` - h(x).
 
     Parameters
     ----------
     film
         Film thickness where the walls are parallel, m; the unit of length inside the solvers.
     breaks
-        Where h or a derivative of it is not smooth, from one end of the period to the other, m, increasing.
+        Positions at which h or a derivative is not smooth, and both ends of the period, m, increasing.
     corners
-        Those breaks where the slope of h jumps, m; the end of the period, which is also its start, counts as its start.
+        The breaks at which the slope of h jumps, m; the start stands for both ends of the period.
     thickness
-        h(x), m, for x in m; vectorised; periodic over ``length``.
+        Film thickness h(x), m, for x in m; vectorised; periodic over ``length``.
     """
 
     film: float

@@ -1,4 +1,4 @@
-"""One period of a film and the grooves in its still wall, as a scene file writes them."""
+"""The scene entries of one period of a film with grooves in its fixed wall."""
 
 from itertools import pairwise
 from typing import Annotated, Any, Literal, Self
@@ -17,24 +17,25 @@ from roughfilm.rom.pocket import groove
 from roughfilm.rom.pocket.gap import Gap
 from roughfilm.rom.pocket.profile import Points, checked
 
-MOST_GROOVES = 100
+MAX_GROOVES = 100
+"""Largest number of grooves in a period."""
 
 
 class _Placed(Part):
-    """A groove that lies at ``position``, counted from the middle of the period, m."""
+    """A groove at ``position``, m from the middle of the period."""
 
     position: Coordinate = 0.0
 
 
 class _Drawn(_Placed):
-    """A groove of given width, its middle at ``position``, and given depth, m."""
+    """A groove of given width and depth, m, with its middle at ``position``."""
 
     width: Length
     depth: Length
 
     @property
     def span(self) -> tuple[float, float]:
-        """Where it begins and ends, m from the middle of the period."""
+        """Its start and end, m from the middle of the period."""
         return self.position - self.width / 2, self.position + self.width / 2
 
     @property
@@ -44,7 +45,7 @@ class _Drawn(_Placed):
 
 
 class Cylindrical(_Drawn):
-    """A circular arc through both edges."""
+    """A groove that is a circular arc through both edges."""
 
     profile: Literal["cylindrical"]
 
@@ -58,12 +59,12 @@ class Cylindrical(_Drawn):
         return self
 
     def shape(self) -> groove.Groove:
-        """Its depth along the wall."""
+        """The depth along the wall."""
         return groove.cylindrical(width=self.width, depth=self.depth)
 
 
 class Splined(_Drawn):
-    """Two cubics, level at the edges and at the lowest point, which lies ``shift`` ahead of the middle, m."""
+    """A groove of two cubics with zero slope at the edges and at the lowest point, ``shift`` ahead of the middle, m."""
 
     profile: Literal["splined"]
     shift: Coordinate = 0.0
@@ -83,7 +84,7 @@ class Splined(_Drawn):
         return self.depth / (self.width / 2 - abs(self.shift))
 
     def shape(self) -> groove.Groove:
-        """Its depth along the wall."""
+        """The depth along the wall."""
         return groove.splined(width=self.width, depth=self.depth, shift=self.shift)
 
 
@@ -95,17 +96,17 @@ class Through(_Placed):
 
     @property
     def span(self) -> tuple[float, float]:
-        """Where it begins and ends, m from the middle of the period."""
+        """Its start and end, m from the middle of the period."""
         return self.position + self.points[0][0], self.position + self.points[-1][0]
 
     @property
     def width(self) -> float:
-        """From the first point to the last, m."""
+        """Distance of the first and the last point, m."""
         return self.points[-1][0] - self.points[0][0]
 
     @property
     def depth(self) -> float:
-        """That of the deepest point, m."""
+        """Depth of the deepest point, m."""
         return max(depth for _, depth in self.points)
 
     @property
@@ -116,7 +117,7 @@ class Through(_Placed):
         return self.depth / min(lowest - first, last - lowest)
 
     def shape(self) -> groove.Groove:
-        """Its depth along the wall."""
+        """The depth along the wall."""
         return groove.through(points=self.points)
 
 
@@ -125,9 +126,9 @@ PROFILES: dict[str, type[Part]] = {"cylindrical": Cylindrical, "splined": Spline
 
 
 class PocketGeometry(Part):
-    """One period of a channel whose still lower wall has grooves; lengths in m.
+    """One period of a channel whose fixed lower wall has grooves; lengths in m.
 
-    The keys of a single groove may stand beside ``length`` and ``film``, and are written back there.
+    The keys of a single groove may stand beside ``length`` and ``film``; they are then written there too.
     """
 
     length: Length
@@ -145,8 +146,8 @@ class PocketGeometry(Part):
             keys = " and ".join(single)
             raise ValueError(f"got {keys} beside grooves; give either one groove in geometry or geometry.grooves")
         grooves = entries.get("grooves", [single])
-        if not isinstance(grooves, list | tuple) or not 1 <= len(grooves) <= MOST_GROOVES:
-            raise ValueError(f"grooves: got {grooves!r:.60}; write 1 to {MOST_GROOVES} tables [[geometry.grooves]]")
+        if not isinstance(grooves, list | tuple) or not 1 <= len(grooves) <= MAX_GROOVES:
+            raise ValueError(f"grooves: got {grooves!r:.60}; write 1 to {MAX_GROOVES} tables [[geometry.grooves]]")
         return {**own, "grooves": [{"profile": "cylindrical", **g} if isinstance(g, dict) else g for g in grooves]}
 
     @model_serializer(mode="wrap")
@@ -183,7 +184,7 @@ class PocketGeometry(Part):
         return self
 
     def gap(self) -> Gap:
-        """The gap that the grooves leave open."""
+        """The gap between the grooved wall and the sliding one."""
         grooves = [(one.position, one.shape()) for one in self.grooves]
         return groove.channel(length=self.length, film=self.film, grooves=grooves)
 

@@ -1,4 +1,4 @@
-"""Shapes of a groove, and the channel whose lower wall has some of them."""
+"""Shapes of grooves, and the gap of a channel with grooves in its lower wall."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -9,21 +9,21 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.pocket.gap import Gap
 
 SAME_PLACE = 1e-9
-"""Places nearer than this part of the period are one."""
+"""Distance over the period below which two positions are equal."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Groove:
-    """How much deeper than the film a wall lies along s, the distance from the groove's position in m.
+    """Depth of a groove along s, the distance from its position, m.
 
     Parameters
     ----------
     breaks
-        Where the depth or a derivative of it is not smooth, from one edge to the other, m, increasing.
+        Positions at which the depth or a derivative is not smooth, from one edge to the other, m, increasing.
     corners
-        Those breaks where its slope jumps, m.
+        The breaks at which its slope jumps, m.
     depth
-        d(s) >= 0, m, zero outside the edges; vectorised.
+        Depth d(s) >= 0, m, zero outside the edges; vectorised.
     """
 
     breaks: tuple[float, ...]
@@ -32,13 +32,13 @@ class Groove:
 
 
 def cylindrical(*, width: float, depth: float) -> Groove:
-    """Groove whose wall is a circular arc through its two edges, in m; 0 < depth <= width / 2 (a half circle).
+    """A groove whose wall is a circular arc through its two edges, in m; 0 < depth <= width / 2 (a half circle).
 
     With R = (w²/4 + d²) / 2d the radius of the arc,
 
         d(s) = sqrt(R² - s²) - (R - d)   for |s| < w/2,
 
-    computed as (w²/4 - s²) / (sqrt(R² - s²) + R - d), which has no cancellation for shallow grooves.
+    computed as (w²/4 - s²) / (sqrt(R² - s²) + R - d) to avoid cancellation in shallow grooves.
     Source: Sahlin et al. 2005, doi:10.1115/1.1828067, Fig. 1.
 
     Examples
@@ -60,11 +60,11 @@ def cylindrical(*, width: float, depth: float) -> Groove:
 
 
 def splined(*, width: float, depth: float, shift: float) -> Groove:
-    """Groove of two cubics, level at both edges and at the lowest point, which lies at s = ``shift``; all in m.
+    """A groove of two cubics with zero slope at both edges and at the lowest point s = ``shift``; lengths in m.
 
-        d(s) = d (3t² - 2t³),   t from 0 at an edge to 1 at the lowest point,
+        d(s) = d (3t² - 2t³),   t from 0 at an edge to 1 at the lowest point.
 
-    so the slope is continuous everywhere. |shift| < width / 2; a positive one lies in the sliding direction.
+    The slope is continuous. |shift| < width / 2; it is positive in the sliding direction.
     Source: Sahlin et al. 2005, doi:10.1115/1.1828067, Fig. 1.
     """
 
@@ -76,9 +76,9 @@ def splined(*, width: float, depth: float, shift: float) -> Groove:
 
 
 def through(*, points: Sequence[tuple[float, float]]) -> Groove:
-    """Groove through points (s, depth) in m, at least three, s increasing, the first and the last depth 0.
+    """A groove through three or more points (s, depth) in m, with s increasing, and depth 0 first and last.
 
-    Between them lie monotone cubics with continuous slope, so no depth exceeds those of its neighbouring points.
+    Monotone cubics with continuous slope connect the points, so no depth exceeds those of the neighbouring points.
     Source: Fritsch and Butland 1984, doi:10.1137/0905021.
     """
     from scipy.interpolate import PchipInterpolator  # slow to import
@@ -96,11 +96,11 @@ def through(*, points: Sequence[tuple[float, float]]) -> Groove:
 
 
 def channel(*, length: float, film: float, grooves: Sequence[tuple[float, Groove]]) -> Gap:
-    """One period -length/2 .. length/2 of a film with grooves at the given positions, all in m.
+    """The gap of one period -length/2 .. length/2 of a film with grooves at the given positions, in m.
 
         h(x) = film + Σ d(x - position).
 
-    The grooves may touch each other and the ends of the period.
+    The grooves may touch each other and the ends of the period, but not overlap.
 
     Examples
     --------
@@ -121,7 +121,7 @@ def channel(*, length: float, film: float, grooves: Sequence[tuple[float, Groove
             breaks.append(place)
 
     def nearest(place: float) -> float:
-        return min(breaks, key=lambda kept: min(abs(place - kept), abs(place - kept - length)))
+        return min(breaks, key=lambda other: min(abs(place - other), abs(place - other - length)))
 
     corners = {nearest(position + s) for position, groove in grooves for s in groove.corners}
     return Gap(film=film, breaks=(*breaks, length / 2), corners=tuple(sorted(corners)), thickness=thickness)

@@ -1,4 +1,4 @@
-"""Pockets: load and friction of a film over grooves."""
+"""The kind of scene ``pocket``: load and friction of a film over grooves."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -12,16 +12,16 @@ from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.ladder.kind import Kind
 from roughfilm.rom.ladder.scene import scene_entries
 from roughfilm.rom.ladder.sweeping import Columns, Sweeping
-from roughfilm.rom.pocket.error_law import words
+from roughfilm.rom.pocket.error_law import product_text
 from roughfilm.rom.pocket.geometry import PROFILES, PocketGeometry
 from roughfilm.rom.pocket.models.inertial_reynolds import MODEL as INERTIAL_REYNOLDS
 from roughfilm.rom.pocket.scene import Pocket
 
-LOADED = 0.05
-"""A smaller load, over the greatest pressure, is the difference of two larger ones; its error follows no number."""
+MIN_JUDGED_LOAD = 0.05
+"""Load over the largest pressure below which load is a difference of larger numbers, and its error has no law."""
 
-LEAST_LOAD = 1e-3
-"""A load below this part of the greatest pressure is no load to divide by; the pressure is taken instead."""
+MIN_LOAD_SCALE = 1e-3
+"""Load over the largest pressure below which errors are relative to the pressure."""
 
 RATIOS = {
     "film_plus": ("film", "length"),
@@ -29,25 +29,25 @@ RATIOS = {
     "depth_plus": ("depth", "film"),
     "shift_plus": ("shift", "width"),
 }
-"""The dimensionless numbers of a groove and the lengths they divide: w+, d+ and xd+ of doi:10.1115/1.1828067."""
+"""The dimensionless numbers of a groove as ratios of lengths: w+, d+ and xd+ of doi:10.1115/1.1828067."""
 
 
-def greatest_pressure(values: Mapping[str, Any]) -> Any:
-    """The greatest pressure by size, p+; a number or the shape of the values."""
+def largest_pressure(values: Mapping[str, Any]) -> Any:
+    """The largest magnitude of the pressure p+, a number or of the shape of the values."""
     return np.maximum(np.abs(values["pressure_max_plus"]), np.abs(values["pressure_min_plus"]))
 
 
 def scale(values: Mapping[str, Any], quantity: str) -> Any:
-    """The size of a quantity, or the greatest pressure where there is hardly any load."""
+    """The magnitude of a quantity, or the largest pressure if the load is negligible."""
     size = np.abs(values[quantity])
     if quantity != "load_plus":
         return size
-    pressure = greatest_pressure(values)
-    return np.where(size > LEAST_LOAD * pressure, size, pressure)
+    pressure = largest_pressure(values)
+    return np.where(size > MIN_LOAD_SCALE * pressure, size, pressure)
 
 
 def columns(scene: Pocket) -> dict[str, Quantity | str]:
-    """The shape of the groove and its dimensionless numbers, where there is one groove, and the Reynolds number."""
+    """The Reynolds number, and for a single groove its shape and dimensionless numbers."""
     geometry = scene_entries(scene)["geometry"]
     ratios = {
         plus: float(f"{_length(geometry[one]) / _length(geometry[other]):.12g}")
@@ -62,7 +62,7 @@ def columns(scene: Pocket) -> dict[str, Quantity | str]:
 
 
 def features(given: Columns) -> dict[str, NDArray[Any]]:
-    """Re, d/Ly, 2d/w, and the mean slope of the steeper side; ``given`` as in :func:`columns`."""
+    """The numbers Re, d/Ly, 2d/w and mean slope of the steeper side, from :func:`columns` of many scenes."""
     width, depth = given["width_plus"] / given["film_plus"], given["depth_plus"]
     return {
         "reynolds_number": given["reynolds_number"],
@@ -73,8 +73,8 @@ def features(given: Columns) -> dict[str, NDArray[Any]]:
 
 
 def worth(values: Columns) -> NDArray[np.bool_]:
-    """Which cases carry a load above ``LOADED`` of the greatest pressure."""
-    return np.asarray(np.abs(values["load_plus"]) > LOADED * greatest_pressure(values))
+    """Whether each case has a load above ``MIN_JUDGED_LOAD`` times the largest pressure."""
+    return np.asarray(np.abs(values["load_plus"]) > MIN_JUDGED_LOAD * largest_pressure(values))
 
 
 NUMBERS = {
@@ -87,18 +87,15 @@ NUMBERS = {
     "asymmetry": "2|s|/w",
     "loaded": "load/p_max",
 }
-"""How people write the numbers: h the film, L its period, w, d and s a groove's width, depth and shift."""
+"""Symbols of the numbers: h is the film, L its period; w, d and s are width, depth and shift of a groove."""
 
-LEAST_ASYMMETRY = 1e-3
-"""Of a groove whose lowest point is in the middle."""
+MIN_ASYMMETRY = 1e-3
+"""The asymmetry of a symmetric groove."""
 
 
 def numbers(scene: Pocket) -> dict[str, float]:
-    """Of several grooves the deepest, narrowest and steepest count.
-
-    Load over greatest pressure is told to first order in Re; where it is small, load is the difference of larger ones.
-    """
-    told = first_order(scene)
+    """The dimensionless numbers of the deepest, narrowest and steepest grooves, with load to first order in Re."""
+    values = first_order(scene)
     return {
         "reynolds_number": scene.reynolds_number,
         "reduced_reynolds_number": scene.reduced_reynolds_number,
@@ -106,15 +103,14 @@ def numbers(scene: Pocket) -> dict[str, float]:
         "depth": scene.depth,
         "aspect": scene.aspect,
         "slope": scene.slope,
-        "asymmetry": max(1 - scene.aspect / scene.slope, LEAST_ASYMMETRY),
-        "loaded": max(abs(told["load_plus"]) / greatest_pressure(told), LEAST_LOAD),
+        "asymmetry": max(1 - scene.aspect / scene.slope, MIN_ASYMMETRY),
+        "loaded": max(abs(values["load_plus"]) / largest_pressure(values), MIN_LOAD_SCALE),
     }
 
 
 def first_order(scene: Pocket) -> dict[str, float]:
-    """What the Reynolds equation with first-order inertia says, in closed form."""
-    found = INERTIAL_REYNOLDS.solve(scene)
-    return {name: quantity.value for name, quantity in found.quantities.items()}
+    """The quantities of the Reynolds equation with first-order inertia."""
+    return {name: quantity.value for name, quantity in INERTIAL_REYNOLDS.solve(scene).quantities.items()}
 
 
 def _length(text: str) -> float:
@@ -122,7 +118,7 @@ def _length(text: str) -> float:
 
 
 def _location(path: Location, entries: Mapping[str, Any]) -> tuple[list[int | str], str | None]:
-    """Where a fault stands in the file, and the profile of the groove that it is in, if it is in one."""
+    """The location of a fault in the file, and the profile of its groove; None outside of grooves."""
     location = list(path)
     if location[:2] != ["geometry", "grooves"] or len(location) < 3:
         return location, None
@@ -132,8 +128,8 @@ def _location(path: Location, entries: Mapping[str, Any]) -> tuple[list[int | st
     return location, profile
 
 
-def told(error: ValidationError, entries: Mapping[str, Any]) -> str:
-    """The first fault in one line; keys of a groove are known by its profile."""
+def first_fault(error: ValidationError, entries: Mapping[str, Any]) -> str:
+    """The first fault in one line, with the keys of the groove's profile."""
     fault = sorted(error.errors(include_url=False), key=lambda fault: fault["type"] != "extra_forbidden")[0]
     _, profile = _location(fault["loc"], entries)
 
@@ -164,7 +160,7 @@ KIND = Kind(
         "motion.reynolds_number": ("speed",),
         "geometry.points": ("width", "depth", "shift"),
     },
-    told=told,
+    told=first_fault,
     sweeping=Sweeping(
         given={
             "profile": None,
@@ -190,6 +186,6 @@ KIND = Kind(
             "2d²/(w Ly)": {"depth": 1, "aspect": 1},
         },
         fitted=("reynolds_number", "depth", "aspect"),
-        words=words,
+        words=product_text,
     ),
 )

@@ -1,4 +1,4 @@
-"""Linear systems on a ring of cells, each coupled to a few neighbours on both sides."""
+"""Linear systems on a periodic row of cells, each coupled to a few neighbours on both sides."""
 
 import numpy as np
 
@@ -6,24 +6,29 @@ from roughfilm.contact.foundation.arrays import Array
 
 
 def solve(blocks: Array, right: Array) -> Array:
-    """Solve Σ_o blocks[i, r + o] x[i + o] = right[i], o = -r .. r, with i + o taken round the ring.
+    """Solve Σ_o blocks[i, r + o] x[i + o] = right[i], o = -r .. r, with i + o modulo the number of cells.
 
     Parameters
     ----------
     blocks
-        Shape (cells, 2r + 1, n, n), with at least 2r + 1 cells.
+        Matrix blocks, shape (cells, 2r + 1, n, n), with at least 2r + 1 cells.
     right
-        Shape (cells, n, k): k right-hand sides.
+        Right-hand sides, shape (cells, n, k).
 
     Returns
     -------
     array
-        Shape (cells, n, k).
+        Solutions x, shape (cells, n, k).
+
+    Raises
+    ------
+    LinAlgError
+        If the system without the coupling of the last cell to the first is singular.
 
     Notes
     -----
-    The ring is cut between the last cell and the first: a banded elimination with partial pivoting, and the cut
-    coupling put back by the Woodbury identity. Raises LinAlgError where the cut system is singular.
+    Banded elimination with partial pivoting solves the system without the periodic coupling, which the Woodbury
+    identity adds.
     """
     from scipy.linalg import solve_banded  # slow to import, and most commands do without
 

@@ -1,4 +1,4 @@
-"""Integrals and primitives of functions that are smooth on each piece of an interval, to spectral accuracy."""
+"""Spectrally accurate integrals of functions that are smooth on each piece of an interval."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -10,11 +10,11 @@ from roughfilm.contact.foundation.arrays import Array
 
 
 @dataclass(frozen=True, kw_only=True)
-class Rule:
-    """What integrates polynomials of degree < n exactly on (-1, 1), from their values at n Gauss points.
+class GaussRule:
+    """Gauss-Legendre rule on (-1, 1) with n nodes, exact for polynomials of degree < 2n.
 
-    ``primitive`` @ f is the integral from -1 to each node, ``derivative`` @ f the slope there; ``check`` @ f is the
-    interpolant at ``check_nodes``, which lie between the nodes, with ``check_weights``.
+    ``primitive`` @ f is the integral from -1 to each node and ``derivative`` @ f the slope there, exact for degrees
+    below n. ``check`` @ f is the interpolant at ``check_nodes`` between the nodes, which have ``check_weights``.
     """
 
     nodes: Array
@@ -27,14 +27,14 @@ class Rule:
 
 
 @lru_cache(maxsize=16)
-def gauss_rule(order: int) -> Rule:
-    """The Gauss-Legendre rule with ``order`` nodes; error of an analytic integrand falls geometrically with it."""
+def gauss_rule(order: int) -> GaussRule:
+    """The rule with ``order`` nodes; for analytic integrands its error decreases geometrically with their number."""
     nodes, weights = legendre.leggauss(order)
     degree = np.arange(order)
     to_series = (legendre.legvander(nodes, order - 1) * weights[:, None]).T * (degree[:, None] + 0.5)
     primitives = legendre.legint(np.eye(order), lbnd=-1)
     check_nodes, check_weights = legendre.leggauss(order + 1)
-    return Rule(
+    return GaussRule(
         nodes=nodes,
         weights=weights,
         primitive=np.asarray(legendre.legval(nodes, primitives).T @ to_series),
@@ -46,26 +46,23 @@ def gauss_rule(order: int) -> Rule:
 
 
 def extrema(x: Array, value: Array, gradient: Array) -> tuple[float, float]:
-    """Least and greatest value of the C¹ cubic Hermite interpolant through the nodes of each piece.
+    """The minimum and maximum of the C¹ cubic Hermite interpolant through the nodes of each piece.
+
+    The error is of fourth order in the node distance.
 
     Parameters
     ----------
     x, value, gradient
-        Shape (pieces, nodes): positions (increasing), values and exact derivatives.
-
-    Notes
-    -----
-    Fourth order in the node distance.
+        Increasing positions, values and exact derivatives, shape (pieces, nodes).
     """
     step = np.diff(x, axis=1)
     left, right = value[:, :-1], value[:, 1:]
     g0, g1 = gradient[:, :-1] * step, gradient[:, 1:] * step
-    turns = g0 * g1 < 0
-    y0, rise, g0, g1 = left[turns], (right - left)[turns], g0[turns], g1[turns]
+    inner = g0 * g1 < 0
+    y0, rise, g0, g1 = left[inner], (right - left)[inner], g0[inner], g1[inner]
     # derivative of the Hermite cubic on 0..1: g0 + 2 b t + 3 c t²
     b, c = 3 * rise - 2 * g0 - g1, g0 + g1 - 2 * rise
     root = np.sqrt(np.maximum(b**2 - 3 * c * g0, 0))
     t = -g0 / (b + np.where(g0 > 0, -root, root))
-    turned = y0 + t * (g0 + t * (b + t * c))
-    candidates = np.concatenate([value.ravel(), turned])
+    candidates = np.concatenate([value.ravel(), y0 + t * (g0 + t * (b + t * c))])
     return float(candidates.min()), float(candidates.max())

@@ -1,4 +1,4 @@
-"""Pressure, load and friction of a film by exact quadrature over one period of the gap."""
+"""Pressure, load and friction of a film by quadrature over one period of the gap."""
 
 import time
 from collections.abc import Callable
@@ -17,26 +17,36 @@ from roughfilm.rom.ladder.result import Field, Numerics, Result
 from roughfilm.rom.pocket import closed_form as film_flow
 from roughfilm.rom.pocket.error_law import ErrorLaw
 from roughfilm.rom.pocket.gap import Gap
-from roughfilm.rom.pocket.piecewise import Rule, extrema, gauss_rule
+from roughfilm.rom.pocket.piecewise import GaussRule, extrema, gauss_rule
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
 from roughfilm.rom.pocket.validity import cautions
 
-RESOLUTION = 24
-RESOLUTIONS = (2, 3, 4, 6, 8, 12, 16, 24)
-COARSEST, FINEST = 2, 768
-TOLERANCE = 1e-7
+DEFAULT_NODES = 24
+"""Default number of Gauss points on each smooth piece of the gap."""
+
+NODE_SERIES = (2, 3, 4, 6, 8, 12, 16, 24)
+"""Numbers of Gauss points of a convergence study."""
+
+MIN_NODES = 2
+"""Smallest number of Gauss points."""
+
+MAX_NODES = 768
+"""Largest number of Gauss points."""
+
+RESIDUAL_TOLERANCE = 1e-7
+"""Default tolerance of the residual."""
+
 RESOLUTION_MEANING = "Gauss points on each smooth piece of the gap"
 RESIDUAL_MEANING = "mean mismatch of dp/dx between the nodes, relative to its mean size"
 
 
 @dataclass(frozen=True, kw_only=True)
 class _Film:
-    """The gap sampled for a rule, shape (pieces, nodes), in film thicknesses."""
+    """The gap h at the nodes x, shape (pieces, nodes), and half the length of each piece, in film thicknesses."""
 
     x: Array
     h: Array
     half: Array
-    """Half the length of each piece, shape (pieces, 1)."""
 
 
 def _sample(gap: Gap, nodes: Array) -> _Film:
@@ -46,8 +56,8 @@ def _sample(gap: Gap, nodes: Array) -> _Film:
     return _Film(x=x / gap.film, h=gap.thickness(x) / gap.film, half=half / gap.film)
 
 
-def _flow_and_residual(gap: Gap, film: _Film, rule: Rule) -> tuple[float, float]:
-    """The flow that closes the pressure, and how far the interpolated gradient is off between the nodes."""
+def _flow_and_residual(gap: Gap, film: _Film, rule: GaussRule) -> tuple[float, float]:
+    """The flow of periodic pressure, and the relative error of the interpolated gradient between the nodes."""
     weights = film.half * rule.weights
     q = float((weights / film.h**2).sum() / (2 * (weights / film.h**3).sum()))
     between = _sample(gap, rule.check_nodes)
@@ -61,16 +71,16 @@ def _flow_and_residual(gap: Gap, film: _Film, rule: Rule) -> tuple[float, float]
 def solve(
     solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progress: Progress, *, law: ErrorLaw | None
 ) -> Result:
-    """Solve dp/dx = 6/h² - 12 q/h³ (+ first-order inertia if it is kept) for a periodic gap.
+    """Solve dp/dx = 6/h² - 12 q/h³, plus first-order inertia if the model has it, for a periodic gap.
 
-    The flow q = ∫h⁻² dx / 2 ∫h⁻³ dx closes the pressure over the period. Without a given resolution, the
-    number of nodes is doubled from 24 until the residual meets the tolerance (1e-7 by default); at a given one a
-    residual that misses it is a warning.
+    The flow q = ∫h⁻² dx / 2 ∫h⁻³ dx makes the pressure periodic. Without a requested resolution the number of nodes is
+    doubled from 24 until the residual meets the tolerance (1e-7 by default). At a requested resolution a larger
+    residual is a warning.
 
     Raises
     ------
     ConvergenceError
-        If the finest rule does not meet the tolerance.
+        If the residual of the finest rule exceeds the tolerance.
     """
     wall, cpu = time.perf_counter(), time.process_time()
     model, keeps, sources = solver.name, solver.keeps, solver.sources
@@ -84,7 +94,7 @@ def solve(
         q, residual = _flow_and_residual(gap, film, rule)
         if request.asked.resolution is not None or residual <= tolerance:
             break
-        if order >= FINEST:
+        if order >= MAX_NODES:
             raise ConvergenceError(
                 f"{model}: residual {residual:.1e} at {order} nodes on a piece misses the tolerance {tolerance:.1e}; "
                 "loosen the tolerance or make the groove shallower"
@@ -99,7 +109,7 @@ def solve(
     across = film.half * (gradient @ rule.weights)[:, None]
     start = np.vstack([[0.0], np.cumsum(across)[:-1, None]])
     pressure = start + film.half * (gradient @ rule.primitive.T)
-    ends = start.ravel()  # pressure at the left end of each piece
+    ends = start.ravel()  # pressure at the left end of every piece
     if reynolds_number:
         ends = ends + reynolds_number * film_flow.inertia_pressure(
             gap.thickness(np.array(gap.breaks[:-1])) / gap.film, q
@@ -147,15 +157,15 @@ def solve(
 def quadrature_model(
     *, applies: Callable[[Pocket], Applicability], law: ErrorLaw | None = None, **about: Unpack[About]
 ) -> Model[Pocket]:
-    """A model that solves by quadrature; its cost is that of the default rule (a half circle takes seconds)."""
+    """A model that uses quadrature; the cost is that of the default rule (a half circle takes seconds)."""
     return Model(
         **about,
         kind="pocket",
-        resolutions=Resolutions(least=COARSEST, most=FINEST, default=RESOLUTION, series=RESOLUTIONS),
+        resolutions=Resolutions(least=MIN_NODES, most=MAX_NODES, default=DEFAULT_NODES, series=NODE_SERIES),
         resolution_meaning=RESOLUTION_MEANING,
         residual_meaning=RESIDUAL_MEANING,
         order=None,
-        tolerance=TOLERANCE,
+        tolerance=RESIDUAL_TOLERANCE,
         tolerances=(1e-300, 1.0),
         cost=lambda _scene, resolution: 2e-4 + 1e-7 * resolution**2,
         applies=applies,

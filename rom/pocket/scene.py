@@ -1,4 +1,4 @@
-"""A pocket: grooves under a sliding wall."""
+"""The scene of a pocket: grooves under a sliding wall."""
 
 from typing import Annotated, Literal, Self
 
@@ -15,15 +15,15 @@ Density = Annotated[float, InUnit("kg/m^3")]
 Speed = Annotated[float, InUnit("m/s")]
 
 
-class Lubricant(Part):
-    """A Newtonian, incompressible liquid: viscosity in Pa s, density in kg/m³."""
+class NewtonianLubricant(Part):
+    """An incompressible Newtonian liquid: viscosity in Pa s, density in kg/m³."""
 
     viscosity: Viscosity
     density: Density
 
 
-class Motion(Part):
-    """How fast the upper wall slides: its speed in m/s, or the Reynolds number that gives it; exactly one."""
+class PocketMotion(Part):
+    """The speed of the upper wall, m/s, or the Reynolds number from which it follows."""
 
     speed: Speed | None = None
     reynolds_number: PositiveNumber | None = None
@@ -31,29 +31,29 @@ class Motion(Part):
     @model_validator(mode="after")
     def _one_of_two(self) -> Self:
         if (self.speed is None) == (self.reynolds_number is None):
-            found = "neither" if self.speed is None else "both"
-            raise ValueError(f"got {found} of speed and reynolds_number; give exactly one")
+            given = "neither" if self.speed is None else "both"
+            raise ValueError(f"got {given} of speed and reynolds_number; give exactly one")
         return self
 
 
 class Pocket(Scene):
-    """A groove under a sliding wall: steady, isothermal, incompressible, periodic, no mean pressure drop.
+    """Grooves under a sliding wall: steady, isothermal, incompressible, periodic flow without mean pressure drop.
 
-    ``fields`` of its results, all along the sliding (upper) wall: ``position``, ``film_thickness`` (m), ``pressure``
-    and ``shear_stress`` (Pa). Models that resolve the film add ``vertices`` (nx+1, ny+1, 2), ``cell_velocity``
-    (nx, ny, 2) and ``cell_pressure`` (nx, ny).
+    The fields of a result along the sliding (upper) wall are ``position`` and ``film_thickness``, m, ``pressure`` and
+    ``shear_stress``, Pa. Models that resolve the film add ``vertices`` (nx+1, ny+1, 2), ``cell_velocity`` (nx, ny, 2)
+    and ``cell_pressure`` (nx, ny).
     """
 
     kind: Literal["pocket"]
     geometry: PocketGeometry
-    lubricant: Lubricant
-    motion: Motion
+    lubricant: NewtonianLubricant
+    motion: PocketMotion
 
     @model_validator(mode="after")
     def _reynolds_number_stays_in_range(self) -> Self:
         if not 1e-12 <= self.reynolds_number <= 1e12:
             raise ValueError(
-                f"motion: got Reynolds number {self.reynolds_number:.3g}; it must be 1e-12 to 1e12, look at the units"
+                f"motion: got Reynolds number {self.reynolds_number:.3g}; it must be 1e-12 to 1e12, check the units"
             )
         return self
 
@@ -67,19 +67,19 @@ class Pocket(Scene):
 
     @property
     def reynolds_number(self) -> float:
-        """Re = ρ u Ly / η, with Ly the film thickness outside the groove."""
+        """The Reynolds number Re = ρ u Ly / η, with Ly the film thickness outside the groove."""
         if self.motion.reynolds_number is not None:
             return self.motion.reynolds_number
         return self.lubricant.density * self.speed * self.geometry.film / self.lubricant.viscosity
 
     @property
     def pressure_unit(self) -> float:
-        """η u / Ly, Pa: the unit of pressure and shear stress inside the solvers."""
+        """The unit of pressure and shear stress inside the solvers, η u / Ly, Pa."""
         return self.lubricant.viscosity * self.speed / self.geometry.film
 
     @property
     def plus_factor(self) -> float:
-        """What turns p / (η u / Ly) into the thesis's p+ = 100 p Ly² / (η u Lx)."""
+        """The ratio of the thesis's p+ = 100 p Ly² / (η u Lx) to p / (η u / Ly)."""
         return 100 * self.geometry.film / self.geometry.length
 
     @property
@@ -89,7 +89,7 @@ class Pocket(Scene):
 
     @property
     def reduced_reynolds_number(self) -> float:
-        """Re Ly / w of the narrowest groove: inertia against viscous stress where the film changes fastest."""
+        """The ratio of inertia to viscous stress at the narrowest groove, Re Ly / w."""
         return self.reynolds_number * self.geometry.film / min(groove.width for groove in self.grooves)
 
     @property
@@ -99,16 +99,16 @@ class Pocket(Scene):
 
     @property
     def aspect(self) -> float:
-        """2d / w of the groove where it is greatest: its mean slope if the lowest point is in the middle."""
+        """The largest 2d / w of the grooves: the mean slope of a symmetric one."""
         return max(2 * groove.depth / groove.width for groove in self.grooves)
 
     @property
     def slope(self) -> float:
-        """Mean slope of the steepest groove, from its lowest point to the nearer edge: 2d / w if it is symmetric."""
+        """Mean slope of the steepest groove from its lowest point to the nearer edge; 2d / w if it is symmetric."""
         return max(groove.slope for groove in self.grooves)
 
     def gap(self) -> Gap:
-        """The gap this scene's geometry leaves open."""
+        """The gap between the walls."""
         return self.geometry.gap()
 
 
@@ -117,8 +117,8 @@ def pocket_quantities(
 ) -> dict[str, Quantity]:
     """The quantities of a pocket scene from forces per area and pressures in units of η u / Ly.
 
-    p+ = 100 p Ly² / (η u Lx) with p = 0 at the periodic boundary; load and friction likewise, per area of the sliding
-    wall, so that smooth parallel walls have friction_plus = 100 Ly / Lx. ``backflow`` is a fraction of the speed.
+    p+ = 100 p Ly² / (η u Lx) with p = 0 at the periodic boundary. Load and friction have the same scale, per area of
+    the sliding wall, so that smooth parallel walls have friction_plus = 100 Ly / Lx. ``backflow`` is a speed ratio.
     """
     plus, pascal = scene.plus_factor, scene.pressure_unit
     return {

@@ -1,17 +1,17 @@
-r"""What the walls' slope adds to a thin-film flow, to second order, as forces on its cells.
+r"""The second-order effect of the walls' slope on a thin-film flow, as forces on its cells.
 
-Against the full Navier-Stokes equations a thin film leaves out the stress that its own velocity (u, v) causes along the
-film: with y upward, M = ∫_y^1 u v dy, and pressure across the film from the momentum in y,
+Compared with the Navier-Stokes equations, the thin-film equations neglect the stress that the velocity (u, v) causes
+along the film. With y upward, M = ∫_y^1 u v dy, and the pressure across the film from the momentum in y, it is
 
     T = 2 ∂u/∂x + Re v² - Re ∂M/∂x.
 
 Its divergence ∂T/∂x is tested with the φ_k and integrated by parts, so that no second derivative of the wall is needed.
-Where the wall has a corner the thin film's v jumps; in truth a disturbance dies away from its source as the slowest
-mode that vanishes on both walls does, over h / π. T is smoothed over that length:
+At a corner of the wall the thin film's v jumps, whereas a disturbance really decays over the length h / π of the
+slowest mode that vanishes on both walls. T is therefore smoothed over that length:
 
-    T - (h/π)² ∂²T/∂x² = T of the thin film,
+    T - (h/π)² ∂²T/∂x² = T of the thin film.
 
-which changes nothing of second order where the wall is smooth.
+Where the wall is smooth this has no effect of second order.
 """
 
 import numpy as np
@@ -21,12 +21,12 @@ from roughfilm.rom.pocket import periodic_solve as ring
 from roughfilm.rom.pocket.basis import Basis
 from roughfilm.rom.pocket.thin_film import Flow, Strip, all_amplitudes, stream_function, velocity
 
-REACH = 1 / np.pi
-"""How far a disturbance reaches along the film, in film thicknesses: the slowest mode is sin(πY) exp(-πx/h)."""
+DECAY_LENGTH = 1 / np.pi
+"""Decay length of a disturbance along the film, in film thicknesses: the slowest mode is sin(πY) exp(-πx/h)."""
 
 
 def velocities(film: Strip, across: Basis, state: Flow) -> tuple[Array, Array]:
-    """Velocity u along and v across the film in each cell, shape (cells, points); v = -∂ψ/∂x at constant y."""
+    """The velocity u along and v = -∂ψ/∂x across the film in each cell, shape (cells, points)."""
     u = velocity(film, across, state)
     psi = stream_function(film, across, state)
     rise = (np.roll(psi, -1, axis=0) - psi) / film.lengths[:, None]
@@ -34,7 +34,7 @@ def velocities(film: Strip, across: Basis, state: Flow) -> tuple[Array, Array]:
 
 
 def imbalance(film: Strip, across: Basis, reynolds_number: float, state: Flow) -> Array:
-    """-∫∫ φ_k ∂T/∂x dy dx of every cell, shape (cells, n): to be answered by :func:`rom.pocket.thin_film.step`."""
+    """The imbalance -∫∫ φ_k ∂T/∂x dy dx of every cell, shape (cells, n), for :func:`rom.pocket.thin_film.step`."""
     u, v = velocities(film, across, state)
     below, slope = 1 - across.nodes, _wall_slope(film)[:, None]
     h, between = film.thickness[:, None], (film.lengths + np.roll(film.lengths, 1))[:, None] / 2
@@ -42,7 +42,7 @@ def imbalance(film: Strip, across: Basis, reynolds_number: float, state: Flow) -
     moment = h * ((u * v) @ across.above)
 
     def along(values: Array, by_height: Array) -> Array:
-        """∂/∂x at constant y, at the faces, of values whose ∂/∂Y is given."""
+        """The derivative ∂/∂x at constant y, at the faces, of values whose ∂/∂Y is ``by_height``."""
         return np.asarray(
             (values - np.roll(values, 1, axis=0)) / between + _at_faces(film, by_height * below * slope / h)
         )
@@ -64,8 +64,8 @@ def _at_faces(film: Strip, values: Array) -> Array:
 
 
 def _smoothed(film: Strip, values: Array) -> Array:
-    """Solve f - (REACH h)² f'' = values at the faces."""
+    """The solution f of f - (DECAY_LENGTH h)² f'' = values at the faces."""
     right, left = film.lengths, np.roll(film.lengths, 1)
-    reach = 2 * (REACH * film.face_thickness) ** 2 / (left + right)
-    row = np.stack([-reach / left, 1 + reach / left + reach / right, -reach / right], axis=1)
+    factor = 2 * (DECAY_LENGTH * film.face_thickness) ** 2 / (left + right)
+    row = np.stack([-factor / left, 1 + factor / left + factor / right, -factor / right], axis=1)
     return ring.solve(row[:, :, None, None], values[:, None, :])[:, 0]

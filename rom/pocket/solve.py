@@ -1,4 +1,4 @@
-"""A pocket scene by the thin-film equations: Newton's method, continued in the Reynolds number where it must be."""
+"""Newton's method for the thin-film equations of a pocket, with continuation in the Reynolds number if needed."""
 
 import time
 from collections.abc import Callable
@@ -21,33 +21,46 @@ from roughfilm.rom.pocket.thin_film import Flow, Strip
 from roughfilm.rom.pocket.validity import cautions
 
 MODES = 10
-"""Polynomials across the film; 16 change load by 3e-5 and friction by 3e-4 at most, over 120 of the published cases."""
+"""Polynomials across the film; with 16 load changes by at most 3e-5 and friction by 3e-4 in 120 published cases."""
 
-RESOLUTION = 400
-RESOLUTIONS = (50, 100, 200, 400)
-COARSEST, FINEST = 12, 4000
-TOLERANCE = 1e-11
+DEFAULT_CELLS = 400
+"""Default number of cells along the film."""
+
+CELL_SERIES = (50, 100, 200, 400)
+"""Numbers of cells of a convergence study."""
+
+MIN_CELLS = 12
+"""Smallest number of cells along the film."""
+
+MAX_CELLS = 4000
+"""Largest number of cells along the film."""
+
+RESIDUAL_TOLERANCE = 1e-11
+"""Default tolerance of the residual."""
+
 SCHEMES = ("linear_upwind", "upwind")
-LAYERS, FINE_LAYERS = 24, 120
-"""Where the velocity is given in the result, and where back-flow is looked for."""
+"""Advection schemes, the default first."""
+
+LAYERS = 24
+"""Number of layers across the film in the velocity of a result."""
+
+BACKFLOW_LAYERS = 120
+"""Number of layers across the film among which the back-flow is sought."""
 
 NEWTON_STEPS = 12
-MOST_STEPS = 240
-SMALLEST_STEP = 1e-3
-"""Of the Reynolds number, in the continuation."""
+"""Largest number of Newton steps at one Reynolds number."""
 
-ROUGH_PROFILE = 0.1
-"""A last polynomial larger than this part of the largest one says that the profile across the film is not resolved."""
+MAX_TOTAL_STEPS = 240
+"""Number of Newton steps in all after which the continuation stops."""
+
+MIN_CONTINUATION_STEP = 1e-3
+"""Smallest continuation step over the Reynolds number of the scene."""
+
+MAX_LAST_MODE = 0.1
+"""Largest last amplitude over the largest one at which the velocity across the film is resolved."""
 
 RESOLUTION_MEANING = "cells along the film, each with 10 polynomials across it"
 RESIDUAL_MEANING = "largest imbalance of momentum in a cell, relative to the largest force in one"
-
-
-class _Count:
-    """Newton steps spent, of those there are."""
-
-    def __init__(self) -> None:
-        self.spent = 0
 
 
 def _residual(film: Strip, across: Basis, linear: thin_film.Linearised) -> float:
@@ -56,47 +69,47 @@ def _residual(film: Strip, across: Basis, linear: thin_film.Linearised) -> float
 
 
 def _newton(
-    film: Strip, across: Basis, reynolds_number: float, state: Flow, tolerance: float, count: _Count
-) -> tuple[Flow, thin_film.Linearised] | None:
-    """The flow at one Reynolds number from a guess; None where Newton's method does not find it."""
+    film: Strip, across: Basis, reynolds_number: float, state: Flow, tolerance: float
+) -> tuple[Flow, thin_film.Linearised | None, int]:
+    """The flow at one Reynolds number, its linearisation (None without convergence), and the number of steps."""
     least = np.inf
     for steps in range(NEWTON_STEPS):
         linear = thin_film.linearise(film, across, reynolds_number, state)
         residual = _residual(film, across, linear)
         if residual <= tolerance and steps:
-            return state, linear
+            return state, linear, steps
         if not residual < 100 * least:
-            return None
+            return state, None, steps
         least = min(least, residual)
         try:
             change, _ = thin_film.step(film, across, linear, linear.imbalance)
         except np.linalg.LinAlgError:
-            return None
-        count.spent += 1
+            return state, None, steps
         state = Flow(amplitudes=state.amplitudes + change.amplitudes, flow=state.flow + change.flow)
-    return None
+    return state, None, NEWTON_STEPS
 
 
 def _continued(
     film: Strip, modes: int, reynolds_number: float, tolerance: float, progress: Progress
 ) -> tuple[Flow, thin_film.Linearised, int]:
-    """The flow at a Reynolds number: at once, else by steps from creeping flow that grow and shrink as they succeed."""
-    across, count = gauss_basis(modes), _Count()
+    """The flow at a Reynolds number, if necessary by continuation from creeping flow in steps of adapted size."""
+    across, total = gauss_basis(modes), 0
     state, reached, stride = thin_film.creeping(film, modes), 0.0, 1.0
     while True:
         target = min(reached + stride, 1.0)
         progress(reached, f"Re = {target * reynolds_number:.4g}")
-        found = _newton(film, across, target * reynolds_number, state, tolerance, count)
-        if found is not None and target == 1.0:
-            return *found, count.spent
-        if found is not None:
-            state, reached, stride = found[0], target, 2 * stride
+        solution, linear, steps = _newton(film, across, target * reynolds_number, state, tolerance)
+        total += steps
+        if linear is not None and target == 1.0:
+            return solution, linear, total
+        if linear is not None:
+            state, reached, stride = solution, target, 2 * stride
         else:
             stride /= 4
-        if stride < SMALLEST_STEP or count.spent > MOST_STEPS:
+        if stride < MIN_CONTINUATION_STEP or total > MAX_TOTAL_STEPS:
             raise ConvergenceError(
-                f"the film equations have no steady flow within reach beyond Re = {reached * reynolds_number:.4g} "
-                f"(asked: {reynolds_number:.4g}); take navier_stokes, a coarser resolution or a shallower groove",
+                f"the film equations did not converge to a steady flow above Re = {reached * reynolds_number:.4g} "
+                f"(requested: {reynolds_number:.4g}); take navier_stokes, a coarser resolution or a shallower groove",
                 outcome=Outcome.STALLED,
             )
 
@@ -104,31 +117,28 @@ def _continued(
 def _with_slope(
     film: Strip, across: Basis, reynolds_number: float, state: Flow, linear: thin_film.Linearised, rise: Array
 ) -> tuple[Flow, Array]:
-    """The flow and its pressure rise along each cell with their answer to slope; ConvergenceError if there is none."""
+    """The flow and its pressure rise along each cell, corrected for slope; ConvergenceError if that is not finite."""
     try:
         change, more = thin_film.step(film, across, linear, slope.imbalance(film, across, reynolds_number, state))
     except np.linalg.LinAlgError:
         more = np.full_like(rise, np.nan)
     if not np.isfinite(more).all():
-        raise ConvergenceError("the film has no finite answer to slope here; take film or navier_stokes")
+        raise ConvergenceError("the slope correction of the film is not finite here; take film or navier_stokes")
     return Flow(amplitudes=state.amplitudes + change.amplitudes, flow=state.flow + change.flow), rise + more
 
 
 def solve(
     solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progress: Progress, *, law: ErrorLaw
 ) -> Result:
-    """Solve the thin-film Navier-Stokes equations (``thin_film``), with slope to second order if it is kept.
+    """Solve the thin-film Navier-Stokes equations (``thin_film``), with slope to second order if the model has it.
 
-    The correction for slope (:mod:`rom.pocket.slope`) is the film's linear answer to the forces it leaves out.
+    The correction for slope (:mod:`rom.pocket.slope`) is the linear response of the film to the neglected forces. The
+    error is of second order in the cell size (of first order with the scheme ``upwind``), and spectral across the film.
 
     Raises
     ------
     ConvergenceError
-        If no steady flow is found, or the residual does not meet the tolerance.
-
-    Notes
-    -----
-    Second order in the resolution (first with the scheme ``upwind``), spectral across the film.
+        If Newton's method does not converge to the tolerance.
     """
     import scipy.linalg  # noqa: F401  # slow to import, and not the scene's cost
 
@@ -145,15 +155,15 @@ def solve(
 
     warnings = list(cautions(scene, law))
     size = np.abs(state.amplitudes).max(axis=0)
-    if size[-1] > ROUGH_PROFILE * size.max():
+    if size[-1] > MAX_LAST_MODE * size.max():
         warnings.append(
-            f"{MODES} polynomials do not resolve the velocity across the film; its load may be some per cent off"
+            f"{MODES} polynomials do not resolve the velocity across the film: load errors of some per cent"
         )
     pressure = np.concatenate([[0.0], np.cumsum(rise)])
     middle = (pressure[1:] + pressure[:-1]) / 2
     shear = (1 + thin_film.all_amplitudes(film, across, state) @ sliding_wall_slope(MODES)) / film.thickness
     u, v = slope.velocities(film, even_basis(MODES, LAYERS), state)
-    slowest = thin_film.velocity(film, even_basis(MODES, FINE_LAYERS), state).min()
+    slowest = thin_film.velocity(film, even_basis(MODES, BACKFLOW_LAYERS), state).min()
     length, pascal = film.faces[-1] - film.faces[0], scene.pressure_unit
     return Result(
         model=model,
@@ -196,15 +206,15 @@ def _vertices(film: Strip) -> Array:
 
 
 def film_model(*, applies: Callable[[Pocket], Applicability], law: ErrorLaw, **about: Unpack[About]) -> Model[Pocket]:
-    """A model that solves the thin-film equations; its cost was measured from 50 to 800 cells."""
+    """A model that solves the thin-film equations; the cost was measured for 50 to 800 cells."""
     return Model(
         **about,
         kind="pocket",
-        resolutions=Resolutions(least=COARSEST, most=FINEST, default=RESOLUTION, series=RESOLUTIONS),
+        resolutions=Resolutions(least=MIN_CELLS, most=MAX_CELLS, default=DEFAULT_CELLS, series=CELL_SERIES),
         resolution_meaning=RESOLUTION_MEANING,
         residual_meaning=RESIDUAL_MEANING,
         order=2,
-        tolerance=TOLERANCE,
+        tolerance=RESIDUAL_TOLERANCE,
         tolerances=(1e-14, 1.0),
         schemes=SCHEMES,
         cost=lambda _scene, resolution: 3e-3 + 1e-4 * resolution,

@@ -1,14 +1,14 @@
-r"""The thin-film (Prandtl) Navier-Stokes equations along a gap: all of inertia, lowest order in slope.
+r"""The thin-film (Prandtl) Navier-Stokes equations along a gap: full inertia, lowest order in slope.
 
-In units of film thickness Ly, sliding speed u and viscous stress η u / Ly, with Y = 0 on the still wall, Y = 1 on the
-sliding one, and ψ(x, Y) = h ∫_0^Y u dY the stream function:
+In units of film thickness Ly, sliding speed u and viscous stress η u / Ly, with Y = 0 on the fixed wall, Y = 1 on the
+sliding one, and the stream function ψ(x, Y) = h ∫_0^Y u dY:
 
     Re [ ∂(h u²)/∂x - ∂(u ∂ψ/∂x)/∂Y ] = -h dp/dx + (1/h) ∂²u/∂Y²,      ψ(x, 1) = q.
 
-Across the film u = Y + Σ a_k φ_k(Y) (:mod:`roughfilm.rom.pocket.basis`), tested with the same φ_k; the flow gives
-a_0 = (q/h - 1/2) / ∫φ_0, and of all the tests only that with φ_0 knows the pressure. Along the film finite volumes of
-second order: the momentum through a face is reconstructed from the side the fluid comes from, at each Y by itself, so
-that back-flow takes its values from downstream and nothing rings.
+Across the film u = Y + Σ a_k φ_k(Y) (:mod:`roughfilm.rom.pocket.basis`), tested with the same φ_k. The flow gives
+a_0 = (q/h - 1/2) / ∫φ_0, and the pressure appears in the test with φ_0 alone. Along the film the method uses
+second-order finite volumes: the momentum through a face is reconstructed at each Y from the upstream side, which is
+downstream for back-flow, so that the solution has no oscillations.
 """
 
 from dataclasses import dataclass
@@ -22,16 +22,16 @@ from roughfilm.rom.pocket.columns import columns
 from roughfilm.rom.pocket.gap import Gap
 
 OFFSETS = (-2, -1, 0, 1)
-"""The cells from which the values at a face are made, counted from the cell on its right."""
+"""The cells whose values are interpolated to a face, relative to the cell on its right."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Strip:
-    """The gap cut into cells round the period, in film thicknesses.
+    """The cells of a periodic gap, in film thicknesses.
 
-    ``faces`` has one entry more than the cells; ``face_thickness`` leaves the last face out, which is the first again.
-    ``middle`` interpolates to a face, ``from_left`` and ``from_right`` reconstruct from one side; shape (cells, 4), by
-    OFFSETS.
+    ``faces`` has one more entry than the cells; ``face_thickness`` omits the last face, which equals the first.
+    ``middle`` are weights that interpolate to a face, ``from_left`` and ``from_right`` those that reconstruct from one
+    side; shape (cells, 4), in the order of OFFSETS.
     """
 
     faces: Array
@@ -46,7 +46,7 @@ class Strip:
 
 @dataclass(frozen=True, kw_only=True)
 class Flow:
-    """``amplitudes`` a_1 .. a_{n-1} of each cell, shape (cells, n-1), and the volume flow q."""
+    """The amplitudes a_1 .. a_{n-1} of each cell, shape (cells, n-1), and the volume flow q."""
 
     amplitudes: Array
     flow: float
@@ -54,10 +54,10 @@ class Flow:
 
 @dataclass(frozen=True, kw_only=True)
 class Linearised:
-    """Imbalance of every cell and test function, shape (cells, n), and what it changes by.
+    """The imbalance of every cell and test function, shape (cells, n), and its derivatives.
 
-    ``blocks``, shape (cells, 5, n, n-1), by the amplitudes of cells i-2 .. i+2; ``by_flow``, shape (cells, n), by q.
-    ``force`` is the largest force in a cell: of viscosity, or the momentum that flows through a face.
+    ``blocks``, shape (cells, 5, n, n-1), are those by the amplitudes of cells i-2 .. i+2, and ``by_flow``, shape
+    (cells, n), those by q. ``force`` is the largest viscous force of a cell or momentum flow through a face.
     """
 
     imbalance: Array
@@ -67,15 +67,15 @@ class Linearised:
 
 
 def strip(gap: Gap, resolution: int, *, second_order: bool = True) -> Strip:
-    """Cut a gap into about ``resolution`` cells, closer where it bends; every corner is a face."""
+    """The cells of a gap, about ``resolution`` of them, denser where it bends; every corner is a face."""
     faces = columns(gap, resolution)
     centres, lengths = (faces[1:] + faces[:-1]) / 2, np.diff(faces)
     left2, left, right, right2 = (np.roll(lengths, -offset) for offset in OFFSETS)
     from_left, from_right, middle = (np.zeros((lengths.size, len(OFFSETS))) for _ in range(3))
-    reach = left / (left + left2) if second_order else np.zeros_like(left)
-    from_left[:, 0], from_left[:, 1] = -reach, 1 + reach
-    reach = right / (right + right2) if second_order else np.zeros_like(left)
-    from_right[:, 2], from_right[:, 3] = 1 + reach, -reach
+    weight = left / (left + left2) if second_order else np.zeros_like(left)
+    from_left[:, 0], from_left[:, 1] = -weight, 1 + weight
+    weight = right / (right + right2) if second_order else np.zeros_like(left)
+    from_right[:, 2], from_right[:, 3] = 1 + weight, -weight
     middle[:, 1], middle[:, 2] = right / (left + right), left / (left + right)
     return Strip(
         faces=faces,
@@ -90,41 +90,41 @@ def strip(gap: Gap, resolution: int, *, second_order: bool = True) -> Strip:
 
 
 def creeping(film: Strip, modes: int) -> Flow:
-    """The flow without inertia: that of the Reynolds equation on these cells."""
+    """The flow of the Reynolds equation on these cells, without inertia."""
     h, dx = film.thickness, film.lengths
     return Flow(amplitudes=np.zeros((h.size, modes - 1)), flow=float((dx / h**2).sum() / (2 * (dx / h**3).sum())))
 
 
 def first_amplitude(across: Basis, h: Array, flow: float) -> Array:
-    """a_0 = (q/h - 1/2) / ∫φ_0; shape of ``h``."""
+    """The first amplitude a_0 = (q/h - 1/2) / ∫φ_0; shape of ``h``."""
     return np.asarray((flow / h - 0.5) / across.flow)
 
 
 def all_amplitudes(film: Strip, across: Basis, state: Flow) -> Array:
-    """a_0 .. a_{n-1} of each cell, shape (cells, n)."""
+    """The amplitudes a_0 .. a_{n-1} of each cell, shape (cells, n)."""
     return np.column_stack([first_amplitude(across, film.thickness, state.flow), state.amplitudes])
 
 
 def velocity(film: Strip, across: Basis, state: Flow) -> Array:
-    """Velocity u along each cell, shape (cells, points)."""
+    """The velocity u along each cell, shape (cells, points)."""
     return np.asarray(across.nodes + all_amplitudes(film, across, state) @ across.shape)
 
 
 def face_amplitudes(film: Strip, across: Basis, state: Flow) -> Array:
-    """a_0 .. a_{n-1} at each face, interpolated (the first is exact), shape (cells, n)."""
+    """The amplitudes at each face, a_0 exact and the others interpolated, shape (cells, n)."""
     inner = np.einsum("fo,fok->fk", film.middle, _around(state.amplitudes))
     return np.column_stack([first_amplitude(across, film.face_thickness, state.flow), inner])
 
 
 def stream_function(film: Strip, across: Basis, state: Flow) -> Array:
-    """ψ at each face and point across, shape (cells, points)."""
+    """The stream function ψ at each face and point across, shape (cells, points)."""
     return np.asarray(
         film.face_thickness[:, None] * (across.nodes**2 / 2 + face_amplitudes(film, across, state) @ across.primitive)
     )
 
 
 def linearise(film: Strip, across: Basis, reynolds_number: float, state: Flow) -> Linearised:
-    """The balance of momentum in each cell against each test function, and its derivatives."""
+    """The imbalance of momentum of each cell and test function, and its derivatives."""
     h, h_face, dx = film.thickness, film.face_thickness, film.lengths
     weighted, inner = across.weights * across.shape, across.shape[1:]
     a, u = all_amplitudes(film, across, state), velocity(film, across, state)
@@ -165,15 +165,12 @@ def linearise(film: Strip, across: Basis, reynolds_number: float, state: Flow) -
 
 
 def pressure_rise(film: Strip, across: Basis, imbalance: Array) -> Array:
-    """What pressure must rise by along each cell to balance the first test function, shape (cells,)."""
+    """The pressure rise along each cell that balances the first test function, shape (cells,)."""
     return np.asarray(-imbalance[:, 0] / (film.thickness * across.flow))
 
 
 def step(film: Strip, across: Basis, linear: Linearised, imbalance: Array) -> tuple[Flow, Array]:
-    """Answer of the flow to an imbalance: what takes it away, with no pressure rise over the whole period.
-
-    Returns the change of flow and the change of pressure rise along each cell.
-    """
+    """The changes of flow, and of pressure rise along each cell, that remove an imbalance with periodic pressure."""
     known = np.stack([imbalance[:, 1:], linear.by_flow[:, 1:]], axis=2)
     answer = ring.solve(linear.blocks[:, :, 1:], known)
     around = np.stack([np.roll(answer, -offset, axis=0) for offset in range(-2, 3)], axis=1)
@@ -190,5 +187,5 @@ def _next(values: Array) -> Array:
 
 
 def _around(values: Array) -> Array:
-    """The values of the cells by OFFSETS, shape (cells, 4, ...)."""
+    """The values of the cells at OFFSETS, shape (cells, 4, ...)."""
     return np.stack([np.roll(values, -offset, axis=0) for offset in OFFSETS], axis=1)

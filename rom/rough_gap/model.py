@@ -11,7 +11,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.dry_contact.model import Answer, Task, contact_model
 from roughfilm.rom.ladder.model import About, Applicability, Effect, Model
 from roughfilm.rom.ladder.result import Field, with_uncertainties
-from roughfilm.rom.pocket.validity import NOTHING_COARSER
+from roughfilm.rom.pocket.validity import NO_COARSER_GRID
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors
 from roughfilm.rom.rough_gap.flow.range_of_validity import part_of_lost_waves
 from roughfilm.rom.rough_gap.quantities import coefficients, gap_quantities
@@ -49,7 +49,7 @@ def work(task: Task, *, find: Callable[[Walls, float], Found], slope: bool) -> A
     if found.uncertainty is not None:
         bars = coefficients(_with_lost_waves(found.factors, found.uncertainty, scene, walls, slope=slope))
         if not np.isfinite(found.uncertainty.pressure).all():
-            warnings.append(NOTHING_COARSER)
+            warnings.append(NO_COARSER_GRID)
     return Answer(
         quantities=with_uncertainties(gap_quantities(scene, walls, found.factors), bars),
         fields={

@@ -14,7 +14,7 @@ from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.rom.parts.pressed_surface import Load, RoughScene
 from roughfilm.rom.parts.restriction import restricted
 from roughfilm.rom.parts.solids import Counter, RoughBody, composite_modulus, hardness
-from roughfilm.rom.pocket.scene import Lubricant
+from roughfilm.rom.pocket.scene import NewtonianLubricant
 from roughfilm.rom.rough_gap.flow.range_of_validity import ROUGHEST, expected_excess
 from roughfilm.rom.rough_gap.geometry import GapGeometry
 from roughfilm.rom.rough_gap.walls import Walls
@@ -79,7 +79,7 @@ class RoughGap(RoughScene):
 
     kind: Literal["rough_gap"]
     geometry: GapGeometry
-    lubricant: Lubricant
+    lubricant: NewtonianLubricant
     flow: Drive
     solid: RoughBody | None = None
     counter: Counter | None = None
@@ -215,7 +215,7 @@ class RoughGap(RoughScene):
         """
         own = max(self.surface().shape)
         if not 2 <= resolution <= own:
-            raise InputError(f"--resolution: got {resolution}; the surface has {own} points, take 2 to {own}")
+            raise InputError(f"resolution: got {resolution}; the surface has {own} points, take 2 to {own}")
         walls = self._walls(resolution).closed_below(self.smallest_gap)
         if not walls.gap.any():
             raise InputError("scene: the walls touch everywhere; there is no film, lower the load or the smallest gap")
@@ -264,6 +264,6 @@ def _walls(geometry_text: str, pressing: tuple[float, float, float] | None, reso
     walls = Walls(lower=lower, upper=upper + geometry.mean_gap, spacing=spacing)
     if walls.gap.min() < 0:
         raise InputError(
-            f"--resolution: got {resolution}; without the waves that it cannot hold the walls cross, take more nodes"
+            f"resolution: got {resolution}; without the waves that it cannot hold the walls cross, take more nodes"
         )
     return walls

@@ -14,7 +14,7 @@ from roughfilm.rom.dry_contact.model import Answer, Task, contact_model, once, o
 from roughfilm.rom.dry_contact.pressed import TOLERANCE, prepare
 from roughfilm.rom.ladder.model import About, Applicability, Model
 from roughfilm.rom.ladder.result import Field, with_uncertainties
-from roughfilm.rom.pocket.validity import NOTHING_COARSER
+from roughfilm.rom.pocket.validity import NO_COARSER_GRID
 from roughfilm.rom.seal.leakage.passage import Passage, dimensionless, mass_flow
 from roughfilm.rom.seal.scene import Seal
 
@@ -59,7 +59,7 @@ def leak(task: Task, *, flow: Flow) -> Answer:
         },
         residual=max(found.complementarity, passage.unsolved),
         iterations=max(found.iterations + passage.iterations, 1),
-        warnings=(*_warnings(scene, found), *(() if math.isfinite(passage.uncertainty) else (NOTHING_COARSER,))),
+        warnings=(*_warnings(scene, found), *(() if math.isfinite(passage.uncertainty) else (NO_COARSER_GRID,))),
     )
 
 

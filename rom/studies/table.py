@@ -56,8 +56,12 @@ def read_table(path: Path) -> dict[str, NDArray[Any]]:
         chosen = (table["model"] == "navier_stokes") & (table["profile"] == "cylindrical")
         axes.plot(table["depth_plus"][chosen], table["load_plus"][chosen], "o")
     """
+    if not path.is_file():
+        raise InputError(f"{path}: no such file; name a table.h5 that 'roughfilm batch' wrote")
     try:
         with h5py.File(path) as file:
+            if any(item.ndim != 1 for item in file.values()):
+                raise TypeError("a column has one dimension")
             return {
                 name: np.asarray(item.asstr()[()], dtype=str) if item.attrs["unit"] == "" else np.asarray(item[()])
                 for name, item in file.items()

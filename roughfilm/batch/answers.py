@@ -1,4 +1,4 @@
-"""The answers of many runs of models: each solved once, stored as it comes, and used again."""
+"""The answers of many runs: each is solved once, stored at once, and used again."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -17,17 +17,17 @@ def answers_to(jobs: Sequence[Job], processes: int, scratch: Path) -> dict[Path,
     for job in jobs:
         fits = job.setting.model.applies(job.scene)
         refused = Failure(kind=InputError.__name__, message=fits.reason)
-        if found := stored(job, with_fields=False) if fits.applies else refused:
-            answers[job.path] = found
+        if answer := stored(job, with_fields=False) if fits.applies else refused:
+            answers[job.path] = answer
     missing = [job for job in jobs if job.path not in answers]
     try:
         if missing:
             with progress_bar(sum(map(expected_cost, missing))) as advance, local(processes, scratch) as executor:
                 advance(0.0, f"starting {len(missing)} runs")
                 spent = 0.0
-                for job, answer in run(missing, executor):
-                    store(job, answer.file if isinstance(answer, Solved) else answer)
-                    answers[job.path] = answer.result if isinstance(answer, Solved) else answer
+                for job, new in run(missing, executor):
+                    store(job, new.file if isinstance(new, Solved) else new)
+                    answers[job.path] = new.result if isinstance(new, Solved) else new
                     spent += expected_cost(job)
                     advance(spent, f"{len(answers)} of {len(jobs)} runs")
     except (KeyboardInterrupt, SystemExit) as stop:

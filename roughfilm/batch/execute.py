@@ -1,6 +1,5 @@
-"""Many jobs through any executor: sent in chunks, the dearest first, and answered one by one."""
+"""Many jobs through any executor: sent in chunks, the most expensive first, and answered one by one."""
 
-import os
 import platform
 import signal
 import time
@@ -14,6 +13,7 @@ from typing import Any
 
 from roughfilm.batch.jobs import Failure, Job, failure_of
 from roughfilm.contact.foundation.errors import UnavailableError
+from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.ladder import find
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.provenance import code, versions
@@ -22,25 +22,19 @@ from roughfilm.rom.ladder.setting import Setting
 from roughfilm.rom.ladder.store import as_bytes
 
 CHUNK_S = 0.25
-"""Expected seconds of a chunk: long against sending it, short against what a kill may cost."""
+"""Expected seconds of a chunk: much longer than sending it takes, and not much to lose if a worker dies."""
 
 STORING_S = 3e-3
-"""CPU seconds to make a result into a file, which is most of what the cheapest models take."""
+"""CPU seconds to write a result to a file, which is most of the cost of the cheapest models."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Question:
-    """A job as a worker gets it: the model by its name, and no path, because only the sender writes."""
-
-    scene: Scene
-    model: str
-    resolution: int | None
-    scheme: str | None
+Question = tuple[Scene, str, int | None, str | None]
+"""A job as a worker gets it: scene, name of the model, resolution and scheme; only the sender writes files."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Solved:
-    """A result without its fields, and the whole of it as the bytes of its file."""
+    """A result without its fields, and the complete result as the bytes of its file."""
 
     result: Result
     file: bytes
@@ -50,7 +44,7 @@ Answer = Solved | Failure
 
 
 def expected_cost(job: Job) -> float:
-    """CPU seconds of a job with making its file."""
+    """The expected CPU seconds of a job, with those to write its file."""
     return job.setting.cost(job.scene) + STORING_S
 
 
@@ -94,7 +88,7 @@ def run(jobs: Sequence[Job], executor: Executor) -> Iterator[tuple[Job, Answer]]
 
 @contextmanager
 def _signals_to(queue: SimpleQueue[Any]) -> Iterator[None]:
-    """Put the numbers of the signals that end a program into a queue: an exception raised by them may get lost."""
+    """Put the numbers of the signals that end a program into a queue; an exception raised by them may be lost."""
     before = {number: signal.signal(number, lambda got, _: queue.put(got)) for number in (SIGINT, SIGTERM)}
     try:
         yield
@@ -106,12 +100,12 @@ def _signals_to(queue: SimpleQueue[Any]) -> Iterator[None]:
 def _lost(error: BaseException) -> Failure:
     if isinstance(error, UnavailableError):
         return failure_of(error)
-    told = f"its worker died twice ({type(error).__name__}); if memory is short, let fewer run at a time"
-    return Failure(kind="WorkerDied", message=told)
+    message = f"its worker died twice ({type(error).__name__}); if memory is short, run fewer jobs at a time"
+    return Failure(kind="WorkerDied", message=message)
 
 
 def chunks(jobs: Iterable[Job]) -> Iterator[list[Job]]:
-    """The jobs from the dearest to the cheapest, the cheap ones together until they take ``CHUNK_S``."""
+    """The jobs from the most to the least expensive, cheap ones together until they take ``CHUNK_S``."""
     chunk: list[Job] = []
     total = 0.0
     for job in sorted(jobs, key=expected_cost, reverse=True):
@@ -125,29 +119,26 @@ def chunks(jobs: Iterable[Job]) -> Iterator[list[Job]]:
 
 
 def _question(job: Job) -> Question:
-    setting = job.setting
-    return Question(scene=job.scene, model=setting.model.name, resolution=setting.resolution, scheme=setting.scheme)
+    return job.scene, job.setting.model.name, job.setting.resolution, job.setting.scheme
 
 
 def ask(questions: Sequence[Question], origin: tuple[str, dict[str, Any]]) -> list[Answer]:
-    """Answer the questions in turn, in a worker; those that do not fit into twice the time of a chunk are left.
+    """Answer questions in turn, in a worker, for at most twice the time of a chunk; later ones stay unanswered.
 
-    Raises UnavailableError where the worker's code or libraries are not those of ``origin``.
+    Raises UnavailableError if the worker's code or libraries are not those of ``origin``.
     """
     if origin != (code(), versions()):
         host = platform.node()
         raise UnavailableError(f"{host}: has other code or libraries than the sender; install the same there")
     end = time.monotonic() + 2 * CHUNK_S
     answers: list[Answer] = []
-    for question in questions:
+    for scene, name, resolution, scheme in questions:
         if answers and time.monotonic() > end:
             break
-        before = sum(os.times()[:4])  # of this process, which has one job at a time, and of its ended children
+        spent = stopwatch()  # a worker has one job at a time
         try:
-            model = find(question.scene.kind, question.model)
-            setting = Setting(model=model, resolution=question.resolution, scheme=question.scheme)
-            result = setting.solve(question.scene)
+            result = Setting(model=find(scene.kind, name), resolution=resolution, scheme=scheme).solve(scene)
             answers.append(Solved(result=replace(result, fields={}), file=as_bytes(result)))
         except Exception as error:  # whatever a model raises is one job's failure
-            answers.append(replace(failure_of(error), cpu_s=sum(os.times()[:4]) - before))
+            answers.append(replace(failure_of(error), cpu_s=spent()["cpu_s"]))
     return answers

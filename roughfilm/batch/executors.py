@@ -22,14 +22,14 @@ from roughfilm.terminal.console import messages
 
 SCHEDULER_TIMEOUT_S = 5
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
-"""Set to 1 where the user says nothing: the cores are kept busy by jobs, not by the libraries inside one."""
+"""Variables that are set to 1 by default, because the jobs share the cores."""
 
 
 class Processes(ThreadPoolExecutor):
-    """Each thread keeps a process, so that a process that dies takes the one call with it that ran there.
+    """An executor whose threads keep a process each, so that a process that dies loses its own call alone.
 
     A ``ProcessPoolExecutor`` would fail every pending call, and wait forever for one that died while it answered.
-    The processes end when this one ends or shuts them down; what they leave in ``scratch`` is for their user to remove.
+    The processes end with this one or at its shutdown; the user removes what they leave in ``scratch``.
     """
 
     def __init__(self, count: int, scratch: Path) -> None:
@@ -82,7 +82,7 @@ class Processes(ThreadPoolExecutor):
 
 
 def _kill(process: ForkServerProcess) -> None:
-    """Kill a process and what it started, even if only the latter is left."""
+    """Kill a process and its children, even if only the children are left."""
     assert process.pid is not None
     with suppress(ProcessLookupError):
         os.killpg(process.pid, signal.SIGKILL)
@@ -106,16 +106,16 @@ def dask(address: str) -> Iterator[Executor]:
     try:
         import distributed
     except ImportError:
-        told = "--executor dask: needs the library distributed; install it with: pip install 'roughfilm[cluster]'"
-        raise UnavailableError(told) from None
-    logging.disable()  # dask and tornado would say in many lines what we say in one
+        message = "executor dask: needs the library distributed; install it with: pip install 'roughfilm[cluster]'"
+        raise UnavailableError(message) from None
+    logging.disable()  # dask and tornado would print many lines beside the error
     try:
         asyncio.run(asyncio.wait_for(_greet(address), SCHEDULER_TIMEOUT_S))
         client = distributed.Client(address, set_as_default=False)
     except Exception as error:  # whatever answers there may send anything
         reason = " ".join(str(error).split()) or f"silent for {SCHEDULER_TIMEOUT_S} s"
-        told = f"--scheduler {address}: is no dask scheduler that answers ({reason}); start one with: dask scheduler"
-        raise UnavailableError(told) from None
+        message = f"scheduler {address}: no dask scheduler answers there ({reason}); start one with: dask scheduler"
+        raise UnavailableError(message) from None
     with client:
         if not client.nthreads():
             messages.print(f"{address} has no workers yet; waiting for the first", markup=False, soft_wrap=True)
@@ -132,7 +132,7 @@ async def _greet(address: str) -> None:
 
 
 def _work(pipe: Connection, alive: Connection, scratch: Path) -> None:
-    """The life of a process: answer calls until the sender ends, in a group of its own that a Ctrl-C does not reach."""
+    """Answer calls until the sender ends, in a process group that a Ctrl-C does not reach."""
     os.setpgrp()
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     tempfile.tempdir = str(scratch)
@@ -143,7 +143,7 @@ def _work(pipe: Connection, alive: Connection, scratch: Path) -> None:
 
 
 def _end_with(alive: Connection) -> None:
-    """End this process and what it started when the only writer of ``alive`` closes it or dies, in whatever way."""
+    """End this process and its children when the only writer of ``alive`` closes it or dies."""
     alive.poll(None)
     os.killpg(0, signal.SIGKILL)
 

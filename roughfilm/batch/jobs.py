@@ -1,8 +1,8 @@
-"""Jobs: each solved once, its answer stored as soon as it is there, used again when nothing changed."""
+"""Jobs: each is solved once, stored at once, and used again while nothing changes."""
 
 import json
 import traceback
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -10,9 +10,9 @@ from typing import Any
 from rich.markup import escape
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome, UnavailableError
-from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.files import replacing, write_json
 from roughfilm.rom.ladder.kind import Scene
-from roughfilm.rom.ladder.model import Model
+from roughfilm.rom.ladder.model import Model, Progress
 from roughfilm.rom.ladder.provenance import model_code, versions
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import scene_entries
@@ -22,11 +22,9 @@ from roughfilm.rom.studies.convergence import GRIDS
 from roughfilm.terminal.console import messages, progress_bar
 
 QUICK_S = 0.1
-"""Models that cost less are timed as the fastest of ``REPEATS`` runs, so that start-up does not hide them."""
+"""Models that cost less are timed as the fastest of ``REPEATS`` runs, without the time to start."""
 
 REPEATS = 7
-
-Advance = Callable[[float, str], None]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,19 +37,23 @@ class Job:
 
     @property
     def failure_path(self) -> Path:
-        """The file that says why there is no result."""
+        """The file of the reason why there is no result."""
         return self.path.with_suffix(".failed.json")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Failure:
-    """Why a job has no result: the kind of error, what it said, and the last lines of the log or of the traceback.
+    """Why a job has no result.
 
-    Of a solver that does not converge also what became of it, after how many iterations, and its CPU seconds.
+    A solver that diverges, stalls or runs out of iterations is an answer: the job runs again only if scene, code or
+    versions change. Any other failure (a worker that died, a full disk) does not depend on the scene: the job runs
+    again the next time.
 
-    A solver that diverges, stalls or comes to no end has answered: it is asked again only when scene, code or versions
-    change. Anything else (a worker that died, a full disk) says nothing of the scene, and the job is tried again the
-    next time.
+    Attributes
+    ----------
+    kind, message : name of the error class, and its message.
+    notes : the last lines of the log or of the traceback.
+    outcome, iterations, cpu_s : how a solver failed to converge, after how many iterations and CPU seconds.
     """
 
     kind: str
@@ -63,12 +65,12 @@ class Failure:
 
     @property
     def is_answer(self) -> bool:
-        """Whether asking again would give the same."""
+        """Whether another run would end in the same way."""
         return self.kind == ConvergenceError.__name__ and self.outcome != Outcome.FAILED
 
 
 def failure_of(error: Exception) -> Failure:
-    """An error as a record; one that no model raises on purpose brings its traceback."""
+    """An error as a record; one that is not an error of this package has its traceback."""
     meant = isinstance(error, InputError | ConvergenceError | UnavailableError)
     return Failure(
         kind=type(error).__name__,
@@ -80,7 +82,7 @@ def failure_of(error: Exception) -> Failure:
 
 
 def stored(job: Job, *, with_fields: bool = True) -> Result | Failure | None:
-    """The answer on disk, if it was given for the same scene by the same code and versions."""
+    """The stored answer, if it belongs to the same scene, code and versions."""
     if job.path.is_file():
         try:
             result = load(job.path, with_fields=with_fields)
@@ -103,39 +105,32 @@ def store(job: Job, answer: bytes | Failure) -> None:
             scratch.write_bytes(answer)
         job.failure_path.unlink(missing_ok=True)
         return
-    with replacing(job.failure_path) as scratch:
-        record = {"failure": asdict(answer), "identity": _identity(job)}
-        scratch.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
+    write_json({"failure": asdict(answer), "identity": _identity(job)}, job.failure_path)
 
 
 def _identity(job: Job) -> dict[str, Any]:
     return {
         "setting": job.setting.name,
         "scene": scene_entries(job.scene),
-        "code": _code(job),
+        "code": model_code(job.scene.kind, job.setting.model.name),
         "versions": versions(),
         "needs": job.setting.model.available().detail,
     }
 
 
-def _code(job: Job) -> str:
-    return model_code(job.scene.kind, job.setting.model.name)
-
-
 def _same(result: Result, job: Job) -> bool:
-    origin, setting = result.provenance, job.setting
+    origin, setting, identity = result.provenance, job.setting, _identity(job)
     return (
         result.model == setting.model.name
         and setting.resolution in (None, result.numerics.resolution)
         and setting.scheme in (None, result.numerics.scheme)
-        and (origin.get("scene"), origin.get("code")) == (scene_entries(job.scene), _code(job))
-        and origin.get("versions") == versions()
-        and origin.get("openfoam") in (None, setting.model.available().detail)
+        and all(origin.get(name) == identity[name] for name in ("scene", "code", "versions"))
+        and origin.get("openfoam") in (None, identity["needs"])
     )
 
 
-def solved_once(job: Job, step: Advance) -> Result:
-    """The stored answer if there is one; else a new one, stored; raises what the model raises."""
+def solved_once(job: Job, step: Progress) -> Result:
+    """The stored answer, or else a new one, which is stored; raises the errors of the model."""
     answer = stored(job)
     if answer is None:
         repeats = REPEATS if job.setting.cost(job.scene) < QUICK_S else 1
@@ -153,9 +148,9 @@ def solved_once(job: Job, step: Advance) -> Result:
 
 
 def jobs_of(scene: Scene, models: Sequence[Model], directory: Path, grids: int = GRIDS) -> list[Job]:
-    """The default job of every model, then its other resolutions for the chart and the convergence.
+    """The default job of every model, then its other resolutions for the chart and the convergence study.
 
-    Beyond ``GRIDS``, a model of formal order gets more ``grids``, each twice as fine as the one before.
+    With more ``grids`` than ``GRIDS``, a model with an order of convergence gets grids that are each twice as fine.
     """
     settings = []
     for model in models:
@@ -167,7 +162,7 @@ def jobs_of(scene: Scene, models: Sequence[Model], directory: Path, grids: int =
 
 
 def run_all(jobs: Sequence[Job], failed: dict[str, str]) -> list[tuple[Job, Result]]:
-    """Solve what is not solved already; a model that fails at its default resolution is put among the failed."""
+    """Solve all jobs that are not stored; a model that fails at its default resolution is added to ``failed``."""
     done: list[tuple[Job, Result]] = []
     costs = [job.setting.cost(job.scene) for job in jobs]
     with progress_bar(sum(costs)) as advance:
@@ -180,12 +175,12 @@ def run_all(jobs: Sequence[Job], failed: dict[str, str]) -> list[tuple[Job, Resu
                 if job.setting.resolution is None:
                     failed[job.setting.model.name] = str(error)
                 else:
-                    told = f"[yellow]grid left out:[/] {job.setting.name}: {escape(str(error))}"
-                    messages.print(told, soft_wrap=True)
+                    reason = f"[yellow]grid left out:[/] {job.setting.name}: {escape(str(error))}"
+                    messages.print(reason, soft_wrap=True)
     return done
 
 
-def _within(advance: Advance, name: str, spent: float, cost: float) -> Advance:
+def _within(advance: Progress, name: str, spent: float, cost: float) -> Progress:
     def step(done: float, words: str) -> None:
         advance(spent + done * cost, f"{name}: {words}")
 

@@ -1,4 +1,4 @@
-"""Where the jobs of a batch stand, and what those to come will cost."""
+"""The progress of a batch: the jobs by state, and the cost of those to come."""
 
 from collections import defaultdict
 from dataclasses import dataclass, field
@@ -10,7 +10,7 @@ from roughfilm.rom.ladder.result import Result
 
 
 class State(StrEnum):
-    """Where a job stands: ``FINISHED`` by an earlier run, ``SOLVED`` by this one."""
+    """The state of a job: ``FINISHED`` by an earlier run, ``SOLVED`` by this one."""
 
     FINISHED = "finished"
     SOLVED = "solved"
@@ -21,17 +21,17 @@ class State(StrEnum):
 
 @dataclass(kw_only=True)
 class Account:
-    """The jobs of one setting by state, and their CPU seconds: ``expected`` of those that are ``measured``."""
+    """The jobs of one setting by state, and CPU seconds: to come, of the most expensive, expected and measured."""
 
     jobs: dict[State, int] = field(default_factory=lambda: dict.fromkeys(State, 0))
     to_come: float = 0.0
-    dearest: float = 0.0
+    largest: float = 0.0
     expected: float = 0.0
     measured: float = 0.0
 
     @property
     def ratio(self) -> float:
-        """How many times as dear the jobs were as expected, which corrects those to come."""
+        """Measured over expected cost, which corrects that of the jobs to come."""
         return self.measured / self.expected if self.expected else 1.0
 
     @property
@@ -41,8 +41,8 @@ class Account:
 
 
 @dataclass(kw_only=True)
-class Tally:
-    """Accounts by setting; the jobs that failed, with the reason; how many results carry a warning."""
+class BatchProgress:
+    """The accounts by setting, the jobs that failed with the reason, and the number of results with a warning."""
 
     accounts: dict[str, Account] = field(default_factory=lambda: defaultdict(Account))
     failures: list[tuple[Job, Failure]] = field(default_factory=list)
@@ -54,13 +54,13 @@ class Tally:
         account, cost = self.accounts[job.setting.name], expected_cost(job)
         account.jobs[State.TO_DO] += 1
         account.to_come += cost
-        account.dearest = max(account.dearest, cost)
+        account.largest = max(account.largest, cost)
 
     def leave_out(self, job: Job) -> None:
         """Count a job whose model does not apply to its scene."""
         self.accounts[job.setting.name].jobs[State.LEFT_OUT] += 1
 
-    def find(self, job: Job, answer: Result | Failure) -> None:
+    def reuse(self, job: Job, answer: Result | Failure) -> None:
         """Count an answer from an earlier run."""
         self._take(job, answer, State.FINISHED)
 
@@ -84,7 +84,7 @@ class Tally:
         self.warned += bool(answer.warnings)
 
     def total(self, *states: State) -> int:
-        """Jobs in these states; in any, if none is named."""
+        """The number of jobs in these states, by default in any."""
         return sum(account.jobs[state] for account in self.accounts.values() for state in states or State)
 
     @property
@@ -93,18 +93,18 @@ class Tally:
         return sum(account.remaining for account in self.accounts.values())
 
     def wall_s(self, processes: int) -> float:
-        """The least seconds that the jobs to come take in so many processes."""
-        dearest = max((a.dearest * a.ratio for a in self.accounts.values() if a.jobs[State.TO_DO]), default=0.0)
-        return max(self.cpu_s / processes, dearest)
+        """The shortest wall time of the jobs to come in a number of processes, s."""
+        largest = max((a.largest * a.ratio for a in self.accounts.values() if a.jobs[State.TO_DO]), default=0.0)
+        return max(self.cpu_s / processes, largest)
 
     @property
     def done(self) -> float:
-        """The part of this run's CPU time that is spent, 0 to 1."""
+        """The spent fraction of this run's CPU time, 0 to 1."""
         whole = self.spent + self.cpu_s
         return self.spent / whole if whole else 1.0
 
     @property
     def words(self) -> str:
-        """How many of the jobs have an answer, and how many of these failed."""
+        """The number of jobs with an answer, and of those that failed, as text."""
         failed = f", {len(self.failures)} failed" if self.failures else ""
         return f"{self.total() - self.total(State.TO_DO)} of {self.total()} jobs{failed}"

@@ -8,7 +8,7 @@ from pathlib import Path
 from roughfilm.batch.directory import CASES, places, put_scene
 from roughfilm.batch.execute import Solved, run
 from roughfilm.batch.jobs import Failure, Job, store, stored
-from roughfilm.batch.progress import Tally
+from roughfilm.batch.progress import BatchProgress
 from roughfilm.batch.tabulate import Row, columns, row_of
 from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.studies.study import Case, Study
@@ -29,26 +29,26 @@ def tasks_of(study: Study, out: Path) -> Tasks:
     return tasks
 
 
-def finished(study: Study, tasks: Tasks, tally: Tally) -> tuple[dict[Path, Row], list[Job]]:
+def finished(study: Study, tasks: Tasks, counts: BatchProgress) -> tuple[dict[Path, Row], list[Job]]:
     """The rows that need no solving, and the jobs that do; both are counted."""
     rows, missing = {}, []
     for path, (case, job) in tasks.items():
         fits = job.setting.model.applies(job.scene)
         answer = stored(job, with_fields=False) if fits.applies else Failure(kind="left out", message=fits.reason)
         if answer is None:
-            tally.expect(job)
+            counts.expect(job)
             missing.append(job)
             continue
         rows[path] = row_of(study.keys, case, job, answer)
         if fits.applies:
-            tally.find(job, answer)
+            counts.reuse(job, answer)
         else:
-            tally.leave_out(job)
+            counts.leave_out(job)
     return rows, missing
 
 
 def solved_table(
-    study: Study, out: Path, tally: Tally, place: AbstractContextManager[Executor], progress: Progress
+    study: Study, out: Path, counts: BatchProgress, place: AbstractContextManager[Executor], progress: Progress
 ) -> None:
     """Solve what is missing, store each answer as it comes, and write ``table.csv`` and ``table.h5``.
 
@@ -61,7 +61,7 @@ def solved_table(
     """
     tasks = tasks_of(study, out)
     progress(0.0, "looking for finished results")
-    rows, missing = finished(study, tasks, tally)
+    rows, missing = finished(study, tasks, counts)
     if missing:
         progress(0.0, f"starting {len(missing)} jobs")
         with place as executor:
@@ -71,8 +71,8 @@ def solved_table(
                 store(job, answer.file if isinstance(answer, Solved) else answer)
                 result = answer.result if isinstance(answer, Solved) else answer
                 rows[job.path] = row_of(study.keys, case, job, result)
-                tally.receive(job, result)
-                progress(tally.done, tally.words)
+                counts.receive(job, result)
+                progress(counts.done, counts.words)
     table = columns([rows[path] for path in tasks])
     write_csv(table, out / "table.csv")
     write_hdf5(table, out / "table.h5")

@@ -1,8 +1,7 @@
-"""The table of a batch: one row for each case and setting, with what varies, what came out and how."""
+"""The table of a batch: a row for each case and setting, with what varies and what was computed."""
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from roughfilm.batch.jobs import Failure, Job
@@ -16,12 +15,8 @@ from roughfilm.rom.studies.table import Column
 Cell = Quantity | str
 
 
-@dataclass(frozen=True, kw_only=True)
-class Row:
-    """What was asked, and what came of it, by the name of the column."""
-
-    asked: Mapping[str, Cell]
-    answer: Mapping[str, Cell]
+Row = tuple[Mapping[str, Cell], Mapping[str, Cell]]
+"""What was requested, and the answer, by the name of the column."""
 
 
 def row_of(keys: Mapping[str, Key], case: Case, job: Job, answer: Result | Failure) -> Row:
@@ -32,40 +27,36 @@ def row_of(keys: Mapping[str, Key], case: Case, job: Job, answer: Result | Failu
         scheme, resolution = answer.numerics.scheme, answer.numerics.resolution
     else:
         scheme, resolution = setting.scheme or "", setting.resolution or setting.model.resolution_of(case.scene)
-    asked: dict[str, Cell] = {
+    requested: dict[str, Cell] = {
         "case": job.path.parent.name,
         "kind": case.scene.kind,
         "setting": setting.name,
         "model": setting.model.name,
         "scheme": scheme,
         "resolution": _number(resolution),
-        **{label: _cell(_at(entries, keys[label], spelt)) for label, spelt in case.varied.items()},
+        **{label: _cell(_at(entries, keys[label], written)) for label, written in case.varied.items()},
         **kind_of_name(case.scene.kind).columns(case.scene),
     }
     if isinstance(answer, Failure):
-        return Row(asked=asked, answer={"outcome": f"{answer.kind}: {answer.message}"})
+        return requested, {"outcome": f"{answer.kind}: {answer.message}"}
     numbers = answer.numerics
-    return Row(
-        asked=asked,
-        answer={
-            "outcome": "solved",
-            **dict(sorted(answer.quantities.items())),
-            "residual": _number(numbers.residual),
-            "iterations": _number(numbers.iterations),
-            "cpu_s": Quantity(value=numbers.cpu_s, unit="s"),
-            "warnings": "; ".join(answer.warnings),
-        },
-    )
+    return requested, {
+        "outcome": "solved",
+        **dict(sorted(answer.quantities.items())),
+        "residual": _number(numbers.residual),
+        "iterations": _number(numbers.iterations),
+        "cpu_s": Quantity(value=numbers.cpu_s, unit="s"),
+        "warnings": "; ".join(answer.warnings),
+    }
 
 
 def columns(rows: Sequence[Row]) -> dict[str, Column]:
     """The rows as columns, in the order in which their names first appear."""
-    asked = dict.fromkeys(name for row in rows for name in row.asked)
-    answer = dict.fromkeys(name for row in rows for name in row.answer)
-    return {
-        **{name: _column([row.asked.get(name) for row in rows]) for name in asked},
-        **{name: _column([row.answer.get(name) for row in rows]) for name in answer},
-    }
+    table: dict[str, Column] = {}
+    for parts in zip(*rows, strict=True):
+        names = dict.fromkeys(name for part in parts for name in part)
+        table |= {name: _column([part.get(name) for part in parts]) for name in names}
+    return table
 
 
 def _column(cells: Sequence[Cell | None]) -> Column:
@@ -80,13 +71,13 @@ def _number(value: float) -> Quantity:
     return Quantity(value=float(value), unit="1")
 
 
-def _at(entries: Any, key: Key, spelt: Any) -> Any:
-    """The entry of the scene at a key, or what the study says there if the scene keeps it in another way."""
+def _at(entries: Any, key: Key, written: Any) -> Any:
+    """The entry of the scene at a key, or the value in the study if the scene stores it in another way."""
     try:
         for part in key:
             entries = entries[part]
     except (LookupError, TypeError):
-        return spelt
+        return written
     return entries
 
 

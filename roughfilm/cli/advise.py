@@ -1,17 +1,17 @@
-"""roughfilm advise: the cheapest rung that is enough for a scene, and why."""
+"""roughfilm advise: the cheapest model that is accurate enough for a scene, and why."""
 
+from collections.abc import Iterator
 from dataclasses import asdict
 from typing import Annotated, Any
 
 import typer
-from rich.markup import escape
 from rich.table import Table
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.ladder import models
 from roughfilm.rom.advice.advise import Advice, Considered, Verdict, advise, shortfall, wanted
 from roughfilm.rom.advice.estimates import Estimate, percent
-from roughfilm.rom.advice.laws import table
+from roughfilm.rom.advice.laws import table as laws_table
 from roughfilm.rom.ladder.kind import Scene, kind_of_name
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.terminal.console import (
@@ -19,84 +19,91 @@ from roughfilm.terminal.console import (
     AsJson,
     Overrides,
     ScenePath,
-    in_one_line,
-    output,
     print_json,
     progress_bar,
 )
+from roughfilm.terminal.results import print_all, table_of
+from roughfilm.words.numbers import finite
 
-Want = Annotated[str | None, typer.Option(help="The quantity that counts, such as load; by default the kind's first.")]
+Want = Annotated[
+    str | None, typer.Option("--want", help="Quantity of --within, such as load (default: the first of the kind).")
+]
 
 
-@in_one_line
 def command(
     scene: ScenePath,
-    within: Annotated[str, typer.Option(help="How far off it may be, for example 5%.")],
-    want: Want = None,
+    within: Annotated[str, typer.Option(help="Tolerated error, for example 5%.")],
+    quantity: Want = None,
     set_: Overrides = None,
     as_json: AsJson = False,
 ) -> None:
-    """Say which model and resolution are enough, how far off they are and what they cost."""
+    """Choose the cheapest model and resolution that are accurate enough, with their expected error and cost."""
     read = load_scene(scene, set_ or ())
-    found = advice_for(read, want, within)
+    advice = advice_for(read, quantity, within)
     if as_json:
-        print_json({**entries_of(found), "composition": list(kind_of_name(read.kind).composed(read))})
+        print_json({**entries_of(advice), "composition": list(kind_of_name(read.kind).composed(read))})
     else:
-        tell(read, found)
-    if found.chosen is None:
+        print_all(_shown(read, advice))
+    if advice.chosen is None:
         raise typer.Exit(NOT_CONVERGED)
 
 
 def tolerance_of(text: str) -> float:
-    """A part from text: 5%, 5 % or 0.05; InputError for anything else."""
+    """A fraction from text: 5%, 5 % or 0.05; InputError for any other text."""
     try:
         number = text.strip()
         return float(number[:-1]) / 100 if number.endswith("%") else float(number)
     except ValueError:
-        raise InputError(f"--within: got {text!r}; write a part such as 5% or 0.05") from None
+        raise InputError(f"--within: got {text!r}; write a fraction such as 5% or 0.05") from None
 
 
-def advice_for(scene: Scene, want: str | None, within: str) -> Advice:
-    """Advise with a bar of progress; InputError for what cannot be asked."""
-    quantity, part = wanted(scene, want), tolerance_of(within)
+def advice_for(scene: Scene, quantity: str | None, within: str) -> Advice:
+    """The advice for a quantity of a scene, with a progress bar; InputError for an unknown quantity or tolerance."""
+    compared, fraction = wanted(scene, quantity), tolerance_of(within)
     with progress_bar(1.0) as advance:
-        return advise(scene, models(scene.kind), quantity=quantity, within=part, progress=advance)
+        return advise(scene, models(scene.kind), quantity=compared, within=fraction, progress=advance)
 
 
-def tell(scene: Scene, found: Advice) -> None:
-    """For people."""
-    kind = kind_of_name(scene.kind)
-    title = kind.compared[found.quantity]
-    chosen = found.chosen
+def _shown(scene: Scene, advice: Advice) -> Iterator[Table | str]:
+    """The advice for people."""
+    kind, chosen = kind_of_name(scene.kind), advice.chosen
+    title = kind.compared[advice.quantity]
     if chosen is None:
-        output.print(f"[bold]{escape(scene.name)}[/]: {escape(shortfall(found, title))}", soft_wrap=True)
+        yield f"{scene.name}: {shortfall(advice, title)}"
     else:
-        output.print(
-            f"[bold]{escape(scene.name)}[/]: {title} within {percent(found.within)} by [bold green]{chosen.model}[/], "
-            f"resolution {chosen.resolution}: expected within {percent(chosen.error or 0.0)}, {chosen.cpu_s:.2g} CPU s",
-            soft_wrap=True,
+        yield (
+            f"{scene.name}: {title} within {percent(advice.within)} by {chosen.model}, "
+            f"resolution {chosen.resolution}: expected within {percent(chosen.error or 0.0)}, {chosen.cpu_s:.2g} CPU s"
         )
-    shown = Table("model", "resolution", "CPU s", "off, by its numbers", "by the next rung", "")
-    for column in shown.columns[1:5]:
-        column.justify = "right"
-    ran = [one for one in found.considered if one.resolution is not None]
-    for one in ran:
-        style = "green" if one.verdict is Verdict.CHOSEN else "default"
-        cells = (one.model, str(one.resolution), f"{one.cpu_s:.2g}", _short(one.a_priori), _short(one.a_posteriori))
-        shown.add_row(*cells, one.verdict, style=style)
-    output.print(shown)
-    for one in found.considered:
-        output.print(f"[bold]{one.model}[/]: {one.verdict}: {escape(one.reason)}", soft_wrap=True)
-    for line in kind.composed(scene):
-        output.print(f"  {escape(line)}", soft_wrap=True)
-    if found.omitted is not None:
-        output.print(f"[bold]all of them[/]: {escape(found.omitted.reason)}", soft_wrap=True)
-    numbers = ", ".join(
-        f"{kind.symbols[name]} = {value:.3g}" for name, value in found.numbers.items() if name in kind.symbols
+    judged = [one for one in advice.considered if one.resolution is not None]
+    table = table_of(
+        ("model", "resolution", "CPU s", "error, by the laws", "error, by the next model", ""),
+        [
+            (
+                one.model,
+                str(one.resolution),
+                f"{one.cpu_s:.2g}",
+                *map(_short, (one.a_priori, one.a_posteriori)),
+                one.verdict,
+            )
+            for one in judged
+        ],
+        left=1,
     )
+    table.columns[5].justify = "left"
+    for row, one in zip(table.rows, judged, strict=True):
+        row.style = "green" if one.verdict is Verdict.CHOSEN else "default"
+    yield table
+    yield from (f"{one.model}: {one.verdict}: {one.reason}" for one in advice.considered)
+    yield from (f"  {line}" for line in kind.composed(scene))
+    if advice.omitted is not None:
+        yield f"all of them: {advice.omitted.reason}"
+    numbers = [f"{kind.symbols[name]} = {value:.3g}" for name, value in advice.numbers.items() if name in kind.symbols]
     if numbers:
-        output.print(f"numbers of the scene: {escape(numbers)}", soft_wrap=True)
-    output.print(f"{found.spent_cpu_s:.2g} CPU s spent to be sure; laws: {_origin()}", soft_wrap=True)
+        yield f"numbers of the scene: {', '.join(numbers)}"
+    laws = laws_table().provenance
+    scenes = f"{sum(laws['scenes'].values())} random scenes, {laws['command']}"
+    yield f"{advice.spent_cpu_s:.2g} CPU s spent on the advice; laws: {scenes}"
 
 
 def _short(estimate: Estimate | None) -> str:
@@ -105,29 +112,24 @@ def _short(estimate: Estimate | None) -> str:
     return percent(estimate.error) + ("" if estimate.sure else ", beyond the sweeps")
 
 
-def _origin() -> str:
-    origin = table().provenance
-    return f"{sum(origin['scenes'].values())} random scenes, {origin['command']}"
-
-
-def entries_of(found: Advice) -> dict[str, Any]:
-    """For JSON."""
-    chosen = found.chosen
+def entries_of(advice: Advice) -> dict[str, Any]:
+    """The object of ``--json``."""
+    chosen = advice.chosen
     return {
         "model": chosen.model if chosen else None,
         "resolution": chosen.resolution if chosen else None,
         "expected_error": chosen.error if chosen else None,
         "expected_cpu_s": chosen.cpu_s if chosen else None,
         "enough": chosen is not None,
-        "want": found.quantity,
-        "within": found.within,
-        "nearest": found.nearest.model if found.nearest else None,
-        "reasons": [f"{one.model}: {one.verdict}: {one.reason}" for one in found.considered],
-        "omitted": asdict(found.omitted) if found.omitted else None,
-        "considered": [_entries(one) for one in found.considered],
-        "numbers": {name: _finite(value) for name, value in found.numbers.items()},
-        "spent_cpu_s": found.spent_cpu_s,
-        "provenance": dict(table().provenance),
+        "want": advice.quantity,
+        "within": advice.within,
+        "nearest": advice.nearest.model if advice.nearest else None,
+        "reasons": [f"{one.model}: {one.verdict}: {one.reason}" for one in advice.considered],
+        "omitted": asdict(advice.omitted) if advice.omitted else None,
+        "considered": [_entries(one) for one in advice.considered],
+        "numbers": {name: finite(value) for name, value in advice.numbers.items()},
+        "spent_cpu_s": advice.spent_cpu_s,
+        "provenance": dict(laws_table().provenance),
     }
 
 
@@ -146,8 +148,4 @@ def _entries(one: Considered) -> dict[str, Any]:
 def _estimate(estimate: Estimate | None) -> dict[str, Any] | None:
     if estimate is None:
         return None
-    return {"error": _finite(estimate.error), "reasons": list(estimate.reasons), "within_the_sweeps": estimate.sure}
-
-
-def _finite(value: float) -> float | None:
-    return value if abs(value) < float("inf") else None
+    return {"error": finite(estimate.error), "reasons": list(estimate.reasons), "within_the_sweeps": estimate.sure}

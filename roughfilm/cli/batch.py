@@ -1,8 +1,6 @@
-"""roughfilm batch: every case of a study by every model, in parallel; a batch that was stopped goes on where it was."""
+"""roughfilm batch: every case of a study by every model, in parallel; a stopped batch continues where it was."""
 
-import os
-from concurrent.futures import Executor
-from contextlib import AbstractContextManager
+from collections.abc import Iterator
 from dataclasses import asdict
 from enum import StrEnum
 from pathlib import Path
@@ -10,11 +8,11 @@ from typing import Annotated, Any
 
 import typer
 from rich.markup import escape
-from rich.table import Column, Table
+from rich.table import Table
 
 from roughfilm.batch.directory import alone
 from roughfilm.batch.executors import dask, local
-from roughfilm.batch.progress import State, Tally
+from roughfilm.batch.progress import BatchProgress, State
 from roughfilm.batch.solve import finished, solved_table, tasks_of
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.ladder import models
@@ -23,128 +21,125 @@ from roughfilm.rom.studies.study import Study, load_study
 from roughfilm.terminal.console import (
     NOT_CONVERGED,
     AsJson,
-    in_one_line,
+    Jobs,
+    OutDirectory,
     make_directory,
     messages,
-    output,
     print_json,
+    process_count,
     progress_bar,
 )
+from roughfilm.terminal.results import print_all, table_of
 
-SHOWN = 5
-"""How many cases and failures are listed; the rest is counted."""
+LISTED = 5
+"""Cases and failures that are listed; the others are counted."""
 
 
 class Where(StrEnum):
-    """Where the jobs run."""
+    """The machines on which the jobs run."""
 
     LOCAL = "local"
     DASK = "dask"
 
 
-@in_one_line
 def command(
     study: Annotated[Path, typer.Argument(metavar="STUDY", help="The study file (TOML): a scene with lists.")],
-    out: Annotated[Path, typer.Option(help="Cases, results and tables go here; finished results are used again.")],
-    jobs: Annotated[int | None, typer.Option(help="Processes; by default one for each core.")] = None,
-    dry_run: Annotated[bool, typer.Option("--dry-run", help="Say what would be done, and what it would cost.")] = False,
-    executor: Annotated[Where, typer.Option(help="Where the jobs run.")] = Where.LOCAL,
+    out: OutDirectory,
+    jobs: Jobs = None,
+    dry_run: Annotated[bool, typer.Option("--dry-run", help="Show the jobs and their cost; solve nothing.")] = False,
+    executor: Annotated[Where, typer.Option(help="Run the jobs on this machine, or on a dask cluster.")] = Where.LOCAL,
     scheduler: Annotated[
-        str | None, typer.Option(metavar="ADDRESS", help="The dask scheduler: tcp://HOST:PORT.")
+        str | None, typer.Option(metavar="ADDRESS", help="Address of the dask scheduler: tcp://HOST:PORT.")
     ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Solve every case of a study by every model and write table.csv and table.h5."""
-    processes = len(os.sched_getaffinity(0)) if jobs is None else jobs
-    if processes < 1:
-        raise InputError(f"--jobs: got {jobs}; it must be 1 or more")
+    processes = process_count(jobs)
     if (executor is Where.DASK) != (scheduler is not None):
         raise InputError(f"--scheduler: got {scheduler} with --executor {executor}; dask needs one, local takes none")
     read = load_study(study, models())
-    tally = Tally()
+    progress = BatchProgress()
     if dry_run:
-        finished(read, tasks_of(read, out), tally)
-        _tell_plan(read, tally, processes, as_json)
+        finished(read, tasks_of(read, out), progress)
+        if as_json:
+            print_json(_plan_entries(read, progress, processes))
+        else:
+            print_all(_shown_plan(read, progress, processes))
         return
     make_directory(out)
     with alone(out) as scratch:
         place = local(processes, scratch) if scheduler is None else dask(scheduler)
-        _solved(read, out, tally, place)
-    _tell_outcome(read, tally, out, as_json)
-    if tally.failures:
+        try:
+            with progress_bar(1.0) as advance:
+                solved_table(read, out, progress, place, advance)
+        except (KeyboardInterrupt, SystemExit) as stop:
+            stop.add_note(f"stopped: {progress.words}; the same command goes on")
+            raise
+    _show_outcome(read, progress, out, as_json)
+    if progress.failures:
         raise typer.Exit(NOT_CONVERGED)
 
 
-def _solved(study: Study, out: Path, tally: Tally, place: AbstractContextManager[Executor]) -> None:
-    """Solve with a bar of progress."""
-    try:
-        with progress_bar(1.0) as advance:
-            solved_table(study, out, tally, place, advance)
-    except (KeyboardInterrupt, SystemExit) as stop:
-        stop.add_note(f"stopped: {tally.words}; the same command goes on")
-        raise
+def _plan_entries(study: Study, progress: BatchProgress, processes: int) -> dict[str, Any]:
+    return {
+        **_entries(study, progress),
+        "first_cases": [{"name": case.name, "varied": dict(case.varied)} for case in study.cases[:LISTED]],
+        "cpu_s": progress.cpu_s,
+        "wall_s": progress.wall_s(processes),
+        "processes": processes,
+    }
 
 
-def _tell_plan(study: Study, tally: Tally, processes: int, as_json: bool) -> None:
-    wall = tally.wall_s(processes)
-    if as_json:
-        shown = [{"name": case.name, "varied": dict(case.varied)} for case in study.cases[:SHOWN]]
-        print_json(
-            {
-                **_entries(study, tally),
-                "first_cases": shown,
-                "cpu_s": tally.cpu_s,
-                "wall_s": wall,
-                "processes": processes,
-            }
-        )
-        return
+def _shown_plan(study: Study, progress: BatchProgress, processes: int) -> Iterator[Table | str]:
     table = Table(*study.keys, title=f"{escape(study.name)}: {len(study.cases)} cases")
-    for case in study.cases[:SHOWN]:
+    for case in study.cases[:LISTED]:
         table.add_row(*(escape(str(case.varied.get(key, "-"))) for key in study.keys))
-    if len(study.cases) > SHOWN:
+    if len(study.cases) > LISTED:
         table.add_row(*("..." for _ in study.keys))
-    output.print(table)
-    output.print(_table_of(tally))
-    output.print(f"to come: {_duration(tally.cpu_s)} of CPU time, {_duration(wall)} with {processes} processes")
+    yield table
+    yield _state_table(progress)
+    wall = _duration(progress.wall_s(processes))
+    yield f"to come: {_duration(progress.cpu_s)} of CPU time, {wall} with {processes} processes"
 
 
-def _tell_outcome(study: Study, tally: Tally, out: Path, as_json: bool) -> None:
+def _show_outcome(study: Study, progress: BatchProgress, out: Path, as_json: bool) -> None:
     if as_json:
         failures = [
             {"case": job.path.parent.name, "setting": job.setting.name, **asdict(failure)}
-            for job, failure in tally.failures
+            for job, failure in progress.failures
         ]
         tables = [str(out / name) for name in ("table.csv", "table.h5")]
-        print_json({**_entries(study, tally), "failures": failures, "tables": tables})
+        print_json({**_entries(study, progress), "failures": failures, "tables": tables})
     else:
-        output.print(_table_of(tally))
-        output.print(f"table: {escape(str(out / 'table.csv'))} (.h5)", soft_wrap=True)
-    if tally.warned:
-        messages.print(f"[yellow]warning:[/] {tally.warned} results carry one; see the table", soft_wrap=True)
-    for job, failure in tally.failures[:SHOWN]:
-        told = f"{job.path.parent.name} by {job.setting.name}: {failure.kind}: {failure.message}"
-        messages.print(f"[yellow]failed:[/] {escape(told)}", soft_wrap=True)
-    if len(tally.failures) > SHOWN:
-        messages.print(f"[yellow]failed:[/] {len(tally.failures) - SHOWN} more; see the table", soft_wrap=True)
+        print_all((_state_table(progress), f"table: {out / 'table.csv'} (.h5)"))
+    if progress.warned:
+        messages.print(f"[yellow]warning:[/] {progress.warned} results carry one; see the table", soft_wrap=True)
+    for job, failure in progress.failures[:LISTED]:
+        message = f"{job.path.parent.name} by {job.setting.name}: {failure.kind}: {failure.message}"
+        messages.print(f"[yellow]failed:[/] {escape(message)}", soft_wrap=True)
+    if len(progress.failures) > LISTED:
+        messages.print(f"[yellow]failed:[/] {len(progress.failures) - LISTED} more; see the table", soft_wrap=True)
 
 
-def _entries(study: Study, tally: Tally) -> dict[str, Any]:
+def _entries(study: Study, progress: BatchProgress) -> dict[str, Any]:
+    counts = {name: {state.value: n for state, n in one.jobs.items()} for name, one in progress.accounts.items()}
     return {
         "study": study.name,
         "cases": len(study.cases),
-        "jobs": {name: {state.value: n for state, n in a.jobs.items()} for name, a in tally.accounts.items()},
+        "jobs": counts,
         "provenance": {"code": code(), "commit": commit(), "versions": versions()},
     }
 
 
-def _table_of(tally: Tally) -> Table:
-    shown = [state for state in State if tally.total(state)]
-    come = ["CPU to come"] if tally.total(State.TO_DO) else []
-    table = Table(Column("setting", no_wrap=True), *(Column(head, justify="right") for head in [*shown, *come]))
-    for name, account in tally.accounts.items():
-        cells = [str(account.jobs[state]) for state in shown]
-        table.add_row(name, *cells, *([_duration(account.remaining)] if come else []))
+def _state_table(progress: BatchProgress) -> Table:
+    states = [state for state in State if progress.total(state)]
+    to_come = ["CPU to come"] if progress.total(State.TO_DO) else []
+    rows = [
+        [name, *(str(one.jobs[state]) for state in states), *([_duration(one.remaining)] if to_come else [])]
+        for name, one in progress.accounts.items()
+    ]
+    table = table_of(["setting", *states, *to_come], rows, left=1)
+    table.columns[0].no_wrap = True
     return table
 
 

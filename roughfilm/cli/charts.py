@@ -1,11 +1,9 @@
-"""roughfilm charts: speed against accuracy of every model and of other people's solvers, family by family."""
+"""roughfilm charts: speed against accuracy of every model and of other solvers, for families of scenes."""
 
-import json
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from rich.markup import escape
 from rich.table import Table
 
 from roughfilm.batch.directory import alone
@@ -13,21 +11,21 @@ from roughfilm.charts.families import FAMILIES
 from roughfilm.charts.judgement import WITHIN, Chart, columns_of, entries_of, judged
 from roughfilm.charts.store import answers
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
-from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.files import write_json
 from roughfilm.figures.rendering import embedded
 from roughfilm.ladder import models
 from roughfilm.pages.render import render, write_figures
 from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.rom.studies.table import write_csv
-from roughfilm.terminal.console import AsJson, in_one_line, make_directory, messages, output, print_json, progress_bar
+from roughfilm.terminal.console import AsJson, OutDirectory, make_directory, print_json, progress_bar
+from roughfilm.terminal.results import print_all, print_left_out, table_of
 
 
-@in_one_line
 def command(
-    out: Annotated[Path, typer.Option(help="The page and its numbers go here; what was measured is used again.")],
+    out: OutDirectory,
     family: Annotated[
         list[str] | None,
-        typer.Option(metavar="NAME", help=f"Chart this one alone; repeatable: {', '.join(FAMILIES)}."),
+        typer.Option(metavar="NAME", help=f"Chart only this family; repeatable: {', '.join(FAMILIES)}."),
     ] = None,
     as_json: AsJson = False,
 ) -> None:
@@ -48,8 +46,7 @@ def command(
         overview(charts, out / "charts.png")
         entries = {**circumstances(), "families": [entries_of(chart) for chart in charts], "without_truth": without}
         write_csv(columns_of(charts), out / "charts.csv")
-        with replacing(out / "charts.json") as path:
-            path.write_text(json.dumps(entries, indent=1) + "\n", encoding="utf-8")
+        write_json(entries, out / "charts.json")
         render(
             "charts.html.j2",
             out / "charts.html",
@@ -57,23 +54,20 @@ def command(
             entries=entries,
             within=WITHIN,
             picture=embedded(out / "charts.png"),
-            taken=_span(charts),
+            taken=_measured_span(charts),
         )
     if as_json:
         print_json(entries)
     else:
-        for chart in charts:
-            output.print(_table(chart))
-        output.print(f"page: {escape(str(out / 'charts.html'))}", soft_wrap=True)
-    for name, reason in without.items():
-        messages.print(f"[yellow]left out:[/] {name}: {escape(reason)}", soft_wrap=True)
+        print_all((*map(_table, charts), f"page: {out / 'charts.html'}"))
+    print_left_out(without)
     for chart in charts:
-        for name, reason in {**chart.absent, **chart.answers.failed}.items():
-            messages.print(f"[yellow]left out:[/] {chart.family.name}: {name}: {escape(reason)}", soft_wrap=True)
+        reasons = {**chart.absent, **chart.answers.failed}
+        print_left_out({f"{chart.family.name}: {name}": reason for name, reason in reasons.items()})
 
 
 def measured(names: list[str], out: Path) -> tuple[list[Chart], dict[str, str]]:
-    """The charts of these families, and why the others have none."""
+    """The charts of these families, and for the others the reason why they have none."""
     ladder = models()
     families = [FAMILIES[name](ladder) for name in names]
     charts, without, spent = [], {}, 0.0
@@ -84,8 +78,8 @@ def measured(names: list[str], out: Path) -> tuple[list[Chart], dict[str, str]]:
                 advance(spent + done, words)
 
             try:
-                found = answers(family, out / "measured" / f"{family.name.replace(' ', '_')}.json", step)
-                charts.append(judged(family, found, family.absent()))
+                stored = out / "measured" / f"{family.name.replace(' ', '_')}.json"
+                charts.append(judged(family, answers(family, stored, step), family.absent()))
             except (ConvergenceError, UnavailableError) as error:
                 without[family.name] = str(error)
             except (KeyboardInterrupt, SystemExit) as stop:
@@ -95,8 +89,8 @@ def measured(names: list[str], out: Path) -> tuple[list[Chart], dict[str, str]]:
     return charts, without
 
 
-def _span(charts: list[Chart]) -> dict[str, Any]:
-    """When the first and the last point were measured, under which loads of the machine, by which commits."""
+def _measured_span(charts: list[Chart]) -> dict[str, Any]:
+    """First and last time of measurement, least and greatest load of the machine, and the commits."""
     taken = [one for chart in charts for one in chart.answers.taken.values()]
     return {
         "first": min(one["created"] for one in taken),
@@ -109,9 +103,9 @@ def _span(charts: list[Chart]) -> dict[str, Any]:
 
 
 def _table(chart: Chart) -> Table:
-    """The front of a family."""
+    """The Pareto front of a family."""
     title = f"{chart.family.name}: {chart.family.quantity}, known to {chart.truth.uncertainty:.1e}"
-    table = Table("on the front", "resolution", "CPU time, s", "error", title=title)
-    for point in chart.front:
-        table.add_row(point.model, str(point.resolution), f"{point.cpu_s:.3g}", f"{chart.error(point):.2g}")
-    return table
+    rows = [
+        (point.model, str(point.resolution), f"{point.cpu_s:.3g}", f"{chart.error(point):.2g}") for point in chart.front
+    ]
+    return table_of(("on the front", "resolution", "CPU time, s", "error"), rows, title=title, left=1)

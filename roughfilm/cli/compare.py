@@ -1,6 +1,5 @@
 """roughfilm compare: every model that applies on one scene, in one report."""
 
-import json
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict
@@ -8,13 +7,12 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from rich.markup import escape
 from rich.table import Table
 
 from roughfilm.batch.jobs import Job, jobs_of, run_all
-from roughfilm.cli.solve import table_of
+from roughfilm.cli.solve import quantity_table
 from roughfilm.contact.foundation.errors import ConvergenceError
-from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.files import write_json
 from roughfilm.figures.rendering import draw_apart
 from roughfilm.figures.view import views
 from roughfilm.ladder import models
@@ -30,25 +28,23 @@ from roughfilm.rom.studies.convergence import GRIDS, Convergence, Kind, converge
 from roughfilm.terminal.console import (
     NOT_CONVERGED,
     AsJson,
+    OutDirectory,
     Overrides,
     ScenePath,
-    in_one_line,
     make_directory,
-    messages,
-    output,
     print_json,
 )
+from roughfilm.terminal.results import print_all, print_left_out, table_of
 
 RESULTS = "results"
 
 
-@in_one_line
 def command(
     scene: ScenePath,
-    out: Annotated[Path, typer.Option(help="Report, results and figures go here; finished results are used again.")],
+    out: OutDirectory,
     set_: Overrides = None,
     grids: Annotated[
-        int, typer.Option(min=GRIDS, max=4, help="Grids of the convergence study; the fourth is finer, and slow.")
+        int, typer.Option(min=GRIDS, max=4, help="Grids of the convergence study; the fourth is the finest and slow.")
     ] = GRIDS,
     as_json: AsJson = False,
 ) -> None:
@@ -70,22 +66,18 @@ def command(
     if as_json:
         print_json(_entries(report, out))
     else:
-        for result in results.values():
-            output.print(table_of(result))
-        for name, study in report.convergence.items():
-            output.print(_table_of_convergence(name, study))
-        output.print(f"report: {escape(str(out / 'report.html'))}", soft_wrap=True)
-    for name, reason in absent.items():
-        messages.print(f"[yellow]left out:[/] {name}: {escape(reason)}", soft_wrap=True)
+        tables = [_convergence_table(name, study) for name, study in report.convergence.items()]
+        print_all((*map(quantity_table, results.values()), *tables, f"report: {out / 'report.html'}"))
+    print_left_out(absent)
     if failed:
         raise typer.Exit(NOT_CONVERGED)
 
 
 def _reason_to_leave_out(model: Model, scene: Scene) -> str | None:
-    fits, found = model.applies(scene), model.available()
+    fits, here = model.applies(scene), model.available()
     if not fits.applies:
         return fits.reason
-    return None if found.available else found.detail
+    return None if here.available else here.detail
 
 
 def _finest(runs: Sequence[tuple[Job, Result]]) -> dict[str, Result]:
@@ -100,12 +92,13 @@ def _finest(runs: Sequence[tuple[Job, Result]]) -> dict[str, Result]:
     }
 
 
-def _table_of_convergence(model: str, study: Mapping[str, Convergence]) -> Table:
-    grids = next(iter(study.values())).grids
-    table = Table("quantity", "order", "value", "±", "kind", title=f"{model} on grids {', '.join(map(str, grids))}")
-    for quantity, found in study.items():
-        table.add_row(quantity, found.order_told, f"{found.value:.5g}", f"{found.uncertainty:.1e}", found.kind)
-    return table
+def _convergence_table(model: str, study: Mapping[str, Convergence]) -> Table:
+    title = f"{model} on grids {', '.join(map(str, next(iter(study.values())).grids))}"
+    rows = [
+        (quantity, one.order_told, f"{one.value:.5g}", f"{one.uncertainty:.1e}", one.kind)
+        for quantity, one in study.items()
+    ]
+    return table_of(("quantity", "order", "value", "±", "kind"), rows, title=title, left=5)
 
 
 def _judge(
@@ -126,7 +119,7 @@ def _judge(
         for model in ladder
         if model.order and model.name in results and (study := convergence(model, runs))
     }
-    extrapolated = any(found.kind is Kind.MONOTONE for study in studies.values() for found in study.values())
+    extrapolated = any(one.kind is Kind.MONOTONE for study in studies.values() for one in study.values())
     floor = _uncertainty(results[top.name], convergence(top, runs))
     plots = {
         **view.plots(scene, results),
@@ -150,19 +143,17 @@ def _judge(
         pictures=_pictures(results, view.drawing, out),
     )
     write_figures(plots, out)
-    with replacing(out / "chart.json") as scratch:
-        scratch.write_text(json.dumps(_raw(report), indent=1) + "\n", encoding="utf-8")
+    write_json(_chart_entries(report), out / "chart.json")
     return report
 
 
 def _uncertainty(result: Result, study: Mapping[str, Convergence]) -> dict[str, float]:
-    """Of each compared quantity, over its scale: by its grids, or told by the run itself where that is more.
+    """The uncertainty of each compared quantity over its scale: by the grids, or by the run itself if that is larger.
 
-    Grids that a study refines in some directions only cannot tell of the others.
+    Grids that a study refines in some directions only do not show the error of the others.
     """
     return {
-        name: max(found.uncertainty, result[name].uncertainty or 0.0) / scale(result, name)
-        for name, found in study.items()
+        name: max(one.uncertainty, result[name].uncertainty or 0.0) / scale(result, name) for name, one in study.items()
     }
 
 
@@ -173,16 +164,16 @@ def _entries(report: Report, out: Path) -> dict[str, Any]:
         "differences": [asdict(difference) for difference in report.to_best + report.effects],
         "cheapest_within_10_percent": cheapest_within(report, 0.10),
         "convergence": {
-            model: {quantity: asdict(found) for quantity, found in study.items()}
+            model: {quantity: asdict(one) for quantity, one in study.items()}
             for model, study in report.convergence.items()
         },
-        "chart": _raw(report),
+        "chart": _chart_entries(report),
         "absent": dict(report.absent),
         "report": str(out / "report.html"),
     }
 
 
-def _raw(report: Report) -> dict[str, Any]:
+def _chart_entries(report: Report) -> dict[str, Any]:
     reference = report.results[report.best]
     return {
         "reference": {

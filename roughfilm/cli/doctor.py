@@ -1,4 +1,4 @@
-"""roughfilm doctor: what is on this machine, which version, and what to do about the rest."""
+"""roughfilm doctor: the programs that are on this machine, their versions, and how to install the others."""
 
 import platform
 import shutil
@@ -12,7 +12,7 @@ from roughfilm.figures.rendering import probe
 from roughfilm.foamcases.openfoam.installation import availability
 from roughfilm.rom.ladder.model import Availability
 from roughfilm.rom.ladder.provenance import versions
-from roughfilm.terminal.console import AsJson, in_one_line, output, print_json
+from roughfilm.terminal.console import AsJson, output, print_json
 
 
 def _python() -> Availability:
@@ -25,10 +25,10 @@ def _mpi() -> Availability:
     if shutil.which("mpirun") is None:
         return Availability(available=False, detail="no mpirun; install it with: sudo apt-get install openmpi-bin")
     try:
-        told = subprocess.run(["mpirun", "--version"], capture_output=True, text=True, timeout=30, check=False).stdout
+        text = subprocess.run(["mpirun", "--version"], capture_output=True, text=True, timeout=30, check=False).stdout
     except (OSError, subprocess.SubprocessError) as error:
         return Availability(available=False, detail=f"mpirun does not start ({error})")
-    return Availability(available=True, detail=next(iter(told.splitlines()), "mpirun"))
+    return Availability(available=True, detail=next(iter(text.splitlines()), "mpirun"))
 
 
 def _instruments() -> Availability:
@@ -47,14 +47,13 @@ CHECKS: dict[str, Callable[[], Availability]] = {
 }
 
 
-@in_one_line
 def command(as_json: AsJson = False) -> None:
-    """Look for Python, OpenFOAM, MPI, rendering, the reader of instrument files; say what was found, what to do."""
-    found = {name: check() for name, check in CHECKS.items()}
+    """Check Python, OpenFOAM, MPI, rendering and the reader of instrument files; give remedies."""
+    parts = {name: check() for name, check in CHECKS.items()}
     if as_json:
-        print_json({name: {"available": it.available, "detail": it.detail} for name, it in found.items()})
+        print_json({name: {"available": part.available, "detail": part.detail} for name, part in parts.items()})
         return
-    table = Table("part", "found", "version, or what to do")
-    for name, it in found.items():
-        table.add_row(name, "[green]yes[/]" if it.available else "[red]no[/]", it.detail)
+    table = Table("part", "available", "version, or remedy")
+    for name, part in parts.items():
+        table.add_row(name, "[green]yes[/]" if part.available else "[red]no[/]", part.detail)
     output.print(table)

@@ -4,11 +4,9 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from rich.markup import escape
 
-from roughfilm.cli.surface import refuse_same
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.foundation.units import Quantity, to_si
+from roughfilm.contact.foundation.units import to_si
 from roughfilm.contact.meshes.files import mesh_format, write_mesh
 from roughfilm.contact.meshes.mesh import CellType, Mesh
 from roughfilm.contact.meshes.surface import surface_mesh
@@ -22,24 +20,26 @@ from roughfilm.rom.meshes.result_mesh import PLACES, labelled, result_mesh
 from roughfilm.rom.meshes.walls_mesh import Part, gap_mesh, wall_mesh
 from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.rough_gap.walls import Walls
-from roughfilm.terminal.console import AsJson, Overrides, in_one_line, messages, output, print_json
+from roughfilm.terminal.console import AsJson, Overrides, messages, print_json
+from roughfilm.terminal.output_file import refuse_same
+from roughfilm.terminal.results import print_all
 
 RESOLUTION, LAYERS = 64, 8
-MOST_CELLS = 20_000_000
+MAX_CELLS = 20_000_000
 CONTENT = {CellType.LINE: ("length", "m"), CellType.HEXAHEDRON: ("volume", "m^3")}
 
 
-@in_one_line
 def command(
     file: Annotated[
-        Path, typer.Argument(metavar="FILE", help="A scene of a rough gap, a surface, or a result that solve wrote.")
+        Path,
+        typer.Argument(metavar="FILE", help="A scene of a rough gap, a surface, or a stored result."),
     ],
-    out: Annotated[Path, typer.Option(help="The mesh is written here: .vtu, .stl or .msh (Gmsh).")],
-    what: Annotated[Part | None, typer.Option(help="Of a gap: the liquid in it (the default), or a wall.")] = None,
-    resolution: Annotated[int | None, typer.Option(help="Of a gap: columns along its longer side.")] = None,
-    layers: Annotated[int | None, typer.Option(help="Of a gap: layers of cells between its walls.")] = None,
+    out: Annotated[Path, typer.Option(help="Write the mesh here: .vtu, .stl or .msh (Gmsh).")],
+    what: Annotated[Part | None, typer.Option(help="Part of a rough gap: the liquid (default), or a wall.")] = None,
+    resolution: Annotated[int | None, typer.Option(help="Columns along the longer side of a rough gap.")] = None,
+    layers: Annotated[int | None, typer.Option(help="Layers of cells between the walls of a rough gap.")] = None,
     spacing: Annotated[
-        str | None, typer.Option(help="Of a surface's points, if its file does not tell it: 1um.")
+        str | None, typer.Option(help="Distance between the points of a surface whose file does not hold it: 1um.")
     ] = None,
     set_: Overrides = None,
     as_json: AsJson = False,
@@ -47,33 +47,27 @@ def command(
     """Write a gap, a surface or a result as a mesh for other tools: lengths in metres, data named with their units."""
     refuse_same({"FILE": file, "--out": out})
     mesh_format(out)
-    mesh, told = _mesh(file, what, resolution, layers, _metres(spacing), set_)
+    mesh, origin = _mesh(file, what, resolution, layers, _metres(spacing), set_)
     written = write_mesh(mesh, out)
     name, unit = CONTENT.get(written.cell_type, ("area", "m^2"))
-    size = Quantity(value=written.content, unit=unit)
-    told["left_out"] = sorted({*told["left_out"], *_data(mesh)} - set(_data(written)))
+    origin["left_out"] = sorted({*origin["left_out"], *_data(mesh)} - set(_data(written)))
     if as_json:
         print_json(
             {
-                "quantities": {name: {"value": size.value, "unit": size.unit}},
+                "quantities": {name: {"value": written.content, "unit": unit}},
                 "numerics": {
                     "cells": len(written.cells),
                     "points": len(written.points),
                     "sort": str(written.cell_type),
                 },
-                "provenance": {"file": str(file), "out": str(out), "data": _data(written), **told, **circumstances()},
+                "provenance": {"file": str(file), "out": str(out), "data": _data(written), **origin, **circumstances()},
             }
         )
         return
-    output.print(
-        f"written: {escape(str(out))}: {len(written.cells)} cells ({written.cell_type}), "
-        f"{name} {size.value:.6g} {unit}",
-        soft_wrap=True,
-    )
-    for known in _data(written):
-        output.print(f"  data: {escape(known)}", soft_wrap=True)
-    if told["left_out"]:
-        messages.print(f"left out: {escape(', '.join(told['left_out']))}", soft_wrap=True)
+    content = f"{len(written.cells)} cells ({written.cell_type}), {name} {written.content:.6g} {unit}"
+    print_all((f"written: {out}: {content}", *(f"  data: {known}" for known in _data(written))))
+    if origin["left_out"]:
+        messages.print(f"left out: {', '.join(origin['left_out'])}", soft_wrap=True, markup=False)
 
 
 def _mesh(
@@ -84,13 +78,13 @@ def _mesh(
     spacing: float | None,
     set_: list[str] | None,
 ) -> tuple[Mesh, dict[str, Any]]:
-    """The mesh of a file of any sort, and what must be told of it."""
+    """The mesh of a file of any sort, and its origin for the provenance."""
     for_gaps = {"--what": what, "--resolution": resolution, "--layers": layers}
     if file.suffix.lower() == ".toml" and kind_named(load_entries(file)) is not None:
         return _of_scene(file, what or Part.GAP, resolution, layers, set_)
     for option, given in {**for_gaps, "--set": set_}.items():
         if given:
-            raise InputError(f"{option}: got {given}, but {file} is no scene of a rough gap; leave it out")
+            raise InputError(f"{option}: got {given}, but {file} is not a scene of a rough gap; leave it out")
     if file.suffix.lower() == ".toml":
         return surface_mesh(make(read_description(file))), {"left_out": []}
     if file.suffix.lower() in (".h5", ".hdf5") and not (file.is_file() and is_surface(file)):
@@ -100,7 +94,7 @@ def _mesh(
         left_out = sorted(set(names) - set(_data(mesh)))
         return mesh, {"model": result.model, "scene": result.provenance.get("scene"), "left_out": left_out}
     if spacing is None and file.suffix.lower() == ".npy" and file.is_file() and not is_surface(file):
-        raise InputError(f"{file}: gives no spacing of its points; give it by --spacing 1um")
+        raise InputError(f"{file}: does not hold the distance of its points; give it by --spacing 1um")
     surface = read_surface(file, spacing=None if spacing is None else (spacing, spacing))
     return surface_mesh(surface), {"surface": dict(surface.source), "left_out": []}
 
@@ -127,14 +121,14 @@ def _of_scene(
         raise InputError(
             f"--resolution: got {resolution}; the surface has {own} points along its longer side, take 2 to {own}"
         )
-    if layers < 1 or resolution**2 * layers > MOST_CELLS:
-        raise InputError(f"--layers: got {layers}; take 1 or more, and at most {MOST_CELLS} cells in all")
+    if layers < 1 or resolution**2 * layers > MAX_CELLS:
+        raise InputError(f"--layers: got {layers}; take 1 or more, and at most {MAX_CELLS} cells in all")
     walls = scene.walls(resolution)
     mesh = gap_mesh(walls, layers) if part is Part.GAP else wall_mesh(walls, part)
-    return mesh, {"what": str(part), "walls": _told(walls), "scene": scene_entries(scene), "left_out": []}
+    return mesh, {"what": str(part), "walls": _wall_entries(walls), "scene": scene_entries(scene), "left_out": []}
 
 
-def _told(walls: Walls) -> dict[str, Any]:
+def _wall_entries(walls: Walls) -> dict[str, Any]:
     nx, ny = walls.gap.shape
     return {"nodes": [nx, ny], "spacing": list(walls.spacing), "mean_gap": walls.mean_gap}
 

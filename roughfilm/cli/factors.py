@@ -1,27 +1,25 @@
-"""roughfilm factors: what a rough surface does to a film, as flow factors over the mean gap or at one."""
+"""roughfilm factors: flow factors of a rough surface, at one mean gap or as a table over the mean gap."""
 
 import math
-import os
-import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from rich.markup import escape
 from rich.table import Table
 
-from roughfilm.cli.surface import refuse_same
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.threads import checked_threads
+from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.units import to_si
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.store import is_series, load_contact, load_series
 from roughfilm.contact.read import HeightMap, parse_spacing, periodicity_warnings, read_height_map
 from roughfilm.contact.surfaces.surface import MAX_LENGTH, MIN_SPACING, Surface
-from roughfilm.rom.bearing.mixed.resume import Work, kept_table
+from roughfilm.rom.bearing.mixed.resume import kept_table
 from roughfilm.rom.bearing.mixed.tabulate import gap_of, tabulate_pressed
 from roughfilm.rom.homogenization.conductance import FaceRule
 from roughfilm.rom.homogenization.factors import NAMES, FlowFactors, relative_quantities
@@ -29,18 +27,25 @@ from roughfilm.rom.homogenization.flow_factors import Estimated, flow_factors
 from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
 from roughfilm.rom.homogenization.table.separation import Separations
 from roughfilm.rom.homogenization.table.tabulate import INTERPOLATION_TOLERANCE, tabulate
-from roughfilm.rom.ladder.model import Progress
-from roughfilm.rom.ladder.provenance import circumstances, code
-from roughfilm.terminal.console import AsJson, Threads, in_one_line, messages, output, print_json, progress_bar
-from roughfilm.terminal.output_file import alone, refuse_unwritable
+from roughfilm.rom.ladder.provenance import code
+from roughfilm.terminal.console import (
+    AsJson,
+    ReportFile,
+    Spacing,
+    Threads,
+    progress_bar,
+)
+from roughfilm.terminal.output_file import alone, refuse_same, refuse_unwritable
+from roughfilm.terminal.results import origin, show_result, table_of
 
 SOURCES = ("10.1016/j.triboint.2007.02.021", "10.1016/j.triboint.2006.02.069", "Sahlin 2008, Papers C and E")
-SHOWN = ("A11", "A12", "A22", "B1", "B2")
-SHOWN_CONTACT = 0.2
-"""The flow is drawn at the point of a table whose contact is nearest to this."""
+TABLE_FACTORS = ("A11", "A12", "A22", "B1", "B2")
+DRAWN_CONTACT = 0.2
+"""The flow is drawn at the point of a table whose contact fraction is nearest to this."""
+
+Entries = dict[str, Any]
 
 
-@in_one_line
 def command(
     surface: Annotated[
         Path,
@@ -48,84 +53,93 @@ def command(
             metavar="SURFACE", help="A surface (HDF5, TOML, an instrument's file), heights (NPY), or contacts."
         ),
     ],
-    gap: Annotated[str | None, typer.Option(metavar="H", help="One mean gap, e.g. 3um; else all, as a table.")] = None,
-    spacing: Annotated[
-        str | None, typer.Option(metavar="D", help="Between the points of an array of heights: 1um, or 1um,2um.")
+    gap: Annotated[
+        str | None, typer.Option(metavar="H", help="One mean gap, e.g. 3um (default: all, as a table).")
     ] = None,
+    spacing: Spacing = None,
     tolerance: Annotated[
         float | None,
-        typer.Option(help=f"Of a table's interpolation between its points; {INTERPOLATION_TOLERANCE:g} by default."),
+        typer.Option(help=f"Relative interpolation error of the table (default {INTERPOLATION_TOLERANCE:g})."),
     ] = None,
-    rule: Annotated[FaceRule, typer.Option(help="How the gap runs between two nodes.")] = FaceRule.LINEAR,
+    rule: Annotated[FaceRule, typer.Option(help="Course of the gap between two nodes.")] = FaceRule.LINEAR,
     offset: Annotated[
         str | None,
         typer.Option(
-            metavar="H", help="Added to the gap everywhere, e.g. 10nm; with --gap only, and told in the mean gap."
+            metavar="H", help="Constant added to the gap (only with --gap); the reported mean gap includes it."
         ),
     ] = None,
     out: Annotated[
         Path | None, typer.Option(help="Write the table here (HDF5); points that it holds are not solved again.")
     ] = None,
-    report: Annotated[Path | None, typer.Option(help="Write a page with its pictures here (HTML).")] = None,
+    report: ReportFile = None,
     threads: Threads = None,
     as_json: AsJson = False,
 ) -> None:
-    """Average a rough surface: what its film lets through, drags along and rubs over that of a smooth one.
+    """Compute pressure, shear and friction flow factors of a rough surface.
 
     A file of contacts (roughfilm contact ... --out) makes one table from thick films to crushed asperities.
     """
     refuse_same({"SURFACE": surface, "--out": out, "--report": report})
-    started, cpu = time.perf_counter(), sum(os.times()[:4])
-    mean_gap, more = _length("--gap", gap), _length("--offset", offset, least=0.0) or 0.0
+    spent = stopwatch()
+    mean_gap, constant = _length("--gap", gap), _length("--offset", offset, least=0.0) or 0.0
     if mean_gap is not None and out is not None:
         raise InputError("--out: holds a table; leave it or --gap out")
     if mean_gap is None and offset is not None:
         raise InputError("--offset: got one for a table, in which contact is closed; give --gap, or leave it out")
     if mean_gap is not None and tolerance is not None:
-        raise InputError("--tolerance: is of a table; leave it or --gap out")
-    asked, sharing = INTERPOLATION_TOLERANCE if tolerance is None else tolerance, checked_threads(threads)
-    for path in filter(None, (out, report)):
-        refuse_unwritable(path)
+        raise InputError("--tolerance: belongs to a table; leave it or --gap out")
+    accuracy, workers = INTERPOLATION_TOLERANCE if tolerance is None else tolerance, checked_threads(threads)
+    refuse_unwritable(out, report)
     with alone(out, "table"), progress_bar(1.0) as advance:
         advance(0, f"reading {surface.name}")
-        series = _read_series(surface) if surface.is_file() and is_series(surface) else None
-        if series is not None and mean_gap is not None:
+        contacts = _read_contacts(surface) if surface.is_file() and is_series(surface) else None
+        if contacts is not None and mean_gap is not None:
             raise InputError(f"--gap: {surface} holds contacts, which make a table; leave --gap out")
         rough = (
-            _undeformed(surface, series[0])
-            if series
+            _undeformed(surface, contacts[0])
+            if contacts
             else read_height_map(surface, parse_spacing(spacing), periodic=True)
         )
         if min(rough.heights.shape) < 2:
             raise InputError(
                 f"{surface}: is a profile; roughfilm.rom.homogenization.line has its flow factors in closed form"
             )
-        settings = {"rule": rule.value, "offset": more, "mean_gap": mean_gap, "code": code()}
+        settings: Entries = {"rule": rule.value, "offset": constant, "mean_gap": mean_gap, "code": code()}
+        table = None
         if mean_gap is not None:
-            body = Separations(heights=rough.heights)
-            separation = body.at_mean_gap(mean_gap)
-            gap_there, table = body.gap(separation), None
-            found = flow_factors(gap_there, rough.spacing, rule=rule, offset=more, progress=advance)
-            told = _told_one(rough, settings, found, separation)
+            separations = Separations(heights=rough.heights)
+            separation = separations.at_mean_gap(mean_gap)
+            drawn_gap = separations.gap(separation)
+            factors = flow_factors(drawn_gap, rough.spacing, rule=rule, offset=constant, progress=advance)
+            entries = _entries_at(factors, separation)
         else:
-            if series is None:
-                work = _of_surface(surface, rough, asked, rule, sharing, advance)
-            else:
-                settings |= {name: series[0].settings[name] for name in ("composite_modulus", "hardness")}
-                work = _of_contacts(surface, *series, asked, rule, sharing, advance)
+            options = {"tolerance": accuracy, "rule": rule, "threads": workers, "progress": advance}
+            work: Callable[..., FactorTable] = partial(_table_of_surface, surface, rough, options)
+            if contacts is not None:
+                settings |= {name: contacts[0].settings[name] for name in ("composite_modulus", "hardness")}
+                work = partial(_table_of_contacts, surface, *contacts, options)
             inputs = Inputs(heights=rough.heights, spacing=rough.spacing, settings=settings)
             table, known = kept_table(out, inputs, work)
-            told = _told_all(rough, settings | {"tolerance": asked}, table, known)
-        told["numerics"] |= {"cpu_s": sum(os.times()[:4]) - cpu, "wall_s": time.perf_counter() - started}
+            settings = settings | {"tolerance": accuracy}
+            entries = _table_entries(table)
+            entries["numerics"]["separations_found"] = known
+        entries["numerics"] |= {"points": rough.heights.size, **spent()}
+        warnings = [*rough.warnings, *_table_warnings(table, accuracy)]
+        entries["provenance"] = origin(SOURCES, warnings, surface=dict(rough.source), settings=settings)
         if report is not None:
             from roughfilm.pages.factors import write_page  # matplotlib is slow to import
 
             advance(1.0, "drawing the page")
             if table is not None:
-                gap_there = _shown_gap(table, rough, settings)
-                found = flow_factors(gap_there, rough.spacing, rule=rule)
-            write_page(surface.name, told, rough, report, gap_there, found, table)
-    _tell(surface.name, told, [path for path in (out, report) if path is not None], as_json)
+                drawn_gap = _drawn_gap(table, rough, settings)
+                factors = flow_factors(drawn_gap, rough.spacing, rule=rule)
+            write_page(surface.name, entries, _points_of(entries), rough, report, drawn_gap, factors, table)
+
+    def shown() -> Iterator[Table | str]:
+        yield _table(surface.name, _points_of(entries))
+        yield from (f"written: {path}" for path in (out, report) if path is not None)
+
+    show_result(entries, shown(), as_json=as_json, reused="separations")
 
 
 def _length(option: str, text: str | None, least: float = MIN_SPACING) -> float | None:
@@ -140,66 +154,49 @@ def _length(option: str, text: str | None, least: float = MIN_SPACING) -> float 
     return length
 
 
-def _of_surface(
-    surface: Path, rough: HeightMap, tolerance: float, rule: FaceRule, threads: int, advance: Progress
-) -> Work:
-    """How the table of an undeformed surface is made."""
-
-    def work(known: Sequence[Point], keep: Callable[[Point], None]) -> FactorTable:
-        try:
-            return tabulate(
-                rough.heights,
-                rough.spacing,
-                tolerance=tolerance,
-                rule=rule,
-                known=known,
-                keep=keep,
-                threads=threads,
-                progress=advance,
-            )
-        except InputError as error:
-            raise InputError(str(error).replace("heights:", f"{surface}:")) from None
-
-    return work
+def _table_of_surface(
+    surface: Path,
+    rough: HeightMap,
+    options: Mapping[str, Any],
+    known: Sequence[Point],
+    keep: Callable[[Point], None],
+) -> FactorTable:
+    """The table of an undeformed surface."""
+    try:
+        return tabulate(rough.heights, rough.spacing, known=known, keep=keep, **options)
+    except InputError as error:
+        raise InputError(str(error).replace("heights:", f"{surface}:")) from None
 
 
-def _of_contacts(
-    series: Path,
+def _table_of_contacts(
+    file: Path,
     pressed: Inputs,
     loads: Sequence[float],
-    tolerance: float,
-    rule: FaceRule,
-    threads: int,
-    advance: Progress,
-) -> Work:
-    """How the table of a surface under a series of loads is made, from the contacts in a file."""
-
-    def work(known: Sequence[Point], keep: Callable[[Point], None]) -> FactorTable:
-        return tabulate_pressed(
-            pressed.heights,
-            pressed.spacing,
-            pressed.settings["composite_modulus"],
-            hardness=pressed.settings["hardness"] or math.inf,
-            loads=loads,
-            tolerance=tolerance,
-            rule=rule,
-            known=known,
-            keep=keep,
-            stored=lambda load: load_contact(series, load) if load in loads else None,
-            threads=threads,
-            progress=advance,
-        ).factors
-
-    return work
+    options: Mapping[str, Any],
+    known: Sequence[Point],
+    keep: Callable[[Point], None],
+) -> FactorTable:
+    """The table of a surface under a series of loads, from the contacts in a file."""
+    return tabulate_pressed(
+        pressed.heights,
+        pressed.spacing,
+        pressed.settings["composite_modulus"],
+        hardness=pressed.settings["hardness"] or math.inf,
+        loads=loads,
+        known=known,
+        keep=keep,
+        stored=lambda load: load_contact(file, load) if load in loads else None,
+        **options,
+    ).factors
 
 
-def _shown_gap(table: FactorTable, rough: HeightMap, settings: Mapping[str, Any]) -> Array:
+def _drawn_gap(table: FactorTable, rough: HeightMap, settings: Mapping[str, Any]) -> Array:
     """The gap, m, at the point of a table whose flow is drawn."""
-    shown = min(table.points, key=lambda point: (any(point.factors.sealed), abs(point.contact - SHOWN_CONTACT)))
-    if shown.load == 0:
-        return Separations(heights=rough.heights).gap(shown.separation)
+    drawn = min(table.points, key=lambda point: (any(point.factors.sealed), abs(point.contact - DRAWN_CONTACT)))
+    if drawn.load == 0:
+        return Separations(heights=rough.heights).gap(drawn.separation)
     hardness = settings["hardness"] or math.inf
-    return gap_of(shown, Press(rough.heights, rough.spacing, settings["composite_modulus"], hardness=hardness))
+    return gap_of(drawn, Press(rough.heights, rough.spacing, settings["composite_modulus"], hardness=hardness))
 
 
 def _undeformed(path: Path, pressed: Inputs) -> HeightMap:
@@ -210,140 +207,103 @@ def _undeformed(path: Path, pressed: Inputs) -> HeightMap:
     return HeightMap(heights=pressed.heights, spacing=pressed.spacing, source=source, warnings=warnings)
 
 
-def _read_series(path: Path) -> tuple[Inputs, tuple[float, ...]]:
-    """A file of contacts; InputError where it cannot make a table."""
+def _read_contacts(path: Path) -> tuple[Inputs, tuple[float, ...]]:
+    """The inputs and loads of a file of contacts; InputError where it cannot make a table."""
     pressed, loads = load_series(path)
     if len(loads) < 2:
-        model = pressed.settings["model"]
-        told = f"holds contacts with their gaps at {len(loads)} loads, by the model {model}"
-        raise InputError(f"{path}: {told}; make one of two or more: roughfilm contact S.h5 --loads ... --out C.h5")
+        content = f"holds contacts with their gaps at {len(loads)} loads, by the model {pressed.settings['model']}"
+        raise InputError(f"{path}: {content}; make one of two or more: roughfilm contact S.h5 --loads ... --out C.h5")
     if pressed.settings["boundary"] != "periodic":
-        raise InputError(f"{path}: is of a surface that stands alone; a film that repeats needs --boundary periodic")
+        raise InputError(f"{path}: has a surface that stands alone; a periodic film needs --boundary periodic")
     return pressed, loads
 
 
-def relative(factors: FlowFactors, uncertainty: FlowFactors) -> dict[str, dict[str, float | None]]:
-    """Each over that of a smooth film of the mean gap, with its uncertainty; None where that is unknown."""
+def _relative(factors: FlowFactors, uncertainty: FlowFactors) -> dict[str, dict[str, float | None]]:
+    """Each factor over that of a smooth film of the mean gap, with its uncertainty; None where that is unknown."""
     quantities = relative_quantities(factors, uncertainty).items()
     return {name: {"value": one.value, "uncertainty": one.uncertainty} for name, one in quantities}
 
 
-def _told_one(rough: HeightMap, settings: dict[str, Any], found: Estimated, separation: float) -> dict[str, Any]:
-    """The object of ``--json`` for one mean gap."""
-    factors = found.factors
-    quantities: dict[str, Any] = {
-        name: {**entry, "unit": "1"} for name, entry in relative(factors, found.uncertainty).items()
-    }
+def _entries_at(estimated: Estimated, separation: float) -> Entries:
+    """The object of ``--json`` for one mean gap, without provenance."""
+    factors = estimated.factors
     sealed = dict(zip(("sealed_x", "sealed_y"), factors.sealed, strict=True))
-    quantities |= {name: {"value": value, "unit": "1"} for name, value in sealed.items()}
-    quantities |= {
-        "mean_gap": {"value": factors.mean_gap, "unit": "m"},
-        "separation": {"value": separation, "unit": "m"},
-        "contact": {"value": found.contact, "unit": "1"},
-    }
-    numerics = {
-        "unsolved": found.unsolved,
-        "residual": found.residual,
-        "iterations": found.iterations,
-        "points": rough.heights.size,
-    }
-    return {"quantities": quantities, **sealed, "numerics": numerics, **_provenance(rough, settings)}
-
-
-def _told_all(rough: HeightMap, settings: dict[str, Any], table: FactorTable, known: int) -> dict[str, Any]:
-    """The object of ``--json`` for a table."""
-    points = [
-        {
-            "mean_gap": point.mean_gap,
-            "separation": point.separation,
-            "contact": point.contact,
-            "load": point.load,
-            "area_fraction": point.area_fraction,
-            "plastic_fraction": point.plastic_fraction,
-            "sealed_x": point.factors.sealed[0],
-            "sealed_y": point.factors.sealed[1],
-            **relative(point.factors, point.uncertainty),
-        }
-        for point in table.points
-    ]
-    quantities = {
-        "narrowest": {"value": table.narrowest, "unit": "m"},
-        "widest": {"value": table.widest, "unit": "m"},
-        "interpolation_error": {"value": table.interpolation_error, "unit": "1"},
-    }
-    off, asked = table.interpolation_error, settings["tolerance"]
-    told = _provenance(rough, settings)
-    if off > asked:
-        few = (
-            f"the table is off by {off:.2g} between some points, more than {asked:g}: factors jump there, or 400 points"
-        )
-        told["provenance"]["warnings"].append(f"{few} are too few; look at the surface for spikes and plateaus")
-    numerics = {
-        "unsolved": max(point.unsolved for point in table.points),
-        "residual": max(point.residual for point in table.points),
-        "iterations": sum(point.iterations for point in table.points),
-        "points": rough.heights.size,
-        "separations": len(table.points),
-        "separations_found": known,
-    }
+    values = {**sealed, "mean_gap": factors.mean_gap, "separation": separation, "contact": estimated.contact}
     return {
-        "points": points,
+        "quantities": {
+            **{name: {**entry, "unit": "1"} for name, entry in _relative(factors, estimated.uncertainty).items()},
+            **{
+                name: {"value": value, "unit": "m" if name in ("mean_gap", "separation") else "1"}
+                for name, value in values.items()
+            },
+        },
+        **sealed,
+        "numerics": {name: getattr(estimated, name) for name in ("unsolved", "residual", "iterations")},
+    }
+
+
+def _table_entries(table: FactorTable) -> Entries:
+    """The object of ``--json`` for a table, without provenance."""
+    numbers = ("mean_gap", "separation", "contact", "load", "area_fraction", "plastic_fraction")
+    return {
+        "points": [
+            {
+                **{name: getattr(point, name) for name in numbers},
+                **dict(zip(("sealed_x", "sealed_y"), point.factors.sealed, strict=True)),
+                **_relative(point.factors, point.uncertainty),
+            }
+            for point in table.points
+        ],
         "units": {"mean_gap": "m", "separation": "m", "contact": "1", "load": "Pa", **dict.fromkeys(NAMES, "1")},
-        "quantities": quantities,
-        "numerics": numerics,
-        **told,
+        "quantities": {
+            "narrowest": {"value": table.narrowest, "unit": "m"},
+            "widest": {"value": table.widest, "unit": "m"},
+            "interpolation_error": {"value": table.interpolation_error, "unit": "1"},
+        },
+        "numerics": {
+            "unsolved": max(point.unsolved for point in table.points),
+            "residual": max(point.residual for point in table.points),
+            "iterations": sum(point.iterations for point in table.points),
+            "separations": len(table.points),
+        },
     }
 
 
-def _provenance(rough: HeightMap, settings: dict[str, Any]) -> dict[str, Any]:
-    return {
-        "provenance": {
-            "surface": dict(rough.source),
-            "settings": settings,
-            "warnings": list(rough.warnings),
-            "sources": list(SOURCES),
-            **circumstances(),
-        }
-    }
+def _table_warnings(table: FactorTable | None, tolerance: float) -> list[str]:
+    if table is None or table.interpolation_error <= tolerance:
+        return []
+    error = f"the interpolation error of the table is {table.interpolation_error:.2g}, above {tolerance:g}"
+    return [f"{error}: factors jump, or 400 points are too few; check the surface for spikes and plateaus"]
 
 
-def _tell(name: str, told: dict[str, Any], written: list[Path], as_json: bool) -> None:
-    if as_json:
-        print_json(told)
-    else:
-        output.print(_table_of(name, told.get("points") or [_flat(told["quantities"])]))
-        for path in written:
-            output.print(f"written: {escape(str(path))}", soft_wrap=True)
-    found = told["numerics"].get("separations_found")
-    if found:
-        messages.print(f"found: {found} of {told['numerics']['separations']} points, not solved again", soft_wrap=True)
-    for warning in told["provenance"]["warnings"]:
-        messages.print(f"[yellow]warning:[/] {escape(warning)}", soft_wrap=True)
+def _points_of(entries: Mapping[str, Any]) -> list[Entries]:
+    """The points of a table, or the one point of a mean gap, as entries of ``--json``."""
+    quantities = entries["quantities"].items()
+    return entries.get("points") or [
+        {name: entry if "uncertainty" in entry else entry["value"] for name, entry in quantities}
+    ]
 
 
-def _flat(quantities: dict[str, Any]) -> dict[str, Any]:
-    return {name: entry if "uncertainty" in entry else entry["value"] for name, entry in quantities.items()}
-
-
-def _table_of(name: str, points: list[dict[str, Any]]) -> Table:
-    """Points as people read them, over a smooth film of the same mean gap."""
+def _table(name: str, points: Sequence[Entries]) -> Table:
+    """The points as a table of factors over those of a smooth film of the same mean gap."""
     pressed = any(point.get("load") for point in points)
-    table = Table(*(["load, MPa"] if pressed else []), "ĥ, µm", "contact, %", *SHOWN, "sealed", title=escape(name))
-    for column in table.columns:
-        column.justify = "right"
-    for point in points:
-        shut = " ".join(axis for axis in "xy" if point[f"sealed_{axis}"])
-        cells = [_shown(point[each]) for each in SHOWN]
-        load = [f"{point['load'] / 1e6:.4g}"] if pressed else []
-        table.add_row(*load, f"{1e6 * point['mean_gap']:.4g}", f"{100 * point['contact']:.3g}", *cells, shut)
-    return table
+    heads = (*(["load, MPa"] if pressed else []), "ĥ, µm", "contact, %", *TABLE_FACTORS, "sealed")
+    rows = [
+        (
+            *([f"{point['load'] / 1e6:.4g}"] if pressed else []),
+            f"{1e6 * point['mean_gap']:.4g}",
+            f"{100 * point['contact']:.3g}",
+            *(_rounded(point[name]["value"], point[name]["uncertainty"]) for name in TABLE_FACTORS),
+            " ".join(axis for axis in "xy" if point[f"sealed_{axis}"]),
+        )
+        for point in points
+    ]
+    return table_of(heads, rows, title=name)
 
 
-def _shown(entry: dict[str, float | None]) -> str:
+def _rounded(value: float, uncertainty: float | None) -> str:
     """A value to the digits that its uncertainty leaves."""
-    value, doubt = entry["value"], entry["uncertainty"]
-    assert value is not None
-    if doubt is None:
+    if uncertainty is None:
         return f"{value:.3g} ± ?"
-    digits = max(0, min(5, math.ceil(-math.log10(doubt)))) if doubt else 5
+    digits = max(0, min(5, math.ceil(-math.log10(uncertainty)))) if uncertainty else 5
     return f"{value:.{digits}f}"

@@ -1,10 +1,10 @@
 """roughfilm generate: the OpenFOAM cases of a scene, to run by hand."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.markup import escape
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.foamcases.openfoam.model import CaseModel
@@ -20,14 +20,12 @@ from roughfilm.terminal.console import (
     ScenePath,
     Scheme,
     Tolerance,
-    in_one_line,
     make_directory,
-    output,
     print_json,
 )
+from roughfilm.terminal.results import print_all
 
 
-@in_one_line
 def command(
     scene: ScenePath,
     out: Annotated[Path, typer.Option(help="One case directory for each OpenFOAM model is made here.")],
@@ -44,24 +42,15 @@ def command(
     if not writers:
         known = " or ".join(sorted({model.kind for model in models() if model.outside}))
         raise InputError(f"scene.kind: got {read.kind!r}, which no model solves in OpenFOAM; give a scene of {known}")
-    requests = [
-        Request(
-            resolution=resolution,
-            tolerance=tolerance,
-            scheme=scheme if model.schemes else None,
-            processes=processes,
-        )
-        for model in writers
-    ]
-    for model, request in zip(writers, requests, strict=True):
-        model.checked(read, request)  # before anything is written
+    request = Request(resolution=resolution, tolerance=tolerance, scheme=scheme, processes=processes)
+    requests = [(model, request if model.schemes else replace(request, scheme=None)) for model in writers]
+    for model, its in requests:
+        model.checked(read, its)  # before anything is written
     make_directory(out)
-    cases = []
-    for model, request in zip(writers, requests, strict=True):
-        model.write(read, out / model.name, request)
-        cases.append({"model": model.name, "directory": str(out / model.name)})
+    for model, its in requests:
+        model.write(read, out / model.name, its)
+    cases = [{"model": model.name, "directory": str(out / model.name)} for model in writers]
     if as_json:
         print_json({"cases": cases, "provenance": provenance(read, keeps=(), sources=())})
     else:
-        for case in cases:
-            output.print(f"{case['model']}: {escape(case['directory'])}/Allrun", soft_wrap=True)
+        print_all(f"{case['model']}: {case['directory']}/Allrun" for case in cases)

@@ -7,30 +7,29 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperGroup
 
-from roughfilm.terminal.console import launch
+from roughfilm.terminal.console import in_one_line, launch
 
 COMMANDS = {
-    "models": "Show the ladder: each model, what it adds, whether it can run here or why not.",
-    "advise": "Say which model and resolution are enough, how far off they are and what they cost.",
-    "solve": "Solve a scene with one model, or with the cheapest that is enough.",
+    "models": "Show the models of each kind of scene: what each adds, and whether it can run here or why not.",
+    "advise": "Choose the cheapest model and resolution that are accurate enough, with their expected error and cost.",
+    "solve": "Solve a scene by one model, or by the cheapest that is accurate enough.",
     "compare": "Run every model that applies and write report.html, results (.h5) and figures.",
     "batch": "Solve every case of a study by every model and write table.csv and table.h5.",
-    "report": "Write the page of a sweep: errors of every model, the number that orders them, speed against accuracy.",
+    "report": "Write the report of a sweep: errors of every model, the number that orders them, speed and accuracy.",
     "charts": "Chart CPU time against error for every model and resolution: charts.html, .json, .csv, .png and an "
     ".svg each.",
     "stability": "Map where solvers converge, and write stability.csv, .json and report.html.",
     "generate": "Write the OpenFOAM cases alone; run each with its ./Allrun.",
     "surface": "Read a surface, prepare it as a periodic cell, and show it before and after.",
-    "factors": "Average a rough surface: what its film lets through, drags along and rubs over that of a smooth one.",
+    "factors": "Compute pressure, shear and friction flow factors of a rough surface.",
     "stribeck": "Sweep speed and load of a bearing whose walls may touch, to Stribeck curves.",
-    "leakage": "Press a seal from the first touch until it is sealed: contact, gap, and leakage both directly and "
-    "averaged.",
+    "leakage": "Compute contact, gap and leakage of a seal, directly and averaged, from the first touch until it is "
+    "sealed.",
     "effects": "Switch the effects of a bearing on one at a time: what each adds to load, friction and flow, and to "
     "the film.",
     "export": "Write a gap, a surface or a result as a mesh for other tools: lengths in metres, data named with "
     "their units.",
-    "doctor": "Look for Python, OpenFOAM, MPI, rendering, the reader of instrument files; say what was found, what "
-    "to do.",
+    "doctor": "Check Python, OpenFOAM, MPI, rendering and the reader of instrument files; give remedies.",
     "contact": "Press a rough surface against a flat plane: area, gap and pressures by load.",
 }
 """The help of each command, in one line; ``roughfilm/cli/<command>.py`` has the command."""
@@ -42,7 +41,7 @@ class _Commands(TyperGroup):
     def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
         name, _, rest = super().resolve_command(ctx, args)
         alone = typer.Typer(add_completion=False)
-        alone.command(name)(importlib.import_module(f"roughfilm.cli.{name}").command)
+        alone.command(name)(in_one_line(importlib.import_module(f"roughfilm.cli.{name}").command))
         return name, typer.main.get_command(alone), rest
 
 

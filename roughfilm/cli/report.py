@@ -1,18 +1,15 @@
-"""roughfilm report: what a finished sweep says of every model: its errors, what orders them, what it costs."""
+"""roughfilm report: the errors of every model in a finished sweep, the number that orders them, and the cost."""
 
-import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
 import typer
-from rich.markup import escape
-from rich.table import Table
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.files import write_json
 from roughfilm.figures.view import views
 from roughfilm.ladder import models
 from roughfilm.pages.render import render
@@ -22,24 +19,24 @@ from roughfilm.rom.ladder.provenance import machine
 from roughfilm.rom.studies.ordering import Ordering, fitted_powers, ordering
 from roughfilm.rom.studies.sweep import Sweep, loaded, read_sweep, relative_error, sweeping
 from roughfilm.rom.studies.table import read_table
-from roughfilm.terminal.console import AsJson, in_one_line, make_directory, output, print_json
+from roughfilm.terminal.console import AsJson, make_directory, print_json
+from roughfilm.terminal.results import print_all, table_of
 
 TOLERANCES = (0.01, 0.02, 0.05, 0.10)
 
-SAME = 0.01
-"""Errors within this part of each other have no order: a model without any load is 100 % off everywhere."""
+EQUAL_ERRORS = 0.01
+"""Errors within this fraction of each other have no order: a model without load has an error of 100 % everywhere."""
 
-SIMPLE_ENOUGH = 0.1
-"""Fitted powers are taken where they correlate better than any candidate by more than this, and cover as many cases."""
+RANK_GAIN = 0.1
+"""Fitted powers are taken if their rank correlation is larger by this than any candidate's, at the same coverage."""
 
 
-@in_one_line
 def command(
-    directory: Annotated[Path, typer.Argument(metavar="DIR", help="What 'roughfilm batch' made.")],
-    out: Annotated[Path | None, typer.Option(help="The page goes here; by default DIR/report.html.")] = None,
+    directory: Annotated[Path, typer.Argument(metavar="DIR", help="The output directory of 'roughfilm batch'.")],
+    out: Annotated[Path | None, typer.Option(help="Write the page here (default: DIR/report.html).")] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Write the page of a sweep: errors of every model, the number that orders them, speed against accuracy."""
+    """Write the report of a sweep: errors of every model, the number that orders them, speed and accuracy."""
     table = read_table(directory / "table.h5")
     sweep = read_sweep(table, _kind(table))
     compared = kind_of_name(sweep.kind).compared
@@ -53,34 +50,37 @@ def command(
         for quantity in compared
     }
     rows = [_row(sweep, setting, reference, numbers) for setting in [*settings, reference]]
-    told = {"reference": reference, "cases": len(sweep.names), "settings": rows, "failures": list(sweep.failures)}
+    entries = {"reference": reference, "cases": len(sweep.names), "settings": rows, "failures": list(sweep.failures)}
     path = out or directory / "report.html"
     make_directory(path.parent)
     _write_page(sweep, reference, settings, numbers, rows, path)
-    with replacing(path.with_suffix(".json")) as scratch:
-        scratch.write_text(json.dumps({**told, "machine": machine()}, indent=1) + "\n", encoding="utf-8")
+    write_json({**entries, "machine": machine()}, path.with_suffix(".json"))
     if as_json:
-        print_json({**told, "report": str(path)})
+        print_json({**entries, "report": str(path)})
         return
     heads = [head for title in compared.values() for head in (f"{title} error", "95 %")]
-    shown = Table("setting", "CPU, s", *heads, title=f"{len(sweep.names)} cases")
-    for row in rows:
-        errors = [_percent(row["error"][quantity][part]) for quantity in compared for part in ("median", "high")]
-        shown.add_row(row["setting"], f"{row['cpu_s']:.3g}", *errors)
-    output.print(shown)
-    output.print(f"report: {escape(str(path))}", soft_wrap=True)
+    cells = [
+        (
+            row["setting"],
+            f"{row['cpu_s']:.3g}",
+            *(_percent(row["error"][quantity][part]) for quantity in compared for part in ("median", "high")),
+        )
+        for row in rows
+    ]
+    table_of_errors = table_of(("setting", "CPU, s", *heads), cells, title=f"{len(sweep.names)} cases", left=1)
+    print_all((table_of_errors, f"report: {path}"))
 
 
 def _kind(table: Mapping[str, Any]) -> str:
     """The kind of the scenes of a table."""
-    found = set(map(str, table.get("kind", ())))
-    if len(found) != 1 or not found <= set(kinds()):
-        raise InputError("the table does not say which kind of scenes it holds; run the study again")
-    return found.pop()
+    names = set(map(str, table.get("kind", ())))
+    if len(names) != 1 or not names <= set(kinds()):
+        raise InputError("the table does not name one kind of scenes; run the study again")
+    return names.pop()
 
 
 def _reference(sweep: Sweep) -> str:
-    """The best rung that solved any case, at its finest and best scheme: the one named first in the study."""
+    """The setting of the best model that solved any case, at its best scheme."""
     ladder = models(sweep.kind)
     solved = [name for name, values in sweep.found.items() if any(np.isfinite(v).any() for v in values.values())]
     names = {name.split("-")[0] for name in solved or sweep.found}
@@ -97,25 +97,24 @@ def _known(sweep: Sweep, setting: str, reference: str, quantity: str) -> tuple[d
 
 
 def _orderings(sweep: Sweep, setting: str, reference: str, quantity: str) -> dict[str, Ordering]:
-    """Each candidate, the fitted powers and the ``chosen`` one.
+    """The ordering by each candidate, by the fitted powers, and the ``chosen`` one of them.
 
-    Nothing for a quantity that the setting does not give, and for an error that is the same everywhere.
+    It is empty for a quantity that the setting does not give, and for an error that is the same everywhere.
     """
     features, error = _known(sweep, setting, reference, quantity)
     if not np.isfinite(sweep.found[setting][quantity]).any():
         return {}
     if error.size < 8:
         raise InputError(f"{setting}: has {error.size} cases beside {reference}; a report needs at least 8")
-    if error.max() <= (1 + SAME) * error.min():
+    if error.max() <= (1 + EQUAL_ERRORS) * error.min():
         return {}
     judged = sweeping(kind_of_name(sweep.kind))
-    found = {name: ordering(features, powers, error, TOLERANCES) for name, powers in judged.candidates.items()}
+    orders = {name: ordering(features, powers, error, TOLERANCES) for name, powers in judged.candidates.items()}
     fitted = fitted_powers({name: features[name] for name in judged.fitted}, error, step=0.25)
-    found["fitted"] = ordering(features, fitted or {judged.fitted[0]: 1}, error, TOLERANCES)
-    simple = found[max(judged.candidates, key=lambda name: found[name].rank)]
-    better = found["fitted"].rank > simple.rank + SIMPLE_ENOUGH
-    found["chosen"] = found["fitted"] if better and found["fitted"].coverage >= simple.coverage else simple
-    return found
+    orders["fitted"] = ordering(features, fitted or {judged.fitted[0]: 1}, error, TOLERANCES)
+    simple, powers = orders[max(judged.candidates, key=lambda name: orders[name].rank)], orders["fitted"]
+    better = powers.rank > simple.rank + RANK_GAIN and powers.coverage >= simple.coverage
+    return {**orders, "chosen": powers if better else simple}
 
 
 def _row(
@@ -133,7 +132,7 @@ def _row(
                 "powers": dict(chosen.powers),
                 "rank": chosen.rank,
                 "thresholds": {f"{tolerance:g}": limit for tolerance, limit in chosen.thresholds.items()},
-                "tried": {name: found.rank for name, found in numbers[setting, quantity].items()},
+                "tried": {name: one.rank for name, one in numbers[setting, quantity].items()},
             }
     cpu = sweep.cpu_s[setting]
     return {
@@ -166,7 +165,7 @@ def _write_page(
     from roughfilm.figures import sweep as sweep_figures  # matplotlib is slow to import
 
     kind, view = kind_of_name(sweep.kind), views()[sweep.kind]
-    chosen = {key: found["chosen"] for key, found in numbers.items() if found}
+    chosen = {key: orders["chosen"] for key, orders in numbers.items() if orders}
     render(
         "sweep.html.j2",
         path,

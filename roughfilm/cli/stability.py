@@ -1,17 +1,15 @@
-"""roughfilm stability: where solvers converge, and what becomes of them elsewhere."""
+"""roughfilm stability: maps of where solvers converge, and of how they fail elsewhere."""
 
 import json
-import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from rich.markup import escape
 
 from roughfilm.batch.directory import alone
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.files import write_json
 from roughfilm.pages.render import render, write_figures
 from roughfilm.rom.ladder.provenance import code, versions
 from roughfilm.rom.studies.table import write_csv
@@ -22,7 +20,8 @@ from roughfilm.stability.form import BAD, MEANING, Family, Outcome, columns_of, 
 from roughfilm.stability.gap import GAP
 from roughfilm.stability.laws import MIXED, SEAL
 from roughfilm.stability.pocket import POCKET
-from roughfilm.terminal.console import AsJson, in_one_line, make_directory, messages, output, print_json
+from roughfilm.terminal.console import AsJson, Jobs, OutDirectory, make_directory, print_json, process_count
+from roughfilm.terminal.results import print_all, print_left_out
 
 FAMILIES: dict[str, Family] = {
     "pocket": POCKET,
@@ -37,35 +36,31 @@ FAMILIES: dict[str, Family] = {
 ALL = "all"
 
 Entries = Mapping[str, Any]
-"""Of a map, as its file holds them."""
+"""A map, as its file holds it."""
 
 
-@in_one_line
 def command(
     family: Annotated[
-        str, typer.Argument(metavar="FAMILY", help=f"What is mapped: {', '.join(FAMILIES)}, or all of them: {ALL}.")
+        str, typer.Argument(metavar="FAMILY", help=f"The solvers to map: {', '.join(FAMILIES)}, or all of them: {ALL}.")
     ],
-    out: Annotated[Path, typer.Option(help="Tables and the page go here, and runs of models, which are used again.")],
+    out: OutDirectory,
     resolution: Annotated[
         int | None,
         typer.Option(help="; ".join(f"{name}: {one.resolution_meaning}" for name, one in FAMILIES.items()) + "."),
     ] = None,
-    jobs: Annotated[int | None, typer.Option(help="Processes; by default one for each core.")] = None,
+    jobs: Jobs = None,
     as_json: AsJson = False,
 ) -> None:
     """Map where solvers converge, and write stability.csv, .json and report.html."""
     if family not in (*FAMILIES, ALL):
         raise InputError(f"FAMILY: got {family!r}; it must be one of {', '.join(FAMILIES)}, {ALL}")
-    processes = len(os.sched_getaffinity(0)) if jobs is None else jobs
-    if processes < 1:
-        raise InputError(f"--jobs: got {jobs}; it must be 1 or more")
+    processes = process_count(jobs)
     if family == ALL and resolution is not None:
         raise InputError(f"--resolution: got {resolution} for {ALL}; every map counts it in its own way, leave it out")
     make_directory(out)
     if family != ALL:
-        found = _mapped(family, out, resolution, processes)
-        entries: dict[str, Any] = dict(found)
-        maps = [found]
+        maps = [_mapped(family, out, resolution, processes)]
+        entries: dict[str, Any] = dict(maps[0])
     else:
         maps = [known or _mapped(name, out / name, None, processes) for name, known in _known(out).items()]
         entries = {"family": ALL, "maps": maps}
@@ -74,34 +69,34 @@ def command(
         print_json(entries)
         return
     counted = {one["family"]: one["runs"] for one in maps} if family == ALL else _by_group(maps[0])
-    output.print(table_of(counted, "family" if family == ALL else "group"))
-    output.print(f"page: {escape(str(out / 'report.html'))}", soft_wrap=True)
-    for name, reason in {name: reason for one in maps for name, reason in one["absent"].items()}.items():
-        messages.print(f"[yellow]left out:[/] {name}: {escape(reason)}", soft_wrap=True)
+    print_all((table_of(counted, "family" if family == ALL else "group"), f"page: {out / 'report.html'}"))
+    print_left_out({name: reason for one in maps for name, reason in one["absent"].items()})
 
 
-def _by_group(found: Entries) -> dict[str, list[Entries]]:
-    groups = dict.fromkeys(run["group"] for run in found["runs"])
-    return {group: [run for run in found["runs"] if run["group"] == group] for group in groups}
+def _by_group(one: Entries) -> dict[str, list[Entries]]:
+    groups: dict[str, list[Entries]] = {}
+    for run in one["runs"]:
+        groups.setdefault(run["group"], []).append(run)
+    return groups
 
 
 def _known(out: Path) -> dict[str, Entries | None]:
-    """By family the map that stands there already, if it was made by the same code at its own resolution."""
+    """The map of each family that is stored already, if the same code made it at the default resolution."""
     return {name: _same(out / name / "stability.json", one.resolution) for name, one in FAMILIES.items()}
 
 
 def _same(path: Path, resolution: int) -> Entries | None:
     try:
-        found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
-        made = found["provenance"]
-        same = (made["code"], made["versions"], found["resolution"]) == (code(), versions(), resolution)
-        return found if same else None
+        stored: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        made = stored["provenance"]
+        same = (made["code"], made["versions"], stored["resolution"]) == (code(), versions(), resolution)
+        return stored if same else None
     except (OSError, ValueError, LookupError, TypeError):
         return None
 
 
 def _mapped(family: str, out: Path, resolution: int | None, processes: int) -> Entries:
-    """One map, made and written."""
+    """Make and write one map."""
     chosen = FAMILIES[family]
     make_directory(out)
     with alone(out) as scratch:
@@ -118,7 +113,7 @@ def _mapped(family: str, out: Path, resolution: int | None, processes: int) -> E
 
 
 def _write(maps: Sequence[Entries], places: Mapping[str, Path], entries: Entries, out: Path) -> None:
-    """The table, the page and, last, the entries, by which the next call knows that all is there."""
+    """Write the table, the page and, last, the entries, which mark the map as complete."""
     write_csv(columns_of(maps), out / "stability.csv")
     figures = {
         family: {path.stem: path.read_text(encoding="utf-8") for path in sorted(place.glob("*.svg"))}
@@ -135,12 +130,11 @@ def _write(maps: Sequence[Entries], places: Mapping[str, Path], entries: Entries
         figures=figures,
         bad=bad,
     )
-    with replacing(out / "stability.json") as path:
-        path.write_text(json.dumps(entries, indent=1) + "\n", encoding="utf-8")
+    write_json(entries, out / "stability.json")
 
 
 def _as_table(name: str, runs: Sequence[Entries]) -> dict[str, Any]:
-    """By row and column; without columns where no two rows share one."""
+    """The runs of a group by row and column; without columns where no two rows share one."""
     rows: dict[str, dict[str, Entries]] = {}
     for run in runs:
         rows.setdefault(run["row"], {})[run["column"]] = run

@@ -1,38 +1,27 @@
-"""roughfilm stribeck: friction, film and the asperities' share of a load over speed, from a surface and its solids."""
+"""roughfilm stribeck: friction, film and contact over the speed of a rough bearing, as Stribeck curves."""
 
-import json
 import math
-import os
-import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from rich.markup import escape
 from rich.table import Table
 
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.files import write_json
+from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.rom.bearing.mixed.curves import Wall, swept, wall_of
 from roughfilm.rom.bearing.mixed.curves_store import NUMBERS, UNITS, write_csv
 from roughfilm.rom.bearing.mixed.stribeck import COARSEST, FINEST, RESOLUTION, StribeckCurve, StribeckPoint
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.ladder.provenance import circumstances
+from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.ladder.scene import load_scene, scene_entries
-from roughfilm.terminal.console import (
-    AsJson,
-    Overrides,
-    ScenePath,
-    in_one_line,
-    make_directory,
-    messages,
-    output,
-    print_json,
-    progress_bar,
-)
-from roughfilm.terminal.load_range import loads_of, speeds_of
+from roughfilm.terminal.console import AsJson, OutDirectory, Overrides, ScenePath, make_directory, progress_bar
 from roughfilm.terminal.output_file import alone, refuse_unwritable
+from roughfilm.terminal.ranges import loads_of, speeds_of
+from roughfilm.terminal.results import origin, show_result, table_of
+from roughfilm.words.numbers import finite
 from roughfilm.words.stribeck import lift_off, speed_scale
 
 SOURCES = (
@@ -41,156 +30,130 @@ SOURCES = (
     "10.1016/j.jmaa.2005.09.036",
 )
 LOADS = "0.5MPa,1MPa,2MPa"
-TURNING, SLIDING = "1rpm..600rpm:60", "0.01m/s..10m/s:60"
-"""Speeds by default, of what turns and of what does not."""
-
-CURVES, TABLE = "stribeck", "table.h5"
+ROTATIONAL_SPEEDS = "1rpm..600rpm:60"
+SLIDING_SPEEDS = "0.01m/s..10m/s:60"
 
 
-@in_one_line
 def command(
     scene: ScenePath,
-    out: Annotated[Path, typer.Option(help="Table, curves and report go here; what is finished is found again.")],
+    out: OutDirectory,
     loads: Annotated[
         str,
-        typer.Option(metavar="LOADS", help="Over the nominal area: a list, a range such as 0.5MPa..2MPa:3, or one."),
+        typer.Option(metavar="LOADS", help="Mean pressures: a list, a range such as 0.5MPa..2MPa:3, or one."),
     ] = LOADS,
     speeds: Annotated[
         str | None,
         typer.Option(
             metavar="SPEEDS",
-            help="0,30rpm; 1rpm..600rpm:60 (each by the same factor); 0..2m/s:40 (evenly). "
-            f"By default {TURNING}, or {SLIDING} where nothing turns.",
+            help="0,30rpm; 1rpm..600rpm:60 (by a constant factor); 0..2m/s:40 (evenly spaced) "
+            f"(default: {ROTATIONAL_SPEEDS}, or {SLIDING_SPEEDS} where nothing turns).",
         ),
     ] = None,
     table: Annotated[
         Path | None,
-        typer.Option(metavar="T.h5", help="Of roughfilm factors C.h5 --out T.h5; else one is made in --out."),
+        typer.Option(metavar="T.h5", help="Table from 'roughfilm factors C.h5' (default: one made in --out)."),
     ] = None,
     resolution: Annotated[int, typer.Option(help="Cells along and across.")] = RESOLUTION,
     set_: Overrides = None,
     as_json: AsJson = False,
 ) -> None:
     """Sweep speed and load of a bearing whose walls may touch, to Stribeck curves."""
-    started, cpu = time.perf_counter(), sum(os.times()[:4])
-    read = load_scene(scene, set_ or ())
-    if not isinstance(read, Bearing) or read.asperities is None:
+    spent, bearing = stopwatch(), load_scene(scene, set_ or ())
+    if not isinstance(bearing, Bearing) or bearing.asperities is None:
         raise InputError(
             f"{scene}: asperities: are missing; add [roughness] with a surface, and [asperities] with the solids "
             "(scripts/examples/scenes/rough_washer.toml)"
         )
-    radius = read.turning_radius
-    asked = loads_of(loads)
-    over = speeds_of(speeds or (SLIDING if radius is None else TURNING), radius)
+    default = SLIDING_SPEEDS if bearing.turning_radius is None else ROTATIONAL_SPEEDS
+    pressures, sliding = loads_of(loads), speeds_of(speeds or default, bearing.turning_radius)
     if not COARSEST <= resolution <= FINEST:
         raise InputError(f"--resolution: got {resolution}; it must be {COARSEST} to {FINEST} cells along a side")
+    page, stored = out / "report.html", out / "stribeck.h5"
     make_directory(out)
-    refuse_unwritable(out / "report.html")
-    with alone(out / f"{CURVES}.h5", "sweep"), progress_bar(1.0) as advance:
-        wall = wall_of(read, asked[-1], table, out / TABLE, _part(advance, 0.0, 0.5), resolution)
-        curves, known = swept(read, over, asked, wall, out / f"{CURVES}.h5", resolution, _part(advance, 0.5, 0.95))
-        told = tell(read, curves, wall)
-        told["numerics"] |= {
-            "points_found": known,
-            "resolution": resolution,
-            "cpu_s": sum(os.times()[:4]) - cpu,
-            "wall_s": time.perf_counter() - started,
-        }
-        write_csv(out / f"{CURVES}.csv", curves)
-        with replacing(out / f"{CURVES}.json") as scratch:
-            scratch.write_text(json.dumps(told, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    refuse_unwritable(page)
+    with alone(stored, "sweep"), progress_bar(1.0) as advance:
+        wall = wall_of(bearing, pressures[-1], table, out / "table.h5", _between(advance, 0.0, 0.5), resolution)
+        curves, known = swept(bearing, sliding, pressures, wall, stored, resolution, _between(advance, 0.5, 0.95))
+        entries = curve_entries(bearing, curves, wall)
+        entries["numerics"] |= {"points_found": known, "resolution": resolution, **spent()}
+        write_csv(stored.with_suffix(".csv"), curves)
+        write_json(entries, stored.with_suffix(".json"))
         from roughfilm.pages.stribeck import write_page  # matplotlib is slow to import
 
         advance(0.95, "drawing the page")
-        write_page(read, told, curves, wall.asperities, resolution, out / "report.html")
-    _say(read, told, curves, known, out, as_json)
+        write_page(bearing, entries, curves, wall.asperities, resolution, page)
+
+    def shown() -> Iterator[Table | str]:
+        scale = speed_scale(bearing)
+        heads = ("load, MPa", f"lift-off, {scale.unit}", "least μ", f"at, {scale.unit}", "μ at the lowest speed")
+        lowest = [(curve, _least_friction(curve)) for curve in curves]
+        yield table_of(
+            heads,
+            [
+                (
+                    f"{curve.pressure / 1e6:.4g}",
+                    lift_off(curve, scale, named=False),
+                    f"{least.friction_coefficient:.4f}",
+                    f"{scale.factor * least.speed:.4g}",
+                    f"{curve.points[0].friction_coefficient:.4f}",
+                )
+                for curve, least in lowest
+            ],
+        )
+        yield f"report: {page}"
+
+    show_result({**entries, "report": str(page)}, shown(), as_json=as_json, reused="points")
 
 
-def _part(advance: Any, first: float, last: float) -> Any:
-    """A progress that fills a part of the bar."""
+def _between(advance: Progress, first: float, last: float) -> Progress:
+    """A progress that moves the bar from ``first`` to ``last``."""
     return lambda done, words: advance(first + (last - first) * done, words)
 
 
-def tell(scene: Bearing, curves: Sequence[StribeckCurve], wall: Wall) -> dict[str, Any]:
-    """The object of ``--json``, but for what it cost."""
+def _least_friction(curve: StribeckCurve) -> StribeckPoint:
+    return min(curve.points, key=lambda point: point.friction_coefficient)
+
+
+def curve_entries(scene: Bearing, curves: Sequence[StribeckCurve], wall: Wall) -> dict[str, Any]:
+    """The object of ``--json``, without the cost."""
     quantities: dict[str, Any] = {}
     for curve in curves:
-        name = f"{curve.pressure / 1e6:g} MPa"
-        least = min(curve.points, key=lambda point: point.friction_coefficient)
+        name, least = f"{curve.pressure / 1e6:g} MPa", _least_friction(curve)
         quantities |= {
             f"lift-off speed at {name}": {
-                "value": _number(curve.lift_off.speed),
-                "uncertainty": _number(curve.lift_off.uncertainty),
+                "value": finite(curve.lift_off.speed),
+                "uncertainty": finite(curve.lift_off.uncertainty),
                 "unit": "m/s",
             },
             f"least friction coefficient at {name}": {"value": least.friction_coefficient, "unit": "1"},
             f"speed of the least friction at {name}": {"value": least.speed, "unit": "m/s"},
         }
+    points = [point for curve in curves for point in curve.points]
+    never = [curve.pressure for curve in curves if math.isnan(curve.lift_off.speed)]
+    warnings = [f"{pressure / 1e6:g} MPa: the walls part at none of the speeds" for pressure in never]
     return {
         "curves": [
             {
                 "pressure": curve.pressure,
-                "lift_off": {name: _number(value) for name, value in vars(curve.lift_off).items()},
-                "points": [_entries(point) for point in curve.points],
+                "lift_off": {name: finite(value) for name, value in vars(curve.lift_off).items()},
+                "points": [_point_entries(point) for point in curve.points],
             }
             for curve in curves
         ],
         "units": {name: UNITS.get(name, "1") for name in NUMBERS},
         "quantities": quantities,
         "numerics": {
-            "residual": max(point.residual for curve in curves for point in curve.points),
-            "balance": max(point.balance for curve in curves for point in curve.points),
-            "points": sum(len(curve.points) for curve in curves),
+            "residual": max(point.residual for point in points),
+            "balance": max(point.balance for point in points),
+            "points": len(points),
             "table_points": wall.points,
             "table_points_found": wall.found,
         },
-        "provenance": {
-            "scene": scene_entries(scene),
-            "table": dict(wall.source),
-            "warnings": [*wall.told, *_warnings(curves)],
-            "sources": list(SOURCES),
-            **circumstances(),
-        },
+        "provenance": origin(SOURCES, [*wall.told, *warnings], scene=scene_entries(scene), table=dict(wall.source)),
     }
 
 
-def _entries(point: StribeckPoint) -> dict[str, Any]:
-    return {name: _number(getattr(point, name)) for name in NUMBERS} | {
-        "uncertainty": {name: _number(value) for name, value in point.uncertainty.items()}
+def _point_entries(point: StribeckPoint) -> dict[str, Any]:
+    return {name: finite(getattr(point, name)) for name in NUMBERS} | {
+        "uncertainty": {name: finite(value) for name, value in point.uncertainty.items()}
     }
-
-
-def _number(value: float) -> float | None:
-    return float(value) if math.isfinite(value) else None
-
-
-def _warnings(curves: Sequence[StribeckCurve]) -> list[str]:
-    never = [curve.pressure for curve in curves if math.isnan(curve.lift_off.speed)]
-    return [f"{pressure / 1e6:g} MPa: no speed was found at which the walls part" for pressure in never]
-
-
-def _say(
-    scene: Bearing, told: Mapping[str, Any], curves: Sequence[StribeckCurve], known: int, out: Path, as_json: bool
-) -> None:
-    if as_json:
-        print_json({**told, "report": str(out / "report.html")})
-    else:
-        scale = speed_scale(scene)
-        table = Table("load, MPa", f"lift-off, {scale.unit}", "least μ", f"at, {scale.unit}", "μ at the slowest")
-        for column in table.columns:
-            column.justify = "right"
-        for curve in curves:
-            least = min(curve.points, key=lambda point: point.friction_coefficient)
-            table.add_row(
-                f"{curve.pressure / 1e6:.4g}",
-                lift_off(curve, scale, named=False),
-                f"{least.friction_coefficient:.4f}",
-                f"{scale.factor * least.speed:.4g}",
-                f"{curve.points[0].friction_coefficient:.4f}",
-            )
-        output.print(table)
-        output.print(f"report: {escape(str(out / 'report.html'))}", soft_wrap=True)
-    if known:
-        messages.print(f"found: {known} of {told['numerics']['points']} points, not solved again", soft_wrap=True)
-    for warning in told["provenance"]["warnings"]:
-        messages.print(f"[yellow]warning:[/] {escape(warning)}", soft_wrap=True)

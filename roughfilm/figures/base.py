@@ -1,4 +1,4 @@
-"""The plots of a comparison, by matplotlib, as SVG text."""
+"""The figures of a comparison as SVG text, and what all figures share."""
 
 import io
 from collections.abc import Mapping, Sequence
@@ -6,8 +6,12 @@ from typing import Any
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.image import AxesImage
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 
+from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.figures.view import View
 from roughfilm.rom.studies.comparison import Point, pareto_front
 from roughfilm.rom.studies.convergence import Convergence, Kind
@@ -27,16 +31,19 @@ mpl.rcParams.update(
 )
 
 
+MAX_PIXELS = 512
+"""Largest number of points of a map along a side."""
+
+
 def speed_against_accuracy(
     chart: Sequence[Point], floor: Mapping[str, float], titles: Mapping[str, str], view: View
 ) -> str:
-    """CPU seconds against error, a panel for each compared quantity, with the Pareto front.
+    """Error over CPU time, a panel for each compared quantity, with the Pareto front.
 
-    ``floor`` is the numerical uncertainty of the reference itself, below which errors mean nothing; ``titles`` names
-    the compared quantities.
+    ``floor`` is the uncertainty of the reference, below which errors mean nothing, and ``titles`` are those of the
+    compared quantities.
     """
-    figure = Figure(figsize=(10, 4.6), layout="constrained")
-    panels = figure.subplots(1, len(titles))
+    figure, panels = new_figure((10, 4.6), 1, len(titles))
     for axes, (quantity, title) in zip(panels, titles.items(), strict=True):
         known = [point for point in chart if quantity in point.error]
         for name in dict.fromkeys(point.model for point in known):
@@ -62,21 +69,20 @@ def speed_against_accuracy(
         if floor.get(quantity, 0) > 0:
             axes.axhspan(axes.get_ylim()[0], 100 * floor[quantity], color="black", alpha=0.06, zorder=-1)
             axes.axhline(100 * floor[quantity], color="black", alpha=0.4, linewidth=0.8, linestyle=":")
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        axes.set_xlabel("CPU time, s")
-        axes.set_ylabel(f"error in {title} relative to the reference, %")
-    panels[0].legend(fontsize=8, loc="upper right")
+        axes.set(
+            xscale="log", yscale="log", xlabel="CPU time, s", ylabel=f"error in {title} relative to the reference, %"
+        )
+    handles, labels = panels[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=4, fontsize=8)
     return svg(figure)
 
 
 def grid_convergence(studies: Mapping[str, Mapping[str, Convergence]], titles: Mapping[str, str], view: View) -> str:
-    """Cell size against the difference to the extrapolated value, where there is one, with slope 2 for the eye."""
-    figure = Figure(figsize=(10, 3.6), layout="constrained")
-    panels = figure.subplots(1, len(titles))
+    """Difference from the extrapolated value over the cell size, with lines of slope 2."""
+    figure, panels = new_figure((10, 3.6), 1, len(titles))
     for axes, (quantity, title) in zip(panels, titles.items(), strict=True):
-        found = {name: study[quantity] for name, study in studies.items() if quantity in study}
-        drawn = {name: one for name, one in found.items() if one.kind is Kind.MONOTONE}
+        known = {name: study[quantity] for name, study in studies.items() if quantity in study}
+        drawn = {name: one for name, one in known.items() if one.kind is Kind.MONOTONE}
         if not drawn:
             axes.set_axis_off()
             axes.text(0.5, 0.5, f"{title}: nothing to extrapolate", ha="center", transform=axes.transAxes)
@@ -90,13 +96,15 @@ def grid_convergence(studies: Mapping[str, Mapping[str, Convergence]], titles: M
             axes.plot(sizes, slope, ":", color=style.colour, linewidth=1)
         grids = sorted({grid for one in drawn.values() for grid in one.grids})
         axes.set_xscale("log")
-        axes.set_xticks([1 / grid for grid in grids], [f"1/{grid}" for grid in grids])
+        axes.set_xticks([1 / grid for grid in grids], [f"1/{grid}" for grid in grids], rotation=45)
         axes.xaxis.minorticks_off()
         axes.set_yscale("log")
         low, high = axes.get_ylim()
-        axes.set_ylim(10 ** np.floor(np.log10(low)), 10 ** np.ceil(np.log10(high)))
-        axes.set_xlabel("mean length of a cell, periods (dotted: slope 2)")
-        axes.set_ylabel(f"{title}: difference from the extrapolated value, %")
+        axes.set(
+            ylim=(10 ** np.floor(np.log10(low)), 10 ** np.ceil(np.log10(high))),
+            xlabel="mean length of a cell, periods (dotted: slope 2)",
+            ylabel=f"{title}: difference from\nthe extrapolated value, %",
+        )
         axes.legend(fontsize=8)
     return svg(figure)
 
@@ -105,6 +113,40 @@ def new_figure(size: tuple[float, float], rows: int = 1, columns: int = 1, **opt
     """Return an empty figure of a size in inches and its axes, which are as ``Figure.subplots`` returns them."""
     figure = Figure(figsize=size, layout="constrained")
     return figure, figure.subplots(rows, columns, **options)
+
+
+def thinned(values: Any) -> Any:
+    """Every first, second, third ... point of a map, so that it has at most ``MAX_PIXELS`` along a side."""
+    step = max(1, -(-max(values.shape) // MAX_PIXELS))
+    return values[::step, ::step]
+
+
+def size_of(contact: Contact) -> tuple[float, float]:
+    """Length and width of the surface of a contact, m."""
+    (nx, ny), (dx, dy) = contact.heights.shape, contact.spacing
+    return nx * dx, ny * dy
+
+
+def surface_map(axes: Axes, values: Any, size: tuple[float, float], **options: Any) -> AxesImage:
+    """Draw values of shape (nx, ny) over a surface of a length and width in m."""
+    axes.grid(visible=False)
+    axes.set(xlabel="x, µm", ylabel="y, µm")
+    extent = (0.0, 1e6 * size[0], 0.0, 1e6 * size[1])
+    return axes.imshow(thinned(values).T, origin="lower", extent=extent, interpolation="nearest", **options)
+
+
+def model_map(axes: Axes, name: str, values: Any, size: tuple[float, float], **options: Any) -> AxesImage:
+    """Draw values over a surface under the name of their model; a narrow surface is stretched."""
+    axes.set_title(name, fontsize=9)
+    aspect: Any = "equal" if 0.2 < size[1] / size[0] < 5 else "auto"
+    return surface_map(axes, values, size, aspect=aspect, **options)
+
+
+def map_figure(size: tuple[float, float], models: int, height: float) -> tuple[Figure, Any]:
+    """An empty figure and its axes: a row for each model, two maps of a size in m in each, of a height in inches."""
+    height = min(height, max(1.5, (height - 0.3) * size[1] / size[0]))
+    figure = Figure(figsize=(10, 0.4 + height * models), layout=ConstrainedLayoutEngine(w_pad=0.15))
+    return figure, figure.subplots(models, 2, squeeze=False)
 
 
 def svg(figure: Figure) -> str:

@@ -1,4 +1,4 @@
-"""The pictures of a series of contacts."""
+"""Figures of a rough surface under a series of loads."""
 
 import math
 from collections.abc import Sequence
@@ -7,16 +7,11 @@ from typing import Any
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
-from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.contact.mechanics.load_series import MOST_BINS, Spread
 from roughfilm.contact.mechanics.store import Row
-from roughfilm.figures.base import svg
-
-MOST_PIXELS = 640
-"""Of a picture along a side; finer surfaces are drawn by every second, third ... point."""
+from roughfilm.figures.base import new_figure, size_of, surface_map, svg
 
 AREA, PLASTIC, BEFORE, UNLOADED, PLANE = "#2166ac", "#b2182b", "0.6", "#e08214", "black"
 PRESSURES = mpl.colormaps["inferno"].with_extremes(bad="#dfe4ea")
@@ -24,58 +19,50 @@ GAPS = mpl.colormaps["cividis"].with_extremes(bad="#b2182b")
 
 
 def areas(rows: Sequence[Row]) -> str:
-    """Real and plastic area against load."""
-    figure, axes = _small()
+    """Contact area and plastic area over the load."""
+    figure, axes = new_figure((5.4, 4.0))
     loads = _loads(rows)
     _line(axes, loads, [100 * row.area_fraction for row in rows], AREA, "in contact")
     plastic = np.array([100 * row.plastic_fraction for row in rows])
     if plastic.any():
         _line(axes, loads, np.where(plastic > 0, plastic, np.nan), PLASTIC, "plastic")
         axes.legend()
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_xlabel("load, MPa")
-    axes.set_ylabel("fraction of the nominal area, %")
+    axes.set(xscale="log", yscale="log", xlabel="load, MPa", ylabel="fraction of the nominal area, %")
     return svg(figure)
 
 
 def mean_gaps(rows: Sequence[Row]) -> str:
-    """Mean gap against load; empty if the model has none."""
-    told = [row for row in rows if row.mean_gap is not None]
-    if not told:
+    """Mean gap over the load; empty if the model has none."""
+    known = [row for row in rows if row.mean_gap is not None]
+    if not known:
         return ""
-    figure, axes = _small()
-    _line(axes, _loads(told), [1e6 * (row.mean_gap or 0.0) for row in told], AREA, "mean gap")
-    axes.set_xscale("log")
-    axes.set_ylim(bottom=0)
-    axes.set_xlabel("load, MPa")
-    axes.set_ylabel("mean gap, µm")
+    figure, axes = new_figure((5.4, 4.0))
+    _line(axes, _loads(known), [1e6 * (row.mean_gap or 0.0) for row in known], AREA, "mean gap")
+    axes.set(xscale="log", ylim=(0, None), xlabel="load, MPa", ylabel="mean gap, µm")
     return svg(figure)
 
 
 def maps(contact: Contact) -> str:
     """Pressure and gap over the surface."""
-    width, height = _size(contact)
-    figure = Figure(figsize=(11, min(5.2, 1.1 + 4.4 * height / width)), layout="constrained")
-    panels = figure.subplots(1, 2)
+    width, height = size_of(contact)
+    figure, panels = new_figure((11, min(5.2, 1.1 + 4.4 * height / width)), 1, 2)
     pressure = np.where(contact.in_contact, contact.pressure, np.nan) / 1e6
-    image = _map(panels[0], contact, pressure, cmap=PRESSURES, vmin=0, vmax=_top(contact) / 1e6)
+    image = surface_map(panels[0], pressure, size_of(contact), cmap=PRESSURES, vmin=0, vmax=_top(contact) / 1e6)
     figure.colorbar(image, ax=panels[0], label="pressure, MPa", shrink=0.9)
     gap = np.where(contact.in_contact, np.nan, contact.gap) * 1e6
     open_ = gap[np.isfinite(gap)]
     top = float(np.percentile(open_, 99.9)) if open_.size else 1.0
-    image = _map(panels[1], contact, gap, cmap=GAPS, vmin=0, vmax=top or 1.0)
+    image = surface_map(panels[1], gap, size_of(contact), cmap=GAPS, vmin=0, vmax=top or 1.0)
     figure.colorbar(image, ax=panels[1], label="gap, µm", shrink=0.9)
     return svg(figure)
 
 
 def pressures(spreads: Sequence[Spread], hardness: float) -> str:
-    """How much of the nominal area carries which pressure, at a few loads; empty if the model does not say."""
+    """Density of the nominal area over the pressure at a few loads; empty if the model does not give it."""
     drawn = [spread for spread in spreads if spread.density.any()]
     if not drawn:
         return ""
-    figure = Figure(figsize=(11, 3.6), layout="constrained")
-    axes = figure.add_subplot()
+    figure, axes = new_figure((11, 3.6))
     colours = mpl.colormaps["viridis"](np.linspace(0.0, 0.85, len(drawn)))
     for spread, colour in zip(drawn, colours, strict=True):
         density = np.where(spread.density > 0, spread.density, np.nan) * 1e9
@@ -90,18 +77,19 @@ def pressures(spreads: Sequence[Spread], hardness: float) -> str:
         axes.axvline(hardness / 1e9, color="black", linestyle=":", linewidth=1)
     top = max(float(spread.density.max()) for spread in drawn) * 1e9
     axes.set_yscale("log")
-    axes.set_ylim(bottom=max(axes.get_ylim()[0], top * 1e-6))
-    axes.set_xlim(left=0)
-    axes.set_xlabel("pressure, GPa" + (" (dotted: hardness)" if math.isfinite(hardness) else ""))
-    axes.set_ylabel("density of the\nnominal area, 1/GPa")
+    axes.set(
+        ylim=(max(axes.get_ylim()[0], top * 1e-6), None),
+        xlim=(0, None),
+        xlabel="pressure, GPa" + (" (dotted: hardness)" if math.isfinite(hardness) else ""),
+        ylabel="density of the\nnominal area, 1/GPa",
+    )
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), title="load")
     return svg(figure)
 
 
 def section(contact: Contact) -> str:
     """Heights along a line through the largest pressure: undeformed, loaded, unloaded if plastic, and the plane."""
-    figure = Figure(figsize=(11, 5.4), layout="constrained")
-    upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1.3))
+    figure, (upper, lower) = new_figure((11, 5.4), 2, 1, sharex=True, height_ratios=(3, 1.3))
     row = section_row(contact)
     x = np.arange(contact.heights.shape[0]) * contact.spacing[0] * 1e6
     plane = float(contact.heights.max()) - contact.approach
@@ -116,9 +104,7 @@ def section(contact: Contact) -> str:
     upper.set_ylabel("height above the plane, µm")
     upper.legend(ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1.0))
     lower.fill_between(x, contact.pressure[:, row] / 1e6, color=PLASTIC, linewidth=0, step="mid")
-    lower.set_ylim(0, 1.08 * _top(contact) / 1e6)
-    lower.set_ylabel("pressure, MPa")
-    lower.set_xlabel("x, µm")
+    lower.set(ylim=(0, 1.08 * _top(contact) / 1e6), ylabel="pressure, MPa", xlabel="x, µm")
     upper.set_xlim(x[0], x[-1])
     return svg(figure)
 
@@ -128,11 +114,6 @@ def section_row(contact: Contact) -> int:
     peak = contact.pressure.max(axis=0)
     carried = np.where(peak >= peak.max(), contact.pressure.sum(axis=0), -1.0)
     return int(np.argmax(carried))
-
-
-def _small() -> tuple[Figure, Axes]:
-    figure = Figure(figsize=(5.4, 4.0), layout="constrained")
-    return figure, figure.add_subplot()
 
 
 def _loads(rows: Sequence[Row]) -> list[float]:
@@ -146,20 +127,4 @@ def _line(axes: Axes, x: Sequence[float], y: Any, colour: str, label: str) -> No
 def _top(contact: Contact) -> float:
     return (
         contact.hardness if contact.plastic.any() else float(np.percentile(contact.pressure[contact.in_contact], 99.9))
-    )
-
-
-def _size(contact: Contact) -> tuple[float, float]:
-    nx, ny = contact.heights.shape
-    return nx * contact.spacing[0] * 1e6, ny * contact.spacing[1] * 1e6
-
-
-def _map(axes: Axes, contact: Contact, values: Array, **how: Any) -> Any:
-    step = max(1, -(-max(values.shape) // MOST_PIXELS))
-    width, height = _size(contact)
-    axes.grid(visible=False)
-    axes.set_xlabel("x, µm")
-    axes.set_ylabel("y, µm")
-    return axes.imshow(
-        values[::step, ::step].T, origin="lower", extent=(0, width, 0, height), interpolation="nearest", **how
     )

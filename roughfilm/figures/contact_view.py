@@ -80,7 +80,7 @@ def draw(file: Path, picture: Path) -> None:
             specular=0.3,
             show_scalar_bar=number == 0,
             scalar_bar_args={
-                "title": "gap, µm (red: contact)",
+                "title": "gap, µm (red: contact)\n",
                 "n_labels": 4,
                 "fmt": "%.2f",
                 "color": "#222222",

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.figures.base import new_figure
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve, StribeckPoint
 from roughfilm.words.stribeck import SpeedScale
@@ -43,8 +44,7 @@ class Drawn:
 
 def curves(found: Sequence[StribeckCurve], scale: SpeedScale, touching: float) -> Figure:
     """Friction, least separation over the first touch, and the contact's share, over speed."""
-    figure = Figure(figsize=(11.4, 4.0), layout="constrained")
-    friction, gap, share = figure.subplots(1, 3)
+    figure, (friction, gap, share) = new_figure((11.4, 4.0), 1, 3)
     panels: tuple[tuple[Axes, str, Callable[[StribeckPoint], float], str, float], ...] = (
         (friction, "friction_coefficient", lambda point: point.friction_coefficient, "coefficient of friction", 1),
         (
@@ -66,8 +66,7 @@ def curves(found: Sequence[StribeckCurve], scale: SpeedScale, touching: float) -
             axes.errorbar(
                 speeds[known], values[known], doubts[known], fmt="o", markersize=2.5, color=colour, elinewidth=0.9
             )
-            axes.set_ylabel(label)
-            axes.set_xlabel(f"speed, {scale.unit}")
+            axes.set(ylabel=label, xlabel=f"speed, {scale.unit}")
             lift = curve.lift_off.speed * scale.factor
             if np.isfinite(lift) and lift <= speeds.max():
                 axes.axvline(lift, color=colour, linewidth=0.8, linestyle=":")
@@ -87,8 +86,7 @@ def _colours(count: int) -> list[str]:
 
 def asperity_table(asperities: Asperities) -> Figure:
     """Contact pressure and area, and the factors over those of a smooth film, over the separation."""
-    figure = Figure(figsize=(11.4, 3.9), layout="constrained")
-    contact, pressed, sheared = figure.subplots(1, 3)
+    figure, (contact, pressed, sheared) = new_figure((11.4, 3.9), 1, 3)
     touching = asperities.touching
     lowest = asperities.separation_at(min(asperities.largest_pressure, MOST_PRESSURE))
     near = np.linspace(lowest, touching, BETWEEN)
@@ -118,8 +116,7 @@ def asperity_table(asperities: Asperities) -> Figure:
 
 def films(drawn: Sequence[Drawn]) -> Figure:
     """Film pressure and contact pressure over the bearing, a row for each speed."""
-    figure = Figure(figsize=(11.4, 3.3 * len(drawn)), layout="constrained")
-    panels = figure.subplots(len(drawn), 2, squeeze=False)
+    figure, panels = new_figure((11.4, 3.3 * len(drawn)), len(drawn), 2, squeeze=False)
     tops = [max(float(one.max()) for one in each) for each in ([d.film for d in drawn], [d.contact for d in drawn])]
     for row, one in zip(panels, drawn, strict=True):
         for axes, values, top, what, colours in zip(
@@ -128,8 +125,7 @@ def films(drawn: Sequence[Drawn]) -> Figure:
             if one.x.shape[1] == 1:
                 axes.plot(1e3 * one.x, values / 1e6, color=COLOURS[0])
                 axes.set_title(f"{one.title}: {what}", fontsize=10)
-                axes.set_xlabel("along the sliding, mm")
-                axes.set_ylabel("pressure, MPa")
+                axes.set(xlabel="along the sliding, mm", ylabel="pressure, MPa")
                 continue
             axes.grid(visible=False)
             axes.set_aspect("equal")
@@ -145,7 +141,6 @@ def films(drawn: Sequence[Drawn]) -> Figure:
                 rasterized=True,
             )
             axes.set_title(f"{one.title}: {what}", fontsize=10)
-            axes.set_xlabel("mm")
-            axes.set_ylabel("mm")
+            axes.set(xlabel="mm", ylabel="mm")
             figure.colorbar(image, ax=axes, label="MPa", shrink=0.85)
     return figure

@@ -1,12 +1,11 @@
 """The pictures of a surface and its preparation."""
 
 from collections.abc import Sequence
-from typing import Any
 
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from matplotlib.image import AxesImage
 from matplotlib.patches import Rectangle
 
 from roughfilm.contact.foundation.arrays import Array
@@ -14,10 +13,7 @@ from roughfilm.contact.parameters.bearing_curve import bearing_curve
 from roughfilm.contact.parameters.spectrum import power_spectrum, radial_power
 from roughfilm.contact.preparation.prepare import Prepared
 from roughfilm.contact.surfaces.surface import Surface
-from roughfilm.figures.base import svg
-
-MOST_PIXELS = 640
-"""Of a picture along a side; finer surfaces are drawn by every second, third ... pixel."""
+from roughfilm.figures.base import new_figure, surface_map, svg
 
 COLOURS = mpl.colormaps["cividis"].with_extremes(bad="#d7301f")
 BEFORE, AFTER = "#e08214", "#2166ac"
@@ -25,13 +21,13 @@ BEFORE, AFTER = "#e08214", "#2166ac"
 
 def height_maps(prepared: Prepared) -> str:
     """The measured surface with its invalid points and window, and the prepared one, in the same colours."""
-    figure = Figure(figsize=(11, _height(prepared.measured, 4.6)), layout="constrained")
-    panels = figure.subplots(1, 2)
+    figure, panels = new_figure((11, _height(prepared.measured, 4.6)), 1, 2)
     limits = _limits(prepared.measured)
     for axes, surface, title in zip(
         panels, (prepared.measured, prepared.surface), ("measured, form removed", "prepared"), strict=True
     ):
-        image = _map(axes, surface, _drawn(surface), limits)
+        heights = np.where(surface.invalid, np.nan, surface.heights)
+        image = _height_map(axes, surface, heights, limits)
         axes.set_title(title)
     window = prepared.record["window"]
     dx, dy = (step * 1e6 for step in prepared.measured.spacing)
@@ -43,14 +39,13 @@ def height_maps(prepared: Prepared) -> str:
 
 def joints(prepared: Prepared) -> str:
     """One and a quarter cells each way at three stages; black squares where the cells meet."""
-    figure = Figure(figsize=(11, _height(prepared.surface, 2.9)), layout="constrained")
-    panels = figure.subplots(1, 3)
+    figure, panels = new_figure((11, _height(prepared.surface, 2.9)), 1, 3)
     limits = _limits(prepared.measured)
     stages = (prepared.cell, prepared.joined, prepared.surface)
     for axes, surface, title in zip(panels, stages, ("as measured", "edges joined", "smoothed"), strict=True):
         nx, ny = surface.shape
         tiled = np.pad(surface.heights, ((0, nx // 4), (0, ny // 4)), mode="wrap")
-        image = _map(axes, surface, tiled, limits)
+        image = _height_map(axes, surface, tiled, limits)
         width, height = (length * 1e6 for length in surface.size)
         for x, y in ((width, 0), (0, height), (width, 1.25 * height), (1.25 * width, height)):
             axes.plot(x, y, "ks", markersize=7, clip_on=False, zorder=5)
@@ -61,23 +56,20 @@ def joints(prepared: Prepared) -> str:
 
 def bearing_curves(prepared: Prepared) -> str:
     """Height against the part of the surface above it, with the cut levels."""
-    figure = Figure(figsize=(5.4, 4.0), layout="constrained")
-    axes = figure.add_subplot()
+    figure, axes = new_figure((5.4, 4.0))
     for surface, label, colour in ((prepared.filled, "measured", BEFORE), (prepared.surface, "prepared", AFTER)):
         ratio, height = bearing_curve(surface.heights)
         axes.plot(100 * ratio, height * 1e6, color=colour, label=label)
     for level in ("highest", "lowest"):
         axes.axhline(prepared.record["outliers"][level] * 1e6, color="black", linestyle=":", linewidth=1)
-    axes.set_xlabel("bearing ratio, % (dotted: cut)")
-    axes.set_ylabel("height, µm")
+    axes.set(xlabel="bearing ratio, % (dotted: cut)", ylabel="height, µm")
     axes.legend()
     return svg(figure)
 
 
 def power_spectra(prepared: Prepared) -> str:
     """Power by wavelength, all directions together, summed over quarters of an octave."""
-    figure = Figure(figsize=(5.4, 4.0), layout="constrained")
-    axes = figure.add_subplot()
+    figure, axes = new_figure((5.4, 4.0))
     for surface, label, colour in _both(prepared):
         frequency, power = radial_power(power_spectrum(surface))
         quarter = np.rint(4 * np.log2(frequency[1:] / frequency[1])).astype(int)
@@ -86,16 +78,14 @@ def power_spectra(prepared: Prepared) -> str:
         wavelength = 2 ** (-np.arange(octaves.size) / 4) / frequency[1]
         axes.loglog(wavelength[drawn] * 1e6, octaves[drawn] * 1e12, color=colour, label=label)
     axes.invert_xaxis()
-    axes.set_xlabel("wavelength, µm")
-    axes.set_ylabel("mean square height per octave, µm²")
+    axes.set(xlabel="wavelength, µm", ylabel="mean square height per octave, µm²")
     axes.legend()
     return svg(figure)
 
 
 def edge_profiles(prepared: Prepared) -> str:
     """The lines of pixels at both ends of each direction: black the outermost, grey the ten next to each."""
-    figure = Figure(figsize=(11, 3.4), layout="constrained")
-    panels = figure.subplots(1, 2)
+    figure, panels = new_figure((11, 3.4), 1, 2)
     surface = prepared.surface
     for axis, axes in enumerate(panels):
         lines = np.moveaxis(surface.heights, axis, 0) * 1e6
@@ -105,8 +95,7 @@ def edge_profiles(prepared: Prepared) -> str:
             axes.plot(place, lines[k], color="0.75", linewidth=0.6)
         axes.plot(place, lines[0], "k-", linewidth=1, label="first line")
         axes.plot(place, lines[-1], "k--", linewidth=1, label="last line")
-        axes.set_xlabel(f"{'yx'[axis]}, µm, along the joint across {'xy'[axis]}")
-        axes.set_ylabel("height, µm")
+        axes.set(xlabel=f"{'yx'[axis]}, µm, along the joint across {'xy'[axis]}", ylabel="height, µm")
     panels[0].legend()
     return svg(figure)
 
@@ -125,22 +114,6 @@ def _limits(surface: Surface) -> tuple[float, float]:
     return float(low), float(high)
 
 
-def _drawn(surface: Surface) -> Array:
-    return np.where(surface.invalid, np.nan, surface.heights)
-
-
-def _map(axes: Axes, surface: Surface, heights: Array, limits: tuple[float, float]) -> Any:
-    step = max(1, -(-max(heights.shape) // MOST_PIXELS))
-    width, height = (count * length * 1e6 for count, length in zip(heights.shape, surface.spacing, strict=True))
-    axes.grid(visible=False)
-    axes.set_xlabel("x, µm")
-    axes.set_ylabel("y, µm")
-    return axes.imshow(
-        heights[::step, ::step].T * 1e6,
-        origin="lower",
-        extent=(0, width, 0, height),
-        cmap=COLOURS,
-        vmin=limits[0],
-        vmax=limits[1],
-        interpolation="nearest",
-    )
+def _height_map(axes: Axes, surface: Surface, heights: Array, limits: tuple[float, float]) -> AxesImage:
+    size = (heights.shape[0] * surface.spacing[0], heights.shape[1] * surface.spacing[1])
+    return surface_map(axes, heights * 1e6, size, cmap=COLOURS, vmin=limits[0], vmax=limits[1])

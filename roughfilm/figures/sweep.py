@@ -3,9 +3,8 @@
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from matplotlib.figure import Figure
 
-from roughfilm.figures.base import svg
+from roughfilm.figures.base import new_figure, svg
 from roughfilm.figures.view import views
 from roughfilm.rom.ladder.kind import kind_of_name
 from roughfilm.rom.studies.ordering import Ordering, product
@@ -19,8 +18,8 @@ def errors_in_order(
 ) -> str:
     """Error against the number that orders it, a panel for each setting and quantity, with the thresholds."""
     kind, groups = kind_of_name(sweep.kind), views()[sweep.kind].groups(sweep.given)
-    figure = Figure(figsize=(10, 0.6 + 2.6 * len(settings)), layout="constrained")
-    panels, told = figure.subplots(len(settings), len(kind.compared), squeeze=False), set[str]()
+    named = set[str]()
+    figure, panels = new_figure((10, 0.6 + 2.6 * len(settings)), len(settings), len(kind.compared), squeeze=False)
     for line, setting in zip(panels, settings, strict=True):
         for axes, (quantity, title) in zip(line, kind.compared.items(), strict=True):
             if (setting, quantity) not in orderings:
@@ -32,14 +31,13 @@ def errors_in_order(
             error = 100 * relative_error(sweep, setting, reference, quantity)
             error[~loaded(sweep, reference)] = np.nan
             for (group, rows), sign in zip(groups.items(), "osD^v<>", strict=False):
-                label = None if group in told else group
-                told.add(group)
+                label = None if group in named else group
+                named.add(group)
                 axes.plot(number[rows], np.maximum(error[rows], LEAST_PERCENT), sign, ms=3, alpha=0.6, label=label)
             for tolerance, limit in found.thresholds.items():
                 if limit is not None:
                     axes.plot([number.min(), limit, limit], [100 * tolerance] * 2 + [LEAST_PERCENT], "k:", lw=0.8)
-            axes.set_xscale("log")
-            axes.set_yscale("log")
+            axes.set(xscale="log", yscale="log")
             axes.set_title(f"{setting}: {title}, rank correlation {found.rank:.3f}", fontsize=9)
             axes.set_xlabel(sweeping(kind).words(found.powers), fontsize=8)
             axes.set_ylabel("error, %", fontsize=8)
@@ -50,8 +48,7 @@ def errors_in_order(
 def sweep_chart(sweep: Sweep, reference: str, settings: Sequence[str]) -> str:
     """CPU seconds against error over all cases: a dot each, the median, and a bar up to 95 of 100 cases."""
     kind, view = kind_of_name(sweep.kind), views()[sweep.kind]
-    figure = Figure(figsize=(10, 4.6), layout="constrained")
-    panels = figure.subplots(1, len(kind.compared))
+    figure, panels = new_figure((10, 4.6), 1, len(kind.compared))
     for axes, (quantity, title) in zip(panels, kind.compared.items(), strict=True):
         for setting in settings:
             error = np.maximum(100 * relative_error(sweep, setting, reference, quantity), LEAST_PERCENT)
@@ -76,10 +73,7 @@ def sweep_chart(sweep: Sweep, reference: str, settings: Sequence[str]) -> str:
             ls=":",
             label=f"{reference} (reference)",
         )
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        axes.set_xlabel("CPU time a case, s")
-        axes.set_ylabel(f"error in {title}, %")
+        axes.set(xscale="log", yscale="log", xlabel="CPU time a case, s", ylabel=f"error in {title}, %")
     handles, labels = panels[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=4, fontsize=8)
     return svg(figure)

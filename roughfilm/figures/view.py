@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
 
 import roughfilm.figures.views
@@ -64,6 +65,11 @@ class View:
         name, *chosen = setting.split("-")
         style = self.style(name)
         return Style(colour=style.colour, line=style.line, marker="X") if chosen else style
+
+
+def groups_by(column: str) -> Callable[[Columns], dict[str, NDArray[Any]]]:
+    """The groups of cases by the names in one column of a sweep."""
+    return lambda given: {str(name): given[column] == name for name in np.unique(given[column])}
 
 
 @cache

@@ -210,7 +210,7 @@ def checked_cells(scene: Bearing, resolution: int | None) -> int:
     most = MOST_WIDE_CELLS if scene.wide else MOST_CELLS
     cells = (WIDE_CELLS if scene.wide else CELLS) if resolution is None else resolution
     if isinstance(cells, bool) or not isinstance(cells, int) or not FEWEST_CELLS <= cells <= most:
-        raise InputError(f"--resolution: got {cells}; it must be {FEWEST_CELLS} to {most} cells along a side")
+        raise InputError(f"resolution: got {cells}; it must be {FEWEST_CELLS} to {most} cells along a side")
     return cells
 
 

@@ -14,12 +14,12 @@ def save(result: Result, path: str | os.PathLike[str]) -> None:
     Parameters
     ----------
     result : the result.
-    path : the file, by custom ``*.h5``; a file of that name is replaced.
+    path : the file, by custom ``*.h5``; a result of that name is replaced, and no other file.
 
     Raises
     ------
     InputError
-        If the file cannot be written.
+        If the file cannot be written, or holds anything but a result.
 
     Examples
     --------

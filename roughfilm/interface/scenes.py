@@ -42,10 +42,9 @@ def load_scene(path: str | os.PathLike[str], *, set: Mapping[str, object] | None
     """
     if not isinstance(path, str | os.PathLike):
         raise InputError(f"path: got {type(path).__name__}; name a scene file, or give a dict to read_scene")
-    try:
-        return scenes.load_scene(Path(path), [f"{key}={_text(value)}" for key, value in (set or {}).items()])
-    except InputError as error:
-        raise InputError(str(error).replace("--set ", "set: ")) from None
+    if not isinstance(set, Mapping | None):
+        raise InputError(f"set: got {set!r:.60}; give a dict such as {{'geometry.depth': '22.5 um'}}")
+    return scenes.load_scene(Path(path), [f"{key}={_text(value)}" for key, value in (set or {}).items()])
 
 
 def read_scene(entries: Mapping[str, Any]) -> Scene:

@@ -76,7 +76,7 @@ def advise(scene: Scene, *, within: float, quantity: str | None = None, progress
     'inertial_reynolds'
     """
     kind = checked_scene(scene).kind
-    if isinstance(within, bool) or not isinstance(within, int | float):
+    if isinstance(within, bool) or not isinstance(within, int | float) or not 0 < within < 1:
         raise InputError(f"within: got {within!r}; give a number above 0 and below 1, for example 0.05")
     wanted = advice.wanted(scene, quantity)
     return advice.advise(scene, ladder.models(kind), quantity=wanted, within=within, progress=progress)

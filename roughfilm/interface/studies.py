@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from roughfilm import ladder
 from roughfilm.batch.directory import alone
 from roughfilm.batch.executors import local
-from roughfilm.batch.progress import Tally
+from roughfilm.batch.progress import BatchProgress
 from roughfilm.batch.solve import solved_table
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.ladder.model import Progress, silent
@@ -91,7 +91,7 @@ def run_study(
     except OSError as error:
         raise InputError(f"out: {place} cannot be made ({error.strerror}); choose another place") from error
     with alone(place) as scratch:
-        solved_table(loaded, place, Tally(), local(processes, scratch), progress)
+        solved_table(loaded, place, BatchProgress(), local(processes, scratch), progress)
     return read_table(place / "table.h5")
 
 

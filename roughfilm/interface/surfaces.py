@@ -1,6 +1,7 @@
 """Rough surfaces from arrays and files: roughness parameters, dry contact and flow factors."""
 
 import math
+import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -47,6 +48,11 @@ def surface_of(heights: Heights, spacing: float | Sequence[float] | None) -> Sur
         raise InputError("heights: got rows of different lengths; give an array of shape (nx, ny)") from None
     if array.dtype.kind not in "fiu":
         raise InputError(f"heights: got an array of {array.dtype}; give real numbers in m")
+    if len(places := np.argwhere(~np.isfinite(array))):
+        remedy = "give finite heights, or a Surface with these points as invalid to prepare()"
+        raise InputError(
+            f"heights: {len(places)} of {array.size} points are not finite, the first at {places[0].tolist()}; {remedy}"
+        )
     if spacing is None:
         raise InputError("spacing: missing; give the distance of neighbouring points in m, or a pair (dx, dy)")
     return Surface(heights=array, spacing=_pair(spacing))
@@ -95,6 +101,8 @@ def read_surface(
     >>> surface.shape, surface.periodic
     ((512, 384), True)
     """
+    if not isinstance(path, str | os.PathLike):
+        raise InputError(f"path: got {type(path).__name__}; name a file; heights in an array need no reading")
     file = Path(path)
     if file.suffix.lower() == ".toml":
         given = {"spacing": spacing, "channel": channel, "height_unit": height_unit}

@@ -55,6 +55,8 @@ def sweep(
     ('m', 'Pa')
     """
     known = chosen_models(checked_scene(scene).kind, models)
+    if not isinstance(values, Mapping):
+        raise InputError(f"values: got {values!r:.60}; give a dict such as {{'geometry.depth': ['5 um', '10 um']}}")
     for key, taken in values.items():
         if isinstance(taken, str) or not isinstance(taken, Sequence | np.ndarray) or not len(taken):
             raise InputError(f"values: got {taken!r:.60} for {key}; give a list of the values that it takes")

@@ -40,9 +40,9 @@ COLUMNS = (
 )
 
 
-def write_page(name: str, told: Mapping[str, Any], series: Series, path: Path) -> None:
-    """Write the page of a series and of what ``--json`` told; InputError if the file cannot be written."""
-    last, settings = series.last, told["provenance"]["settings"]
+def write_page(name: str, entries: Mapping[str, Any], series: Series, path: Path) -> None:
+    """Write the page of a series and of the object of ``--json``; InputError if the file cannot be written."""
+    last, settings = series.last, entries["provenance"]["settings"]
     hardness = settings["hardness"] or math.inf
     shown = [column for column in COLUMNS if any(getattr(row, column[2]) is not None for row in series.rows)]
     line = last is not None and 1 in last.heights.shape
@@ -55,9 +55,9 @@ def write_page(name: str, told: Mapping[str, Any], series: Series, path: Path) -
         name=name,
         settings=settings,
         meaning=MODELS[settings["model"]],
-        quantities=told["quantities"],
-        numerics=told["numerics"],
-        warnings=told["provenance"]["warnings"],
+        quantities=entries["quantities"],
+        numerics=entries["numerics"],
+        warnings=entries["provenance"]["warnings"],
         columns=[(head, unit) for head, unit, _, _ in shown],
         rows=[[_cell(getattr(row, field), factor) for _, _, field, factor in shown] for row in series.rows],
         last=series.rows[-1],
@@ -70,7 +70,7 @@ def write_page(name: str, told: Mapping[str, Any], series: Series, path: Path) -
         missing=missing,
         pressures=contact_figures.pressures(series.spreads, hardness),
         section=None if last is None else contact_figures.section(last),
-        provenance=told["provenance"],
+        provenance=entries["provenance"],
     )
 
 

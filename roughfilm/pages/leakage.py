@@ -27,10 +27,10 @@ def write_page(
     body: Ready,
     rows: Mapping[float, Row],
     found: Mapping[str, Threshold],
-    told: Mapping[str, Any],
+    entries: Mapping[str, Any],
     directory: Path,
 ) -> None:
-    """Write report.html of a series and of what ``--json`` told; InputError if the file cannot be written."""
+    """Write report.html of a series and of the object of ``--json``; InputError if the file cannot be written."""
     ordered, spectrum = list(rows.values()), scene.spectrum()
     flat = float(np.ptp(body.surface.heights)) == 0
     depth = 0.0 if flat else _valley_depth(body)
@@ -49,8 +49,8 @@ def write_page(
         "leakage.html.j2",
         directory / "report.html",
         scene=scene,
-        told=told,
-        warnings=told["provenance"]["warnings"],
+        entries=entries,
+        warnings=entries["provenance"]["warnings"],
         thresholds={WORDS[name]: in_words(threshold) for name, threshold in found.items()},
         cards=[(axis, found[f"direct_{axis}"]) for axis in "xy"],
         first=ordered[0],

@@ -28,13 +28,13 @@ ROWS = 9
 
 def write_page(
     scene: Bearing,
-    told: Mapping[str, Any],
+    entries: Mapping[str, Any],
     curves: Sequence[StribeckCurve],
     asperities: Asperities,
     resolution: int,
     path: Path,
 ) -> None:
-    """Write the page of curves and of what ``--json`` told; InputError if the file cannot be written."""
+    """Write the page of curves and of the object of ``--json``; InputError if the file cannot be written."""
     scale = speed_scale(scene)
     unit, factor = scale.unit, scale.factor
     middle = curves[len(curves) // 2]
@@ -44,7 +44,7 @@ def write_page(
         "stribeck.html.j2",
         path,
         name=scene.name or "bearing",
-        told=told,
+        entries=entries,
         unit=unit,
         factor=factor,
         friction=scene.asperities.friction if scene.asperities is not None else 0.0,
@@ -75,7 +75,7 @@ def drawn_film(film: MixedFilm, point: StribeckPoint, title: str) -> Drawn:
     pressure = found.solution.state.pressure + film.scene.lubricant.cavitation_pressure
     contact = found.contact.force / grid.areas
     share = point.contact_share
-    told = f"{title}, {100 * share:.3g} % by contact" if share > 0 else f"{title}, parted"
+    told = f"{title}, {100 * share:.3g} % by contact" if share > 0 else f"{title}, no contact"
     x, y = np.meshgrid(grid.x, grid.y, indexing="ij")
     if not isinstance(geometry, Ring):
         return Drawn(title=told, x=x, y=y, film=pressure, contact=contact)

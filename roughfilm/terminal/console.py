@@ -1,9 +1,10 @@
-"""What the commands share: their options, their ladder, one line and an exit code for every failure."""
+"""Options of the commands, their consoles and progress bars, and one line and an exit code for every error."""
 
 import functools
 import io
 import json
 import os
+import re
 import signal
 import sys
 from collections.abc import Callable, Iterator
@@ -26,58 +27,73 @@ Overrides = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="KEY=VALUE", help="Override a key, e.g. geometry.depth=22.5um; repeatable."),
 ]
-AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object on standard output, nothing else there.")]
+AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object on standard output and nothing else.")]
+OutDirectory = Annotated[Path, typer.Option("--out", help="Output directory; finished results in it are used again.")]
+ReportFile = Annotated[Path | None, typer.Option("--report", help="Write a page with figures here (HTML).")]
 Resolution = Annotated[int | None, typer.Option(help="Nodes or mesh columns; see 'roughfilm models'.")]
 Scheme = Annotated[str | None, typer.Option(help="Advection scheme; see 'roughfilm models'.")]
 Processes = Annotated[int, typer.Option(help="Processes of one OpenFOAM run (MPI).")]
-Threads = Annotated[int | None, typer.Option(help="Gaps whose flow is solved at once; two where there are two cores.")]
+Jobs = Annotated[int | None, typer.Option(help="Processes (default: one for each core).")]
+Threads = Annotated[int | None, typer.Option(help="Gaps whose flow is solved at once (default: 2 on several cores).")]
 Tolerance = Annotated[float | None, typer.Option(help="Residual at which a solver stops.")]
+Spacing = Annotated[
+    str | None, typer.Option(metavar="D", help="Distance between the points of an array of heights: 1um, or 1um,2um.")
+]
 
 messages = Console(stderr=True, highlight=False)
 output = Console(highlight=False)
 
 
-def fail(error: Exception, code: int) -> typer.Exit:
-    """Say one line (and the log's last lines, where there are some) and return the exit."""
-    messages.print(f"[bold red]error:[/] {escape(str(error))}", soft_wrap=True)
+def fail(error: Exception, code: int, command: Callable[..., None] | None = None) -> typer.Exit:
+    """Print an error in one line, and the notes that it carries, and return the exit with this code.
+
+    Where the line begins with the name of a parameter of the command, its option takes the place of the name.
+    """
+    options = {} if command is None else _options(command)
+    line = re.sub(r"^\w+(?=:? )", lambda place: options.get(place[0], place[0]), str(error))
+    messages.print(f"[bold red]error:[/] {escape(line)}", soft_wrap=True)
     print_notes(error, style="dim")
     return typer.Exit(code)
 
 
+def _options(command: Callable[..., None]) -> dict[str, str]:
+    """The options of a command by the names of its parameters, such as ``--counter-modulus`` by counter_modulus."""
+    parameters = typer.main.get_command(_app(command)).params
+    return {str(one.name).rstrip("_"): one.opts[0] for one in parameters if one.opts[0].startswith("--")}
+
+
 def print_notes(error: BaseException, style: str | None = None) -> None:
-    """Print the lines that the library added to an exception."""
+    """Print the notes that an exception carries."""
     for note in getattr(error, "__notes__", []):
         messages.print(escape(note), style=style, soft_wrap=True)
 
 
 def in_one_line(command: Callable[..., None]) -> Callable[..., None]:
-    """Turn our errors into one line on standard error and the exit code 2, 3 or 4, and print the notes of a stop."""
+    """A command that ends an error in one line with exit code 2, 3 or 4, and prints the notes of an interruption."""
 
     @functools.wraps(command)
     def wrapped(*arguments: Any, **options: Any) -> None:
         try:
             command(*arguments, **options)
-        except InputError as error:
-            raise fail(error, BAD_INPUT) from None
-        except ConvergenceError as error:
-            raise fail(error, NOT_CONVERGED) from None
-        except UnavailableError as error:
-            raise fail(error, MISSING) from None
+        except (InputError, ConvergenceError, UnavailableError) as error:
+            codes = {InputError: BAD_INPUT, ConvergenceError: NOT_CONVERGED, UnavailableError: MISSING}
+            code = next(code for kind, code in codes.items() if isinstance(error, kind))
+            raise fail(error, code, command) from None
         except (KeyboardInterrupt, SystemExit) as stop:
             print_notes(stop)
             raise
         except BrokenPipeError:
             raise
         except OSError as error:
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # or Python says it again at its end
-            told = f"standard output: cannot be written ({error.strerror or error}); send it elsewhere"
-            raise fail(InputError(told), BAD_INPUT) from None
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # else Python reports it once more at exit
+            message = f"standard output: cannot be written ({error.strerror or error}); send it elsewhere"
+            raise fail(InputError(message), BAD_INPUT) from None
 
     return wrapped
 
 
 def launch(app: typer.Typer, arguments: list[str]) -> None:
-    """Run an application: one line for every fault, and no program left running when it is told to stop."""
+    """Run an application: one line for every error, and no program left running after a signal to stop."""
     signal.signal(signal.SIGTERM, _stop)
     if sys.stdout is None:
         sys.exit(BAD_INPUT)
@@ -93,10 +109,14 @@ def launch(app: typer.Typer, arguments: list[str]) -> None:
 
 
 def run_alone(command: Callable[..., None]) -> None:
-    """Run one command as a program of its own, as ``python scripts/x.py`` does."""
+    """Run one command as a program of its own."""
+    launch(_app(command), sys.argv[1:])
+
+
+def _app(command: Callable[..., None]) -> typer.Typer:
     app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
     app.command()(command)
-    launch(app, sys.argv[1:])
+    return app
 
 
 def _stop(number: int, _frame: FrameType | None) -> None:
@@ -104,14 +124,14 @@ def _stop(number: int, _frame: FrameType | None) -> None:
 
 
 def print_json(entries: dict[str, Any]) -> None:
-    """The one object of ``--json``."""
+    """Print the one object of ``--json``."""
     sys.stdout.write(json.dumps(entries, allow_nan=False, ensure_ascii=True) + "\n")
     sys.stdout.flush()
 
 
 @contextmanager
 def progress_bar(total: float) -> Iterator[Callable[[float, str], None]]:
-    """A bar on standard error with time left; yields advance(done, words) with done counted towards ``total``."""
+    """Show a bar on standard error; yields advance(done, words), whose ``done`` grows to ``total``."""
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
     columns = (
@@ -129,8 +149,16 @@ def progress_bar(total: float) -> Iterator[Callable[[float, str], None]]:
 
 
 def make_directory(path: Path) -> None:
-    """The directory of ``--out``; InputError if it cannot be made."""
+    """Make the directory of ``--out``; InputError if it cannot be made."""
     try:
         path.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(f"--out {path}: cannot be made ({error.strerror}); choose another place") from error
+
+
+def process_count(jobs: int | None) -> int:
+    """The number of processes of ``--jobs``, by default one for each core; InputError below 1."""
+    processes = len(os.sched_getaffinity(0)) if jobs is None else jobs
+    if processes < 1:
+        raise InputError(f"--jobs: got {jobs}; it must be 1 or more")
+    return processes

@@ -1,4 +1,4 @@
-"""Numbers as people write series of them: "1MPa..1GPa:25", "1MPa, 10MPa", "50MPa"."""
+"""Loads and speeds as people write them: "1MPa..1GPa:25", "1MPa, 10MPa", "0, 30rpm, 2m/s"."""
 
 import re
 from collections.abc import Callable, Sequence
@@ -6,55 +6,119 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.units import to_si
 
-MOST = 1000
-"""Numbers of one series."""
+MAX_COUNT = 1000
+"""The longest series of numbers."""
 
-_UNIT = re.compile(r"^\s*[-+.\d]*([eE][-+]?\d+)?\s*")
-"""What stands before a unit."""
+MIN_LOAD, MAX_LOAD = 1e-30, 1e30
+"""Pa."""
+
+MAX_SPEED = 1e5
+"""m/s."""
+
+_BEFORE_UNIT = re.compile(r"^\s*[-+.\d]*([eE][-+]?\d+)?\s*")
 
 
-def numbers_of(text: str, read: Callable[[str], float], *, option: str, what: str, example: str) -> tuple[float, ...]:
-    """The numbers of A..B:N, of a list, or of a single one, rising, each once.
+def loads_of(text: str) -> tuple[float, ...]:
+    """The loads of a range A..B:N (N loads by a constant factor), of a list, or of a single number, rising.
 
-    A range has N of them, each by the same factor above the last, or by the same difference if it begins at 0. A unit
-    may be left out where the last number has one: it counts for all.
+    A unit may be left out where the last load has one: it counts for all.
 
-    Parameters
-    ----------
-    read : the number that a text with a unit stands for, 0 or more; InputError or ValueError if none.
-    option, what, example : for messages: "--loads", "load", "1MPa..1GPa:25".
+    Returns
+    -------
+    Pa, each above 0 and once.
 
     Raises
     ------
     InputError
-        If the text says anything else.
+        For any other text.
+
+    Examples
+    --------
+    >>> loads_of("1..100MPa:3")
+    (1000000.0, 10000000.0, 100000000.0)
+    >>> loads_of("2MPa, 500kPa")
+    (500000.0, 2000000.0)
     """
-    place, told = f"{option} {text:.60}", f"write for example {example}"
-    if ".." not in text:
-        return tuple(sorted(set(_all(text.split(","), read, place, what, told))))
-    ends, _, count = text.rpartition(":")
-    if not (re.fullmatch(r"\s*[0-9]{1,6}\s*", count) and 2 <= int(count) <= MOST):
-        raise InputError(f"{place}: a range ends with how many {what}s, 2 to {MOST}; {told}")
-    first, last = _all(ends.split("..", 1), read, place, what, told)
-    if not first < last:
-        raise InputError(f"{place}: the first of a range must be below the last; {told}")
-    spaced = np.geomspace if first > 0 else np.linspace
-    inner = spaced(first, last, int(count))[1:-1]
-    numbers = dict.fromkeys((first, *(float(number) for number in inner), last))
-    if len(numbers) < int(count):
-        raise InputError(f"{place}: its ends are too close for {int(count)} different {what}s; {told}")
-    return tuple(numbers)
+    return _numbers_of(text, _pressure, option="--loads", what="load", example="1MPa..1GPa:25 or 1MPa,10MPa")
 
 
-def _all(parts: Sequence[str], read: Callable[[str], float], place: str, what: str, told: str) -> list[float]:
-    unit = _UNIT.sub("", parts[-1])
-    numbers = []
-    for part in parts:
-        if not part.strip():
-            raise InputError(f"{place}: a {what} is missing; {told}")
+def _pressure(text: str) -> float:
+    pressure = to_si(text, "Pa")
+    if not pressure > 0:
+        raise InputError(f"got {text}; a load must be above 0")
+    if not MIN_LOAD <= pressure <= MAX_LOAD:
+        raise InputError(f"got {text}; check the unit")
+    return pressure
+
+
+def speeds_of(text: str, radius: float | None) -> tuple[float, ...]:
+    """The speeds of a range A..B:N, of a list, or of a single number, rising; evenly spaced if a range begins at 0.
+
+    Parameters
+    ----------
+    text : speeds, or rotational speeds ("rpm") of a bearing that turns.
+    radius : radius at which a rotational speed gives the sliding speed, m; None if nothing turns.
+
+    Returns
+    -------
+    m/s, each 0 or more and once.
+
+    Raises
+    ------
+    InputError
+        For any other text.
+
+    Examples
+    --------
+    >>> speeds_of("0..1m/s:3", None)
+    (0.0, 0.5, 1.0)
+    """
+
+    def speed(text: str) -> float:
+        if re.fullmatch(r"\s*0+(\.0*)?\s*", text):
+            return 0.0
         try:
-            numbers.append(read(part.strip() if _UNIT.sub("", part) else f"{part.strip()} {unit}"))
+            sliding = to_si(text, "m/s")
+        except ValueError:
+            try:
+                turning = to_si(text, "rad/s")
+            except ValueError:
+                raise InputError(f"got {text!r}; write a speed, for example '1 m/s' or '30 rpm'") from None
+            if radius is None:
+                raise InputError(f"got {text!r}, but nothing turns here; write a speed, for example '1 m/s'") from None
+            sliding = turning * radius
+        if not 0 <= sliding <= MAX_SPEED:
+            raise InputError(f"got {text}; a speed must be 0 or more, and {MAX_SPEED:g} m/s at most")
+        return sliding
+
+    return _numbers_of(text, speed, option="--speeds", what="speed", example="1rpm..600rpm:60 or 0,30rpm")
+
+
+def _numbers_of(text: str, read: Callable[[str], float], *, option: str, what: str, example: str) -> tuple[float, ...]:
+    """The numbers of a range, of a list, or of a single one; ``read`` turns a text with a unit into a number."""
+    place, remedy = f"{option} {text:.60}", f"write for example {example}"
+
+    def numbers(parts: Sequence[str]) -> list[float]:
+        unit = _BEFORE_UNIT.sub("", parts[-1])
+        if any(not part.strip() for part in parts):
+            raise InputError(f"{place}: a {what} is missing; {remedy}")
+        try:
+            return [read(part.strip() if _BEFORE_UNIT.sub("", part) else f"{part.strip()} {unit}") for part in parts]
         except (InputError, ValueError) as error:
             raise InputError(f"{place}: {error}") from None
-    return numbers
+
+    if ".." not in text:
+        return tuple(sorted(set(numbers(text.split(",")))))
+    ends, _, count = text.rpartition(":")
+    if not (re.fullmatch(r"\s*[0-9]{1,6}\s*", count) and 2 <= int(count) <= MAX_COUNT):
+        raise InputError(f"{place}: a range ends with how many {what}s, 2 to {MAX_COUNT}; {remedy}")
+    first, last = numbers(ends.split("..", 1))
+    if not first < last:
+        raise InputError(f"{place}: the first of a range must be below the last; {remedy}")
+    spaced = np.geomspace if first > 0 else np.linspace
+    series = dict.fromkeys((first, *(float(number) for number in spaced(first, last, int(count))[1:-1]), last))
+    if len(series) < int(count):
+        raise InputError(f"{place}: its ends are too close for {int(count)} different {what}s; {remedy}")
+    return tuple(series)

@@ -7,13 +7,13 @@ from roughfilm.rom.bearing.effects.ablation import Amount
 from roughfilm.rom.bearing.effects.contributions import Study
 from roughfilm.words.numbers import percent, with_error
 
-NOTHING = 1e-9
-"""In the units of the tables: rounding."""
+ROUNDING = 1e-9
+"""Numbers below this, in the units of the tables, are written as 0."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Shown:
-    """A quantity of the tables: its name in words, its unit there, and how many of it are one of SI."""
+    """A quantity of the tables: its title, its unit there, and the factor from SI units."""
 
     title: str
     unit: str
@@ -35,38 +35,37 @@ AT_FILM = ("load", "friction", "inlet_flow_per_width", "side_leakage")
 UNDER_LOAD = ("film", "friction_coefficient", "inlet_flow_per_width", "side_leakage")
 
 
-def shown(told: Study, names: Sequence[str]) -> dict[str, Shown]:
-    """Those of the quantities that a study tells, by width where there is none of the whole."""
-    names = [name if name in told.full else f"{name}_per_width" for name in names]
-    return {name: SHOWN[name] for name in names if name in told.full and name in SHOWN}
+def shown_quantities(study: Study, names: Sequence[str]) -> dict[str, Shown]:
+    """The quantities of these names that a study has, each per width where there is none of the whole bearing."""
+    names = [name if name in study.full else f"{name}_per_width" for name in names]
+    return {name: SHOWN[name] for name in names if name in study.full and name in SHOWN}
 
 
-def cell(one: Amount | None, how: Shown, *, sign: bool = False) -> str:
-    """A number with its error in the unit of its table; with its sign where it is added to another."""
-    if one is None:
+def cell(amount: Amount | None, how: Shown, *, sign: bool = False) -> str:
+    """A number with its uncertainty in the unit of its table; with its sign where it is added to another."""
+    if amount is None:
         return "–"
-    if max(abs(one.value), one.uncertainty) * how.factor < NOTHING:
+    if max(abs(amount.value), amount.uncertainty) * how.factor < ROUNDING:
         return "0"
-    told = with_error(how.factor * one.value, how.factor * one.uncertainty)
-    return f"+{told}" if sign and one.value > 0 and not told.startswith("(") else told.replace("-", "−")
+    text = with_error(how.factor * amount.value, how.factor * amount.uncertainty)
+    return f"+{text}" if sign and amount.value > 0 and not text.startswith("(") else text.replace("-", "−")
 
 
-def sentences(study_told: Study, name: str, inertia: Amount | None) -> list[str]:
-    """What each effect adds to one quantity, in words, as parts of all of it."""
-    how, full = SHOWN[name], study_told.full[name]
-    told = []
-    for one in study_told.contributions:
+def sentences(study: Study, name: str, inertia: Amount | None) -> list[str]:
+    """What each effect adds to one quantity, with its fraction of the whole, as sentences."""
+    how, full = SHOWN[name], study.full[name]
+    lines = []
+    for one in study.contributions:
         on, alone = one.on.get(name), one.alone.get(name)
-        if on is None and alone is None:
-            continue
         parts = [_adds(on, how, full.value)] if on else []
         parts += [f"to all the others {_adds(alone, how, full.value)}"] if alone else []
-        told.append(f"{one.name}: {', '.join(parts)}")
+        if parts:
+            lines.append(f"{one.name}: {', '.join(parts)}")
     if inertia is not None:
-        told.append(f"inertia, not counted above: {_adds(inertia, how, full.value)}")
-    return told
+        lines.append(f"inertia, not counted above: {_adds(inertia, how, full.value)}")
+    return lines
 
 
-def _adds(one: Amount, how: Shown, full: float) -> str:
-    part = f" ({percent(one.value / abs(full))})".replace("-", "−") if full else ""
-    return f"{cell(one, how, sign=True)} {how.unit}{part}"
+def _adds(amount: Amount, how: Shown, full: float) -> str:
+    fraction = f" ({percent(amount.value / abs(full))})".replace("-", "−") if full else ""
+    return f"{cell(amount, how, sign=True)} {how.unit}{fraction}"

@@ -49,6 +49,11 @@ def digits(value: float) -> str:
     return f"{value:.0f}" if 1e4 <= abs(value) < 1e6 else f"{value:.4g}"
 
 
+def finite(value: float) -> float | None:
+    """The number as JSON can hold it: None where it is infinite or NaN."""
+    return float(value) if math.isfinite(value) else None
+
+
 def percent(part: float) -> str:
     """A part with its sign, in per cent."""
     percent = 100 * part

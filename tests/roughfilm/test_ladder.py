@@ -22,7 +22,7 @@ def test_models_of_one_name_are_told_apart_by_their_kind():
 
 @pytest.mark.parametrize(("kind", "name"), [("pocket", "mixed"), ("bearing", "stokes"), ("seal", ".."), ("x", "y")])
 def test_an_unknown_name_is_refused_with_those_of_its_kind(kind, name):
-    with pytest.raises(InputError, match=r"--model: got '.*'; it must be one of ") as caught:
+    with pytest.raises(InputError, match=r"^model: got '.*'; it must be one of ") as caught:
         find(kind, name)
     assert str(caught.value).endswith(", ".join(model.name for model in models(kind)))
 

@@ -143,7 +143,7 @@ def under_load(taken: Composition, pressure: float, cells: int, progress: Progre
         If a film does not come into balance, or the load does not.
     """
     if not 0 < pressure < float("inf"):
-        raise InputError(f"--load: got {pressure!r} Pa; it must be above 0 and finite")
+        raise InputError(f"pressure: got {pressure!r} Pa; it must be above 0 and finite")
     load_loops(taken.scene.wide)
     cpu, guess, speed = time.process_time(), taken.scene.geometry.film, taken.scene.motion.speed
     found: list[Carrying] = []

@@ -179,8 +179,8 @@ def _given(path: Path, surface: RoughSurface | None, scene: Bearing) -> FactorTa
         if not math.isclose(there, here, rel_tol=SAME):
             what = "surface" if unit == "m" else "pair of solids"
             raise InputError(
-                f"--table {path}: is of another {what}, with {name} of {there:.6g} {unit}, where the scene has "
-                f"{here:.6g} {unit}; leave --table out, or take another scene"
+                f"table {path}: is of another {what}, with {name} of {there:.6g} {unit}, where the scene has "
+                f"{here:.6g} {unit}; leave the table out, or take another scene"
             )
     return table
 
@@ -195,7 +195,7 @@ def _refuse_too_much(scene: Bearing, asperities: AsperityTable, largest: float, 
     carried = _carried(scene, asperities, cells)
     if carried < largest:
         raise InputError(
-            f"--loads: got {largest / 1e6:.6g} MPa over the nominal area; at rest the surface carries at most "
+            f"loads: got {largest / 1e6:.6g} MPa over the nominal area; at rest the surface carries at most "
             f"{carried / 1e6:.6g} MPa, where its table ends; lower the load"
         )
 

@@ -53,7 +53,7 @@ def kept_table(out: Path | None, inputs: Inputs, work: Work) -> tuple[FactorTabl
         raise
     except (KeyboardInterrupt, SystemExit) as stop:
         save()
-        end = "; the same command goes on" if out is not None else ", none kept without --out"
+        end = "; the same command goes on" if out is not None else ", none kept, as no file was named"
         stop.add_note(f"stopped: {len(found)} points{end}")
         raise
     found |= {_key(point): point for point in table.points}

@@ -209,10 +209,10 @@ def mixed_film(scene: Bearing, asperities: Asperities | None, resolution: int, t
     if scene.asperities is None:
         raise InputError("scene.asperities: is missing; say of what the walls are that touch")
     if not COARSEST <= resolution <= FINEST:
-        raise InputError(f"--resolution: got {resolution}; it must be {COARSEST} to {FINEST} cells along a side")
+        raise InputError(f"resolution: got {resolution}; it must be {COARSEST} to {FINEST} cells along a side")
     if not FINEST_BALANCE <= tolerance < COARSEST_BALANCE:
         raise InputError(
-            f"--tolerance: got {tolerance!r}; it must be {FINEST_BALANCE:g} to {COARSEST_BALANCE:g} of the load"
+            f"tolerance: got {tolerance!r}; it must be {FINEST_BALANCE:g} to {COARSEST_BALANCE:g} of the load"
         )
     wall = asperities_of(scene) if asperities is None else asperities
     return MixedFilm(scene=scene, asperities=wall, cells=resolution, accuracy=tolerance)

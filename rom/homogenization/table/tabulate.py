@@ -73,7 +73,7 @@ def tabulate(
         If a cell does not converge.
     """
     if not 1e-6 <= tolerance < 1:
-        raise InputError(f"--tolerance: got {tolerance!r}; it must be 1e-6 to 1")
+        raise InputError(f"tolerance: got {tolerance!r}; it must be 1e-6 to 1")
     body = Separations(heights=np.asarray(heights, dtype=np.float64))
     checked_gap(body.heights - np.min(body.heights) + 1.0, spacing)
     if body.rms == 0:

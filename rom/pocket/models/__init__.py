@@ -1,1 +1,1 @@
-"""The models of a pocket, one a file."""
+"""The models of a pocket, one per file."""

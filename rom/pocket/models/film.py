@@ -9,7 +9,7 @@ LAW = ErrorLaw(powers={"depth": -1, "aspect": 1}, thresholds={0.05: 0.4})
 
 
 def applies(scene: Pocket) -> Applicability:
-    """Always; says how far its load may be off."""
+    """The expected load error; the model applies to every pocket."""
     return LAW.applicability(scene, "keeps all of inertia, leaves out slope")
 
 

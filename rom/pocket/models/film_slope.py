@@ -9,7 +9,7 @@ LAW = ErrorLaw(powers={"slope": 1}, thresholds={0.01: 0.46, 0.02: 0.75, 0.05: 1.
 
 
 def applies(scene: Pocket) -> Applicability:
-    """Always; says how far its load may be off."""
+    """The expected load error; the model applies to every pocket."""
     return LAW.applicability(scene, "keeps all of inertia, and slope to second order")
 
 

@@ -9,7 +9,7 @@ LAW = ErrorLaw(powers={"reynolds_number": 1, "aspect": 1}, thresholds={0.02: 1.2
 
 
 def applies(scene: Pocket) -> Applicability:
-    """Always; says how far its load may be off."""
+    """The expected load error; the model applies to every pocket."""
     return LAW.applicability(scene, f"keeps inertia to first order, leaves out slope (2d/w = {scene.slope:.3g})")
 
 

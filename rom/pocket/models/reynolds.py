@@ -6,7 +6,7 @@ from roughfilm.rom.pocket.scene import Pocket
 
 
 def applies(scene: Pocket) -> Applicability:
-    """Always; says how much inertia and slope it leaves out."""
+    """The neglected inertia and slope; the model applies to every pocket."""
     return Applicability(
         applies=True,
         reason=f"leaves out inertia (Re Ly/w = {scene.reduced_reynolds_number:.3g}) and slope (mean {scene.slope:.3g})",
@@ -15,7 +15,7 @@ def applies(scene: Pocket) -> Applicability:
 
 MODEL = quadrature_model(
     name="reynolds",
-    summary="Reynolds equation, exact quadrature: the plainest film",
+    summary="Reynolds equation by exact quadrature: the simplest film",
     keeps=frozenset(),
     sources=("10.1098/rstl.1886.0005",),
     applies=applies,

@@ -119,7 +119,7 @@ def sealing(body: Ready, advance: Advance) -> dict[str, Threshold]:
 def chosen_loads(body: Ready, found: dict[str, Threshold]) -> tuple[float, ...]:
     """From about half a per cent of contact to just beyond all thresholds, and the last ones seen open between ends."""
     if float(np.ptp(body.surface.heights)) == 0:
-        raise InputError("geometry.surface: is flat, and sealed under any load; give --loads to see that")
+        raise InputError("geometry.surface: is flat, and sealed under any load; give loads to see that")
     at, load = _pressed(body), LIGHTEST / PER_LOAD * body.spread
     for _ in range(4):
         area = at(load, None).area_fraction

@@ -3,15 +3,11 @@
 from collections.abc import Mapping
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
-from roughfilm.figures.base import svg
-from roughfilm.figures.view import Style, View
+from roughfilm.figures.base import MAX_PIXELS, new_figure, svg, thinned
+from roughfilm.figures.view import Style, View, groups_by
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.result import Result
-from roughfilm.rom.ladder.sweeping import Columns
 
 STYLES = {
     "reynolds": Style(colour="#7f7f7f", line="--", marker="s"),
@@ -23,14 +19,10 @@ STYLES = {
     "mixed": Style(colour="#762a83", line="-", marker="X"),
 }
 
-MOST_POINTS = 400
-"""Of a map along a side; finer grids are drawn by every second, third ... node."""
-
 
 def along(scene: Bearing, results: Mapping[str, Result]) -> str:
     """Film thickness, pressure and θ by every model, on the line of the greatest pressure."""
-    figure = Figure(figsize=(9, 6.8), layout="constrained")
-    film, pressure, density = figure.subplots(3, 1, sharex=True, height_ratios=(1, 2.2, 1.5))
+    figure, (film, pressure, density) = new_figure((9, 6.8), 3, 1, sharex=True, height_ratios=(1, 2.2, 1.5))
     factor, label = _place(results)
     for number, (name, result) in enumerate(results.items()):
         style = STYLES.get(name, Style())
@@ -42,71 +34,52 @@ def along(scene: Bearing, results: Mapping[str, Result]) -> str:
             film.fill_between(x * factor, h * 1e6, color="#9ecae1", linewidth=0)
         if name == "direct":
             film.plot(x * factor, h * 1e6, color=style.colour, linewidth=0.6)
-        thin = x.size > 2 * MOST_POINTS and name == "direct"
+        thin = x.size > 2 * MAX_PIXELS and name == "direct"
         look = {"linestyle": style.line, "color": style.colour, "linewidth": 1.0 if thin else 1.8}
         pressure.plot(x * factor, p * 1e-6, label=name, **look)
         density.plot(x * factor, theta, **look)
     lowest = scene.lubricant.cavitation_pressure * 1e-6
     pressure.axhline(lowest, color="black", linewidth=0.8, linestyle=(0, (1, 2)))
-    film.set_ylim(bottom=0)
-    film.set_ylabel("film, µm")
+    film.set(ylim=(0, None), ylabel="film, µm")
     pressure.set_ylabel("pressure above\nambient, MPa")
     pressure.legend(fontsize=8)
-    density.set_ylabel("density θ;\nbelow 1: filled fraction")
-    density.set_xlabel(label + " (dotted: cavitation pressure)")
+    density.set(ylabel="density θ;\nbelow 1: filled fraction", xlabel=label + " (dotted: cavitation pressure)")
     return svg(figure)
 
 
 def over(results: Mapping[str, Result]) -> str:
     """Pressure and θ over the film by the models that keep its width, in the same colours."""
-    kept = {name: result for name, result in results.items() if result.fields["pressure"].values.shape[1] > 1}
-    figure = Figure(figsize=(10, 0.5 + 2.6 * len(kept)), layout="constrained")
-    panels = figure.subplots(len(kept), 2, squeeze=False)
-    factor, label = _place(kept)
+    planes = {name: result for name, result in results.items() if result.fields["pressure"].values.shape[1] > 1}
+    figure, panels = new_figure((10, 0.5 + 2.6 * len(planes)), len(planes), 2, squeeze=False)
+    factor, label = _place(planes)
     kinds = (("pressure", "pressure, MPa", 1e-6, "magma"), ("density_ratio", "θ", 1.0, "cividis"))
-    for column, (field, told, scale, colours) in zip(panels.T, kinds, strict=True):
-        drawn = {name: _thinned(result.fields[field].values) * scale for name, result in kept.items()}
+    for column, (field, title, scale, colours) in zip(panels.T, kinds, strict=True):
+        drawn = {name: thinned(result.fields[field].values) * scale for name, result in planes.items()}
         low, high = min(v.min() for v in drawn.values()), max(v.max() for v in drawn.values())
         if field == "density_ratio":  # a film that is whole everywhere is to look so
             low, high = min(low, 0.9), max(high, 1.0)
         for axes, (name, values) in zip(column, drawn.items(), strict=True):
-            x, y = (_thinned(kept[name].fields[place].values) for place in ("x", "y"))
+            x, y = (thinned(planes[name].fields[place].values) for place in ("x", "y"))
             image = axes.pcolormesh(
                 x * factor, y * 1e3, values, cmap=colours, vmin=low, vmax=high, shading="nearest", rasterized=True
             )
-            _named(axes, name, label)
-        figure.colorbar(image, ax=column, label=told, shrink=0.9)
+            axes.grid(visible=False)
+            axes.set_title(name, fontsize=9)
+            axes.set(xlabel=label, ylabel="across, mm")
+        figure.colorbar(image, ax=column, label=title, shrink=0.9)
     return svg(figure)
 
 
-def _named(axes: Axes, name: str, label: str) -> None:
-    axes.grid(visible=False)
-    axes.set_title(name, fontsize=9)
-    axes.set_xlabel(label)
-    axes.set_ylabel("across, mm")
-
-
 def _place(results: Mapping[str, Result]) -> tuple[float, str]:
-    """What x is multiplied by in figures, and its label."""
+    """The factor of x in figures, and its label."""
     angle = next(iter(results.values())).fields["x"].unit == "rad"
     return (np.degrees(1.0), "angle, degrees") if angle else (1e3, "position along the sliding, mm")
-
-
-def _thinned(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    step = max(1, -(-max(values.shape) // MOST_POINTS))
-    return values[::step, ::step]
 
 
 def plots(scene: Bearing, results: Mapping[str, Result]) -> dict[str, str]:
     """The figures of a comparison; maps only where a model keeps the width."""
     plane = any(result.fields["pressure"].values.shape[1] > 1 for result in results.values())
     return {"along": along(scene, results), **({"over": over(results)} if plane else {})}
-
-
-def groups(given: Columns) -> dict[str, NDArray[np.bool_]]:
-    """The cases of each shape, by its name."""
-    shapes = given["shape"]
-    return {str(name): shapes == name for name in np.unique(shapes)}
 
 
 VIEW = View(
@@ -121,7 +94,7 @@ VIEW = View(
         "rupture": "ruptures<br>x/L",
     },
     plots=plots,
-    groups=groups,
+    groups=groups_by("shape"),
     errors="of the load and of the friction on the sliding wall",
     ordering="θ of the inlet, ϑ at 6ηuL/h² and B/L",
 )

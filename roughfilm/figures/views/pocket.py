@@ -6,10 +6,9 @@ from typing import Any
 import matplotlib as mpl
 import numpy as np
 from matplotlib.colors import LogNorm
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from roughfilm.figures.base import svg
+from roughfilm.figures.base import new_figure, svg
 from roughfilm.figures.view import Style, View
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.sweeping import Columns
@@ -31,8 +30,7 @@ STYLES = {
 
 def pressure(scene: Pocket, results: Mapping[str, Result]) -> str:
     """Pressure on the sliding wall by every model, with the edges of the grooves."""
-    figure = Figure(figsize=(9, 4.2), layout="constrained")
-    axes = figure.add_subplot()
+    figure, axes = new_figure((9, 4.2))
     for name, result in results.items():
         plus = result.fields["pressure"].values / scene.pressure_unit * scene.plus_factor
         x = result.fields["position"].values * 1e3
@@ -40,8 +38,7 @@ def pressure(scene: Pocket, results: Mapping[str, Result]) -> str:
         axes.plot(x, plus, linestyle=style.line, color=style.colour, label=name, linewidth=2)
     for edge in {edge for groove in scene.grooves for edge in groove.span}:
         axes.axvline(edge * 1e3, color="black", linewidth=0.8, linestyle=(0, (4, 3)), alpha=0.6)
-    axes.set_xlabel("position along the sliding wall, mm (dashed: groove edges)")
-    axes.set_ylabel("p+ = 100 p Ly² / (η u Lx)")
+    axes.set(xlabel="position along the sliding wall, mm (dashed: groove edges)", ylabel="p+ = 100 p Ly² / (η u Lx)")
     pascal = scene.pressure_unit / scene.plus_factor
     right = axes.secondary_yaxis("right", functions=(_times(pascal / 1e3), _times(1e3 / pascal)))
     right.set_ylabel("pressure, kPa")
@@ -76,8 +73,9 @@ def error_maps(sweep: Sweep, setting: str, reference: str, quantity: str) -> str
     """Error of one setting over (w+, d+), in per cent: a panel for each shape and Reynolds number."""
     numbers, kinds = np.unique(sweep.given["reynolds_number"]), _shapes(sweep.given)
     error = 100 * relative_error(sweep, setting, reference, quantity)
-    figure = Figure(figsize=(2.1 + 2.6 * numbers.size, 0.7 + 1.75 * len(kinds)), layout="constrained")
-    panels = figure.subplots(len(kinds), numbers.size, squeeze=False)
+    figure, panels = new_figure(
+        (2.1 + 2.6 * numbers.size, 0.7 + 1.75 * len(kinds)), len(kinds), numbers.size, squeeze=False
+    )
     norm = LogNorm(vmin=0.05, vmax=50)
     image = mpl.cm.ScalarMappable(norm=norm, cmap="viridis_r")
     for line, shape in zip(panels, kinds, strict=True):

@@ -4,12 +4,9 @@ from collections.abc import Mapping
 
 import matplotlib as mpl
 import numpy as np
-from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
-from roughfilm.figures.base import svg
-from roughfilm.figures.view import Style, View
-from roughfilm.figures.views import dry_contact
+from roughfilm.figures.base import model_map, new_figure, svg, thinned
+from roughfilm.figures.view import Style, View, groups_by
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.rough_gap.scene import RoughGap
 
@@ -21,9 +18,6 @@ STYLES = {
     "navier_stokes": Style(colour="#2166ac", line="-", marker="o"),
 }
 
-MOST_PIXELS = 512
-"""Of a map along a side; finer ones are drawn by every second, third ... point."""
-
 CONTACT = "#b9c2cc"
 
 COEFFICIENTS = ("A11", "A22", "B1", "friction")
@@ -31,9 +25,9 @@ COEFFICIENTS = ("A11", "A22", "B1", "friction")
 
 def factors(results: Mapping[str, Result]) -> str:
     """The coefficients by every model, with the error bars that it tells."""
-    figure = Figure(figsize=(10, 2.9), layout="constrained")
     given = [name for name in COEFFICIENTS if all(name in result.quantities for result in results.values())]
-    for axes, name in zip(figure.subplots(1, len(given), sharey=True), given, strict=True):
+    figure, panels = new_figure((10, 2.9), 1, len(given), sharey=True, squeeze=False)
+    for axes, name in zip(panels[0], given, strict=True):
         for place, (model, result) in enumerate(results.items()):
             style = STYLES.get(model, Style())
             axes.errorbar(
@@ -46,18 +40,16 @@ def factors(results: Mapping[str, Result]) -> str:
                 linestyle="",
             )
         axes.set_yticks(range(len(results)), list(results))
-        axes.set_ylim(-0.6, len(results) - 0.4)
-        axes.set_xlabel(f"{name}, relative to a smooth gap")
+        axes.set(ylim=(-0.6, len(results) - 0.4), xlabel=f"{name}, relative to a smooth gap")
         axes.margins(x=0.15)
     return svg(figure)
 
 
 def sections(results: Mapping[str, Result]) -> str:
     """Speed along x in the section along x where the gap is narrowest, under the gradient along x."""
-    figure = Figure(figsize=(10, 2.3 * len(results)), layout="constrained")
-    panels = figure.subplots(len(results), 1, squeeze=False)[:, 0]
+    figure, panels = new_figure((10, 2.3 * len(results)), len(results), 1, squeeze=False)
     fastest = max(float(result.fields["cell_velocity"].values[..., 0].max()) for result in results.values())
-    for axes, (name, result) in zip(panels, results.items(), strict=True):
+    for axes, (name, result) in zip(panels[:, 0], results.items(), strict=True):
         vertices, velocity = (result.fields[field].values for field in ("vertices", "cell_velocity"))
         kept = result.fields["kept"].values > 0
         gap = vertices[:, :, -1, 2] - vertices[:, :, 0, 2]
@@ -77,42 +69,24 @@ def sections(results: Mapping[str, Result]) -> str:
         axes.set_title(f"{name}, y = {vertices[0, row, 0, 1] * 1e6:.3g} µm", fontsize=9)
         axes.set_ylabel("z, µm")
         figure.colorbar(image, ax=axes, label="speed along x, mm/s")
-    panels[-1].set_xlabel("x, µm")
+    panels[-1, 0].set_xlabel("x, µm")
     return svg(figure)
 
 
 def maps(scene: RoughGap, results: Mapping[str, Result]) -> str:
     """The gap, and the flow per width under the gradient along x by each of these models."""
-    figure = Figure(figsize=(10, 3.1), layout="constrained")
-    length, width = (side * 1e6 for side in scene.surface().size)
-    gap = _thinned([*results.values()][-1].fields["gap"].values) * 1e6
-    flows = {name: _thinned(result.fields["flow"].values) * 1e6 for name, result in results.items()}
+    gap = thinned([*results.values()][-1].fields["gap"].values) * 1e6
+    flows = {name: thinned(result.fields["flow"].values) * 1e6 for name, result in results.items()}
     strongest = max(float(np.percentile(flow, 99.9)) for flow in flows.values()) or 1.0
     drawn = [("gap", np.where(gap > 0, gap, np.nan), "cividis", float(gap.max()), "µm")]
     drawn += [(name, flow, "magma", strongest, "flow per width, mm²/s") for name, flow in flows.items()]
-    panels = figure.subplots(1, len(drawn), sharey=True)
+    figure, panels = new_figure((10, 3.1), 1, len(drawn), sharey=True)
     for axes, (name, values, colours, top, label) in zip(panels, drawn, strict=True):
-        image = axes.imshow(
-            values.T,
-            origin="lower",
-            extent=(0, length, 0, width),
-            cmap=mpl.colormaps[colours].with_extremes(bad=CONTACT),
-            vmin=0,
-            vmax=top,
-            interpolation="nearest",
-            aspect="auto" if not 0.2 < width / length < 5 else "equal",
-        )
-        axes.grid(visible=False)
-        axes.set_title(name, fontsize=9)
-        axes.set_xlabel("x, µm")
+        palette = mpl.colormaps[colours].with_extremes(bad=CONTACT)
+        image = model_map(axes, name, values, scene.surface().size, cmap=palette, vmin=0, vmax=top)
+        axes.label_outer()
         figure.colorbar(image, ax=axes, label=label, shrink=0.85)
-    panels[0].set_ylabel("y, µm")
     return svg(figure)
-
-
-def _thinned(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    step = max(1, -(-max(values.shape) // MOST_PIXELS))
-    return values[::step, ::step]
 
 
 def plots(scene: RoughGap, results: Mapping[str, Result]) -> dict[str, str]:
@@ -142,7 +116,7 @@ VIEW = View(
     },
     plots=plots,
     drawing="roughfilm.figures.gap_view",
-    groups=dry_contact.groups,
+    groups=groups_by("rough_surface"),
     errors="of the flow along x and of the flow along y",
     ordering="slope g', Sq/h̄ and Re",
     left_out=" Cases that are almost closed are left out.",

@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.homogenization.line_rules import Rule
+from roughfilm.rom.homogenization.node_sums import Rule
 from scripts.studies.paper_c.data import ALPHAS, BESIDE, POINTS, RANGE, TABLE, WAYS, PaperC
 from scripts.studies.paper_c.films import LOADS, MODULUS, SMOOTH, SPAN, Curve
 from scripts.studies.study import Claim, verdict

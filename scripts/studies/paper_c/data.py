@@ -12,7 +12,7 @@ from roughfilm.contact.synthetic.rearrangement import rearranged
 from roughfilm.rom.homogenization.factors import FlowFactors
 from roughfilm.rom.homogenization.grids import sampled
 from roughfilm.rom.homogenization.line import line_factors, profile_over_gap
-from roughfilm.rom.homogenization.line_rules import Rule, line_factors_on
+from roughfilm.rom.homogenization.node_sums import Rule, line_factors_on
 from scripts.studies.paper_c.films import (
     Curve,
     FilmOrdering,

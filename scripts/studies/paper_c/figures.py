@@ -11,7 +11,7 @@ from matplotlib.ticker import NullFormatter
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.parameters.bearing_curve import bearing_curve
-from roughfilm.rom.homogenization.line_rules import Rule
+from roughfilm.rom.homogenization.node_sums import Rule
 from scripts.studies.paper_c.data import ALPHAS, BESIDE, RANGE, WAYS, PaperC
 from scripts.studies.paper_c.films import LOADS, SMOOTH
 from scripts.studies.paper_d.figures import COLOURS as PROFILE_COLOURS

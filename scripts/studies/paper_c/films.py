@@ -16,7 +16,7 @@ from roughfilm.rom.cavitation.solve import solve
 from roughfilm.rom.homogenization.factors import FlowFactors
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap, GapFactors
 from roughfilm.rom.homogenization.line import profile_over_gap
-from roughfilm.rom.homogenization.line_rules import Rule, line_factors_on
+from roughfilm.rom.homogenization.node_sums import Rule, line_factors_on
 from roughfilm.rom.lubricants.compressibility import ConstantBulkModulus
 
 SPAN, SPEED, VISCOSITY = 0.1, 1.0, 0.14

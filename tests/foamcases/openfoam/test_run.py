@@ -96,7 +96,7 @@ def test_no_openfoam_is_said_in_one_line(case, monkeypatch):
 def test_no_mpirun_is_said_in_one_line(make_scene, tmp_path, monkeypatch):
     NAVIER_STOKES.write(make_scene(0.3, 0.25, 40), tmp_path, Request(resolution=30, processes=2))
     monkeypatch.setattr(run.shutil, "which", lambda _: None)
-    with pytest.raises(UnavailableError, match="no mpirun on the PATH; leave --processes out, or"):
+    with pytest.raises(UnavailableError, match="no mpirun on the PATH; take one process, or"):
         run_case(tmp_path)
 
 

@@ -74,9 +74,9 @@ def test_contract(model, make_contact, tmp_path):
         with pytest.raises(InputError, match=words):
             model.solve(scene, Request(**bad))
     for size in (4, 65):
-        with pytest.raises(InputError, match=f"--resolution: got {size}; {model.name} takes 8 to 64 points"):
+        with pytest.raises(InputError, match=f"^resolution: got {size}; {model.name} takes 8 to 64 points"):
             model.solve(scene, Request(resolution=size))
-    with pytest.raises(InputError, match="--tolerance: got 2"):
+    with pytest.raises(InputError, match=r"^tolerance: got 2"):
         model.solve(scene, Request(tolerance=2))
     (tmp_path / "r.h5").write_bytes(as_bytes(result))
     assert load(tmp_path / "r.h5").quantities == result.quantities

@@ -65,7 +65,7 @@ def test_files_are_sought_beside_the_scene_and_known_by_their_heights(tmp_path, 
 def test_a_surface_of_our_own_says_its_spacing_itself(tmp_path, make_contact):
     save_surface(Surface(heights=heights(), spacing=(3e-6, 4e-6), periodic=True), tmp_path / "s.h5")
     assert make_contact(tmp_path / "s.h5").surface().spacing == (3e-6, 4e-6)
-    with pytest.raises(InputError, match=r"scene\.geometry\.surface: in .*s\.h5: it tells its spacing itself"):
+    with pytest.raises(InputError, match=r"scene\.geometry\.surface: in .*s\.h5: it contains its spacing"):
         make_contact(tmp_path / "s.h5", spacing="1 um")
 
 
@@ -100,7 +100,7 @@ def test_invalid_points_are_refused(tmp_path, make_contact):
         ("solid.hardness=-1 GPa", r"scene\.solid\.hardness: got .* above zero"),
         ("solid.hardnes=1 GPa", r"scene\.solid\.hardnes: unknown key; did you mean 'hardness'\?"),
         ("counter.hardness=1 GPa", r"scene\.counter\.hardness: unknown key"),
-        ("load.pressure=5 GPa", r"scene\.load\.pressure: got 5e\+09 Pa, above the hardness of 4e\+09 Pa"),
+        ("load.pressure=5 GPa", r"scene\.load\.pressure: got 5e\+09 Pa; it must be at most the hardness of 4e\+09 Pa"),
         ("load.pressure=1 mm", r"scene\.load\.pressure: .* wrong dimension"),
         ("lubricant.density=1 kg/m^3", r"scene\.lubricant: unknown key"),
     ],

@@ -12,7 +12,7 @@ from roughfilm.rom.homogenization.cell import solve_cell
 from roughfilm.rom.homogenization.exact import sinusoid
 from roughfilm.rom.homogenization.flow_factors import flow_factors
 from roughfilm.rom.homogenization.line import line_factors, profile_over_gap
-from roughfilm.rom.homogenization.line_rules import Rule, line_factors_on
+from roughfilm.rom.homogenization.node_sums import Rule, line_factors_on
 
 PARTS = ("pressure", "shear", "couette", "shear_couette")
 PROFILES = {

@@ -142,8 +142,26 @@ def test_other_files_are_refused(tmp_path, content):
     path.write_bytes(content)
     with pytest.raises(InputError, match="is not a result"):
         load(path)
-    with pytest.raises(InputError, match="is not a result"):
+    with pytest.raises(InputError, match="no such file"):
         load(tmp_path / "absent.h5")
+
+
+@pytest.mark.parametrize("name", ["scene.toml", "surface.h5"])
+def test_a_result_replaces_a_result_and_no_other_file(result, tmp_path, name):
+    path = tmp_path / name
+    if path.suffix == ".h5":
+        with h5py.File(path, "w") as file:
+            file.attrs["schema"], file["heights"] = 3, [[0.0, 1.0]]
+    else:
+        path.write_text("kind = 'pocket'", encoding="utf-8")
+    before = path.read_bytes()
+    with pytest.raises(InputError, match="would be replaced"):
+        save(result, path)
+    assert path.read_bytes() == before
+    path.unlink()
+    save(result, path)
+    save(result, path)
+    assert load(path).model == result.model
 
 
 def test_a_truncated_result_is_refused(result, tmp_path):

@@ -154,10 +154,10 @@ def test_slope_in_creeping_flow_agrees_with_resolved_stokes_flow(make_scene):
     assert value(result, "pressure_max_plus") == pytest.approx(6.98, rel=3e-3)
 
 
-def test_a_flow_out_of_reach_is_said_to_be(make_scene):
+def test_newton_without_convergence_is_an_error(make_scene):
     from roughfilm.contact.foundation.errors import ConvergenceError
 
-    with pytest.raises(ConvergenceError, match=r"no steady flow within reach beyond Re = .*asked: 5000"):
+    with pytest.raises(ConvergenceError, match=r"did not converge to a steady flow above Re = .*requested: 5000"):
         FILM.solve(make_scene(0.3, 3.0, 5000), Request(resolution=100))
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from roughfilm.ladder import find
 from roughfilm.rom.ladder.request import Request
-from roughfilm.rom.pocket.error_law import ErrorLaw, words
+from roughfilm.rom.pocket.error_law import ErrorLaw, product_text
 from roughfilm.rom.pocket.models import film, inertial_reynolds
 from roughfilm.rom.studies.ordering import CERTAINTY, fitted_powers, ordering, threshold
 
@@ -49,14 +49,14 @@ def test_a_law_says_which_tolerance_a_scene_keeps(make_scene):
     shallow, deep, far = make_scene(0.3, 0.25, 20), make_scene(0.3, 0.25, 160), make_scene(0.3, 1.25, 160)
     assert law.number(shallow) == pytest.approx(20 * 2 * 7.5e-6 / 0.3e-3)
     assert [law.within(scene) for scene in (shallow, deep, far)] == [0.01, 0.1, None]
-    assert "Re · 2d/w = 1: load within 1% up to 2" in law.told(shallow)
-    assert "load more than 10% off where this is above 20" in law.told(far)
+    assert "Re · 2d/w = 1: load within 1% up to 2" in law.described(shallow)
+    assert "load error above 10% where this is above 20" in law.described(far)
 
 
 def test_products_are_written_as_people_write_them():
-    assert words({"reynolds_number": 1, "aspect": 1}) == "Re · 2d/w"
-    assert words({"reynolds_number": 1, "depth": -1, "aspect": 1}) == "Re · 2Ly/w"
-    assert words({"depth": 0.75, "slope": -2}) == "(d/Ly)^0.75 · slope^-2"
+    assert product_text({"reynolds_number": 1, "aspect": 1}) == "Re · 2d/w"
+    assert product_text({"reynolds_number": 1, "depth": -1, "aspect": 1}) == "Re · 2Ly/w"
+    assert product_text({"depth": 0.75, "slope": -2}) == "(d/Ly)^0.75 · slope^-2"
 
 
 @pytest.mark.parametrize(("name", "law"), [("inertial_reynolds", inertial_reynolds.LAW), ("film", film.LAW)])
@@ -87,5 +87,5 @@ def test_of_grooves_beyond_those_compared_no_law_tells(make_scene, width, depth)
     assert law.within(make_scene(0.16, 1.3, 20)) == 0.05
     scene = make_scene(width, depth, 20)
     assert law.within(scene) is None
-    assert "loads were compared for grooves" in law.told(scene)
+    assert "loads were compared for grooves" in law.described(scene)
     assert "loads were compared" in find("pocket", "film_slope").solve(scene, Request(resolution=50)).warnings[0]

@@ -41,6 +41,8 @@ def test_what_is_no_table_is_refused_in_one_line(tmp_path):
     (tmp_path / "text").write_text("no")
     with h5py.File(tmp_path / "other.h5", "w") as file:
         file["x"] = np.zeros(3)
-    for name in ("none", "text", "other.h5"):
+    for name in ("text", "other.h5"):
         with pytest.raises(InputError, match="is not a table of roughfilm"):
             read_table(tmp_path / name)
+    with pytest.raises(InputError, match="no such file"):
+        read_table(tmp_path / "none")

@@ -440,7 +440,7 @@ def test_a_scheduler_that_does_not_answer_is_one_line_and_code_4(tmp_path, addre
     code, told, error = batch.end()
     assert code == 4
     (line,) = error.splitlines()
-    assert line.startswith(f"error: --scheduler {address}: is no dask scheduler")
+    assert line.startswith(f"error: --scheduler {address}: no dask scheduler answers")
     assert told == ""
 
 

@@ -102,7 +102,7 @@ def test_it_says_when_none_will_do(run):
         (["--within", "5%", "--resolution", "50"], "--resolution: --within chooses"),
         (["--within", "5%", "--want", "lift"], "--want: got 'lift'"),
         (["--within", "5%", "--processes", "2"], "--processes: --within chooses"),
-        (["--want", "load", "--model", "film"], "--want: says of which quantity"),
+        (["--want", "load", "--model", "film"], "--want: names the quantity"),
         ([], "--model: is missing"),
     ],
 )

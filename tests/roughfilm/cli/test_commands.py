@@ -78,6 +78,14 @@ def test_solve_json_is_one_object_and_nothing_else(pocket_file, tmp_path):
         assert file["quantities/load_plus"][()] == told["quantities"]["load_plus"]["value"]
 
 
+def test_solve_does_not_write_over_its_scene(pocket_file):
+    before = pocket_file.read_bytes()
+    refused = run("solve", pocket_file, "--model", "reynolds", "--out", pocket_file)
+    assert refused.exit_code == 2
+    assert "choose another name" in refused.stderr
+    assert pocket_file.read_bytes() == before
+
+
 def test_solve_shows_a_table(pocket_file):
     shown = run("solve", pocket_file, "--model", "reynolds").stdout
     assert "friction_plus" in shown

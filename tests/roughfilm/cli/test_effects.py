@@ -94,7 +94,7 @@ def test_what_a_scene_lacks_is_left_out_and_said(tmp_path: Path) -> None:
     assert told["under_load"] is None
     assert told["inertia"] is None
     said = " ".join(done.stdout.split())
-    assert "left out, as the scene has none of it: side flow, texture, roughness, asperities" in said
+    assert "left out, because the scene does not have them: side flow, texture, roughness, asperities" in said
     assert "the scene does not say how dense the lubricant is" in said
 
 

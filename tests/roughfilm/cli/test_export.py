@@ -52,7 +52,7 @@ def test_a_surface_is_written(run, tmp_path):
     assert found.points[:, 2] == pytest.approx(heights.ravel(), rel=1e-14)
     done = run(tmp_path / "s.h5", "--out", tmp_path / "t.msh", "--what", "gap")
     assert done.exit_code == 2
-    assert "no scene of a rough gap" in done.stderr
+    assert "not a scene of a rough gap" in done.stderr
 
 
 def test_a_result_is_written(run, tmp_path):

@@ -16,7 +16,7 @@ from roughfilm.rom.bearing.mixed import curves as stribeck_sweep
 from roughfilm.rom.bearing.mixed.curves_store import NUMBERS
 from roughfilm.rom.homogenization.table.store import load_table
 from roughfilm.rom.ladder.scene import load_scene
-from roughfilm.terminal.load_range import speeds_of
+from roughfilm.terminal.ranges import speeds_of
 
 SCENE = SCENES / "rough_washer.toml"
 COARSE = ("--set", "roughness.surface.points=[32, 32]", "--set", "roughness.surface.correlation_length=0.2 mm")

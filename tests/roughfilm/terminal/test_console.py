@@ -1,8 +1,11 @@
 """What the terminal makes of exceptions that end a command."""
 
 import pytest
+import typer
 
-from roughfilm.terminal.console import in_one_line
+from roughfilm.cli.advise import Want
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.terminal.console import Overrides, Tolerance, in_one_line
 
 
 @pytest.mark.parametrize("kind", [KeyboardInterrupt, SystemExit])
@@ -24,3 +27,25 @@ def test_a_stop_without_a_note_prints_nothing(capsys):
     with pytest.raises(KeyboardInterrupt):
         in_one_line(command)()
     assert capsys.readouterr().err == ""
+
+
+@pytest.mark.parametrize(
+    ("message", "line"),
+    [
+        ("step_length: got 0", "--step-length: got 0"),
+        ("quantity: got 'lift'", "--want: got 'lift'"),
+        ("set geometry.depth: got no key=value", "--set geometry.depth: got no key=value"),
+        ("scene: got 3", "scene: got 3"),
+        ("set.depth: got 3", "set.depth: got 3"),
+        ("model: got 'x'", "model: got 'x'"),
+    ],
+    ids=lambda text: text.partition(":")[0],
+)
+def test_an_error_that_begins_with_a_parameter_begins_with_its_option(capsys, message, line):
+    def command(scene: str, quantity: Want, step_length: Tolerance, set_: Overrides) -> None:  # noqa: ARG001
+        raise InputError(message)
+
+    with pytest.raises(typer.Exit) as stop:
+        in_one_line(command)("film.toml", None, None, None)
+    assert stop.value.exit_code == 2
+    assert capsys.readouterr().err == f"error: {line}\n"

@@ -11,7 +11,7 @@ from scipy.integrate import solve_bvp
 
 from roughfilm.contact.parameters.heights import height_statistics
 from roughfilm.rom.homogenization.line import line_factors, profile_over_gap
-from roughfilm.rom.homogenization.line_rules import Rule
+from roughfilm.rom.homogenization.node_sums import Rule
 from scripts.studies.paper_c import __main__ as paper_c
 from scripts.studies.paper_c.claims import against, judge, order_holds_to
 from scripts.studies.paper_c.data import BESIDE, RANGE, TABLE, WAYS, RuleConvergence, compute, gap, make

@@ -204,7 +204,7 @@ def test_answers_are_used_again_and_failures_are_told(tmp_path, monkeypatch):
     wrong = ModelRun(scene=over_waves(0.3, 5.0), model="homogenized", resolution=1)
     found, failed = answers([wrong], tmp_path, here)
     assert not found
-    assert "--resolution" in failed[wrong.key]
+    assert "resolution" in failed[wrong.key]
 
 
 def test_surfaces_are_kept_by_their_heights(tmp_path, monkeypatch):

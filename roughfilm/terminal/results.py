@@ -1,0 +1,61 @@
+"""Results on the terminal: one JSON object, or tables and lines; reused results and warnings on standard error."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from rich.markup import escape
+from rich.table import Table
+
+from roughfilm.rom.ladder.provenance import circumstances
+from roughfilm.terminal.console import messages, output, print_json
+
+
+def table_of(heads: Sequence[str], rows: Iterable[Sequence[str]], *, title: str | None = None, left: int = 0) -> Table:
+    """A table of texts whose first ``left`` columns are aligned to the left and the others to the right."""
+    table = Table(title=None if title is None else escape(title))
+    for number, head in enumerate(heads):
+        table.add_column(head, justify="left" if number < left else "right")
+    for row in rows:
+        table.add_row(*row)
+    return table
+
+
+def origin(sources: Iterable[str], warnings: Iterable[str], **inputs: Any) -> dict[str, Any]:
+    """The provenance of a result: its inputs, warnings and sources, and the circumstances of the run."""
+    return {**inputs, "warnings": list(warnings), "sources": list(sources), **circumstances()}
+
+
+def show_result(entries: Mapping[str, Any], shown: Iterable[Table | str], *, as_json: bool, reused: str = "") -> None:
+    """Print the entries as JSON, or tables and lines; then how much was used again, and all warnings.
+
+    Parameters
+    ----------
+    entries : the object of ``--json``, with its warnings under "provenance".
+    shown : tables and lines for people; taken only without ``as_json``.
+    reused : what "numerics" counts, such as "loads", of which it holds the reused ones as "loads_found".
+    """
+    if as_json:
+        print_json(dict(entries))
+    else:
+        print_all(shown)
+    known = entries["numerics"].get(f"{reused}_found")
+    if known:
+        total = entries["numerics"][reused]
+        messages.print(f"{known} of {total} {reused} were solved before and are used again", soft_wrap=True)
+    for warning in entries["provenance"]["warnings"]:
+        messages.print(f"[yellow]warning:[/] {escape(warning)}", soft_wrap=True)
+
+
+def print_all(shown: Iterable[Table | str]) -> None:
+    """Print tables and lines; a line is neither broken nor read as markup."""
+    for one in shown:
+        if isinstance(one, str):
+            output.print(one, soft_wrap=True, markup=False)
+        else:
+            output.print(one)
+
+
+def print_left_out(reasons: Mapping[str, str]) -> None:
+    """Print on standard error what was left out, and why."""
+    for name, reason in reasons.items():
+        messages.print(f"[yellow]left out:[/] {escape(name)}: {escape(reason)}", soft_wrap=True)
