@@ -136,7 +136,7 @@ def add_previous(rows, row, values, place, total):  # type: ignore[no-untyped-de
     total[last] += down[row, 0] * values[place, 0]
 
 
-@inlined
+@called
 def factorise_row(rows, row, work):  # type: ignore[no-untyped-def]
     """Make the diagonal and factorise T; of a ring the last unknown apart, the others' answer to it in ``border``."""
     north, border = rows.north, rows.border
@@ -161,7 +161,8 @@ def factorise_row(rows, row, work):  # type: ignore[no-untyped-def]
     substitute(rows, row, last, total, border, row)
     pivot += north[row, last] * border[row, 0] + north[row, last - 1] * border[row, last - 1]
     rows.inverse[row, last] = 1 / pivot if pivot > GROUNDED * rows.centre[row, last] else 0.0
-    total[:] = 0.0
+    for j in range(last + 1):
+        total[j] = 0.0
     total[0] = north[row, last]
     total[last - 1] = north[row, last - 1]
     substitute(rows, row, last, total, border, row)
@@ -191,7 +192,7 @@ def add_own(north, rows, row, between, share, forward):  # type: ignore[no-untyp
         north[last] += share[0] * up[last] + share[last] * down[0]
 
 
-@inlined
+@called
 def set_coupling(east, up, down, rows, row, first, second):  # type: ignore[no-untyped-def]
     """Set a coarse row's couplings to the next one, across an odd row with the shares F and S: BS + FB − FTS."""
     own, along = rows.centre[row], rows.north[row]
@@ -216,16 +217,18 @@ def set_coupling(east, up, down, rows, row, first, second):  # type: ignore[no-u
     down[0] += before[0] * second[last] + first[0] * after[0]
 
 
-@inlined
+@called
 def share(rows, row, work):  # type: ignore[no-untyped-def]
     """What an odd row takes from ones in the rows before and after it, T⁻¹B1: rows 0 and 1 of ``work``.
 
     A thin share of a node in a hole, which has nothing else, is left out: rounding would be all of it.
     """
     total, centre = work[2], rows.centre
-    work[3, :] = 1.0
+    for j in range(total.size):
+        work[3, j] = 1.0
     for side in range(2):
-        total[:] = 0.0
+        for j in range(total.size):
+            total[j] = 0.0
         if side == 0:
             add_previous(rows, row, work, np.int64(3), total)
         else:
@@ -237,7 +240,7 @@ def share(rows, row, work):  # type: ignore[no-untyped-def]
                 work[side, j] = 0.0
 
 
-@inlined
+@called
 def leaks(rows, row, work):  # type: ignore[no-untyped-def]
     """Whether an odd row leaks; if so, row 3 of ``work`` is what its unknowns lose by it for rows of ones beside it."""
     total = work[2]
@@ -280,7 +283,8 @@ def coarsen(fine, coarse, work):  # type: ignore[no-untyped-def]
     if coarse_count == 1:
         for j in range(length):
             coarse.north[0, j] += coarse.up[0, j] + coarse.down[0, j + 1 if j + 1 < length else 0]
-        coarse.east[0, :] = coarse.up[0, :] = coarse.down[0, :] = 0.0
+        for j in range(length):
+            coarse.east[0, j] = coarse.up[0, j] = coarse.down[0, j] = 0.0
 
 
 @inlined
@@ -327,7 +331,8 @@ def relax(rows, row, previous, following, source, values, total):  # type: ignor
 def bring_down(rows, row, values, left):  # type: ignore[no-untyped-def]
     """Set what is ``left`` of an even row's equations, which were solved before the rows beside it were."""
     count = values.shape[0]
-    left[:] = 0.0
+    for j in range(left.size):
+        left[j] = 0.0
     add_previous(rows, row, values, (row if row > 0 else count) - 1, left)
     if row + 1 < count:
         add_next(rows, row, values, row + 1, left)
