@@ -34,12 +34,12 @@ class Loop:
 compiled: Any = partial(Loop, cache=True, _nrt=False)
 """Decorator of a loop: numba may reorder sums to vectorise them, and keeps infinities and NaN.
 
-The loop makes and returns no array: ``_nrt=False`` leaves out the counting of references to arrays, which would cost more
-than a short row takes. This option is private to numba; it is there in 0.61, the oldest version that the package allows.
+The loop makes and returns no array: ``_nrt=False`` leaves out the counting of references to arrays, which would cost
+more than a short row takes. The option is private to numba.
 """
 
 called: Any = partial(compiled, no_cpython_wrapper=True)
-"""Decorator of a loop that only compiled loops call: numba leaves out its interface to Python and compiles it sooner."""
+"""Decorator of a loop that only compiled loops call: it compiles faster without an interface to Python."""
 
 inlined: Any = partial(Loop, inline="always")
 """Decorator of a small loop, or of one with a single caller: numba copies it into the loop that calls it."""
@@ -69,4 +69,4 @@ def _njit() -> Any:
 
 @cache
 def _announce() -> None:
-    logging.getLogger(__name__).warning("compiling numerical kernels, once after installation ...")
+    logging.getLogger(__name__).warning("compiling numerical kernels; later runs use the compiled ones ...")

@@ -1,4 +1,4 @@
-"""Gap → structured hexahedral mesh → the files of ``constant/polyMesh``."""
+"""Structured hexahedral meshes of gaps, written as the files of ``constant/polyMesh``."""
 
 from dataclasses import dataclass
 from itertools import product
@@ -17,14 +17,17 @@ LAYERS_PER_COLUMN = 1 / 5
 
 Labels = NDArray[np.int64]
 
-ALONG, AGAINST = (0, 1, 2, 3), (0, 3, 2, 1)
-"""In which order the corners of a face make its normal point along its axis, and against it."""
+ALONG = (0, 1, 2, 3)
+"""Order of the corners of a face whose normal points along its axis."""
+
+AGAINST = (0, 3, 2, 1)
+"""Order of the corners of a face whose normal points against its axis."""
 
 ARCHITECTURE = '"LSB;label=32;scalar=64"'
 
 
 def layered(gap: Gap, resolution: int) -> Array:
-    """Vertices of the mesh of a gap, shape (columns + 1, layers + 1, 2, 3), in film thicknesses.
+    """The vertices of the mesh of a gap, shape (columns + 1, layers + 1, 2, 3), in film thicknesses.
 
     Layers follow the walls: y = 1 - h(x) (1 - Y) with Y uniform from the lower wall (0) to the upper (1).
     """
@@ -41,7 +44,7 @@ def layered(gap: Gap, resolution: int) -> Array:
 
 @dataclass(frozen=True, kw_only=True)
 class Patch:
-    """One side of the block: its name in the case, and what OpenFOAM's boundary file says of it."""
+    """One side of the block: its name in the case, and its entries in OpenFOAM's boundary file."""
 
     name: str
     entries: dict[str, str]
@@ -55,7 +58,7 @@ def write_block(
     kept: Mask | None = None,
     cut: Patch | None = None,
 ) -> None:
-    """Write one block of hexahedra, or a part of it, as ``constant/polyMesh`` below ``directory``, binary.
+    """Write one block of hexahedra, or some of its cells, as ``constant/polyMesh`` below ``directory``, binary.
 
     Parameters
     ----------
@@ -66,7 +69,7 @@ def write_block(
         The patches at x-, x+, y-, y+, z-, z+, in this order; opposite patches have matching face order, as cyclic
         patches need. A cyclic one has faces only where the cells on both sides of it are kept.
     kept
-        Which cells there are, shape (nx, ny, nz); all by default.
+        Mask of the cells that the mesh has, shape (nx, ny, nz); all by default.
     cut
         The patch of all other faces, those towards cells that are not kept; the last one. Must be given with ``kept``.
     """
@@ -132,12 +135,12 @@ def write_block(
 
 
 def _numbers(there: Mask) -> Labels:
-    """The place of each among those that are there, x fastest; of no meaning for the others."""
+    """The number of each marked cell among the marked ones, x fastest; the others have no meaning."""
     return np.asarray(np.cumsum(there.ravel(order="F")) - 1).reshape(there.shape, order="F")
 
 
 def _corners(kept: Mask) -> Mask:
-    """Which points are a corner of a kept cell."""
+    """The mask of the points that are a corner of a kept cell."""
     used = np.zeros([n + 1 for n in kept.shape], dtype=bool)
     for low in product((0, 1), repeat=3):
         used[tuple(slice(a, a + n) for a, n in zip(low, kept.shape, strict=True))] |= kept

@@ -1,4 +1,4 @@
-"""The directory of a case: there whole or not at all, with what a person, a shell and a reader of the case need."""
+"""The directory of a case, written whole or not at all, with a README, a shell script and a card for reading it."""
 
 import json
 import tempfile
@@ -40,23 +40,23 @@ TOLERANCES = (1e-10, 1e-2)
 
 
 def check_tolerance(tolerance: float) -> None:
-    """InputError for residuals that are out of reach, or of no use."""
+    """Raise InputError for a tolerance out of range."""
     least, most = TOLERANCES
     if not least <= tolerance <= most:
         raise InputError(f"tolerance: got {tolerance}; it must be {least:g} to {most:g}")
 
 
 def commands(processes: int) -> str:
-    """What a shell is to do to run simpleFoam in a case directory."""
+    """The shell commands that run simpleFoam in a case directory."""
     settings = " ".join(f"{name}={value}" for name, value in OPEN_MPI.items())
     return SERIAL if processes == 1 else PARALLEL.format(processes=processes, environment=settings)
 
 
 def write_whole(directory: Path, fill: Callable[[Path], None]) -> None:
-    """Make a case directory that is there whole or not at all; InputError if it cannot be, or holds something."""
+    """Make a case directory, whole or not at all; InputError if it cannot be made or is not empty."""
     if any(map(str.isspace, str(directory.absolute()))):
-        told = f"{str(directory.absolute())!r}: OpenFOAM takes no blanks in a path"
-        raise InputError(f"{told}; name another place, or another for what is temporary by TMPDIR")
+        path = repr(str(directory.absolute()))
+        raise InputError(f"{path}: OpenFOAM takes no blanks in a path; name another place, or set TMPDIR to one")
     try:
         if directory.exists() and (not directory.is_dir() or any(directory.iterdir())):
             raise InputError(f"{directory}: is not an empty directory; name another")
@@ -71,7 +71,7 @@ def write_whole(directory: Path, fill: Callable[[Path], None]) -> None:
 
 
 def write_papers(directory: Path, *, readme: str, allrun: str, card: "DataclassInstance") -> None:
-    """Write what goes with a case: for a person, for a shell, and for reading it back."""
+    """Write the README, the shell script and the card of a case."""
     (directory / "README").write_text(readme, encoding="utf-8")
     (directory / "Allrun").write_text(allrun, encoding="utf-8")
     (directory / "Allrun").chmod(0o755)

@@ -1,7 +1,6 @@
-"""What OpenFOAM is told to do: numbers and names from this file alone, never text from a scene.
+"""The dictionaries of OpenFOAM cases, with numbers and names from this file alone and no text from a scene.
 
-OpenFOAM runs code that stands in a dictionary (``#calc``, ``#codeStream``), so nothing that a user can spell is
-written into one.
+OpenFOAM runs code in a dictionary (``#calc``, ``#codeStream``), so no text of a user is written into one.
 """
 
 from collections.abc import Mapping
@@ -21,18 +20,18 @@ LINEAR_TOLERANCE = 1e-5
 """Residual at which a linear solver stops, in units of the tolerance."""
 
 ROUND_OFF = 1e-15
-"""The least residual that a linear solver can be asked for."""
+"""Least residual that a linear solver can reach."""
 
 VELOCITY_RELAXATION = 0.95
-"""SIMPLEC; the converged answer depends slightly on it, so it is one number for every case."""
+"""Relaxation of velocity in SIMPLEC; the result depends slightly on it, so that every case has the same."""
 
 ADVECTION = {
     "linear_upwind": ("bounded", "Gauss", "linearUpwind", "grad(U)"),
     "upwind": ("bounded", "Gauss", "upwind"),
     "": ("bounded", "Gauss", "linearUpwind", "grad(U)"),
 }
-"""How each advection scheme is written; "" is for flows in which nothing depends on it. ``linear_upwind`` is of
-second order; ``upwind`` of first, which is what hybrid schemes fall back to where cells are coarse."""
+"""The entry of each advection scheme: ``linear_upwind`` of second order, ``upwind`` of first order as hybrid schemes on
+coarse cells, and "" for flows that do not depend on it."""
 
 SIDES = (
     Patch(name="inlet", entries={"type": "cyclic", "neighbourPatch": "outlet"}),
@@ -57,7 +56,7 @@ def write_dictionaries(directory: Path, *, viscosity: float, tolerance: float, s
     scheme
         A key of ``ADVECTION``.
     processes
-        Into how many parts along the film a parallel run is to cut the mesh.
+        The number of parts along the film into which a parallel run divides the mesh.
     """
     write_files(directory, _dictionaries(viscosity, tolerance, scheme, processes))
 
@@ -78,7 +77,7 @@ def write_files(directory: Path, files: Mapping[str, Dictionary]) -> None:
 
 
 def change_scheme(directory: Path, *, scheme: str, tolerance: float) -> None:
-    """Let a case go on by another advection scheme, until another tolerance is met."""
+    """Change the advection scheme and the tolerance of a case."""
     from foamlib import FoamFile  # slow to import
 
     FoamFile(directory / "system" / "fvSchemes")["divSchemes", "div(phi,U)"] = ADVECTION[scheme]
@@ -89,7 +88,7 @@ def change_scheme(directory: Path, *, scheme: str, tolerance: float) -> None:
 
 
 def strengthen(directory: Path) -> None:
-    """Let a case correct the pressure for skewed cells in each iteration, and solve for velocity down to round-off."""
+    """Make a case correct the pressure for skewed cells in each iteration, and solve velocity to round-off."""
     from foamlib import FoamFile  # slow to import
 
     with FoamFile(directory / "system" / "fvSolution") as solution:
@@ -152,10 +151,10 @@ def solution(
     ----------
     tolerance : the initial residuals at which the iteration stops.
     linear : the residual at which a linear solver stops, in units of the tolerance.
-    relaxation : of velocity.
-    coarsest : cells of multigrid's coarsest level.
-    velocity_gain : by which the residual of velocity falls in an iteration.
-    controlled : the fields whose residuals are to meet the tolerance.
+    relaxation : the relaxation of velocity.
+    coarsest : the number of cells of multigrid's coarsest level.
+    velocity_gain : the factor by which the residual of velocity falls in an iteration.
+    controlled : the fields whose residuals must meet the tolerance.
     """
     return (
         "dictionary",

@@ -1,4 +1,4 @@
-"""Which OpenFOAM is on this machine, and the one variable it needs."""
+"""The OpenFOAM installation of this machine, and its environment."""
 
 import os
 import re
@@ -26,17 +26,17 @@ REMEDY = "install it with: sudo apt-get install openfoam"
 
 @cache
 def environment() -> Mapping[str, str]:
-    """The environment to run OpenFOAM in: a sourced distribution as it is, else Debian's package."""
-    found = {**os.environ, **OPEN_MPI}
+    """The environment that OpenFOAM runs in: that of a sourced distribution, else of Debian's package."""
+    environment = {**os.environ, **OPEN_MPI}
     if os.environ.get("WM_PROJECT_DIR"):
-        return found
+        return environment
     place = _packaged()
-    return {**found, "WM_PROJECT_DIR": str(place)} if place else found
+    return {**environment, "WM_PROJECT_DIR": str(place)} if place else environment
 
 
 @cache
 def availability() -> Availability:
-    """Whether OpenFOAM runs here: its version, or what is missing and what to do."""
+    """The availability of OpenFOAM: its version, or what is missing with the remedy."""
     missing = [program for program in PROGRAMS if shutil.which(program) is None]
     if missing:
         return Availability(available=False, detail=f"no {' or '.join(missing)} on the PATH; {REMEDY}")
@@ -51,8 +51,8 @@ def availability() -> Availability:
             available=False,
             detail="OpenFOAM does not start; set WM_PROJECT_DIR to OpenFOAM's share directory, or " + REMEDY,
         )
-    found = re.search(r"OpenFOAM-\W*v?(\w+)", answer.stdout)
-    return Availability(available=True, detail=f"OpenFOAM v{found[1]}" if found else "OpenFOAM, version unknown")
+    version = re.search(r"OpenFOAM-\W*v?(\w+)", answer.stdout)
+    return Availability(available=True, detail=f"OpenFOAM v{version[1]}" if version else "OpenFOAM, version unknown")
 
 
 def _packaged() -> Path | None:

@@ -14,7 +14,8 @@ from roughfilm.foamcases.openfoam.program import execute, failure, succeed
 from roughfilm.foamcases.openfoam.residuals import Judged, Residuals
 from roughfilm.rom.ladder.model import Progress
 
-START_SCHEME, START_TOLERANCE = "upwind", 1e-2
+START_SCHEME = "upwind"
+START_TOLERANCE = 1e-2
 RECIPE = (
     f"started by {START_SCHEME} up to a residual of {START_TOLERANCE:g}, then with one corrector for skewed cells and "
     "velocity solved to round-off"
@@ -27,18 +28,18 @@ columns) it rescued eight; none of its parts alone rescued more than three, and 
 
 RETRIED = {Outcome.DIVERGED, Outcome.UNSTEADY, Outcome.STALLED}
 FLOATING_POINT = {-signal.SIGFPE, 128 + signal.SIGFPE}
-"""Exit codes of a program, and of mpirun, that stopped at a number beyond bounds."""
+"""Exit codes of a program, and of mpirun, after a floating-point exception."""
 
 
 STOP = "STOP"
-"""A file that tells a running case, if it looks for it, to write its fields and end."""
+"""Name of a file that makes a running case write its fields and end, if its settings look for it."""
 
 Settled = Callable[[Residuals], bool]
-"""Whether a run may end, by something else than the residuals that simpleFoam itself looks at."""
+"""settled(residuals): whether a run may end, beside the residual control of simpleFoam."""
 
 
 class Asked(Protocol):
-    """What is asked of a run: the residual that ends it, a key of ``ADVECTION``, and how many processes work on it."""
+    """The settings of a run: the residual that ends it, a key of ``ADVECTION``, and the number of processes."""
 
     @property
     def tolerance(self) -> float: ...  # noqa: D102
@@ -108,14 +109,14 @@ def _simple_foam(
     (directory / STOP).unlink(missing_ok=True)
     residuals = Residuals(directory / log_name, judged)
 
-    seen, told = 0, False
+    seen, stopping = 0, False
 
     def given_up() -> bool:
-        nonlocal seen, told
+        nonlocal seen, stopping
         residuals.read()
-        if settled is not None and not told and len(residuals.greatest) > seen and settled(residuals):
+        if settled is not None and not stopping and len(residuals.greatest) > seen and settled(residuals):
             (directory / STOP).touch()
-            told = True
+            stopping = True
         seen = len(residuals.greatest)
         if residuals.greatest and residuals.greatest[-1] > 0:
             done = math.log(residuals.greatest[-1]) / math.log(asked.tolerance)
@@ -124,7 +125,7 @@ def _simple_foam(
 
     ended = execute(directory, command, log_name, given_up)
     residuals.read()
-    if (told and ended.code == 0) or "SIMPLE solution converged in" in ended.log:
+    if (stopping and ended.code == 0) or "SIMPLE solution converged in" in ended.log:
         outcome = Outcome.CONVERGED
     elif ended.code in FLOATING_POINT:
         outcome = Outcome.DIVERGED

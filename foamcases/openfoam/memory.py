@@ -1,19 +1,22 @@
-"""Whether a mesh fits into this machine: estimated before it is made."""
+"""An estimate of the memory of a mesh, before it is made."""
 
 from pathlib import Path
 
 from roughfilm.contact.foundation.errors import InputError
 
-RUN, WRITE = 1700.0, 900.0
-"""Bytes for a cell: of simpleFoam at its peak, and of writing the case; measured at 0.4 and 2 million cells."""
+RUN_BYTES = 1700.0
+"""Peak memory of simpleFoam per cell, bytes, measured at 0.4 and 2 million cells."""
 
-BASE = 2.5e8
-"""Bytes that a process takes without any cell."""
+WRITE_BYTES = 900.0
+"""Peak memory of writing the case per cell, bytes, measured at 0.4 and 2 million cells."""
+
+BASE_BYTES = 2.5e8
+"""Memory of a process without cells, bytes."""
 
 
 def memory_estimate(columns: int, layers: int, *, run: bool = True) -> float:
-    """Bytes that a mesh of so many columns and layers takes at its peak, to be written and, if asked, to be run."""
-    return BASE + columns * layers * max(WRITE, RUN if run else 0.0)
+    """The peak memory of writing a mesh of so many columns and layers, and of running it if ``run``, bytes."""
+    return BASE_BYTES + columns * layers * max(WRITE_BYTES, RUN_BYTES if run else 0.0)
 
 
 def memory_available(table: Path = Path("/proc/meminfo")) -> float:

@@ -1,4 +1,4 @@
-"""What the models that run OpenFOAM share: a case is written, run and read, in one go or each apart."""
+"""Models that run OpenFOAM: a case is written, run and read, together or separately."""
 
 import tempfile
 import time
@@ -31,7 +31,7 @@ CaseWriter = Callable[[SceneT, Path, CheckedRequest, float], None]
 
 @dataclass(frozen=True, kw_only=True)
 class Cases(Generic[SceneT, RunT]):
-    """How the cases of one kind of scene are written, run and read, and the numbers of its models.
+    """The functions that write, run and read the cases of one kind of scene, and the options of its models.
 
     Attributes
     ----------

@@ -15,12 +15,17 @@ from roughfilm.contact.foundation.child_processes import terminate_with_parent
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.foamcases.openfoam.installation import environment
 
-POLL_S = 0.02
-GRACE_S = 5.0
-"""How long a program that was told to stop may take; mpirun ends its processes in that time."""
-LOG_TAIL = 12
+POLL_INTERVAL_S = 0.02
+"""Time between two looks at a running program, s."""
+
+STOP_TIME_S = 5.0
+"""Time that a stopped program has to end, s; mpirun ends its processes in that time."""
+
+LOG_TAIL_LINES = 12
+"""Number of last lines of a log that an error quotes."""
+
 TRACE = re.compile(r"#\d+ ")
-"""A line of the trace that OpenFOAM prints of itself when a number is beyond bounds."""
+"""Pattern of a line of the stack trace that OpenFOAM prints after a floating-point exception."""
 
 Watch = Callable[[], bool]
 """Called again and again while a program runs; True stops it."""
@@ -28,7 +33,7 @@ Watch = Callable[[], bool]
 
 @dataclass(frozen=True, kw_only=True)
 class Ended:
-    """How a program ended: its exit code (minus the signal that ended it), its log, and the CPU seconds of it alone."""
+    """The end of a program: its exit code (minus the signal that ended it), its log, and its own CPU seconds."""
 
     code: int
     log: str
@@ -55,7 +60,7 @@ def execute(directory: Path, command: Sequence[str], log_name: str, watch: Watch
                 break
             if watch():
                 process.terminate()
-            time.sleep(POLL_S)
+            time.sleep(POLL_INTERVAL_S)
     except BaseException:
         if process is not None:
             _stop(process)
@@ -94,7 +99,7 @@ def failure(
     reason: str, log: str, *, outcome: Outcome = Outcome.FAILED, iterations: int | None = None
 ) -> ConvergenceError:
     """The error for a run of this outcome, with the last lines of its log."""
-    tail = [line for line in log.splitlines() if line.strip() and not TRACE.match(line)][-LOG_TAIL:]
+    tail = [line for line in log.splitlines() if line.strip() and not TRACE.match(line)][-LOG_TAIL_LINES:]
     error = ConvergenceError(f"OpenFOAM: {reason}", outcome=outcome, iterations=iterations)
     if tail:
         error.add_note("\n".join(tail))
@@ -104,7 +109,7 @@ def failure(
 def _stop(process: "subprocess.Popen[bytes]") -> None:
     process.terminate()
     try:
-        process.wait(GRACE_S)
+        process.wait(STOP_TIME_S)
     except subprocess.TimeoutExpired:
         process.kill()
         process.wait()

@@ -8,7 +8,7 @@ from pathlib import Path
 from roughfilm.contact.foundation.errors import Outcome
 
 PATIENCE = 500
-"""Iterations without half the residual after which a run is given up.
+"""Number of iterations without half the residual after which a run is stopped.
 
 One that gets from 1 to 1e-7 within 5000 iterations halves it every 215 on average; the longest pause of any that
 converged, over Re = 1e-6 to 5000 and d+ = 1e-6 to 5, was 225.
@@ -19,13 +19,13 @@ FIELDS = ("Ux", "Uy", "Uz", "p")
 
 @dataclass(frozen=True, kw_only=True)
 class Judged:
-    """What tells of a flow whether it has converged.
+    """The criteria of a converged flow.
 
     Attributes
     ----------
     main : the velocity along the flow, one of ``FIELDS``.
     fields : of ``FIELDS`` those in which there is anything; the others are round-off, in units of itself.
-    slack : how many times the tolerance the residuals may be where something else tells that the flow has settled.
+    slack : allowed residuals over the tolerance where another criterion shows that the flow has settled.
     """
 
     main: str = "Ux"
@@ -67,17 +67,17 @@ class Residuals:
                 self._found = {}
         self._position += end
 
-    def _finish(self, found: dict[str, float]) -> None:
+    def _finish(self, residuals: dict[str, float]) -> None:
         """Take in a whole iteration."""
-        values = [value for name, value in found.items() if name in self._judged.fields]
-        self.main.append(found[self._judged.main])
-        self.greatest.append(max(values) if all(map(math.isfinite, found.values())) else math.nan)
+        values = [value for name, value in residuals.items() if name in self._judged.fields]
+        self.main.append(residuals[self._judged.main])
+        self.greatest.append(max(values) if all(map(math.isfinite, residuals.values())) else math.nan)
         if self.greatest[-1] <= self._mark / 2:
             self._mark, self._marked = self.greatest[-1], len(self.greatest)
         self.stagnant = self.stagnant or len(self.greatest) - self._marked >= PATIENCE
 
     def outcome(self, tolerance: float) -> Outcome:
-        """What has become of a run that did not converge.
+        """The outcome of a run that did not converge.
 
         Bounded fields that go on changing without a trend must swing: the run is unsteady. Where the velocity along the
         film meets the tolerance, only cross flow and pressure do not, mostly because they are round-off: stalled.

@@ -32,12 +32,12 @@ class CaseRun:
 
 def ready(processes: int) -> str:
     """The version of OpenFOAM that is here; UnavailableError if none is, or no mpirun for several processes."""
-    found = availability()
-    if not found.available:
-        raise UnavailableError(found.detail)
+    here = availability()
+    if not here.available:
+        raise UnavailableError(here.detail)
     if processes > 1 and shutil.which("mpirun") is None:
         raise UnavailableError("no mpirun on the PATH; take one process, or: sudo apt-get install openmpi-bin")
-    return found.detail
+    return here.detail
 
 
 def check_mesh(
@@ -46,14 +46,14 @@ def check_mesh(
     """Run checkMesh; ConvergenceError if it finds faults other than those whose words are tolerated."""
     mesh = succeed(directory, ["checkMesh"], "log.checkMesh")
     faults = [line for line in mesh.log.splitlines() if line.lstrip().startswith("***")]
-    borne = bool(faults) and all(any(words in fault for words in tolerated) for fault in faults)
-    if "Mesh OK" not in mesh.log and not borne:
+    accepted = bool(faults) and all(any(words in fault for words in tolerated) for fault in faults)
+    if "Mesh OK" not in mesh.log and not accepted:
         raise failure(f"the mesh check found faults; {remedy}", mesh.log)
     return mesh
 
 
 def remarks(mesh: Ended) -> tuple[str, ...]:
-    """What the mesh check says that is no fault."""
+    """The warnings of the mesh check that are no faults."""
     return tuple(line.strip(" *") for line in mesh.log.splitlines() if line.strip().startswith("*"))
 
 
@@ -75,8 +75,8 @@ def converge(
     tries = iterate(directory, asked, judged, progress, settled)
     last = tries[-1]
     if last.outcome is not Outcome.CONVERGED:
-        told = "; ".join([*map(str, tries), REMEDIES[last.outcome]])
-        raise failure(told, last.log, outcome=last.outcome, iterations=last.iterations)
+        message = "; ".join([*map(str, tries), REMEDIES[last.outcome]])
+        raise failure(message, last.log, outcome=last.outcome, iterations=last.iterations)
     cpu = sum(one.cpu_s for one in tries)
     if asked.processes > 1:
         cpu += succeed(directory, ["reconstructPar", "-latestTime"], "log.reconstructPar").cpu_s

@@ -31,7 +31,7 @@ The upper wall (patch "upper", y = 1) slides; "inlet" and "outlet" are one perio
 
 @dataclass(frozen=True, kw_only=True)
 class Card:
-    """What reading a case back needs to know of how it was written."""
+    """The options with which a case was written, for reading it back."""
 
     columns: int
     layers: int

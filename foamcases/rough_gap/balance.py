@@ -1,4 +1,4 @@
-"""Whether the walls hold what drives the flow: the balance of momentum over a whole period, from the fields alone."""
+"""The balance of momentum over a period: the forces on the walls against the drive, from the fields alone."""
 
 import numpy as np
 
@@ -8,15 +8,16 @@ from roughfilm.foamcases.rough_gap.fields import GapFlow
 
 
 def held(flow: GapFlow, speed: float) -> Array:
-    """Force per plan area along x and y with which the walls hold the liquid, shape (2,), in ηV/h̄.
+    """The force per plan area along x and y of the walls on the liquid, shape (2,), in ηV/h̄.
 
-    Shear and pressure on both walls and on the edges of contact, as the scheme sees them: the velocity at the centre of
-    mass of the cell at the wall over its distance, and that cell's pressure. In a steady flow it is the mean gradient
+    Shear and pressure on both walls and on the edges of contact, as the scheme computes them: the velocity at the
+    centroid of the cell at the wall over its distance, and that cell's pressure. In a steady flow it is the mean
+    gradient
     times the liquid's volume, 12 <h> along it, 0 under a sliding wall, up to an error that falls with the cells.
 
     Parameters
     ----------
-    speed : of the upper wall.
+    speed : speed of the upper wall.
     """
     columns = flow.columns
     vertices, kept = columns.vertices, columns.kept
@@ -36,13 +37,13 @@ def held(flow: GapFlow, speed: float) -> Array:
 
 
 def imbalance(flow: GapFlow, drive: Drive) -> float:
-    """By how much the walls miss to hold what drives the flow, over 12 η V/h̄, the drag of a smooth gap."""
+    """The difference of the walls' force and the drive over 12 η V/h̄, the drag of a smooth gap."""
     volume = np.where(flow.columns.kept, flow.columns.height, 0.0).mean()
     return float(np.abs(held(flow, drive.speed) / 12 - np.array(drive.gradient) * volume).max())
 
 
 def _at_edges(flow: GapFlow, steps: Array) -> Array:
-    """The part of the edges of contact."""
+    """The force on the edges of contact."""
     vertices, kept = flow.columns.vertices, flow.columns.kept
     height = vertices[:, :, -1, 2] - vertices[:, :, 0, 2]
     total = np.zeros(2)
@@ -62,7 +63,7 @@ def _first(values: Array, axis: int) -> Array:
 
 
 def _middle(values: Array, axis: int) -> Array:
-    """Means of neighbours along the other axis."""
+    """The means of neighbours along the other axis."""
     other = 1 - axis
     n = values.shape[other]
     return (np.take(values, range(1, n), axis=other) + np.take(values, range(n - 1), axis=other)) / 2

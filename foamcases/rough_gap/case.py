@@ -26,14 +26,14 @@ from roughfilm.foamcases.rough_gap.mesh import Columns, columns_between
 from roughfilm.foamcases.rough_gap.start import Start
 from roughfilm.rom.homogenization.paths import sealed
 from roughfilm.rom.ladder.request import CheckedRequest
-from roughfilm.rom.rough_gap.scene import FEWEST_LAYERS, RoughGap
+from roughfilm.rom.rough_gap.scene import MIN_LAYERS, RoughGap
 from roughfilm.rom.rough_gap.walls import Walls
 
-SLACK = 300.0
-"""How much larger residuals may be if the flow has settled: they are of waves as short as the cells."""
+RESIDUAL_SLACK = 300.0
+"""Allowed residuals over the tolerance once the flow has settled: they belong to waves as short as the cells."""
 
 LAYERS_PER_COLUMN = 1 / 4
-"""Cells across the gap for each along its longer side, where the scene does not say how many."""
+"""Cells across the gap for each along its longer side, unless the scene gives the number."""
 
 RUN = """\
 first={first}
@@ -72,9 +72,9 @@ well end after all of its iterations. Times the volume of the mesh over the area
 
 @dataclass(frozen=True, kw_only=True)
 class GapCard:
-    """What running a case and reading it back needs to know of how it was written.
+    """The options with which a case was written, for running and reading it.
 
-    ``judged`` are the fields of each drive in which anything moves, its main velocity first; ``relaxation`` is that of
+    ``judged`` are the fields of each drive that are not constant, its main velocity first; ``relaxation`` is that of
     its velocity.
     """
 
@@ -90,24 +90,27 @@ class GapCard:
 
     @property
     def drives(self) -> dict[str, Judged]:
-        """What each drive is to be judged by."""
-        return {name: Judged(main=fields[0], fields=tuple(fields), slack=SLACK) for name, fields in self.judged.items()}
+        """The criteria of convergence of each drive."""
+        return {
+            name: Judged(main=fields[0], fields=tuple(fields), slack=RESIDUAL_SLACK)
+            for name, fields in self.judged.items()
+        }
 
 
 def layers_of(scene: RoughGap, resolution: int) -> int:
-    """Cells across the gap: those that the scene asks for, or a quarter of those along its longer side."""
-    return scene.layers or max(FEWEST_LAYERS, round(resolution * LAYERS_PER_COLUMN))
+    """The number of cells across the gap: that of the scene, or a quarter of those along its longer side."""
+    return scene.layers or max(MIN_LAYERS, round(resolution * LAYERS_PER_COLUMN))
 
 
 def columns_of(scene: RoughGap, resolution: int) -> tuple[int, int]:
-    """Mesh columns along x and y, ``resolution`` along the longer side."""
+    """The numbers of mesh columns along x and y, ``resolution`` along the longer side."""
     shape = scene.surface().shape
     nx, ny = (max(2, round(points * resolution / max(shape))) for points in shape)
     return nx, ny
 
 
-EVEN = 1e-12
-"""Of the mean gap: heights that differ by less are the same but for rounding."""
+HEIGHT_ROUND_OFF = 1e-12
+"""Difference of heights over the mean gap that counts as round-off."""
 
 
 def mesh_of(scene: RoughGap, resolution: int) -> tuple[Walls, Columns]:
@@ -117,13 +120,13 @@ def mesh_of(scene: RoughGap, resolution: int) -> tuple[Walls, Columns]:
 
 
 def judged_of(drive: Drive, walls: Walls) -> tuple[str, ...]:
-    """In which fields anything moves, the main velocity first.
+    """The fields of a flow that are not constant, the main velocity first.
 
-    Where the walls do not change along the flow the velocity has one component and there is no pressure; where they do
-    not change across it, none aside.
+    Where the walls do not change along the flow, the velocity has one component and the pressure is constant; where
+    they do not change across it, there is no velocity across.
     """
     both = np.stack([walls.lower, walls.upper])
-    changes = [bool((np.ptp(both, axis=axis) > EVEN * walls.mean_gap).any()) for axis in (1, 2)]
+    changes = [bool((np.ptp(both, axis=axis) > HEIGHT_ROUND_OFF * walls.mean_gap).any()) for axis in (1, 2)]
     main = int(drive.gradient[1] != 0)
     names = "Ux", "Uy"
     if not changes[main]:
@@ -183,7 +186,7 @@ def _drives(walls: Walls, columns: Columns) -> list[Drive]:
 def _filled(
     scene: RoughGap, walls: Walls, columns: Columns, drives: list[Drive], card: GapCard
 ) -> Callable[[Path], None]:
-    """What fills a directory with the cases."""
+    """A function that fills a directory with the cases."""
     shape = (*columns.kept.shape, card.layers)
     kept = np.broadcast_to(columns.kept[..., None], shape)
     chosen = kept.ravel(order="F")

@@ -13,7 +13,7 @@ from roughfilm.foamcases.rough_gap.dictionaries import DRIVES, SLIDING_SPEED
 from roughfilm.foamcases.rough_gap.fields import GapFlow, read_gap_flow
 from roughfilm.foamcases.rough_gap.mesh import Columns
 from roughfilm.foamcases.rough_gap.run import GapRun
-from roughfilm.foamcases.rough_gap.uncertainty import error_bars
+from roughfilm.foamcases.rough_gap.uncertainty import uncertainties
 from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun, with_uncertainties
@@ -22,17 +22,17 @@ from roughfilm.rom.rough_gap.quantities import coefficients, gap_quantities
 from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.rough_gap.validity import cautions
 
-UNBALANCED = 0.02
-"""Of the drag of a smooth gap: what the walls do not hold of the drive more than that is told."""
+MAX_IMBALANCE = 0.02
+"""Imbalance of forces over the drag of a smooth gap above which there is a warning."""
 
-LOST = 0.05
-"""Of the shear across a thin film: what columns do not see more than that is told."""
+MAX_LOST_SHEAR = 0.05
+"""Fraction of the shear across a thin film that the columns may miss without a warning."""
 
-INERTIAL = 1.0
-"""Re g' above which inertia counts enough for its own error to be told, which one mesh cannot."""
+MAX_CREEPING = 1.0
+"""Re g' above which the error of inertia counts, which one mesh cannot estimate."""
 
-CLOSED_IN = 1e-3
-"""Of the open volume: what is left out more than that is told."""
+MAX_CLOSED_IN = 1e-3
+"""Fraction of the open volume that contact may close in without a warning."""
 
 
 def factors_of(flows: dict[str, GapFlow], *, slides: bool) -> tuple[RoughGapFactors, dict[str, float]]:
@@ -81,7 +81,7 @@ def lost_shear(scene: RoughGap, columns: Columns) -> float:
 
 
 def _shear(columns: Columns) -> float:
-    """<1/h>, h in mean gaps, over the columns that are open."""
+    """The mean of 1/h over the open columns, h in mean gaps."""
     return float(np.divide(1.0, columns.height, out=np.zeros(columns.kept.shape), where=columns.kept).mean())
 
 
@@ -91,38 +91,38 @@ def read(solver: Model[RoughGap], scene: RoughGap, directory: Path, run: GapRun)
     card = read_card(directory, GapCard)
     walls, columns = mesh_of(scene, card.resolution)
     flows = {name: read_gap_flow(directory / name, card, columns) for name in card.judged}
-    found, pulled = factors_of(flows, slides=walls.slides)
+    factors, reciprocal = factors_of(flows, slides=walls.slides)
     shape = (*columns.kept.shape, card.layers)
     along = flows.get("along") or GapFlow(columns=columns, velocity=np.zeros((*shape, 3)), pressure=np.zeros(shape))
     speed = scene.nominal_flow / scene.mean_gap
-    bars, thin = error_bars(found, scene, walls, card.layers)
+    errors, thin = uncertainties(factors, scene, walls, card.layers)
     reynolds = {
-        f"A{i}{i}_over_reynolds": Quantity(value=float(found.pressure[i - 1, i - 1] / of), unit="1")
+        f"A{i}{i}_over_reynolds": Quantity(value=float(factors.pressure[i - 1, i - 1] / of), unit="1")
         for i in (1, 2)
         if (of := thin.pressure[i - 1, i - 1]) > 0
     }
     warnings = [*cautions(scene, walls), *run.warnings]
     missed = {drive.name: imbalance(flows[drive.name], drive) for drive in DRIVES if drive.name in flows}
-    if max(missed.values(), default=0.0) > UNBALANCED:
+    if max(missed.values(), default=0.0) > MAX_IMBALANCE:
         warnings.append(
-            f"the walls do not hold {max(missed.values()):.1%} of what drives the flow; the mesh is too coarse or skew"
+            f"the forces on the walls miss {max(missed.values()):.1%} of the drive; the mesh is too coarse or skew"
         )
-    blind = card.reynolds_number * scene.rms_slope > INERTIAL
-    if blind:
-        warnings.append("no error bars: what one mesh does to inertia is not known, refine it to see")
-    if columns.closed_in > CLOSED_IN:
+    inertial = card.reynolds_number * scene.rms_slope > MAX_CREEPING
+    if inertial:
+        warnings.append("no uncertainty: one mesh cannot estimate the error of inertia; compare with a finer mesh")
+    if columns.closed_in > MAX_CLOSED_IN:
         warnings.append(f"contact closes in {columns.closed_in:.1%} of the open volume, which is left out")
-    if walls.slides and (lost := lost_shear(scene, columns)) > LOST:
+    if walls.slides and (lost := lost_shear(scene, columns)) > MAX_LOST_SHEAR:
         warnings.append(
-            f"the walls come nearer between these columns than at them: {lost:.0%} of the shear across a thin film is "
-            "not seen, and friction is too small by as much; take more columns"
+            f"the walls are nearer between the columns than at them: the mesh misses {lost:.0%} of the shear across a "
+            "thin film, and friction is too small by as much; take more columns"
         )
     for name, checked in run.flows.items():
         warnings += [f"{name}: {again}" for again in map(str, checked.tries[1:])]
     return Result(
         model=model,
         quantities=with_uncertainties(
-            gap_quantities(scene, walls, found) | reynolds, {} if blind else coefficients(bars)
+            gap_quantities(scene, walls, factors) | reynolds, {} if inertial else coefficients(errors)
         ),
         fields={
             "gap": Field(values=walls.gap, unit="m"),
@@ -161,7 +161,7 @@ def read(solver: Model[RoughGap], scene: RoughGap, directory: Path, run: GapRun)
                 "reynolds_number": card.reynolds_number,
                 "layers": card.layers,
                 "closed_in": columns.closed_in,
-                **{f"reciprocal_{name}": value for name, value in pulled.items()},
+                **{f"reciprocal_{name}": value for name, value in reciprocal.items()},
             },
         ),
         provenance=provenance(scene, model=model, keeps=tuple(keeps), sources=solver.sources, openfoam=run.version),

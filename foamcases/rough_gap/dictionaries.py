@@ -1,4 +1,4 @@
-"""What OpenFOAM is told of a rough gap: numbers and names from this file alone, never text from a scene."""
+"""The dictionaries of a rough gap, with numbers and names from this file alone and no text from a scene."""
 
 import math
 from dataclasses import dataclass
@@ -10,11 +10,14 @@ from roughfilm.foamcases.openfoam.dictionaries import Dictionary, control, liqui
 from roughfilm.foamcases.openfoam.iterate import STOP
 from roughfilm.foamcases.openfoam.residuals import FIELDS
 
-ITERATIONS, STRAIGHT_ITERATIONS = 3000, 200
-"""At most, and of a creeping straight flow, which has settled after 50: no residual ends it, most are round-off."""
+ITERATIONS = 3000
+"""Largest number of iterations."""
+
+STRAIGHT_ITERATIONS = 200
+"""Iterations of a creeping straight flow, which settles within 50; no residual ends it, as most are round-off."""
 
 CREEPING = 1.0
-"""The Reynolds number up to which a flow counts as that; beyond it, straight flows settle later."""
+"""Reynolds number up to which a flow counts as creeping; above it, straight flows settle later."""
 
 LINEAR_TOLERANCE = 1e-3
 """Residual at which a linear solver stops, in units of the tolerance."""
@@ -25,7 +28,7 @@ COARSEST = 20
 VELOCITY_GAIN = 0.1
 
 SLIDING_SPEED = 2.0
-"""Of the upper wall; a smooth gap then carries 1, as much as under the gradient."""
+"""Speed of the upper wall; a smooth gap then has the flow 1, as under the gradient."""
 
 SIDES = (
     Patch(name="west", entries={"type": "cyclic", "neighbourPatch": "east"}),
@@ -38,7 +41,7 @@ SIDES = (
 """The patches of a gap at x-, x+, y-, y+, z-, z+."""
 
 CONTACT = Patch(name="contact", entries={"type": "wall"})
-"""The edges of what is cut out."""
+"""The patch of the edges of contact."""
 
 
 MEAN_VELOCITY = "flow"
@@ -66,7 +69,7 @@ FUNCTIONS = {
 
 @dataclass(frozen=True, kw_only=True)
 class Drive:
-    """What drives a flow: mean pressure gradients along x and y, and the speed of the upper wall; smooth gap: 1."""
+    """The drive of a flow: mean pressure gradients along x and y, and the speed of the upper wall."""
 
     name: str
     gradient: tuple[float, float] = (0.0, 0.0)
@@ -81,22 +84,22 @@ DRIVES = (
 
 
 def relaxation(layers: int, cells: tuple[float, float], *, straight: bool = False) -> float:
-    """Of velocity in SIMPLEC: near the fewest iterations for 4 to 32 layers and cells of 0.05 to 3 mean gaps.
+    """The relaxation of velocity in SIMPLEC, near the fewest iterations for 4 to 32 layers and cells of 0.05 to 3 gaps.
 
-    SIMPLEC lets the pressure push each cell alone, as far as 1 less this lets it go; it should go as far as a whole
-    column would. The smaller the cells against the gap, the nearer to 1 that is. The converged flow depends on it by
-    some 1e-5 of itself, and 1e-4 beside edges of contact, so it is one number for every case on a mesh. A straight
-    flow has no pressure to follow it.
+    SIMPLEC corrects the velocity of each cell by its own pressure, in proportion to 1 less the relaxation; the
+    correction should be that of a whole column, so that the relaxation is nearer to 1 the smaller the cells are. The
+    converged flow depends on it by 1e-5, and by 1e-4 beside edges of contact; every case on a mesh has the same value.
+    A straight flow has no pressure.
 
     Parameters
     ----------
-    cells : their length and width, in mean gaps.
+    cells : length and width of the cells, in mean gaps.
     """
     return 0.999 if straight else 1 - 0.8 / math.sqrt(layers**2 + cells[0] ** -2 + cells[1] ** -2)
 
 
 def parts_of(processes: int, size: tuple[float, float]) -> tuple[int, int]:
-    """Into how many parts along x and y a period is cut for so many processes, as square as can be."""
+    """The numbers of parts along x and y of a period for so many processes, as square as possible."""
     pairs = [(n, processes // n) for n in range(1, processes + 1) if processes % n == 0]
     return min(pairs, key=lambda pair: abs(math.log(size[0] / pair[0] * pair[1] / size[1])))
 

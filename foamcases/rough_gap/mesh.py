@@ -16,8 +16,8 @@ class Columns:
     Attributes
     ----------
     vertices : shape (nx + 1, ny + 1, layers + 1, 3), in units of length; the last of a row is the first, a period on.
-    kept : which columns are there, shape (nx, ny).
-    closed_in : volume of the columns that contact closes in, over that of all open ones; these are not kept.
+    kept : mask of the columns that the mesh has, shape (nx, ny).
+    closed_in : volume of the columns that contact closes in, over that of all open ones; the mesh leaves them out.
     """
 
     vertices: Array

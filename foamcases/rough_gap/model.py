@@ -10,10 +10,10 @@ from roughfilm.rom.rough_gap.scene import RoughGap
 
 SOURCES = ("10.1063/1.168744", "10.1080/01495728408961817")
 RESOLUTIONS = (16, 32, 64)
-"""Columns along the longer side; the last are the default."""
+"""Numbers of columns along the longer side; the last is the default."""
 
 TOLERANCE = 1e-5
-"""By what part of itself a flow may still change; or the residuals at which simpleFoam stops by itself."""
+"""Remaining relative change of a flow, or residual, at which a run ends."""
 
 
 def resolutions(scene: RoughGap) -> Resolutions:

@@ -18,16 +18,16 @@ from roughfilm.rom.ladder.model import Progress, silent
 MAIN = {"Ux": 0, "Uy": 1}
 
 TOLERATED = ("High aspect ratio cells", "highly skew faces")
-"""Faults that the mesh check finds in flat cells and beside steep walls: they are told, and their error shrinks."""
+"""Faults of flat cells and of cells beside steep walls, which become warnings: their error falls with the mesh."""
 
 WINDOW = 10
-"""Iterations over which the change of the flow is looked at."""
+"""Number of iterations over which the change of the flow is measured."""
 
-LEAST = 1e-6
-"""A mean velocity below this, over that of a smooth gap, is as good as none."""
+MIN_VELOCITY = 1e-6
+"""Mean velocity, over that of a smooth gap, below which a flow counts as none."""
 
-SLOWEST = 0.98
-"""By which steps are taken to shrink at least; those of round-off do not."""
+MAX_STEP_RATIO = 0.98
+"""Largest assumed ratio of successive steps; steps of round-off do not shrink."""
 
 
 SEALED = "contact seals the gap both ways on this mesh: nothing flows, and nothing was run"
@@ -39,8 +39,8 @@ class GapRun(CaseRun):
 
     Attributes
     ----------
-    flows : by the name of the drive.
-    unsettled : likewise, by what part of itself the mean velocity would still change, by its trend.
+    flows : the run of each drive, by its name.
+    unsettled : remaining relative change of the mean velocity of each drive, extrapolated.
     """
 
     flows: dict[str, Checked]
@@ -62,11 +62,11 @@ def run_gap(directory: Path, progress: Progress = silent) -> GapRun:
     flows: dict[str, Checked] = {}
     for number, (name, judged) in enumerate(card.drives.items()):
 
-        def told(part: float, words: str, name: str = name, number: int = number) -> None:
+        def report(part: float, words: str, name: str = name, number: int = number) -> None:
             progress((number + part) / len(card.drives), f"{name}: {words}")
 
         flows[name] = converge(
-            directory / name, card, judged, told, settled_within(card.tolerance, directory / name, judged)
+            directory / name, card, judged, report, settled_within(card.tolerance, directory / name, judged)
         )
     return GapRun(
         flows=flows,
@@ -79,7 +79,7 @@ def run_gap(directory: Path, progress: Progress = silent) -> GapRun:
 
 
 def settled_within(tolerance: float, case: Path, judged: Judged) -> Settled:
-    """Whether the residuals of a running case are within the slack, and its mean velocity will change by so little."""
+    """A test of a running case: residuals within the slack and remaining change of the mean velocity in tolerance."""
 
     def settled(residuals: Residuals) -> bool:
         if len(residuals.greatest) < 2 * WINDOW or not residuals.greatest[-1] <= judged.slack * tolerance:
@@ -90,7 +90,7 @@ def settled_within(tolerance: float, case: Path, judged: Judged) -> Settled:
 
 
 def mean_velocity(case: Path) -> Array:
-    """Mean velocity of all cells in each iteration, shape (iterations, 3); the last is that which verified the run."""
+    """The mean velocity of all cells in each iteration, shape (iterations, 3); the last verified the run."""
     folders = sorted((case / "postProcessing" / MEAN_VELOCITY).iterdir(), key=lambda folder: float(folder.name))
     lines = [
         line
@@ -102,15 +102,15 @@ def mean_velocity(case: Path) -> Array:
 
 
 def unsettled(values: Array) -> float:
-    """By what part of its last value a series would still change if its steps went on shrinking as they do.
+    """The remaining change of a series over its last value, if its steps go on shrinking at their present rate.
 
-    With d the largest of the last ``WINDOW`` steps and d' that of those before, what would come is d r/(1 - r) with
-    r = (d/d')^(1/``WINDOW``), at most ``SLOWEST``. (Of fewer steps, the halves.)
+    With d the largest of the last ``WINDOW`` steps and d' that of those before, the remainder is d r/(1 - r) with
+    r = (d/d')^(1/``WINDOW``), at most ``MAX_STEP_RATIO``. A shorter series is split in half.
     """
     steps = np.abs(np.diff(values))
     window = min(WINDOW, steps.size // 2)
     if not window:
         return 0.0
     last, before = steps[-window:].max(), steps[-2 * window : -window].max()
-    rate = min((last / before) ** (1 / window) if before > 0 else 1.0, SLOWEST)
-    return float(last * rate / (1 - rate) / max(abs(values[-1]), LEAST)) if last > 0 else 0.0
+    rate = min((last / before) ** (1 / window) if before > 0 else 1.0, MAX_STEP_RATIO)
+    return float(last * rate / (1 - rate) / max(abs(values[-1]), MIN_VELOCITY)) if last > 0 else 0.0

@@ -9,7 +9,7 @@ from roughfilm.rom.homogenization.cell import solve_cell
 from roughfilm.rom.rough_gap.walls import Walls
 
 TOLERANCE = 1e-6
-"""Of the start."""
+"""Tolerance of the initial flow."""
 
 
 class Start:

@@ -1,4 +1,4 @@
-"""How far off the factors of a gap on one mesh may be, by what thin-film theory makes of the same nodes."""
+"""The uncertainty of the factors of a gap on one mesh, from thin-film theory on the same nodes."""
 
 from dataclasses import replace
 
@@ -11,41 +11,45 @@ from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors, of_thin_film
 from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.rough_gap.walls import Walls
 
-COLUMNS = 1.25
-"""Of what thin films change by if columns have the mean height of their corners, as a mesh has it."""
+COLUMN_FACTOR = 1.25
+"""Uncertainty over the change of the thin-film factors if columns have the mean height of their corners."""
 
-LAYERS, SHORT, STEEP = 3.0, 0.5, 0.5
-"""Of what slope changes: over the square of the layers N; times (k/N)², k the wave number of the walls over the mean
-gap; times (1 + g'²)(k dx)², dx the longer side of a column over it.
+LAYER_FACTOR = 3.0
+"""Uncertainty over the change by slope, times N²; N is the number of layers.
 
-With all, the factors of 41 sinusoids of amplitude 0.05 to 0.95, 0.5 to 20 mean gaps long, on 16, 32 and 64 columns with
-4 to 32 layers, were within their bars of the exact ones, the nearest at three quarters of its own.
+With this and the other factors, 41 sinusoids of amplitude 0.05 to 0.95 and 0.5 to 20 mean gaps long, on 16, 32 and 64
+columns with 4 to 32 layers, have errors of at most three quarters of their uncertainty.
 """
 
-RIDGES = 2
-"""Nodes, at most, along which nothing changes: the columns' length there is of no account."""
+WAVE_FACTOR = 0.5
+"""Uncertainty over the change by slope, over (k/N)²; k is the wave number of the walls times the mean gap."""
+
+SLOPE_FACTOR = 0.5
+"""Uncertainty over the change by slope, over (1 + g'²)(k dx)²; dx is the longer side of a column over the mean gap."""
+
+MAX_RIDGE_NODES = 2
+"""Largest number of nodes of a side along which the walls do not change; its columns' length does not count."""
 
 
-def error_bars(
-    found: RoughGapFactors, scene: RoughGap, walls: Walls, layers: int
+def uncertainties(
+    factors: RoughGapFactors, scene: RoughGap, walls: Walls, layers: int
 ) -> tuple[RoughGapFactors, RoughGapFactors]:
-    """Error bars of the factors on one mesh, and thin-film theory's factors on its nodes; all over the mean gap's.
+    """The uncertainties of the factors on one mesh, and thin-film theory's factors on its nodes, over the mean gap's.
 
-    The bars are sums of ``COLUMNS``, of what ``LAYERS``, ``SHORT`` and ``STEEP`` measure, and of what the waves that
-    the nodes cannot hold change in theory for small slopes. What a mesh does to inertia they leave out.
+    Four parts are added: those of ``COLUMN_FACTOR``, ``LAYER_FACTOR``, ``WAVE_FACTOR`` and ``SLOPE_FACTOR``, and the
+    change by waves too short for the nodes in the theory of small slopes. They are of second order in columns and
+    layers where the walls are smooth and open, and leave out the error of inertia.
 
     Parameters
     ----------
-    found : what the mesh gave.
-    walls : of the scene on the nodes of the mesh.
-    layers : cells across.
+    factors : the factors on the mesh.
+    walls : the walls of the scene on the nodes of the mesh.
+    layers : number of cells across.
 
     Raises
     ------
     ConvergenceError
         If a cell problem of thin films does not meet its tolerance.
-
-    Of second order in columns and layers where the walls are smooth and open.
     """
     mean, slides = scene.mean_gap, walls.slides
 
@@ -53,23 +57,24 @@ def error_bars(
         return of_thin_film(solve_cell(gap, walls.spacing).factors, slides=slides).scaled(1 / mean)
 
     thin = thin_film(walls.gap)
-    own, values = _main(thin), _main(found)
+    own, values = _main(thin), _main(factors)
     k, side = 2 * np.pi * scene.gap_over_wavelength, max(walls.spacing) / mean
-    if min(walls.lower.shape) <= RIDGES:
+    if min(walls.lower.shape) <= MAX_RIDGE_NODES:
         side = walls.spacing[int(np.argmax(walls.lower.shape))] / mean
-    share = LAYERS / layers**2 + SHORT * (k / layers) ** 2 + STEEP * (1 + scene.rms_slope**2) * (k * side) ** 2
-    relative = share * _over(values - own, own)
+    fraction = LAYER_FACTOR / layers**2 + WAVE_FACTOR * (k / layers) ** 2
+    fraction += SLOPE_FACTOR * (1 + scene.rms_slope**2) * (k * side) ** 2
+    relative = fraction * _over(values - own, own)
     columns = _column_heights(walls.gap)
     if not columns.any():
         return thin, thin
-    relative += COLUMNS * _over(_main(thin_film(columns)) - own, own)
+    relative += COLUMN_FACTOR * _over(_main(thin_film(columns)) - own, own)
     finest = max(scene.surface().shape)
     if finest > max(walls.lower.shape):
         part, whole = (_main(slope_corrected(one).corrected) for one in (walls, scene.walls(finest)))
         relative += _over(whole - part, part)
-    bars = np.abs(values) * relative
-    a = np.sqrt(np.outer(bars[:2], bars[:2]))
-    return replace(found, pressure=a, shear=np.full(2, bars[2]), friction=float(bars[3])), thin
+    errors = np.abs(values) * relative
+    a = np.sqrt(np.outer(errors[:2], errors[:2]))
+    return replace(factors, pressure=a, shear=np.full(2, errors[2]), friction=float(errors[3])), thin
 
 
 def _main(factors: RoughGapFactors) -> Array:

@@ -1,15 +1,15 @@
-"""What snappyHexMesh is told: numbers and names from this file alone, as in every dictionary."""
+"""The dictionary of snappyHexMesh, with numbers and names from this file alone."""
 
 from roughfilm.foamcases.openfoam.dictionaries import Dictionary
 from roughfilm.foamcases.rough_gap.dictionaries import CONTACT
 
 SURFACE = "solid.stl"
-"""Of the solid, in ``constant/triSurface``."""
+"""Name of the file of the solid in ``constant/triSurface``."""
 
-MOST_CELLS = 20_000_000
+MAX_CELLS = 20_000_000
 
-SKEWEST = 3.9
-"""Skewness that a face may get by snapping; the mesh check takes 4."""
+MAX_SKEWNESS = 3.9
+"""Largest skewness of a face after snapping; the mesh check allows 4."""
 
 
 def snappy_dictionary(inside: tuple[float, float, float], level: int) -> Dictionary:
@@ -28,8 +28,8 @@ def snappy_dictionary(inside: tuple[float, float, float], level: int) -> Diction
             "mergeTolerance": 1e-6,
             "geometry": {name: {"type": "triSurfaceMesh", "file": SURFACE}},
             "castellatedMeshControls": {
-                "maxLocalCells": MOST_CELLS,
-                "maxGlobalCells": MOST_CELLS,
+                "maxLocalCells": MAX_CELLS,
+                "maxGlobalCells": MAX_CELLS,
                 "minRefinementCells": 0,
                 "nCellsBetweenLevels": 2,
                 "features": [],
@@ -52,8 +52,8 @@ def snappy_dictionary(inside: tuple[float, float, float], level: int) -> Diction
             "addLayersControls": {},
             "meshQualityControls": {
                 "maxNonOrtho": 65,
-                "maxBoundarySkewness": SKEWEST,
-                "maxInternalSkewness": SKEWEST,
+                "maxBoundarySkewness": MAX_SKEWNESS,
+                "maxInternalSkewness": MAX_SKEWNESS,
                 "maxConcave": 80,
                 "minVol": 1e-13,
                 "minTetQuality": 1e-15,

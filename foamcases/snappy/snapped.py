@@ -35,7 +35,7 @@ from roughfilm.rom.ladder.model import Progress, silent
 PROGRAM = "snappyHexMesh"
 STILL: Any = [0.0, 0.0, 0.0]
 LEVEL: Any = 0.0
-"""The start of an iteration, in every cell of a mesh that is yet to be made."""
+"""Initial pressure of every cell; the mesh does not exist yet."""
 
 ALL = Judged()
 
@@ -60,7 +60,7 @@ h^2 G / (12 eta) with the mean pressure gradient G, so a smooth gap of height h 
 
 @dataclass(frozen=True, kw_only=True)
 class SnappedCard:
-    """What running and reading a case needs to know of it; the liquid must reach the sides ``open``."""
+    """The options for running and reading a case; the liquid must reach the sides ``open``."""
 
     area: float
     tolerance: float
@@ -71,7 +71,7 @@ class SnappedCard:
 
 @dataclass(frozen=True, kw_only=True)
 class SnappedFlow:
-    """What a flow through a box tells.
+    """The results of a flow through a box.
 
     Attributes
     ----------
@@ -175,7 +175,7 @@ def run_snapped(directory: Path, judged: Judged = ALL, *, progress: Progress = s
     mesh = succeed(directory, [PROGRAM, "-overwrite"], f"log.{PROGRAM}")
     _check_open(directory, card.open)
     checked = check_mesh(directory)
-    found = converge(directory, card, judged, progress, settled_within(card.tolerance, directory, judged))
+    run = converge(directory, card, judged, progress, settled_within(card.tolerance, directory, judged))
     volumes = succeed(directory, ["postProcess", "-func", "writeCellVolumes", "-latestTime"], "log.volumes")
     try:
         last = FoamCase(directory)[-1]
@@ -190,10 +190,10 @@ def run_snapped(directory: Path, judged: Judged = ALL, *, progress: Progress = s
         flow_per_width=flow,
         volume=float(volume.sum()) / card.area,
         cells=volume.size,
-        iterations=found.tries[-1].iterations,
-        residual=found.residual,
+        iterations=run.tries[-1].iterations,
+        residual=run.residual,
         unsettled=unsettled(mean_velocity(directory)[:, np.abs(flow).argmax()]),
-        cpu_s=mesh.cpu_s + checked.cpu_s + found.cpu_s + volumes.cpu_s,
+        cpu_s=mesh.cpu_s + checked.cpu_s + run.cpu_s + volumes.cpu_s,
         mesh_cpu_s=mesh.cpu_s + checked.cpu_s,
         wall_s=time.perf_counter() - wall,
         warnings=remarks(checked),

@@ -6,14 +6,14 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.meshes.mesh import Mesh, in_triangles
-from roughfilm.rom.meshes.walls_mesh import Part, wall_mesh
+from roughfilm.rom.meshes.walls_mesh import GapPart, wall_mesh
 from roughfilm.rom.rough_gap.walls import Walls
 
-MARGIN = 0.25
-"""Of a period, by which the solid goes on beyond it."""
+MARGIN_FRACTION = 0.25
+"""Length by which the solid continues beyond a period, over the period."""
 
-ASIDE = (0.37, 0.31, 0.43)
-"""Of a cell, by which the place that tells where the liquid is lies beside the corner of one."""
+POINT_OFFSET = (0.37, 0.31, 0.43)
+"""Offset of the point in the liquid from the corner of a cell, over the cell."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,7 +55,7 @@ class Carved:
 
 
 def repeated(solid: Mesh, size: tuple[float, float]) -> Mesh:
-    """Triangles of one period, and of the next on all sides as far as they lie within ``MARGIN`` of the period."""
+    """The triangles of one period, and those of its neighbours within ``MARGIN_FRACTION`` of the period."""
     surface = in_triangles(solid)
     shifts = [np.array([i * size[0], j * size[1], 0.0]) for i in (-1, 0, 1) for j in (-1, 0, 1)]
     points = np.concatenate([surface.points + shift for shift in shifts])
@@ -64,7 +64,7 @@ def repeated(solid: Mesh, size: tuple[float, float]) -> Mesh:
     whole = Mesh(points=points, cell_type=surface.cell_type, cells=cells)
     near = np.ones(len(points), dtype=bool)
     for axis, length in enumerate(size):
-        near &= (points[:, axis] >= -MARGIN * length) & (points[:, axis] <= (1 + MARGIN) * length)
+        near &= (points[:, axis] >= -MARGIN_FRACTION * length) & (points[:, axis] <= (1 + MARGIN_FRACTION) * length)
     return whole.kept(np.asarray(near[cells].any(axis=1)))
 
 
@@ -96,11 +96,11 @@ def carved(walls: Walls, unit: float, layers: int) -> Carved:
         upper=walls.upper,
         spacing=walls.spacing,
     )
-    parts = (Part.LOWER,) if walls.slides else (Part.LOWER, Part.UPPER)
+    parts = (GapPart.LOWER,) if walls.slides else (GapPart.LOWER, GapPart.UPPER)
     sheets = [repeated(wall_mesh(raised, part), walls.size) for part in parts]
     i, j = np.unravel_index(walls.gap.argmax(), walls.gap.shape)
     middle = (walls.lower[i, j] + walls.upper[i, j]) / 2
-    x, y, z = np.array([i * walls.spacing[0], j * walls.spacing[1], middle]) / unit + ASIDE * box.steps
+    x, y, z = np.array([i * walls.spacing[0], j * walls.spacing[1], middle]) / unit + POINT_OFFSET * box.steps
     return Carved(box=box, solid=_scaled(_together(sheets), 1 / unit), inside=(x % length, y % width, z))
 
 

@@ -1,1 +1,1 @@
-"""Which rung is enough for a scene: told before it is solved, by its numbers, and after, by the next rung."""
+"""The choice of a model for a scene: error laws from its dimensionless numbers, and differences to the next model."""

@@ -1,4 +1,4 @@
-"""The cheapest rung that is enough: judged by the numbers of a scene first, then by the rungs next to it."""
+"""The cheapest model that is accurate enough, judged by the numbers of a scene and by the next models."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -7,14 +7,14 @@ from math import inf
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
 from roughfilm.rom.advice.estimates import (
+    AdviceTask,
     Estimate,
-    Question,
     a_posteriori,
     a_priori,
     affordable,
-    by_its_own_word,
     near,
     percent,
+    self_estimate,
 )
 from roughfilm.rom.advice.laws import Numbers, Table, table
 from roughfilm.rom.ladder.kind import Omission, Scene, kind_of_name
@@ -22,24 +22,24 @@ from roughfilm.rom.ladder.model import Model, Progress, silent
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 
-HOPELESS = 5.0
-"""Times the tolerance: a rung that is farther off by the numbers of the scene is not run to be sure."""
+MAX_ERROR_RATIO = 5.0
+"""Error by the laws over the tolerance above which a model is not run as a check."""
 
 
 class Verdict(StrEnum):
-    """What became of a rung."""
+    """The verdict on a model."""
 
     CHOSEN = "chosen"
     NOT_ENOUGH = "not enough"
     DOES_NOT_APPLY = "does not apply"
     NOT_HERE = "not on this machine"
     NOT_NEEDED = "not needed"
-    IN_VAIN = "tried in vain"
+    FAILED = "failed"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Considered:
-    """One rung at its resolution: expected CPU seconds, what was expected of it by either source, and the verdict."""
+class ModelVerdict:
+    """A model at its resolution: expected CPU seconds, both estimates of its error, the verdict and its reason."""
 
     model: str
     resolution: int | None
@@ -51,38 +51,38 @@ class Considered:
 
     @property
     def error(self) -> float | None:
-        """That is expected at most: by the rungs next to it if they were run, else by the numbers; None if unknown."""
+        """The largest expected error: by the next models if they were run, else by the laws; None if unknown."""
         estimate = self.a_posteriori or self.a_priori
         return None if estimate is None else estimate.error
 
     @property
     def sure(self) -> bool:
-        """Whether the sweeps reach as far as what is expected."""
+        """Whether the scene is within the sweeps that the estimate rests on."""
         estimate = self.a_posteriori or self.a_priori
         return estimate is not None and estimate.sure
 
 
 @dataclass(frozen=True, kw_only=True)
 class Advice:
-    """What is enough for a scene, and why.
+    """The model that is accurate enough for a scene, and why.
 
     Attributes
     ----------
-    quantity, within : what was asked, and how far off it may be, as a part of its size.
-    chosen : the cheapest rung that keeps it; None where none is known to.
-    nearest : of those that do not, the one that is expected to come nearest; None where nothing is known.
-    considered : every rung of the kind, cheapest first.
+    quantity, within : the quantity, and its tolerated error over its size.
+    chosen : the cheapest model within the tolerance; None where none is known.
+    nearest : the most accurate model where none is within the tolerance; None where nothing is known.
+    considered : the verdict on every model of the kind, cheapest first.
     numbers : the dimensionless numbers of the scene.
-    result : of the chosen rung, if it was run to be sure.
-    spent_cpu_s : CPU seconds of all that was run.
-    omitted : what every rung of the kind leaves out; the rest of the tolerance is left for the rungs.
+    result : the result of the chosen model, if it was run.
+    spent_cpu_s : CPU seconds of all runs.
+    omitted : the effect that every model of the kind leaves out; it uses up its part of the tolerance.
     """
 
     quantity: str
     within: float
-    chosen: Considered | None
-    nearest: Considered | None
-    considered: tuple[Considered, ...]
+    chosen: ModelVerdict | None
+    nearest: ModelVerdict | None
+    considered: tuple[ModelVerdict, ...]
     numbers: Numbers
     result: Result | None
     spent_cpu_s: float
@@ -90,7 +90,7 @@ class Advice:
 
 
 def wanted(scene: Scene, name: str | None) -> str:
-    """The compared quantity that people call so: by default the first of the kind.
+    """The compared quantity of this name or title, by default the first of the kind.
 
     Raises InputError for a name that the kind does not have.
     """
@@ -100,20 +100,20 @@ def wanted(scene: Scene, name: str | None) -> str:
     for quantity, title in compared.items():
         if name in (quantity, title):
             return quantity
-    told = ", ".join(repr(title) for title in compared.values())
-    raise InputError(f"quantity: got {name!r}; of a {scene.kind} it must be one of {told}")
+    titles = ", ".join(repr(title) for title in compared.values())
+    raise InputError(f"quantity: got {name!r}; of a {scene.kind} it must be one of {titles}")
 
 
-def shortfall(found: Advice, title: str) -> str:
-    """That no rung is enough, and which comes nearest."""
-    told = f"no rung here is known to give the {title} within {percent(found.within)}"
-    if found.omitted is not None and found.omitted.part > found.within / 2:
-        return f"{told}: {found.omitted.reason}"
-    if found.nearest is None or found.nearest.error is None:
-        return told
-    if found.nearest.sure:
-        return f"{told}; {found.nearest.model} comes nearest, {near(found.nearest.error)}"
-    return f"{told}, as the scene lies beyond those that were swept; {found.nearest.model} may come nearest"
+def shortfall(advice: Advice, title: str) -> str:
+    """The message that no model is accurate enough, and which is the most accurate."""
+    message = f"no model here is known to give the {title} within {percent(advice.within)}"
+    if advice.omitted is not None and advice.omitted.part > advice.within / 2:
+        return f"{message}: {advice.omitted.reason}"
+    if advice.nearest is None or advice.nearest.error is None:
+        return message
+    if advice.nearest.sure:
+        return f"{message}; {advice.nearest.model} comes nearest, {near(advice.nearest.error)}"
+    return f"{message}, as the scene lies beyond those that were swept; {advice.nearest.model} may come nearest"
 
 
 def advise(
@@ -126,27 +126,27 @@ def advise(
     run: Callable[[Model, int], Result] | None = None,
     progress: Progress = silent,
 ) -> Advice:
-    """The cheapest rung, at the coarsest resolution, whose quantity is within a tolerance of the best rung's.
+    """Choose the cheapest model, at the coarsest resolution, whose quantity is within a tolerance of the best model's.
 
-    Rungs are taken from the cheapest up. Two estimates are asked for: the numbers of the scene against laws that were
-    fitted to sweeps, and the difference to the next rung, if that is cheap. A rung that the numbers put beyond
-    ``HOPELESS`` tolerances is not run, nor one that is put beyond the tolerance if to be sure of it costs more than the
-    cheapest that is enough. Where the two disagree, one more rung up is run and decides, if it is cheap;
-    else the rung is passed over. What all of them leave out is judged apart and
-    taken off the tolerance. Errors are those that 95 of 100 scenes do not exceed.
+    Models are judged from the cheapest up by two estimates: error laws fitted to sweeps, at the numbers of the scene,
+    and the difference to the next model, if that is cheap. A model is not run if the laws expect more than
+    ``MAX_ERROR_RATIO`` tolerances, or more than the tolerance where the check costs more than the cheapest model that
+    is accurate enough. Where both estimates disagree, the model after the next decides, if it is cheap; otherwise the
+    model is not chosen. The effect that all models leave out is subtracted from the tolerance. Errors are those that
+    95 of 100 scenes do not exceed.
 
     Parameters
     ----------
-    models : the rungs of the scene's kind.
-    quantity : one of those that the kind compares.
-    within : over the quantity's size, above 0 and below 1.
-    laws : those of the project by default.
-    run : run(model, resolution), by default the model's ``solve``; whoever keeps results may give theirs.
+    models : the models of the scene's kind.
+    quantity : one of the quantities that the kind compares.
+    within : tolerated error over the quantity's size, above 0 and below 1.
+    laws : the laws, by default those of the project.
+    run : run(model, resolution), by default the model's ``solve``; a caller may return stored results.
 
     Raises
     ------
     InputError
-        For a tolerance out of range, or a scene to which no rung applies.
+        For a tolerance out of range, or a scene to which no model applies.
     """
     if not 0 < within < 1:
         raise InputError(f"within: got {within!r}; it must be above 0 and below 1, for example 5%")
@@ -174,7 +174,7 @@ def advise(
     omitted = kind.omitted(scene, quantity)
     left = within - (omitted.part if omitted else 0.0)
     fits = {model.name: model.applies(scene) for model in models}
-    asked = Question(
+    task = AdviceTask(
         scene=scene,
         kind=kind,
         models=[model for model in models if fits[model.name].applies],
@@ -185,18 +185,18 @@ def advise(
         run=solved,
         failed=failed,
     )
-    if not asked.models:
-        raise InputError(f"scene: no rung applies: {'; '.join(fit.reason for fit in fits.values())}")
+    if not task.models:
+        raise InputError(f"scene: no model applies: {'; '.join(fit.reason for fit in fits.values())}")
     considered = [
-        Considered(model=name, resolution=None, cpu_s=0.0, verdict=Verdict.DOES_NOT_APPLY, reason=fit.reason)
+        ModelVerdict(model=name, resolution=None, cpu_s=0.0, verdict=Verdict.DOES_NOT_APPLY, reason=fit.reason)
         for name, fit in fits.items()
         if not fit.applies
     ]
-    chosen: Considered | None = None
-    here = [model for model in asked.models if model.available().available]
-    secure = min((asked.cost(model) for model in here if _keeps(a_priori(asked, model), left)), default=inf)
-    for model in sorted(asked.models, key=lambda model: (asked.cost(model), -len(model.keeps))):
-        one = _after(asked, model) if chosen or left <= 0 else _considered(asked, model, secure)
+    chosen: ModelVerdict | None = None
+    available = [model for model in task.models if model.available().available]
+    secure = min((task.cost(model) for model in available if _within(a_priori(task, model), left)), default=inf)
+    for model in sorted(task.models, key=lambda model: (task.cost(model), -len(model.keeps))):
+        one = _after(task, model) if chosen or left <= 0 else _verdict(task, model, secure)
         considered.append(one)
         if one.verdict is Verdict.CHOSEN:
             chosen = one
@@ -207,45 +207,45 @@ def advise(
         chosen=chosen,
         nearest=None if chosen else min(short, key=lambda one: one.error or 0.0, default=None),
         considered=tuple(considered),
-        numbers=asked.numbers,
+        numbers=task.numbers,
         result=known.get((chosen.model, chosen.resolution or 0)) if chosen else None,
         spent_cpu_s=sum(result.numerics.cpu_s for result in known.values()),
         omitted=omitted,
     )
 
 
-def _after(asked: Question, model: Model) -> Considered:
-    """A rung that costs no less than the one chosen, or of whose tolerance nothing is left: it is not run."""
-    before = a_priori(asked, model)
-    lost = "what all of them leave out takes all of the tolerance" if asked.within <= 0 else None
-    short = lost is not None or (before is not None and not before.error <= asked.within)
-    told = "" if before is None else f"expected within {percent(before.error)}, "
-    return Considered(
+def _after(task: AdviceTask, model: Model) -> ModelVerdict:
+    """The verdict on a model that is not run: a cheaper one is chosen, or nothing of the tolerance is left."""
+    before = a_priori(task, model)
+    lost = "the effect that all models leave out exceeds the tolerance" if task.within <= 0 else None
+    short = lost is not None or (before is not None and not before.error <= task.within)
+    expected = "" if before is None else f"expected within {percent(before.error)}, "
+    return ModelVerdict(
         model=model.name,
-        resolution=asked.resolution(model),
-        cpu_s=asked.cost(model),
+        resolution=task.resolution(model),
+        cpu_s=task.cost(model),
         verdict=Verdict.NOT_ENOUGH if short else Verdict.NOT_NEEDED,
-        reason=lost or _main(before) if short else f"{told}for {asked.cost(model):.2g} CPU s",
+        reason=lost or _main(before) if short else f"{expected}for {task.cost(model):.2g} CPU s",
         a_priori=before,
     )
 
 
-def _keeps(before: Estimate | None, within: float) -> bool:
+def _within(before: Estimate | None, within: float) -> bool:
     return before is not None and before.sure and before.error <= within
 
 
-def _considered(asked: Question, model: Model, secure: float) -> Considered:
-    """Judge a rung; ``secure``, CPU seconds, is what the cheapest costs that is enough by its numbers."""
-    resolution = asked.resolution(model)
-    here, before = model.available(), a_priori(asked, model)
+def _verdict(task: AdviceTask, model: Model, secure: float) -> ModelVerdict:
+    """The verdict on a model; ``secure`` is the cost of the cheapest one that the laws accept, CPU seconds."""
+    resolution = task.resolution(model)
+    here, before = model.available(), a_priori(task, model)
 
     def judged(
         verdict: Verdict, reason: str, after: Estimate | None = None, resolution: int = resolution
-    ) -> Considered:
-        return Considered(
+    ) -> ModelVerdict:
+        return ModelVerdict(
             model=model.name,
             resolution=resolution,
-            cpu_s=asked.cost(model, resolution),
+            cpu_s=task.cost(model, resolution),
             verdict=verdict,
             reason=reason,
             a_priori=before,
@@ -254,53 +254,60 @@ def _considered(asked: Question, model: Model, secure: float) -> Considered:
 
     if not here.available:
         return judged(Verdict.NOT_HERE, here.detail)
-    above = asked.next(model)
-    trial = asked.cost(model) + (asked.cost(above) if above else 0.0)
-    doubtful = before is not None and before.sure and before.error > asked.within
-    if before is not None and doubtful and (before.error > HOPELESS * asked.within or trial > secure):
+    above = task.next(model)
+    trial = task.cost(model) + (task.cost(above) if above else 0.0)
+    rejected = before is not None and before.sure and before.error > task.within
+    if before is not None and rejected and (before.error > MAX_ERROR_RATIO * task.within or trial > secure):
         return judged(Verdict.NOT_ENOUGH, _main(before))
     if above is None:
-        return _top(asked, model, judged)
-    after = a_posteriori(asked, model)
+        return _top(task, model, judged)
+    after = a_posteriori(task, model)
     if after is None:
-        if failure := asked.failed.get((model.name, resolution)):
-            return judged(Verdict.IN_VAIN, str(failure))
-        if _keeps(before, asked.within):
+        if failure := task.failed.get((model.name, resolution)):
+            return judged(Verdict.FAILED, str(failure))
+        if _within(before, task.within):
             return judged(Verdict.CHOSEN, _main(before))
-        why = "its error is not known here, and no cheap rung can tell" if before is None else _main(before)
+        why = "its error is not known here, and no cheap model can estimate it" if before is None else _main(before)
         return judged(Verdict.NOT_ENOUGH, why)
-    agree = before is None or not before.sure or (before.error <= asked.within) == (after.error <= asked.within)
+    agree = before is None or not before.sure or (before.error <= task.within) == (after.error <= task.within)
     if not agree:
-        chain = asked.chain(model)
-        dear = len(chain) < 3 or not affordable(asked, chain[2], model)
-        decided = None if dear else a_posteriori(asked, model, above=2)
+        chain = task.chain(model)
+        costly = len(chain) < 3 or not affordable(task, chain[2], model)
+        decided = None if costly else a_posteriori(task, model, above=2)
         if decided is not None:
             after = decided
-        elif after.error <= asked.within:
+        elif after.error <= task.within:
             return judged(Verdict.NOT_ENOUGH, f"{_main(before)}; the two estimates disagree", after)
-    enough = after.sure and after.error <= asked.within
+    enough = after.sure and after.error <= task.within
     return judged(Verdict.CHOSEN if enough else Verdict.NOT_ENOUGH, after.reasons[0], after)
 
 
-def _top(asked: Question, model: Model, judged: Callable[..., Considered]) -> Considered:
-    """Judge a rung at the top: by its grids, from the coarsest that its numbers allow on, each by its own word."""
-    before = a_priori(asked, model)
+def _top(task: AdviceTask, model: Model, judged: Callable[..., ModelVerdict]) -> ModelVerdict:
+    """The verdict on the most complete model, by its own uncertainty on finer and finer grids."""
+    before = a_priori(task, model)
     last: tuple[Estimate, int] | None = None
-    for resolution in (one for one in model.resolutions_of(asked.scene) if one >= asked.resolution(model)):
-        after = by_its_own_word(asked, model, resolution)
+    for resolution in (one for one in model.resolutions_of(task.scene) if one >= task.resolution(model)):
+        after = self_estimate(task, model, resolution)
         if after is None:
             break
-        if after.error <= asked.within:
+        if after.error <= task.within:
             return judged(Verdict.CHOSEN, after.reasons[0], after, resolution)
         last = after, resolution
     if last is not None:
         return judged(Verdict.NOT_ENOUGH, last[0].reasons[0], *last)
-    if failure := asked.failed.get((model.name, asked.resolution(model))):
-        return judged(Verdict.IN_VAIN, str(failure))
-    if _keeps(before, asked.within):
+    if failure := task.failed.get((model.name, task.resolution(model))):
+        return judged(Verdict.FAILED, str(failure))
+    if _within(before, task.within):
         return judged(Verdict.CHOSEN, _main(before))
-    return judged(Verdict.NOT_ENOUGH, "how far off its grid is is not known here" if before is None else _main(before))
+    return judged(
+        Verdict.NOT_ENOUGH,
+        "the discretisation error of this model is not known here" if before is None else _main(before),
+    )
 
 
 def _main(estimate: Estimate | None) -> str:
-    return estimate.reasons[0] if estimate is not None and estimate.reasons else "keeps all that the ladder knows"
+    return (
+        estimate.reasons[0]
+        if estimate is not None and estimate.reasons
+        else "includes every effect available for this kind of scene"
+    )

@@ -1,4 +1,4 @@
-"""How far off a rung is, by the numbers of a scene: products of powers, fitted to sweeps, read from a table."""
+"""Error laws of the models: products of powers of a scene's numbers, fitted to sweeps and read from a table."""
 
 import math
 import tomllib
@@ -16,15 +16,15 @@ TABLE = "laws.toml"
 
 @dataclass(frozen=True, kw_only=True)
 class Law:
-    """An error, over the size of the quantity, that 95 of 100 scenes of a sweep did not exceed: C Π number^power.
+    """The law C Π number^power of an error over the quantity's size that 95 of 100 scenes of a sweep did not exceed.
 
     Attributes
     ----------
     coefficient : C.
-    powers : of the numbers.
-    reach : the least and the greatest value of each in the sweep.
-    scenes : how many were fitted to.
-    spread : the factor between the bound and the middle of the errors.
+    powers : power of each number.
+    reach : least and greatest value of each number in the sweep.
+    scenes : number of scenes of the fit.
+    spread : ratio of the bound to the median error.
     """
 
     coefficient: float
@@ -34,14 +34,14 @@ class Law:
     spread: float = 1.0
 
     def knows(self, numbers: Numbers) -> bool:
-        """Whether a scene has all the numbers that are asked for."""
+        """Whether a scene has all numbers of the law."""
         return self.powers.keys() <= numbers.keys()
 
     def error(self, numbers: Numbers, follows: Container[str] = ()) -> float:
-        """What is to be expected at most; infinite where a number vanishes by which it divides, or is none.
+        """The largest expected error; infinite where it divides by 0, and for a number that is negative or NaN.
 
-        Beyond the sweep an error shrinks with the number that it ``follows`` alone, which takes the effect itself away;
-        of the others a power says nothing there.
+        Below the sweep the error shrinks only with the numbers that it ``follows``, those of the effect itself; other
+        numbers keep their least value in the sweep.
         """
         parts = []
         for name, power in self.powers.items():
@@ -53,50 +53,50 @@ class Law:
                 parts.append(number**power)
             except (ZeroDivisionError, OverflowError):
                 return math.inf
-        found = self.coefficient * math.prod(parts)
-        return math.inf if math.isnan(found) else found
+        error = self.coefficient * math.prod(parts)
+        return math.inf if math.isnan(error) else error
 
     def beyond(self, numbers: Numbers, follows: Container[str] = ()) -> str | None:
-        """The number that lies where nothing was swept and errors may be larger; None if there is none.
+        """The number that lies beyond the sweep on a side where the error may be larger; None if there is none.
 
-        As effects vanish with a scene's numbers, that is above the sweep, and below it where the error grows there.
+        As effects vanish with a scene's numbers, this is above the sweep, and below it where the power is negative.
         """
         for name, power in self.powers.items():
             least, greatest = self.reach.get(name, (0.0, math.inf))
-            above, below = numbers[name] > FARTHER * greatest, numbers[name] < least / FARTHER
+            above, below = numbers[name] > RANGE_FACTOR * greatest, numbers[name] < least / RANGE_FACTOR
             if (above and (power > 0 or name not in follows)) or (below and power < 0):
                 return name
         return None
 
 
 RESOLVING = ("resolution", "points_per_wave")
-"""Numbers that a grid makes greater at will."""
+"""Numbers of the grid."""
 
 
 def on_grid(numbers: Numbers, resolution: int) -> Numbers:
-    """A scene's numbers with those of a grid: its resolution, and points per wave of a surface that has ``waves``."""
-    told = {**numbers, "resolution": float(resolution)}
+    """The numbers of a scene with those of a grid: resolution, and points per wave if the surface has ``waves``."""
+    extended = {**numbers, "resolution": float(resolution)}
     if "waves" in numbers:
-        told["points_per_wave"] = resolution / numbers["waves"] if numbers["waves"] > 0 else math.inf
-    return told
+        extended["points_per_wave"] = resolution / numbers["waves"] if numbers["waves"] > 0 else math.inf
+    return extended
 
 
-FARTHER = 1.2
-"""So far beyond the scenes of a sweep a law still counts."""
+RANGE_FACTOR = 1.2
+"""Factor by which a number may exceed the range of a sweep."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Step:
-    """From a rung to the next one that keeps more.
+    """The step from a model to the next one that keeps more effects.
 
     Attributes
     ----------
-    kind, model, towards : the kind of scene, the rung and the next one.
-    adds : what that keeps and this one leaves out, in words.
-    tells : the number that an engineer would look at.
-    left_out : by quantity, the difference to the next rung.
-    seen_from : the rung below, for rungs whose next one is dear.
-    seen : by quantity, the difference to the next rung where that to the rung below is ``correction`` large.
+    kind, model, towards : the kind of scene, the model and the next one.
+    adds : the effect that the next one adds, in words.
+    tells : the number that measures the effect.
+    left_out : law of the difference to the next model, by quantity.
+    seen_from : the model below, for models whose next one costs much.
+    seen : law of the difference to the next model from that to the model below, ``correction``, by quantity.
     """
 
     kind: str
@@ -111,7 +111,7 @@ class Step:
 
 @dataclass(frozen=True, kw_only=True)
 class Grid:
-    """What the ``resolution`` of a rung is worth, by quantity."""
+    """The laws of the error that the ``resolution`` of a model causes, by quantity."""
 
     kind: str
     model: str
@@ -120,19 +120,19 @@ class Grid:
 
 @dataclass(frozen=True, kw_only=True)
 class Table:
-    """The steps between rungs, the first of those from a rung whose next one applies being its own, and their grids."""
+    """The steps between models and the laws of their grids; a model takes its first step whose next model applies."""
 
     steps: Sequence[Step]
     grids: Sequence[Grid]
     provenance: Mapping[str, Any]
 
     def step(self, kind: str, model: str, applying: Container[str]) -> Step | None:
-        """That of a rung where these apply; None at the top, and for a rung that is not known."""
+        """The step of a model where these apply; None at the top, and for an unknown model."""
         own = (step for step in self.steps if (step.kind, step.model) == (kind, model) and step.towards in applying)
         return next(own, None)
 
     def grid(self, kind: str, model: str, quantity: str) -> Law | None:
-        """What a rung's resolution is worth; None where it is not known."""
+        """The law of a model's resolution; None where it is unknown."""
         own = (grid.laws.get(quantity) for grid in self.grids if (grid.kind, grid.model) == (kind, model))
         return next(own, None)
 
@@ -146,7 +146,7 @@ def _laws(entries: Mapping[str, Any]) -> dict[str, Law]:
 
 
 def read_table(text: str) -> Table:
-    """A table from its text."""
+    """The table in a TOML text."""
     entries = tomllib.loads(text)
     return Table(
         steps=tuple(

@@ -1,4 +1,4 @@
-"""What happens where the walls of a bearing touch, as a scene file writes it."""
+"""The table of a scene that describes contact between the walls of a bearing."""
 
 from typing import Annotated, Self
 
@@ -8,7 +8,7 @@ from roughfilm.contact.foundation.entries import Part, plain_number
 from roughfilm.rom.parts.solids import Counter, RoughBody
 
 
-def _not_negative(value: object) -> float:
+def _friction_coefficient(value: object) -> float:
     number = plain_number(value)
     if not 0 <= number <= 10:
         raise ValueError(f"got {number!r}; it must be 0 to 10")
@@ -16,18 +16,21 @@ def _not_negative(value: object) -> float:
 
 
 class AsperityContact(Part):
-    """Boundary ``friction`` where asperities touch, and the solids: of the rough wall, and of the smooth one.
+    """Contact between the asperities of the rough wall and the smooth wall.
 
-    The smooth wall is rigid without ``counter``, the rough one elastic without a hardness. A roughness that is a stored
-    table was made for its solids, and here are none then.
+    Attributes
+    ----------
+    friction : coefficient of boundary friction where asperities touch.
+    solid : solid of the rough wall, elastic if it has no hardness; None with a stored table, which has its own solids.
+    counter : solid of the smooth wall; None if that wall is rigid.
     """
 
-    friction: Annotated[float, BeforeValidator(_not_negative)] = 0.1
+    friction: Annotated[float, BeforeValidator(_friction_coefficient)] = 0.1
     solid: RoughBody | None = None
     counter: Counter | None = None
 
     @model_validator(mode="after")
     def _has_a_rough_wall(self) -> Self:
         if self.counter is not None and self.solid is None:
-            raise ValueError("solid: is missing, but there is a counter; say of what the rough wall is")
+            raise ValueError("solid: is missing, but there is a counter; give the solid of the rough wall")
         return self

@@ -1,4 +1,4 @@
-"""A bearing's film with its roughness: averaged, or wave by wave; and the cells that the waves need."""
+"""Films with roughness, averaged or resolved, and the grids that resolve its waves."""
 
 import math
 from dataclasses import replace
@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.rom.bearing.model import MOST, PLANE, RESOLVED, WIDE
+from roughfilm.rom.bearing.model import MAX_CELLS, smooth_resolutions
+from roughfilm.rom.bearing.pad import CELLS_PER_FEATURE
 from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.roughness import StoredTable
 from roughfilm.rom.bearing.scene import Bearing
@@ -17,34 +18,40 @@ if TYPE_CHECKING:
     from roughfilm.rom.cavitation.problem import Problem
     from roughfilm.rom.cavitation.shape import Shape
 
-FINER = {True: (1, 2, 4, 8), False: (1, 2, 4)}
-"""Times the cells that resolve the waves, of an infinitely wide film and of others."""
+REFINEMENTS = {True: (1, 2, 4, 8), False: (1, 2, 4)}
+"""Multiples of the cells that resolve the waves, for an infinitely wide film (True) and for others."""
 
-ENOUGH = {True: 4_000_000, False: 512}
-"""Cells along a side beyond which twice those that resolve the waves are the finest grid by default."""
+REFINED_CELLS = {True: 4_000_000, False: 512}
+"""Number of cells along a side up to which refinements above 2 are used, for an infinitely wide film and for others."""
 
 
 def averaged_film(scene: Bearing) -> "Problem":
-    """The smooth film's mean gap, with the flow factors of the roughness."""
+    """The problem of the mean gap with the flow factors of the roughness.
+
+    Raises
+    ------
+    InputError
+        If the roughness seals the film.
+    """
     assert scene.roughness is not None
     problem, film = scene.problem(), scene.geometry.film
     factors = scene.roughness.factors(film)
     narrowest = factors(np.array([film]))
-    shut = [
-        way
-        for way, factor in (("along", narrowest.along), ("across", narrowest.across))
-        if factor[0] == 0 and not (way == "across" and scene.wide)
+    sealed = [
+        direction
+        for direction, factor in (("along", narrowest.along), ("across", narrowest.across))
+        if factor[0] == 0 and not (direction == "across" and scene.wide)
     ]
-    if shut:
+    if sealed:
         raise InputError(
-            f"scene.roughness: seals a film of {film:.3g} m, so that nothing flows {' or '.join(shut)} the sliding; "
-            "make the film thicker or the roughness lower"
+            f"scene.roughness: blocks the flow {' and '.join(sealed)} the sliding direction in a film of {film:.3g} m; "
+            "increase the film thickness or lower the roughness"
         )
     return replace(problem, shape=replace(problem.shape, roughness=factors))
 
 
 def rough_film(scene: Bearing) -> "Problem":
-    """The film with every wave of the roughness."""
+    """The problem of the film with all waves of the roughness."""
     problem, roughness = scene.problem(), scene.roughness
     assert roughness is not None
     assert not isinstance(roughness, StoredTable)
@@ -58,63 +65,69 @@ def rough_film(scene: Bearing) -> "Problem":
     return replace(problem, shape=shape)
 
 
-def resolving(scene: Bearing) -> int:
-    """Cells along each side that the shortest waves need."""
+def resolving_cells(scene: Bearing) -> int:
+    """The number of cells along a side that resolves the shortest waves."""
     assert scene.roughness is not None
     sides = (scene.geometry.length, scene.geometry.width or 0.0)
-    return math.ceil(max(RESOLVED * side / wave for side, wave in zip(sides, scene.roughness.finest, strict=True)))
+    return math.ceil(
+        max(CELLS_PER_FEATURE * side / wave for side, wave in zip(sides, scene.roughness.finest, strict=True))
+    )
 
 
 def rough_resolutions(scene: Bearing) -> tuple[int, ...]:
-    """Cells from coarse to fine: those that resolve the waves and multiples of them, at least as a smooth film has."""
-    smooth = WIDE if scene.wide else PLANE
+    """The numbers of cells from coarse to fine: multiples of those that resolve the waves."""
+    smooth = smooth_resolutions(scene)
     if scene.roughness is None or isinstance(scene.roughness, StoredTable):
         return smooth
-    least = max(resolving(scene), smooth[-1] // FINER[scene.wide][-1])
-    asked = [least * times for times in FINER[scene.wide] if times <= 2 or least * times <= ENOUGH[scene.wide]]
-    return tuple(dict.fromkeys(min(cells, MOST[scene.wide]) for cells in asked))
+    least = max(resolving_cells(scene), smooth[-1] // REFINEMENTS[scene.wide][-1])
+    refined = [
+        least * factor
+        for factor in REFINEMENTS[scene.wide]
+        if factor <= 2 or least * factor <= REFINED_CELLS[scene.wide]
+    ]
+    return tuple(dict.fromkeys(min(cells, MAX_CELLS[scene.wide]) for cells in refined))
 
 
-def averages(scene: Bearing) -> Applicability:
-    """Whether roughness can be averaged, and how short it is against the bearing."""
+def averaging_applies(scene: Bearing) -> Applicability:
+    """Whether the roughness can be averaged, with the ratio of its period to the length of the bearing."""
     roughness = scene.roughness
     if roughness is None:
-        return Applicability(applies=False, reason="there is no roughness to average: reynolds_cavitating is the same")
-    told = f"takes {roughness.told} as infinitely short"
+        return Applicability(applies=False, reason="the wall is smooth; use reynolds_cavitating")
+    reason = f"assumes that the waves of {roughness.label} are infinitely short"
     if math.isfinite(roughness.period):
-        told += f": period over length = {roughness.period / scene.geometry.length:.2g}"
+        reason += f": period over length = {roughness.period / scene.geometry.length:.2g}"
     if isinstance(scene.geometry, Ring):
-        told += "; the lay turns with the direction of sliding"
-    return Applicability(applies=True, reason=told)
+        reason += "; the lay rotates with the sliding direction"
+    return Applicability(applies=True, reason=reason)
 
 
-def averages_film(scene: Bearing) -> Applicability:
-    """The same, without contact."""
-    fits = averages(scene)
-    told = "" if scene.asperities is None else "; leaves out what asperities carry where walls touch"
-    return replace(fits, reason=fits.reason + told)
+def homogenized_applies(scene: Bearing) -> Applicability:
+    """Whether the roughness can be averaged without contact of asperities."""
+    fits = averaging_applies(scene)
+    contact = "" if scene.asperities is None else "; leaves out the contact load of asperities"
+    return replace(fits, reason=fits.reason + contact)
 
 
-def follows(scene: Bearing) -> Applicability:
-    """Whether every wave of the roughness can be followed, in how many cells."""
+def direct_applies(scene: Bearing) -> Applicability:
+    """Whether all waves of the roughness can be resolved, with the number of cells."""
     roughness = scene.roughness
     if roughness is None:
-        why = "there is no roughness to follow: reynolds_cavitating is the same"
+        why = "the wall is smooth; use reynolds_cavitating"
     elif isinstance(roughness, StoredTable):
-        why = "a table of flow factors has no waves that could be followed; give the surface itself"
+        why = "a table of flow factors has no waves; give the surface itself"
     elif isinstance(scene.geometry, Ring):
-        why = "a lay that turns with the direction of sliding has no waves that could be laid over a sector"
+        why = "a lay that rotates with the sliding direction cannot be resolved on a ring"
     elif scene.wide and not math.isinf(roughness.finest[1]):
-        why = "the roughness varies across an infinitely wide film; give the bearing a width"
+        why = "the roughness varies across the infinitely wide film; give the bearing a width"
     elif roughness.peak >= scene.geometry.film:
         why = (
-            f"the roughness is {roughness.peak:.3g} m high where the film is {scene.geometry.film:.3g} m thick: the "
-            "walls would touch, and nothing here presses them"
+            f"the walls touch: the roughness is {roughness.peak:.3g} m high in a film of {scene.geometry.film:.3g} m; "
+            "this model has no contact"
         )
-    elif resolving(scene) > MOST[scene.wide]:
-        why = f"its waves need {resolving(scene)} cells along a side, more than the {MOST[scene.wide]} that are taken"
+    elif resolving_cells(scene) > MAX_CELLS[scene.wide]:
+        why = f"the waves need {resolving_cells(scene)} cells along a side; at most {MAX_CELLS[scene.wide]} are allowed"
     else:
-        cells = "" if scene.wide else f" × {resolving(scene)}"
-        told = f"follows every wave: at least {resolving(scene)}{cells} cells; leaves out inertia, heat and deformation"
-        return Applicability(applies=True, reason=told)
+        cells = "" if scene.wide else f" × {resolving_cells(scene)}"
+        resolved = f"resolves all waves with at least {resolving_cells(scene)}{cells} cells"
+        return Applicability(applies=True, reason=f"{resolved}; leaves out inertia, heat and deformation")
     return Applicability(applies=False, reason=why)

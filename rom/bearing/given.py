@@ -1,4 +1,4 @@
-"""A film whose thickness is given point by point, in a file beside the scene."""
+"""Films whose thickness is given by points in a file."""
 
 from functools import lru_cache
 from pathlib import Path
@@ -12,21 +12,22 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import Length
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.surfaces.files import read_surface
-from roughfilm.rom.bearing.pad import Pad
+from roughfilm.rom.bearing.pad import CELLS_PER_FEATURE, Pad
 from roughfilm.rom.bearing.texture import pocketed
 from roughfilm.rom.cavitation.shape import Shape
 from roughfilm.rom.parts.surface_geometry import PLAIN_FORMATS, digest_of
 
-FEWEST = 8
-"""Cells to the shortest feature; here each point of the file is to have one."""
-
 
 class Given(Pad):
-    """h over a rectangle by points, those at its edges included, bilinear between; shifted to be ``film`` at the least.
+    """A film over a rectangle, bilinear between given points, and shifted to the minimum thickness ``film``.
 
-    ``thickness`` names a file: NPY, an array [x, y] in m, or CSV, a line for each y and a column for each x, in m too
-    or as a header says (``# spacing: 1 mm, 1 mm; heights: um``; the points lie over length and width all the same).
-    ``digest`` is that of the numbers in it: a scene that was written back is not read over others.
+    The outermost points lie on the edges of the rectangle.
+
+    Attributes
+    ----------
+    thickness : path of a file: NPY, an array [x, y] in m, or CSV, a line for each y and a column for each x, in m or in
+        the unit of its header (``# spacing: 1 mm, 1 mm; heights: um``; the spacing has no effect).
+    digest : digest of the numbers in the file; a file that has changed since is rejected.
     """
 
     shape: Literal["given"]
@@ -35,32 +36,32 @@ class Given(Pad):
     digest: str | None = None
 
     @model_validator(mode="after")
-    def _is_there(self) -> Self:
+    def _can_be_read(self) -> Self:
         try:
-            found = self._read()[1]
+            digest = self._read()[1]
         except InputError as error:
             raise ValueError(f"thickness: in {error}") from None
-        if self.digest not in (None, found):
+        if self.digest not in (None, digest):
             raise ValueError(
-                f"digest: got {self.digest!r:.40}, but {self.thickness} holds other numbers by now, {found!r}; leave "
-                "the digest out to take them"
+                f"digest: got {self.digest!r:.40}, but the numbers in {self.thickness} now have {digest!r}; leave the "
+                "digest out to accept them"
             )
-        return self.model_copy(update={"digest": found})
+        return self.model_copy(update={"digest": digest})
 
     def _read(self) -> tuple[Array, str]:
-        """The numbers above the least of them, m, shape (nx, ny), and their digest."""
+        """The thickness above its minimum, m, shape (nx, ny), and the digest of the file."""
         path = Path(self.thickness).expanduser()
         if path.suffix.lower() not in PLAIN_FORMATS:
             raise InputError(f"{path}: is neither NPY nor CSV; save the film thickness as one of them")
         try:
             state = path.stat()
         except OSError as error:
-            told = "no such file" if isinstance(error, FileNotFoundError) else f"cannot be read ({error.strerror})"
-            raise InputError(f"{path}: {told}; name a file of film thickness") from None
-        return _above_least(str(path), state.st_mtime_ns, state.st_size)
+            reason = "no such file" if isinstance(error, FileNotFoundError) else f"cannot be read ({error.strerror})"
+            raise InputError(f"{path}: {reason}; name a file of film thickness") from None
+        return _above_minimum(str(path), state.st_mtime_ns, state.st_size)
 
     def film_shape(self) -> Shape:
-        """The film."""
+        """The shape of the film, with its texture."""
         above = self._read()[0]
         pixels = tuple(side / (count - 1) for side, count in zip((self.length, self.width), above.shape, strict=True))
 
@@ -73,17 +74,17 @@ class Given(Pad):
             breaks=(0.0, self.length),
             across=(0.0, self.width),
             wide=False,
-            finest=(FEWEST * pixels[0], FEWEST * pixels[1]),
+            finest=(CELLS_PER_FEATURE * pixels[0], CELLS_PER_FEATURE * pixels[1]),  # one cell for each point
         )
         return smooth if self.texture is None else pocketed(smooth, self.texture)
 
 
 @lru_cache(maxsize=4)
-def _above_least(name: str, _modified: int, _size: int) -> tuple[Array, str]:
+def _above_minimum(name: str, _modified: int, _size: int) -> tuple[Array, str]:
     path = Path(name)
-    told = path.suffix.lower() == ".csv" and path.read_bytes()[:16].lstrip().startswith(b"#")
-    surface = read_surface(path, spacing=(1.0, 1.0), height_unit=None if told else "m")
+    has_header = path.suffix.lower() == ".csv" and path.read_bytes()[:16].lstrip().startswith(b"#")
+    surface = read_surface(path, spacing=(1.0, 1.0), height_unit=None if has_header else "m")
     if surface.invalid.any():
         i, j = np.argwhere(surface.invalid)[0]
-        raise InputError(f"{path}: has no number at x {i}, y {j}; fill it in")
+        raise InputError(f"{path}: has no number at x {i}, y {j}; fill the gap")
     return surface.heights - surface.heights.min(), digest_of(surface)

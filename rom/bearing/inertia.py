@@ -1,19 +1,19 @@
-r"""What inertia adds to a film in balance, to first order in the Reynolds number.
+r"""The change of a converged film by inertia, to first order in the Reynolds number.
 
-Across the film, Y = z/h from the still wall to the sliding one, u = UY + 6a φ and v = 6b φ with φ = Y(1 - Y), as the
-Reynolds equation has them: q = h (U/2 + a, b). The momentum weighted with φ, which removes the unknown first-order
-profile, gives the flow that inertia drives in a film whose pressure it changes by p₁,
+With Y = z/h from the fixed wall to the sliding one and φ = Y(1 - Y), the velocities of the Reynolds equation are
+u = UY + 6a φ and v = 6b φ, and the flow is q = h (U/2 + a, b). The momentum balance weighted with φ, which removes the
+unknown first-order profile, gives the flow that inertia drives while it changes the pressure by p₁,
 
     q₁ = -h³/(12η) ∇p₁ - ρ h²/(2η) C,    ∇·q₁ = 0,
     Cx = ∂x(h (U²/20 + Ua/5 + 9a²/35)) + ∂y(h b (U/10 + 9a/35)) + U h' (U/60 + a/70),
     Cy = ∂x(h b (U/10 + 9a/35)) + ∂y(9h b²/35) + U h' b/70,    h' = ∂h/∂x,
 
-and weighted with Y what the sliding wall feels of it, h/2 ∂p₁/∂x + ρD with
+and weighted with Y the shear stress that it adds on the sliding wall, h/2 ∂p₁/∂x + ρD with
 
     D = ∂x(h (U²/4 + 3Ua/5 + 3a²/5)) + ∂y(h b (3U/10 + 3a/5)) - U h' (U/20 + a/10).
 
-On a line this is :func:`rom.pocket.closed_form.inertia_pressure_gradient`. Where the film is torn, and where its ends
-or sides have a pressure, p₁ = 0: the film ends where it did, and what liquid loses or gains as it enters is left out.
+On a line this is :func:`roughfilm.rom.pocket.closed_form.inertia_pressure_gradient`. In cavities, and at ends and sides
+with a prescribed pressure, p₁ = 0: the edges of the film do not move, and entrance losses are left out.
 """
 
 from dataclasses import dataclass
@@ -32,8 +32,13 @@ from roughfilm.rom.cavitation.solve import Solution
 
 @dataclass(frozen=True, kw_only=True)
 class Inertia:
-    """What inertia adds: p₁, Pa, at the nodes, shape (nx, ny); of load and friction, N, and of the flow that enters,
-    m³/s (N/m and m²/s if infinitely wide).
+    """The changes by inertia.
+
+    Attributes
+    ----------
+    pressure : p₁ at the nodes, Pa, shape (nx, ny).
+    load, friction : changes of load and friction, N (N/m if infinitely wide).
+    inlet_flow : change of the flow through the inlet, m³/s (m²/s if infinitely wide).
     """
 
     pressure: Array
@@ -42,32 +47,32 @@ class Inertia:
     inlet_flow: float
 
 
-def inertia(scene: Bearing, found: Solution) -> Inertia:
-    """First-order inertia of a film in balance, of a lubricant whose density is told.
+def inertia(scene: Bearing, solution: Solution) -> Inertia:
+    """The first-order changes of a converged film by inertia.
 
-    With roughness the velocities are those of a smooth film as thick as the mean gap, what p₁ drives that of the rough
-    one, without the slant of a lay.
+    With roughness the velocities are those of a smooth film with the same mean gap, and p₁ drives the flow of the rough
+    film without the cross flow of an oblique lay.
 
     Raises
     ------
     InputError
-        Without a density, and on rings, whose liquid also turns.
+        Without a density, and on rings, where centrifugal forces act.
     """
-    density, shape = scene.lubricant.density, found.problem.shape
+    density, shape = scene.lubricant.density, solution.problem.shape
     if density is None:
-        raise InputError("scene.lubricant.density: is missing; inertia cannot be judged without it")
+        raise InputError("scene.lubricant.density: is missing; it is needed to estimate inertia")
     if shape.polar or shape.joined[0]:
-        raise InputError("scene.geometry: inertia is not judged on rings, where the liquid also turns")
-    h, problem, grid = found.faces.thickness, found.problem, found.grid
-    viscosity = problem.viscosity / problem.piezoviscosity.fluidity(found.state.pressure, problem.viscosity)[0]
+        raise InputError("scene.geometry: inertia cannot be estimated on rings, where centrifugal forces act")
+    h, problem, grid = solution.faces.thickness, solution.problem, solution.grid
+    viscosity = problem.viscosity / problem.piezoviscosity.fluidity(solution.state.pressure, problem.viscosity)[0]
     speed = problem.speed
-    mobility = problem.mobility(found.state.pressure)[0]
-    east, north = found.network.conductance(mobility)
-    a, b = _excess(found, east, north)
+    mobility = problem.mobility(solution.state.pressure)[0]
+    east, north = solution.network.conductance(mobility)
+    a, b = _excess(solution, east, north)
     through_x = h * (speed**2 / 20 + speed * a / 5 + 9 * a**2 / 35)
     through_xy = h * b * (speed / 10 + 9 * a / 35)
     through_y = 9 * h * b**2 / 35
-    wet = found.kind != CAVITY
+    wet = solution.kind != CAVITY
     dx, dy = grid.spacing_x[:-1, None], grid.spacing_y[:-1]
     rise = speed * np.diff(h, axis=0) / dx
     mean = _means(through_xy, 0)
@@ -79,37 +84,37 @@ def inertia(scene: Bearing, found: Solution) -> Inertia:
         y_force = _slope(_means(through_xy, 1), 0, grid.x) + np.diff(through_y, axis=1) / dy
         y_force += _means(climb * b / 70, 1)
         drive_y = -density * _means(h**2 / (2 * viscosity), 1) * y_force * grid.volume_x[:, None] * _both(wet, 1)
-    pressure = _balanced(found.kind == FILM, east[:-1], north[:, :-1], drive, drive_y)
+    pressure = _balanced(solution.kind == FILM, east[:-1], north[:, :-1], drive, drive_y)
 
     flow = drive - east[:-1] * np.diff(pressure, axis=0)
-    feels = np.diff(h * (speed**2 / 4 + 3 * speed * a / 5 + 3 * a**2 / 5), axis=0) / dx
-    feels += _slope(_means(h * b * (3 * speed / 10 + 3 * a / 5), 0), 1, grid.y)
-    feels -= rise * _means(speed / 20 + a / 10, 0)
-    felt = _means(h, 0) / 2 * np.diff(pressure, axis=0) / dx + density * feels * _both(wet, 0)
-    x = -grid.x if found.turned else grid.x
-    force = grid.areas * (found.state.pressure + scene.lubricant.cavitation_pressure)
+    shear = np.diff(h * (speed**2 / 4 + 3 * speed * a / 5 + 3 * a**2 / 5), axis=0) / dx
+    shear += _slope(_means(h * b * (3 * speed / 10 + 3 * a / 5), 0), 1, grid.y)
+    shear -= rise * _means(speed / 20 + a / 10, 0)
+    stress = _means(h, 0) / 2 * np.diff(pressure, axis=0) / dx + density * shear * _both(wet, 0)
+    x = -grid.x if solution.turned else grid.x
+    force = grid.areas * (solution.state.pressure + scene.lubricant.cavitation_pressure)
     return Inertia(
         pressure=pressure,
         load=carried(scene, x, force + grid.areas * pressure) - carried(scene, x, force),
-        friction=float((felt * dx * grid.volume_y).sum()),
+        friction=float((stress * dx * grid.volume_y).sum()),
         inlet_flow=float(flow[0].sum()),
     )
 
 
-def _excess(found: Solution, east: Array, north: Array) -> tuple[Array, Array]:
-    """The a and b of the nodes, m/s: flow over thickness, as the faces beside them let through, less that of shear."""
-    grid, h, pressure = found.grid, found.faces.thickness, found.state.pressure
-    along = (found.network.couette[:-1] - east[:-1] * np.diff(pressure, axis=0)) / grid.volume_y
-    a = np.vstack([along[:1], _means(along, 0), along[-1:]]) / h - found.problem.speed / 2
+def _excess(solution: Solution, east: Array, north: Array) -> tuple[Array, Array]:
+    """The a and b of the nodes, m/s: mean flow through the adjacent faces over the thickness, minus that of sliding."""
+    grid, h, pressure = solution.grid, solution.faces.thickness, solution.state.pressure
+    along = (solution.network.couette[:-1] - east[:-1] * np.diff(pressure, axis=0)) / grid.volume_y
+    a = np.vstack([along[:1], _means(along, 0), along[-1:]]) / h - solution.problem.speed / 2
     if h.shape[1] == 1:
         return a, np.zeros_like(a)
     across = -north[:, :-1] * np.diff(pressure, axis=1) / grid.volume_x[:, None]
-    ends = [0 * across[:, :1]] * 2 if found.problem.ends.sides is None else [across[:, :1], across[:, -1:]]
+    ends = [0 * across[:, :1]] * 2 if solution.problem.ends.sides is None else [across[:, :1], across[:, -1:]]
     return a, np.hstack([ends[0], _means(across, 1), ends[1]]) / h
 
 
 def _balanced(free: NDArray[np.bool_], east: Array, north: Array, drive_x: Array, drive_y: Array) -> Array:
-    """The pressure of free nodes, zero elsewhere, that drives as much into each of them as the drives take out."""
+    """The pressure at free nodes, zero elsewhere, whose flow balances the driven flow at each of them."""
     number = np.full(free.shape, -1)
     number[free] = np.arange(free.sum())
     into = np.zeros(free.shape)
@@ -126,28 +131,29 @@ def _balanced(free: NDArray[np.bool_], east: Array, north: Array, drive_x: Array
             columns += [here[known], there[both]]
             values += [conductance[known], -conductance[both]]
     size = int(free.sum())
-    found = np.zeros(free.shape)
+    solution = np.zeros(free.shape)
     if size:
         entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
-        found[free] = scipy.sparse.linalg.spsolve(
+        solution[free] = scipy.sparse.linalg.spsolve(
             scipy.sparse.csc_array(scipy.sparse.coo_array(entries, shape=(size, size))), into[free]
         )
-    return found
+    return solution
 
 
 def _slope(values: Array, axis: int, places: Array) -> Array:
-    """The derivative at the nodes, zero where there is one node alone."""
+    """The derivative at the nodes; zero with a single node."""
     if values.shape[axis] == 1:
         return np.zeros_like(values)
     return np.asarray(np.gradient(values, places, axis=axis))
 
 
 def _means(values: Array, axis: int) -> Array:
-    """On the faces between the nodes."""
+    """The mean values on the faces between the nodes."""
     moved = np.moveaxis(values, axis, 0)
     return np.moveaxis((moved[1:] + moved[:-1]) / 2, 0, axis)
 
 
 def _both(values: NDArray[np.bool_], axis: int) -> NDArray[np.bool_]:
+    """Whether the nodes on both sides of each face are true."""
     moved = np.moveaxis(values, axis, 0)
     return np.moveaxis(moved[1:] & moved[:-1], 0, axis)

@@ -1,4 +1,4 @@
-"""Bearings: load and friction of a film that may rupture."""
+"""The kind of scene "bearing": load and friction of a film with cavitation."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -20,7 +20,7 @@ from roughfilm.rom.ladder.sweeping import Columns, Powers, Sweeping
 from roughfilm.rom.lubricants.laws import LAWS
 
 NEVER_COMPRESSED = 1e-12
-"""p dθ/dp that stands for an incompressible lubricant."""
+"""Compression that stands for an incompressible lubricant in fits."""
 
 COLUMNS = {
     "compression": "compression",
@@ -28,13 +28,12 @@ COLUMNS = {
     "roughness_ratio": "roughness_ratio",
     "roughness_period": "roughness_period",
 }
-"""Columns of a table of many cases, and the numbers of the scene that stand in them."""
+"""Columns of a table of cases, with the names of their dimensionless numbers."""
 
-LOAD, LEAST_LOAD = "load_per_width", 1e-3
-"""A load below this part of the friction is as good as none."""
+MIN_LOAD_OVER_FRICTION = 1e-3
+"""Load over friction below which errors of the load are related to the friction."""
 
 SYMBOLS = {"compression": "ϑ", "starvation": "θ", "slenderness": "B/L"}
-
 
 CHOSEN: Mapping[tuple[str, ...], Mapping[str, type[Part]]] = {
     ("geometry",): SHAPES,
@@ -42,20 +41,19 @@ CHOSEN: Mapping[tuple[str, ...], Mapping[str, type[Part]]] = {
     ("lubricant", "piezoviscosity"): LAWS,
     ("roughness",): ROUGHNESSES,
 }
-"""Tables that say by one key what else is in them."""
+"""Tables of a scene whose classes depend on one of their keys."""
 
 
 def scale(values: Mapping[str, Any], quantity: str) -> Any:
-    """The size of a quantity; of the load at least ``LEAST_LOAD`` of the friction."""
+    """The magnitude of a quantity; for the load at least ``MIN_LOAD_OVER_FRICTION`` times the friction."""
     size = np.abs(values[quantity])
-    return np.maximum(size, LEAST_LOAD * np.abs(values["friction_per_width"])) if quantity == LOAD else size
+    if quantity != "load_per_width":
+        return size
+    return np.maximum(size, MIN_LOAD_OVER_FRICTION * np.abs(values["friction_per_width"]))
 
 
 def columns(scene: Bearing) -> dict[str, Quantity | str]:
-    """The shape, how dense the inlet is, 6ηuL/h², how much that compresses, width over length if there is one.
-
-    Of a rough wall also rms height over film, and the period over the length.
-    """
+    """The columns of a table of cases: shape, 6ηuL/h², θ of the inlet, and the numbers in ``COLUMNS`` that exist."""
     numbers = bearing_numbers(scene)
     return {
         "shape": scene.geometry.shape,
@@ -70,7 +68,7 @@ def _one(number: float) -> Quantity:
 
 
 def features(given: Columns) -> dict[str, NDArray[Any]]:
-    """θ of the inlet, ϑ at 6ηuL/h², and B/L; ``given`` as in :func:`columns`."""
+    """The features of a fit, θ of the inlet, ϑ at 6ηuL/h² and B/L, from the columns of :func:`columns`."""
     return {
         "starvation": given["inlet_theta"],
         "compression": np.maximum(given["compression"], NEVER_COMPRESSED),
@@ -79,17 +77,17 @@ def features(given: Columns) -> dict[str, NDArray[Any]]:
 
 
 def worth(values: Columns) -> NDArray[np.bool_]:
-    """Every case with a film."""
+    """Whether each case has a film."""
     return np.asarray(values["pressure_max"] > 0)
 
 
 def words(powers: Powers) -> str:
-    """A product of powers as people write it."""
+    """The formula of a product of powers."""
     return " · ".join(SYMBOLS[name] if power == 1 else f"({SYMBOLS[name]})^{power:g}" for name, power in powers.items())
 
 
 def _without_tags(path: Location) -> tuple[list[int | str], type[Part] | None]:
-    """Where a fault stands in the file, and the shape or law whose table that is, if it is one."""
+    """The place of an error in the file, and the class of its table if the table is a shape or a law."""
     for place, classes in CHOSEN.items():
         depth = len(place)
         if tuple(path[:depth]) == place and len(path) > depth and path[depth] in classes:
@@ -97,10 +95,10 @@ def _without_tags(path: Location) -> tuple[list[int | str], type[Part] | None]:
     return list(path), None
 
 
-def told(error: ValidationError, _entries: Mapping[str, Any]) -> str:
-    """The first fault in one line; keys of a table that chooses a shape or a law are known by what it chooses."""
-    found = sorted(error.errors(include_url=False), key=lambda fault: fault["type"] != "extra_forbidden")[0]
-    chosen = _without_tags(found["loc"])[1]
+def validation_message(error: ValidationError, _entries: Mapping[str, Any]) -> str:
+    """The first error of a scene in one line; keys of a shape or a law are compared with those of its class."""
+    first = sorted(error.errors(include_url=False), key=lambda entry: entry["type"] != "extra_forbidden")[0]
+    chosen = _without_tags(first["loc"])[1]
 
     def unknown(location: Location) -> str:
         *path, key = location
@@ -132,12 +130,12 @@ NUMBERS = {
     "reynolds_number": "Re",
     "reduced_reynolds_number": "Re·h/L",
 }
-"""How people write the numbers of a bearing, p being 6ηuL/h²."""
+"""The symbols of the dimensionless numbers, with p = 6ηuL/h²."""
 
 
 def omitted(scene: Bearing, quantity: str) -> Omission | None:
-    """Inertia, to first order, of a lubricant whose density is told; None where a film does not come into balance."""
-    from roughfilm.rom.bearing.omission import inertia_omitted  # whose films take long to import
+    """The first-order effect of inertia; None without a density, or if the film does not converge."""
+    from roughfilm.rom.bearing.omission import inertia_omitted  # slow to import
 
     try:
         return inertia_omitted(scene, quantity)
@@ -146,19 +144,21 @@ def omitted(scene: Bearing, quantity: str) -> Omission | None:
 
 
 def composed(scene: Bearing) -> tuple[str, ...]:
-    """By which model each effect is told, and why; and of a load, that rungs take the film as it is given."""
-    from roughfilm.rom.bearing.effects.explanation import treatments  # as above
+    """A line for each effect with its model and the reason, and a note if the scene has a load."""
+    from roughfilm.rom.bearing.effects.explanation import effect_models  # slow to import
 
-    told = [f"{one.effect}: {one.model}, {one.why}" for one in treatments(scene)]
+    lines = [f"{one.effect}: {one.model}, {one.why}" for one in effect_models(scene)]
     if scene.load is not None:
-        told.append("load: all of this is of the film as given; roughfilm effects finds the film under its load")
-    return tuple(told)
+        lines.append(
+            "load: the numbers hold for the film as given; roughfilm effects solves for the film under the load"
+        )
+    return tuple(lines)
 
 
 KIND = Kind(
     name="bearing",
     scene=Bearing,
-    summary="a film between a shaped wall and a sliding one, which may rupture",
+    summary="a film between a shaped wall and a sliding one, with cavitation",
     compared={"load_per_width": "load", "friction_per_width": "friction"},
     scale=scale,
     columns=columns,
@@ -168,7 +168,7 @@ KIND = Kind(
     omitted=omitted,
     files=frozenset({"table", "surface", "thickness"}),
     lists=frozenset({("roughness", "spacing"), ("roughness", "surface", "size"), ("roughness", "surface", "points")}),
-    told=told,
+    message=validation_message,
     replaces={
         "lubricant.compressibility.law": ("bulk_modulus", "c1", "c2", "table", "fit"),
         "lubricant.piezoviscosity.law": ("pressure_coefficient", "index"),

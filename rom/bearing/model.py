@@ -1,86 +1,58 @@
-"""The models of a bearing as data: their resolutions and cost, and what each solves and reads off its film."""
+"""The models of a bearing as data: allowed grids, cost, and the factory that the models share."""
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, Unpack
+from typing import TYPE_CHECKING, Any, Unpack
 
-from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.deferred import deferred
-from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
 from roughfilm.rom.ladder.model import About, Applicability, Effect, Model, Resolutions
 
 if TYPE_CHECKING:
     from roughfilm.rom.cavitation.problem import Problem
-    from roughfilm.rom.cavitation.solve import Solution
 
-RESOLUTION_MEANING = "cells along the sliding, and as many across where the bearing has a width"
+RESOLUTION_MEANING = "cells along the sliding direction, and as many across if the bearing has a width"
 RESIDUAL_MEANING = "largest net flow into a node over the largest flow through a face"
-WIDE, PLANE = (64, 256, 1024, 4096), (32, 64, 128, 256)
-"""Cells, for infinitely wide bearings and for others."""
-
-LEAST, MOST = 8, {True: 4_000_000, False: 2048}
-
-RESOLVED = 8
-"""Cells that a wave or a pocket needs for its load to be within a few per cent."""
-
 SOURCES = ("10.1115/1.3251669", "10.1016/j.triboint.2007.02.021")
 
-Values = dict[str, tuple[Array, str]]
-"""Fields over the grid, shape (nx, ny), with their units."""
+LINE_CELLS = (64, 256, 1024, 4096)
+"""Numbers of cells from coarse to fine along an infinitely wide film."""
 
-_bearing_quantities = deferred("rom.bearing.quantities", "bearing_quantities")
+PLANE_CELLS = (32, 64, 128, 256)
+"""Numbers of cells from coarse to fine along a side of a film with a width."""
 
+MIN_CELLS = 8
+"""Smallest number of cells along a side."""
 
-def _film_alone(scene: Bearing, _found: "Solution", quantities: Mapping[str, Quantity]) -> dict[str, float]:
-    doubt = 0.0 if scene.roughness is None else scene.roughness.doubt(scene.geometry.film)
-    return {name: abs(quantity.value) * doubt for name, quantity in quantities.items()}
+MAX_CELLS = {True: 4_000_000, False: 2048}
+"""Largest number of cells along a side, for an infinitely wide film (True) and for others."""
 
-
-@dataclass(frozen=True, kw_only=True)
-class Reading:
-    """What is read off a film in balance.
-
-    Attributes
-    ----------
-    quantities : quantities(scene, solution).
-    doubt : doubt(scene, solution, quantities): by how much each may be off as factors are, in its unit.
-    fields : fields(scene, solution), beside those that every film has.
-    """
-
-    quantities: Callable[[Bearing, "Solution"], dict[str, Quantity]] = _bearing_quantities
-    doubt: Callable[[Bearing, "Solution", Mapping[str, Quantity]], Mapping[str, float]] = _film_alone
-    fields: Callable[[Bearing, "Solution"], Values] = lambda _scene, _found: {}
+_solve = deferred("rom.bearing.solve", "solve")
 
 
 def cost(scene: Bearing, cells: int, *, wide: bool, in_plane: float) -> float:
-    """Expected CPU seconds; ``in_plane`` for each cell of a film with a width."""
+    """The expected CPU seconds; ``in_plane`` is the time for each cell of a film with a width."""
     return 4e-3 + 8e-7 * cells if wide or scene.wide else 1e-2 + in_plane * cells**2
 
 
-def roughness_left_out(scene: Bearing, *, told: Callable[[Bearing], Applicability]) -> Applicability:
-    """What a rung says of itself, and how rough the wall is that it takes for smooth."""
-    fits = told(scene)
+def smooth_wall_applies(scene: Bearing, *, applies: Callable[[Bearing], Applicability]) -> Applicability:
+    """Whether a model without roughness applies, with the roughness that it leaves out."""
+    fits = applies(scene)
     if not fits.applies or scene.roughness is None:
         return fits
-    part = scene.roughness.rms / scene.geometry.film
-    return replace(fits, reason=f"{fits.reason}; takes the wall for smooth: rms height over film = {part:.2g}")
+    ratio = scene.roughness.rms / scene.geometry.film
+    return replace(fits, reason=f"{fits.reason}; treats the wall as smooth: rms height over film = {ratio:.2g}")
 
 
 def smooth_resolutions(scene: Bearing) -> tuple[int, ...]:
-    """Cells from coarse to fine, for a wall without roughness."""
-    return WIDE if scene.wide else PLANE
+    """The numbers of cells from coarse to fine for a smooth wall."""
+    return LINE_CELLS if scene.wide else PLANE_CELLS
 
 
-def line_resolutions(scene: Bearing) -> tuple[int, ...]:  # noqa: ARG001
-    """The same where one line is all that is solved."""
-    return WIDE
-
-
-def unchanging_film(scene: Bearing) -> "Problem":
-    """The smooth film of a lubricant that pressure does not change."""
+def incompressible_film(scene: Bearing) -> "Problem":
+    """The problem of the smooth film of a lubricant that pressure does not change."""
     from roughfilm.rom.cavitation.problem import unchanging  # slow to import
 
     return unchanging(scene.problem())
@@ -92,23 +64,31 @@ def bearing_model(
     film: Callable[[Bearing], "Problem"] = Bearing.problem,
     resolutions: Callable[[Bearing], tuple[int, ...]] = smooth_resolutions,
     ruptures: bool = True,
-    reading: Reading = Reading(),
+    solve: Callable[..., Any] = _solve,
     wide: bool = False,
     in_plane: float = 2e-6,
     **about: Unpack[About],
 ) -> Model[Bearing]:
-    """A model of a bearing: ``film`` gives the equations that it solves; one that is ``wide`` solves a single line.
+    """A model of a bearing.
 
-    ``resolutions`` go from coarse to fine; the finest is the default. ``in_plane``: expected CPU seconds for each cell
-    of a film with a width. ``reading``: the quantities and fields that it reads off the film.
+    Parameters
+    ----------
+    applies : applies(scene), whether the model applies.
+    film : film(scene), the problem that the model solves.
+    resolutions : numbers of cells from coarse to fine, the finest of which is the default.
+    ruptures : whether the film cavitates.
+    solve : the solver, as :func:`roughfilm.rom.bearing.solve.solve`.
+    wide : whether the model solves a single line of any film.
+    in_plane : expected CPU seconds for each cell of a film with a width.
+    about : name, summary, effects and sources of the model.
     """
 
     def offered(scene: Bearing) -> Resolutions:
-        series = resolutions(scene)
-        return Resolutions(least=LEAST, most=MOST[wide or scene.wide], default=series[-1], series=series)
+        series = LINE_CELLS if wide else resolutions(scene)
+        return Resolutions(least=MIN_CELLS, most=MAX_CELLS[wide or scene.wide], default=series[-1], series=series)
 
     if Effect.ROUGHNESS not in about["keeps"]:
-        applies = partial(roughness_left_out, told=applies)
+        applies = partial(smooth_wall_applies, applies=applies)
     return Model(
         **about,
         kind="bearing",
@@ -119,5 +99,5 @@ def bearing_model(
         tolerance=RESIDUAL_TOLERANCE,
         cost=partial(cost, wide=wide, in_plane=in_plane),
         applies=applies,
-        compute=partial(deferred("rom.bearing.solve", "solve"), film=film, ruptures=ruptures, reading=reading),
+        compute=partial(solve, film=film, ruptures=ruptures),
     )

@@ -1,37 +1,40 @@
-"""The dimensionless numbers of a bearing: what says before any solution which effects its film will feel."""
+"""The dimensionless numbers of a bearing, which show before any solution which effects matter."""
 
 import math
 from collections.abc import Mapping
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.ring import Ring, Washer
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.texture import Texture
+from roughfilm.rom.cavitation.shape import Shape
 
-PLACES = 129
-"""Along and across, where a film is looked at."""
+SAMPLES = 129
+"""Number of positions along and across at which the film thickness is sampled."""
 
 
 def bearing_numbers(scene: Bearing) -> Mapping[str, float]:
-    """The numbers that a scene has, by name, all of unit 1; h is the least film thickness without texture and waves.
+    """The dimensionless numbers of a scene by name; h is the minimum film thickness without texture and waves.
 
-    ``slenderness`` : width over length, of a bearing that has a width.
-    ``convergence`` : greatest film thickness over h less 1, texture left out, and ``thickness_ratio`` one more;
-    ``finest`` : the shortest feature along the sliding over the length, 1 where there is none.
-    ``starvation`` : θ of the inlet, 1 where it is full; not of joined pads.
-    ``cavitation_number`` : (p_ambient - p_cav)/(6ηuL/h²): tension that the liquid bears over the pressure that sliding
-    makes; infinite at rest.
-    ``divergence`` : the most by which the film grows thicker along the sliding, over h, texture and waves of the shape
-    counted: where there is none, nothing cavitates.
-    ``compression`` : θ - 1 at 6ηuL/h², p/β of a stiff liquid; ``piezoviscous`` : ln η/η0 there, αp by Barus' law;
-    ``pressure_dependence`` : both together.
-    ``roughness_ratio`` : Sq/h; ``peak_ratio`` : Sp/h, above 1 where the walls touch; ``roughness_period`` : period over
-    length, where it is known.
-    ``texture_density`` : the part of the bearing that pockets cover; ``pocket_depth_ratio`` : depth over h;
-    ``pocket_length_ratio`` : length of a pocket over that of the bearing.
-    ``reynolds_number`` : ρuh/η, and ``reduced_reynolds_number`` : ρuh²/(ηl), l the shortest feature along the sliding;
-    of a lubricant whose density is told.
+    slenderness : width over length, if the bearing has a width.
+    convergence : maximum film thickness without texture over h, minus 1.
+    thickness_ratio : convergence plus 1.
+    finest : length of the shortest feature along the sliding direction over the length; 1 without features.
+    starvation : θ at the inlet, 1 if flooded; not for joined pads.
+    cavitation_number : (p_ambient - p_cav)/(6ηuL/h²); infinite at rest.
+    divergence : largest increase of the film thickness along the sliding direction over h, with texture and waves of
+        the shape; a film without divergence does not cavitate.
+    compression : θ - 1 at 6ηuL/h², which is p/β of a stiff liquid.
+    piezoviscous : ln η/η0 at 6ηuL/h², which is αp by Barus' law.
+    pressure_dependence : sum of the two.
+    roughness_ratio, peak_ratio : Sq/h and Sp/h; the walls touch if the latter is above 1.
+    roughness_period : period of the roughness over the length, if the period is known.
+    texture_density : fraction of the bearing that pockets cover.
+    pocket_depth_ratio, pocket_length_ratio : depth of a pocket over h, and its length over that of the bearing.
+    reynolds_number : ρuh/η, if the density is given.
+    reduced_reynolds_number : ρuh²/(ηl), if the density is given; l is the shortest feature along the sliding direction.
     """
     geometry, lubricant, roughness = scene.geometry, scene.lubricant, scene.roughness
     film, length, speed = geometry.film, geometry.length, abs(scene.motion.speed)
@@ -44,9 +47,11 @@ def bearing_numbers(scene: Bearing) -> Mapping[str, float]:
     if not (isinstance(geometry, Ring) and geometry.endless):
         theta = scene.boundary.inlet.theta
         numbers["starvation"] = 1.0 if theta is None else theta
-    made, tension = scene.pressure_unit, 0.0 - lubricant.cavitation_pressure
-    numbers["cavitation_number"] = tension / made if made > 0 else math.copysign(math.inf, tension) if tension else 0.0
-    problem, pressure = scene.problem(), np.array([made])
+    scale, tension = scene.pressure_unit, 0.0 - lubricant.cavitation_pressure
+    numbers["cavitation_number"] = (
+        tension / scale if scale > 0 else math.copysign(math.inf, tension) if tension else 0.0
+    )
+    problem, pressure = scene.problem(), np.array([scale])
     with np.errstate(all="ignore"):
         numbers["compression"] = float(problem.compression(pressure)[0][0])
         thinner = float(problem.piezoviscosity.fluidity(pressure, lubricant.viscosity)[0][0])
@@ -73,22 +78,24 @@ def without_texture(scene: Bearing) -> Bearing:
 
 
 def _finest(scene: Bearing) -> float:
-    """The shortest feature of the wall along the sliding, m; infinite where there is none."""
+    """The length of the shortest feature of the wall along the sliding direction, m; infinite without features."""
     radius = scene.geometry.radius if isinstance(scene.geometry, Ring) else 1.0
     return radius * scene.geometry.film_shape().finest[0]
 
 
+def _sampled_thickness(shape: Shape) -> Array:
+    """The film thickness at ``SAMPLES`` positions along and across, m."""
+    x, y = np.linspace(shape.breaks[0], shape.breaks[-1], SAMPLES), np.linspace(*shape.across, SAMPLES)
+    return shape.thickness(*np.broadcast_arrays(x[:, None], y[:1] if shape.wide else y))
+
+
 def _convergence(scene: Bearing) -> float:
-    shape = without_texture(scene).geometry.film_shape()
-    x, y = np.linspace(shape.breaks[0], shape.breaks[-1], PLACES), np.linspace(*shape.across, PLACES)
-    thickness = shape.thickness(*np.broadcast_arrays(x[:, None], y[:1] if shape.wide else y))
+    thickness = _sampled_thickness(without_texture(scene).geometry.film_shape())
     return float(thickness.max()) / scene.geometry.film - 1
 
 
 def _divergence(scene: Bearing) -> float:
-    shape = scene.geometry.film_shape()
-    x, y = np.linspace(shape.breaks[0], shape.breaks[-1], PLACES), np.linspace(*shape.across, PLACES)
-    thickness = np.asarray(shape.thickness(*np.broadcast_arrays(x[:, None], y[:1] if shape.wide else y)))
+    thickness = _sampled_thickness(scene.geometry.film_shape())
     ahead = thickness if scene.motion.speed >= 0 else thickness[::-1]
     return float((ahead - np.minimum.accumulate(ahead, axis=0)).max()) / scene.geometry.film
 

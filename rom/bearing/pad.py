@@ -1,4 +1,4 @@
-"""What the shapes of films over a rectangle have in common."""
+"""The common base of films over a rectangle."""
 
 import math
 from typing import Self
@@ -10,11 +10,19 @@ from roughfilm.contact.foundation.entries import Length, Part
 from roughfilm.rom.bearing.texture import Texture, pocketed
 from roughfilm.rom.cavitation.shape import Shape
 
+CELLS_PER_FEATURE = 8
+"""Number of cells over a wave or a pocket at which the error of the load is a few per cent."""
+
 
 class Pad(Part):
-    """A film over a rectangle: ``length`` along the sliding, ``width`` across, infinitely wide without it; m.
+    """A film over a rectangle.
 
-    ``film`` is the least film thickness without texture.
+    Attributes
+    ----------
+    length : length along the sliding direction, m.
+    width : width across the sliding direction, m; None if infinitely wide.
+    film : minimum film thickness without texture, m.
+    texture : pockets in the still wall; None without pockets.
     """
 
     length: Length
@@ -23,23 +31,23 @@ class Pad(Part):
     texture: Texture | None = None
 
     def breaks(self) -> tuple[float, ...]:
-        """Where h or its slope jumps, m."""
+        """The positions where h or its slope jumps, m."""
         return 0.0, self.length
 
     @property
     def finest(self) -> float:
-        """The shortest feature along the sliding, m."""
+        """The length of the shortest feature along the sliding direction, m."""
         return math.inf
 
-    def untextured(self, x: Array) -> Array:
-        """h(x), m."""
+    def smooth_thickness(self, x: Array) -> Array:
+        """The film thickness h(x) without texture, m."""
         raise NotImplementedError
 
     def film_shape(self) -> Shape:
-        """The film."""
+        """The shape of the film, with its texture."""
         across = (0.0, self.length if self.width is None else self.width)
         smooth = Shape(
-            thickness=lambda x, y: self.untextured(x) + 0 * y,
+            thickness=lambda x, y: self.smooth_thickness(x) + 0 * y,
             breaks=self.breaks(),
             across=across,
             wide=self.width is None,
@@ -48,17 +56,17 @@ class Pad(Part):
         return smooth if self.texture is None else pocketed(smooth, self.texture)
 
     def at_film(self, film: float) -> Self:
-        """The same wall, shifted."""
+        """The same wall, shifted to another minimum film thickness, m."""
         return self.model_copy(update={"film": film})
 
     @model_validator(mode="after")
-    def _thin(self) -> Self:
+    def _is_thin(self) -> Self:
         if self.film > self.length:
-            raise ValueError(f"film: got {self.film!r} m, thicker than the bearing is long; look at the units")
+            raise ValueError(f"film: got {self.film!r} m, more than the length of the bearing; check the units")
         if self.width is not None and self.width < self.film:
-            raise ValueError(f"width: got {self.width!r} m, less than the film is thick; look at the units")
+            raise ValueError(f"width: got {self.width!r} m, less than the film thickness; check the units")
         for name in ("rise", "amplitude"):
             height = getattr(self, name, 0.0)
             if height > self.length:
-                raise ValueError(f"{name}: got {height!r} m, higher than the bearing is long; look at the units")
+                raise ValueError(f"{name}: got {height!r} m, more than the length of the bearing; check the units")
         return self

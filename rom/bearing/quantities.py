@@ -1,6 +1,8 @@
-"""What a bearing carries, rubs and leaks, from a film in balance."""
+"""The quantities of a converged film: load, friction, pressures and flows."""
 
 import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,45 +16,47 @@ from roughfilm.rom.cavitation.grid import Grid
 from roughfilm.rom.cavitation.oblique import wetness
 from roughfilm.rom.cavitation.solve import Solution
 
-LEAST_LOAD = 1e-6
-"""Of the greatest pressure over the whole film; by less, friction is not divided."""
+MIN_MEAN_PRESSURE_RATIO = 1e-6
+"""Mean pressure over the maximum pressure below which no friction coefficient is given."""
 
 
-def bearing_quantities(scene: Bearing, found: Solution, pressed: Array | None = None) -> dict[str, Quantity]:
-    """Load, friction on the sliding wall, greatest pressure, flows, and where the film is.
+def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None = None) -> dict[str, Quantity]:
+    """The load, friction on the sliding wall, maximum pressure, flows and extent of a converged film.
 
-    Pressures count from ambient. Per width of the bearing, along the sliding at the line of the greatest pressure:
-    ``film_start`` and ``rupture`` are where the first film begins and the last one ends, x/L from the inlet; both are 1
-    where there is none. Friction is that of the liquid, F = ∫(η ξ u/h + h/2 ∂p/∂x) dA, where the filled part ξ of a
-    cavity is in streamers from wall to wall; of averaged roughness F = ∫(ηu (g (d + 3e) + (ξ - g) B₁ <h⁻²>)
-    + B·∇p/2) dA with the wetness g of its tips as :mod:`roughfilm.rom.cavitation.oblique` has it, 1 in a film.
+    Pressures are above ambient. ``film_start`` and ``rupture`` are the positions x/L from the inlet, on the line of the
+    maximum pressure, where the first film begins and the last one ends; both are 1 without a film. The friction of the
+    liquid is F = ∫(η ξ u/h + h/2 ∂p/∂x) dA, where a cavity has streamers from wall to wall over its filled fraction ξ;
+    with averaged roughness it is F = ∫(ηu (g (d + 3e) + (ξ - g) B₁ <h⁻²>) + B·∇p/2) dA with the wetness g of the tips
+    after :mod:`roughfilm.rom.cavitation.oblique`, which is 1 in a film.
 
-    Where walls touch, ``pressed`` is what that adds to the force on each node, N, and friction has its boundary part.
+    Parameters
+    ----------
+    pressed : contact force of asperities on each node, N, shape (nx, ny); boundary friction is then added.
     """
-    grid, pc = found.grid, scene.lubricant.cavitation_pressure
-    pressure = found.state.pressure + pc
-    width = 1.0 if found.problem.shape.wide else scene.geometry.width or 1.0
+    grid, pc = solution.grid, scene.lubricant.cavitation_pressure
+    pressure = solution.state.pressure + pc
+    width = 1.0 if solution.problem.shape.wide else scene.geometry.width or 1.0
     force = grid.areas * pressure if pressed is None else grid.areas * pressure + pressed
-    load, rub = float(force.sum()), friction(found)
+    load, resistance = float(force.sum()), friction(solution)
     if pressed is not None and scene.asperities is not None:
-        rub += scene.asperities.friction * float(pressed.sum())
-    row = int(np.argmax(np.where(found.kind == FILM, found.state.pressure, -1.0).max(axis=0)))
-    start, end = film_ends(found, row)
+        resistance += scene.asperities.friction * float(pressed.sum())
+    row = int(np.argmax(np.where(solution.kind == FILM, solution.state.pressure, -1.0).max(axis=0)))
+    start, end = film_ends(solution, row)
     values: dict[str, tuple[float, str]] = {
         "load_per_width": (load / width, "N/m"),
-        "friction_per_width": (rub / width, "N/m"),
+        "friction_per_width": (resistance / width, "N/m"),
         "pressure_max": (float(pressure.max()), "Pa"),
         "film_start": (start, "1"),
         "rupture": (end, "1"),
-        "inlet_flow_per_width": (inlet_flow(found) / width, "m^2/s"),
+        "inlet_flow_per_width": (inlet_flow(solution) / width, "m^2/s"),
         "cavitated_fraction": (
-            float(grid.areas[found.kind == CAVITY].sum() / grid.areas.sum()),
+            float(grid.areas[solution.kind == CAVITY].sum() / grid.areas.sum()),
             "1",
         ),
-        "theta_min": (float(density_ratio(found).min()), "1"),
+        "theta_min": (float(density_ratio(solution).min()), "1"),
     }
     if isinstance(scene.geometry, Journal):
-        angle, load = journal_load(scene.geometry, grid.x if not found.turned else -grid.x, force)
+        angle, load = journal_load(scene.geometry, grid.x if not solution.turned else -grid.x, force)
         values["load_per_width"] = (load / width, "N/m")
         values["attitude_angle"] = (angle, "deg")
         if load > 0:
@@ -60,155 +64,190 @@ def bearing_quantities(scene: Bearing, found: Solution, pressed: Array | None = 
             ratio = (scene.geometry.radius / scene.geometry.clearance) ** 2
             number = scene.lubricant.viscosity * scene.revolutions * diameter * width / load * ratio
             values["sommerfeld_number"] = (number, "1")
-    if not found.problem.shape.wide:
+    if not solution.problem.shape.wide:
         values["load"] = (load, "N")
-        values["friction"] = (rub, "N")
-        values["side_leakage"] = (side_leakage(found), "m^3/s")
-    if load > LEAST_LOAD * float(grid.areas.sum()) * float(np.abs(force / grid.areas).max()):
-        values["friction_coefficient"] = (rub / load, "1")
+        values["friction"] = (resistance, "N")
+        values["side_leakage"] = (side_leakage(solution), "m^3/s")
+    if load > MIN_MEAN_PRESSURE_RATIO * float(grid.areas.sum()) * float(np.abs(force / grid.areas).max()):
+        values["friction_coefficient"] = (resistance / load, "1")
     return {name: Quantity(value=value, unit=unit) for name, (value, unit) in values.items()}
 
 
-def density_ratio(found: Solution) -> Array:
-    """θ at the nodes, shape (nx, ny); the filled part of a cavity counts at the faces, from which it is taken here."""
-    film = 1 + found.problem.compression(found.state.pressure)[0]
-    return np.where(found.kind == CAVITY, np.minimum(_carried(found), 1.0), film)
+def density_ratio(solution: Solution) -> Array:
+    """The density ratio θ at the nodes, shape (nx, ny), in cavities that of the liquid that flows out of the node."""
+    film = 1 + solution.problem.compression(solution.state.pressure)[0]
+    return np.where(solution.kind == CAVITY, np.minimum(_carried(solution), 1.0), film)
 
 
-def _carried(found: Solution) -> Array:
-    """How full each node is by what flows out of it."""
-    mean, rough = found.faces.mean, found.faces.averaged
-    thickness = found.faces.thickness if rough is None else rough.drag
-    return np.asarray(found.state.fill * np.where(mean > 0, mean, thickness) / thickness)
+def _carried(solution: Solution) -> Array:
+    """The filled fraction of each node according to the flow out of it."""
+    mean, rough = solution.faces.mean, solution.faces.averaged
+    thickness = solution.faces.thickness if rough is None else rough.drag
+    return np.asarray(solution.state.fill * np.where(mean > 0, mean, thickness) / thickness)
 
 
-def friction(found: Solution) -> float:
-    """Force on the sliding wall against its motion, N (N/m if wide)."""
-    grid, mean, problem = found.grid, found.faces.mean, found.problem
-    fluidity = problem.piezoviscosity.fluidity(found.state.pressure, problem.viscosity)[0]
+def friction(solution: Solution) -> float:
+    """The force on the sliding wall against its motion, N (N/m if infinitely wide)."""
+    grid, mean, problem = solution.grid, solution.faces.mean, solution.problem
+    fluidity = problem.piezoviscosity.fluidity(solution.state.pressure, problem.viscosity)[0]
     stretch = grid.spacing_x[:, None] * grid.radius
     speed = problem.speed * (grid.radius if problem.shape.polar else 1.0)
-    fill = found.state.fill
-    if problem.ends.sides is not None:  # the line where the bath begins is no part of the film
+    fill = solution.state.fill
+    if problem.ends.sides is not None:  # the outermost lines belong to the bath
         fill = np.pad(fill[:, 1:-1], ((0, 0), (1, 1)), mode="edge")
-    rough = found.faces.averaged
+    rough = solution.faces.averaged
     with np.errstate(divide="ignore", invalid="ignore"):
-        rub = fill / mean if rough is None else _rub(rough, fill)
-        shear = np.where(mean > 0, problem.viscosity * speed * rub, 0.0)
+        gradient = fill / mean if rough is None else _shear_factor(rough, fill)
+        shear = np.where(mean > 0, problem.viscosity * speed * gradient, 0.0)
     shear = shear * (1 / fluidity + np.roll(1 / fluidity, -1, axis=0)) / 2
-    rise = np.roll(found.state.pressure, -1, axis=0) - found.state.pressure
+    rise = np.roll(solution.state.pressure, -1, axis=0) - solution.state.pressure
     along = float((grid.volume_y * (shear * stretch + mean / 2 * rise)).sum())
     if rough is None or grid.shape[1] == 1:
         return along
-    climb = found.state.pressure[:, 1:] - found.state.pressure[:, :-1]
+    climb = solution.state.pressure[:, 1:] - solution.state.pressure[:, :-1]
     return along + float((grid.volume_x[:, None] * _towards(grid) * rough.drag_across[:, :-1] / 2 * climb).sum())
 
 
-def _rub(rough: Averaged, fill: Array) -> Array:
-    """Friction over ηu of averaged roughness, 1/m: d + 3e in a film, that of streamers where no tip is wet."""
+def _shear_factor(rough: Averaged, fill: Array) -> Array:
+    """Friction over ηu of averaged roughness, 1/m: d + 3e in a film, that of streamers where the tips are dry."""
     return np.asarray(fill * rough.streaming + wetness(fill, rough.threshold) * (rough.wet - rough.streaming))
 
 
 def _towards(grid: Grid) -> Array:
-    """The radius at the faces towards j+1, shape (ny - 1,)."""
+    """The radius at the faces towards j + 1, shape (ny - 1,)."""
     return (grid.radius[1:] + grid.radius[:-1]) / 2
 
 
-def flow_along(found: Solution) -> Array:
-    """What flows through the faces towards i + 1, m³/s (m²/s if wide) at the density of cavitation, shape (nx, ny)."""
-    net, state = found.network, found.state
-    excess = found.problem.compression(state.pressure)[0]
-    east = net.conductance(found.problem.mobility(state.pressure)[0])[0]
+def flow_along(solution: Solution) -> Array:
+    """The flow through the faces towards i + 1 at cavitation density, m³/s (m²/s if wide), shape (nx, ny)."""
+    net, state = solution.network, solution.state
+    excess = solution.problem.compression(state.pressure)[0]
+    east = net.conductance(solution.problem.mobility(state.pressure)[0])[0]
     ahead = np.roll(excess, -1, axis=0)
     drift = net.couette * (state.fill + net.upstream * excess + (1 - net.upstream) * ahead)
     rise = np.roll(state.pressure, -1, axis=0) - state.pressure
-    return np.asarray(drift - east * rise + (0.0 if net.oblique is None else _slanting(found)[0]))
+    return np.asarray(drift - east * rise + (0.0 if net.oblique is None else _oblique_flows(solution)[0]))
 
 
-def _slanting(found: Solution) -> tuple[Array, Array]:
-    """What a slanting lay adds to the flows towards i + 1 and j + 1, m³/s."""
-    assert found.network.oblique is not None
-    state, problem = found.state, found.problem
+def _oblique_flows(solution: Solution) -> tuple[Array, Array]:
+    """The additional flows of an oblique lay towards i + 1 and j + 1, m³/s."""
+    assert solution.network.oblique is not None
+    state, problem = solution.state, solution.problem
     excess, mobility = problem.compression(state.pressure)[0], problem.mobility(state.pressure)[0]
-    return found.network.oblique.flows(mobility, state.pressure, state.fill, excess)
+    return solution.network.oblique.flows(mobility, state.pressure, state.fill, excess)
 
 
-def inlet_flow(found: Solution) -> float:
-    """What enters where sliding comes from, at the density of cavitation, m³/s (m²/s if wide).
+def inlet_flow(solution: Solution) -> float:
+    """The flow through the inlet at cavitation density, m³/s (m²/s if infinitely wide).
 
-    Beside open sides as much as in the row next to them: there the bath flows, and not the film.
+    The rows on open sides, which belong to the bath, have the flow per width of the rows next to them.
     """
-    entering = flow_along(found)[0]
-    if found.problem.ends.sides is not None:
-        share = found.grid.volume_y * found.grid.radius
-        entering[[0, -1]] = entering[[1, -2]] * share[[0, -1]] / share[[1, -2]]
+    entering = flow_along(solution)[0]
+    if solution.problem.ends.sides is not None:
+        widths = solution.grid.volume_y * solution.grid.radius
+        entering[[0, -1]] = entering[[1, -2]] * widths[[0, -1]] / widths[[1, -2]]
     return float(entering.sum())
 
 
-def side_leakage(found: Solution) -> float:
-    """What leaves through both sides, between the nodes of inlet and outlet, at the density of cavitation, m³/s."""
-    net, state = found.network, found.state
-    north = net.conductance(found.problem.mobility(state.pressure)[0])[1]
+def side_leakage(solution: Solution) -> float:
+    """The flow out through both sides between inlet and outlet at cavitation density, m³/s."""
+    net, state = solution.network, solution.state
+    north = net.conductance(solution.problem.mobility(state.pressure)[0])[1]
     flow = -north[:, :-1] * np.diff(state.pressure, axis=1)
     if net.oblique is not None:
-        flow = flow + _slanting(found)[1][:, :-1]
+        flow = flow + _oblique_flows(solution)[1][:, :-1]
     if not net.periodic[0]:
         flow = flow[1:-1]
     return float((flow[:, -1] - flow[:, 0]).sum()) if not net.periodic[1] else 0.0
 
 
-def film_ends(found: Solution, row: int) -> tuple[float, float]:
-    """Where the first film of a row of nodes begins and the last one ends, x/L, placed inside the cells."""
-    x, length = found.grid.x - found.problem.shape.breaks[0], found.problem.shape.length
-    film = found.kind[:, row] == FILM
+def film_ends(solution: Solution, row: int) -> tuple[float, float]:
+    """The positions x/L, interpolated within cells, where the first film of a row begins and the last one ends."""
+    x, length = solution.grid.x - solution.problem.shape.breaks[0], solution.problem.shape.length
+    film = solution.kind[:, row] == FILM
     if not film.any():
         return 1.0, 1.0
     first, last = int(np.argmax(film)), film.size - 1 - int(np.argmax(film[::-1]))
-    return _begins(found, row, first, x) / length, _ends(found, row, last, x) / length
+    return _begins(solution, row, first, x) / length, _ends(solution, row, last, x) / length
 
 
-def _begins(found: Solution, row: int, first: int, x: Array) -> float:
-    """The cavity node before the film is partly full: as full as the film reaches back from its first node."""
-    if first == 0 or found.kind[first - 1, row] != CAVITY:
+def _begins(solution: Solution, row: int, first: int, x: Array) -> float:
+    """The position where a film begins, m: the filled fraction of the cavity node before it places it in the cell."""
+    if first == 0 or solution.kind[first - 1, row] != CAVITY:
         return float(x[max(first - 1, 0)])
-    net, fill = found.network, found.state.fill[:, row]
+    net, fill = solution.network, solution.state.fill[:, row]
     if first > 1:
         carried = net.couette[first - 2, row] * fill[first - 2]
     else:
         carried = net.supplied[row] if net.supplied.size else net.couette[0, row] * fill[0]
     empty = carried / net.couette[first - 1, row] if net.couette[first - 1, row] > 0 else 1.0
-    part = (fill[first - 1] - empty) / (1 - empty) if empty < 1 else 0.0
-    return float(x[first] - (x[first] - x[first - 1]) * min(max(part, 0.0), 1.0))
+    fraction = (fill[first - 1] - empty) / (1 - empty) if empty < 1 else 0.0
+    return float(x[first] - (x[first] - x[first - 1]) * min(max(fraction, 0.0), 1.0))
 
 
-def _ends(found: Solution, row: int, last: int, x: Array) -> float:
-    """Where θ, going back from the nodes behind the film, is 1: between its last node and the second behind it."""
+def _ends(solution: Solution, row: int, last: int, x: Array) -> float:
+    """The position where a film ends, m: θ extrapolated to 1 from the two nodes behind it."""
     if last + 2 >= x.size:
         return float(x[min(last + 1, x.size - 1)])
-    theta = _carried(found)[:, row]
-    steepness = theta[last + 1] - theta[last + 2]
-    if steepness <= 0:
+    theta = _carried(solution)[:, row]
+    fall = theta[last + 1] - theta[last + 2]
+    if fall <= 0:
         return float(x[last + 1])
-    back = (1 - theta[last + 1]) / steepness * (x[last + 2] - x[last + 1])
+    back = (1 - theta[last + 1]) / fall * (x[last + 2] - x[last + 1])
     return float(min(max(x[last + 1] - back, x[last]), x[last + 2]))
 
 
 def nominal_area(scene: Bearing, grid: Grid) -> float:
-    """What loads are over, m² (m if infinitely wide): the area of the film, but of a journal diameter times width."""
+    """The nominal area, m² (m if infinitely wide): the area of the film; of a journal bearing diameter times width."""
     if isinstance(scene.geometry, Journal):
         return 2 * scene.geometry.radius * (1.0 if grid.shape[1] == 1 else scene.geometry.width or 1.0)
     return float(grid.areas.sum())
 
 
 def carried(scene: Bearing, x: Array, force: Array) -> float:
-    """The load of forces at the nodes, N (N/m if wide): their sum, of a journal as vectors; ``x`` as in the scene."""
+    """The load of forces at the nodes, N (N/m if infinitely wide): their sum, in a journal bearing their vector sum.
+
+    ``x`` is the position in the coordinates of the scene, m.
+    """
     if isinstance(scene.geometry, Journal):
         return journal_load(scene.geometry, x, force)[1]
     return float(force.sum())
 
 
 def journal_load(geometry: Journal, x: Array, force: Array) -> tuple[float, float]:
-    """The attitude angle, degrees, from the narrowest place against the load line, and the load; ``force`` by nodes."""
+    """The attitude angle, degrees, and the load, N, of forces at the nodes of a journal bearing."""
     angle = (x / geometry.radius)[:, None]
     along, aside = -float((force * np.cos(angle)).sum()), float((force * np.sin(angle)).sum())
     return math.degrees(math.atan2(abs(aside), along)), math.hypot(along, aside)
+
+
+def factor_uncertainties(scene: Bearing, _solution: Solution, quantities: Mapping[str, Quantity]) -> dict[str, float]:
+    """The uncertainty of each quantity that comes from the flow factors, in its unit."""
+    relative = 0.0 if scene.roughness is None else scene.roughness.factor_uncertainty(scene.geometry.film)
+    return {name: abs(quantity.value) * relative for name, quantity in quantities.items()}
+
+
+Fields = dict[str, tuple[Array, str]]
+"""Fields over the grid, shape (nx, ny), with their units."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outputs:
+    """The functions that evaluate a converged film.
+
+    Attributes
+    ----------
+    quantities : quantities(scene, solution).
+    factor_uncertainties : factor_uncertainties(scene, solution, quantities): uncertainty of each quantity, in its unit,
+        that comes from flow factors and contact pressures.
+    fields : fields(scene, solution): fields in addition to those of every film.
+    """
+
+    quantities: Callable[[Bearing, Solution], dict[str, Quantity]] = bearing_quantities
+    factor_uncertainties: Callable[[Bearing, Solution, Mapping[str, Quantity]], Mapping[str, float]] = (
+        factor_uncertainties
+    )
+    fields: Callable[[Bearing, Solution], Fields] = lambda _scene, _solution: {}
+
+
+FILM_OUTPUTS = Outputs()

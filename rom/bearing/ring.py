@@ -1,4 +1,4 @@
-"""Films between two rings, over (angle, radius), as a scene file writes them: a pad, or a cell of a pocketed washer."""
+"""Films between two radii in scene files: pads and pocketed washers, over (angle, radius)."""
 
 import math
 from typing import Annotated, Literal, Self
@@ -13,18 +13,21 @@ from roughfilm.rom.cavitation.shape import Shape
 Angle = Annotated[float, InUnit("rad")]
 
 
-def _part(value: object) -> float:
+def _fraction(value: object) -> float:
     number = plain_number(value)
     if not 0 <= number <= 1:
         raise ValueError(f"got {number!r}; it must be 0 to 1")
     return number
 
 
-Fraction = Annotated[float, BeforeValidator(_part)]
+Fraction = Annotated[float, BeforeValidator(_fraction)]
 
 
 class Ring(Part):
-    """Between two radii, m; loads, friction and flows are those of one piece of it. ``film`` is the least thickness."""
+    """One of the equal pieces of a film between two radii, m; ``film`` is its minimum thickness, m.
+
+    Loads, friction and flows refer to one piece.
+    """
 
     inner_radius: Length
     outer_radius: Length
@@ -35,7 +38,7 @@ class Ring(Part):
         if self.outer_radius <= self.inner_radius:
             raise ValueError(f"outer_radius: got {self.outer_radius!r} m; it must be above inner_radius")
         if self.film > self.outer_radius:
-            raise ValueError(f"film: got {self.film!r} m, thicker than the bearing is wide; look at the units")
+            raise ValueError(f"film: got {self.film!r} m, more than the outer radius; check the units")
         return self
 
     @property
@@ -45,33 +48,38 @@ class Ring(Part):
 
     @property
     def endless(self) -> bool:
-        """Whether the pieces follow one another without a groove between them."""
+        """Whether the pieces are joined without a groove between them."""
         raise NotImplementedError
 
     @property
     def radius(self) -> float:
-        """The mean one, where the sliding speed is given, m."""
+        """The mean radius, at which the sliding speed is given, m."""
         return (self.inner_radius + self.outer_radius) / 2
 
     @property
     def width(self) -> float:
-        """From the inner to the outer radius, m."""
+        """The outer minus the inner radius, m."""
         return self.outer_radius - self.inner_radius
 
     @property
     def length(self) -> float:
-        """Along the mean radius, m."""
+        """The arc length of a piece at the mean radius, m."""
         return self.turn * self.radius
 
     def at_film(self, film: float) -> Self:
-        """The same wall, shifted."""
+        """The same wall, shifted to another minimum film thickness, m."""
         return self.model_copy(update={"film": film})
 
 
 class Sector(Ring):
-    """One pad of a thrust bearing: over ``angle``, the film falls evenly by ``rise`` over the first ``taper`` of it.
+    """One pad of a thrust bearing with a linear taper and a parallel land behind it.
 
-    Behind the taper the land is parallel. ``joined`` pads follow one another without a groove between them.
+    Attributes
+    ----------
+    angle : angle of the pad, rad.
+    rise : film thickness at the inlet minus that on the land, m.
+    taper : fraction of the angle over which the film narrows.
+    joined : whether the pads are joined without a groove between them.
     """
 
     shape: Literal["sector"]
@@ -81,11 +89,11 @@ class Sector(Ring):
     joined: Annotated[bool, Field(strict=True)] = False
 
     @model_validator(mode="after")
-    def _can_be(self) -> Self:
+    def _is_thin(self) -> Self:
         if self.angle > 2 * math.pi * (1 + 1e-12):
-            raise ValueError(f"angle: got {self.angle!r} rad; it must be at most a full turn")
+            raise ValueError(f"angle: got {self.angle!r} rad; it must be at most 2π")
         if self.rise > self.outer_radius:
-            raise ValueError(f"rise: got {self.rise!r} m, higher than the bearing is wide; look at the units")
+            raise ValueError(f"rise: got {self.rise!r} m, more than the outer radius; check the units")
         return self
 
     @property
@@ -95,11 +103,11 @@ class Sector(Ring):
 
     @property
     def endless(self) -> bool:
-        """As ``joined`` says."""
+        """Whether the pads are joined without a groove between them."""
         return self.joined
 
     def film_shape(self) -> Shape:
-        """The film, over (angle, radius)."""
+        """The shape of the film over (angle, radius)."""
         end = self.taper * self.angle
 
         def thickness(x: Array, y: Array) -> Array:
@@ -116,12 +124,18 @@ class Sector(Ring):
         )
 
 
-class Pocket(Part):
-    """A pocket open to the inner edge of a washer, ``depth`` deep there where it begins, m.
+class WasherPocket(Part):
+    """A pocket of a washer, open to the inner edge; its floor is depth (1 - ξ)(1 - ρ) below the land.
 
-    It begins with a wall at ``start`` and reaches over ``share``, both parts of the cell's angle, and over ``extent``,
-    m, from the inner edge outwards. With ξ and ρ from 0 to 1 over the two, its floor is depth (1 - ξ)(1 - ρ) below the
-    land: along the sliding it rises from the wall to the land, along the radius from the inner edge to it.
+    ξ and ρ go from 0 to 1 over the angle and the radial extent of the pocket. The floor rises to the land along the
+    sliding direction from a vertical wall, and along the radius from the inner edge.
+
+    Attributes
+    ----------
+    depth : greatest depth, at the wall on the inner edge, m.
+    share : angle of the pocket as a fraction of the angle of the cell.
+    extent : radial extent from the inner edge, m.
+    start : position of the wall as a fraction of the angle of the cell.
     """
 
     depth: Length
@@ -137,14 +151,14 @@ class Pocket(Part):
 
 
 class Washer(Ring):
-    """One of the equal cells of a thrust washer, each with a pocket; between the pockets the land is flat.
+    """One of the equal cells of a thrust washer, each with a pocket in a flat land.
 
-    The source shows its pocket in a picture and says its depth alone (Sahlin 2008, E.4.3, Fig. E.24).
+    The source gives only a picture and the depth of its pocket (Sahlin 2008, E.4.3, Fig. E.24).
     """
 
     shape: Literal["washer"]
     pockets: Annotated[int, Field(strict=True, ge=1, le=10_000)]
-    pocket: Pocket | None = None
+    pocket: WasherPocket | None = None
 
     @model_validator(mode="after")
     def _holds_its_pocket(self) -> Self:
@@ -152,7 +166,7 @@ class Washer(Ring):
         if pocket is not None and pocket.extent > self.width * (1 + 1e-12):
             raise ValueError(f"pocket.extent: got {pocket.extent!r} m; the washer is only {self.width!r} m wide")
         if pocket is not None and pocket.depth > self.outer_radius:
-            raise ValueError(f"pocket.depth: got {pocket.depth!r} m, deeper than the washer is wide; look at the units")
+            raise ValueError(f"pocket.depth: got {pocket.depth!r} m, more than the outer radius; check the units")
         return self
 
     @property
@@ -162,11 +176,11 @@ class Washer(Ring):
 
     @property
     def endless(self) -> bool:
-        """The cells go round."""
+        """True: the cells are joined without a groove between them."""
         return True
 
     def film_shape(self) -> Shape:
-        """The film, over (angle, radius)."""
+        """The shape of the film over (angle, radius)."""
         turn, pocket = self.turn, self.pocket
         begins, ends = (0.0, turn) if pocket is None else (pocket.start * turn, (pocket.start + pocket.share) * turn)
 

@@ -1,4 +1,4 @@
-"""Roughness of a bearing's shaped wall, as a scene file writes it: sinusoidal ridges, or a surface that repeats."""
+"""The roughness of the shaped wall in scene files: sinusoidal ridges, a periodic surface, or a stored table."""
 
 import hashlib
 import math
@@ -18,21 +18,23 @@ from roughfilm.rom.homogenization.ridges import sinusoidal_ridges
 from roughfilm.rom.homogenization.table.factor_table import FactorTable
 from roughfilm.rom.parts.surface_geometry import SurfaceGeometry
 
-LEVEL = 1e-12
-"""A wave vector has no part along a direction whose cosine is below this."""
+ZERO_COSINE = 1e-12
+"""Direction cosine below which a component of a wave vector counts as zero."""
 
-TOLERANCE, BELOW = 5e-4, 0.999
-"""Of the interpolation between flow factors of a surface, and where they begin, over the narrowest film."""
+FACTOR_TOLERANCE = 5e-4
+"""Tolerance of the interpolation between flow factors of a surface."""
 
-SHORTEST = 4
-"""Pixels: the shortest wave of a surface that a grid is asked to follow, each cell then half a pixel."""
+FIRST_GAP_RATIO = 0.999
+"""Mean gap of the first point of a table of flow factors, over that of the narrowest film."""
+
+PIXELS_PER_WAVE = 4
+"""Length of the shortest wave of a surface that a grid resolves, in pixels; a cell is then half a pixel."""
 
 
 class Sinusoid(Part):
-    """h = h₀ + amplitude sin(2π (x cos β + y sin β)/wavelength + phase), β the ``direction`` of the wave vector.
+    """Ridges: h = h₀ + amplitude sin(2π (x cos β + y sin β)/wavelength + phase), β the ``direction``.
 
-    x runs along the bearing from its inlet (towards which the wall slides counts for nothing), y across; β = 0 has
-    ridges across it.
+    x runs along the bearing from its inlet and y across, whichever way the wall slides; ridges with β = 0 run across.
     """
 
     kind: Literal["sinusoid"]
@@ -43,56 +45,60 @@ class Sinusoid(Part):
 
     @property
     def waves(self) -> tuple[float, float]:
-        """Of the wave vector along x and y, waves per m."""
-        parts = math.cos(self.direction), math.sin(self.direction)
-        along, across = (0.0 if abs(part) < LEVEL else part / self.wavelength for part in parts)
+        """The components of the wave vector along x and y, waves per m."""
+        cosines = math.cos(self.direction), math.sin(self.direction)
+        along, across = (0.0 if abs(cosine) < ZERO_COSINE else cosine / self.wavelength for cosine in cosines)
         return along, across
 
     @property
     def finest(self) -> tuple[float, float]:
-        """The shortest wave along x and y, m; infinite where there is none."""
-        along, across = (math.inf if part == 0 else 1 / abs(part) for part in self.waves)
+        """The lengths of the shortest waves along x and y, m; infinite where there is none."""
+        along, across = (math.inf if number == 0 else 1 / abs(number) for number in self.waves)
         return along, across
 
     @property
     def period(self) -> float:
-        """What repeats, m."""
+        """The period, m."""
         return self.wavelength
 
     @property
     def peak(self) -> float:
-        """The greatest height above the mean, m."""
+        """The maximum height above the mean, m."""
         return self.amplitude
 
     @property
     def rms(self) -> float:
-        """Of the heights, m."""
+        """The root mean square of the heights about their mean, m."""
         return self.amplitude / math.sqrt(2)
 
     @property
-    def told(self) -> str:
-        """What people call it."""
+    def label(self) -> str:
+        """The name of the roughness in messages."""
         return f"sinusoidal ridges, {math.degrees(self.direction):.3g}° from across the sliding"
 
     def added(self, x: Array, y: Array) -> Array:
-        """What the film is thicker by, m."""
+        """The change of the film thickness at each position, m."""
         along, across = self.waves
         return np.asarray(self.amplitude * np.sin(2 * np.pi * (along * x + across * y) + self.phase))
 
     def factors(self, _narrowest: float) -> FactorsOverGap:
-        """Averaged, for mean gaps from the narrowest on, m."""
+        """The flow factors over the mean gap."""
         return sinusoidal_ridges(self.amplitude, self.direction)
 
-    def doubt(self, _narrowest: float) -> float:
-        """The part by which the factors may be off: none, they are integrals."""
+    def factor_uncertainty(self, _narrowest: float) -> float:
+        """The relative uncertainty of the flow factors: 0, because they are integrals."""
         return 0.0
 
 
 class RoughSurface(SurfaceGeometry):
-    """h = h₀ - (heights - their mean), upward heights narrowing the gap; the surface repeats over the film.
+    """A periodic surface: h = h₀ - (heights - their mean), bilinear between its points.
 
-    Its x lies along that of the bearing. Heights are multiplied by ``scale``, lengths in the plane by ``stretch``;
-    between its points the surface is bilinear.
+    The x axes of the surface and of the bearing are parallel.
+
+    Attributes
+    ----------
+    scale : factor of the heights.
+    stretch : factor of the lengths in the plane.
     """
 
     kind: Literal["surface"]
@@ -101,67 +107,62 @@ class RoughSurface(SurfaceGeometry):
 
     @property
     def finest(self) -> tuple[float, float]:
-        """The shortest wave along x and y that counts, m; infinite where nothing varies."""
+        """The lengths of the shortest resolved waves along x and y, m; infinite where the heights are constant."""
         heights, (dx, dy) = self.scaled_heights(), self.read().spacing
         along, across = (
-            SHORTEST * step * self.stretch if np.ptp(heights, axis=axis).any() else math.inf
+            PIXELS_PER_WAVE * step * self.stretch if np.ptp(heights, axis=axis).any() else math.inf
             for axis, step in enumerate((dx, dy))
         )
         return along, across
 
     @property
     def period(self) -> float:
-        """What repeats along x, m."""
+        """The period along x, m."""
         surface = self.read()
         return self.stretch * surface.spacing[0] * surface.shape[0]
 
     @property
     def peak(self) -> float:
-        """The greatest height above the mean, m."""
+        """The maximum height above the mean, m."""
         return float(self.scaled_heights().max())
 
     @property
     def rms(self) -> float:
-        """Of the heights, m."""
+        """The root mean square of the heights about their mean, m."""
         return float(self.scaled_heights().std())
 
     @property
-    def told(self) -> str:
-        """What people call it."""
+    def label(self) -> str:
+        """The name of the roughness in messages."""
         return f"the surface {self.name}"
 
     def added(self, x: Array, y: Array) -> Array:
-        """What the film is thicker by, m."""
+        """The change of the film thickness at each position, m."""
         heights, spacing = self.scaled_heights(), self.read().spacing
         if not np.ptp(heights, axis=1).any():
             places = np.mod(x / (spacing[0] * self.stretch), len(heights))
             profile = np.append(heights[:, 0], heights[0, 0])
             return np.asarray(-np.interp(places, np.arange(profile.size), profile))
         pixels = (place / (step * self.stretch) for place, step in zip((x, y), spacing, strict=True))
-        found = scipy.ndimage.map_coordinates(
-            heights, np.array(np.broadcast_arrays(*pixels)), order=1, mode="grid-wrap"
-        )
-        return np.asarray(-found)
+        places = np.array(np.broadcast_arrays(*pixels))
+        return np.asarray(-scipy.ndimage.map_coordinates(heights, places, order=1, mode="grid-wrap"))
 
     def factors(self, narrowest: float) -> FactorTable:
-        """Averaged, for mean gaps from the narrowest on, m.
+        """The flow factors at mean gaps of at least ``narrowest``, m; overlapping heights are truncated."""
+        entries = self.model_dump_json(include={"surface", "spacing", "digest"}, exclude_none=True)
+        return _factors(entries, narrowest / self.scale).scaled(self.scale)
 
-        Where the walls would touch, heights are cut off, so that the mean gap counts what is left.
-        """
-        told = self.model_dump_json(include={"surface", "spacing", "digest"}, exclude_none=True)
-        return _factors(told, narrowest / self.scale).scaled(self.scale)
-
-    def doubt(self, narrowest: float) -> float:
-        """The largest part by which the factors may be off."""
+    def factor_uncertainty(self, narrowest: float) -> float:
+        """The largest relative uncertainty of the flow factors."""
         return self.factors(narrowest).relative_uncertainty
 
     def scaled_heights(self) -> Array:
-        """Above their mean, m, shape (nx, ny)."""
+        """The heights above their mean, m, shape (nx, ny)."""
         heights = self.read().heights
         return np.asarray((heights - heights.mean()) * self.scale)
 
     def scaled_spacing(self) -> tuple[float, float]:
-        """(dx, dy), m."""
+        """The spacing (dx, dy), m."""
         dx, dy = self.read().spacing
         return dx * self.stretch, dy * self.stretch
 
@@ -171,14 +172,18 @@ def _factors(surface: str, narrowest: float) -> FactorTable:
     from roughfilm.rom.homogenization.table.tabulate import tabulate  # whose loops are slow to import
 
     read = SurfaceGeometry.model_validate_json(surface).read()
-    return tabulate(read.heights, read.spacing, tolerance=TOLERANCE, narrowest=BELOW * narrowest)
+    return tabulate(read.heights, read.spacing, tolerance=FACTOR_TOLERANCE, narrowest=FIRST_GAP_RATIO * narrowest)
 
 
 class StoredTable(Part):
-    """Flow factors over the mean gap from a file of ``roughfilm factors``, with the asperities' pressures or without.
+    """A stored table of flow factors over the mean gap, with or without contact pressures of asperities.
 
-    x of the surface lies along that of the bearing. How long its waves are the file does not say. ``digest`` is that of
-    the file: a scene that was written back is not read over another table.
+    The x axes of the surface and of the bearing are parallel. The file has no wavelengths.
+
+    Attributes
+    ----------
+    table : path of a file written by ``roughfilm factors``.
+    digest : digest of the file; a file that has changed since is rejected.
     """
 
     kind: Literal["table"]
@@ -186,60 +191,60 @@ class StoredTable(Part):
     digest: str | None = None
 
     @model_validator(mode="after")
-    def _is_there(self) -> Self:
+    def _can_be_read(self) -> Self:
         path = Path(self.table).expanduser()
         try:
-            found = hashlib.sha256(path.read_bytes()).hexdigest()[:32]
+            digest = hashlib.sha256(path.read_bytes()).hexdigest()[:32]
             self.read()
         except OSError as error:
-            told = "no such file" if isinstance(error, FileNotFoundError) else f"cannot be read ({error.strerror})"
-            raise ValueError(f"table: in {path}: {told}; name a table of flow factors") from None
+            reason = "no such file" if isinstance(error, FileNotFoundError) else f"cannot be read ({error.strerror})"
+            raise ValueError(f"table: in {path}: {reason}; name a table of flow factors") from None
         except InputError as error:
             raise ValueError(f"table: in {error}") from None
-        if self.digest not in (None, found):
+        if self.digest not in (None, digest):
             raise ValueError(
-                f"digest: got {self.digest!r:.40}, but {self.table} holds another table by now, {found!r}; leave the "
-                "digest out to take it"
+                f"digest: got {self.digest!r:.40}, but {self.table} now has {digest!r}; leave the digest out to "
+                "accept it"
             )
-        return self.model_copy(update={"digest": found})
+        return self.model_copy(update={"digest": digest})
 
     def read(self) -> FactorTable:
-        """The table; InputError if it cannot be read."""
+        """The table; raises InputError if it cannot be read."""
         path = Path(self.table).expanduser()
         state = path.stat()
         return _stored(str(path), state.st_mtime_ns, state.st_size)
 
     @property
     def finest(self) -> tuple[float, float]:
-        """Not known."""
+        """NaN, because the file has no wavelengths."""
         return math.nan, math.nan
 
     @property
     def period(self) -> float:
-        """Not known."""
+        """NaN, because the file has no wavelengths."""
         return math.nan
 
     @property
     def peak(self) -> float:
-        """The greatest height above the mean, m."""
+        """The maximum height above the mean, m."""
         return self.read().peak
 
     @property
     def rms(self) -> float:
-        """Of the heights, m."""
+        """The root mean square of the heights about their mean, m."""
         return self.read().rms
 
     @property
-    def told(self) -> str:
-        """What people call it."""
+    def label(self) -> str:
+        """The name of the roughness in messages."""
         return f"the roughness of {Path(self.table).name}"
 
     def factors(self, _narrowest: float) -> FactorTable:
-        """Averaged, for mean gaps that the table reaches."""
+        """The flow factors at mean gaps in the range of the table."""
         return self.read()
 
-    def doubt(self, narrowest: float) -> float:
-        """The largest part by which the factors may be off from the narrowest mean gap on, m."""
+    def factor_uncertainty(self, narrowest: float) -> float:
+        """The largest relative uncertainty of the flow factors at mean gaps of at least ``narrowest``, m."""
         return self.read().relative_uncertainty_above(narrowest)
 
 

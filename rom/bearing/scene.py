@@ -1,4 +1,4 @@
-"""A bearing: a lubricant film between a shaped still wall and a flat sliding one."""
+"""Scenes of bearings: a lubricant film between a shaped fixed wall and a flat sliding wall."""
 
 import math
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
@@ -29,15 +29,19 @@ Density = Annotated[float, InUnit("kg/m^3")]
 
 
 def _law(entries: Any) -> Any:
-    """A law may be named alone where it needs no numbers."""
+    """The table of a law; a law without parameters may be given by its name alone."""
     return {"law": entries} if isinstance(entries, str) else entries
 
 
-class Lubricant(Part):
-    """Viscosity at the pressure of cavitation, Pa s, what pressure does to it and to density, and that pressure, Pa.
+class BearingLubricant(Part):
+    """The lubricant of a bearing.
 
-    The pressure of cavitation counts from ambient. No rung of a bearing keeps inertia; with a ``density``, kg/m³, the
-    Reynolds number is known, and what inertia would add can be estimated.
+    Attributes
+    ----------
+    viscosity : viscosity at cavitation pressure, Pa s.
+    density : density, kg/m³, needed only to estimate the effect of inertia, which no model of a bearing includes.
+    cavitation_pressure : cavitation pressure above ambient, Pa.
+    compressibility, piezoviscosity : laws of density and viscosity over pressure.
     """
 
     viscosity: Viscosity
@@ -51,16 +55,16 @@ class Lubricant(Part):
     )
 
 
-class Motion(Part):
-    """Speed of the flat wall, m/s; at the mean radius of a sector. Below zero it slides backwards."""
+class BearingMotion(Part):
+    """The speed of the flat wall, m/s, on a ring at the mean radius; negative if the wall slides towards the inlet."""
 
     speed: Speed
 
 
 class Inlet(Part):
-    """Where sliding brings lubricant from: its pressure above ambient, Pa, or its density θ; ambient by default.
+    """The pressure above ambient, Pa, or the density ratio θ at the inlet; ambient pressure by default.
 
-    θ < 1 is starved, θ = 1 flooded at the pressure of cavitation, θ > 1 pressurised as the compressibility says.
+    θ < 1 is starved, θ = 1 flooded at cavitation pressure, and θ > 1 pressurised by the law of compressibility.
     """
 
     theta: PositiveNumber | None = None
@@ -74,20 +78,20 @@ class Inlet(Part):
 
 
 class Outlet(Part):
-    """Pressure above ambient, Pa; by default ambient, but of a journal that of the inlet, which is the same groove."""
+    """The pressure at the outlet above ambient, Pa; by default ambient, in a journal bearing that of the inlet."""
 
     pressure: GaugePressure = 0.0
 
 
 class Sides(Part):
-    """Pressures above ambient, Pa: at y = 0 (the inner radius) and at the width (the outer one)."""
+    """The pressures above ambient, Pa, at y = 0 or the inner radius, and at y = width or the outer radius."""
 
     low: GaugePressure = 0.0
     high: GaugePressure = 0.0
 
 
-class Boundary(Part):
-    """What holds where the film ends."""
+class BearingBoundary(Part):
+    """The boundary conditions of the film."""
 
     inlet: Inlet = Field(default_factory=Inlet)
     outlet: Outlet = Field(default_factory=Outlet)
@@ -95,23 +99,22 @@ class Boundary(Part):
 
 
 class Bearing(Scene):
-    """Steady isothermal flow in a thin film that may rupture; pressures count from ambient.
+    """A bearing: steady isothermal flow in a thin film with cavitation; pressures are above ambient.
 
-    Where the still wall is rough, ``film`` and all of the geometry are of the mean gap; where ``asperities`` are told,
-    so that the walls may touch, of the separation α of the walls' mean planes as if they were rigid, which is the mean
-    gap until they touch. ``load`` says what the bearing is to carry, over the nominal area (of a journal diameter times
-    width); rungs take the film as it is given and say what it carries, :mod:`rom.bearing.effects.ablation` finds it
-    under the load.
+    If the fixed wall is rough, the geometry describes the mean gap. With ``asperities`` it describes the separation α
+    of the mean planes of the undeformed walls, which equals the mean gap until the walls touch. The load is the
+    pressure over the nominal area (of a journal bearing: diameter times width). Models solve the film as given;
+    :mod:`roughfilm.rom.bearing.effects.under_load` solves for the film under the load.
 
-    ``fields`` of its results, of the shape of the grid: ``x``, ``y`` (m, or rad and m), ``film_thickness`` (m),
-    ``pressure`` (Pa), ``density_ratio`` θ (1), which below 1 is the part of the gap that liquid fills.
+    Fields of the results, of the shape of the grid: ``x``, ``y`` (m, or rad and m), ``film_thickness`` (m),
+    ``pressure`` (Pa), ``density_ratio`` θ (1), which below 1 is the fraction of the gap filled with liquid.
     """
 
     kind: Literal["bearing"]
     geometry: Annotated[AnyShape, Field(discriminator="shape")]
-    lubricant: Lubricant
-    motion: Motion
-    boundary: Boundary = Field(default_factory=Boundary)
+    lubricant: BearingLubricant
+    motion: BearingMotion
+    boundary: BearingBoundary = Field(default_factory=BearingBoundary)
     roughness: AnyRoughness | None = None
     asperities: AsperityContact | None = None
     load: Load | None = None
@@ -131,11 +134,11 @@ class Bearing(Scene):
         places = {"inlet": self.boundary.inlet.pressure, "outlet": self.boundary.outlet.pressure}
         sides = {"sides.low": self.boundary.sides.low, "sides.high": self.boundary.sides.high}
         for place, pressure in (places | (sides if self.wide is False else {})).items():
-            found = 0.0 if pressure is None and place == "inlet" and self.boundary.inlet.theta is None else pressure
-            if found is not None and found < lowest:
+            given = 0.0 if pressure is None and place == "inlet" and self.boundary.inlet.theta is None else pressure
+            if given is not None and given < lowest:
                 raise ValueError(
-                    f"boundary.{place}.pressure: got {found!r} Pa, below the pressure of cavitation, {lowest!r} Pa; "
-                    "no liquid has it, raise it"
+                    f"boundary.{place}.pressure: got {given!r} Pa; it must be at least the cavitation pressure, "
+                    f"{lowest!r} Pa"
                 )
         theta = self.boundary.inlet.theta
         if theta is not None and theta > 1:
@@ -146,19 +149,19 @@ class Bearing(Scene):
         if isinstance(self.geometry, Ring) and self.geometry.endless:
             self._can_be_joined()
         if self.wide and self.boundary.sides != Sides():
-            raise ValueError("boundary.sides: got pressures for an infinitely wide bearing; leave them or add a width")
+            raise ValueError("boundary.sides: got pressures for an infinitely wide bearing; remove them or add a width")
         law, least = self.lubricant.piezoviscosity, math.exp(-LOG_VISCOSITY)
         if isinstance(law, Roelands) and self.lubricant.viscosity <= least:
             raise ValueError(
-                f"lubricant.piezoviscosity: got roelands for {self.lubricant.viscosity!r} Pa s; by that law liquids of "
-                f"less than {least:.2g} Pa s grow thinner under pressure, take barus or constant"
+                f"lubricant.piezoviscosity: got roelands for {self.lubricant.viscosity!r} Pa s; that law needs more "
+                f"than {least:.2g} Pa s, take barus or constant"
             )
         if self.asperities is not None:
             self._can_touch(self.asperities)
         if isinstance(self.roughness, Sinusoid) and self.roughness.amplitude >= self.geometry.film:
             raise ValueError(
                 f"roughness.amplitude: got {self.roughness.amplitude!r} m; it must be below film, "
-                f"{self.geometry.film!r} m, or the walls would touch"
+                f"{self.geometry.film!r} m, or the walls touch"
             )
         self.geometry.film_shape()
         return self
@@ -166,20 +169,20 @@ class Bearing(Scene):
     def _can_touch(self, asperities: AsperityContact) -> None:
         if not isinstance(self.roughness, RoughSurface | StoredTable):
             got = "smooth walls" if self.roughness is None else "sinusoidal ridges"
-            raise ValueError(f"asperities: got them for {got}; give a surface or a table as roughness")
+            raise ValueError(f"asperities: got a table for {got}; give a surface or a table as roughness")
         if isinstance(self.roughness, RoughSurface) and asperities.solid is None:
-            raise ValueError("asperities.solid: is missing; say of what the rough wall is")
+            raise ValueError("asperities.solid: is missing; give the solid of the rough wall")
         if isinstance(self.roughness, StoredTable) and asperities.solid is not None:
-            raise ValueError("asperities.solid: got one, but the table was made for its own; leave it out")
+            raise ValueError("asperities.solid: got one, but the stored table has its own solids; leave it out")
 
     def _can_be_joined(self) -> None:
         boundary, lowest = self.boundary, self.lubricant.cavitation_pressure
         if boundary.inlet != Inlet() or boundary.outlet != Outlet():
-            raise ValueError("boundary: got an inlet or outlet for joined pads, which have none; leave it out")
+            raise ValueError("boundary: got an inlet or outlet, but joined pads have none; leave it out")
         if max(boundary.sides.low, boundary.sides.high) <= lowest:
             raise ValueError(
-                f"boundary.sides: got no pressure above that of cavitation, {lowest!r} Pa, for joined pads; nothing "
-                "would feed the ring, raise one of them"
+                f"boundary.sides: got no pressure above the cavitation pressure of {lowest!r} Pa; joined pads are "
+                "fed through their sides, raise one of the two"
             )
 
     @property
@@ -189,12 +192,12 @@ class Bearing(Scene):
 
     @property
     def turning_radius(self) -> float | None:
-        """Radius at which the speed of a turning wall is given, m; None if nothing turns."""
+        """The radius at which the speed of a rotating wall is given, m; None if the wall does not rotate."""
         return self.geometry.radius if isinstance(self.geometry, Journal | Ring) else None
 
     @property
     def ends(self) -> "Ends":
-        """What holds at the ends, above the pressure of cavitation."""
+        """The boundary conditions, with pressures above cavitation pressure."""
         from roughfilm.rom.cavitation.discretise import Ends  # slow to import
 
         lowest, boundary = self.lubricant.cavitation_pressure, self.boundary
@@ -215,7 +218,7 @@ class Bearing(Scene):
         )
 
     def problem(self) -> "Problem":
-        """The film to be solved, without roughness."""
+        """The problem of the film without roughness."""
         from roughfilm.rom.cavitation.problem import Problem  # slow to import
 
         geometry, lubricant = self.geometry, self.lubricant
@@ -231,12 +234,12 @@ class Bearing(Scene):
 
     @property
     def pressure_unit(self) -> float:
-        """6 η u L / h², Pa, with the least film thickness: the size of the pressures that sliding makes."""
+        """The pressure scale of sliding, 6 η u L / h², Pa, with the minimum film thickness h."""
         geometry = self.geometry
         return 6 * self.lubricant.viscosity * abs(self.motion.speed) * geometry.length / geometry.film**2
 
     @property
     def revolutions(self) -> float:
-        """Of a shaft, 1/s."""
+        """The rotational frequency of the shaft, 1/s."""
         assert isinstance(self.geometry, Journal)
         return abs(self.motion.speed) / (2 * math.pi * self.geometry.radius)

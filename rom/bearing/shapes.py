@@ -1,4 +1,4 @@
-"""The shape of a bearing's film, as a scene file writes it: one class a shape, each with its film thickness."""
+"""The shapes of bearing films in scene files, one class for each shape."""
 
 import math
 from typing import Annotated, Literal, Self
@@ -27,28 +27,28 @@ Count = Annotated[int, Field(strict=True, ge=1, le=10_000)]
 
 
 class Parallel(Pad):
-    """h = film."""
+    """A film of constant thickness."""
 
     shape: Literal["parallel"]
 
-    def untextured(self, x: Array) -> Array:
-        """h(x), m."""
+    def smooth_thickness(self, x: Array) -> Array:
+        """The film thickness h(x) without texture, m."""
         return np.full_like(x, self.film)
 
 
 class Linear(Pad):
-    """h falls evenly from film + rise at the inlet to film at the outlet."""
+    """A film that narrows linearly from film + rise at the inlet to film at the outlet."""
 
     shape: Literal["linear"]
     rise: Length
 
-    def untextured(self, x: Array) -> Array:
-        """h(x), m."""
+    def smooth_thickness(self, x: Array) -> Array:
+        """The film thickness h(x) without texture, m."""
         return np.asarray(self.film + self.rise * (1 - x / self.length))
 
 
 class Step(Pad):
-    """h = film + rise up to ``step`` from the inlet, m, film from there on: Rayleigh's bearing."""
+    """Rayleigh's step bearing: h = film + rise up to the distance ``step`` from the inlet, m, and film behind it."""
 
     shape: Literal["step"]
     rise: Length
@@ -61,16 +61,16 @@ class Step(Pad):
         return self
 
     def breaks(self) -> tuple[float, ...]:
-        """Where h or its slope jumps, m."""
+        """The positions where h or its slope jumps, m."""
         return 0.0, self.step, self.length
 
-    def untextured(self, x: Array) -> Array:
-        """h(x), m."""
+    def smooth_thickness(self, x: Array) -> Array:
+        """The film thickness h(x) without texture, m."""
         return np.where(x < self.step, self.film + self.rise, self.film)
 
 
 class Parabolic(Pad):
-    """``count`` equal parabolas one after the other, each from film + rise at its ends down to film in its middle."""
+    """A row of ``count`` equal parabolas, each with h = film + rise at its ends and film in its middle."""
 
     shape: Literal["parabolic"]
     rise: Length
@@ -78,22 +78,22 @@ class Parabolic(Pad):
 
     @property
     def finest(self) -> float:
-        """The shortest feature along the sliding, m."""
+        """The length of the shortest feature along the sliding direction, m."""
         return self.length / self.count
 
     def breaks(self) -> tuple[float, ...]:
-        """Where h or its slope jumps, m."""
+        """The positions where h or its slope jumps, m."""
         return (*(self.length * number / self.count for number in range(self.count)), self.length)
 
-    def untextured(self, x: Array) -> Array:
-        """h(x), m."""
-        part = self.length / self.count
-        along = x - part * np.clip(np.floor(x / part), 0, self.count - 1)
-        return np.asarray(self.film + self.rise * (2 * along / part - 1) ** 2)
+    def smooth_thickness(self, x: Array) -> Array:
+        """The film thickness h(x) without texture, m."""
+        period = self.length / self.count
+        along = x - period * np.clip(np.floor(x / period), 0, self.count - 1)
+        return np.asarray(self.film + self.rise * (2 * along / period - 1) ** 2)
 
 
 class Wavy(Pad):
-    """A parallel film whose inlet, up to ``extent``, is wavy; half of the length by default."""
+    """A parallel film with waves from the inlet up to ``extent``, m; by default half of the length."""
 
     amplitude: Length
     wavelength: Length
@@ -101,12 +101,12 @@ class Wavy(Pad):
 
     @property
     def end(self) -> float:
-        """Where the waves end, m."""
+        """The position where the waves end, m."""
         return self.length / 2 if self.extent is None else self.extent
 
     @property
     def finest(self) -> float:
-        """The shortest feature along the sliding, m."""
+        """The length of the shortest feature along the sliding direction, m."""
         return self.wavelength
 
     @model_validator(mode="after")
@@ -116,40 +116,40 @@ class Wavy(Pad):
         return self
 
     def breaks(self) -> tuple[float, ...]:
-        """Where h or its slope jumps, m."""
+        """The positions where h or its slope jumps, m."""
         return tuple(sorted({0.0, self.end, self.length}))
 
 
 class SinusoidalInlet(Wavy):
-    """h = film + amplitude sin(2π x/wavelength) at the inlet."""
+    """A film with h = film + amplitude sin(2π x/wavelength) at the inlet."""
 
     shape: Literal["sinusoidal_inlet"]
 
     @model_validator(mode="after")
     def _open(self) -> Self:
         if self.amplitude >= self.film:
-            raise ValueError(f"amplitude: got {self.amplitude!r} m; it must be below film, or the walls would touch")
+            raise ValueError(f"amplitude: got {self.amplitude!r} m; it must be below film, or the walls touch")
         return self
 
-    def untextured(self, x: Array) -> Array:
-        """h(x), m."""
+    def smooth_thickness(self, x: Array) -> Array:
+        """The film thickness h(x) without texture, m."""
         wave = self.amplitude * np.sin(2 * np.pi * x / self.wavelength)
         return np.asarray(self.film + np.where(x < self.end, wave, 0.0))
 
 
 class SquaredCosineInlet(Wavy):
-    """h = film + amplitude cos²(π x/wavelength) at the inlet: pockets, with a step where they end."""
+    """A film with h = film + amplitude cos²(π x/wavelength) at the inlet, and a step where the waves end."""
 
     shape: Literal["squared_cosine_inlet"]
 
-    def untextured(self, x: Array) -> Array:
-        """h(x), m."""
+    def smooth_thickness(self, x: Array) -> Array:
+        """The film thickness h(x) without texture, m."""
         wave = self.amplitude * np.cos(np.pi * x / self.wavelength) ** 2
         return np.asarray(self.film + np.where(x < self.end, wave, 0.0))
 
 
 class Journal(Part):
-    """A full journal bearing, unrolled from the widest place on: h = clearance (1 + eccentricity cos φ), x = R φ."""
+    """A full journal bearing, unrolled from the widest place: h = clearance (1 + eccentricity cos φ), x = R φ."""
 
     shape: Literal["journal"]
     radius: Length
@@ -160,26 +160,26 @@ class Journal(Part):
 
     @property
     def film(self) -> float:
-        """The least film thickness, m."""
+        """The minimum film thickness, m."""
         return self.clearance * (1 - self.eccentricity)
 
     @property
     def length(self) -> float:
-        """Once round, m."""
+        """The circumference, m."""
         return 2 * math.pi * self.radius
 
     def at_film(self, film: float) -> Self:
-        """The same shaft, moved to another least film thickness, which is at most the clearance."""
+        """The same shaft at another minimum film thickness, m, which is at most the clearance."""
         return self.model_copy(update={"eccentricity": 1 - film / self.clearance})
 
     @model_validator(mode="after")
-    def _thin(self) -> Self:
+    def _is_thin(self) -> Self:
         if self.clearance > 0.1 * self.radius:
             raise ValueError(f"clearance: got {self.clearance!r} m; it must be at most a tenth of the radius")
         return self
 
     def film_shape(self) -> Shape:
-        """The film."""
+        """The shape of the film, with its texture."""
         smooth = Shape(
             thickness=lambda x, y: self.clearance * (1 + self.eccentricity * np.cos(x / self.radius)) + 0 * y,
             breaks=(0.0, self.length),

@@ -16,11 +16,17 @@ Count = Annotated[int, Field(strict=True, ge=1, le=1000)]
 
 
 class Texture(Part):
-    """Equal pockets, ``columns`` along the sliding and ``rows`` across, ``pitch`` apart from middle to middle; m.
+    """Equal pockets in rows and columns.
 
-    ``length`` and ``width`` are those of one pocket; without a width they are grooves from side to side. The first
-    column begins at ``start``. ``profile``: "box" has a flat floor, "cylindrical" a floor that is a parabola along the
-    sliding (a shallow arc), "ellipsoidal" one in both directions, over an ellipse.
+    Attributes
+    ----------
+    profile : "box" has a flat floor, "cylindrical" a parabolic floor along the sliding direction, "ellipsoidal" a floor
+        that is parabolic in both directions over an elliptical outline.
+    length, depth : length along the sliding direction and depth of one pocket, m.
+    width : width of one pocket, m; None for grooves over the whole width.
+    start : position where the first column begins, m.
+    pitch, columns : distance of the columns from centre to centre, m, and their number along the sliding direction.
+    pitch_across, rows : distance of the rows from centre to centre, m, and their number across.
     """
 
     profile: Literal["box", "cylindrical", "ellipsoidal"] = "cylindrical"
@@ -34,20 +40,20 @@ class Texture(Part):
     rows: Count = 1
 
     @model_validator(mode="after")
-    def _apart(self) -> Self:
+    def _do_not_overlap(self) -> Self:
         if self.profile == "ellipsoidal" and self.width is None:
             raise ValueError("width: is missing; an ellipsoidal pocket needs one")
         if self.columns > 1 and (self.pitch is None or self.pitch < self.length):
-            raise ValueError(f"pitch: {_got(self.pitch)}; columns of pockets need one, of at least their length")
+            raise ValueError(f"pitch: {_got(self.pitch)}; columns of pockets need a pitch of at least their length")
         if self.rows > 1 and (self.width is None or self.pitch_across is None or self.pitch_across < self.width):
-            raise ValueError(f"pitch_across: {_got(self.pitch_across)}; rows need one, of at least the width")
+            raise ValueError(f"pitch_across: {_got(self.pitch_across)}; rows need a pitch of at least their width")
         if self.depth > self.length:
-            raise ValueError(f"depth: got {self.depth!r} m, deeper than the pocket is long; look at the units")
+            raise ValueError(f"depth: got {self.depth!r} m, more than the length of the pocket; check the units")
         return self
 
     @property
     def spans(self) -> tuple[tuple[float, float], ...]:
-        """Where each column begins and ends, m."""
+        """The start and the end of each column, m."""
         starts = [self.start + number * (self.pitch or 0.0) for number in range(self.columns)]
         return tuple((start, start + self.length) for start in starts)
 
@@ -57,16 +63,19 @@ def _got(value: float | None) -> str:
 
 
 def pocketed(shape: Shape, texture: Texture) -> Shape:
-    """The film with the pockets' depth added; a node stands at the ends of every column.
+    """The shape of the film with the depth of the pockets added, and a break at both ends of each column.
 
-    Raises ValueError where a pocket would reach over an end of the film.
+    Raises
+    ------
+    ValueError
+        If a pocket extends beyond the film.
     """
     low, high = shape.breaks[0], shape.breaks[-1]
     slack = 1e-9 * (high - low)
     first, last = texture.spans[0][0], texture.spans[-1][1]
     if first < low - slack or last > high + slack:
         raise ValueError(
-            f"geometry.texture: reaches from {first:.6g} to {last:.6g} m; it must stay within the film's {high!r} m"
+            f"geometry.texture: extends from {first:.6g} to {last:.6g} m; it must stay between 0 and {high!r} m"
         )
     breaks = [*shape.breaks, *(end for span in texture.spans for end in span)]
     if texture.width is not None:
@@ -82,12 +91,12 @@ def pocketed(shape: Shape, texture: Texture) -> Shape:
 
 
 def _distinct(places: list[float], low: float, high: float, slack: float) -> tuple[float, ...]:
-    kept = [low, *sorted(place for place in places if low + slack < place < high - slack), high]
-    return tuple(b for a, b in pairwise([kept[0] - 1, *kept]) if b - a > slack)
+    sorted_places = [low, *sorted(place for place in places if low + slack < place < high - slack), high]
+    return tuple(b for a, b in pairwise([low - 1, *sorted_places]) if b - a > slack)
 
 
 def _depth(texture: Texture, across: tuple[float, float], x: Array, y: Array) -> Array:
-    """How deep the wall is at each place, m."""
+    """The depth of the pockets at each position, m."""
     along, inside = _in_pocket(x - texture.start, texture.length, texture.pitch or texture.length, texture.columns)
     if texture.width is None:
         beside = np.zeros_like(along)
@@ -106,7 +115,7 @@ def _depth(texture: Texture, across: tuple[float, float], x: Array, y: Array) ->
 
 
 def _in_pocket(place: Array, length: float, pitch: float, count: int) -> tuple[Array, NDArray[np.bool_]]:
-    """From -1 to 1 over the nearest pocket, and whether the place is in it."""
+    """The coordinate from -1 to 1 over the nearest pocket, and whether the position is inside it."""
     number = np.clip(np.floor(place / pitch), 0, count - 1)
     within = 2 * (place - number * pitch) / length - 1
     return within, np.abs(within) <= 1

@@ -1,4 +1,4 @@
-"""One film region of an infinitely wide bearing, solved as an ordinary differential equation: a reference."""
+"""Reference solution of one film region of an infinitely wide bearing, as an ordinary differential equation."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -11,39 +11,45 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.rom.cavitation.problem import Problem
 
-RELATIVE, ABSOLUTE = 1e-13, 1e-16
-"""Tolerances of the integration, over the unit of pressure."""
+RELATIVE_TOLERANCE = 1e-13
+"""Relative tolerance of the integration."""
+
+ABSOLUTE_TOLERANCE = 1e-16
+"""Absolute tolerance of the integration, over the unit of pressure."""
 
 SAMPLES = 4000
-"""Places at which the narrowest one is sought before it is refined."""
+"""Number of positions among which the narrowest one is sought before it is refined."""
 
-DOUBLINGS = 60
-"""Of the flow, until it is more than the inlet can let in."""
+MAX_DOUBLINGS = 60
+"""Largest number of doublings of the flow until it exceeds that of the inlet pressure."""
 
-UNBOUNDED, NEAR = 1.0, 1e-6
-"""Over the unit of pressure: what a flow whose film has no pressure is told to exceed by, and what none need be."""
+UNBOUNDED_EXCESS = 1.0
+"""Excess pressure at the inlet, over its unit, assigned to a flow whose film has no bounded pressure."""
 
-STIFFEST = 1e-10
-"""Least η0/η: where the liquid is stiffer, the pressure is taken to grow beyond all bounds."""
+INLET_TOLERANCE = 1e-6
+"""Largest error of the inlet pressure over the unit of pressure."""
 
-EVALUATIONS = 6000
-"""Of the slope, for one film; most take about 1000."""
+MIN_FLUIDITY = 1e-10
+"""Smallest η0/η; below it the pressure counts as unbounded."""
+
+MAX_EVALUATIONS = 6000
+"""Largest number of evaluations of the pressure gradient for one film; most films take about 1000."""
 
 START, END, GREATEST = "start", "end", "greatest"
 
-Wide = Callable[[float], float]
+Thickness = Callable[[float], float]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Exact:
-    """A film with one region; pressures are above that of cavitation.
+    """A film with one region; pressures are above cavitation pressure.
 
     Attributes
     ----------
     load : ∫ p dx, N/m.
-    pressure_max : Pa.
-    film_start, rupture : where the film begins and ends, x/L from the inlet; both are 1 where there is none.
-    flow : through the film, m²/s at the density of cavitation.
+    pressure_max : largest pressure, Pa.
+    film_start, rupture : start and end of the film, x/L from the inlet; both are 1 without a film.
+    flow : flow through the film at the density of the cavitation pressure, m²/s.
     """
 
     load: float
@@ -54,7 +60,7 @@ class Exact:
 
 
 class _Film(NamedTuple):
-    """A film of one flow, over the units of length and pressure; ``inlet`` is its pressure where x = 0."""
+    """The film at a flow, over the units of length and pressure; ``inlet`` is the pressure at x = 0."""
 
     load: float
     greatest: float
@@ -64,25 +70,24 @@ class _Film(NamedTuple):
 
 
 def exact(problem: Problem) -> Exact:
-    """Solve dp/dx = 12 η(p)/(θ h³) (u θ h/2 - m) with one constant flow m between the film's start and its rupture.
+    """Solve dp/dx = 12 η(p)/(θ h³) (u θ h/2 - m) with a constant flow m between the film's start and its rupture.
 
-    The film ends where p = 0 and u h/2 = m on its widening side, or else at the outlet with p = 0, from where it is
-    integrated against the sliding, in which direction errors decay. A starved inlet brings m = u θ h/2 and the film
-    begins where p = 0; if it then reaches the inlet, more is brought than enters. An inlet of given pressure, or one
-    that brings enough, lets in the m for which p is that pressure there. About 11 digits are right, whatever the bulk
-    modulus, and fewer where viscosity grows by orders of magnitude; the lubricant's laws are all that is shared with
-    the finite volumes.
+    The film ends where p = 0 and u h/2 = m in its diverging part, or else at the outlet with p = 0. It is integrated
+    from there against the sliding, the direction in which errors decay. A starved inlet supplies m = u θ h/2, and the
+    film begins where p = 0; if it reaches the inlet, the supply exceeds the flow. For an inlet of given pressure, or
+    with excess supply, m is the flow with that pressure at the inlet. About 11 digits are correct for any bulk modulus,
+    fewer if the viscosity grows by orders of magnitude. Only the lubricant's laws are shared with the finite volumes.
 
-    Valid for infinitely wide films whose thickness is continuous and has one minimum, slid towards growing x, with
-    the outlet at the pressure of cavitation.
+    The solution is for infinitely wide films of continuous thickness with one minimum that slide towards increasing x,
+    with the outlet at cavitation pressure.
 
     Raises
     ------
     InputError
         If the film is not of that kind.
     ConvergenceError
-        If the pressure has no bound, as may be where viscosity grows with it without end, or changes too steeply to
-        be integrated, as where viscosity grows ten thousandfold and only compression bounds the pressure.
+        If the pressure is unbounded, as may happen if the viscosity grows without limit, or too steep for the
+        integration, as if the viscosity grows ten thousandfold and only compression bounds the pressure.
 
     Sources: Jakobsson and Floberg 1957 for the conditions at both ends; Elrod 1981, doi:10.1115/1.3251669.
     """
@@ -90,12 +95,12 @@ def exact(problem: Problem) -> Exact:
     places = _Places.of(problem)
     drag, ends = problem.speed / 2, problem.ends
     if ends.inlet is None:
-        brought = drag * ends.theta * places.thickness(0.0)
-        film = _tried(problem, places, brought)
+        supply = drag * ends.theta * places.thickness(0.0)
+        film = _tried(problem, places, supply)
         if film is not None and film.inlet <= 0:
-            return _told(places, film, brought)
+            return _in_units(places, film, supply)
     flow = _flow_of(problem, places, ends.inlet or 0.0)
-    return _told(places, _film(problem, places, flow), flow)
+    return _in_units(places, _film(problem, places, flow), flow)
 
 
 def _check(problem: Problem) -> None:
@@ -103,16 +108,16 @@ def _check(problem: Problem) -> None:
     if not shape.wide or any(shape.joined):
         raise InputError("shape: got a film with sides or joined ends; the exact solution is that of a line")
     if problem.speed <= 0:
-        raise InputError(f"speed: got {problem.speed!r} m/s; it must be above 0, turn the film round")
+        raise InputError(f"speed: got {problem.speed!r} m/s; it must be above 0, mirror the film")
     if ends.outlet != 0:
-        raise InputError(f"outlet: got {ends.outlet!r} Pa; a second film begins there, it must be 0")
+        raise InputError(f"outlet: got {ends.outlet!r} Pa; it must be 0, as a second film would begin there")
 
 
 @dataclass(frozen=True, kw_only=True)
 class _Places:
-    """Film thickness over x/L, where its slope may jump, and where it is least; ``pressure`` is the unit, Pa."""
+    """The film thickness over x/L, its breaks of slope and narrowest position; ``pressure`` is the unit, Pa."""
 
-    thickness: Wide
+    thickness: Thickness
     breaks: tuple[float, ...]
     narrowest: float
     length: float
@@ -133,13 +138,13 @@ class _Places:
         if (np.diff(film[: lowest + 1]) > 0).any() or (np.diff(film[lowest:]) < 0).any():
             raise InputError("shape: got a film with more than one narrowest place; it must have one")
         around = samples[max(lowest - 1, 0)], samples[min(lowest + 1, samples.size - 1)]
-        found = scipy.optimize.minimize_scalar(thickness, bounds=around, method="bounded", options={"xatol": 1e-12})
-        narrowest = float(found.x) if found.fun < film[lowest] else float(samples[lowest])
+        minimum = scipy.optimize.minimize_scalar(thickness, bounds=around, method="bounded", options={"xatol": 1e-12})
+        narrowest = float(minimum.x) if minimum.fun < film[lowest] else float(samples[lowest])
         unit = 6 * problem.viscosity * problem.speed * length / thickness(narrowest) ** 2
         return cls(thickness=thickness, breaks=breaks, narrowest=narrowest, length=length, pressure=unit)
 
 
-def _told(places: _Places, film: _Film, flow: float) -> Exact:
+def _in_units(places: _Places, film: _Film, flow: float) -> Exact:
     return Exact(
         load=film.load * places.pressure * places.length,
         pressure_max=film.greatest * places.pressure,
@@ -150,30 +155,30 @@ def _told(places: _Places, film: _Film, flow: float) -> Exact:
 
 
 def _flow_of(problem: Problem, places: _Places, inlet: float) -> float:
-    """The flow whose film has the pressure ``inlet``, Pa, where x = 0: what it lacks grows with the flow."""
+    """The flow at which the film has the pressure ``inlet``, Pa, at x = 0; the excess pressure grows with the flow."""
 
     def excess(flow: float) -> float:
         film = _tried(problem, places, flow)
         if film is None:
-            return UNBOUNDED
+            return UNBOUNDED_EXCESS
         return (film.inlet if film.start == 0 else -film.start) - inlet / places.pressure
 
     least = problem.speed / 2 * places.thickness(places.narrowest)
     most = problem.speed / 2 * places.thickness(0.0)
-    for _ in range(DOUBLINGS):
+    for _ in range(MAX_DOUBLINGS):
         if excess(most) > 0:
             break
         least, most = most, 2 * most
     if excess(least) >= 0:
         return least
-    found = float(scipy.optimize.brentq(excess, least, most, xtol=1e-300, rtol=4 * np.finfo(float).eps, maxiter=200))
-    if abs(excess(found)) > NEAR:
+    flow = float(scipy.optimize.brentq(excess, least, most, xtol=1e-300, rtol=4 * np.finfo(float).eps, maxiter=200))
+    if abs(excess(flow)) > INLET_TOLERANCE:
         raise _unbounded()
-    return found
+    return flow
 
 
 def _tried(problem: Problem, places: _Places, flow: float) -> _Film | None:
-    """The film that a flow keeps; None if its pressure grows beyond all bounds, as that of all greater flows does."""
+    """The film at a flow; None if its pressure is unbounded, as it is then at all larger flows."""
     try:
         return _film(problem, places, flow)
     except ConvergenceError:
@@ -181,7 +186,7 @@ def _tried(problem: Problem, places: _Places, flow: float) -> _Film | None:
 
 
 def _film(problem: Problem, places: _Places, flow: float) -> _Film:
-    """The film that a flow keeps, integrated from its end to its start."""
+    """The film at a flow, integrated from its end to its start."""
     full = 2 * flow / problem.speed
     if full <= places.thickness(places.narrowest):
         return _Film(0.0, 0.0, 1.0, 1.0, 0.0)
@@ -210,8 +215,8 @@ Slope = Callable[[float, Any], Array]
 
 
 def _slope(problem: Problem, places: _Places, flow: float) -> Slope:
-    """slope(x, (p, load behind x)) over the units of length and pressure."""
-    left = EVALUATIONS
+    """The function slope(x, (p, load behind x)) over the units of length and pressure."""
+    left = MAX_EVALUATIONS
 
     def slope(x: float, state: Array) -> Array:
         nonlocal left
@@ -220,7 +225,7 @@ def _slope(problem: Problem, places: _Places, flow: float) -> Slope:
         pressure = np.array([max(float(state[0]), 0.0) * places.pressure])
         theta = 1 + problem.compression(pressure)[0][0]
         fluidity = problem.piezoviscosity.fluidity(pressure, problem.viscosity)[0][0]
-        if fluidity < STIFFEST or left < 0:
+        if fluidity < MIN_FLUIDITY or left < 0:
             raise _unbounded()
         rise = 12 * problem.viscosity / fluidity / h**3 * (problem.speed / 2 * h - flow / theta)
         return np.array([rise * places.length / places.pressure, -state[0]])
@@ -229,9 +234,9 @@ def _slope(problem: Problem, places: _Places, flow: float) -> Slope:
 
 
 def _integrated(slope: Slope, here: float, stop: float, state: Array, *, rising: bool) -> tuple[float, str]:
-    """How far it goes from ``here`` against the sliding until the pressure is 0, greatest, or ``stop`` is reached.
+    """The position where the integration from ``here`` against the sliding ends, and why.
 
-    The greatest is met once, and looked for only while the pressure is still ``rising`` that way.
+    It ends where the pressure is 0 or, while it is ``rising`` in that direction, largest, or at ``stop``.
     """
 
     def starts(_x: float, now: Array) -> float:
@@ -242,37 +247,30 @@ def _integrated(slope: Slope, here: float, stop: float, state: Array, *, rising:
 
     starts.terminal = falls.terminal = True  # type: ignore[attr-defined]
     starts.direction, falls.direction = -1, 1  # type: ignore[attr-defined]
-    found = scipy.integrate.solve_ivp(
-        slope,
-        (here, stop),
-        state,
-        method="DOP853",
-        rtol=RELATIVE,
-        atol=ABSOLUTE,
-        events=[starts, falls] if rising else [starts],
-    )
-    _whole(found)
-    if found.t_events[0].size:
-        return float(found.t_events[0][0]), START
-    if rising and found.t_events[1].size:
-        return float(found.t_events[1][0]), GREATEST
+    solution = _solved(slope, here, stop, state, events=[starts, falls] if rising else [starts])
+    if solution.t_events[0].size:
+        return float(solution.t_events[0][0]), START
+    if rising and solution.t_events[1].size:
+        return float(solution.t_events[1][0]), GREATEST
     return stop, END
 
 
 def _state_at(slope: Slope, here: float, there: float, state: Array) -> Array:
-    """The state at a place, by steps that end there: between them it is known less well."""
-    found = scipy.integrate.solve_ivp(slope, (here, there), state, method="DOP853", rtol=RELATIVE, atol=ABSOLUTE)
-    _whole(found)
-    return np.asarray(found.y[:, -1])
+    """The state at a position, by steps that end there, since interpolation between steps is less accurate."""
+    return np.asarray(_solved(slope, here, there, state).y[:, -1])
 
 
-def _whole(found: Any) -> None:
-    if not found.success or not np.isfinite(found.y).all():
+def _solved(slope: Slope, here: float, there: float, state: Array, events: Any = None) -> Any:
+    solution = scipy.integrate.solve_ivp(
+        slope, (here, there), state, method="DOP853", rtol=RELATIVE_TOLERANCE, atol=ABSOLUTE_TOLERANCE, events=events
+    )
+    if not solution.success or not np.isfinite(solution.y).all():
         raise _unbounded()
+    return solution
 
 
 def _unbounded() -> ConvergenceError:
     return ConvergenceError(
-        "exact: the pressure of the film grows beyond all bounds or too steeply; viscosity must grow less with it",
+        "exact: the pressure of the film is unbounded or too steep; take a viscosity that grows less with pressure",
         outcome=Outcome.DIVERGED,
     )

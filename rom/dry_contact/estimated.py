@@ -1,4 +1,4 @@
-"""Rungs that estimate a contact from statistics of the surface."""
+"""Models that estimate a contact from statistics of the surface."""
 
 import math
 from collections.abc import Callable
@@ -14,36 +14,36 @@ from roughfilm.rom.dry_contact.scene import DryContact
 from roughfilm.rom.ladder.model import About, Applicability, Model
 from roughfilm.rom.ladder.result import Field
 
-RESIDUAL_MEANING = "mismatch of the load that its pressures carry, relative to the load"
+RESIDUAL_MEANING = "relative difference of the load of the pressures from the load"
 
-TOLERANCE = 1e-3
-"""Of the load; nothing is iterated, so that a mismatch above it is told and not mended."""
+LOAD_TOLERANCE = 1e-3
+"""Default relative load difference above which there is a warning; nothing is iterated."""
 
-Guess = Callable[[Task], Estimate]
+Estimator = Callable[[Task], Estimate]
 
 
-def estimate(task: Task, *, guess: Guess) -> Answer:
-    """What an estimate says of a scene, as far as it goes."""
+def estimate(task: Task, *, guess: Estimator) -> Answer:
+    """The quantities and fields that an estimate has, with warnings outside of its range."""
     scene: DryContact = task.scene
-    found = guess(task)
-    edges, mismatch = bin_edges(scene), load_mismatch(scene, found)
-    warnings = [] if found.trusted else [f"out of its range, {found.range_of_validity}"]
+    contact = guess(task)
+    edges, mismatch = bin_edges(scene), load_mismatch(scene, contact)
+    warnings = [] if contact.trusted else [f"out of its range, {contact.range_of_validity}"]
     if mismatch > task.tolerance:
-        warnings.append(f"its pressures carry a load {mismatch:.1e} off")
+        warnings.append(f"the load of its pressures has a relative error of {mismatch:.1e}")
     quantities = {
-        "area_fraction": one(found.area_fraction),
-        "plastic_fraction": one(found.plastic_fraction),
-        "mean_contact_pressure": Quantity(value=found.mean_contact_pressure, unit="Pa"),
+        "area_fraction": one(contact.area_fraction),
+        "plastic_fraction": one(contact.plastic_fraction),
+        "mean_contact_pressure": Quantity(value=contact.mean_contact_pressure, unit="Pa"),
     }
-    if found.mean_gap is not None:
-        quantities["mean_gap"] = Quantity(value=found.mean_gap, unit="m")
-    if found.plastic_fraction:
+    if contact.mean_gap is not None:
+        quantities["mean_gap"] = Quantity(value=contact.mean_gap, unit="m")
+    if contact.plastic_fraction:
         quantities["pressure_max"] = Quantity(value=scene.hardness, unit="Pa")
     return Answer(
         quantities={name: quantity for name, quantity in quantities.items() if math.isfinite(quantity.value)},
         fields={
             "bin_edges": Field(values=edges, unit="Pa"),
-            "pressure_density": Field(values=density_of_estimate(found, edges), unit="1/Pa"),
+            "pressure_density": Field(values=density_of_estimate(contact, edges), unit="1/Pa"),
         },
         residual=mismatch,
         iterations=1,
@@ -52,32 +52,32 @@ def estimate(task: Task, *, guess: Guess) -> Answer:
 
 
 def prepare(_task: Task) -> None:
-    """Import what is slow to import, which is not the cost of a scene."""
+    """Import modules whose import time is not part of the cost."""
     import scipy.interpolate
     import scipy.optimize  # noqa: F401
 
 
-def applies(scene: DryContact, *, guess: Guess, what: str) -> Applicability:
-    """Whether the estimate can be made at all; if so, how far it is to be trusted."""
+def applies(scene: DryContact, *, guess: Estimator, what: str) -> Applicability:
+    """Whether the estimate exists for a scene, with its range of validity."""
     surface = scene.surface()
-    task = Task(scene=scene, heights=surface.heights, spacing=surface.spacing, tolerance=TOLERANCE)
+    task = Task(scene=scene, heights=surface.heights, spacing=surface.spacing, tolerance=LOAD_TOLERANCE)
     try:
-        found = guess(task)
+        contact = guess(task)
     except InputError as error:
         return Applicability(applies=False, reason=str(error))
-    kept = "within" if found.trusted else "out of"
-    reason = f"{what}; {kept} its range, {found.range_of_validity}; cannot say: {found.cannot_say}"
+    inside = "within" if contact.trusted else "out of"
+    reason = f"{what}; {inside} its range, {contact.range_of_validity}; cannot say: {contact.cannot_say}"
     return Applicability(applies=True, reason=reason)
 
 
-def estimated_model(*, what: str, guess: Guess, **about: Unpack[About]) -> Model[DryContact]:
-    """A model that estimates; ``what`` says in words what it keeps and leaves out."""
+def estimated_model(*, what: str, guess: Estimator, **about: Unpack[About]) -> Model[DryContact]:
+    """A model from an estimate; ``what`` describes the effects that it keeps and leaves out."""
     return contact_model(
         **about,
         residual_meaning=RESIDUAL_MEANING,
         applies=partial(applies, guess=guess, what=what),
         work=partial(estimate, guess=guess),
         prepare=prepare,
-        tolerance=TOLERANCE,
+        tolerance=LOAD_TOLERANCE,
         cost=lambda heights: 2e-3 + 3e-7 * heights,
     )

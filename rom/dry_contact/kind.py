@@ -1,4 +1,4 @@
-"""Dry contacts: real area and mean gap of a rough surface under load."""
+"""The kind of scene ``dry_contact``: real area and mean gap of a rough surface under load."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -12,23 +12,23 @@ from roughfilm.rom.ladder.kind import Kind
 from roughfilm.rom.ladder.sweeping import Columns, Powers, Sweeping
 from roughfilm.rom.parts.pressed_surface import RoughContact
 
-LEAST_GAP = 1e-3
-"""A mean gap below this part of the rms height is as good as closed; an error in it is divided by that part."""
+MIN_GAP_SCALE = 1e-3
+"""Mean gap over the rms height below which errors are relative to this value."""
 
 NEVER_PLASTIC = 10.0
-"""H/(E* g') that stands for a solid without hardness: its pressures hardly exceed 2 E* g'."""
+"""H/(E* g') that stands for a solid without hardness, whose pressures hardly exceed 2 E* g'."""
 
 SYMBOLS = {"pressure": "P/(E* g')", "hardness": "H/(E* g')", "breadth": "α"}
 
 
 def scale(values: Mapping[str, Any], quantity: str) -> Any:
-    """The size of a quantity; of the mean gap at least ``LEAST_GAP`` of the rms height."""
+    """The magnitude of a quantity, for the mean gap at least ``MIN_GAP_SCALE`` times the rms height."""
     size = np.abs(values[quantity])
-    return np.maximum(size, LEAST_GAP * values["rms_height"]) if quantity == "mean_gap" else size
+    return np.maximum(size, MIN_GAP_SCALE * values["rms_height"]) if quantity == "mean_gap" else size
 
 
 def columns(scene: RoughContact) -> dict[str, Quantity | str]:
-    """The surface's name, P/(E* g'), H/(E* g') where there is a hardness, and Nayak's α where the surface is rough."""
+    """The name of the surface, P/(E* g'), H/(E* g') of a plastic solid, and Nayak's α of a rough surface."""
     spectrum = scene.spectrum()
     numbers = {"pressure_ratio": scene.load.pressure / scene.pressure_unit}
     if scene.solid.hardness is not None:
@@ -42,24 +42,24 @@ def columns(scene: RoughContact) -> dict[str, Quantity | str]:
 
 
 def features(given: Columns) -> dict[str, NDArray[Any]]:
-    """P/(E* g'), H/(E* g') and α; ``given`` as in :func:`columns`."""
+    """The numbers P/(E* g'), H/(E* g') and α from :func:`columns` of many scenes."""
     return {"pressure": given["pressure_ratio"], "hardness": given["hardness_ratio"], "breadth": given["nayak"]}
 
 
 def worth(values: Columns) -> NDArray[np.bool_]:
-    """Every case that touches."""
+    """Whether each case has contact."""
     return np.asarray(values["area_fraction"] > 0)
 
 
-def words(powers: Powers) -> str:
-    """A product of powers as people write it; P/H where pressure and hardness are over each other."""
+def product_text(powers: Powers) -> str:
+    """A product of powers as text, with P/H for pressure over hardness."""
     left = dict(powers)
-    told = []
+    factors = []
     if left.get("pressure") == 1 and left.get("hardness") == -1:
         del left["pressure"], left["hardness"]
-        told.append("P/H")
-    told += [SYMBOLS[name] if power == 1 else f"({SYMBOLS[name]})^{power:g}" for name, power in left.items()]
-    return " · ".join(told)
+        factors.append("P/H")
+    factors += [SYMBOLS[name] if power == 1 else f"({SYMBOLS[name]})^{power:g}" for name, power in left.items()]
+    return " · ".join(factors)
 
 
 NUMBERS = {
@@ -69,13 +69,13 @@ NUMBERS = {
     "breadth": "α",
     "waves": "side/λ",
 }
-"""How people write the numbers of a contact."""
+"""Symbols of the numbers of a contact."""
 
 
 def numbers(scene: RoughContact) -> dict[str, float]:
-    """λ = 2π Sq/g'; P/H and H/(E* g') as if H were ten times E* g' without one.
+    """The dimensionless numbers of a contact, with λ = 2π Sq/g', and H = 10 E* g' without a hardness.
 
-    A flat surface has none of them.
+    A flat surface has none.
     """
     spectrum = scene.spectrum()
     if spectrum is None:
@@ -116,6 +116,6 @@ KIND = Kind(
             "α": {"breadth": 1},
         },
         fitted=("pressure", "hardness", "breadth"),
-        words=words,
+        words=product_text,
     ),
 )

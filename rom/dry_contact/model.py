@@ -1,4 +1,4 @@
-"""What rungs share that work on the points of a rough surface: their grid, quantities, fields and bookkeeping."""
+"""Models on the points of a rough surface: their grid, request, cost and result."""
 
 import math
 import time
@@ -17,15 +17,14 @@ from roughfilm.rom.parts.pressed_surface import MIN_SIDE_POINTS, RoughScene
 from roughfilm.rom.parts.restriction import restricted
 from roughfilm.rom.parts.surface_geometry import digest_of
 
-RESOLUTION_MEANING = "points along the longer side; on a coarser grid, the surface less the waves it cannot hold"
-
+RESOLUTION_MEANING = "points along the longer side; a coarser grid omits the waves that it cannot represent"
 
 RoughSceneT = TypeVar("RoughSceneT", bound=RoughScene)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Task:
-    """A scene with a rough surface, on a grid: heights, shape (nx, ny), m, spacing, m, and the residual asked for."""
+    """A scene with a rough surface on a grid: heights, m, shape (nx, ny), spacing, m, and tolerance of the residual."""
 
     scene: Any
     heights: Array
@@ -35,7 +34,7 @@ class Task:
 
 @dataclass(frozen=True, kw_only=True)
 class Answer:
-    """What a rung found: quantities and fields, residual, iterations, and what must be known of it."""
+    """The solution of a model: quantities, fields, residual, iterations and warnings."""
 
     quantities: Mapping[str, Quantity]
     fields: Mapping[str, Field]
@@ -48,16 +47,16 @@ Work = Callable[[Task], Answer]
 
 
 def nothing(_task: Task) -> None:
-    """For work that needs no preparation."""
+    """Do nothing, as the preparation of models that need none."""
 
 
 def once(_scene: Any) -> int:
-    """One period."""
+    """The number of periods of a model on one period, 1."""
     return 1
 
 
 def one(value: float) -> Quantity:
-    """A number without unit."""
+    """A dimensionless quantity."""
     return Quantity(value=value, unit="1")
 
 
@@ -70,14 +69,14 @@ def solve(
     work: Work,
     prepare: Callable[[Task], None],
 ) -> Result:
-    """Do a rung's work on the surface, or on less of its waves where a coarser grid is asked for.
+    """Solve a model on the surface, without the waves that a requested coarser grid cannot represent.
 
     Raises
     ------
     InputError
-        As the work raises it.
+        If ``work`` raises it.
     ConvergenceError
-        If the work does not converge.
+        If ``work`` does not converge.
     """
     model, keeps, sources = solver.name, solver.keeps, solver.sources
     resolution, tolerance, scheme = request.resolution, request.tolerance, request.scheme
@@ -87,13 +86,13 @@ def solve(
     nx, ny = (max(2, round(points * resolution / own)) for points in surface.shape)
     heights, (length, width) = restricted(surface.heights, (nx, ny)), surface.size
     task = Task(scene=scene, heights=heights, spacing=(length / nx, width / ny), tolerance=tolerance)
-    _ = scene.rms_slope  # what it comes from is kept for all rungs, and is not the cost of one
+    _ = scene.rms_slope  # cached for all models, so that it is not part of the cost of one
     prepare(task)
     wall, cpu = time.perf_counter(), time.process_time()
     answer = work(task)
     warnings = list(answer.warnings)
     if not surface.periodic:
-        warnings.append("the surface does not say that it repeats itself; it is taken as one period")
+        warnings.append("the surface is not marked as periodic; it is taken as one period")
     return Result(
         model=model,
         quantities={"rms_height": Quantity(value=float(heights.std()), unit="m"), **answer.quantities},
@@ -120,7 +119,7 @@ def solve(
 
 
 def own_resolutions(scene: RoughScene) -> Resolutions:
-    """Points along the longer side of a scene's surface: from a coarse grid to its own, which is the default."""
+    """The numbers of points along the longer side, from a coarse grid to the surface's own, the default."""
     own = max(scene.surface().shape)
     return Resolutions(least=min(own, MIN_SIDE_POINTS), most=own, default=own, series=scene.resolutions)
 
@@ -137,10 +136,10 @@ def contact_model(
     repeats: Callable[[RoughSceneT], int] = once,
     **about: Unpack[About],
 ) -> Model[RoughSceneT]:
-    """A model of a contact, dry or wet, or of a rough gap.
+    """A model of a dry contact, a seal or a rough gap.
 
-    ``cost`` gives CPU seconds for a number of heights, of which there are as many again for each of the ``repeats``.
-    ``prepare`` does before the clock starts the work that is done once on a machine.
+    ``cost(heights)`` is in CPU seconds for one period; ``repeats(scene)`` is the number of periods. ``prepare(task)``
+    does work that is not part of the cost, such as compilation.
     """
 
     def scene_cost(scene: RoughSceneT, resolution: int) -> float:

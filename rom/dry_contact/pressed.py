@@ -1,4 +1,4 @@
-"""Rungs that press the surface itself: elastic, or elastic and plastic."""
+"""Models that solve the contact of the surface itself, elastic or elastic-plastic."""
 
 import math
 from collections.abc import Callable
@@ -14,15 +14,14 @@ from roughfilm.rom.dry_contact.scene import DryContact
 from roughfilm.rom.ladder.model import About, Applicability, Effect, Model
 from roughfilm.rom.ladder.result import Field
 
-RESIDUAL_MEANING = "largest break of the conditions of contact, computed afresh, relative to the rms height"
+RESIDUAL_MEANING = "largest recomputed violation of the contact conditions, relative to the rms height"
 
-
-TOLERANCE = 1e-8
-"""Of the residual."""
+RESIDUAL_TOLERANCE = 1e-8
+"""Default tolerance of the residual."""
 
 
 def prepare(task: Task) -> None:
-    """Compile the kernels and plan the transforms, which is done once on a machine."""
+    """Compile the kernels and plan the transforms."""
     from roughfilm.contact.mechanics.press import Press  # numba is slow to import
 
     _compile()
@@ -31,7 +30,7 @@ def prepare(task: Task) -> None:
 
 @cache
 def _compile() -> None:
-    """Press a wave on a small grid."""
+    """Solve the contact of a wave on a small grid."""
     from roughfilm.contact.mechanics.press import Press
 
     wave = np.cos(2 * np.pi * np.arange(8) / 8)
@@ -39,49 +38,49 @@ def _compile() -> None:
 
 
 def press(task: Task, *, plastic: bool) -> Answer:
-    """The contact of a scene, its hardness left out if it is to stay elastic."""
+    """The contact of a scene, elastic unless ``plastic``."""
     from roughfilm.contact.mechanics.press import Press
 
     scene: DryContact = task.scene
     hardness = scene.hardness if plastic else math.inf
-    found = Press(task.heights, task.spacing, scene.composite_modulus, hardness=hardness).at(
+    contact = Press(task.heights, task.spacing, scene.composite_modulus, hardness=hardness).at(
         scene.load.pressure, tolerance=task.tolerance
     )
     edges = bin_edges(scene)
     return Answer(
         quantities={
-            "area_fraction": one(found.area_fraction),
-            "area_fraction_pixel": one(found.area_fraction_pixel),
-            "plastic_fraction": one(found.plastic_fraction),
-            "mean_gap": Quantity(value=found.mean_gap, unit="m"),
-            "approach": Quantity(value=found.approach, unit="m"),
-            "pressure_max": Quantity(value=float(found.pressure.max()), unit="Pa"),
-            "mean_contact_pressure": Quantity(value=scene.load.pressure / found.area_fraction, unit="Pa"),
+            "area_fraction": one(contact.area_fraction),
+            "area_fraction_pixel": one(contact.area_fraction_pixel),
+            "plastic_fraction": one(contact.plastic_fraction),
+            "mean_gap": Quantity(value=contact.mean_gap, unit="m"),
+            "approach": Quantity(value=contact.approach, unit="m"),
+            "pressure_max": Quantity(value=float(contact.pressure.max()), unit="Pa"),
+            "mean_contact_pressure": Quantity(value=scene.load.pressure / contact.area_fraction, unit="Pa"),
         },
         fields={
-            "pressure": Field(values=found.pressure, unit="Pa"),
-            "gap": Field(values=found.gap, unit="m"),
+            "pressure": Field(values=contact.pressure, unit="Pa"),
+            "gap": Field(values=contact.gap, unit="m"),
             "bin_edges": Field(values=edges, unit="Pa"),
-            "pressure_density": Field(values=density_of_contact(found, edges), unit="1/Pa"),
+            "pressure_density": Field(values=density_of_contact(contact, edges), unit="1/Pa"),
         },
-        residual=found.complementarity,
-        iterations=max(found.iterations, 1),
+        residual=contact.complementarity,
+        iterations=max(contact.iterations, 1),
     )
 
 
 def cost(heights: int) -> float:
-    """CPU seconds for so many heights at a tenth of contact."""
+    """The CPU time for a number of heights at a contact area of a tenth, s."""
     return 5e-3 + 6e-7 * heights
 
 
 def pressed_model(*, applies: Callable[[DryContact], Applicability], **about: Unpack[About]) -> Model[DryContact]:
-    """A model that presses the surface; plastic if it keeps plasticity."""
+    """A model that solves the contact, plastic if it keeps plasticity."""
     return contact_model(
         **about,
         residual_meaning=RESIDUAL_MEANING,
         applies=applies,
         work=partial(press, plastic=Effect.PLASTICITY in about["keeps"]),
         prepare=prepare,
-        tolerance=TOLERANCE,
+        tolerance=RESIDUAL_TOLERANCE,
         cost=cost,
     )

@@ -1,4 +1,4 @@
-"""A dry contact: a rough surface pressed on a flat one."""
+"""The scene of a dry contact: a rough surface pressed on a flat one."""
 
 from typing import Literal
 
@@ -8,9 +8,9 @@ from roughfilm.rom.parts.pressed_surface import RoughContact
 class DryContact(RoughContact):
     """A rough surface pressed on a flat one.
 
-    Models that resolve the surface give the fields ``pressure`` (Pa) and ``gap`` (m), shape (nx, ny). All that know
-    pressures give ``bin_edges`` (n+1,), Pa, and ``pressure_density`` (n,), 1/Pa: the part of the nominal area with
-    pressures in a bin, over its width; what is at the hardness is not in it.
+    The fields of a result are ``bin_edges`` (n+1,), Pa, and ``pressure_density`` (n,), 1/Pa, the fraction of the
+    nominal area with pressures in a bin over its width, without the area at the hardness. Models that resolve the
+    surface add ``pressure``, Pa, and ``gap``, m, shape (nx, ny).
     """
 
     kind: Literal["dry_contact"]

@@ -12,7 +12,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.rom.multigrid.gradients import apply
 from roughfilm.rom.multigrid.multigrid import Multigrid, Solved
-from roughfilm.rom.multigrid.pieces import ROUNDING
+from roughfilm.rom.multigrid.pieces import LEAK_ROUNDOFF
 
 MAX_ELIMINATION_NODES = 1_100_000
 """Largest number of nodes for elimination; the factors of larger matrices take more than 3 GB."""
@@ -81,7 +81,7 @@ def by_elimination(matrix: Matrix, sources: Iterable[Source], _tolerance: float)
     links = links + links.T
     diagonal = links.sum(axis=1)
     leak = matrix.centre.ravel() - diagonal
-    leak[leak <= ROUNDING * diagonal] = 0.0
+    leak[leak <= LEAK_ROUNDOFF * diagonal] = 0.0
     pieces, piece = scipy.sparse.csgraph.connected_components(links, directed=False)
     held = np.unique(piece, return_index=True)[1][np.bincount(piece, leak, pieces) == 0]
     diagonal += leak

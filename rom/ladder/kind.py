@@ -1,4 +1,4 @@
-"""A kind of scene, as data: what is in it, what is compared in it, and all else that no command knows by itself."""
+"""A kind of scene as data: its entries, its compared quantities, and all else that commands need of it."""
 
 import importlib
 import importlib.util
@@ -20,7 +20,7 @@ from roughfilm.rom.ladder.sweeping import Sweeping
 
 
 class Scene(Part):
-    """What is solved: geometry, materials, motion and loads, frozen, in SI units; each kind adds its own tables.
+    """The scene that is solved: geometry, materials, motion and loads, in SI units; each kind adds its own tables.
 
     Examples
     --------
@@ -35,7 +35,7 @@ class Scene(Part):
 
 
 def plain_fault(error: ValidationError, _entries: Mapping[str, Any], *, scene: type[Scene]) -> str:
-    """The first fault of a scene whose tables are models all the way down, in one line."""
+    """The first fault of a scene whose tables are all pydantic models, in one line."""
 
     def unknown(location: Location) -> str:
         *path, key = location
@@ -45,17 +45,17 @@ def plain_fault(error: ValidationError, _entries: Mapping[str, Any], *, scene: t
 
 
 def nothing_omitted(_scene: Any, _quantity: str) -> None:
-    """For kinds whose best rung keeps all that is of interest."""
+    """No omission, for kinds whose most complete model keeps every relevant effect."""
 
 
 def nothing_composed(_scene: Any) -> tuple[str, ...]:
-    """For kinds whose scenes are not put together of effects."""
+    """No lines, for kinds whose scenes are not composed of effects."""
     return ()
 
 
 @dataclass(frozen=True, kw_only=True)
 class Omission:
-    """What every rung of a kind leaves out: by which part of its size that changes a quantity, and why, in words."""
+    """An effect that every model of a kind leaves out: its relative change of a quantity, and the reason in words."""
 
     part: float
     reason: str
@@ -68,21 +68,21 @@ class Kind:
     Attributes
     ----------
     scene : the model of its scenes, whose ``kind`` is ``name``.
-    summary : what its scenes are, in words.
+    summary : its scenes, in words.
     compared : the quantities by which models are judged, with their names in a sentence, the first one first.
-    scale : scale(values, quantity): what an error in a compared quantity is divided by, from the reference's values by
-        quantity, numbers or arrays alike.
-    columns : what a table of many cases tells of a scene, beside what varies: dimensionless numbers, texts.
-    files : keys whose texts name files, which are sought beside the scene.
-    no_files : texts in their place that name none.
-    replaces : keys that an override makes meaningless: it takes them away from the same table.
-    lists : where lists stand that are one value; a study sweeps every other list, and lists of these.
-    numbers : the dimensionless numbers that tell how far its rungs may be off; those without meaning are left out.
-    symbols : how people write them.
-    composed : composed(scene): how each of several effects of a scene is told, and why so, a line each.
-    omitted : omitted(scene, quantity): what none of its rungs keeps, None where that is nothing or cannot be told.
-    told : the first fault of a scene in one line, from pydantic's error and the entries; by default by the models.
-    sweeping : how a report over many cases judges them; None if there is none.
+    scale : scale(values, quantity): the size that an error in a compared quantity is divided by, from the reference's
+        values by quantity, which are numbers or arrays.
+    columns : columns(scene): dimensionless numbers and texts of a scene in a table of many cases.
+    files : keys whose texts name files, relative to the scene file.
+    no_files : texts of these keys that name no file.
+    replaces : keys of the same table that an override of a key removes.
+    lists : places of lists that are one value; a study sweeps every other list, and lists of these.
+    numbers : numbers(scene): the dimensionless numbers of the error laws; meaningless ones are left out.
+    symbols : the symbols of these numbers.
+    composed : composed(scene): a line on the model of each effect of a scene, and its reason.
+    omitted : omitted(scene, quantity): the effect that all models leave out, None where it is zero or unknown.
+    message : message(error, entries): the first fault of a scene in one line, from pydantic's error.
+    sweeping : what a report over many cases needs; None if there is none.
     """
 
     name: str
@@ -99,7 +99,7 @@ class Kind:
     no_files: frozenset[str] = frozenset()
     replaces: Mapping[str, Sequence[str]] = field(default_factory=dict)
     lists: frozenset[tuple[str | int, ...]] = frozenset()
-    told: Callable[[ValidationError, Mapping[str, Any]], str] | None = None
+    message: Callable[[ValidationError, Mapping[str, Any]], str] | None = None
     sweeping: Sweeping | None = None
 
     def read(self, entries: Mapping[str, Any]) -> Scene:
@@ -107,11 +107,11 @@ class Kind:
         try:
             return self.scene.model_validate(entries)
         except ValidationError as error:
-            raise InputError((self.told or partial(plain_fault, scene=self.scene))(error, entries)) from None
+            raise InputError((self.message or partial(plain_fault, scene=self.scene))(error, entries)) from None
 
     def scale_of(self, result: Result, quantity: str) -> float:
-        """What an error in a quantity is divided by where this result is the reference."""
-        return float(self.scale({name: found.value for name, found in result.quantities.items()}, quantity))
+        """The size that an error in a quantity is divided by where this result is the reference."""
+        return float(self.scale({name: one.value for name, one in result.quantities.items()}, quantity))
 
     def shared(self, *results: Result) -> tuple[str, ...]:
         """The compared quantities that all of these results give."""

@@ -1,4 +1,4 @@
-"""The ladder: models as data, found in their packages, ordered by what they keep."""
+"""The ladder: models as data, listed from their packages, ordered by the effects that they keep."""
 
 import importlib
 import importlib.util
@@ -24,24 +24,24 @@ class Effect(StrEnum):
     SLOPE = "slope"
     INERTIA = "inertia"
     DEFORMATION = "deformation"
-    """Elastic, of the whole solid: where it is pressed, and around."""
+    """Elastic deformation of the whole solid."""
     PLASTICITY = "plasticity"
-    """Pressure that the hardness bounds."""
+    """Contact pressure limited by the hardness."""
     SIDE_FLOW = "side flow"
-    """Across the sliding, and through the sides of a film."""
+    """Flow across the sliding direction and through the sides of a film."""
     CAVITATION = "cavitation"
-    """Films that rupture where pressure would fall below what the liquid bears, mass kept."""
+    """Films that rupture at the cavitation pressure, with conservation of mass."""
     PRESSURE_DEPENDENCE = "pressure dependence"
     """Density and viscosity that grow with pressure."""
     ROUGHNESS = "roughness"
-    """Averaged over its waves, as if these were infinitely short."""
+    """Roughness averaged over its waves, as if these were infinitely short."""
     FINITE_WAVES = "finite waves"
-    """Of roughness: each is there, as long as it is and where it is."""
+    """Roughness with every wave resolved."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Applicability:
-    """Whether a model can say something of a scene, and why or with what left out, in words."""
+    """Whether a model applies to a scene, with the reason or the effects that it leaves out in words."""
 
     applies: bool
     reason: str
@@ -49,7 +49,7 @@ class Applicability:
 
 @dataclass(frozen=True, kw_only=True)
 class Availability:
-    """Whether what a model needs is on this machine: which version, or what to do."""
+    """Whether the programs that a model needs are on this machine: their version, or the remedy."""
 
     available: bool
     detail: str = ""
@@ -60,7 +60,7 @@ def _between(least: float, value: Any, most: float, numbers: Any) -> bool:
 
 
 def always() -> Availability:
-    """For models that need nothing but this package."""
+    """The availability of models that need nothing but this package."""
     return Availability(available=True, detail="built in")
 
 
@@ -69,7 +69,7 @@ Progress = Callable[[float, str], None]
 
 
 def silent(fraction: float, words: str) -> None:
-    """Progress that nobody looks at."""
+    """Report no progress."""
 
 
 SceneT = TypeVar("SceneT", bound=Scene, default=Any)
@@ -103,7 +103,7 @@ class Model(Generic[SceneT]):
     ----------
     name : name of its module, ``<kind>/models/<name>.py``.
     kind : kind of the scenes that it solves.
-    summary : half a line for people.
+    summary : its description in half a line.
     keeps : the physical effects that it keeps.
     complete : whether it keeps them in full, not to some order of smallness.
     sources : DOIs of its equations and method.
@@ -265,7 +265,7 @@ def find(models: Sequence[Model], kind: str, name: str) -> Model:
 
 
 def best(models: Sequence[Model]) -> Model:
-    """The rung of one kind that keeps the most, and in full; every other model's error is measured against it."""
+    """The model that keeps the most effects, and in full; the errors of the others are measured against it."""
     return max(models, key=lambda model: (len(model.keeps), model.complete))
 
 

@@ -1,4 +1,4 @@
-"""Where a number came from: versions, commit, machine, the complete scene, and the models' sources."""
+"""The provenance of a number: versions, commit, machine, the complete scene, and the models' sources."""
 
 import ast
 import hashlib
@@ -110,7 +110,7 @@ def _is_text(node: ast.AST) -> bool:
 
 @cache
 def machine() -> dict[str, str]:
-    """What the times were measured on: system, processor and cores."""
+    """The machine that times were measured on: system, processor and cores."""
     processor = platform.processor() or platform.machine()
     try:
         lines = Path("/proc/cpuinfo").read_text().splitlines()
@@ -135,7 +135,7 @@ def provenance(
 
 
 def circumstances() -> dict[str, Any]:
-    """With what, where and when something was computed, as entries that JSON can hold."""
+    """The versions, machine and time of a computation, as entries that JSON can hold."""
     return {
         "versions": versions(),
         "commit": commit(),

@@ -1,4 +1,4 @@
-"""The numerical options of one solve: as they are asked for, and as a model takes them."""
+"""The numerical options of one solve: as requested, and as checked by a model."""
 
 from dataclasses import dataclass
 

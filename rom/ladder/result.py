@@ -1,4 +1,4 @@
-"""What a model returns: quantities with units, fields, how it was computed and from what."""
+"""The result of a model: quantities with units, fields, numerics and provenance."""
 
 import math
 from collections.abc import Mapping
@@ -49,7 +49,7 @@ class SolverRun:
 
 @dataclass(frozen=True, kw_only=True)
 class Numerics:
-    """How a result was computed.
+    """The numerics of a result.
 
     ``residual`` is recomputed after the solver claims success; what it measures is the model's ``residual_meaning``.
     ``cpu_s`` counts this process and its children; ``scheme`` is the advection scheme, "" where there is no choice.

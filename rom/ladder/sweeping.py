@@ -1,4 +1,4 @@
-"""What a report over many cases must know of a kind of scene: which numbers a case has, and what may order errors."""
+"""The properties of a kind of scene that a report over many cases needs."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -15,17 +15,17 @@ Powers = Mapping[str, float]
 
 @dataclass(frozen=True, kw_only=True)
 class Sweeping:
-    """How sweeps over one kind of scene are judged.
+    """The columns, quantities and features by which sweeps over one kind of scene are judged.
 
     Attributes
     ----------
-    given : columns of a table that tell the cases apart; with a number where a table, or a case, may lack it.
-    quantities : what is read of every result.
+    given : columns of a table that identify the cases, with the value of a missing one or None.
+    quantities : the quantities that are read from every result.
     features : features(given): the numbers by which errors are ordered.
-    worth : worth(values): which cases of the reference have enough of all compared quantities to divide by.
-    candidates : numbers that an engineer would try, by what they are called.
-    fitted : the features whose powers are fitted where no candidate will do.
-    words : words(powers): a product as people write it.
+    worth : worth(values): the cases whose reference quantities are large enough to divide by.
+    candidates : products of powers that are tried first, by name.
+    fitted : the features whose powers are fitted where no candidate orders the errors.
+    words : words(powers): a product as text.
     """
 
     given: Mapping[str, float | None]

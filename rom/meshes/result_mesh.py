@@ -1,4 +1,4 @@
-"""What a model says of places, as a mesh with data, wherever a result tells where its fields are."""
+"""Meshes of results whose fields have positions, with the fields as data."""
 
 from collections.abc import Mapping
 
@@ -15,21 +15,21 @@ from roughfilm.rom.parts.pressed_surface import RoughContact
 from roughfilm.rom.rough_gap.scene import RoughGap
 
 PLACES = {"vertices", "kept", "x", "y"}
-"""Fields that say where the others are."""
+"""Fields that give the positions of the others."""
 
 
 def result_mesh(result: Result) -> Mesh:
-    """The fields of a result over cells, or at the points of a plane, in m and in the units of the fields.
+    """The mesh of a result, in m, with its fields as data of cells or points, in their units.
 
-    A result with ``vertices``, (nx+1, ny+1, 2) or (nx+1, ny+1, nz+1, 3), gives quads or hexahedra with all fields of
-    shape (nx, ny, ...) or (nx, ny, nz, ...) as their data; those that ``kept``, (nx, ny), denies are left out. One with
-    ``x`` and ``y``, (nx, ny), gives quads between these places (x in rad goes round the origin at the radius y), or
-    lines where ny = 1. One of a dry contact, a seal or a rough gap gives quads over one period of its surface.
+    A result with ``vertices``, (nx+1, ny+1, 2) or (nx+1, ny+1, nz+1, 3), gives quadrilaterals or hexahedra with all
+    fields of shape (nx, ny, ...) or (nx, ny, nz, ...), without the cells where ``kept``, (nx, ny), is 0. A result with
+    ``x`` and ``y``, (nx, ny), gives quadrilaterals between these points (x in rad is an angle, y the radius), or lines
+    if ny = 1. A dry contact, a seal or a rough gap gives quadrilaterals over one period of its surface.
 
     Raises
     ------
     InputError
-        If the result has no such fields, or its surface cannot be read again.
+        If the result has no such fields, or its surface cannot be read.
     """
     fields = result.fields
     if "vertices" in fields:
@@ -40,8 +40,8 @@ def result_mesh(result: Result) -> Mesh:
     scene = _scene(result)
     if not plane or not isinstance(scene, RoughContact | RoughGap):
         raise InputError(
-            f"result of {result.model}: none of its fields ({', '.join(sorted(fields)) or 'it has none'}) says where "
-            "it is in a plane or in space; export a result of a model that resolves the film or the surface"
+            f"result of {result.model}: none of its fields ({', '.join(sorted(fields)) or 'it has none'}) has "
+            "positions in a plane or in space; export a result of a model that resolves the film or the surface"
         )
     return _period(plane, scene.surface().size)
 
@@ -85,15 +85,15 @@ def _period(fields: Mapping[str, Field], size: tuple[float, float]) -> Mesh:
 
 
 def _data(fields: Mapping[str, Field], shape: tuple[int, ...]) -> dict[str, Array]:
-    """The fields with one number, or one vector, for each place of that shape; vectors with all three parts."""
-    found = {}
+    """The fields with one number or one vector, of three components, for each position of that shape."""
+    data = {}
     for name, field in fields.items():
         rest = field.values.shape[len(shape) :]
         if name in PLACES or field.values.shape[: len(shape)] != shape or rest not in ((), (2,), (3,)):
             continue
         values = field.values.astype(float)
-        found[labelled(name, field)] = _in_space(values).reshape(-1, 3) if rest else values.ravel()
-    return found
+        data[labelled(name, field)] = _in_space(values).reshape(-1, 3) if rest else values.ravel()
+    return data
 
 
 def _in_space(vectors: Array) -> Array:

@@ -1,4 +1,4 @@
-"""The walls of a rough gap, and the liquid between them, as meshes over one period."""
+"""Meshes of the walls of a rough gap, and of the liquid between them, over one period."""
 
 from enum import StrEnum
 
@@ -9,32 +9,33 @@ from roughfilm.contact.meshes.mesh import Mesh, grid
 from roughfilm.rom.rough_gap.walls import Walls
 
 
-class Part(StrEnum):
-    """What of a gap is meant."""
+class GapPart(StrEnum):
+    """One of the walls of a gap, or the liquid between them."""
 
     LOWER = "lower"
     UPPER = "upper"
     GAP = "gap"
 
 
-def wall_mesh(walls: Walls, part: Part) -> Mesh:
-    """One wall in quads, their normals into the liquid; data: the gap over or under each point, m.
+def wall_mesh(walls: Walls, part: GapPart) -> Mesh:
+    """The mesh of one wall in quadrilaterals with normals into the liquid; data: the gap at each point, m.
 
-    Bilinear between the nodes, so of second order in the spacing; the last row of points is the first, a period on.
+    It is bilinear between the nodes, so second-order accurate in the spacing. The last points repeat the first, one
+    period on.
     """
-    heights = walls.lower if part is Part.LOWER else walls.upper
+    heights = walls.lower if part is GapPart.LOWER else walls.upper
     places = np.stack([*_places(walls), periodic(heights)], axis=-1)
-    if part is Part.UPPER:  # with y before x the normals point down
+    if part is GapPart.UPPER:  # with y before x the normals point down
         mesh = grid(places.transpose(1, 0, 2))
         return _with_gap(mesh, periodic(walls.gap).T)
     return _with_gap(grid(places), periodic(walls.gap))
 
 
 def gap_mesh(walls: Walls, layers: int) -> Mesh:
-    """The liquid between the walls in ``layers`` layers of hexahedra; data: the gap at each point, m.
+    """The mesh of the liquid in ``layers`` layers of hexahedra; data: the gap at each point, m.
 
-    z = lower + Z gap with Z uniform from 0 to 1. Columns that are closed at all four corners are left out; at the
-    edge of contact some corners of a cell lie at the same place, so that the cells hold the gap's volume, Σ gap dx dy.
+    z = lower + Z gap with Z uniform from 0 to 1. Columns that are closed at all four corners are omitted; at the edge
+    of contact some corners of a cell coincide, so that the cells have the volume of the gap, Σ gap dx dy.
     """
     x, y = _places(walls)
     lower, gap = periodic(walls.lower), periodic(walls.gap)
@@ -47,7 +48,7 @@ def gap_mesh(walls: Walls, layers: int) -> Mesh:
 
 
 def periodic(values: Array) -> Array:
-    """Values at the nodes of one period, and again at its end: shape (nx + 1, ny + 1)."""
+    """The values at the nodes of one period and repeated at its end, shape (nx + 1, ny + 1)."""
     return np.pad(values, ((0, 1), (0, 1)), mode="wrap")
 
 

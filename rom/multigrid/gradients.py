@@ -7,7 +7,7 @@ from roughfilm.contact.foundation.compiled import allocating, compiled
 
 @compiled
 def set_image(centre, east, north, p, across, along, image):  # type: ignore[no-untyped-def]
-    """Set ``image`` to Ap; Σ p Ap. ``across`` and ``along``: whether the first and second direction are periodic."""
+    """Write Ap to ``image``, return Σ p Ap; ``across``, ``along``: whether first and second direction are periodic."""
     count = p.shape[0]
     last = p.shape[1] - 1
     product = 0.0
@@ -37,7 +37,7 @@ def set_image(centre, east, north, p, across, along, image):  # type: ignore[no-
 
 @allocating
 def apply(centre, east, north, p, periodic):  # type: ignore[no-untyped-def]
-    """The image Ap of p, all of shape (nx, ny), by the operator of :class:`rom.multigrid.multigrid.Multigrid`."""
+    """The product Ap, shape (nx, ny), with the operator of :class:`rom.multigrid.multigrid.Multigrid`."""
     image = np.empty(p.shape)
     set_image(centre, east, north, p, periodic[0], periodic[1], image)
     return image
@@ -45,7 +45,7 @@ def apply(centre, east, north, p, periodic):  # type: ignore[no-untyped-def]
 
 @compiled
 def dot(first, second):  # type: ignore[no-untyped-def]
-    """Σ first second, of arrays of shape (nx, ny)."""
+    """The sum Σ first second of arrays of shape (nx, ny)."""
     total = 0.0
     for row in range(first.shape[0]):
         a, b = first[row], second[row]
@@ -56,7 +56,7 @@ def dot(first, second):  # type: ignore[no-untyped-def]
 
 @compiled
 def weighed(values, weights):  # type: ignore[no-untyped-def]
-    """Σ values²/weights, of arrays of shape (nx, ny)."""
+    """The sum Σ values²/weights of arrays of shape (nx, ny)."""
     total = 0.0
     for row in range(values.shape[0]):
         a, weight = values[row], weights[row]
@@ -67,7 +67,7 @@ def weighed(values, weights):  # type: ignore[no-untyped-def]
 
 @compiled
 def leave(b, image, residual, source):  # type: ignore[no-untyped-def]
-    """Set the residual r and the ``source`` to b − Ap, shape (nx, ny) each; Σr²."""
+    """Write b − Ap to the residual r and the ``source``, shape (nx, ny) each, and return Σr²."""
     square = 0.0
     for row in range(b.shape[0]):
         want, have, r, s = b[row], image[row], residual[row], source[row]
@@ -81,7 +81,7 @@ def leave(b, image, residual, source):  # type: ignore[no-untyped-def]
 
 @compiled
 def advance(length, direction, image, p, residual, source):  # type: ignore[no-untyped-def]
-    """Go a ``length`` t in a direction d: p += t d, r −= t Ad, ``source`` = r; Σr². Shape (nx, ny) each."""
+    """Step by ``length`` t along d: p += t d, r −= t Ad, ``source`` = r, shape (nx, ny) each, and return Σr²."""
     square = 0.0
     for row in range(p.shape[0]):
         solution, d, r, change, s = p[row], direction[row], residual[row], image[row], source[row]
@@ -97,7 +97,7 @@ def advance(length, direction, image, p, residual, source):  # type: ignore[no-u
 
 @compiled
 def turn(part, steepest, direction):  # type: ignore[no-untyped-def]
-    """Turn the direction d = z + part d, shape (nx, ny)."""
+    """Update the direction d = z + part d, shape (nx, ny)."""
     for row in range(direction.shape[0]):
         d, z = direction[row], steepest[row]
         for j in range(d.size):

@@ -1,25 +1,25 @@
 """Loops over the rows of a multigrid hierarchy.
 
-The rows of all levels have one length m and stand one below the other in arrays of shape (rows of all levels, m), the
-finest level first. A row with its couplings along itself is a tridiagonal matrix T, cyclic if the row is a ring; to the
-next row lead ``east`` (same column), ``up`` (one column on) and ``down`` (one column back). Couplings out of the grid
-are 0, so that indices may wrap everywhere.
+The rows of all levels have the same length m and are stored in arrays of shape (rows of all levels, m), the finest
+level first. The couplings along a row form a tridiagonal matrix T, cyclic if the row is periodic. Couplings to the next
+row are ``east`` (same column), ``up`` (next column) and ``down`` (previous column). Couplings out of the grid are 0, so
+that indices may wrap everywhere.
 
-Arrays of a hierarchy are all of single or all of double precision.
+All arrays of a hierarchy have the same precision, single or double.
 
-All loops that call each other stand in this file: a compiled loop is kept until its own file changes, not another one.
-Constants are handed over as np.int64(0) or np.bool_(True): for each plain 0 or True numba compiles the loop once more.
+All loops that call each other are in this file, since the cache of a compiled loop depends on its own file alone.
+Constants are passed as np.int64(0) or np.bool_(True), since numba compiles another version for a plain 0 or True.
 """
 
 import numpy as np
 
 from roughfilm.contact.foundation.compiled import called, compiled, inlined
-from roughfilm.rom.multigrid.rows import GROUNDED, THIN, Rows
+from roughfilm.rom.multigrid.rows import MIN_HOLE_WEIGHT, MIN_PIVOT, Rows
 
 
 @called
 def level_rows(rows, start, stop, finest):  # type: ignore[no-untyped-def]
-    """The rows [start, stop) of one level; ``finest`` counts those of the finest, which have no up and down."""
+    """The rows [start, stop) of one level; the ``finest`` first rows of the hierarchy have no up and down."""
     return Rows(
         rows.leak[start:stop],
         rows.centre[start:stop],
@@ -35,30 +35,30 @@ def level_rows(rows, start, stop, finest):  # type: ignore[no-untyped-def]
 
 @called
 def eliminate(rows, row, size, sums):  # type: ignore[no-untyped-def]
-    """Factorise a row's T, or its first ``size`` unknowns, from both ends to the middle: two chains at a time.
+    """Factorise the T of the first ``size`` unknowns of a row, from both ends to the middle at the same time.
 
-    ``sums`` are T's row sums t, and become those of what is left: a pivot is t and the coupling onwards.
+    ``sums`` are the row sums t of T, and become those of the remaining matrix: a pivot is t plus the next coupling.
     """
     centre, north, inverse, factor = rows.centre, rows.north, rows.inverse, rows.factor
     middle = size // 2
     for j in range(middle):
         end = size - 1 - j
         pivot = sums[j] + north[row, j]
-        inverse[row, j] = 1 / pivot if pivot > GROUNDED * centre[row, j] else 0.0
+        inverse[row, j] = 1 / pivot if pivot > MIN_PIVOT * centre[row, j] else 0.0
         factor[row, j] = north[row, j] * inverse[row, j]
         sums[j + 1] += factor[row, j] * sums[j]
         if end > middle:
             pivot = sums[end] + north[row, end - 1]
-            inverse[row, end] = 1 / pivot if pivot > GROUNDED * centre[row, end] else 0.0
+            inverse[row, end] = 1 / pivot if pivot > MIN_PIVOT * centre[row, end] else 0.0
             factor[row, end] = north[row, end - 1] * inverse[row, end]
             sums[end - 1] += factor[row, end] * sums[end]
-    inverse[row, middle] = 1 / sums[middle] if sums[middle] > GROUNDED * centre[row, middle] else 0.0
+    inverse[row, middle] = 1 / sums[middle] if sums[middle] > MIN_PIVOT * centre[row, middle] else 0.0
     factor[row, middle] = 0.0
 
 
 @called
 def substitute(rows, row, size, total, values, place):  # type: ignore[no-untyped-def]
-    """Solve Tx = total for x, row ``place`` of the ``values``, to the middle and back; ``total`` is used up."""
+    """Solve Tx = total for x, row ``place`` of ``values``, to the middle and back; ``total`` is overwritten."""
     inverse, factor = rows.inverse, rows.factor
     middle = size // 2
     pairs = size - 1 - middle
@@ -87,7 +87,7 @@ def substitute(rows, row, size, total, values, place):  # type: ignore[no-untype
 
 @called
 def solve_row(rows, row, total, values, place):  # type: ignore[no-untyped-def]
-    """Solve Tx = total of a row for x, row ``place`` of the ``values``; ``total`` is used up."""
+    """Solve Tx = total of a row for x, row ``place`` of ``values``; ``total`` is overwritten."""
     north, border = rows.north, rows.border
     last = total.size - 1
     ring = border.shape[1] > 0
@@ -103,7 +103,7 @@ def solve_row(rows, row, total, values, place):  # type: ignore[no-untyped-def]
 
 @called
 def add_next(rows, row, values, place, total):  # type: ignore[no-untyped-def]
-    """Add to a row what its couplings bring from the next row, whose values are in row ``place``."""
+    """Add to a row the products of its couplings with the next row, whose values are in row ``place``."""
     east, up, down = rows.east, rows.up, rows.down
     last = total.size - 1
     for j in range(last + 1):
@@ -120,7 +120,7 @@ def add_next(rows, row, values, place, total):  # type: ignore[no-untyped-def]
 
 @called
 def add_previous(rows, row, values, place, total):  # type: ignore[no-untyped-def]
-    """Add to a row what couplings bring from the row before it, whose values are in row ``place``."""
+    """Add to a row the products of its couplings with the previous row, whose values are in row ``place``."""
     east, up, down = rows.east, rows.up, rows.down
     last = total.size - 1
     row = (row if row > 0 else east.shape[0]) - 1
@@ -138,7 +138,7 @@ def add_previous(rows, row, values, place, total):  # type: ignore[no-untyped-de
 
 @called
 def factorise_row(rows, row, work):  # type: ignore[no-untyped-def]
-    """Make the diagonal and factorise T; of a ring the last unknown apart, the others' answer to it in ``border``."""
+    """Compute the diagonal and factorise T; for a periodic row ``border`` is the response to its last unknown."""
     north, border = rows.north, rows.border
     sums, total = work[0], work[2]
     last = sums.size - 1
@@ -160,9 +160,8 @@ def factorise_row(rows, row, work):  # type: ignore[no-untyped-def]
     pivot = total[last]
     substitute(rows, row, last, total, border, row)
     pivot += north[row, last] * border[row, 0] + north[row, last - 1] * border[row, last - 1]
-    rows.inverse[row, last] = 1 / pivot if pivot > GROUNDED * rows.centre[row, last] else 0.0
-    for j in range(last + 1):
-        total[j] = 0.0
+    rows.inverse[row, last] = 1 / pivot if pivot > MIN_PIVOT * rows.centre[row, last] else 0.0
+    total[:] = 0.0
     total[0] = north[row, last]
     total[last - 1] = north[row, last - 1]
     substitute(rows, row, last, total, border, row)
@@ -170,7 +169,7 @@ def factorise_row(rows, row, work):  # type: ignore[no-untyped-def]
 
 @called
 def add_own(north, rows, row, between, share, forward):  # type: ignore[no-untyped-def]
-    """Add to a coarse row's couplings along itself what an odd row brings by its share S: those of STS − SB − BᵀS.
+    """Add to the couplings along a coarse row those of STS − SB − BᵀS of an odd row with interpolation weights S.
 
     B are the couplings ``between`` two rows, from the odd row to the even one (``forward``) or the other way.
     """
@@ -194,7 +193,7 @@ def add_own(north, rows, row, between, share, forward):  # type: ignore[no-untyp
 
 @called
 def set_coupling(east, up, down, rows, row, first, second):  # type: ignore[no-untyped-def]
-    """Set a coarse row's couplings to the next one, across an odd row with the shares F and S: BS + FB − FTS."""
+    """Compute a coarse row's couplings to the next, BS + FB − FTS, across an odd row of interpolation weights F, S."""
     own, along = rows.centre[row], rows.north[row]
     last = east.size - 1
     before, after = rows.east[row - 1], rows.east[row]
@@ -219,16 +218,14 @@ def set_coupling(east, up, down, rows, row, first, second):  # type: ignore[no-u
 
 @called
 def share(rows, row, work):  # type: ignore[no-untyped-def]
-    """What an odd row takes from ones in the rows before and after it, T⁻¹B1: rows 0 and 1 of ``work``.
+    """Compute the interpolation weights T⁻¹B1 of an odd row from the previous and next rows in ``work[:2]``.
 
-    A thin share of a node in a hole, which has nothing else, is left out: rounding would be all of it.
+    A weight below ``MIN_HOLE_WEIGHT`` of a node outside the problem is set to 0, since it is round-off.
     """
     total, centre = work[2], rows.centre
-    for j in range(total.size):
-        work[3, j] = 1.0
+    work[3, :] = 1.0
     for side in range(2):
-        for j in range(total.size):
-            total[j] = 0.0
+        total[:] = 0.0
         if side == 0:
             add_previous(rows, row, work, np.int64(3), total)
         else:
@@ -236,13 +233,13 @@ def share(rows, row, work):  # type: ignore[no-untyped-def]
         solve_row(rows, row, total, work, side)
         beside = (row + 2 * side - 1) % centre.shape[0]
         for j in range(total.size):
-            if abs(work[side, j]) < THIN and centre[beside, j] == 0.0:
+            if abs(work[side, j]) < MIN_HOLE_WEIGHT and centre[beside, j] == 0.0:
                 work[side, j] = 0.0
 
 
 @called
 def leaks(rows, row, work):  # type: ignore[no-untyped-def]
-    """Whether an odd row leaks; if so, row 3 of ``work`` is what its unknowns lose by it for rows of ones beside it."""
+    """Whether an odd row leaks; ``work[3]`` is then the loss of its unknowns for ones in the rows beside it."""
     total = work[2]
     any_leak = False
     for j in range(total.size):
@@ -255,9 +252,9 @@ def leaks(rows, row, work):  # type: ignore[no-untyped-def]
 
 @inlined
 def coarsen(fine, coarse, work):  # type: ignore[no-untyped-def]
-    """Galerkin's operator PᵀAP on the even rows.
+    """Compute Galerkin's operator PᵀAP on the even rows.
 
-    P keeps even rows, and gives odd ones what they take from ones in the row before and after, T⁻¹B1 (Schaffer).
+    P is the identity on even rows, and has the weights T⁻¹B1 (Schaffer) on odd rows.
     """
     count, coarse_count = fine.centre.shape[0], coarse.centre.shape[0]
     first, second = work[0], work[1]
@@ -283,13 +280,12 @@ def coarsen(fine, coarse, work):  # type: ignore[no-untyped-def]
     if coarse_count == 1:
         for j in range(length):
             coarse.north[0, j] += coarse.up[0, j] + coarse.down[0, j + 1 if j + 1 < length else 0]
-        for j in range(length):
-            coarse.east[0, j] = coarse.up[0, j] = coarse.down[0, j] = 0.0
+        coarse.east[0, :] = coarse.up[0, :] = coarse.down[0, :] = 0.0
 
 
 @inlined
 def silence(rows):  # type: ignore[no-untyped-def]
-    """Keep unknowns without couplings out of the coarse levels: the smoother alone solves them."""
+    """Remove unknowns without couplings from the coarse levels, since the smoother alone solves them."""
     north, east = rows.north, rows.east
     for row in range(north.shape[0]):
         for j in range(north.shape[1]):
@@ -300,7 +296,7 @@ def silence(rows):  # type: ignore[no-untyped-def]
 
 @compiled
 def set_up(counts, rows, work):  # type: ignore[no-untyped-def]
-    """Factorise all rows and make the coarse levels; ``counts`` has the rows of each level, ``work`` shape (4, m)."""
+    """Factorise all rows and compute the coarse levels; ``counts`` are the rows of each level, ``work`` is (4, m)."""
     start = np.int64(0)
     for level in range(counts.size):
         stop = start + counts[level]
@@ -316,7 +312,7 @@ def set_up(counts, rows, work):  # type: ignore[no-untyped-def]
 
 @called
 def relax(rows, row, previous, following, source, values, total):  # type: ignore[no-untyped-def]
-    """Solve a row's equations; ``previous`` and ``following``: with the values of the row before it, of the next."""
+    """Solve the equations of a row; ``previous`` and ``following``: whether those rows have values."""
     count = values.shape[0]
     for j in range(total.size):
         total[j] = source[row, j]
@@ -329,10 +325,9 @@ def relax(rows, row, previous, following, source, values, total):  # type: ignor
 
 @called
 def bring_down(rows, row, values, left):  # type: ignore[no-untyped-def]
-    """Set what is ``left`` of an even row's equations, which were solved before the rows beside it were."""
+    """Compute the residual ``left`` of an even row, which was solved before the rows beside it."""
     count = values.shape[0]
-    for j in range(left.size):
-        left[j] = 0.0
+    left[:] = 0.0
     add_previous(rows, row, values, (row if row > 0 else count) - 1, left)
     if row + 1 < count:
         add_next(rows, row, values, row + 1, left)
@@ -340,9 +335,9 @@ def bring_down(rows, row, values, left):  # type: ignore[no-untyped-def]
 
 @inlined
 def descend(rows, seam, source, values, remainder, total):  # type: ignore[no-untyped-def]
-    """From 0: even rows by themselves, odd ones with the rows beside them, and what is left of even ones' equations.
+    """Relax even rows from 0, then odd rows, and compute the residuals of even rows.
 
-    At a ``seam`` the last row, an even one, is coupled to the first and follows it. Rows are taken while they are near.
+    At a ``seam`` the last row, an even one, is coupled to the first and follows it. The order keeps rows in the cache.
     """
     count = values.shape[0]
     for row in range(0, count, 2):
@@ -360,7 +355,7 @@ def descend(rows, seam, source, values, remainder, total):  # type: ignore[no-un
 
 @inlined
 def ascend(rows, source, values, correction, total):  # type: ignore[no-untyped-def]
-    """Correct even rows, then odd ones with the rows beside them, then even ones, from the last to the first."""
+    """Add the correction to even rows, then relax odd rows and even rows, from the last to the first."""
     count, last = values.shape[0], (values.shape[0] - 1) // 2 * 2
     add_row(values[0], correction[0])
     if last > 0:
@@ -384,10 +379,10 @@ def add_row(values, correction):  # type: ignore[no-untyped-def]
 
 @compiled
 def cycle(counts, rows, across, source, values, total):  # type: ignore[no-untyped-def]
-    """One V-cycle from 0: ``values`` of the finest level from its ``source``, arrays of all levels.
+    """Compute one V-cycle from 0: ``values`` of the finest level from its ``source``, arrays of all levels.
 
-    Odd rows are solved exactly before and after the next level: nothing of their residual is left to bring down, and
-    nothing to interpolate.
+    Odd rows are solved exactly before and after the next level, so that their residual is 0 and they need no
+    interpolation.
     """
     start = np.int64(0)
     for level in range(counts.size - 1):

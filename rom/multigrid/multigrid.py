@@ -1,4 +1,4 @@
-"""Multigrid by halves of the rows: the preconditioner, and conjugate gradients with it."""
+"""Multigrid that halves the number of rows, as preconditioner of conjugate gradients."""
 
 import math
 from collections.abc import Callable
@@ -12,19 +12,21 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Ou
 from roughfilm.rom.multigrid import gradients, kernels, pieces
 from roughfilm.rom.multigrid.rows import Rows
 
-TURNED = 2.0
-"""Couplings along rows so many times those across them make columns the better rows."""
+TRANSPOSED_RATIO = 2.0
+"""Ratio of the couplings in the second to those in the first direction above which the arrays are transposed."""
 
+ITERATIONS_PER_RECENT = 3
+"""Ratio of all iterations to the recent ones whose gains estimate the remaining gain."""
 
-SHARE, FEWEST = 3, 3
-"""Of the iterations, one in so many is looked back at to see what is left to gain, and so many at least."""
+MIN_RECENT = 3
+"""Smallest number of recent iterations."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Solved:
-    """A solution, shape (nx, ny), the iterations it took, and its residual ‖b − Ap‖/‖b‖.
+    """A solution, shape (nx, ny), its number of iterations and residual ‖b − Ap‖/‖b‖.
 
-    ``left`` is an estimate of (p − p*)·A(p − p*), p* the exact solution: by how much b·p is short of b·p*.
+    ``left`` is an estimate of (p − p*)·A(p − p*) = b·p* − b·p with the exact solution p*.
     """
 
     solution: Array
@@ -34,41 +36,41 @@ class Solved:
 
 
 class Multigrid:
-    """A preconditioner for one matrix of a thin film on a grid of nx × ny nodes, and the solver that uses it.
+    """A solver with multigrid preconditioner for one matrix of a thin film on a grid of nx × ny nodes.
 
         (Ap)_ij = centre_ij p_ij − east_ij p_{i+1,j} − east_{i−1,j} p_{i−1,j}
                                  − north_ij p_{i,j+1} − north_{i,j−1} p_{i,j−1}
 
-    Every second row is left out from level to level, down to one row; rows are solved whole, even ones and odd ones in
-    turn. A row left out takes from the rows beside it what it takes from ones in them, T⁻¹B1, and the coarse operator
-    is Galerkin's. This is Dendy's multigrid, which knows the matrix only, in its variant for any anisotropy.
+    Each level has every second row of the one before, down to one row. The smoother solves whole rows, even and odd
+    ones in turn. An omitted row is interpolated from the rows beside it with the weights T⁻¹B1, and the coarse operator
+    is Galerkin's. This is Dendy's black-box multigrid in its variant for any anisotropy.
 
     Parameters
     ----------
     centre
-        Shape (nx, ny), at least the sum of the node's couplings: more next to a Dirichlet node that was eliminated.
-        A node out of the problem has any centre above 0 (say 1) and no couplings.
+        Diagonal, shape (nx, ny), at least the sum of the node's couplings; more beside an eliminated Dirichlet node. A
+        node outside the problem has any centre above 0 and no couplings.
     east, north
-        Couplings to the next node in the first and the second direction, shape (nx, ny), 0 or more. The last of each
-        direction lead round to the first node where that direction is periodic, and are ignored elsewhere.
+        Couplings >= 0 to the next node in the first and the second direction, shape (nx, ny). The last ones lead to the
+        first node in a periodic direction, and are ignored otherwise.
     periodic
         Whether the first and the second direction are periodic.
     single
-        Whether the preconditioner works in single precision, at half the cost; residuals are in double always. Good for
-        couplings up to about 1e12 apart.
+        Whether the preconditioner works in single precision, at half the cost; residuals have double precision. It is
+        suitable for ratios of couplings up to about 1e12.
 
     Raises
     ------
     InputError
-        For arrays that are not of one two-dimensional shape, with a node at least.
+        If the arrays are not of one two-dimensional shape with at least one node.
 
     Notes
     -----
-    Any size and anisotropy; pieces without any Dirichlet node may be there, their mean is then free. Where the film is
-    resolved iterations hardly grow with the grid, whatever its contrast. They do grow, and 200 may not do, where
-    couplings jump 1e4-fold and more within few nodes all over the grid (an h³ that is random at each node, roughness
-    of a Hurst exponent of 0.3): coarse rows cannot tell apart pieces that hang together strongly but hardly touch.
-    Where weak links hold large pressures, no residual can be below about 1e-16 ‖|A||p|‖.
+    The solver is for any size and anisotropy. The mean is free in a part without a Dirichlet node. For resolved films
+    the number of iterations hardly grows with the grid at any contrast. It grows, possibly above 200, if couplings jump
+    by 1e4 or more within few nodes all over the grid (a random h³ at each node, roughness of Hurst exponent 0.3), since
+    coarse rows do not separate strongly coupled parts that hardly touch. Large pressures across weak couplings limit
+    the residual to about 1e-16 ‖|A||p|‖.
 
     J. E. Dendy, Black box multigrid, J. Comput. Phys. 48 (1982) 366-386, doi:10.1016/0021-9991(82)90057-2;
     interpolation: S. Schaffer, SIAM J. Sci. Comput. 20 (1998) 228-242, doi:10.1137/S1064827595281587.
@@ -87,9 +89,9 @@ class Multigrid:
         self.shape = matrix[0].shape
         self._check(matrix)
         first, second = (float(coupling.sum()) for coupling in matrix[1:])
-        self._turned = second > TURNED * first
-        self._across, self._along = periodic[::-1] if self._turned else periodic
-        count, length = self.shape[::-1] if self._turned else self.shape
+        self._transposed = second > TRANSPOSED_RATIO * first
+        self._across, self._along = periodic[::-1] if self._transposed else periodic
+        count, length = self.shape[::-1] if self._transposed else self.shape
         counts = [count]
         while counts[-1] > 1:
             counts.append((counts[-1] + 1) // 2)
@@ -115,12 +117,12 @@ class Multigrid:
         self._direction, self._image, self._residual = (np.zeros((count, length)) for _ in range(3))
 
     def cycle(self, residual: ArrayLike) -> Array:
-        """One V(1,1) cycle from 0: what M r ≈ A⁻¹ r is, shape (nx, ny); M is linear, symmetric and positive definite.
+        """One V(1,1) cycle from 0, M r ≈ A⁻¹ r, shape (nx, ny); M is linear, symmetric and positive definite.
 
         Raises
         ------
         InputError
-            For a residual of another shape.
+            If the residual has another shape.
         """
         source, values = self._finest
         source[:] = self._inner(residual)
@@ -140,20 +142,20 @@ class Multigrid:
         Parameters
         ----------
         right_hand_side
-            b, shape (nx, ny). In a piece without a Dirichlet node it must add up to 0.
+            b, shape (nx, ny), with sum 0 in each part without a Dirichlet node.
         tolerance
-            Of ‖b − Ap‖/‖b‖, which is recomputed at the end.
+            Tolerance of the recomputed ‖b − Ap‖/‖b‖.
         start
-            The guess of p, shape (nx, ny); 0 if there is none.
+            Initial p, shape (nx, ny); 0 by default.
         limit
-            The most iterations.
+            Largest number of iterations.
 
         Raises
         ------
         InputError
-            For arrays of another shape.
+            If an array has another shape.
         ConvergenceError
-            If the tolerance is not met: within the limit, or because rounding keeps the residual above it.
+            If the residual exceeds the tolerance after ``limit`` iterations, or because of round-off.
         """
         b = self._inner(right_hand_side)
         p = self._first(b, start)
@@ -171,9 +173,9 @@ class Multigrid:
             iterations += self._gradients(p, limit - iterations, lambda square, _gain: square <= goal)
         finished = iterations < limit
         remedy = (
-            "rounding keeps it there, or sources of a piece without a Dirichlet node do not add up to 0; ask for less"
+            "round-off limits it, or sources of a part without a Dirichlet node do not sum to 0; loosen the tolerance"
             if finished
-            else "allow more, or ask for less"
+            else "raise the limit or loosen the tolerance"
         )
         raise ConvergenceError(
             f"the film's linear system: the residual is {residual:.3g} of the right-hand side after {iterations} "
@@ -191,25 +193,25 @@ class Multigrid:
         start: ArrayLike | None = None,
         limit: int = 500,
     ) -> Solved:
-        """Solve Ap = b as far as its energy G = 2b·p − p·Ap asks for, whose error is the square of that of p.
+        """Solve Ap = b to a tolerance of the energy G = 2b·p − p·Ap, whose error is quadratic in that of p.
 
-        What an iteration gains of G is known, and what the last third of them gained tells what is left to gain. It is
-        at least Σ r²/(2 centre), r = b − Ap, and what a correction constant along rows or columns would gain: a
-        preconditioner that rounding has spoilt gains little with every iteration.
+        The gain of G in the last third of the iterations estimates the remaining gain. The estimate is at least
+        Σ r²/(2 centre), r = b − Ap, and the gain of a correction constant along rows or columns, since the gain per
+        iteration is small if round-off degrades the preconditioner.
 
         Parameters
         ----------
         right_hand_side, start, limit
-            As in :meth:`solve`.
+            Arguments of :meth:`solve`.
         whole
-            W, if it is W − G that counts; None if it is G.
+            W if the energy is W − G; None if it is G.
         tolerance
-            Of what is left to gain, over the energy that counts.
+            Tolerance of the remaining gain over the energy.
 
         Raises
         ------
         InputError
-            For arrays of another shape.
+            If an array has another shape.
         ConvergenceError
             If the tolerance is not met.
         """
@@ -223,7 +225,7 @@ class Multigrid:
         gains: list[float] = []
 
         def left() -> float:
-            recent = sum(gains[-max(FEWEST, len(gains) // SHARE) :])
+            recent = sum(gains[-max(MIN_RECENT, len(gains) // ITERATIONS_PER_RECENT) :])
             return recent if recent > tolerance * counts() else max(recent, self._left_between_rows())
 
         def counts() -> float:
@@ -232,7 +234,7 @@ class Multigrid:
 
         def enough(_square: float, gain: float) -> bool:
             gains.append(gain)
-            return len(gains) >= FEWEST and left() <= tolerance * counts()
+            return len(gains) >= MIN_RECENT and left() <= tolerance * counts()
 
         iterations, before = 0, np.inf
         while True:
@@ -240,14 +242,14 @@ class Multigrid:
             residual = self._set_residual(b, p) / norm
             first = float(gradients.dot(b, p) + gradients.dot(self._residual, p)) - sum(gains)
             rest = max(left(), float(gradients.weighed(self._residual, self._matrix[0])) / 2)
-            if len(gains) >= FEWEST and rest <= tolerance * counts():
+            if len(gains) >= MIN_RECENT and rest <= tolerance * counts():
                 return Solved(solution=self._outer(p), iterations=iterations, residual=residual, left=rest)
             if iterations >= limit or not rest < before / 2:
                 break
             before = rest
         raise ConvergenceError(
             f"the film's linear system: the energy {counts():.3g} may change by {rest:.3g} more after "
-            f"{iterations} iterations, over {tolerance:g} of it; allow more, or ask for less",
+            f"{iterations} iterations, over {tolerance:g} of it; raise the limit or loosen the tolerance",
             outcome=Outcome.UNFINISHED if iterations >= limit else Outcome.STALLED,
             iterations=iterations,
         )
@@ -269,22 +271,22 @@ class Multigrid:
             )
 
     def _inner(self, values: ArrayLike) -> Array:
-        """Values on the grid, turned to rows."""
+        """The values on the grid, transposed if the rows are columns."""
         array = np.asarray(values, dtype=np.float64)
         if array.shape != self.shape:
             raise InputError(f"values on a grid: got the shape {array.shape}; give {self.shape}, that of the matrix")
-        return np.ascontiguousarray(array.T if self._turned else array)
+        return np.ascontiguousarray(array.T if self._transposed else array)
 
     def _outer(self, values: Array) -> Array:
-        return np.ascontiguousarray(values.T if self._turned else values)
+        return np.ascontiguousarray(values.T if self._transposed else values)
 
     def _set_up(self, matrix: list[Array]) -> tuple[Array, Array, Array]:
-        """The matrix by rows, with nothing that leads out of it; and the hierarchy below it."""
-        if self._turned:
+        """Compute the hierarchy; returns the matrix by rows without couplings out of the grid."""
+        if self._transposed:
             matrix = [matrix[0].T, matrix[2].T, matrix[1].T]
         count, length = matrix[0].shape
-        kept = self._across and self._along and min(count, length) > 2
-        centre, east, north = (np.ascontiguousarray(part) if kept else np.array(part, order="C") for part in matrix)
+        shared = self._across and self._along and min(count, length) > 2
+        centre, east, north = (np.ascontiguousarray(part) if shared else np.array(part, order="C") for part in matrix)
         if not self._across:
             east[-1] = 0
         elif count == 1:
@@ -311,16 +313,16 @@ class Multigrid:
         kernels.cycle(self._counts, self._rows, self._across, self._source, self._values, self._work)
 
     def _apply(self, p: Array) -> float:
-        """Set the image to Ap; Σ p Ap."""
+        """Write Ap to the image, and return Σ p Ap."""
         return float(gradients.set_image(*self._matrix, p, self._across, self._along, self._image))
 
     def _set_residual(self, b: Array, p: Array) -> float:
-        """Set the residual and the finest source to b − Ap; its norm."""
+        """Write b − Ap to the residual and the finest source, and return its norm."""
         self._apply(p)
         return math.sqrt(gradients.leave(b, self._image, self._residual, self._finest[0]))
 
     def _left_between_rows(self) -> float:
-        """What p constant along rows, or along columns, could gain of the energy; 0 but on a torus without leaks."""
+        """The energy gain of a p constant along rows or columns; 0 unless both directions are periodic."""
         if not (self._across and self._along):
             return 0.0
         _, east, north = self._matrix
@@ -330,7 +332,7 @@ class Multigrid:
         )
 
     def _gradients(self, p: Array, limit: int, enough: Callable[[float, float], bool]) -> int:
-        """Improve p until it is ``enough``, by the residual's square and the energy gained; the iterations it took."""
+        """Iterate on p until ``enough(residual², gain)``, and return the number of iterations."""
         source, steepest = self._finest
         slope = np.inf
         self._direction[:] = 0
@@ -348,7 +350,7 @@ class Multigrid:
 
 
 def _left_on_ring(residual: Array, coupling: Array) -> float:
-    """r·K⁻¹r of a ring of nodes, each coupled to the next: Σ (F − F̄)²/k, F the flow that makes up for r."""
+    """The energy r·K⁻¹r = Σ (F − F̄)²/k of a periodic row of nodes, with F the flow whose divergence is r."""
     if coupling.size < 2 or not coupling.all():
         return 0.0
     flow = np.cumsum(residual)

@@ -1,18 +1,18 @@
-"""Pieces of the film without a Dirichlet node: found, and held at a node in the preconditioner, to have an inverse."""
+"""Parts of the film without a Dirichlet node, which the preconditioner fixes at one node to be regular."""
 
 import numpy as np
 
 from roughfilm.contact.foundation.compiled import called, compiled
 
-ROUNDING = 4e-15
-"""Of the diagonal: if it is more than the couplings by less, it is not more."""
+LEAK_ROUNDOFF = 4e-15
+"""Difference of the diagonal and the sum of couplings, over the diagonal, below which it is round-off."""
 
 
 @compiled
 def set_leak(centre, east, north, leak, seen, stack):  # type: ignore[no-untyped-def]
-    """Set the ``leak`` to what the diagonal is more than all couplings; a piece that leaks nowhere is held at one node.
+    """Write the diagonal minus all couplings to ``leak``, and fix each part without a leak at one node.
 
-    That takes from conjugate gradients nothing but the piece's free mean. Arrays of shape (n, m); ``stack`` has n m.
+    Conjugate gradients lose only the free mean of the part. Arrays have the shape (n, m), ``stack`` (n m,).
     """
     count, length = centre.shape
     pending = np.int64(0)
@@ -20,7 +20,7 @@ def set_leak(centre, east, north, leak, seen, stack):  # type: ignore[no-untyped
         for j in range(length):
             couplings = north[row, j] + north[row, j - 1] + east[row, j] + east[row - 1, j]
             rest = centre[row, j] - couplings
-            leaky = rest > ROUNDING * centre[row, j]
+            leaky = rest > LEAK_ROUNDOFF * centre[row, j]
             leak[row, j] = rest if leaky else 0.0
             seen[row, j] = leaky or couplings == 0
             if leaky and couplings > 0:
@@ -38,7 +38,7 @@ def set_leak(centre, east, north, leak, seen, stack):  # type: ignore[no-untyped
 
 @called
 def spread(east, north, seen, stack, pending):  # type: ignore[no-untyped-def]
-    """See all nodes that are linked with those ``pending`` on the stack."""
+    """Mark all nodes connected to those ``pending`` on the stack as seen."""
     count, length = east.shape
     while pending:
         pending -= 1

@@ -160,7 +160,7 @@ KIND = Kind(
         "motion.reynolds_number": ("speed",),
         "geometry.points": ("width", "depth", "shift"),
     },
-    told=first_fault,
+    message=first_fault,
     sweeping=Sweeping(
         given={
             "profile": None,

@@ -23,5 +23,5 @@ def cautions(scene: Pocket, law: ErrorLaw | None = None) -> tuple[str, ...]:
     return tuple(warnings)
 
 
-NO_COARSER_GRID = "without a coarser grid the discretisation error is unknown"
+NO_COARSER_GRID = "there is no coarser grid, so the discretisation error is unknown"
 """The warning of a result without uncertainty."""

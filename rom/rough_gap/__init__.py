@@ -1,1 +1,1 @@
-"""Flow through the gap between rough walls."""
+"""Models of flow through the gap between rough walls."""

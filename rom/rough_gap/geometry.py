@@ -1,4 +1,4 @@
-"""The walls of a rough gap as a scene file writes them: a surface or a sinusoid, and perhaps a second rough wall."""
+"""The scene entries of the walls of a rough gap: a surface or a sinusoid, and optionally a second rough wall."""
 
 from functools import lru_cache
 from typing import Any, Self
@@ -14,19 +14,20 @@ from roughfilm.contact.synthetic.sinusoids import sinusoid
 from roughfilm.rom.parts.surface_geometry import SurfaceGeometry
 
 SINUSOID = "sinusoid"
+"""The value of ``surface`` for a sinusoidal wall."""
 
 SINUSOID_POINTS = (256, 2)
-"""Along the wave, and across it, where nothing changes."""
+"""Numbers of points of a sinusoid along the wave and across it."""
 
-ACROSS = 4
-"""Pixels of a sinusoid are so many times as wide as long."""
+SINUSOID_PIXEL_RATIO = 4
+"""Ratio of width to length of the pixels of a sinusoid."""
 
-LIKE = 1e-6
-"""Of the sides of both walls, which must be the same."""
+SIZE_TOLERANCE = 1e-6
+"""Relative tolerance of the equal sides of both walls."""
 
 
-class Rough(SurfaceGeometry):
-    """A wall that repeats itself: a surface, or ``"sinusoid"`` with ``amplitude`` a and ``wavelength`` λ.
+class RoughWall(SurfaceGeometry):
+    """A periodic wall: a surface, or ``"sinusoid"`` with ``amplitude`` a and ``wavelength`` λ.
 
     The sinusoid is a cos(2π x/λ), one wave long, with ridges along y.
     """
@@ -42,20 +43,20 @@ class Rough(SurfaceGeometry):
         wave = [key for key in ("amplitude", "wavelength") if entries.get(key) is not None]
         if entries.get("surface") != SINUSOID:
             if wave:
-                raise ValueError(f'{wave[0]}: is for surface = "sinusoid"; leave it out, or write that')
+                raise ValueError(f'{wave[0]}: needs surface = "sinusoid"; leave it out, or set surface')
         elif len(wave) < 2:
             missing = "wavelength" if wave == ["amplitude"] else "amplitude"
             raise ValueError(f'{missing}: is missing; surface = "sinusoid" needs an amplitude and a wavelength')
         return entries
 
     @model_validator(mode="after")
-    def _repeats_itself(self) -> Self:
+    def _is_periodic(self) -> Self:
         if not self.described and not self.read().periodic:
             mismatch = _mismatch(self.model_dump_json(include={"surface", "spacing", "digest"}, exclude_none=True))
             if mismatch > MISMATCH_THRESHOLD:
                 raise ValueError(
-                    f"surface: does not repeat itself (its edges meet with a mismatch of {mismatch:.2g}, at most "
-                    f"{MISMATCH_THRESHOLD:g} is taken); prepare it with: roughfilm surface"
+                    f"surface: is not periodic (edge mismatch {mismatch:.2g}; it must be at most "
+                    f"{MISMATCH_THRESHOLD:g}); prepare it with: roughfilm surface"
                 )
         return self
 
@@ -65,11 +66,11 @@ class Rough(SurfaceGeometry):
 
     @property
     def name(self) -> str:
-        """The file's name, or the kind of a described one."""
+        """The name of the file, or the kind of a described surface."""
         return SINUSOID if self.surface == SINUSOID else super().name
 
     def read(self) -> Surface:
-        """One period of it; raises InputError as :meth:`SurfaceGeometry.read` does."""
+        """One period of the wall; errors are those of :meth:`SurfaceGeometry.read`."""
         if self.surface != SINUSOID:
             return super().read()
         assert self.amplitude is not None
@@ -77,34 +78,34 @@ class Rough(SurfaceGeometry):
         return _sinusoid(self.amplitude, self.wavelength)
 
 
-class GapGeometry(Rough):
-    """The lower wall, and how far the upper one is above it.
+class GapGeometry(RoughWall):
+    """The lower wall, the distance of the mean planes of both walls, and a rough upper wall.
 
-    ``mean_gap`` lies between their mean planes; without it a load makes the gap. ``upper`` is rough too, on the same
-    period, its heights upward as well; without it the upper wall is flat.
+    Without ``mean_gap`` a load determines the gap. ``upper`` has the same period as the lower wall, and its heights are
+    positive upward too; without it the upper wall is flat.
     """
 
     mean_gap: Length | None = None
-    upper: Rough | None = None
+    upper: RoughWall | None = None
 
     @model_validator(mode="after")
-    def _fit_each_other(self) -> Self:
+    def _same_period(self) -> Self:
         if self.upper is not None:
             (length, width), (other_length, other_width) = self.read().size, self.upper.read().size
-            if abs(other_length / length - 1) > LIKE or abs(other_width / width - 1) > LIKE:
+            if abs(other_length / length - 1) > SIZE_TOLERANCE or abs(other_width / width - 1) > SIZE_TOLERANCE:
                 raise ValueError(
-                    f"upper: got a period of {other_length:.6g} × {other_width:.6g} m, the lower wall has "
-                    f"{length:.6g} × {width:.6g} m; take surfaces of one size"
+                    f"upper: got a period of {other_length:.6g} × {other_width:.6g} m; it must be that of the lower "
+                    f"wall, {length:.6g} × {width:.6g} m"
                 )
             if self.upper.read().shape != self.read().shape:
                 raise ValueError(
-                    f"upper: got {self.upper.read().shape} points, not {self.read().shape} as the lower wall has; "
+                    f"upper: got {self.upper.read().shape} points; it must have {self.read().shape} as the lower wall, "
                     "resample one of them"
                 )
         return self
 
     def heights(self) -> tuple[Array, Array]:
-        """Of the lower and the upper wall, each above its mean, m, shape (nx, ny); 0 if it is flat."""
+        """The heights of the lower and the upper wall above their means, m, shape (nx, ny); 0 for a flat wall."""
         lower = _centred(self.read())
         return lower, np.zeros(lower.shape) if self.upper is None else _centred(self.upper.read())
 
@@ -122,7 +123,7 @@ def _mismatch(wall: str) -> float:
 def _sinusoid(amplitude: float, wavelength: float) -> Surface:
     points, across = SINUSOID_POINTS
     return sinusoid(
-        size=(wavelength, wavelength * across / points * ACROSS),
+        size=(wavelength, wavelength * across / points * SINUSOID_PIXEL_RATIO),
         points=SINUSOID_POINTS,
         amplitude=amplitude,
         wavelength_x=wavelength,

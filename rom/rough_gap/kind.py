@@ -1,4 +1,4 @@
-"""Rough gaps: what passes through one period between two walls."""
+"""The kind of scene ``rough_gap``: flow through one period of the gap between two walls."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -12,19 +12,19 @@ from roughfilm.rom.ladder.sweeping import Columns, Powers, Sweeping
 from roughfilm.rom.rough_gap.geometry import SINUSOID
 from roughfilm.rom.rough_gap.scene import RoughGap
 
-LEAST_FLOW = 1e-4
-"""A flow below this part of that through a smooth gap is as good as none."""
+MIN_FLOW = 1e-4
+"""Flow over that through a smooth gap below which it is negligible."""
 
 SYMBOLS = {"slope": "g'", "height": "Sq/h̄", "reynolds_number": "Re", "shortness": "h̄/λ"}
 
 
 def scale(values: Mapping[str, Any], quantity: str) -> Any:
-    """The size of a coefficient, at least ``LEAST_FLOW``."""
-    return np.maximum(np.abs(values[quantity]), LEAST_FLOW)
+    """The magnitude of a coefficient, at least ``MIN_FLOW``."""
+    return np.maximum(np.abs(values[quantity]), MIN_FLOW)
 
 
 def columns(scene: RoughGap) -> dict[str, Quantity | str]:
-    """The surface's name, Re, and of the walls' difference Sq/h̄, g' and h̄/λ with λ = 2π Sq/g'."""
+    """The name of the surface, Sq/h̄, g', h̄/λ with λ = 2π Sq/g', and Re."""
     numbers = {
         "height_ratio": scene.rms_height / scene.mean_gap,
         "rms_slope": scene.rms_slope,
@@ -38,7 +38,7 @@ def columns(scene: RoughGap) -> dict[str, Quantity | str]:
 
 
 def features(given: Columns) -> dict[str, NDArray[Any]]:
-    """g', Sq/h̄, Re and h̄/λ; ``given`` as in :func:`columns`."""
+    """The numbers g', Sq/h̄, Re and h̄/λ from :func:`columns` of many scenes."""
     return {
         "slope": given["rms_slope"],
         "height": given["height_ratio"],
@@ -48,14 +48,13 @@ def features(given: Columns) -> dict[str, NDArray[Any]]:
 
 
 def worth(values: Columns) -> NDArray[np.bool_]:
-    """Every case through which something flows both ways."""
-    return np.asarray((values["A11"] > LEAST_FLOW) & (values["A22"] > LEAST_FLOW))
+    """Whether each case has flow in both directions."""
+    return np.asarray((values["A11"] > MIN_FLOW) & (values["A22"] > MIN_FLOW))
 
 
-def words(powers: Powers) -> str:
-    """A product of powers as people write it."""
-    told = [SYMBOLS[name] if power == 1 else f"({SYMBOLS[name]})^{power:g}" for name, power in powers.items()]
-    return " · ".join(told)
+def product_text(powers: Powers) -> str:
+    """A product of powers as text, such as ``Re · (g')^2``."""
+    return " · ".join(SYMBOLS[name] if power == 1 else f"({SYMBOLS[name]})^{power:g}" for name, power in powers.items())
 
 
 NUMBERS = {
@@ -67,14 +66,14 @@ NUMBERS = {
     "waves": "side/λ",
     "least_gap": "h_min/h̄",
 }
-"""How people write the numbers of a rough gap."""
+"""Symbols of the numbers of a rough gap."""
 
-TOUCHING = 1e-3
-"""The least gap, over the mean one, of walls that touch."""
+MIN_GAP_RATIO = 1e-3
+"""Smallest gap over the mean gap that stands for walls in contact."""
 
 
 def numbers(scene: RoughGap) -> dict[str, float]:
-    """λ = 2π Sq/g', of which flat walls have none."""
+    """The dimensionless numbers of a rough gap, with λ = 2π Sq/g'; side/λ is 0 for flat walls."""
     surface = scene.surface()
     walls = scene.walls(max(surface.shape))
     waves = max(surface.size) * scene.rms_slope / (2 * np.pi * scene.rms_height) if scene.rms_height > 0 else 0.0
@@ -85,14 +84,14 @@ def numbers(scene: RoughGap) -> dict[str, float]:
         "reynolds_number": scene.reynolds_number,
         "roughness_reynolds_number": scene.reynolds_number * scene.rms_slope,
         "waves": waves,
-        "least_gap": max(float(walls.gap.min()) / scene.mean_gap, TOUCHING),
+        "least_gap": max(float(walls.gap.min()) / scene.mean_gap, MIN_GAP_RATIO),
     }
 
 
 KIND = Kind(
     name="rough_gap",
     scene=RoughGap,
-    summary="a liquid between two walls that are near each other, one or both rough",
+    summary="a liquid in a narrow gap between two walls, one or both rough",
     compared={"A11": "flow along x", "A22": "flow along y"},
     scale=scale,
     columns=columns,
@@ -126,6 +125,6 @@ KIND = Kind(
             "h̄/λ": {"shortness": 1},
         },
         fitted=("slope", "height", "reynolds_number"),
-        words=words,
+        words=product_text,
     ),
 )

@@ -1,4 +1,4 @@
-"""What the rungs of a rough gap share that need no outside solver."""
+"""Models of a rough gap that need no external solver."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
@@ -13,22 +13,23 @@ from roughfilm.rom.ladder.model import About, Applicability, Effect, Model
 from roughfilm.rom.ladder.result import Field, with_uncertainties
 from roughfilm.rom.pocket.validity import NO_COARSER_GRID
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors
-from roughfilm.rom.rough_gap.flow.range_of_validity import part_of_lost_waves
+from roughfilm.rom.rough_gap.flow.range_of_validity import change_by_lost_waves
 from roughfilm.rom.rough_gap.quantities import coefficients, gap_quantities
 from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.rough_gap.validity import cautions
 from roughfilm.rom.rough_gap.walls import Walls
 
-RESIDUAL_MEANING = "largest part of a coefficient by which iterating on would change it"
+RESIDUAL_MEANING = "largest relative solver error of a coefficient"
 
-TOLERANCE = 1e-8
+RESIDUAL_TOLERANCE = 1e-8
+"""Default tolerance of the residual."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Found:
-    """What a rung finds: factors over those of a smooth gap and their error bars, and the flow along x.
+class GapFlow:
+    """The solution of a model: factors over those of a smooth gap, their uncertainty, and the flow under a gradient.
 
-    ``flow`` is its size over the nominal flow, shape (nx, ny).
+    ``flow`` is the magnitude of the flow under a gradient along x, over the nominal flow, shape (nx, ny).
     """
 
     factors: RoughGapFactors
@@ -39,53 +40,55 @@ class Found:
     warnings: tuple[str, ...] = ()
 
 
-def work(task: Task, *, find: Callable[[Walls, float], Found], slope: bool) -> Answer:
-    """Solve on the walls with the task's nodes; waves that these cannot hold count in the error bars."""
+def work(task: Task, *, find: Callable[[Walls, float], GapFlow], slope: bool) -> Answer:
+    """Solve on the walls at the task's nodes; uncertainties include the waves that the grid cannot represent."""
     scene: RoughGap = task.scene
     walls = scene.walls(max(task.heights.shape))
-    found = find(walls, scene.mean_gap)
-    bars: Mapping[str, float] = {}
-    warnings = [*cautions(scene, walls), *found.warnings]
-    if found.uncertainty is not None:
-        bars = coefficients(_with_lost_waves(found.factors, found.uncertainty, scene, walls, slope=slope))
-        if not np.isfinite(found.uncertainty.pressure).all():
+    solution = find(walls, scene.mean_gap)
+    uncertainties: Mapping[str, float] = {}
+    warnings = [*cautions(scene, walls), *solution.warnings]
+    if solution.uncertainty is not None:
+        uncertainties = coefficients(
+            _with_lost_waves(solution.factors, solution.uncertainty, scene, walls, slope=slope)
+        )
+        if not np.isfinite(solution.uncertainty.pressure).all():
             warnings.append(NO_COARSER_GRID)
     return Answer(
-        quantities=with_uncertainties(gap_quantities(scene, walls, found.factors), bars),
+        quantities=with_uncertainties(gap_quantities(scene, walls, solution.factors), uncertainties),
         fields={
             "gap": Field(values=walls.gap, unit="m"),
-            "flow": Field(values=found.flow * scene.nominal_flow, unit="m^2/s"),
+            "flow": Field(values=solution.flow * scene.nominal_flow, unit="m^2/s"),
         },
-        residual=found.residual,
-        iterations=found.iterations,
+        residual=solution.residual,
+        iterations=solution.iterations,
         warnings=tuple(warnings),
     )
 
 
 def _with_lost_waves(
-    factors: RoughGapFactors, bars: RoughGapFactors, scene: RoughGap, walls: Walls, *, slope: bool
+    factors: RoughGapFactors, uncertainty: RoughGapFactors, scene: RoughGap, walls: Walls, *, slope: bool
 ) -> RoughGapFactors:
     finest = max(scene.surface().shape)
     if finest == max(walls.lower.shape):
-        return bars
-    part = part_of_lost_waves(scene.walls(finest), walls, stokes=slope)
-    a = np.diag(factors.pressure) * part[:2]
+        return uncertainty
+    change = change_by_lost_waves(scene.walls(finest), walls, stokes=slope)
+    a = np.diag(factors.pressure) * change[:2]
     return replace(
-        bars,
-        pressure=bars.pressure + np.sqrt(np.outer(a, a)),
-        shear=bars.shear + np.abs(factors.shear) * part[2],
-        friction=bars.friction + factors.friction * float(part[3]),
+        uncertainty,
+        pressure=uncertainty.pressure + np.sqrt(np.outer(a, a)),
+        shear=uncertainty.shear + np.abs(factors.shear) * change[2],
+        friction=uncertainty.friction + factors.friction * float(change[3]),
     )
 
 
 def gap_model(
     *,
     applies: Callable[[RoughGap], Applicability],
-    find: Callable[[Walls, float], Found],
+    find: Callable[[Walls, float], GapFlow],
     cost: Callable[[int], float],
     **about: Unpack[About],
 ) -> Model[RoughGap]:
-    """A model of a rough gap; ``find(walls, mean gap)`` solves, ``cost`` gives CPU seconds for a number of nodes."""
+    """A model of a rough gap from a solver ``find(walls, mean_gap)`` and its cost, CPU seconds over nodes."""
     return contact_model(
         **about,
         kind="rough_gap",
@@ -93,13 +96,13 @@ def gap_model(
         applies=applies,
         work=partial(work, find=find, slope=Effect.SLOPE in about["keeps"]),
         prepare=partial(prepare, find=find),
-        tolerance=TOLERANCE,
+        tolerance=RESIDUAL_TOLERANCE,
         cost=cost,
     )
 
 
-def prepare(task: Task, *, find: Callable[[Walls, float], Found]) -> None:
-    """Compile what the rung needs, and make the walls, which is not the cost of a rung."""
+def prepare(task: Task, *, find: Callable[[Walls, float], GapFlow]) -> None:
+    """Compile the kernels of the model and compute the walls, neither of which is part of its cost."""
     task.scene.walls(max(task.heights.shape))
     wave = 0.1 * np.cos(2 * np.pi * np.arange(16) / 16)
     find(Walls(lower=np.add.outer(wave, wave), upper=np.ones((16, 16)), spacing=(1.0, 1.0)), 1.0)

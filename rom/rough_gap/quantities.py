@@ -1,4 +1,4 @@
-"""What a rough gap lets through and rubs, as every model of it tells."""
+"""The quantities of a rough gap: flow and friction coefficients."""
 
 import numpy as np
 
@@ -9,18 +9,17 @@ from roughfilm.rom.rough_gap.walls import Walls
 
 
 def coefficients(factors: RoughGapFactors) -> dict[str, float]:
-    """By the names of their quantities; B and friction only where the upper wall can slide."""
-    a = factors.pressure
-    told = {f"A{i + 1}{j + 1}": float(a[i, j]) for i in range(2) for j in range(2)}
+    """The coefficients by the names of their quantities; B and friction only if the upper wall can slide."""
+    a = {f"A{i + 1}{j + 1}": float(factors.pressure[i, j]) for i in range(2) for j in range(2)}
     if np.isnan(factors.friction):
-        return told
-    return {**told, "B1": float(factors.shear[0]), "B2": float(factors.shear[1]), "friction": factors.friction}
+        return a
+    return {**a, "B1": float(factors.shear[0]), "B2": float(factors.shear[1]), "friction": factors.friction}
 
 
 def gap_quantities(scene: RoughGap, walls: Walls, factors: RoughGapFactors) -> dict[str, Quantity]:
-    """The quantities of a rough gap from its factors over those of a smooth gap as thick as the mean one.
+    """The quantities of a rough gap from its factors over those of a smooth gap with the thickness of the mean gap.
 
-    Flows per width are those at the scene's gradient along x and along y.
+    Flows per width are those under the scene's gradient along x and along y.
     """
     smooth = scene.nominal_flow
     along, across = (float(factors.pressure[i, i]) for i in range(2))

@@ -1,4 +1,4 @@
-"""A rough gap: two walls that repeat themselves in both directions, and a liquid driven through between them."""
+"""The scene of a rough gap: two periodic walls and a liquid driven through the gap."""
 
 import math
 from functools import lru_cache
@@ -15,15 +15,18 @@ from roughfilm.rom.parts.pressed_surface import Load, RoughScene
 from roughfilm.rom.parts.restriction import restricted
 from roughfilm.rom.parts.solids import Counter, RoughBody, composite_modulus, hardness
 from roughfilm.rom.pocket.scene import NewtonianLubricant
-from roughfilm.rom.rough_gap.flow.range_of_validity import ROUGHEST, expected_excess
+from roughfilm.rom.rough_gap.flow.range_of_validity import MAX_ROUGHNESS, expected_excess
 from roughfilm.rom.rough_gap.geometry import GapGeometry
 from roughfilm.rom.rough_gap.walls import Walls
 
-FEWEST_LAYERS = 4
-"""Cells across the gap."""
+MIN_LAYERS = 4
+"""Smallest number of cells across the gap."""
 
-SMALLEST = 0.01
-"""Of the mean gap: where the walls are nearer to each other than this, they count as touching."""
+MAX_LAYERS = 1000
+"""Largest number of cells across the gap."""
+
+MIN_OPEN_GAP = 0.01
+"""Default gap over the mean gap below which the walls are in contact."""
 
 
 def _layers(value: object) -> int:
@@ -32,16 +35,16 @@ def _layers(value: object) -> int:
     return value
 
 
-def _enough(value: int) -> int:
-    if not FEWEST_LAYERS <= value <= 1000:
-        raise ValueError(f"got {value}; too few or too many layers, it must be {FEWEST_LAYERS} to 1000")
+def _in_range(value: int) -> int:
+    if not MIN_LAYERS <= value <= MAX_LAYERS:
+        raise ValueError(f"got {value}; it must be {MIN_LAYERS} to {MAX_LAYERS} layers")
     return value
 
 
-class Drive(Part):
-    """What drives the flow: the mean pressure gradient G, Pa/m, or the Reynolds number that gives it; exactly one.
+class GapDrive(Part):
+    """The mean pressure gradient G, Pa/m, or the Reynolds number from which it follows.
 
-    Re = ρ q/η with the flow per width q = h̄³G/(12η) of a smooth gap as thick as the mean one.
+    Re = ρ q/η with the flow per width q = h̄³G/(12η) of a smooth gap with the thickness of the mean gap.
     """
 
     pressure_gradient: Annotated[float, InUnit("Pa/m")] | None = None
@@ -50,41 +53,40 @@ class Drive(Part):
     @model_validator(mode="after")
     def _one_of_two(self) -> Self:
         if (self.pressure_gradient is None) == (self.reynolds_number is None):
-            found = "neither" if self.pressure_gradient is None else "both"
-            raise ValueError(f"got {found} of pressure_gradient and reynolds_number; give exactly one")
+            given = "neither" if self.pressure_gradient is None else "both"
+            raise ValueError(f"got {given} of pressure_gradient and reynolds_number; give exactly one")
         return self
 
 
-class Mesh(Part):
-    """How the gap is cut: cells across it (by default a quarter of the columns), and the smallest gap that is open, m.
+class GapMesh(Part):
+    """The number of cells across the gap (by default a quarter of the columns), and the smallest open gap, m.
 
-    Where the walls are nearer to each other than ``smallest_gap`` they count as touching, for every model; by default
-    where they are nearer than ``SMALLEST`` of the mean gap.
+    In every model walls nearer than ``smallest_gap`` are in contact; the default is 0.01 of the mean gap.
     """
 
-    layers: Annotated[int, BeforeValidator(_layers), AfterValidator(_enough)] | None = None
+    layers: Annotated[int, BeforeValidator(_layers), AfterValidator(_in_range)] | None = None
     smallest_gap: Length | None = None
 
 
 class RoughGap(RoughScene):
-    """One period of a gap between a rough wall at rest and another wall, in a steady, isothermal, incompressible flow.
+    """One period of a gap between a rough wall at rest and another wall, with steady isothermal incompressible flow.
 
-    The flow is driven three times: by the mean pressure gradient along x, by the same along y, and by the upper wall
-    sliding along x, if it is flat, so fast that a smooth gap would carry as much as under that gradient.
+    There are three drives: the mean pressure gradient along x, the same along y, and, if the upper wall is flat, its
+    sliding along x at the speed at which a smooth gap has the same flow as under the gradient.
 
-    ``fields`` of its results: ``gap``, m, and ``flow``, the size of the flow per width under the gradient along x,
-    m²/s, both of shape (nx, ny). Models that resolve the film add ``vertices`` (nx+1, ny+1, nz+1, 3), ``kept``
-    (nx, ny), and of the same flow ``cell_velocity`` (nx, ny, nz, 3) and ``cell_pressure`` (nx, ny, nz).
+    The fields of a result are ``gap``, m, and ``flow``, the magnitude of the flow per width under the gradient along x,
+    m²/s, of shape (nx, ny). Models that resolve the film add ``vertices`` (nx+1, ny+1, nz+1, 3), ``kept`` (nx, ny), and
+    ``cell_velocity`` (nx, ny, nz, 3) and ``cell_pressure`` (nx, ny, nz) of the same flow.
     """
 
     kind: Literal["rough_gap"]
     geometry: GapGeometry
     lubricant: NewtonianLubricant
-    flow: Drive
+    flow: GapDrive
     solid: RoughBody | None = None
     counter: Counter | None = None
     load: Load | None = None
-    mesh: Mesh = Field(default_factory=Mesh)
+    mesh: GapMesh = Field(default_factory=GapMesh)
 
     @model_validator(mode="after")
     def _is_a_gap(self) -> Self:
@@ -95,9 +97,9 @@ class RoughGap(RoughScene):
                 raise ValueError("geometry.mean_gap: is missing; give it, or [solid] and [load] that press the walls")
         else:
             if self.solid is None:
-                raise ValueError("solid: is missing; a load needs the solid that it presses")
+                raise ValueError("solid: is missing; give the solid that the load presses")
             if self.geometry.mean_gap is not None:
-                raise ValueError("geometry.mean_gap: the load makes the gap; leave mean_gap or [load] out")
+                raise ValueError("geometry.mean_gap: the load determines the gap; leave mean_gap or [load] out")
             if self.load.pressure > hardness(self.solid):
                 raise ValueError(f"load.pressure: got {self.load.pressure:.6g} Pa, above the hardness; lower the load")
         self._walls_do_not_cross()
@@ -107,9 +109,9 @@ class RoughGap(RoughScene):
         except (OverflowError, ZeroDivisionError):
             number, derived = math.nan, []
         if not all(1e-100 < value < 1e100 for value in (number, *derived)):
-            raise ValueError("flow: lubricant, gap and drive give numbers beyond reckoning; look at the units")
+            raise ValueError("flow: values derived from lubricant, gap and drive overflow; check the units")
         if not 1e-12 <= number <= 1e12:
-            raise ValueError(f"flow: got Reynolds number {number:.3g}; it must be 1e-12 to 1e12, look at the units")
+            raise ValueError(f"flow: got Reynolds number {number:.3g}; it must be 1e-12 to 1e12, check the units")
         return self
 
     def _walls_do_not_cross(self) -> None:
@@ -119,40 +121,40 @@ class RoughGap(RoughScene):
         nearest = float((upper - lower).min())
         if self.geometry.mean_gap + nearest < 0:
             raise ValueError(
-                f"geometry.mean_gap: got {self.geometry.mean_gap:.6g} m, but the walls cross, as they come up to "
-                f"{-nearest:.6g} m nearer than on average; raise it above that, or press them with [solid] and [load]"
+                f"geometry.mean_gap: got {self.geometry.mean_gap:.6g} m, with which the walls cross; it must be above "
+                f"{-nearest:.6g} m, raise it or press the walls with [solid] and [load]"
             )
 
     @property
     def mean_gap(self) -> float:
-        """h̄ on the surface's own points, m, contact among them; the unit of length inside the solvers."""
+        """The mean gap h̄ on the surface's own points including contact, m; the unit of length inside the solvers."""
         if self.geometry.mean_gap is not None:
             return self.geometry.mean_gap
         return self._walls(max(self.surface().shape)).mean_gap
 
     @property
     def smallest_gap(self) -> float:
-        """Below it the walls count as touching, m."""
-        return SMALLEST * self.mean_gap if self.mesh.smallest_gap is None else self.mesh.smallest_gap
+        """The gap below which the walls are in contact, m."""
+        return MIN_OPEN_GAP * self.mean_gap if self.mesh.smallest_gap is None else self.mesh.smallest_gap
 
     @property
     def layers(self) -> int | None:
-        """Cells across the gap; None for the default."""
+        """The number of cells across the gap; None for the default."""
         return self.mesh.layers
 
     @property
     def viscosity(self) -> float:
-        """η, Pa s."""
+        """Viscosity η, Pa s."""
         return self.lubricant.viscosity
 
     @property
     def density(self) -> float:
-        """ρ, kg/m³."""
+        """Density ρ, kg/m³."""
         return self.lubricant.density
 
     @property
     def pressure_gradient(self) -> float:
-        """G, Pa/m."""
+        """Mean pressure gradient G, Pa/m."""
         if self.flow.pressure_gradient is not None:
             return self.flow.pressure_gradient
         assert self.flow.reynolds_number is not None
@@ -160,19 +162,19 @@ class RoughGap(RoughScene):
 
     @property
     def reynolds_number(self) -> float:
-        """Re = ρ q/η of a smooth gap as thick as the mean one."""
+        """Reynolds number ρ q/η of a smooth gap with the thickness of the mean gap."""
         if self.flow.reynolds_number is not None:
             return self.flow.reynolds_number
         return self.density * self.mean_gap**3 * self.pressure_gradient / (12 * self.viscosity**2)
 
     @property
     def nominal_flow(self) -> float:
-        """Flow per width q = h̄³G/(12η), m²/s, of a smooth gap as thick as the mean one."""
+        """Flow per width q = h̄³G/(12η) of a smooth gap with the thickness of the mean gap, m²/s."""
         return self.mean_gap**3 * self.pressure_gradient / (12 * self.viscosity)
 
     @property
     def sliding_speed(self) -> float:
-        """Speed u = 2q/h̄, m/s: at it a smooth gap carries the nominal flow without a gradient."""
+        """Sliding speed u = 2q/h̄ at which a smooth gap has the nominal flow without a gradient, m/s."""
         return 2 * self.nominal_flow / self.mean_gap
 
     def surface(self) -> Surface:
@@ -181,20 +183,20 @@ class RoughGap(RoughScene):
 
     @property
     def rms_height(self) -> float:
-        """Sq of the walls, m: √(Sq² + Sq²) of both, before a load presses them."""
+        """Rms height √(Sq² + Sq²) of both undeformed walls, m."""
         return _roughness(self.geometry.model_dump_json(exclude_none=True))[0]
 
     @property
     def rms_slope(self) -> float:
-        """Slope g' = √(<|∇z|²>) of the walls, summed over both."""
+        """Rms slope g' = √(<|∇z|²>) of both undeformed walls together."""
         return _roughness(self.geometry.model_dump_json(exclude_none=True))[1]
 
     @property
     def slope_excess(self) -> float | None:
-        """What thin-film theory lets too much through, at most, along x or y, over Stokes flow; from the spectrum.
+        """The larger relative flow error of thin-film theory along x or y, from the spectrum.
 
-        Of second order in roughness over gap, for any wavelength; None where that means nothing: where Sq/h̄ is above
-        0.3, or a load presses the walls together.
+        The estimate is of second order in roughness over gap, for any wavelength. It is None if Sq/h̄ is above 0.3, or
+        if a load presses the walls together.
         """
         if self.load is not None:
             return None
@@ -202,16 +204,19 @@ class RoughGap(RoughScene):
 
     @property
     def gap_over_wavelength(self) -> float:
-        """h̄/λ with λ = 2π Sq/g', the wavelength of a single wave of that height and slope; 0 if both are flat."""
+        """The ratio h̄/λ, with λ = 2π Sq/g' the wavelength of a wave of that height and slope; 0 for flat walls."""
         return self.mean_gap * self.rms_slope / (2 * np.pi * self.rms_height) if self.rms_height > 0 else 0.0
 
     def walls(self, resolution: int) -> Walls:
-        """The walls with so many nodes along the longer side, less the waves that these cannot hold.
+        """The walls on a number of nodes along the longer side, without the waves that these cannot represent.
 
-        They touch where they are nearer than :attr:`smallest_gap`; a load presses the surface on these nodes.
+        Walls nearer than :attr:`smallest_gap` are in contact; a load presses the surface on these nodes.
 
-        Raises InputError for more nodes than the surface has points, if walls without these waves would cross, or if
-        nothing is left open.
+        Raises
+        ------
+        InputError
+            If there are more nodes than points of the surface, if the walls cross without these waves, or if they touch
+            everywhere.
         """
         own = max(self.surface().shape)
         if not 2 <= resolution <= own:
@@ -231,7 +236,7 @@ class RoughGap(RoughScene):
 
 @lru_cache(maxsize=4)
 def _roughness(geometry_text: str) -> tuple[float, float]:
-    """Sq, m, and g' of both walls."""
+    """Rms height Sq, m, and rms slope g' of both walls together."""
     geometry = GapGeometry.model_validate_json(geometry_text)
     rough = [heights for heights in geometry.heights() if np.ptp(heights) > 0]
     moments = [wave_power(heights, geometry.read().spacing).moments for heights in rough]
@@ -242,7 +247,7 @@ def _roughness(geometry_text: str) -> tuple[float, float]:
 def _slope_excess(geometry_text: str) -> float | None:
     resolution = max(GapGeometry.model_validate_json(geometry_text).read().shape)
     walls = _walls(geometry_text, None, resolution)
-    return float(expected_excess(walls).max()) if walls.gap.std() <= ROUGHEST * walls.mean_gap else None
+    return float(expected_excess(walls).max()) if walls.gap.std() <= MAX_ROUGHNESS * walls.mean_gap else None
 
 
 @lru_cache(maxsize=8)
@@ -250,8 +255,8 @@ def _walls(geometry_text: str, pressing: tuple[float, float, float] | None, reso
     geometry = GapGeometry.model_validate_json(geometry_text)
     length, width = geometry.read().size
     nx, ny = geometry.read().shape
-    part = resolution / max(nx, ny)
-    shape = max(2, round(nx * part)), max(2, round(ny * part))
+    ratio = resolution / max(nx, ny)
+    shape = max(2, round(nx * ratio)), max(2, round(ny * ratio))
     spacing = length / shape[0], width / shape[1]
     lower, upper = (restricted(heights, shape) for heights in geometry.heights())
     if pressing is not None:
@@ -264,6 +269,6 @@ def _walls(geometry_text: str, pressing: tuple[float, float, float] | None, reso
     walls = Walls(lower=lower, upper=upper + geometry.mean_gap, spacing=spacing)
     if walls.gap.min() < 0:
         raise InputError(
-            f"resolution: got {resolution}; without the waves that it cannot hold the walls cross, take more nodes"
+            f"resolution: got {resolution}; the walls cross without the waves that it cannot represent, raise it"
         )
     return walls

@@ -1,4 +1,4 @@
-"""The two walls of a rough gap over one period: what every model of it solves on."""
+"""The two walls of a rough gap over one period."""
 
 from dataclasses import dataclass, replace
 from typing import Self
@@ -10,9 +10,9 @@ from roughfilm.contact.foundation.arrays import Array
 
 @dataclass(frozen=True, kw_only=True)
 class Walls:
-    """Heights of both walls at the same nodes, which repeat themselves in x and y.
+    """Heights of both walls at the same nodes of one period in x and y.
 
-    The lower wall is at rest. The upper one slides along x if it is flat. Where they meet, they touch.
+    The lower wall is at rest; the upper one slides along x if it is flat. The walls touch where the heights are equal.
 
     Attributes
     ----------
@@ -26,12 +26,12 @@ class Walls:
 
     @property
     def gap(self) -> Array:
-        """Upper less lower height, m, shape (nx, ny); 0 in contact."""
+        """Upper minus lower height, m, shape (nx, ny); 0 in contact."""
         return np.asarray(self.upper - self.lower)
 
     @property
     def mean_gap(self) -> float:
-        """Over all nodes, contact among them, m."""
+        """Mean gap over all nodes, including contact, m."""
         return float(self.gap.mean())
 
     @property
@@ -42,9 +42,9 @@ class Walls:
 
     @property
     def slides(self) -> bool:
-        """Whether the upper wall is flat, so that the flow stays steady when it slides."""
+        """Whether the upper wall is flat, so that the flow is steady while it slides."""
         return bool(np.ptp(self.upper) == 0)
 
     def closed_below(self, smallest: float) -> Self:
-        """The same walls, but touching wherever the gap is smaller than that, m."""
+        """The walls with contact wherever the gap is smaller than ``smallest``, m."""
         return replace(self, lower=np.where(self.gap < smallest, self.upper, self.lower))

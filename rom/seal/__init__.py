@@ -1,1 +1,1 @@
-"""Leakage between a rough surface and a flat one."""
+"""Models of leakage between a rough surface and a flat one."""

@@ -1,4 +1,4 @@
-"""Seals: what leaks between a rough surface and a flat one."""
+"""The kind of scene ``seal``: leakage between a rough surface and a flat one."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -12,36 +12,36 @@ from roughfilm.rom.ladder.kind import Kind
 from roughfilm.rom.ladder.sweeping import Columns, Sweeping
 from roughfilm.rom.seal.scene import Seal
 
-LEAST_LEAKAGE = 1e-4
-"""Leakage below this part of that of a smooth gap as thick as the rms height is as good as none."""
+MIN_LEAKAGE = 1e-4
+"""Leakage over that of a smooth gap of the rms height below which it is negligible."""
 
 
 def scale(values: Mapping[str, Any], quantity: str) -> Any:
-    """The size of a quantity; of leakage at least ``LEAST_LEAKAGE`` of that of a smooth gap."""
+    """The magnitude of a quantity, for leakage at least ``MIN_LEAKAGE`` times that of a smooth gap."""
     size = np.abs(values[quantity])
-    return np.maximum(size, LEAST_LEAKAGE * values["smooth_leakage"]) if quantity == "leakage_per_width" else size
+    return np.maximum(size, MIN_LEAKAGE * values["smooth_leakage"]) if quantity == "leakage_per_width" else size
 
 
 def columns(scene: Seal) -> dict[str, Quantity | str]:
-    """As a dry contact has them, and the direction of the flow."""
+    """The columns of a dry contact, and the direction of the flow."""
     return {**dry_contact.columns(scene), "direction": scene.flow.direction}
 
 
 def worth(values: Columns) -> NDArray[np.bool_]:
-    """Every case whose leakage counts."""
-    return np.asarray(values["leakage_per_width"] > LEAST_LEAKAGE * values["smooth_leakage"])
+    """Whether the leakage of each case is not negligible."""
+    return np.asarray(values["leakage_per_width"] > MIN_LEAKAGE * values["smooth_leakage"])
 
 
 def numbers(scene: Seal) -> dict[str, float]:
-    """Those of a dry contact, and the seal's length over the side of the surface along the flow."""
-    told = dry_contact.numbers(scene)
-    return {**told, "length": scene.flow.length / scene.surface().size[scene.axis]} if told else {}
+    """The numbers of a dry contact, and the length of the seal over the side of the surface along the flow."""
+    own = dry_contact.numbers(scene)
+    return {**own, "length": scene.flow.length / scene.surface().size[scene.axis]} if own else {}
 
 
 KIND = Kind(
     name="seal",
     scene=Seal,
-    summary="a liquid pressed through between a rough surface and a flat one",
+    summary="a liquid that leaks between a rough surface and a flat one",
     compared={"leakage_per_width": "leakage", "area_fraction": "contact area"},
     scale=scale,
     columns=columns,
@@ -62,6 +62,6 @@ KIND = Kind(
         worth=worth,
         candidates={"P/(E* g')": {"pressure": 1}, "α": {"breadth": 1}},
         fitted=("pressure", "breadth"),
-        words=dry_contact.words,
+        words=dry_contact.product_text,
     ),
 )

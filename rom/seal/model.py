@@ -1,4 +1,4 @@
-"""What the rungs of a seal share: the surface pressed, and what its permeability is in the seal."""
+"""Models of a seal: contact of the surface, and leakage from the permeability of its gap."""
 
 import math
 from collections.abc import Callable
@@ -11,41 +11,42 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.rom.dry_contact.model import Answer, Task, contact_model, once, one
-from roughfilm.rom.dry_contact.pressed import TOLERANCE, prepare
+from roughfilm.rom.dry_contact.pressed import RESIDUAL_TOLERANCE, prepare
 from roughfilm.rom.ladder.model import About, Applicability, Model
 from roughfilm.rom.ladder.result import Field, with_uncertainties
 from roughfilm.rom.pocket.validity import NO_COARSER_GRID
 from roughfilm.rom.seal.leakage.passage import Passage, dimensionless, mass_flow
 from roughfilm.rom.seal.scene import Seal
 
-RESIDUAL_MEANING = (
-    "part of the leakage by which iterating on would change it, or by how much contact breaks its conditions"
-)
+RESIDUAL_MEANING = "relative solver error of the leakage, or residual of the contact conditions, whichever is larger"
 
-BINS, FARTHEST = 80, 8.0
-"""Of gaps, up to so many rms heights."""
+GAP_BINS = 80
+"""Number of bins of gaps."""
 
-Flow = Callable[[Contact, Seal], Passage]
-"""flow(contact, scene): what a contact lets through along the scene's axis."""
+MAX_BINNED_GAP = 8.0
+"""Largest gap of the bins over the rms height."""
+
+FlowSolver = Callable[[Contact, Seal], Passage]
+"""flow(contact, scene): the flow through the gap of a contact along the scene's axis."""
 
 
-def leak(task: Task, *, flow: Flow) -> Answer:
-    """Press the surface, its hardness kept, and take the flow through the gap."""
+def leak(task: Task, *, flow: FlowSolver) -> Answer:
+    """Solve the contact of the surface, then the flow through its gap."""
     from roughfilm.contact.mechanics.press import Press  # numba is slow to import
     from roughfilm.rom.homogenization.flux import flux
 
     scene: Seal = task.scene
-    found = Press(task.heights, task.spacing, scene.composite_modulus, hardness=scene.hardness).at(
+    contact = Press(task.heights, task.spacing, scene.composite_modulus, hardness=scene.hardness).at(
         scene.load.pressure, tolerance=task.tolerance
     )
-    passage = flow(found, scene)
-    driven = flux(found.gap, found.spacing, passage.corrector, scene.axis) if not passage.sealed else None
-    size = np.zeros(found.gap.shape) if driven is None else np.hypot(*driven)
+    passage = flow(contact, scene)
+    driven = flux(contact.gap, contact.spacing, passage.corrector, scene.axis) if not passage.sealed else None
+    size = np.zeros(contact.gap.shape) if driven is None else np.hypot(*driven)
     per_permeability = scene.flow.pressure_drop / (12 * scene.liquid.viscosity * scene.flow.length)
     return Answer(
         quantities=with_uncertainties(
             quantities(
-                scene, passage.permeability, passage.sealed, found.area_fraction, found.mean_gap, task.heights.std()
+                scene, passage.permeability, passage.sealed, contact.area_fraction, contact.mean_gap, task.heights.std()
             ),
             {
                 "permeability": passage.uncertainty,
@@ -53,30 +54,30 @@ def leak(task: Task, *, flow: Flow) -> Answer:
             },
         ),
         fields={
-            **gap_shares(float(task.heights.std()), found.gap),
-            "gap": Field(values=found.gap, unit="m"),
+            **gap_distribution(float(task.heights.std()), contact.gap),
+            "gap": Field(values=contact.gap, unit="m"),
             "flow": Field(values=size * per_permeability, unit="m^2/s"),
         },
-        residual=max(found.complementarity, passage.unsolved),
-        iterations=max(found.iterations + passage.iterations, 1),
-        warnings=(*_warnings(scene, found), *(() if math.isfinite(passage.uncertainty) else (NO_COARSER_GRID,))),
+        residual=max(contact.complementarity, passage.unsolved),
+        iterations=max(contact.iterations + passage.iterations, 1),
+        warnings=(*_warnings(scene, contact), *(() if math.isfinite(passage.uncertainty) else (NO_COARSER_GRID,))),
     )
 
 
-def gap_shares(rms: float, gaps: Array, shares: Array | None = None) -> dict[str, Field]:
-    """How much of the nominal area has a gap in which of the bins that all rungs share, contact left out.
+def gap_distribution(rms: float, gaps: Array, fractions: Array | None = None) -> dict[str, Field]:
+    """The fraction of the nominal area with a gap in each of the bins that all models share, without contact.
 
-    ``rms`` is that of the heights, m; ``shares`` are the parts of the area of each gap, equal ones if not given.
+    ``rms`` is that of the heights, m; ``fractions`` are the area fractions of the gaps, by default equal ones.
     """
-    edges = np.linspace(0.0, FARTHEST * (rms or 1e-9), BINS + 1)
-    weights = np.full(gaps.shape, 1 / gaps.size) if shares is None else shares
+    edges = np.linspace(0.0, MAX_BINNED_GAP * (rms or 1e-9), GAP_BINS + 1)
+    weights = np.full(gaps.shape, 1 / gaps.size) if fractions is None else fractions
     some = gaps > 0
-    share, _ = np.histogram(gaps[some], edges, weights=weights[some])
-    return {"gap_edges": Field(values=edges, unit="m"), "gap_share": Field(values=share.astype(float), unit="1")}
+    areas, _ = np.histogram(gaps[some], edges, weights=weights[some])
+    return {"gap_edges": Field(values=edges, unit="m"), "gap_share": Field(values=areas.astype(float), unit="1")}
 
 
 def leakage_of(scene: Seal, permeability: float) -> float:
-    """Of the scene's liquid, kg/(s m)."""
+    """The leakage of the scene's liquid at a permeability, kg/(s m)."""
     return mass_flow(
         permeability,
         density=scene.liquid.density,
@@ -89,8 +90,8 @@ def leakage_of(scene: Seal, permeability: float) -> float:
 def quantities(
     scene: Seal, permeability: float, sealed: bool, area: float, mean_gap: float | None, rms: float
 ) -> dict[str, Quantity]:
-    """What every rung tells; ``smooth_leakage`` is that of a smooth gap as thick as the rms height."""
-    told = {
+    """The quantities of all models; ``smooth_leakage`` is that of a smooth gap of the rms height."""
+    values = {
         "leakage_per_width": Quantity(value=leakage_of(scene, permeability), unit="kg/(m*s)"),
         "sealed": one(float(sealed)),
         "permeability": Quantity(value=permeability, unit="m^3"),
@@ -98,13 +99,13 @@ def quantities(
         "smooth_leakage": Quantity(value=leakage_of(scene, float(rms) ** 3), unit="kg/(m*s)"),
     }
     if rms > 0:
-        told["dimensionless_leakage"] = one(dimensionless(permeability, float(rms)))
+        values["dimensionless_leakage"] = one(dimensionless(permeability, float(rms)))
     if mean_gap is not None:
-        told["mean_gap"] = Quantity(value=mean_gap, unit="m")
-    return told
+        values["mean_gap"] = Quantity(value=mean_gap, unit="m")
+    return values
 
 
-def _warnings(scene: Seal, found: Contact) -> tuple[str, ...]:
+def _warnings(scene: Seal, contact: Contact) -> tuple[str, ...]:
     from roughfilm.contact.surfaces.periodicity import (  # scipy is slow to import
         MISMATCH_THRESHOLD,
         periodicity_mismatch,
@@ -115,23 +116,26 @@ def _warnings(scene: Seal, found: Contact) -> tuple[str, ...]:
     mismatch = 0.0 if scene.geometry.described else periodicity_mismatch(surface)
     if not mismatch > MISMATCH_THRESHOLD:
         return ()
-    seals = joint_seals(found.gap)[scene.axis]
-    told = "is sealed there, and open but for it" if seals else "may be throttled there"
-    return (f"the surface meets itself badly at its joints (mismatch {mismatch:.2g}), and {told}; prepare it better",)
+    effect = "seals only at the edge" if joint_seals(contact.gap)[scene.axis] else "may leak less at the edge"
+    return (
+        f"the surface is not periodic (edge mismatch {mismatch:.2g}) and {effect}; prepare it again with edge blending",
+    )
 
 
 def applies(scene: Seal, *, keeps: str) -> Applicability:
-    """Always; says what is kept."""
-    told = "elastic" if scene.solid.hardness is None else f"P/H = {scene.load.pressure / scene.hardness:.3g}"
+    """The effects that are included; the model applies to every seal."""
+    contact = "elastic" if scene.solid.hardness is None else f"P/H = {scene.load.pressure / scene.hardness:.3g}"
     drop = scene.flow.pressure_drop / scene.load.pressure
-    moved = f", and that the liquid, at {drop:.2g} of the load, lifts the surface" if drop > 0.1 else ""
-    return Applicability(applies=True, reason=f"{keeps}; contact {told}; leaves out inertia{moved}")
+    lift = f", and that the liquid, at {drop:.2g} of the load, lifts the surface" if drop > 0.1 else ""
+    return Applicability(applies=True, reason=f"{keeps}; contact {contact}; leaves out inertia{lift}")
 
 
-def seal_model(*, words: str, flow: Flow, repeats: Callable[[Seal], int] = once, **about: Unpack[About]) -> Model[Seal]:
-    """A model that presses the surface and solves the flow through so many ``repeats`` of it.
+def seal_model(
+    *, words: str, flow: FlowSolver, repeats: Callable[[Seal], int] = once, **about: Unpack[About]
+) -> Model[Seal]:
+    """A model that solves the contact of the surface and the flow through ``repeats(scene)`` periods of it.
 
-    ``words`` say what of the flow it keeps.
+    ``words`` describe the flow that it solves.
     """
     return contact_model(
         **about,
@@ -140,14 +144,14 @@ def seal_model(*, words: str, flow: Flow, repeats: Callable[[Seal], int] = once,
         applies=partial(applies, keeps=words),
         work=partial(leak, flow=flow),
         prepare=partial(prepare_flow, flow=flow),
-        tolerance=TOLERANCE,
+        tolerance=RESIDUAL_TOLERANCE,
         cost=lambda heights: 1e-2 + 1.5e-6 * heights,
         repeats=repeats,
     )
 
 
-def prepare_flow(task: Task, *, flow: Flow) -> None:
-    """Compile what contact and flow need."""
+def prepare_flow(task: Task, *, flow: FlowSolver) -> None:
+    """Compile the kernels of contact and flow."""
     from roughfilm.contact.mechanics.press import Press
 
     prepare(task)

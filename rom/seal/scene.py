@@ -1,4 +1,4 @@
-"""A seal: a rough surface pressed on a flat one, and a liquid that is pressed through between them."""
+"""The scene of a seal: a rough surface pressed on a flat one, and a liquid that leaks between them."""
 
 from typing import Annotated, Literal
 
@@ -8,14 +8,14 @@ from roughfilm.rom.parts.solids import Pressure
 
 
 class Liquid(Part):
-    """Density, kg/m³, and viscosity, Pa s; both constant."""
+    """A liquid of constant density, kg/m³, and viscosity, Pa s."""
 
     density: Annotated[float, InUnit("kg/m^3")]
     viscosity: Annotated[float, InUnit("Pa*s")]
 
 
-class Drive(Part):
-    """What drives the liquid: a pressure drop, Pa, over a length, m, along x or y of the surface."""
+class SealDrive(Part):
+    """A pressure drop, Pa, over a length, m, along x or y of the surface."""
 
     pressure_drop: Pressure
     length: Length
@@ -23,18 +23,18 @@ class Drive(Part):
 
 
 class Seal(RoughContact):
-    """A seal whose liquid does not move the solids: its pressure is far below that of the contact.
+    """A seal whose liquid does not deform the solids, since its pressure is much less than that of the contact.
 
-    All models give ``gap_edges``, m, (n+1,), and ``gap_share``, (n,): how much of the nominal area has gaps in a bin.
-    Models that resolve the surface give the fields ``gap``, m, and ``flow``, the size of the flow per width, m²/s, both
-    of shape (nx, ny).
+    The fields of all results are ``gap_edges``, m, (n+1,), and ``gap_share``, (n,), the fraction of the nominal area
+    with gaps in each bin. Models that resolve the surface add ``gap``, m, and ``flow``, the magnitude of the flow per
+    width, m²/s, of shape (nx, ny).
     """
 
     kind: Literal["seal"]
     liquid: Liquid
-    flow: Drive
+    flow: SealDrive
 
     @property
     def axis(self) -> int:
-        """Of the flow: 0 for x, 1 for y."""
+        """The axis of the flow: 0 for x, 1 for y."""
         return "xy".index(self.flow.direction)

@@ -1,4 +1,4 @@
-"""What separates the rungs: differences to the best one, the effects between neighbours, errors against cost."""
+"""Comparison of models: differences to the most complete one, effects between neighbours, error against cost."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from roughfilm.rom.ladder.result import Result
 
 @dataclass(frozen=True, kw_only=True)
 class Difference:
-    """How far one model is from another in one quantity: absolute, and relative to the best rung's ``scale``."""
+    """The difference of two models in one quantity: absolute, and relative to the best model's ``scale``."""
 
     model: str
     other: str
@@ -22,7 +22,7 @@ class Difference:
 
 @dataclass(frozen=True, kw_only=True)
 class Point:
-    """One run on the speed-accuracy chart: CPU seconds, and its error against the best rung in what both give."""
+    """One run on the chart of CPU time against error, with its errors in the quantities that the best model gives."""
 
     model: str
     resolution: int
@@ -31,7 +31,7 @@ class Point:
 
 
 def scale(result: Result, quantity: str) -> float:
-    """What an error in a quantity is divided by, as the kind of scene says: mostly its size."""
+    """The size that an error in a quantity is divided by, from the kind of scene."""
     return kind_of(result).scale_of(result, quantity)
 
 
@@ -48,7 +48,7 @@ def _difference(result: Result, other: Result, quantity: str, effect: Effect | N
 
 
 def to_best(models: Sequence[Model], results: Mapping[str, Result]) -> tuple[Difference, ...]:
-    """Every solved model's difference to the best solved rung."""
+    """The difference of every solved model to the best solved one."""
     solved = [model for model in models if model.name in results]
     top = results[best(solved).name]
     return tuple(
@@ -60,7 +60,7 @@ def to_best(models: Sequence[Model], results: Mapping[str, Result]) -> tuple[Dif
 
 
 def effects(models: Sequence[Model], results: Mapping[str, Result]) -> tuple[Difference, ...]:
-    """For each pair of solved models one effect apart, what that effect adds: with it less without it."""
+    """The effect between each pair of solved models that differ by one: with it minus without it."""
     solved = [model for model in models if model.name in results]
     top = results[best(solved).name]
     return tuple(
@@ -72,7 +72,7 @@ def effects(models: Sequence[Model], results: Mapping[str, Result]) -> tuple[Dif
 
 
 def points(reference: Result, runs: Sequence[Result]) -> tuple[Point, ...]:
-    """Each run's error against a reference run, which is left out itself."""
+    """The error of each run against a reference run, which is left out."""
     return tuple(
         Point(
             model=run.model,

@@ -1,4 +1,4 @@
-"""What a sequence of grids tells: the order observed, the value at vanishing cells, and how uncertain it is."""
+"""Grid convergence: the observed order, the extrapolated value, and its uncertainty."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -14,20 +14,26 @@ from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.studies.comparison import scale
 
 GRIDS = 3
-"""The finest grids that are looked at: as many as f0, C and p have unknowns."""
+"""Number of finest grids that are used, that of the unknowns f0, C and p."""
 
-NEAR = 0.1
-"""How near to the formal order, as a part of it, an observed one is trusted."""
+ORDER_TOLERANCE = 0.1
+"""Relative difference of an observed order from the formal one up to which it is trusted."""
 
-TRUSTED_SAFETY, SAFETY = 1.25, 3.0
-"""Roache's factors: for three grids whose observed order is near the formal one, and for all else."""
+TRUSTED_SAFETY = 1.25
+"""Roache's safety factor for three grids whose observed order is near the formal one."""
 
-LEAST_ORDER, GREATEST_ORDER = 0.5, 20.0
-"""A lower observed order is no convergence to extrapolate; a higher one is told as this one."""
+SAFETY = 3.0
+"""Roache's safety factor for all other grids."""
+
+MIN_ORDER = 0.5
+"""Observed order below which nothing is extrapolated."""
+
+MAX_ORDER = 20.0
+"""Largest observed order; a higher one is set to it."""
 
 
-class Kind(StrEnum):
-    """How the values follow each other as the cells shrink."""
+class ConvergenceKind(StrEnum):
+    """The behaviour of the values as the cells shrink."""
 
     MONOTONE = "monotone"
     OSCILLATORY = "oscillatory"
@@ -46,7 +52,7 @@ class Convergence:
     ``uncertainty`` is absolute, in the unit of the values, and holds for ``value`` and for the finest of the values.
     """
 
-    kind: Kind
+    kind: ConvergenceKind
     grids: tuple[int, ...]
     values: tuple[float, ...]
     order: float | None
@@ -55,12 +61,12 @@ class Convergence:
     uncertainty: float
 
     @property
-    def order_told(self) -> str:
+    def order_text(self) -> str:
         """The observed order in short, with the one it was limited to; empty if none was observed."""
         if self.order is None:
             return ""
-        told, used = f"{self.order:.2f}", f"{self.order_used:.2f}"
-        return told if used == told else f"{told} → {self.order_used:g}"
+        order, used = f"{self.order:.2f}", f"{self.order_used:.2f}"
+        return order if used == order else f"{order} → {self.order_used:g}"
 
 
 def converge(
@@ -98,13 +104,15 @@ def converge(
         raise InputError(f"grids: got {[*grids]} with {[*values]}; give two or more, ever finer, with finite values")
     used, f = tuple(grids[-GRIDS:]), np.array(values[-GRIDS:], dtype=float)
     sizes, steps = 1 / np.array(used), np.diff(f)
-    kind, order = (Kind.ROUND_OFF, None) if np.ptp(f) <= noise else _kind_and_order(sizes, steps, formal_order)
+    kind, order = (
+        (ConvergenceKind.ROUND_OFF, None) if np.ptp(f) <= noise else _kind_and_order(sizes, steps, formal_order)
+    )
     value, order_used = f[-1], None
-    if formal_order is not None and kind in (Kind.MONOTONE, Kind.TWO_GRIDS):
+    if formal_order is not None and kind in (ConvergenceKind.MONOTONE, ConvergenceKind.TWO_GRIDS):
         order_used = formal_order if order is None else min(order, formal_order)
         errors = steps / np.diff(sizes**order_used) * sizes[-1] ** order_used
         value = f[-1] - errors[-1]
-        near = order is not None and abs(order - formal_order) <= NEAR * formal_order
+        near = order is not None and abs(order - formal_order) <= ORDER_TOLERANCE * formal_order
         uncertainty = (TRUSTED_SAFETY if near else SAFETY) * np.abs(errors).max()
     else:
         uncertainty = abs(steps[-1]) if formal_order is None else SAFETY * np.ptp(f)
@@ -119,31 +127,31 @@ def converge(
     )
 
 
-def _kind_and_order(sizes: Array, steps: Array, formal_order: int | None) -> tuple[Kind, float | None]:
+def _kind_and_order(sizes: Array, steps: Array, formal_order: int | None) -> tuple[ConvergenceKind, float | None]:
     if formal_order is None:
-        return Kind.NO_FORMAL_ORDER, None
+        return ConvergenceKind.NO_FORMAL_ORDER, None
     if steps.size == 1:
-        return Kind.TWO_GRIDS, None
+        return ConvergenceKind.TWO_GRIDS, None
     coarse, fine = steps
     if coarse * fine < 0:
-        return Kind.OSCILLATORY, None
+        return ConvergenceKind.OSCILLATORY, None
 
     def excess(order: float) -> float:
         """Above zero if the steps shrink slower than at this order."""
         powers = np.diff(sizes**order)
         return float(fine * powers[0] / powers[1] / coarse - 1) if coarse else np.inf
 
-    if excess(LEAST_ORDER) > 0:
-        return Kind.DIVERGENT, None
-    if excess(GREATEST_ORDER) < 0:
-        return Kind.MONOTONE, GREATEST_ORDER
+    if excess(MIN_ORDER) > 0:
+        return ConvergenceKind.DIVERGENT, None
+    if excess(MAX_ORDER) < 0:
+        return ConvergenceKind.MONOTONE, MAX_ORDER
     from scipy.optimize import brentq  # slow to import
 
-    return Kind.MONOTONE, float(brentq(excess, LEAST_ORDER, GREATEST_ORDER))
+    return ConvergenceKind.MONOTONE, float(brentq(excess, MIN_ORDER, MAX_ORDER))
 
 
 def convergence(model: Model, runs: Sequence[Result]) -> Mapping[str, Convergence]:
-    """How each compared quantity of a model converges over its runs; empty if there are fewer than two grids.
+    """The convergence of each compared quantity over the runs of a model; empty for fewer than two grids.
 
     What the iteration leaves unresolved is taken as the finest run's residual times the quantity's scale.
     """

@@ -1,4 +1,4 @@
-"""Which number of a scene orders the errors of a model over a sweep, and up to where each tolerance is kept."""
+"""Numbers of a scene that order the errors of a model over a sweep, and the thresholds of each tolerance."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -8,19 +8,19 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 
 CERTAINTY = 0.95
-"""The part of the cases below a threshold that keep its tolerance."""
+"""Fraction of the cases below a threshold that are within its tolerance."""
 
-LEAST_ERROR = 1e-6
-"""Smaller errors say nothing: the numerical uncertainty of any reference is larger."""
+MIN_ERROR = 1e-6
+"""Smallest error that counts; the numerical uncertainty of a reference is larger."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Ordering:
-    """How well a product of powers orders errors.
+    """The quality of a product of powers as an order of errors.
 
     ``rank`` is Spearman's correlation, 1 for a perfect order; ``thresholds`` gives for each tolerance the greatest
-    number up to which ``CERTAINTY`` of the cases keep it, None where not even the smallest does; ``coverage`` is the
-    part of the cases below their threshold, the mean over the tolerances.
+    number up to which ``CERTAINTY`` of the cases are within it, None where there is none; ``coverage`` is the
+    fraction of the cases below their threshold, the mean over the tolerances.
     """
 
     powers: Mapping[str, float]
@@ -30,7 +30,7 @@ class Ordering:
 
 
 def product(features: Mapping[str, Array], powers: Mapping[str, float]) -> Array:
-    """Π feature^power; shape of the features."""
+    """The product Π feature^power, in the shape of the features."""
     return np.asarray(np.exp(sum(power * np.log(features[name]) for name, power in powers.items())))
 
 
@@ -40,7 +40,7 @@ def fitted_powers(features: Mapping[str, Array], error: Array, *, step: float) -
     They are scaled so that the largest is 1 in size; zeros are left out.
     """
     matrix = np.column_stack([np.ones(error.size), *(np.log(values) for values in features.values())])
-    powers = np.linalg.lstsq(matrix, np.log(np.maximum(error, LEAST_ERROR)), rcond=None)[0][1:]
+    powers = np.linalg.lstsq(matrix, np.log(np.maximum(error, MIN_ERROR)), rcond=None)[0][1:]
     largest = np.abs(powers).max() or 1.0
     rounded = np.round(powers / largest / step) * step
     return {name: float(power) for name, power in zip(features, rounded, strict=True) if power != 0}
@@ -49,7 +49,7 @@ def fitted_powers(features: Mapping[str, Array], error: Array, *, step: float) -
 def ordering(
     features: Mapping[str, Array], powers: Mapping[str, float], error: Array, tolerances: Sequence[float]
 ) -> Ordering:
-    """How a product of powers orders the errors."""
+    """The quality of a product of powers as an order of the errors."""
     from scipy.stats import spearmanr  # slow to import
 
     number = product(features, powers)
@@ -64,7 +64,7 @@ def threshold(number: Array, error: Array, tolerance: float) -> float | None:
     """The greatest number up to which ``CERTAINTY`` of the cases have no larger error; None if there is none."""
     order = np.argsort(number, kind="stable")
     ordered = number[order]
-    kept = np.cumsum(error[order] <= tolerance) / np.arange(1, number.size + 1)
+    within = np.cumsum(error[order] <= tolerance) / np.arange(1, number.size + 1)
     last_of_equals = np.append(ordered[1:] > ordered[:-1] * (1 + 1e-9), True)
-    good = np.flatnonzero((kept >= CERTAINTY) & last_of_equals)
+    good = np.flatnonzero((within >= CERTAINTY) & last_of_equals)
     return float(ordered[good[-1]]) if good.size else None

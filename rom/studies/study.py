@@ -19,20 +19,20 @@ from roughfilm.rom.ladder.scene import kind_named, load_entries, read_scene, sce
 from roughfilm.rom.ladder.setting import Setting, read_settings
 from roughfilm.rom.studies.relative import resolve_relative
 
-MOST_CASES = 1_000_000
+MAX_CASES = 1_000_000
 
-LONGEST_LABEL = 150
-"""Characters of a case's name that say what varies; the digest follows."""
+MAX_LABEL_LENGTH = 150
+"""Largest number of characters of the varied values in a case's name; the digest follows."""
 
 Key = tuple[str | int, ...]
-"""Where an entry stands: names of tables and places in lists of tables, from the outermost."""
+"""The location of an entry: names of tables and places in lists of tables, from the outermost."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Case:
     """One scene of a study.
 
-    ``varied`` holds what tells it from the others, as the study spells it, by a short name; ``digest`` is that of the
+    ``varied`` holds its varied values, as the study spells them, by a short name; ``digest`` is that of the
     complete scene, and ``name``, made of both, is fit for a directory on any system.
     """
 
@@ -84,11 +84,11 @@ def load_study(path: Path, models: Sequence[Model]) -> Study:
 
 
 def _multiplied(bases: Sequence[Mapping[str, Any]], lists: frozenset[Key]) -> tuple[dict[str, Key], tuple[Case, ...]]:
-    """What varies, by its short name, and the cases of all bases; ``lists`` are the keys whose value is a list."""
+    """The varied keys by short name, and the cases of all bases; ``lists`` are the keys whose value is a list."""
     axes = [dict(_axes(base, lists)) for base in bases]
     count = sum(math.prod(len(values) for values in options.values()) for options in axes)
-    if not 1 <= count <= MOST_CASES:
-        raise InputError(f"the lists make {count} cases; a study has 1 to {MOST_CASES}")
+    if not 1 <= count <= MAX_CASES:
+        raise InputError(f"the lists make {count} cases; a study has 1 to {MAX_CASES}")
     labels = _labels(axes)
     cases: dict[str, Case] = {}
     for base, options in zip(bases, axes, strict=True):
@@ -134,8 +134,8 @@ def _axes(entry: Any, lists: frozenset[Key], key: Key = ()) -> Iterator[tuple[Ke
     elif isinstance(entry, list) and not any(isinstance(value, list) for value in entry):
         kinds = {_kind(value) for value in entry}
         if len(kinds) != 1:
-            found = f"a mixture of {' and '.join(sorted(kinds))}" if kinds else "an empty list"
-            raise InputError(f"{_dotted(key)}: got {found}; list values of one kind to sweep it")
+            content = f"a mixture of {' and '.join(sorted(kinds))}" if kinds else "an empty list"
+            raise InputError(f"{_dotted(key)}: got {content}; list values of one kind to sweep it")
         yield key, entry
     else:
         yield key, [entry]
@@ -171,7 +171,7 @@ def _case(base: Mapping[str, Any], values: Mapping[Key, Any], labels: Mapping[Ke
             table = table[part]
         table[key[-1]] = value
     varied = {label: values[key] for key, label in labels.items() if key in values}
-    label = "_".join(f"{name}-{_portable(value)}" for name, value in varied.items())[:LONGEST_LABEL] or "case"
+    label = "_".join(f"{name}-{_portable(value)}" for name, value in varied.items())[:MAX_LABEL_LENGTH] or "case"
     try:
         if isinstance(entries.get("geometry"), dict):
             entries["geometry"] = resolve_relative(entries["geometry"], "scene.geometry")

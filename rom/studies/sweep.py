@@ -13,7 +13,7 @@ from roughfilm.rom.ladder.kind import Kind, kind_of_name
 from roughfilm.rom.ladder.sweeping import Sweeping
 
 SOLVED = "solved"
-"""The outcome of a row that holds numbers; any other says why it does not."""
+"""The outcome of a row that holds numbers; any other outcome is the reason for a missing result."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,7 +40,7 @@ class Sweep:
 
 
 def sweeping(kind: Kind) -> Sweeping:
-    """How sweeps over a kind of scene are judged; InputError if nobody has said."""
+    """The properties of a kind of scene for sweeps; InputError if it has none."""
     if kind.sweeping is None:
         raise InputError(f"the table holds {kind.name} scenes; there is no report over many of them yet")
     return kind.sweeping
@@ -73,7 +73,7 @@ def read_sweep(table: Mapping[str, NDArray[Any]], kind: str) -> Sweep:
 
 
 def loaded(sweep: Sweep, reference: str) -> NDArray[np.bool_]:
-    """Which cases have a load (or what else is compared) worth dividing by; shape (cases,)."""
+    """The mask of the cases whose compared quantities are large enough to divide by, shape (cases,)."""
     return np.asarray(sweeping(kind_of_name(sweep.kind)).worth(sweep.found[reference]))
 
 

@@ -1,4 +1,4 @@
-"""Flow factors of a rough gap whose factors are known exactly, by every way of this project and by reynoldsflow."""
+"""The flow factor of a gap whose factor is known exactly, by every method of this project and by reynoldsflow."""
 
 import time
 from collections.abc import Callable
@@ -8,22 +8,37 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
-from roughfilm.charts.family import ENOUGH_S, Ask, Family, Measured, Truth, fastest
-from roughfilm.charts.peer_runs import CELLS, peer
+from roughfilm.charts.family import MAX_RUNS_S, Ask, ChartFamily, Measured, Peer, ReferenceValue, fastest
+from roughfilm.charts.peer_runs import CELLS
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures.view import Style
+from roughfilm.rom.homogenization.cell import solve_cell
+from roughfilm.rom.homogenization.conductance import FaceRule, faces
+from roughfilm.rom.homogenization.exact import nearly_smooth, self_dual
+from roughfilm.rom.homogenization.flow_factors import flow_factors
+from roughfilm.rom.homogenization.patir_cheng import patir_cheng
 
 NODES = (32, 64, 128, 256, 512, 1024)
-"""Along a side of the period."""
+"""Numbers of nodes along a side of the period."""
 
 MEAN_NODES = 256
-"""Enough for means over the period that are exact to round-off: h is smooth and periodic."""
+"""Nodes along a side for means of the smooth periodic h that are exact to round-off."""
 
-WAVES, HURST, ROUGHNESS, SEED = 12, 0.8, 0.5, 20071
-"""The shortest wave of ln h along an axis, in parts of the period; rms of ln h."""
+WAVES = 12
+"""Number of periods of the shortest wave of ln h along an axis."""
 
-PART = 0.01
-"""Of what its grid is off by: so near every iterative solver is to come to what its own grid tells."""
+HURST = 0.8
+
+ROUGHNESS = 0.5
+"""Rms of ln h."""
+
+SEED = 20071
+
+SOLVER_ERROR_FRACTION = 0.01
+"""Allowed error of an iterative solver over the discretisation error of its grid."""
+
+SQUARE = (1.0, 1.0)
+"""Spacing of the nodes; only its ratio counts."""
 
 STYLES = {
     "nearly_smooth": Style(colour="#7f7f7f", marker="s"),
@@ -34,10 +49,10 @@ STYLES = {
 
 
 def rough_gap(nodes: int) -> Array:
-    """H on so many nodes along a side, of a random self-affine ln h, m; A = exp <ln h³>, exactly.
+    """The gap of a random self-affine ln h, m, shape (nodes, nodes), with A = exp <ln h³> exactly.
 
-    ln h = Σ a (cos(mX + nY) + cos(mY - nX)) over odd m + n looks the same turned by 90°, and shifted by half a period
-    along both axes it is −ln h: what :func:`roughfilm.rom.homogenization.exact.self_dual` asks for.
+    ln h = Σ a (cos(mX + nY) + cos(mY - nX)) over odd m + n is unchanged by a rotation of 90°, and is −ln h if
+    shifted by half a period along both axes: the condition of :func:`roughfilm.rom.homogenization.exact.self_dual`.
     """
     random = np.random.default_rng(SEED)
     both = np.arange(-WAVES, WAVES + 1)
@@ -51,70 +66,41 @@ def rough_gap(nodes: int) -> Array:
     return np.asarray(np.exp(ROUGHNESS / np.sqrt((amplitudes**2).sum() / 2) * log))
 
 
-def truth() -> Truth:
-    """φ = A/<h>³."""
-    from roughfilm.rom.homogenization.exact import self_dual
-
+def truth() -> ReferenceValue:
+    """The exact φ = A/<h>³."""
     h = rough_gap(MEAN_NODES)
-    return Truth(
+    return ReferenceValue(
         value=self_dual(h) / float(h.mean()) ** 3,
         uncertainty=1e-12,
         source="exact: A = exp ⟨ln h³⟩, as the gap is like its own inverse (Keller 1964, Dykhne 1971)",
     )
 
 
-def _nearly_smooth(h: Array) -> float:
-    from roughfilm.rom.homogenization.exact import nearly_smooth
-
-    return float(nearly_smooth(h, (1.0, 1.0)).pressure[0, 0])
-
-
-def _patir_cheng(h: Array) -> float:
-    from roughfilm.rom.homogenization.patir_cheng import patir_cheng
-
-    return float(patir_cheng(h, (1.0, 1.0)).pressure[0])
-
-
-def _cell(h: Array) -> float:
-    from roughfilm.rom.homogenization.cell import solve_cell
-
-    return float(solve_cell(h, (1.0, 1.0)).factors.pressure[0, 0])
-
-
-def _flow_factors(h: Array) -> float:
-    from roughfilm.rom.homogenization.flow_factors import flow_factors
-
-    return float(flow_factors(h, (1.0, 1.0)).factors.pressure[0, 0])
-
-
-WAYS: dict[str, tuple[Callable[[Array], float], float]] = {
-    "nearly_smooth": (_nearly_smooth, 3e-7),
-    "patir_cheng": (_patir_cheng, 3e-6),
-    "cell": (_cell, 3e-6),
-    "flow_factors": (_flow_factors, 3e-6),
+METHODS: dict[str, tuple[Callable[[Array], float], float]] = {
+    "nearly_smooth": (lambda h: nearly_smooth(h, SQUARE).pressure[0, 0], 3e-7),
+    "patir_cheng": (lambda h: patir_cheng(h, SQUARE).pressure[0], 3e-6),
+    "cell": (lambda h: solve_cell(h, SQUARE).factors.pressure[0, 0], 3e-6),
+    "flow_factors": (lambda h: flow_factors(h, SQUARE).factors.pressure[0, 0], 3e-6),
 }
-"""How each finds A₁₁, and CPU seconds a node."""
+"""Function that computes A₁₁, and CPU seconds per node, by method."""
 
 
-def by(way: Callable[[Array], float], nodes: int) -> Measured:
-    """φ₁₁ by one way of this project."""
+def by(method: Callable[[Array], float], nodes: int) -> Measured:
+    """φ₁₁ by one method of this project."""
     h = rough_gap(nodes)
     started = time.process_time()
-    found = way(h)
-    return Measured(value=found / float(h.mean()) ** 3, cpu_s=time.process_time() - started)
+    pressure = float(method(h))
+    return Measured(value=pressure / float(h.mean()) ** 3, cpu_s=time.process_time() - started)
 
 
 def by_reynoldsflow(nodes: int) -> Measured:
-    """φ₁₁ by reynoldsflow at the loosest tolerance that is good enough for the grid."""
-    from roughfilm.rom.homogenization.cell import solve_cell
-    from roughfilm.rom.homogenization.conductance import FaceRule, faces
-
+    """φ₁₁ by reynoldsflow at the loosest tolerance that its grid allows."""
     h = rough_gap(nodes)
     h /= h.mean()
-    right = np.diag(solve_cell(h, (1.0, 1.0), rule=FaceRule.HARMONIC, tolerance=1e-11).factors.pressure)
-    asked = {
+    right = np.diag(solve_cell(h, SQUARE, rule=FaceRule.HARMONIC, tolerance=1e-11).factors.pressure)
+    problem = {
         "right": right.tolist(),
-        "error": PART * abs(float(right[0]) / truth().value - 1),
+        "error": SOLVER_ERROR_FRACTION * abs(float(right[0]) / truth().value - 1),
         "repeats": 3,
     }
     with TemporaryDirectory(prefix="roughfilm-") as place:
@@ -122,27 +108,27 @@ def by_reynoldsflow(nodes: int) -> Measured:
         for name in ("east", "north", "drag"):
             np.save(Path(place) / f"{name}.npy", getattr(parts, name))
         np.save(Path(place) / "gap.npy", h)
-        found = CELLS.run("cells.py", "run_reynoldsflow:petsc-cg.hypre", Path(place), asked=asked)
+        answer = CELLS.run("cells.py", "run_reynoldsflow:petsc-cg.hypre", Path(place), problem=problem)
     return Measured(
-        value=float(found["pressure"][0][0]),
-        cpu_s=found["cpu_s"],
-        told={name: found[name] for name in ("version", "tolerance", "residual")},
+        value=float(answer["pressure"][0][0]),
+        cpu_s=answer["cpu_s"],
+        details={name: answer[name] for name in ("version", "tolerance", "residual")},
     )
 
 
-def flow_factors_family() -> Family:
-    """φ₁₁ of the rough gap."""
+def flow_factors_family() -> ChartFamily:
+    """The family of φ₁₁ of the gap."""
     asks = [
         Ask(
             solver=name,
             resolution=nodes,
-            cost=max(2 * cost * nodes**2, min(7 * cost * nodes**2, ENOUGH_S)),
-            measure=partial(fastest, partial(by, way, nodes)),
+            cost=max(2 * cost * nodes**2, min(7 * cost * nodes**2, MAX_RUNS_S)),
+            measure=partial(fastest, partial(by, method, nodes)),
         )
-        for name, (way, cost) in WAYS.items()
+        for name, (method, cost) in METHODS.items()
         for nodes in NODES
     ]
-    return Family(
+    return ChartFamily(
         name="flow factors",
         work=f"The pressure flow factor φ = A/⟨h⟩³ of an open rough gap: ln h is self-affine (Hurst {HURST:g}, rms "
         f"{ROUGHNESS:g}, waves down to 1/{WAVES} of the period).",
@@ -153,13 +139,13 @@ def flow_factors_family() -> Family:
         truth_cost=1.0,
         own=asks,
         peers=(
-            peer(
-                CELLS,
-                "reynoldsflow",
-                "periodic, conjugate gradients of PETSc under BoomerAMG, at the loosest tolerance that is within a "
-                "hundredth of its grid's own error; A alone, by two directions",
-                {nodes: 1 + 2e-4 * nodes**2 for nodes in NODES[1:-1]},
-                by_reynoldsflow,
+            Peer(
+                name="reynoldsflow",
+                settings="periodic, conjugate gradients of PETSc under BoomerAMG, at the loosest tolerance that is "
+                "within a hundredth of its grid's own error; A alone, by two directions",
+                costs={nodes: 1 + 2e-4 * nodes**2 for nodes in NODES[1:-1]},
+                measure=by_reynoldsflow,
+                absent=CELLS.absent,
             ),
         ),
         styles=STYLES,

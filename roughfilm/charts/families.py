@@ -1,18 +1,20 @@
-"""The families of scenes on the chart, as data: scene, quantity, truth and peers of each."""
+"""The families of the charts: scene, quantity, reference and peers of each."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeVar
 
 from roughfilm.charts.cells import flow_factors_family
-from roughfilm.charts.family import Family, Truth, extrapolated, of_scene, solved
+from roughfilm.charts.family import ChartFamily, ReferenceValue, extrapolated, of_scene, solved
 from roughfilm.charts.openfoam import on_pocket
 from roughfilm.charts.peer_runs import contact_peers, gapflow
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.cavitation.exact import exact
 from roughfilm.rom.dry_contact.scene import DryContact
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.model import Model, find
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.rom.pocket.scene import Pocket
+from roughfilm.rom.rough_gap.flow.exact import sinusoidal_ridge_flow
 from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.seal.scene import Seal
 
@@ -25,7 +27,7 @@ STEEL = {"modulus": "210 GPa", "poisson": 0.3}
 
 
 def self_affine(size: str, points: int, roll_off: str, cut_off: str, **height: Any) -> dict[str, Any]:
-    """A rough surface without a lay; it is the same one whatever the points."""
+    """The description of an isotropic rough surface; its shape does not depend on the number of points."""
     return {
         "kind": "self_affine",
         "size": [size, size],
@@ -38,19 +40,13 @@ def self_affine(size: str, points: int, roll_off: str, cut_off: str, **height: A
     }
 
 
-def pocket(models: Sequence[Model]) -> Family:
+def pocket(models: Sequence[Model]) -> ChartFamily:
     """The groove of Sahlin et al. 2005 at Re = 160."""
     scene = _read(
         Pocket,
         kind="pocket",
         name="pocket",
-        geometry={
-            "length": "1 mm",
-            "film": "30 um",
-            "profile": "cylindrical",
-            "width": "0.3 mm",
-            "depth": "7.5 um",
-        },
+        geometry={"length": "1 mm", "film": "30 um", "profile": "cylindrical", "width": "0.3 mm", "depth": "7.5 um"},
         lubricant=OIL,
         motion={"reynolds_number": 160},
     )
@@ -72,7 +68,7 @@ def pocket(models: Sequence[Model]) -> Family:
     )
 
 
-def slider(models: Sequence[Model]) -> Family:
+def slider(models: Sequence[Model]) -> ChartFamily:
     """The parabolic slider of Vijayaraghavan and Keith 1989."""
     scene = _read(
         Bearing,
@@ -88,18 +84,16 @@ def slider(models: Sequence[Model]) -> Family:
         boundary={"inlet": {"theta": 1}},
     )
 
-    def truth() -> Truth:
-        from roughfilm.rom.cavitation.exact import exact
-
+    def truth() -> ReferenceValue:
         words = "exact: the one film integrated as an ordinary differential equation (rom/cavitation/exact.py)"
-        return Truth(value=exact(scene.problem()).load, uncertainty=1e-10, source=words)
+        return ReferenceValue(value=exact(scene.problem()).load, uncertainty=1e-10, source=words)
 
     return of_scene(
         models,
         scene,
         name="cavitating slider",
         work="Load of the infinitely wide parabolic slider of Vijayaraghavan and Keith (1989) in a liquid of constant "
-        "bulk modulus, which ruptures behind the narrowest place.",
+        "bulk modulus, which ruptures downstream of the narrowest place.",
         quantity="load per width",
         unit="N/m",
         key="load_per_width",
@@ -110,8 +104,8 @@ def slider(models: Sequence[Model]) -> Family:
     )
 
 
-def rough_gap(models: Sequence[Model]) -> Family:
-    """Creeping flow across waves that are as steep as the gap is high."""
+def rough_gap(models: Sequence[Model]) -> ChartFamily:
+    """Creeping flow across steep ridges."""
     amplitude, wavelength = 0.3, 5.0
     scene = _read(
         RoughGap,
@@ -122,13 +116,11 @@ def rough_gap(models: Sequence[Model]) -> Family:
         flow={"reynolds_number": 1e-3},
     )
 
-    def truth() -> Truth:
-        from roughfilm.rom.rough_gap.flow.exact import sinusoidal_ridge_flow
-
+    def truth() -> ReferenceValue:
         tolerance = 1e-6
-        found = sinusoidal_ridge_flow(amplitude, wavelength, tolerance=tolerance)
-        words = "exact Stokes flow by Ritz's method in polynomials (rom/gap_flow/exact.py)"
-        return Truth(value=found.across, uncertainty=tolerance, source=words)
+        flow = sinusoidal_ridge_flow(amplitude, wavelength, tolerance=tolerance)
+        words = "exact Stokes flow by Ritz's method in polynomials (rom/rough_gap/flow/exact.py)"
+        return ReferenceValue(value=flow.across, uncertainty=tolerance, source=words)
 
     return of_scene(
         models,
@@ -145,8 +137,8 @@ def rough_gap(models: Sequence[Model]) -> Family:
     )
 
 
-def dry_contact(models: Sequence[Model]) -> Family:
-    """A rough elastic half-space at a tenth of contact."""
+def dry_contact(models: Sequence[Model]) -> ChartFamily:
+    """A rough elastic half-space with a tenth of its area in contact."""
 
     def scene(points: int) -> DryContact:
         return _read(
@@ -180,8 +172,8 @@ def dry_contact(models: Sequence[Model]) -> Family:
     )
 
 
-def mixed_bearing(models: Sequence[Model]) -> Family:
-    """A rough pad whose highest asperities touch."""
+def mixed_bearing(models: Sequence[Model]) -> ChartFamily:
+    """A rough pad in mixed lubrication."""
     scene = _read(
         Bearing,
         kind="bearing",
@@ -207,15 +199,15 @@ def mixed_bearing(models: Sequence[Model]) -> Family:
         unit="N/m",
         key="load_per_width",
         truth=lambda: extrapolated(
-            lambda cells: solved(best, scene, cells, "load_per_width"), (512, 1024), "the mixed rung, from one table,"
+            lambda cells: solved(best, scene, cells, "load_per_width"), (512, 1024), "the mixed model, from one table,"
         ),
         truth_cost=60.0,
         resolution_meaning="cells along a side, or along the sliding",
     )
 
 
-def seal(models: Sequence[Model]) -> Family:
-    """An elastomer on steel."""
+def seal(models: Sequence[Model]) -> ChartFamily:
+    """An elastomer seal on steel."""
 
     def scene(points: int) -> Seal:
         return _read(
@@ -254,7 +246,7 @@ def _read(of: type[SomeScene], **entries: Any) -> SomeScene:
     return scene
 
 
-FAMILIES: Mapping[str, Callable[[Sequence[Model]], Family]] = {
+FAMILIES: Mapping[str, Callable[[Sequence[Model]], ChartFamily]] = {
     "pocket": pocket,
     "cavitating slider": slider,
     "rough gap": rough_gap,
@@ -263,4 +255,4 @@ FAMILIES: Mapping[str, Callable[[Sequence[Model]], Family]] = {
     "mixed bearing": mixed_bearing,
     "seal": seal,
 }
-"""By name, in the order of the page."""
+"""The families by name, in the order of the page."""

@@ -1,4 +1,4 @@
-"""What a chart of speed against accuracy is made of: a family, its truth, and the points that are asked for."""
+"""The data of a chart of CPU time against error: a family of points, the reference, and other solvers."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -11,22 +11,25 @@ from roughfilm.rom.ladder.model import Model, of_kind
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.studies.convergence import converge
 
-REPEATS, ENOUGH_S = 7, 2.0
-"""Points are the fastest of so many runs, of fewer where these would take longer than this; what compiles, of two."""
+MAX_RUNS = 7
+"""Largest number of runs of a point, of which the fastest counts."""
+
+MAX_RUNS_S = 2.0
+"""CPU seconds that the runs of a point may take together, but for the first two of a model that compiles."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Measured:
-    """One answer: the family's quantity, its CPU seconds, children included, and what else is told of it."""
+    """One answer: the value of the quantity, its CPU seconds with those of children, and details by name."""
 
     value: float
     cpu_s: float
-    told: Mapping[str, Any] = field(default_factory=dict)
+    details: Mapping[str, Any] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Truth:
-    """What answers are judged by, ``uncertainty`` as a part of it, and in words where it comes from."""
+class ReferenceValue:
+    """The value that errors refer to, its relative ``uncertainty``, and its source in words."""
 
     value: float
     uncertainty: float
@@ -36,7 +39,7 @@ class Truth:
 
 @dataclass(frozen=True, kw_only=True)
 class Ask:
-    """One point of a chart: who is asked, at which resolution, how, and the CPU seconds that it may take in all.
+    """One point of a chart: the solver, its resolution, and the expected CPU seconds of all its runs.
 
     ``measure`` raises InputError, ConvergenceError or UnavailableError where there is no answer.
     """
@@ -48,20 +51,20 @@ class Ask:
 
     @property
     def name(self) -> str:
-        """By which its answer is kept."""
+        """The name of the stored answer."""
         return f"{self.solver}-{self.resolution}"
 
 
 @dataclass(frozen=True, kw_only=True)
 class Peer:
-    """Someone else's solver of the same problem.
+    """A solver of another project for the same problem.
 
     Attributes
     ----------
-    settings : with what it is run, in words.
-    costs : the resolutions, each with the CPU seconds that its point may take in all.
+    settings : its options, in words.
+    costs : expected CPU seconds of a point by resolution.
     measure : measure(resolution), as that of :class:`Ask`.
-    absent : why it cannot be asked here, with the remedy; None where it can.
+    absent : why it is not available here, with the remedy; None where it is.
     """
 
     name: str
@@ -71,7 +74,7 @@ class Peer:
     absent: Callable[[], str | None]
 
     def asks(self) -> list[Ask]:
-        """Its points."""
+        """The points of this solver."""
         return [
             Ask(solver=self.name, resolution=n, cost=cost, measure=partial(self.measure, n))
             for n, cost in self.costs.items()
@@ -79,19 +82,19 @@ class Peer:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Family:
-    """One kind of work, done by every model that can and by peers.
+class ChartFamily:
+    """One problem, solved by every model that applies and by peers.
 
     Attributes
     ----------
-    name, work : of the family, and what is computed, in a sentence.
-    quantity, unit : by what it is judged.
-    resolution_meaning : what the numbers beside the points count.
-    truth : made before the points are judged, at ``truth_cost`` CPU seconds.
+    name, work : name of the problem, and a sentence about it.
+    quantity, unit : the quantity whose error is charted.
+    resolution_meaning : what the resolutions count.
+    truth : computes the reference, in ``truth_cost`` CPU seconds.
     own : the points of this project.
-    left_out : models that do not solve this, with the reason.
-    peers : other solvers.
-    styles : how this project's own are drawn.
+    left_out : models that do not solve the problem, with the reason.
+    peers : solvers of other projects.
+    styles : line styles of this project's models.
     """
 
     name: str
@@ -99,7 +102,7 @@ class Family:
     quantity: str
     unit: str
     resolution_meaning: str
-    truth: Callable[[], Truth]
+    truth: Callable[[], ReferenceValue]
     truth_cost: float
     own: Sequence[Ask]
     left_out: Mapping[str, str] = field(default_factory=dict)
@@ -107,56 +110,56 @@ class Family:
     styles: Mapping[str, Style] = field(default_factory=dict)
 
     def absent(self) -> dict[str, str]:
-        """The peers that cannot be asked on this machine, with the remedy."""
+        """The peers that are not available on this machine, with the remedy."""
         return {peer.name: why for peer in self.peers if (why := peer.absent()) is not None}
 
     def asks(self) -> list[Ask]:
-        """All points that can be asked for here."""
+        """All points that can be measured here."""
         absent = self.absent()
         return [*self.own, *(ask for peer in self.peers if peer.name not in absent for ask in peer.asks())]
 
     @property
     def cost(self) -> float:
-        """Expected CPU seconds."""
+        """The expected CPU seconds of all points and the reference."""
         return self.truth_cost + sum(ask.cost for ask in self.asks())
 
 
 def fastest(measure: Callable[[], Measured], *, compiles: bool = True) -> Measured:
-    """The fastest of a few runs; where loops are compiled at the first one, of two at least."""
+    """The fastest of a few runs; of at least two if the first one compiles."""
     runs = [measure()]
     least = 2 if compiles else 1
-    while len(runs) < least or (len(runs) < REPEATS and (len(runs) + 1) * min(run.cpu_s for run in runs) < ENOUGH_S):
+    while len(runs) < least or (len(runs) < MAX_RUNS and (len(runs) + 1) * min(run.cpu_s for run in runs) < MAX_RUNS_S):
         runs.append(measure())
     return min(runs, key=lambda run: run.cpu_s)
 
 
 def solved(model: Model, scene: Scene, resolution: int, quantity: str) -> Measured:
-    """A model's answer; raises what its ``solve`` raises."""
-    found = model.solve(scene, Request(resolution=resolution))
+    """The answer of a model; raises what its ``solve`` raises."""
+    result = model.solve(scene, Request(resolution=resolution))
     return Measured(
-        value=found.quantities[quantity].value,
-        cpu_s=found.numerics.cpu_s,
-        told={
-            "iterations": found.numerics.iterations,
-            "residual": found.numerics.residual,
-            "tolerance": found.numerics.tolerance,
+        value=result[quantity].value,
+        cpu_s=result.numerics.cpu_s,
+        details={
+            "iterations": result.numerics.iterations,
+            "residual": result.numerics.residual,
+            "tolerance": result.numerics.tolerance,
         },
     )
 
 
-def extrapolated(measure: Callable[[int], Measured], resolutions: Sequence[int], words: str) -> Truth:
-    """What ever finer grids tend to, by :func:`roughfilm.rom.studies.convergence.converge` at second order at most.
+def extrapolated(measure: Callable[[int], Measured], resolutions: Sequence[int], words: str) -> ReferenceValue:
+    """The limit of finer grids by :func:`roughfilm.rom.studies.convergence.converge`, at second order at most.
 
-    ``measure`` solves at a resolution and tells the ``residual``; ``words`` say by what.
+    ``measure`` solves at a resolution, and its details have the ``residual``; ``words`` name the solver.
     """
     runs = [measure(resolution) for resolution in resolutions]
-    values, residual = [run.value for run in runs], runs[-1].told["residual"]
-    found = converge(resolutions, values, formal_order=2, noise=abs(values[-1]) * residual)
-    order = f", observed order {found.order_told}" if found.order is not None else ""
-    return Truth(
-        value=found.value,
-        uncertainty=found.uncertainty / abs(found.value),
-        source=f"{words} on {', '.join(map(str, resolutions))}, extrapolated ({found.kind}{order})",
+    values, residual = [run.value for run in runs], runs[-1].details["residual"]
+    limit = converge(resolutions, values, formal_order=2, noise=abs(values[-1]) * residual)
+    order = f", observed order {limit.order_text}" if limit.order is not None else ""
+    return ReferenceValue(
+        value=limit.value,
+        uncertainty=limit.uncertainty / abs(limit.value),
+        source=f"{words} on {', '.join(map(str, resolutions))}, extrapolated ({limit.kind}{order})",
         cpu_s=sum(run.cpu_s for run in runs),
     )
 
@@ -170,14 +173,14 @@ def of_scene(
     quantity: str,
     unit: str,
     key: str,
-    truth: Callable[[], Truth],
+    truth: Callable[[], ReferenceValue],
     truth_cost: float,
     resolution_meaning: str,
     peers: Sequence[Peer] = (),
-) -> Family:
-    """The family of one scene: every model of its kind that applies and is here, at all of its resolutions.
+) -> ChartFamily:
+    """The family of one scene: every model of its kind that applies and is available, at all of its resolutions.
 
-    ``key`` is the quantity as results have it.
+    ``key`` is the name of the quantity in a result.
     """
     asks, left_out = [], {}
     for model in of_kind(models, scene.kind):
@@ -192,9 +195,9 @@ def of_scene(
         for resolution in model.resolutions_of(scene):
             measure = partial(fastest, partial(solved, model, scene, resolution, key), compiles=not outside)
             cost = model.cost(scene, resolution)
-            runs = min(REPEATS, max(1 if outside else 2, ENOUGH_S / cost))
+            runs = min(MAX_RUNS, max(1 if outside else 2, MAX_RUNS_S / cost))
             asks.append(Ask(solver=model.name, resolution=resolution, cost=runs * cost, measure=measure))
-    return Family(
+    return ChartFamily(
         name=name,
         work=work,
         quantity=quantity,

@@ -1,4 +1,4 @@
-"""CPU time against error: a figure for a family, and one picture of them all."""
+"""Figures of CPU time against error: one for each family, and one of all."""
 
 import math
 import textwrap
@@ -14,21 +14,21 @@ from roughfilm.figures.base import svg
 from roughfilm.figures.view import Style
 from roughfilm.rom.studies.comparison import Point
 
-APART = 0.12
-"""Decades between two points whose resolutions are both written."""
+MIN_LABEL_DISTANCE = 0.12
+"""Least distance of two points whose resolutions are both written, decades."""
 
-PLACES = ((5, 4), (5, -10), (-14, 4), (-14, -10))
-"""Of these resolutions beside their points, for one solver after another, in points of print."""
+LABEL_OFFSETS = ((5, 4), (5, -10), (-14, 4), (-14, -10))
+"""Positions of the resolutions beside their points, for one solver after another, pt."""
 
-LEAST = 1e-8
-"""The smallest error that is drawn, as a part."""
+MIN_DRAWN_ERROR = 1e-8
+"""Smallest relative error that is drawn."""
 
 PEERS = (
     Style(colour="#d6604d", marker="*"),
     Style(colour="#8c6bb1", marker="X"),
     Style(colour="#1b7837", marker="P"),
 )
-"""How other people's solvers are drawn, in their order."""
+"""Styles of the solvers of other projects, in their order."""
 
 
 def chart_figure(chart: Chart) -> str:
@@ -81,7 +81,12 @@ def _draw(axes: Axes, chart: Chart, *, size: float, numbers: bool) -> None:
         )
         if numbers:
             texts = [f"{point.resolution}" for point in own]
-            _number(axes, list(zip(texts, times, errors, strict=True)), PLACES[number % len(PLACES)], style.colour)
+            _number(
+                axes,
+                list(zip(texts, times, errors, strict=True)),
+                LABEL_OFFSETS[number % len(LABEL_OFFSETS)],
+                style.colour,
+            )
     axes.step(
         [point.cpu_s for point in chart.front],
         [_drawn(chart, point) for point in chart.front],
@@ -103,17 +108,17 @@ def _draw(axes: Axes, chart: Chart, *, size: float, numbers: bool) -> None:
 def _number(
     axes: Axes, points: Sequence[tuple[str, float, float]], beside: tuple[int, int], colour: str | None
 ) -> None:
-    """The resolutions beside the points of one solver, but for those that would lie on each other."""
+    """Write the resolutions beside the points of one solver, unless they would overlap."""
     last = (0.0, 0.0)
     for text, time, error in points:
         place = (math.log10(time), math.log10(error))
-        if math.dist(place, last) > APART:
+        if math.dist(place, last) > MIN_LABEL_DISTANCE:
             axes.annotate(text, (time, error), beside, textcoords="offset points", size=7, color=colour)
             last = place
 
 
 def _drawn(chart: Chart, point: Point) -> float:
-    return 100 * max(chart.error(point), LEAST)
+    return 100 * max(chart.error(point), MIN_DRAWN_ERROR)
 
 
 def _styles(chart: Chart) -> Mapping[str, Style]:

@@ -1,4 +1,4 @@
-"""simpleFoam as its best-known tutorial sets it up: schemes, solvers, relaxation and stopping of ``pitzDaily``."""
+"""simpleFoam with the schemes, solvers, relaxation and stopping criteria of its tutorial ``pitzDaily``."""
 
 import json
 import re
@@ -66,22 +66,22 @@ SETTINGS: Mapping[str, Dictionary] = {
         },
     ),
 }
-"""Of tutorials/incompressible/simpleFoam/pitzDaily as OpenFOAM has it from v1606 on, less what concerns turbulence; a
-periodic flow needs a reference for its pressure besides."""
+"""Settings of tutorials/incompressible/simpleFoam/pitzDaily from OpenFOAM v1606 on, without turbulence, and with a
+reference pressure, which a periodic flow needs."""
 
 _CONVERGED = re.compile(r"SIMPLE solution converged in (\d+) iterations")
 
 
 def absent() -> str | None:
-    """Why OpenFOAM cannot be asked here; None where it can."""
-    found = availability()
-    return None if found.available else found.detail
+    """Why OpenFOAM is not available here; None where it is."""
+    here = availability()
+    return None if here.available else here.detail
 
 
 def run(directory: Path) -> tuple[Ended, int]:
-    """Run simpleFoam with the tutorial's settings in a case directory: how it ended, after how many iterations.
+    """Run simpleFoam with the tutorial's settings in a case directory, and return its end and the iterations.
 
-    Raises ConvergenceError if it stops in error, or its residuals do not come down to what the tutorial asks.
+    Raises ConvergenceError if it stops in error, or misses the tolerances of the tutorial.
     """
     for name in SETTINGS:
         (directory / name).unlink()  # or its entries would stay
@@ -89,13 +89,13 @@ def run(directory: Path) -> tuple[Ended, int]:
     ended = succeed(directory, ["simpleFoam"], "log.simpleFoam")
     converged = _CONVERGED.search(ended.log)
     if converged is None:
-        told = f"simpleFoam with the settings of {TUTORIAL}: not converged after {ITERATIONS} iterations"
-        raise ConvergenceError(told, outcome=Outcome.UNFINISHED, iterations=ITERATIONS)
+        message = f"simpleFoam with the settings of {TUTORIAL}: not converged after {ITERATIONS} iterations"
+        raise ConvergenceError(message, outcome=Outcome.UNFINISHED, iterations=ITERATIONS)
     return ended, int(converged[1])
 
 
 def uniform(scene: Pocket, columns: int, layers: int) -> Array:
-    """Vertices of a mesh with columns of one width, as blockMesh makes it, in film thicknesses."""
+    """The vertices of uniform columns in film thicknesses, shape (columns + 1, layers + 1, 2, 3)."""
     gap = scene.gap()
     x = np.linspace(gap.breaks[0], gap.breaks[-1], columns + 1)
     h = gap.thickness(x) / gap.film
@@ -107,7 +107,7 @@ def uniform(scene: Pocket, columns: int, layers: int) -> Array:
 
 
 def pocket_load(scene: Pocket, resolution: int) -> Measured:
-    """Load of a pocket on uniform columns, as many layers across as this project's own mesh has."""
+    """The load of a pocket on uniform columns with as many layers as this project's own mesh has."""
     started = time.thread_time()
     with TemporaryDirectory(prefix="roughfilm-") as place:
         directory = Path(place) / "case"
@@ -118,7 +118,7 @@ def pocket_load(scene: Pocket, resolution: int) -> Measured:
         ended, iterations = run(directory)
         channel = read_channel(directory)
         least, greatest = channel.pressure_range()
-        found = pocket_quantities(
+        quantities = pocket_quantities(
             scene,
             load=channel.mean(channel.wall_pressure),
             friction=channel.mean(channel.wall_shear),
@@ -128,14 +128,14 @@ def pocket_load(scene: Pocket, resolution: int) -> Measured:
         )
         spent = time.thread_time() - started
     return Measured(
-        value=found["load_plus"].value,
+        value=quantities["load_plus"].value,
         cpu_s=ended.cpu_s + spent,
-        told={"version": availability().detail, "iterations": iterations},
+        details={"version": availability().detail, "iterations": iterations},
     )
 
 
 def on_pocket(scene: Pocket, costs: Mapping[int, float]) -> Peer:
-    """The tutorial's settings on a pocket."""
+    """The peer that solves a pocket with the tutorial's settings."""
     settings = (
         f"uniform columns, as blockMesh makes them; schemes, linear solvers, relaxation (0.9, SIMPLEC) and stopping "
         f"(residuals 1e-2 of p, 1e-3 of U) of the tutorial {TUTORIAL}"

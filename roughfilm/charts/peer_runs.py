@@ -1,9 +1,9 @@
-"""Solvers of other projects, each run in a Python of its own by the programs in ``charts/peers``."""
+"""Runs of solvers of other projects, each in its own Python environment by the programs in ``charts/peers``."""
 
 import json
 import os
 import subprocess
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -24,35 +24,35 @@ from roughfilm.rom.parts.restriction import restricted
 PROGRAMS = Path(__file__).parent / "peers"
 
 VIOLATION = 1e-8
-"""By how much a contact may break its conditions, over the rms height: as this project's own solver asks of itself."""
+"""Allowed violation of the conditions of contact over the rms height, the tolerance of this project's own solver."""
 
 TOLERANCES = {
     "run_aspher": (1e-9, 3e-10, 1e-10, 3e-11, 1e-11, 1e-12),
     "run_tamaas": (1e-8, 3e-9, 1e-9, 1e-10, 1e-11, 1e-12),
     "run_contact_mechanics": (1e-8, 5e-9, 2e-9, 1e-9, 1e-10),
 }
-"""Each contact solver's own, the loosest first: the first that brings the violation down to what is asked is timed."""
+"""Tolerances of each contact solver, the loosest first; the first that meets ``VIOLATION`` is timed."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Environment:
-    """Where some peers are installed: the variable that names its directory, and the program that makes it."""
+    """A Python environment of peers: the variable that names its directory, and the program that makes it."""
 
     variable: str
     setup: str
 
     def absent(self) -> str | None:
-        """Why nothing can be run there, with the remedy; None where it can."""
+        """Why the environment cannot be used, with the remedy; None where it can."""
         directory = os.environ.get(self.variable)
         make = f"roughfilm/charts/peers/{self.setup} DIR makes it, {self.variable}=DIR names it"
         if directory is None:
             return f"{self.variable} is not set: {make}"
         if not (Path(directory) / "bin" / "python").is_file():
-            return f"{self.variable}={directory} is no environment of Python: {make}"
+            return f"{self.variable}={directory} is no Python environment: {make}"
         return None
 
-    def run(self, program: str, *arguments: str | Path, asked: Mapping[str, Any]) -> dict[str, Any]:
-        """Run PROGRAM ARGUMENTS... ASKED.json RESULT.json in one thread and read what it wrote.
+    def run(self, program: str, *arguments: str | Path, problem: Mapping[str, Any]) -> dict[str, Any]:
+        """Run PROGRAM ARGUMENTS... PROBLEM.json RESULT.json in one thread and read the result.
 
         Raises
         ------
@@ -64,8 +64,8 @@ class Environment:
         if (why := self.absent()) is not None:
             raise UnavailableError(why)
         with TemporaryDirectory(prefix="roughfilm-") as place:
-            request, result = Path(place) / "asked.json", Path(place) / "result.json"
-            request.write_text(json.dumps(asked), encoding="utf-8")
+            request, result = Path(place) / "problem.json", Path(place) / "result.json"
+            request.write_text(json.dumps(problem), encoding="utf-8")
             python = Path(os.environ[self.variable]) / "bin" / "python"
             ended = subprocess.run(
                 [*terminate_with_parent(), python, PROGRAMS / program, *arguments, request, result],
@@ -75,12 +75,12 @@ class Environment:
                 check=False,
             )
             if ended.returncode != 0:
-                last = (ended.stderr.strip().splitlines() or ["no word"])[-1]
+                last = (ended.stderr.strip().splitlines() or ["no message"])[-1]
                 raise ConvergenceError(f"{program} stopped with code {ended.returncode}: {last}")
-            found: dict[str, Any] = json.loads(result.read_text(encoding="utf-8"))
-        if "failed" in found:
-            raise ConvergenceError(f"{program}: {found['failed']}")
-        return found
+            answer: dict[str, Any] = json.loads(result.read_text(encoding="utf-8"))
+        if "failed" in answer:
+            raise ConvergenceError(f"{program}: {answer['failed']}")
+        return answer
 
 
 CONTACT = Environment(variable="ROUGHFILM_PEERS", setup="setup")
@@ -89,31 +89,26 @@ CELLS = Environment(variable="ROUGHFILM_CELL_PEERS", setup="setup_homogenization
 
 
 def one_thread() -> dict[str, str]:
-    """For every library that would take more."""
+    """Environment variables that limit every numerical library to one thread."""
     names = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
     return dict.fromkeys(names, "1") | {"XLA_FLAGS": "--xla_cpu_multi_thread_eigen=false"}
 
 
-def peer(
-    environment: Environment,
-    name: str,
-    settings: str,
-    costs: Mapping[int, float],
-    measure: Callable[[int], Measured],
-) -> Peer:
-    """A peer that is there where its environment is."""
-    return Peer(name=name, settings=settings, costs=costs, measure=measure, absent=environment.absent)
-
-
 def contact_peers(scene: DryContact, costs: Mapping[str, Mapping[int, float]]) -> tuple[Peer, ...]:
-    """Who presses the very heights of an elastic contact; ``costs`` by solver."""
+    """The peers that press the heights of an elastic contact; ``costs`` by solver."""
     names = {"run_aspher": "ASPHER", "run_tamaas": "Tamaas", "run_contact_mechanics": "ContactMechanics"}
     settings = (
         f"one thread, the loosest of its tolerances that breaks the conditions of contact by {VIOLATION:g} of the rms "
         "height at most, as this project's"
     )
     return tuple(
-        peer(CONTACT, name, settings, costs[solver], partial(_mean_gap, scene, solver))
+        Peer(
+            name=name,
+            settings=settings,
+            costs=costs[solver],
+            measure=partial(_mean_gap, scene, solver),
+            absent=CONTACT.absent,
+        )
         for solver, name in names.items()
     )
 
@@ -121,7 +116,7 @@ def contact_peers(scene: DryContact, costs: Mapping[str, Mapping[int, float]]) -
 def _mean_gap(scene: DryContact, solver: str, resolution: int) -> Measured:
     surface = scene.surface()
     heights = restricted(surface.heights, (resolution, resolution))
-    asked = {
+    problem = {
         "spacing": [length / resolution for length in surface.size],
         "loads": [scene.load.pressure / scene.composite_modulus],
         "hardness": None,
@@ -133,32 +128,33 @@ def _mean_gap(scene: DryContact, solver: str, resolution: int) -> Measured:
     with TemporaryDirectory(prefix="roughfilm-") as place:
         path = Path(place) / "heights.npy"
         np.save(path, heights)
-        found = CONTACT.run("run.py", solver, path, asked=asked)
-    if found["violation"] > VIOLATION:
-        raise ConvergenceError(f"{solver}: breaks the conditions of contact by {found['violation']:.1e} at best")
-    only = found["solutions"][0]
+        answer = CONTACT.run("run.py", solver, path, problem=problem)
+    if answer["violation"] > VIOLATION:
+        raise ConvergenceError(f"{solver}: breaks the conditions of contact by {answer['violation']:.1e} at best")
+    solution = answer["solutions"][0]
     return Measured(
-        value=only["mean_gap_over_rms"] * float(heights.std()),
-        cpu_s=found["setup_cpu_s"] + found["cpu_s"],
-        told={name: found[name] for name in ("version", "tolerance", "violation")}
-        | {name: only[name] for name in ("iterations", "area_fraction")},
+        value=solution["mean_gap_over_rms"] * float(heights.std()),
+        cpu_s=answer["setup_cpu_s"] + answer["cpu_s"],
+        details={name: answer[name] for name in ("version", "tolerance", "violation")}
+        | {name: solution[name] for name in ("iterations", "area_fraction")},
     )
 
 
 def gapflow(scene: Bearing, costs: Mapping[int, float]) -> Peer:
-    """GaPFlow on a parabolic slider in a liquid of constant bulk modulus, flooded at the pressure of cavitation."""
+    """GaPFlow on a flooded parabolic slider in a liquid of constant bulk modulus."""
     settings = (
         "explicit steps until the load stays to 1e-4, its equation of state replaced by the slider's (it has no such "
         "liquid), 3400 kg/m³ for fewer and longer steps to the same steady state"
     )
-    return peer(GAPFLOW, "GaPFlow", settings, costs, partial(_load, scene))
+    measure = partial(_load, scene)
+    return Peer(name="GaPFlow", settings=settings, costs=costs, measure=measure, absent=GAPFLOW.absent)
 
 
 def _load(scene: Bearing, cells: int) -> Measured:
     shape, law = scene.geometry, scene.lubricant.compressibility
     assert isinstance(shape, Parabolic)
     assert isinstance(law, ConstantBulkModulus)
-    asked = {
+    problem = {
         "gap": "parabolic",
         "law": "cavitating",
         "density": 4 * 850.0,
@@ -172,11 +168,11 @@ def _load(scene: Bearing, cells: int) -> Measured:
         "steady": 1e-4,
         "cells": cells,
     }
-    found = GAPFLOW.run("run_gapflow.py", asked=asked)
-    if not found["settled"]:
-        raise ConvergenceError(f"GaPFlow: the load still changes after {found['steps']} steps")
+    answer = GAPFLOW.run("run_gapflow.py", problem=problem)
+    if not answer["settled"]:
+        raise ConvergenceError(f"GaPFlow: the load still changes after {answer['steps']} steps")
     return Measured(
-        value=found["load"],
-        cpu_s=found["setup_cpu_s"] + found["cpu_s"],
-        told={"version": found.get("version"), "iterations": found["steps"], "tolerance": 1e-4},
+        value=answer["load"],
+        cpu_s=answer["setup_cpu_s"] + answer["cpu_s"],
+        details={"version": answer.get("version"), "iterations": answer["steps"], "tolerance": 1e-4},
     )

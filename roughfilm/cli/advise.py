@@ -9,7 +9,7 @@ from rich.table import Table
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.ladder import models
-from roughfilm.rom.advice.advise import Advice, Considered, Verdict, advise, shortfall, wanted
+from roughfilm.rom.advice.advise import Advice, ModelVerdict, Verdict, advise, shortfall, wanted
 from roughfilm.rom.advice.estimates import Estimate, percent
 from roughfilm.rom.advice.laws import table as laws_table
 from roughfilm.rom.ladder.kind import Scene, kind_of_name
@@ -133,7 +133,7 @@ def entries_of(advice: Advice) -> dict[str, Any]:
     }
 
 
-def _entries(one: Considered) -> dict[str, Any]:
+def _entries(one: ModelVerdict) -> dict[str, Any]:
     return {
         "model": one.model,
         "resolution": one.resolution,

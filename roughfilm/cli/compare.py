@@ -24,7 +24,7 @@ from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.rom.ladder.store import as_entries
 from roughfilm.rom.studies.comparison import effects, points, scale, to_best
-from roughfilm.rom.studies.convergence import GRIDS, Convergence, Kind, convergence
+from roughfilm.rom.studies.convergence import GRIDS, Convergence, ConvergenceKind, convergence
 from roughfilm.terminal.console import (
     NOT_CONVERGED,
     AsJson,
@@ -95,7 +95,7 @@ def _finest(runs: Sequence[tuple[Job, Result]]) -> dict[str, Result]:
 def _convergence_table(model: str, study: Mapping[str, Convergence]) -> Table:
     title = f"{model} on grids {', '.join(map(str, next(iter(study.values())).grids))}"
     rows = [
-        (quantity, one.order_told, f"{one.value:.5g}", f"{one.uncertainty:.1e}", one.kind)
+        (quantity, one.order_text, f"{one.value:.5g}", f"{one.uncertainty:.1e}", one.kind)
         for quantity, one in study.items()
     ]
     return table_of(("quantity", "order", "value", "±", "kind"), rows, title=title, left=5)
@@ -119,7 +119,7 @@ def _judge(
         for model in ladder
         if model.order and model.name in results and (study := convergence(model, runs))
     }
-    extrapolated = any(one.kind is Kind.MONOTONE for study in studies.values() for one in study.values())
+    extrapolated = any(one.kind is ConvergenceKind.MONOTONE for study in studies.values() for one in study.values())
     floor = _uncertainty(results[top.name], convergence(top, runs))
     plots = {
         **view.plots(scene, results),

@@ -14,7 +14,7 @@ from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.interface.curves import checked_cells
 from roughfilm.ladder import models
 from roughfilm.rom.bearing.effects.analysis import EffectAnalysis, analyse_effects
-from roughfilm.rom.bearing.effects.contributions import Study
+from roughfilm.rom.bearing.effects.contributions import EffectStudy
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.scene import load_scene, scene_entries
@@ -73,7 +73,7 @@ def command(
     show_result({**entries, "report": str(page)}, _shown(analysis, page), as_json=as_json)
 
 
-def _studies(analysis: EffectAnalysis) -> list[Study]:
+def _studies(analysis: EffectAnalysis) -> list[EffectStudy]:
     return [study for study in (analysis.at_film, analysis.under_load) if study is not None]
 
 
@@ -99,12 +99,12 @@ def _entries(analysis: EffectAnalysis) -> dict[str, Any]:
     }
 
 
-def _study_entries(study: Study) -> dict[str, Any]:
+def _study_entries(study: EffectStudy) -> dict[str, Any]:
     return {
         "plain": {name: asdict(amount) for name, amount in study.plain.items()},
         "contributions": [asdict(contribution) for contribution in study.contributions],
         "full": {name: asdict(amount) for name, amount in study.full.items()},
-        "untold": dict(study.untold),
+        "untold": dict(study.unsolved),
     }
 
 

@@ -17,7 +17,7 @@ from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.rom.ladder.scene import kind_named, load_entries, load_scene, scene_entries
 from roughfilm.rom.ladder.store import load
 from roughfilm.rom.meshes.result_mesh import PLACES, labelled, result_mesh
-from roughfilm.rom.meshes.walls_mesh import Part, gap_mesh, wall_mesh
+from roughfilm.rom.meshes.walls_mesh import GapPart, gap_mesh, wall_mesh
 from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.rough_gap.walls import Walls
 from roughfilm.terminal.console import AsJson, Overrides, messages, print_json
@@ -35,7 +35,7 @@ def command(
         typer.Argument(metavar="FILE", help="A scene of a rough gap, a surface, or a stored result."),
     ],
     out: Annotated[Path, typer.Option(help="Write the mesh here: .vtu, .stl or .msh (Gmsh).")],
-    what: Annotated[Part | None, typer.Option(help="Part of a rough gap: the liquid (default), or a wall.")] = None,
+    what: Annotated[GapPart | None, typer.Option(help="Part of a rough gap: the liquid (default), or a wall.")] = None,
     resolution: Annotated[int | None, typer.Option(help="Columns along the longer side of a rough gap.")] = None,
     layers: Annotated[int | None, typer.Option(help="Layers of cells between the walls of a rough gap.")] = None,
     spacing: Annotated[
@@ -72,7 +72,7 @@ def command(
 
 def _mesh(
     file: Path,
-    what: Part | None,
+    what: GapPart | None,
     resolution: int | None,
     layers: int | None,
     spacing: float | None,
@@ -81,7 +81,7 @@ def _mesh(
     """The mesh of a file of any sort, and its origin for the provenance."""
     for_gaps = {"--what": what, "--resolution": resolution, "--layers": layers}
     if file.suffix.lower() == ".toml" and kind_named(load_entries(file)) is not None:
-        return _of_scene(file, what or Part.GAP, resolution, layers, set_)
+        return _of_scene(file, what or GapPart.GAP, resolution, layers, set_)
     for option, given in {**for_gaps, "--set": set_}.items():
         if given:
             raise InputError(f"{option}: got {given}, but {file} is not a scene of a rough gap; leave it out")
@@ -107,12 +107,12 @@ def _metres(spacing: str | None) -> float | None:
 
 
 def _of_scene(
-    file: Path, part: Part, resolution: int | None, layers: int | None, set_: list[str] | None
+    file: Path, part: GapPart, resolution: int | None, layers: int | None, set_: list[str] | None
 ) -> tuple[Mesh, dict[str, Any]]:
     scene = load_scene(file, set_ or ())
     if not isinstance(scene, RoughGap):
         raise InputError(f"{file}: got a scene of kind {scene.kind!r}; solve it with --out and export the result")
-    if layers is not None and part is not Part.GAP:
+    if layers is not None and part is not GapPart.GAP:
         raise InputError(f"--layers: got {layers}, but a wall has none; leave it out")
     layers = (scene.layers or LAYERS) if layers is None else layers
     own = max(scene.surface().shape)
@@ -124,7 +124,7 @@ def _of_scene(
     if layers < 1 or resolution**2 * layers > MAX_CELLS:
         raise InputError(f"--layers: got {layers}; take 1 or more, and at most {MAX_CELLS} cells in all")
     walls = scene.walls(resolution)
-    mesh = gap_mesh(walls, layers) if part is Part.GAP else wall_mesh(walls, part)
+    mesh = gap_mesh(walls, layers) if part is GapPart.GAP else wall_mesh(walls, part)
     return mesh, {"what": str(part), "walls": _wall_entries(walls), "scene": scene_entries(scene), "left_out": []}
 
 

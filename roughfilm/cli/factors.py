@@ -19,7 +19,7 @@ from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.store import is_series, load_contact, load_series
 from roughfilm.contact.read import HeightMap, parse_spacing, periodicity_warnings, read_height_map
 from roughfilm.contact.surfaces.surface import MAX_LENGTH, MIN_SPACING, Surface
-from roughfilm.rom.bearing.mixed.resume import kept_table
+from roughfilm.rom.bearing.mixed.resume import resumed_table
 from roughfilm.rom.bearing.mixed.tabulate import gap_of, tabulate_pressed
 from roughfilm.rom.homogenization.conductance import FaceRule
 from roughfilm.rom.homogenization.factors import NAMES, FlowFactors, relative_quantities
@@ -119,7 +119,7 @@ def command(
                 settings |= {name: contacts[0].settings[name] for name in ("composite_modulus", "hardness")}
                 work = partial(_table_of_contacts, surface, *contacts, options)
             inputs = Inputs(heights=rough.heights, spacing=rough.spacing, settings=settings)
-            table, known = kept_table(out, inputs, work)
+            table, known = resumed_table(out, inputs, work)
             settings = settings | {"tolerance": accuracy}
             entries = _table_entries(table)
             entries["numerics"]["separations_found"] = known

@@ -16,22 +16,14 @@ from roughfilm.rom.studies.table import write_csv
 from roughfilm.stability.cavitation import CAVITATION
 from roughfilm.stability.cell import CELL
 from roughfilm.stability.contact import CONTACT
-from roughfilm.stability.form import BAD, MEANING, Family, Outcome, columns_of, table_of
+from roughfilm.stability.form import BAD, MEANING, MapOutcome, StabilityMap, columns_of, table_of
 from roughfilm.stability.gap import GAP
 from roughfilm.stability.laws import MIXED, SEAL
 from roughfilm.stability.pocket import POCKET
 from roughfilm.terminal.console import AsJson, Jobs, OutDirectory, make_directory, print_json, process_count
 from roughfilm.terminal.results import print_all, print_left_out
 
-FAMILIES: dict[str, Family] = {
-    "pocket": POCKET,
-    "cavitation": CAVITATION,
-    "contact": CONTACT,
-    "cell": CELL,
-    "seal": SEAL,
-    "mixed": MIXED,
-    "rough_gap": GAP,
-}
+FAMILIES: dict[str, StabilityMap] = {one.name: one for one in (POCKET, CAVITATION, CONTACT, CELL, SEAL, MIXED, GAP)}
 
 ALL = "all"
 
@@ -100,14 +92,8 @@ def _mapped(family: str, out: Path, resolution: int | None, processes: int) -> E
     chosen = FAMILIES[family]
     make_directory(out)
     with alone(out) as scratch:
-        made = chosen.make(
-            resolution=chosen.resolution if resolution is None else resolution,
-            out=out,
-            processes=processes,
-            scratch=scratch,
-        )
-        write_figures(made.figures, out)
-        entries = made.entries
+        entries, figures = chosen.make(resolution=resolution, out=out, processes=processes, scratch=scratch)
+        write_figures(figures, out)
         _write([entries], {family: out}, entries, out)
     return entries
 
@@ -125,7 +111,7 @@ def _write(maps: Sequence[Entries], places: Mapping[str, Path], entries: Entries
         out / "report.html",
         maps=maps,
         groups={one["family"]: [_as_table(*group) for group in _by_group(one).items()] for one in maps},
-        outcomes=[outcome.value for outcome in Outcome],
+        outcomes=[outcome.value for outcome in MapOutcome],
         meaning=MEANING,
         figures=figures,
         bad=bad,

@@ -11,9 +11,9 @@ from rich.table import Table
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import write_json
 from roughfilm.contact.foundation.timing import stopwatch
-from roughfilm.rom.bearing.mixed.curves import Wall, swept, wall_of
+from roughfilm.rom.bearing.mixed.curves import Wall, resumed_curves, wall_of
 from roughfilm.rom.bearing.mixed.curves_store import NUMBERS, UNITS, write_csv
-from roughfilm.rom.bearing.mixed.stribeck import COARSEST, FINEST, RESOLUTION, StribeckCurve, StribeckPoint
+from roughfilm.rom.bearing.mixed.stribeck import MAX_CELLS, MIN_CELLS, RESOLUTION, StribeckCurve, StribeckPoint
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.ladder.scene import load_scene, scene_entries
@@ -66,14 +66,16 @@ def command(
         )
     default = SLIDING_SPEEDS if bearing.turning_radius is None else ROTATIONAL_SPEEDS
     pressures, sliding = loads_of(loads), speeds_of(speeds or default, bearing.turning_radius)
-    if not COARSEST <= resolution <= FINEST:
-        raise InputError(f"--resolution: got {resolution}; it must be {COARSEST} to {FINEST} cells along a side")
+    if not MIN_CELLS <= resolution <= MAX_CELLS:
+        raise InputError(f"--resolution: got {resolution}; it must be {MIN_CELLS} to {MAX_CELLS} cells along a side")
     page, stored = out / "report.html", out / "stribeck.h5"
     make_directory(out)
     refuse_unwritable(page)
     with alone(stored, "sweep"), progress_bar(1.0) as advance:
         wall = wall_of(bearing, pressures[-1], table, out / "table.h5", _between(advance, 0.0, 0.5), resolution)
-        curves, known = swept(bearing, sliding, pressures, wall, stored, resolution, _between(advance, 0.5, 0.95))
+        curves, known = resumed_curves(
+            bearing, sliding, pressures, wall, stored, resolution, _between(advance, 0.5, 0.95)
+        )
         entries = curve_entries(bearing, curves, wall)
         entries["numerics"] |= {"points_found": known, "resolution": resolution, **spent()}
         write_csv(stored.with_suffix(".csv"), curves)
@@ -147,9 +149,9 @@ def curve_entries(scene: Bearing, curves: Sequence[StribeckCurve], wall: Wall) -
             "balance": max(point.balance for point in points),
             "points": len(points),
             "table_points": wall.points,
-            "table_points_found": wall.found,
+            "table_points_found": wall.known_points,
         },
-        "provenance": origin(SOURCES, [*wall.told, *warnings], scene=scene_entries(scene), table=dict(wall.source)),
+        "provenance": origin(SOURCES, [*wall.warnings, *warnings], scene=scene_entries(scene), table=dict(wall.source)),
     }
 
 

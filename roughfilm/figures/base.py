@@ -14,7 +14,7 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.figures.view import View
 from roughfilm.rom.studies.comparison import Point, pareto_front
-from roughfilm.rom.studies.convergence import Convergence, Kind
+from roughfilm.rom.studies.convergence import Convergence, ConvergenceKind
 
 mpl.rcParams.update(
     {
@@ -82,7 +82,7 @@ def grid_convergence(studies: Mapping[str, Mapping[str, Convergence]], titles: M
     figure, panels = new_figure((10, 3.6), 1, len(titles))
     for axes, (quantity, title) in zip(panels, titles.items(), strict=True):
         known = {name: study[quantity] for name, study in studies.items() if quantity in study}
-        drawn = {name: one for name, one in known.items() if one.kind is Kind.MONOTONE}
+        drawn = {name: one for name, one in known.items() if one.kind is ConvergenceKind.MONOTONE}
         if not drawn:
             axes.set_axis_off()
             axes.text(0.5, 0.5, f"{title}: nothing to extrapolate", ha="center", transform=axes.transAxes)
@@ -90,7 +90,7 @@ def grid_convergence(studies: Mapping[str, Mapping[str, Convergence]], titles: M
         for name, one in drawn.items():
             sizes = [1 / grid for grid in one.grids]
             errors = [100 * abs(value / one.value - 1) for value in one.values]
-            label, style = f"{name}: order {one.order_told}", view.style(name)
+            label, style = f"{name}: order {one.order_text}", view.style(name)
             axes.plot(sizes, errors, style.marker + "-", color=style.colour, label=label, linewidth=1.2)
             slope = [errors[0] * (size / sizes[0]) ** 2 for size in sizes]
             axes.plot(sizes, slope, ":", color=style.colour, linewidth=1)

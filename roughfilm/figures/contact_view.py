@@ -80,11 +80,10 @@ def draw(file: Path, picture: Path) -> None:
             specular=0.3,
             show_scalar_bar=number == 0,
             scalar_bar_args={
-                "title": "gap, µm (red: contact)\n",
+                "title": "",
                 "n_labels": 4,
                 "fmt": "%.2f",
                 "color": "#222222",
-                "title_font_size": 18,
                 "label_font_size": 16,
                 "position_x": 0.25,
                 "position_y": 0.01,

@@ -1,4 +1,4 @@
-"""The pictures of a bearing's effects: from the plain film to all of it, step by step, and each switched off alone."""
+"""Figures of the effects of a bearing, switched on one after the other, and each switched off alone."""
 
 from collections.abc import Mapping
 
@@ -9,21 +9,24 @@ from matplotlib.patches import Patch
 
 from roughfilm.figures.base import svg
 from roughfilm.rom.bearing.effects.ablation import Amount
-from roughfilm.rom.bearing.effects.contributions import Study
+from roughfilm.rom.bearing.effects.contributions import EffectStudy
 from roughfilm.words.effects import Shown
 
 MORE, LESS, WHOLE, BESIDE = "#2166ac", "#b2182b", "#5b6675", "#b07d2b"
-HIGH, LOW = 0.34, 0.18
-"""Heights of the bars of steps and of effects switched off alone, in rows."""
+STEP_HEIGHT = 0.34
+"""Height of the bars of effects that are switched on, in rows."""
+
+ALONE_HEIGHT = 0.18
+"""Height of the bars of effects that are switched off alone, in rows."""
 
 
-def waterfall(told: Study, columns: Mapping[str, Shown], beside: Mapping[str, Amount]) -> str:
-    """A panel for each quantity, a row for each effect; ``beside`` is what inertia would add to some of them."""
-    rows = ["plain film", *(one.name for one in told.contributions), "all of it", *(["inertia"] if beside else [])]
+def waterfall(study: EffectStudy, columns: Mapping[str, Shown], beside: Mapping[str, Amount]) -> str:
+    """A panel for each quantity, a row for each effect; ``beside`` has the contributions of inertia."""
+    rows = ["plain film", *(one.name for one in study.contributions), "all of it", *(["inertia"] if beside else [])]
     figure = Figure(figsize=(3.1 + 2.6 * len(columns), 1.3 + 0.42 * len(rows)), layout="constrained")
     panels = figure.subplots(1, len(columns), sharey=True, squeeze=False)[0]
     for axes, (name, how) in zip(panels, columns.items(), strict=True):
-        _panel(axes, told, name, how, beside.get(name))
+        _panel(axes, study, name, how, beside.get(name))
         axes.set_xlabel(f"{how.title}, {how.unit}")
         axes.grid(visible=False, axis="y")
     panels[0].set_yticks(range(len(rows)), rows)
@@ -38,30 +41,30 @@ def waterfall(told: Study, columns: Mapping[str, Shown], beside: Mapping[str, Am
     return svg(figure)
 
 
-def _panel(axes: Axes, told: Study, name: str, how: Shown, beside: Amount | None) -> None:
-    full = how.factor * told.full[name].value
+def _panel(axes: Axes, study: EffectStudy, name: str, how: Shown, beside: Amount | None) -> None:
+    full = how.factor * study.full[name].value
     axes.axvline(full, color=WHOLE, linewidth=0.8, linestyle=":")
-    if (plain := told.plain.get(name)) is not None:
+    if (plain := study.plain.get(name)) is not None:
         _bar(axes, 0, 0.0, how.factor * plain.value, how.factor * plain.uncertainty, WHOLE)
     else:
         axes.text(full, 0, "no solution", fontsize=8, color=WHOLE, ha="right", va="center")
-    for row, one in enumerate(told.contributions, start=1):
+    for row, one in enumerate(study.contributions, start=1):
         if (on := one.on.get(name)) is not None:
             end = how.factor * one.after[name].value
             step = how.factor * on.value
-            _bar(axes, row - LOW / 2, end - step, end, how.factor * on.uncertainty, MORE if step > 0 else LESS)
+            _bar(axes, row - ALONE_HEIGHT / 2, end - step, end, how.factor * on.uncertainty, MORE if step > 0 else LESS)
         elif (after := one.after.get(name)) is not None:
-            axes.plot(how.factor * after.value, row - LOW / 2, "o", color=MORE, markersize=4)
+            axes.plot(how.factor * after.value, row - ALONE_HEIGHT / 2, "o", color=MORE, markersize=4)
         if (alone := one.alone.get(name)) is not None:
-            start, place = full - how.factor * alone.value, row + HIGH / 2
-            axes.barh(place, full - start, LOW, left=start, facecolor="none", edgecolor="0.25", linewidth=0.9)
+            start, place = full - how.factor * alone.value, row + STEP_HEIGHT / 2
+            axes.barh(place, full - start, ALONE_HEIGHT, left=start, facecolor="none", edgecolor="0.25", linewidth=0.9)
             axes.errorbar(start, place, xerr=how.factor * alone.uncertainty, color="0.25", linewidth=0.8, capsize=1.5)
-    count = len(told.contributions) + 1
-    _bar(axes, count, 0.0, full, how.factor * told.full[name].uncertainty, WHOLE)
+    count = len(study.contributions) + 1
+    _bar(axes, count, 0.0, full, how.factor * study.full[name].uncertainty, WHOLE)
     if beside is not None:
         _bar(axes, count + 1, full, full + how.factor * beside.value, how.factor * beside.uncertainty, BESIDE)
 
 
 def _bar(axes: Axes, row: float, start: float, end: float, error: float, colour: str) -> None:
-    axes.barh(row, end - start, HIGH, left=start, color=colour, alpha=0.85)
+    axes.barh(row, end - start, STEP_HEIGHT, left=start, color=colour, alpha=0.85)
     axes.errorbar(end, row, xerr=error, color="0.25", linewidth=0.9, capsize=2)

@@ -1,5 +1,7 @@
 """Figures of flow factors over the mean gap, and maps of the flow."""
 
+from dataclasses import replace
+
 import matplotlib as mpl
 import numpy as np
 
@@ -7,7 +9,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures.base import new_figure, surface_map, svg
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.homogenization.flux import flux
-from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point, relative_row, relative_rows
+from roughfilm.rom.homogenization.table.factor_table import FactorTable, relative_row, relative_rows
 
 COLOURS = ("#2166ac", "#b2182b", "#e08214")
 GAPS = mpl.colormaps["cividis"].with_extremes(bad="#b2182b")
@@ -31,7 +33,9 @@ def curves(table: FactorTable) -> str:
     figure, panels = new_figure((11.4, 3.9), 1, len(PANELS))
     gaps = np.array([point.mean_gap for point in table.points])
     rows = np.array([relative_row(point.factors) for point in table.points])
-    uncertainties = np.array([_uncertainties(point) for point in table.points])
+    uncertainties = np.array(
+        [relative_row(replace(point.uncertainty, mean_gap=point.mean_gap)) for point in table.points]
+    )
     fine = np.geomspace(gaps[0], 1.6 * gaps[-1], DRAWN_POINTS)
     between = relative_rows(table, fine)
     for axes, (title, drawn) in zip(panels, PANELS.items(), strict=True):
@@ -68,13 +72,6 @@ def pressures(table: AsperityTable) -> str:
         if "µm" not in label:
             axes.set_yscale("log")
     return svg(figure)
-
-
-def _uncertainties(point: Point) -> list[float]:
-    """The uncertainties of a row of factors over those of a smooth film."""
-    h, (pressure, shear) = point.mean_gap, (point.uncertainty.pressure, point.uncertainty.shear)
-    flow = (pressure[0, 0] / h**3, pressure[1, 1] / h**3, pressure[0, 1] / h**3, *(shear / h))
-    return [*flow, point.uncertainty.couette * h, point.uncertainty.shear_couette * h]
 
 
 def maps(gap: Array, spacing: tuple[float, float], correctors: Array, sealed: tuple[bool, bool]) -> str:

@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 WINDOW = (1500, 760)
 """Pixels."""
 
-HEIGHT = 0.16
-"""Of the gap over its longer side, in the picture, if it is thinner in truth."""
+MIN_HEIGHT = 0.16
+"""Smallest height of the gap over its longer side, in the picture."""
 
-LEAST_WIDTH = 0.35
-"""Of the period over its length, in the picture: a narrower one, as of ridges, is repeated."""
+MIN_WIDTH = 0.35
+"""Smallest width of the picture over its length; a narrower period is repeated."""
 
 LINES = 60
 """Streamlines that start at the inflow."""
@@ -95,9 +95,9 @@ def film_of(result: Result) -> "pyvista.StructuredGrid":
     vertices = result.fields["vertices"].values * 1e6
     velocity, kept = result.fields["cell_velocity"].values, result.fields["kept"].values
     length, width = (float(np.ptp(vertices[..., axis])) for axis in range(2))
-    repeats = max(1, round(LEAST_WIDTH * length / width))
+    repeats = max(1, round(MIN_WIDTH * length / width))
     points, flow, there = _repeated(vertices, velocity, kept, repeats, width)
-    stretch = max(1.0, HEIGHT * max(length, width * repeats) / float(np.ptp(points[..., 2])))
+    stretch = max(1.0, MIN_HEIGHT * max(length, width * repeats) / float(np.ptp(points[..., 2])))
     grid = pyvista.StructuredGrid(points[..., 0], points[..., 1], points[..., 2] * stretch)
     shown = flow * [1.0, 1.0, stretch]
     grid.cell_data["velocity"] = shown.reshape(-1, 3, order="F")

@@ -10,17 +10,17 @@ from roughfilm.contact.foundation.files import replacing
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.store import load
 
-MARGIN = 0.35
-"""How much of the film is shown on each side of the grooves, in parts of the length they take."""
+SIDE_MARGIN = 0.35
+"""Length of film that is shown on each side of the grooves, over the length of the grooves."""
 
-SHALLOW = 1e-3
-"""Where the film is deeper than elsewhere by less than this part of the deepest groove, there is no groove."""
+MIN_DEPTH = 1e-3
+"""Smallest depth of a groove that is shown, over that of the deepest."""
 
 WINDOW = (1500, 500)
 """Pixels."""
 
 HEIGHT_TO_WIDTH = 0.22
-"""Shape of the picture: the film is stretched upward until it fills it."""
+"""Height of the stretched film over its width, in the picture."""
 
 
 def stream_function(vertices: Array, velocity: Array) -> Array:
@@ -39,9 +39,9 @@ def shown(vertices: Array) -> slice:
     """The columns of vertices that a picture shows: all grooves, with a margin on both sides."""
     x, lower = vertices[:, 0, 0], vertices[:, 0, 1]
     depth = lower.max() - lower
-    grooved = np.flatnonzero(depth > SHALLOW * depth.max())
+    grooved = np.flatnonzero(depth > MIN_DEPTH * depth.max())
     left, right = x[grooved[0]], x[grooved[-1]]
-    margin = MARGIN * (right - left)
+    margin = SIDE_MARGIN * (right - left)
     inside = np.flatnonzero((x >= left - margin) & (x <= right + margin))
     return slice(int(inside[0]), int(inside[-1]) + 1)
 

@@ -1,6 +1,7 @@
-"""The pictures of Stribeck curves: over speed, over the bearing, and what the asperities do over their separation."""
+"""Figures of Stribeck curves, of the pressures over the bearing, and of the asperities over their separation."""
 
-from collections.abc import Callable, Sequence
+import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import matplotlib as mpl
@@ -11,29 +12,29 @@ from matplotlib.figure import Figure
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures.base import new_figure
 from roughfilm.rom.bearing.mixed.asperities import Asperities
-from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve, StribeckPoint
+from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve
 from roughfilm.words.stribeck import SpeedScale
 
 COLOURS = ("#2166ac", "#1a7f37", "#b2182b", "#b07d2b", "#6a51a3", "#444444")
-BETWEEN = 400
-"""Separations at which what the asperities do is drawn."""
+DRAWN_SEPARATIONS = 400
+"""Number of separations at which the properties of the asperities are drawn."""
 
-THICKEST = 3.0
-"""Times the separation at which they touch, the last that is drawn."""
+MAX_SEPARATION = 3.0
+"""Largest separation that is drawn, over that of the first touch."""
 
-MOST_PRESSURE = 1e9
-"""Of contact, Pa, up to which it is drawn."""
+MAX_CONTACT_PRESSURE = 1e9
+"""Largest contact pressure that is drawn, Pa."""
 
-DECADES = 30.0
-"""From this ratio of the greatest speed to the least on, speeds are drawn by their logarithms."""
+LOGARITHMIC_RATIO = 30.0
+"""Ratio of the largest speed to the lowest above which the axis of speeds is logarithmic."""
 
-LEAST_PRESSURE = 1e3
-"""Of contact, the lowest that is drawn, Pa."""
+MIN_CONTACT_PRESSURE = 1e3
+"""Lowest contact pressure that is drawn, Pa."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Drawn:
-    """Where a film is drawn: ``x``, ``y`` of its nodes, shape (nx, ny), m, its pressure and that of contact, Pa."""
+    """A film that is drawn: ``x``, ``y`` of its nodes, shape (nx, ny), m, its pressure and that of contact, Pa."""
 
     title: str
     x: Array
@@ -42,36 +43,36 @@ class Drawn:
     contact: Array
 
 
-def curves(found: Sequence[StribeckCurve], scale: SpeedScale, touching: float) -> Figure:
-    """Friction, least separation over the first touch, and the contact's share, over speed."""
+def curves(drawn: Sequence[StribeckCurve], scale: SpeedScale, touching: float) -> Figure:
+    """Friction coefficient, separation over that of the first touch, and load on the asperities, over speed."""
     figure, (friction, gap, share) = new_figure((11.4, 4.0), 1, 3)
-    panels: tuple[tuple[Axes, str, Callable[[StribeckPoint], float], str, float], ...] = (
-        (friction, "friction_coefficient", lambda point: point.friction_coefficient, "coefficient of friction", 1),
-        (
-            gap,
-            "separation",
-            lambda point: point.separation - touching,
-            "least separation over the first touch, µm",
-            1e6,
-        ),
-        (share, "contact_share", lambda point: point.contact_share, "load carried by asperities, %", 100),
+    panels: tuple[tuple[Axes, str, float, str, float], ...] = (
+        (friction, "friction_coefficient", 0.0, "coefficient of friction", 1),
+        (gap, "separation", touching, "least separation over the first touch, µm", 1e6),
+        (share, "contact_share", 0.0, "load carried by asperities, %", 100),
     )
-    for curve, colour in zip(found, _colours(len(found)), strict=True):
+    for curve, colour in zip(drawn, itertools.cycle(COLOURS), strict=False):
         speeds = np.array([point.speed for point in curve.points]) * scale.factor
-        for axes, name, of, label, factor in panels:
-            values = factor * np.array([of(point) for point in curve.points])
-            doubts = factor * np.array([point.uncertainty.get(name, np.nan) for point in curve.points])
+        for axes, name, zero, label, factor in panels:
+            values = factor * np.array([getattr(point, name) - zero for point in curve.points])
+            errors = factor * np.array([point.uncertainty.get(name, np.nan) for point in curve.points])
             axes.plot(speeds, values, color=colour, linewidth=1.4, label=f"{curve.pressure / 1e6:.4g} MPa")
-            known = np.isfinite(doubts)
+            known = np.isfinite(errors)
             axes.errorbar(
-                speeds[known], values[known], doubts[known], fmt="o", markersize=2.5, color=colour, elinewidth=0.9
+                speeds[known],
+                values[known],
+                errors[known],
+                fmt="o",
+                markersize=2.5,
+                color=colour,
+                elinewidth=0.9,
             )
             axes.set(ylabel=label, xlabel=f"speed, {scale.unit}")
             lift = curve.lift_off.speed * scale.factor
             if np.isfinite(lift) and lift <= speeds.max():
                 axes.axvline(lift, color=colour, linewidth=0.8, linestyle=":")
-    asked = [point.speed for curve in found for point in curve.points]
-    if min(asked) > 0 and max(asked) > DECADES * min(asked):
+    swept = [point.speed for curve in drawn for point in curve.points]
+    if min(swept) > 0 and max(swept) > LOGARITHMIC_RATIO * min(swept):
         for axes in (friction, gap, share):
             axes.set_xscale("log")
     friction.set_yscale("log")
@@ -80,29 +81,25 @@ def curves(found: Sequence[StribeckCurve], scale: SpeedScale, touching: float) -
     return figure
 
 
-def _colours(count: int) -> list[str]:
-    return [COLOURS[k % len(COLOURS)] for k in range(count)]
-
-
 def asperity_table(asperities: Asperities) -> Figure:
-    """Contact pressure and area, and the factors over those of a smooth film, over the separation."""
+    """Contact pressure, contact area and flow factors of the asperities over the separation."""
     figure, (contact, pressed, sheared) = new_figure((11.4, 3.9), 1, 3)
     touching = asperities.touching
-    lowest = asperities.separation_at(min(asperities.largest_pressure, MOST_PRESSURE))
-    near = np.linspace(lowest, touching, BETWEEN)
-    alpha = np.linspace(lowest, THICKEST * touching, BETWEEN)
-    told, areas = asperities.contact_pressure(near), asperities.area_fraction(near)
-    shown = told >= LEAST_PRESSURE
-    contact.plot(1e6 * near[shown], told[shown] / 1e6, color=COLOURS[0])
+    lowest = asperities.separation_at(min(asperities.largest_pressure, MAX_CONTACT_PRESSURE))
+    near = np.linspace(lowest, touching, DRAWN_SEPARATIONS)
+    alpha = np.linspace(lowest, MAX_SEPARATION * touching, DRAWN_SEPARATIONS)
+    pressures, areas = asperities.contact_pressure(near), asperities.area_fraction(near)
+    shown = pressures >= MIN_CONTACT_PRESSURE
+    contact.plot(1e6 * near[shown], pressures[shown] / 1e6, color=COLOURS[0])
     contact.set_yscale("log")
     contact.set_ylabel("contact pressure, MPa", color=COLOURS[0])
     beside = contact.twinx()
     beside.plot(1e6 * near, 100 * areas, color=COLOURS[2])
     beside.set_ylabel("area in contact, %", color=COLOURS[2])
     beside.grid(visible=False)
-    found, mean = asperities(alpha), asperities.mean_gap(alpha)
-    pressure = {"A₁₁/ĥ³": found.along, "A₂₂/ĥ³": found.across, "A₁₂/ĥ³": found.cross}
-    drag = {"B₁/ĥ": found.drag, "B₂/ĥ": found.drag_across}
+    factors, mean = asperities(alpha), asperities.mean_gap(alpha)
+    pressure = {"A₁₁/ĥ³": factors.along, "A₂₂/ĥ³": factors.across, "A₁₂/ĥ³": factors.cross}
+    drag = {"B₁/ĥ": factors.drag, "B₂/ĥ": factors.drag_across}
     for axes, drawn, power in ((pressed, pressure, 3), (sheared, drag, 1)):
         for (label, values), colour in zip(drawn.items(), COLOURS, strict=False):
             axes.plot(1e6 * alpha, values / mean**power, color=colour, label=label)

@@ -40,6 +40,7 @@ def errors_in_order(
             axes.set(xscale="log", yscale="log")
             axes.set_title(f"{setting}: {title}, rank correlation {found.rank:.3f}", fontsize=9)
             axes.set_xlabel(sweeping(kind).words(found.powers), fontsize=8)
+            axes.tick_params(axis="x", which="both", labelsize=7)
             axes.set_ylabel("error, %", fontsize=8)
     figure.legend(loc="outside upper center", ncols=4, fontsize=8)
     return svg(figure)

@@ -28,7 +28,7 @@ class Picture:
 
 @dataclass(frozen=True, kw_only=True)
 class Report:
-    """Everything the page shows."""
+    """The content of the page."""
 
     scene: Scene
     kind: Kind
@@ -46,21 +46,22 @@ class Report:
     pictures: tuple[Picture, ...]
 
 
-def cheapest_within(report: Report, part: float) -> str:
-    """The model with the least CPU time that has all compared quantities within ``part`` of the best rung's."""
-    asked = report.kind.shared(report.results[report.best])
+def cheapest_within(report: Report, fraction: float) -> str:
+    """The model with the least CPU time whose compared quantities are within a fraction of those of the best model."""
+    compared = report.kind.shared(report.results[report.best])
     worst = {
-        name: 0.0 if asked == report.kind.shared(report.results[report.best], result) else float("inf")
+        name: 0.0 if compared == report.kind.shared(report.results[report.best], result) else float("inf")
         for name, result in report.results.items()
     }
     for difference in report.to_best:
         worst[difference.model] = max(worst[difference.model], abs(difference.relative))
-    enough = [name for name, error in worst.items() if error <= part]
+    enough = [name for name, error in worst.items() if error <= fraction]
     return min(enough, key=lambda name: report.results[name].numerics.cpu_s)
 
 
 def write_comparison(report: Report, path: Path) -> None:
     """Write the page; InputError if it cannot be written."""
+    sources = {doi for result in report.results.values() for doi in result.provenance["sources"]}
     render(
         report.view.page,
         path,
@@ -70,11 +71,11 @@ def write_comparison(report: Report, path: Path) -> None:
         reduced=report.best != best([model for model in report.models if model.applies(report.scene).applies]).name,
         best=report.results[report.best],
         entries=scene_entries(report.scene),
-        cheapest={part: cheapest_within(report, part) for part in (0.01, 0.10)},
+        cheapest={fraction: cheapest_within(report, fraction) for fraction in (0.01, 0.10)},
         known=max(report.uncertainty.values(), default=0.0),
         differences=_by_model(report.to_best),
         pictures=[(picture, "" if picture.path is None else embedded(picture.path)) for picture in report.pictures],
-        sources=_sources(report),
+        sources=[(doi, LINKS + doi) for doi in sorted(sources)],
     )
 
 
@@ -83,8 +84,3 @@ def _by_model(differences: tuple[Difference, ...]) -> dict[str, dict[str, Differ
     for difference in differences:
         table.setdefault(difference.model, {})[difference.quantity] = difference
     return table
-
-
-def _sources(report: Report) -> list[tuple[str, str]]:
-    names = {doi for result in report.results.values() for doi in result.provenance["sources"]}
-    return [(doi, LINKS + doi) for doi in sorted(names)]

@@ -1,4 +1,4 @@
-"""The page of a series of contacts."""
+"""The page of a rough surface under a series of loads."""
 
 import math
 from collections.abc import Mapping
@@ -14,7 +14,7 @@ from roughfilm.pages.render import render
 from roughfilm.words.numbers import digits
 
 MODELS = {
-    "bearing_area": "Heights above a plane are cut off; the pressure there is the hardness. The rest does not deform.",
+    "bearing_area": "Heights above a plane are cut off; the pressure there is the hardness. Others do not deform.",
     "greenwood_williamson": "Independent spherical asperities, from the moments of the spectrum.",
     "persson": "Diffusion of the pressures as shorter waves are added, from the spectrum.",
     "elastic": "Elastic half-space, solved at every point, without a limit of the pressure.",
@@ -23,8 +23,8 @@ MODELS = {
     "stanley_kato": "The same contact by the older algorithm with constant steps, for comparison.",
 }
 
-PICTURED = 4
-"""Loads, at most, whose contacts are drawn in space."""
+MAX_PICTURED_LOADS = 4
+"""Largest number of loads whose contacts are drawn in space."""
 
 COLUMNS = (
     ("load", "MPa", "load", 1e-6),
@@ -46,7 +46,7 @@ def write_page(name: str, entries: Mapping[str, Any], series: Series, path: Path
     hardness = settings["hardness"] or math.inf
     shown = [column for column in COLUMNS if any(getattr(row, column[2]) is not None for row in series.rows)]
     line = last is not None and 1 in last.heights.shape
-    count = 0 if line else min(PICTURED, len(series.gap_maps))
+    count = 0 if line else min(MAX_PICTURED_LOADS, len(series.gap_maps))
     views = [series.gap_maps[round(place)] for place in np.linspace(0, len(series.gap_maps) - 1, count)]
     picture, missing = view_picture(views) if views else (None, "")
     render(

@@ -9,7 +9,7 @@ from roughfilm.figures import effects as effects_figures
 from roughfilm.pages.render import render, write_figures
 from roughfilm.rom.bearing.effects.ablation import Amount
 from roughfilm.rom.bearing.effects.analysis import EffectAnalysis
-from roughfilm.rom.bearing.effects.contributions import Study
+from roughfilm.rom.bearing.effects.contributions import EffectStudy
 from roughfilm.rom.ladder.kind import kind_of_name
 from roughfilm.words.effects import AT_FILM, SHOWN, UNDER_LOAD, Shown, cell, sentences, shown_quantities
 from roughfilm.words.numbers import percent
@@ -57,7 +57,7 @@ def write_page(analysis: EffectAnalysis, entries: Mapping[str, Any], out: Path) 
     )
 
 
-def _of_load(added: Amount, study: Study) -> str:
+def _of_load(added: Amount, study: EffectStudy) -> str:
     name = next(iter(shown_quantities(study, ("load",))))
     fraction = percent(added.value / study.full[name].value).replace("-", "−")
     return f"{cell(added, SHOWN[name], sign=True)} {SHOWN[name].unit} ({fraction} of the load)"
@@ -73,7 +73,7 @@ def _beside(analysis: EffectAnalysis) -> dict[str, Amount]:
     }
 
 
-def _view(title: str, study: Study, drawn: Sequence[str], beside: Mapping[str, Amount]) -> View:
+def _view(title: str, study: EffectStudy, drawn: Sequence[str], beside: Mapping[str, Amount]) -> View:
     columns = shown_quantities(study, (*drawn, LAST_COLUMN))
 
     def row(title: str, of: Mapping[str, Amount], *, sign: bool = True) -> tuple[str, list[str]]:
@@ -94,5 +94,5 @@ def _view(title: str, study: Study, drawn: Sequence[str], beside: Mapping[str, A
         tables={"Switched on one after the other": on, "Each added to all the others": alone},
         figure=effects_figures.waterfall(study, shown_quantities(study, drawn), beside),
         words={SHOWN[name].title: sentences(study, name, beside.get(name)) for name in judged},
-        untold=study.untold,
+        untold=study.unsolved,
     )

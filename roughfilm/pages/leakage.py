@@ -1,4 +1,4 @@
-"""The page of a series of leakage."""
+"""The page of the leakage of a seal over the load."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -26,22 +26,17 @@ def write_page(
     scene: Seal,
     body: Ready,
     rows: Mapping[float, Row],
-    found: Mapping[str, Threshold],
+    thresholds: Mapping[str, Threshold],
     entries: Mapping[str, Any],
     directory: Path,
 ) -> None:
     """Write report.html of a series and of the object of ``--json``; InputError if the file cannot be written."""
-    ordered, spectrum = list(rows.values()), scene.spectrum()
-    flat = float(np.ptp(body.surface.heights)) == 0
-    depth = 0.0 if flat else _valley_depth(body)
-    estimated = (
-        {}
-        if spectrum is None
-        else {
-            load: effective_medium(spectrum, composite_modulus=scene.composite_modulus, load=load).permeability
-            for load in rows
-        }
-    )
+    ordered, spectrum, stiffness = list(rows.values()), scene.spectrum(), scene.composite_modulus
+    depth = _valley_depth(body) if np.ptp(body.surface.heights) > 0 else 0.0
+    estimated = {}
+    if spectrum is not None:
+        films = {load: effective_medium(spectrum, composite_modulus=stiffness, load=load) for load in rows}
+        estimated = {load: film.permeability for load, film in films.items()}
     shown = _shown(ordered, scene.axis)
     contacts = [load_contact(body.contacts, load) for load in shown]
     picture, why = view_picture([gap_map(contact) for contact in contacts])
@@ -51,15 +46,15 @@ def write_page(
         scene=scene,
         entries=entries,
         warnings=entries["provenance"]["warnings"],
-        thresholds={WORDS[name]: in_words(threshold) for name, threshold in found.items()},
-        cards=[(axis, found[f"direct_{axis}"]) for axis in "xy"],
+        thresholds={WORDS[name]: in_words(threshold) for name, threshold in thresholds.items()},
+        cards=[(axis, thresholds[f"direct_{axis}"]) for axis in "xy"],
         first=ordered[0],
         first_leak=leaks(scene, ordered[0], SOUGHT[scene.axis]),
         periods=scene.flow.length / body.surface.size[scene.axis],
         ratio=_ratio(ordered, scene.flow.direction),
-        areas=leakage_figures.areas(ordered, found),
-        leakages=leakage_figures.leakages(scene, ordered, found, estimated),
-        scaled=leakage_figures.scaled(ordered, depth, scene.composite_modulus) if _leaks(ordered) else None,
+        areas=leakage_figures.areas(ordered, thresholds),
+        leakages=leakage_figures.leakages(scene, ordered, thresholds, estimated),
+        scaled=leakage_figures.scaled(ordered, depth, stiffness) if any(map(_leaks, ordered)) else None,
         valley_depth=depth,
         paths=leakage_figures.paths(contacts, scene.axis) if any(one.gap.any() for one in contacts) else None,
         picture=picture,
@@ -67,11 +62,9 @@ def write_page(
         shown=shown,
         rows=[
             [
-                digits(row.load * 1e-6),
-                digits(row.area_fraction * 100),
-                digits(row.mean_gap * 1e6),
+                *map(digits, (row.load * 1e-6, row.area_fraction * 100, row.mean_gap * 1e6)),
                 *(leaks(scene, row, name) for name in SOUGHT),
-                *(_bar(row, name) for name in SOUGHT[:2]),
+                *(_relative_uncertainty(row, name) for name in SOUGHT[:2]),
             ]
             for row in ordered
         ],
@@ -84,16 +77,16 @@ def _valley_depth(body: Ready) -> float:
 
 
 def _shown(rows: Sequence[Row], axis: int) -> tuple[float, ...]:
-    """Four loads: two that leak along the flow, the last that does, the first that does not."""
+    """Four loads that are drawn: two that leak along the flow, the last that leaks, the first that is sealed."""
     name = SOUGHT[axis]
     opened = [row.load for row in rows if not getattr(row, f"{name}_sealed")]
-    shut = [row.load for row in rows if getattr(row, f"{name}_sealed")]
+    closed = [row.load for row in rows if getattr(row, f"{name}_sealed")]
     middle = [opened[len(opened) // 2], opened[min(len(opened) - 1, 4 * len(opened) // 5)]] if opened else []
-    return tuple(sorted({*opened[-1:], *shut[:1], *middle, *([] if opened else shut[-1:])}))
+    return tuple(sorted({*opened[-1:], *closed[:1], *middle, *([] if opened else closed[-1:])}))
 
 
 def _ratio(rows: Sequence[Row], axis: str) -> float | None:
-    """How much more leaks directly than averaged, in the middle of the loads that leak both ways."""
+    """Median ratio of the direct leakage to the averaged one, over the loads at which both flow."""
     both = [
         getattr(row, f"direct_{axis}") / getattr(row, f"homogenized_{axis}")
         for row in rows
@@ -102,11 +95,11 @@ def _ratio(rows: Sequence[Row], axis: str) -> float | None:
     return float(np.median(both)) if both else None
 
 
-def _leaks(rows: Sequence[Row]) -> bool:
-    return any(row.direct_x > 0 or row.direct_y > 0 for row in rows)
+def _leaks(row: Row) -> bool:
+    return row.direct_x > 0 or row.direct_y > 0
 
 
-def _bar(row: Row, name: str) -> str:
-    """An error bar, as a part of the value."""
-    value, doubt = getattr(row, name), getattr(row, f"{name}_uncertainty")
-    return "–" if value == 0 else f"{100 * doubt / value:.2g} %"
+def _relative_uncertainty(row: Row, name: str) -> str:
+    """The uncertainty over the value."""
+    value, uncertainty = getattr(row, name), getattr(row, f"{name}_uncertainty")
+    return "–" if value == 0 else f"{100 * uncertainty / value:.2g} %"

@@ -1,4 +1,4 @@
-"""Self-contained HTML pages that a person would rather look at than read, from templates."""
+"""Self-contained HTML pages from templates."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -16,8 +16,8 @@ TEMPLATES = Path(__file__).parent / "templates"
 def render(template: str | Path, path: Path, **entries: Any) -> None:
     """Fill a template and write the page; InputError if it cannot be written.
 
-    A template is a name in ``templates`` beside this file, or the path of one elsewhere, which may extend these and
-    those of the folder above it.
+    ``template`` is a name in ``templates`` beside this file, or a path elsewhere; such a template may extend those of
+    ``templates`` and of the folder above it.
     """
     template = Path(template)
     folder = TEMPLATES / template.parent
@@ -50,9 +50,9 @@ def write_figures(plots: Mapping[str, str], directory: Path) -> None:
             scratch.write_text('<?xml version="1.0" encoding="utf-8"?>\n' + text, encoding="utf-8")
 
 
-def _share(part: float) -> str:
-    """A part without sign, in per cent."""
-    percent = 100 * part
+def _share(fraction: float) -> str:
+    """A fraction without sign, in per cent."""
+    percent = 100 * fraction
     return f"{percent:.0f} %" if percent >= 99.5 else f"{percent:.2g} %"
 
 
@@ -68,10 +68,15 @@ def _digits(value: float) -> str:
     return "0" if abs(value) < 5e-7 else f"{value:.6g}"
 
 
-def _quantity(found: Quantity) -> str:
+def _quantity(quantity: Quantity) -> str:
     """A quantity with its unit, in µm and MPa where these fit."""
     known = {"1": _number, "m": _micro, "Pa": _si}
-    return known[found.unit](found.value) if found.unit in known else f"{found.value:.4g} {found.unit}"
+    value, unit = quantity.value, quantity.unit
+    return known[unit](value) if unit in known else f"{value:.4g} {_typeset(unit)}"
+
+
+def _typeset(unit: str) -> str:
+    return unit.replace("^2", "²").replace("^3", "³").replace("*", " ")
 
 
 def _difference(value: float, unit: str) -> str:

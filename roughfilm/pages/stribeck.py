@@ -19,11 +19,11 @@ from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.words.numbers import with_error
 from roughfilm.words.stribeck import lift_off, speed_scale
 
-MIXED = 0.3
-"""The first film drawn is the one whose asperities carry nearest to this part of the load."""
+DRAWN_CONTACT_SHARE = 0.3
+"""The first film drawn is the one whose asperities carry nearest to this fraction of the load."""
 
-ROWS = 9
-"""Points of a curve in the table of numbers, about."""
+MAX_ROWS = 9
+"""Largest number of points of a curve in the table of numbers."""
 
 
 def write_page(
@@ -60,30 +60,30 @@ def write_page(
 
 
 def shown_points(curve: StribeckCurve) -> list[StribeckPoint]:
-    """A mixed film and the first that has parted, as far as there are any."""
+    """The points whose films are drawn: a mixed film and the first without contact, as far as there are any."""
     mixed = [point for point in curve.points if point.contact_load > 0 and point.speed > 0]
     parted = [point for point in curve.points if point.contact_load == 0]
-    nearest = min(mixed, key=lambda point: abs(point.contact_share - MIXED)) if mixed else curve.points[0]
+    nearest = min(mixed, key=lambda point: abs(point.contact_share - DRAWN_CONTACT_SHARE)) if mixed else curve.points[0]
     last = parted[0] if parted else curve.points[-1]
     return [nearest, last] if last is not nearest else [nearest]
 
 
 def drawn_film(film: MixedFilm, point: StribeckPoint, title: str) -> Drawn:
-    """Pressures of film and contact at the nodes, round a ring with the first line again behind the last."""
-    found = film.at(point.separation + film.dip, point.speed)
-    grid, geometry = found.solution.grid, film.scene.geometry
-    pressure = found.solution.state.pressure + film.scene.lubricant.cavitation_pressure
-    contact = found.contact.force / grid.areas
-    share = point.contact_share
-    told = f"{title}, {100 * share:.3g} % by contact" if share > 0 else f"{title}, no contact"
+    """Pressures of film and contact at the nodes; a closed ring repeats its first line after the last."""
+    solution = film.at(point.separation + film.dip, point.speed)
+    grid, geometry = solution.solution.grid, film.scene.geometry
+    pressure = solution.solution.state.pressure + film.scene.lubricant.cavitation_pressure
+    contact = solution.contact.force / grid.areas
+    fraction = point.contact_share
+    title += f", {100 * fraction:.3g} % by contact" if fraction > 0 else ", no contact"
     x, y = np.meshgrid(grid.x, grid.y, indexing="ij")
     if not isinstance(geometry, Ring):
-        return Drawn(title=told, x=x, y=y, film=pressure, contact=contact)
+        return Drawn(title=title, x=x, y=y, film=pressure, contact=contact)
     if geometry.endless:
         x = np.vstack([x, x[:1] + geometry.turn])
         y, pressure, contact = (_closed(values) for values in (y, pressure, contact))
     middle = x - geometry.turn / 2
-    return Drawn(title=told, x=y * np.sin(middle), y=y * np.cos(middle), film=pressure, contact=contact)
+    return Drawn(title=title, x=y * np.sin(middle), y=y * np.cos(middle), film=pressure, contact=contact)
 
 
 def _closed(values: Array) -> Array:
@@ -91,7 +91,7 @@ def _closed(values: Array) -> Array:
 
 
 def _few(points: Sequence[StribeckPoint]) -> list[StribeckPoint]:
-    places = np.unique(np.linspace(0, len(points) - 1, min(ROWS, len(points))).round().astype(int))
+    places = np.unique(np.linspace(0, len(points) - 1, min(MAX_ROWS, len(points))).round().astype(int))
     return [points[place] for place in places]
 
 

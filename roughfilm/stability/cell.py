@@ -1,202 +1,213 @@
-"""Where the cell problems are solved: by every solver and by all in their order, judged by formulas and elimination."""
+"""The map of the cell problems: every solver and the default on many gaps, judged by formulas and by elimination."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import partial
-from pathlib import Path
+from functools import cache, partial
 
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.errors import ConvergenceError, InputError
-from roughfilm.stability.form import BAD, GOOD, Judged, Map, Outcome, Spot, count, named, summed, tried
-from roughfilm.stability.questions.cell import REFUSED, Probe, probes
-from roughfilm.terminal.console import progress_bar
+from roughfilm.contact.foundation.errors import ConvergenceError
+from roughfilm.stability.form import (
+    BAD,
+    GOOD,
+    Judgement,
+    MapOutcome,
+    Probe,
+    Spot,
+    StabilityMap,
+    count,
+    in_groups,
+    in_numbers,
+    in_turn,
+    listed,
+)
+from roughfilm.stability.questions.cell import CellGap, gaps
 
-DEFAULT, TRUTH, OTHERWISE = "default", "elimination", "multigrid_double"
-"""All solvers in their order, on nested grids; the one that the others are judged by, and what judges it."""
+DEFAULT = "default"
+"""The flow factors that users get: all solvers in their order, on nested grids."""
 
-TOLERANCE, ALLOWED = 1e-8, 1e-6
-"""Of A, asked of a solver by itself, and the most that it may be off; B over the mean gap may be off by the same."""
+REFERENCES = (("elimination", 1e-8), ("multigrid_double", 1e-12))
+"""The solvers that give the reference where no formula does, each with its tolerance; the second where the first fails.
+"""
 
-PART = 0.1
-"""Of its own error bar: so much of it the default's linear systems may take."""
+TOLERANCE = 1e-8
+"""Tolerance in A of a single solver."""
 
-ROUNDING = 1e-9
-"""Errors below it are not compared with what is told of them."""
+ALLOWED_ERROR = 1e-6
+"""Allowed relative error of A, and of B over the mean gap."""
 
-TRACES = 1e-13
-"""Of the largest h³: by so much more A may be off, as conductances below 1e-14 of it are closed."""
+UNCERTAINTY_FRACTION = 0.1
+"""Fraction of the default's uncertainty that the error of its linear systems may take up."""
+
+ROUND_OFF = 1e-9
+"""Error below which the solver's estimate of the remaining gain is not compared with it."""
+
+CLOSED_FRACTION = 1e-13
+"""Allowed error of A over the largest h³, as conductances below 1e-14 of it are closed."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Answer:
-    """What a solver found.
+class CellAnswer:
+    """The answer of a solver.
 
     Attributes
     ----------
-    pressure, shear : A, m³, and B over the mean gap.
-    told : what is left to gain of A, over A, the larger direction.
-    bar : the error bar of A, over √(A_ii A_jj); 0 but of the default.
-    traces : what A may be off besides, m³.
+    pressure : A, m³, shape (2, 2).
+    shear : B over the mean gap.
+    unsolved : estimate of the remaining gain in A over A, the larger of both directions.
+    uncertainty : uncertainty of A over √(A_ii A_jj), shape (2, 2); 0 for a single solver.
+    closed : error of A that closed conductances may cause, m³.
     """
 
     pressure: Array
     shear: Array
-    told: float
-    bar: Array
+    unsolved: float
+    uncertainty: Array
     iterations: int
-    traces: float
+    closed: float
 
 
-def asked(probe: Probe, solver: str, tolerance: float = TOLERANCE) -> Answer:
-    """The answer of a solver, or of the default, to a probe."""
+@dataclass(frozen=True, kw_only=True)
+class Reference:
+    """A (m³, shape (2, 2)) and B over the mean gap (None from a formula) that are taken for right, and their source."""
+
+    pressure: Array
+    shear: Array | None
+    source: str
+
+
+def answer_of(gap: CellGap, solver: str, tolerance: float = TOLERANCE) -> CellAnswer:
+    """The answer of one solver, or of the default."""
     from roughfilm.rom.homogenization.cell import solve_cell  # numba is slow to import
     from roughfilm.rom.homogenization.flow_factors import flow_factors
 
     if solver == DEFAULT:
-        found = flow_factors(probe.gap, probe.spacing, offset=probe.offset)
-        factors, iterations, told = found.factors, found.iterations, found.unsolved
-        bar = _over_diagonal(found.uncertainty.pressure, factors.pressure, 0.0)
+        average = flow_factors(gap.thickness, gap.spacing, offset=gap.offset)
+        factors, iterations, unsolved = average.factors, average.iterations, average.unsolved
+        uncertainty = _over_diagonal(average.uncertainty.pressure, factors.pressure, 0.0)
     else:
-        cell = solve_cell(np.add(probe.gap, probe.offset), probe.spacing, tolerance=tolerance, solvers=(solver,))
-        factors, iterations, bar = cell.factors, cell.iterations, np.zeros((2, 2))
+        cell = solve_cell(np.add(gap.thickness, gap.offset), gap.spacing, tolerance=tolerance, solvers=(solver,))
+        factors, iterations, uncertainty = cell.factors, cell.iterations, np.zeros((2, 2))
         own = np.diag(factors.relative.pressure)
-        told = float(np.max(cell.unsolved[:2][own > 0] / own[own > 0], initial=0.0))
-    return Answer(
+        unsolved = float(np.max(cell.unsolved[:2][own > 0] / own[own > 0], initial=0.0))
+    return CellAnswer(
         pressure=factors.pressure,
         shear=factors.shear / factors.mean_gap,
-        told=told,
-        bar=bar,
+        unsolved=unsolved,
+        uncertainty=uncertainty,
         iterations=iterations,
-        traces=TRACES * float(np.max(probe.gap) + probe.offset) ** 3,
+        closed=CLOSED_FRACTION * float(np.max(gap.thickness) + gap.offset) ** 3,
     )
 
 
-def _over_diagonal(values: Array, pressure: Array, traces: float) -> Array:
-    """Over √(A_ii A_jj), less what may be off besides; infinite where there is none."""
+def _over_diagonal(values: Array, pressure: Array, closed: float) -> Array:
+    """The values above ``closed`` over √(A_ii A_jj); infinite where A is 0 and they are not."""
     size = np.sqrt(np.outer(np.diag(pressure), np.diag(pressure)))
-    more = np.maximum(np.abs(values) - traces, 0.0)
+    more = np.maximum(np.abs(values) - closed, 0.0)
     return np.divide(more, size, out=np.where(more == 0, 0.0, np.inf), where=size > 0)
 
 
-def truth_of(probe: Probe) -> tuple[Array, Array | None, str]:
-    """A and B that are taken for right, and where from: a formula, elimination, or where that fails multigrid."""
-    if probe.exact is not None:
-        along, cross, across = probe.exact
-        return np.array([[along, cross], [cross, across]]), None, "a formula"
-    for name, tolerance in ((TRUTH, TOLERANCE), (OTHERWISE, 1e-12)):
+def reference(gap: CellGap) -> Reference:
+    """The reference of a gap: by a formula, by elimination, or where that fails by multigrid."""
+    if gap.exact is not None:
+        along, cross, across = gap.exact
+        return Reference(pressure=np.array([[along, cross], [cross, across]]), shear=None, source="a formula")
+    for name, tolerance in REFERENCES:
         try:
-            found = asked(probe, name, tolerance)
-            return found.pressure, found.shear, name
+            answer = answer_of(gap, name, tolerance)
+            return Reference(pressure=answer.pressure, shear=answer.shear, source=name)
         except ConvergenceError:
             continue
-    return np.full((2, 2), np.nan), None, "nothing"
+    return Reference(pressure=np.full((2, 2), np.nan), shear=None, source="nothing")
 
 
-Truth = tuple[Array, Array | None, str]
-
-
-def put(probe: Probe, solver: str, truth: Truth | None) -> Spot:
-    """A probe put to a solver; what has no truth must be refused."""
-    spot = partial(Spot, group=probe.group, row=probe.name, column=solver)
-
-    def judge(found: Answer) -> Judged:
-        assert truth is not None
-        return judged(found, truth, solver)
-
-    return tried(spot, lambda: asked(probe, solver), judge, refused=probe.expected == REFUSED)
-
-
-def judged(found: Answer, truth: Truth, solver: str) -> Judged:
-    """By what is taken for right."""
-    right, shear, source = truth
-    errors = _over_diagonal(found.pressure - right, right, found.traces)
-    aside = 0.0 if shear is None else float(np.abs(found.shear - shear).max())
-    bound = np.maximum(ALLOWED, PART * found.bar)
-    good = bool((errors <= bound).all() and aside <= bound.max())
-    missed = f"A is off by {errors.max():.2g} and B by {aside:.2g}, {bound.max():.2g} allowed, by {source}"
-    return Judged(
-        iterations=found.iterations,
+def judged(solver: str, right: Callable[[], Reference], answer: CellAnswer) -> Judgement:
+    """The judgement of an answer by the reference that ``right`` gives."""
+    truth = right()
+    errors = _over_diagonal(answer.pressure - truth.pressure, truth.pressure, answer.closed)
+    shear_error = 0.0 if truth.shear is None else float(np.abs(answer.shear - truth.shear).max())
+    bound = np.maximum(ALLOWED_ERROR, UNCERTAINTY_FRACTION * answer.uncertainty)
+    good = bool((errors <= bound).all() and shear_error <= bound.max())
+    missed = f"error {errors.max():.2g} in A and {shear_error:.2g} in B, {bound.max():.2g} allowed, by {truth.source}"
+    return Judgement(
+        iterations=answer.iterations,
         right=good,
         error=float(errors.max()),
-        numbers={"told": found.told},
-        message="taken for right" * (source == solver) if good else missed,
+        numbers={"told": answer.unsolved},
+        message="the reference" * (truth.source == solver) if good else missed,
     )
 
 
-@dataclass(frozen=True, kw_only=True)
-class CellFamily:
-    """The probes of the cell problems."""
+def probe(gap: CellGap, solver: str, right: Callable[[], Reference]) -> Probe:
+    """The probe of a solver by a gap."""
+    return Probe(
+        group=gap.group,
+        row=gap.name,
+        column=solver,
+        ask=lambda: answer_of(gap, solver),
+        judge=partial(judged, solver, right),
+        refused=gap.refused,
+    )
 
-    resolution: int = 128
-    resolution_meaning: str = "nodes along a side of the cells"
 
-    def make(self, *, resolution: int, out: Path, processes: int, scratch: Path) -> Map:  # noqa: ARG002
-        """Try every probe by every solver, one after the other: CPU times are to be compared."""
-        if not 64 <= resolution <= 512:
-            raise InputError(f"--resolution: got {resolution}; the cells take 64 to 512 nodes along a side")
-        every = list(probes(resolution))
-        spots: list[Spot] = []
-        with progress_bar(len(every)) as advance:
-            for number, probe in enumerate(every):
-                advance(number, f"{probe.group}: {probe.name}")
-                truth = None if probe.expected == REFUSED else truth_of(probe)
-                spots += [put(probe, solver, truth) for solver in (solvers() if truth else [DEFAULT])]
-        return Map(
-            family="cell",
-            title="Cell problems of homogenization",
-            axes=f"Periodic gaps on {resolution} nodes along a side where nothing else is said (rows): contrasts of h³ "
-            "to 10¹⁶, contact to 60 %, lays, pixels a hundred times as long as wide, odd, prime and tiny grids, "
-            "gaps near "
-            "sealing, offsets, and what makes no sense; by each solver alone and by the default, all in their order on "
-            "nested grids (columns).",
-            judge="A and B by formulas where there are any, else by sparse elimination; the error is that of A. It may "
-            f"be {ALLOWED:g} and {TRACES:g} of the largest h³, or {PART:g} of the default's error bar. Iterations are "
-            "those of all three problems on the finest grid.",
-            resolution=resolution,
-            resolution_meaning=self.resolution_meaning,
-            spots=spots,
-            told=in_words(spots),
-        )
+def probes(nodes: int) -> Iterator[Probe]:
+    """Every gap by the default and, unless it must be refused, by every solver; its reference is computed once."""
+    for gap in gaps(nodes):
+        right = cache(partial(reference, gap))
+        for solver in [DEFAULT] if gap.refused else solvers():
+            yield probe(gap, solver, right)
 
 
 def solvers() -> list[str]:
-    """The default, and each by itself."""
+    """The default, and the name of each single solver."""
     from roughfilm.rom.homogenization.solvers import SOLVERS  # numba is slow to import
 
     return [DEFAULT, *SOLVERS]
 
 
-def by_solver(spots: Sequence[Spot]) -> dict[str, list[Spot]]:
-    """Those that have an answer."""
-    answerable = [spot for spot in spots if spot.group != "limits"]
-    return {name: [spot for spot in answerable if spot.column == name] for name in solvers()}
-
-
-def in_words(spots: Sequence[Spot]) -> list[str]:
-    """What a reader should know."""
+def summary(spots: Sequence[Spot]) -> list[str]:
+    """Sentences about the map: how each solver does, and where its own estimate is too small."""
     lines = []
-    for name, own in by_solver(spots).items():
+    for name in solvers():
+        own = [spot for spot in spots if spot.column == name and spot.group != "limits"]
         if good := [spot for spot in own if spot.outcome in GOOD]:
             worst = max(good, key=lambda spot: spot.error or 0)
             lines.append(
-                f"{name}: {summed(own)}; at most {max(spot.iterations or 0 for spot in good)} iterations, A off by at "
-                f"most {worst.error:.1e} ({worst.group}: {worst.row}), {sum(spot.cpu_s for spot in own):.2g} s in all."
+                f"{name}: {in_numbers(own)}; at most {max(spot.iterations or 0 for spot in good)} iterations and an "
+                f"error of at most {worst.error:.1e} in A ({worst.group}: {worst.row}), "
+                f"{sum(spot.cpu_s for spot in own):.2g} s in all."
             )
-    over = {spot.place: (spot.error or 0.0) / told for spot in spots if (told := spot.numbers.get("told"))}
-    short = [spot for spot in spots if over.get(spot.place, 0.0) > 1 and (spot.error or 0.0) > ROUNDING]
+    over = {spot.place: (spot.error or 0.0) / left for spot in spots if (left := spot.numbers.get("told"))}
+    short = [spot for spot in spots if over.get(spot.place, 0.0) > 1 and (spot.error or 0.0) > ROUND_OFF]
     if short:
         most = max(short, key=lambda spot: over[spot.place])
         lines.append(
-            f"{len(short)} errors above {ROUNDING:g} are larger than what the solver says is left to gain, at most "
-            f"{over[most.place]:.2g} times ({most.place})."
+            f"{len(short)} errors above {ROUND_OFF:g} are larger than the solver's estimate of the remaining gain, at "
+            f"most {over[most.place]:.2g} times ({most.place})."
         )
-    refused = [spot for spot in spots if spot.group == "limits"]
-    if refused:
-        lines.append(f"{count(refused, Outcome.REFUSED)} of {len(refused)} questions that make no sense are refused.")
-    default = [spot for spot in spots if spot.column == DEFAULT]
-    return lines + named(default, *BAD) + named([s for s in spots if s.column != DEFAULT], Outcome.WRONG)
+    if refused := in_groups(spots).get("limits"):
+        right = count(refused, MapOutcome.REFUSED)
+        lines.append(f"{right} of {len(refused)} invalid questions are refused.")
+    default, others = ([spot for spot in spots if (spot.column == DEFAULT) is own] for own in (True, False))
+    return lines + listed(default, *BAD) + listed(others, MapOutcome.WRONG)
 
 
-CELL = CellFamily()
+CELL = StabilityMap(
+    name="cell",
+    title="Cell problems of homogenization",
+    axes="Periodic gaps on {resolution} nodes along a side unless a row says otherwise (rows): contrasts of h³ "
+    "to 10¹⁶, contact to 60 %, lays, pixels a hundred times as long as wide, odd, prime and tiny grids, gaps near "
+    "sealing, offsets, and invalid input; by each solver alone and by the default, all in their order on "
+    "nested grids (columns).",
+    judge="A and B by formulas where there are any, else by sparse elimination; the error is that of A. It may "
+    f"be {ALLOWED_ERROR:g} and {CLOSED_FRACTION:g} of the largest h³, or {UNCERTAINTY_FRACTION:g} of the default's "
+    "uncertainty. Iterations are those of all three problems on the finest grid.",
+    resolution=128,
+    resolution_meaning="nodes along a side of the cells",
+    least=64,
+    most=512,
+    allowed="the cells take 64 to 512 nodes along a side",
+    solve=in_turn(probes),
+    summary=summary,
+)

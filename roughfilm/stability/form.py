@@ -1,11 +1,12 @@
-"""The one form of every map of stability: questions, what became of each, and all of them together."""
+"""The common form of every stability map: probes of a solver, their judged answers, and the map that holds them."""
 
+import math
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
-from typing import Any, Protocol, TypeVar
+from typing import Any
 
 import numpy as np
 from rich.table import Table
@@ -14,20 +15,20 @@ from roughfilm.batch.jobs import Failure
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
 from roughfilm.rom.ladder.provenance import code, commit, machine, versions
 from roughfilm.rom.studies.table import Column
+from roughfilm.terminal.console import progress_bar
 
-SLOW = 100
-"""More iterations than this are slow, where a family does not say otherwise."""
+SLOW_ITERATIONS = 100
+"""Number of iterations above which a probe is slow."""
 
-
-SECOND = "second try"
+SECOND_TRY = "second try"
 """Why a run that converged is slow."""
 
-MESH = "no mesh"
-"""Why a run stalled whose mesh OpenFOAM finds faults in."""
+NO_MESH = "no mesh"
+"""Why a run stalled whose mesh OpenFOAM rejects."""
 
 
-class Outcome(StrEnum):
-    """What became of a question."""
+class MapOutcome(StrEnum):
+    """The outcome of a probe."""
 
     CONVERGED = "converged"
     SLOW = "slow"
@@ -37,35 +38,35 @@ class Outcome(StrEnum):
     REFUSED = "refused"
 
 
-MEANING: Mapping[Outcome, str] = {
-    Outcome.CONVERGED: "an answer that its judge finds right",
-    Outcome.SLOW: "right too, at a price: many iterations, or a second try by a recipe that costs more",
-    Outcome.INACCURATE: "far from the truth, and told so: by an error bar, a warning, or what the model leaves out",
-    Outcome.STALLED: "no answer: the solver gave up and said so",
-    Outcome.WRONG: "a wrong answer that nothing told, an answer where there is none, a refusal where there is one, "
+MEANING: Mapping[MapOutcome, str] = {
+    MapOutcome.CONVERGED: "correct, according to the judge of the map",
+    MapOutcome.SLOW: "correct, but after many iterations or in a second run by a costlier recipe",
+    MapOutcome.INACCURATE: "far from the truth, and reported so: by an uncertainty, a warning, or an effect left out",
+    MapOutcome.STALLED: "no answer: the solver stopped and reported it",
+    MapOutcome.WRONG: "an error that nothing reports, an answer where there is none, a refusal where there is one, "
     "or a fault",
-    Outcome.REFUSED: "refused in one line, as it must be",
+    MapOutcome.REFUSED: "refused in one line, as it must be",
 }
 
-GOOD = (Outcome.CONVERGED, Outcome.SLOW)
-BAD = (Outcome.STALLED, Outcome.WRONG)
+GOOD = (MapOutcome.CONVERGED, MapOutcome.SLOW)
+BAD = (MapOutcome.STALLED, MapOutcome.WRONG)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Spot:
-    """What became of one question, and where it stands on the map.
+    """The outcome of one probe and its place on the map.
 
     Attributes
     ----------
-    why : the outcome in a finer word, "" where there is none: unsteady, diverged, second try.
-    error : by which the answer is off as its judge counts, None where there is no answer or no judge.
-    numbers : what else the family tells, by name.
+    why : a finer word for the outcome, such as unsteady, diverged or second try; "" where there is none.
+    error : error of the answer as its judge measures it, None where there is no answer or no judge.
+    numbers : other numbers of the map, by name.
     """
 
     group: str
     row: str
     column: str
-    outcome: Outcome
+    outcome: MapOutcome
     why: str = ""
     iterations: int | None = None
     cpu_s: float = 0.0
@@ -75,18 +76,18 @@ class Spot:
 
     @property
     def entries(self) -> dict[str, Any]:
-        """For JSON."""
+        """All attributes as JSON holds them."""
         return {**vars(self), "outcome": self.outcome.value, "numbers": dict(self.numbers)}
 
     @property
     def place(self) -> str:
-        """In words."""
+        """Group, row and column in one phrase."""
         return f"{self.group}: {self.row}, {self.column}"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Judged:
-    """An answer that its judge has seen: whether it is right, by how much it is off, and if need be why."""
+class Judgement:
+    """A judged answer: whether it is right, its error, and a message if it is wrong."""
 
     iterations: int
     right: bool
@@ -95,64 +96,69 @@ class Judged:
     message: str = ""
 
 
-Answer = TypeVar("Answer")
+@dataclass(frozen=True, kw_only=True)
+class Probe:
+    """One question to a solver and its place on the map.
 
-
-def tried(
-    spot: Callable[..., Spot],
-    ask: Callable[[], Answer],
-    judge: Callable[[Answer], Judged],
-    *,
-    refused: bool = False,
-    slow: int = SLOW,
-) -> Spot:
-    """Put a question, on the clock, and have the answer judged; whatever is raised that is not ours is wrong.
-
-    Parameters
+    Attributes
     ----------
-    spot : makes the spot, its place given already.
-    refused : whether the question must be refused.
-    slow : more iterations than this are.
+    ask : asks the solver; its CPU time is measured.
+    judge : judges the answer.
+    refused : whether the solver must refuse the question.
     """
-    cpu = time.process_time()
-    try:
-        answer = ask()
-    except Exception as error:  # a question must end in an answer or in an error of the project's, and is told if not
-        ours = isinstance(error, InputError | ConvergenceError | UnavailableError) and "\n" not in str(error)
-        outcome = Outcome.WRONG
-        if ours:
-            outcome = Outcome.STALLED if isinstance(error, ConvergenceError) else outcome
-            outcome = Outcome.REFUSED if refused else outcome
-        return spot(
-            outcome=outcome,
-            why="" if ours else "fault",
-            iterations=getattr(error, "iterations", None),
-            cpu_s=time.process_time() - cpu,
-            message=str(error) if ours else f"{type(error).__name__}: {error}",
+
+    group: str
+    row: str
+    column: str
+    ask: Callable[[], Any]
+    judge: Callable[[Any], Judgement]
+    refused: bool = False
+
+    def spot(self) -> Spot:
+        """Ask and judge; an exception that is not one of the project's error classes is a fault, and wrong."""
+        place: dict[str, Any] = {"group": self.group, "row": self.row, "column": self.column}
+        cpu = time.process_time()
+        try:
+            answer = self.ask()
+        except Exception as error:  # every exception becomes a spot of the map
+            ours = isinstance(error, InputError | ConvergenceError | UnavailableError) and "\n" not in str(error)
+            outcome = MapOutcome.WRONG
+            if ours and self.refused:
+                outcome = MapOutcome.REFUSED
+            elif ours and isinstance(error, ConvergenceError):
+                outcome = MapOutcome.STALLED
+            return Spot(
+                **place,
+                outcome=outcome,
+                why="" if ours else "fault",
+                iterations=getattr(error, "iterations", None),
+                cpu_s=time.process_time() - cpu,
+                message=str(error) if ours else f"{type(error).__name__}: {error}",
+            )
+        cpu_s = time.process_time() - cpu
+        if self.refused:
+            return Spot(**place, outcome=MapOutcome.WRONG, cpu_s=cpu_s, message="an answer, where none exists")
+        judged = self.judge(answer)
+        good = MapOutcome.SLOW if judged.iterations > SLOW_ITERATIONS else MapOutcome.CONVERGED
+        return Spot(
+            **place,
+            outcome=good if judged.right else MapOutcome.WRONG,
+            iterations=judged.iterations,
+            cpu_s=cpu_s,
+            error=float(judged.error) if np.isfinite(judged.error) else None,
+            message=judged.message,
+            numbers=judged.numbers,
         )
-    spent = time.process_time() - cpu
-    if refused:
-        return spot(outcome=Outcome.WRONG, cpu_s=spent, message="an answer, where none exists")
-    found = judge(answer)
-    good = Outcome.SLOW if found.iterations > slow else Outcome.CONVERGED
-    return spot(
-        outcome=good if found.right else Outcome.WRONG,
-        iterations=found.iterations,
-        cpu_s=spent,
-        error=float(found.error) if np.isfinite(found.error) else None,
-        message=found.message,
-        numbers=found.numbers,
-    )
 
 
 def failed(failure: Failure, **place: Any) -> Spot:
-    """The spot of a run without an answer: refused, given up in one of the ways of a solver, or a fault."""
+    """The spot of a run without an answer: refused, stalled in one of the ways of a solver, or a fault."""
     if failure.kind == InputError.__name__:
-        outcome, why = Outcome.REFUSED, ""
+        outcome, why = MapOutcome.REFUSED, ""
     elif failure.kind in (ConvergenceError.__name__, UnavailableError.__name__):
-        outcome, why = Outcome.STALLED, MESH if "mesh check" in failure.message else failure.outcome
+        outcome, why = MapOutcome.STALLED, NO_MESH if "mesh check" in failure.message else failure.outcome
     else:
-        outcome, why = Outcome.WRONG, "fault"
+        outcome, why = MapOutcome.WRONG, "fault"
     return Spot(
         outcome=outcome,
         why="" if why == outcome else why,
@@ -163,93 +169,118 @@ def failed(failure: Failure, **place: Any) -> Spot:
     )
 
 
+Spots = tuple[Sequence[Spot], Mapping[str, str]]
+"""The spots of a map, and by name what was left out with the reason."""
+
+
 @dataclass(frozen=True, kw_only=True)
-class Map:
-    """A finished map, and what a reader must know of it.
+class StabilityMap:
+    """What a map shows, and the function that makes it.
 
     Attributes
     ----------
-    axes : what was varied, in words.
-    judge : what tells right from wrong, and what ``error`` counts, in words.
-    told : what was found, in words.
-    absent : what was left out, with the reason.
-    figures : SVG by name, beside the tables.
+    axes : the quantities that are varied, in words; {resolution} stands for the resolution.
+    judge : how right and wrong are told apart and how the error is measured, in words.
+    resolution, resolution_meaning : the default, and what it counts.
+    least, most, allowed : range of the resolution, and the same in words.
+    solve : solve(resolution, out, processes, scratch) gives the spots; runs that ``out`` already holds are used again.
+    summary : sentences about the spots.
+    draw : figures beside the tables as SVG, by name.
     """
 
-    family: str
+    name: str
     title: str
     axes: str
     judge: str
     resolution: int
     resolution_meaning: str
-    spots: Sequence[Spot]
-    told: Sequence[str]
-    absent: Mapping[str, str] = field(default_factory=dict)
-    figures: Mapping[str, str] = field(default_factory=dict)
+    solve: Callable[[int, Path, int, Path], Spots]
+    summary: Callable[[Sequence[Spot]], list[str]]
+    least: float = -math.inf
+    most: float = math.inf
+    allowed: str = ""
+    draw: Callable[[Sequence[Spot]], Mapping[str, str]] = field(default=lambda _spots: {})
 
-    @property
-    def entries(self) -> dict[str, Any]:
-        """For JSON and for the page; the figures lie beside."""
-        words = ("family", "title", "axes", "judge", "resolution", "resolution_meaning")
+    def make(
+        self, *, resolution: int | None, out: Path, processes: int, scratch: Path
+    ) -> tuple[dict[str, Any], Mapping[str, str]]:
+        """Make the map.
+
+        Returns
+        -------
+        dict, mapping
+            The map as JSON and the page hold it, and its figures as SVG by name.
+
+        Raises
+        ------
+        InputError
+            If the resolution is out of range.
+        """
+        resolution = self.resolution if resolution is None else resolution
+        if not self.least <= resolution <= self.most:
+            raise InputError(f"--resolution: got {resolution}; {self.allowed}")
+        spots, absent = self.solve(resolution, out, processes, scratch)
         return {
-            **{name: getattr(self, name) for name in words},
-            "counts": {outcome.value: count(self.spots, outcome) for outcome in Outcome},
-            "cpu_s": sum(spot.cpu_s for spot in self.spots),
-            "in_words": list(self.told),
-            "absent": dict(self.absent),
-            "runs": [spot.entries for spot in self.spots],
+            "family": self.name,
+            "title": self.title,
+            "axes": self.axes.format(resolution=resolution),
+            "judge": self.judge,
+            "resolution": resolution,
+            "resolution_meaning": self.resolution_meaning,
+            "counts": {outcome.value: count(spots, outcome) for outcome in MapOutcome},
+            "cpu_s": sum(spot.cpu_s for spot in spots),
+            "in_words": self.summary(spots),
+            "absent": dict(absent),
+            "runs": [spot.entries for spot in spots],
             "provenance": {"machine": machine(), "code": code(), "commit": commit(), "versions": versions()},
-        }
+        }, self.draw(spots)
 
 
-class Family(Protocol):
-    """What is mapped; ``resolution`` is the default, ``resolution_meaning`` says in words what it counts."""
+def in_turn(probes: Callable[[int], Iterable[Probe]]) -> Callable[[int, Path, int, Path], Spots]:
+    """A ``solve`` that asks all probes of a resolution one after the other, so that CPU times can be compared."""
 
-    @property
-    def resolution(self) -> int:
-        """By default."""
-        ...
+    def solve(resolution: int, _out: Path, _processes: int, _scratch: Path) -> Spots:
+        asked = list(probes(resolution))
+        spots: list[Spot] = []
+        with progress_bar(len(asked)) as advance:
+            for probe in asked:
+                advance(len(spots), f"{probe.group}: {probe.row}, {probe.column}")
+                spots.append(probe.spot())
+        return spots, {}
 
-    @property
-    def resolution_meaning(self) -> str:
-        """What it counts."""
-        ...
-
-    def make(self, *, resolution: int, out: Path, processes: int, scratch: Path) -> Map:
-        """Solve what is not in ``out`` already, and put all of it together."""
-        ...
+    return solve
 
 
-def count(spots: Iterable[Spot], *outcomes: Outcome) -> int:
-    """How many came to this."""
+def count(spots: Iterable[Spot], *outcomes: MapOutcome) -> int:
+    """The number of spots with one of these outcomes."""
     return sum(spot.outcome in outcomes for spot in spots)
 
 
 def in_groups(spots: Sequence[Spot]) -> dict[str, list[Spot]]:
-    """By group, in the order in which these come."""
+    """The spots by group, in the order of the groups."""
     return {name: [spot for spot in spots if spot.group == name] for name in dict.fromkeys(s.group for s in spots)}
 
 
 def in_rows(spots: Sequence[Spot]) -> dict[str, dict[str, Spot]]:
-    """By row and column."""
+    """The spots by row and column."""
     return {
         row: {spot.column: spot for spot in spots if spot.row == row} for row in dict.fromkeys(s.row for s in spots)
     }
 
 
-def summed(spots: Sequence[Spot]) -> str:
-    """How many are right, slow, stalled and wrong, in words."""
+def in_numbers(spots: Sequence[Spot]) -> str:
+    """The numbers of right, slow, stalled and wrong spots, in words."""
     parts = [f"{count(spots, *GOOD)} of {len(spots)} right"]
     parts += [
-        f"{count(spots, outcome)} {'of these slowly' if outcome is Outcome.SLOW else outcome}"
-        for outcome in Outcome
-        if outcome is not Outcome.CONVERGED and count(spots, outcome)
+        f"{count(spots, outcome)} {'of these slowly' if outcome is MapOutcome.SLOW else outcome}"
+        for outcome in MapOutcome
+        if outcome is not MapOutcome.CONVERGED and count(spots, outcome)
     ]
     return ", ".join(parts)
 
 
-def named(spots: Iterable[Spot], *outcomes: Outcome) -> list[str]:
-    """The questions that came to this, one a line."""
+def listed(spots: Iterable[Spot], *outcomes: MapOutcome) -> list[str]:
+    """The spots with one of these outcomes, one a line."""
     return [
         f"{(spot.why or spot.outcome).capitalize()}: {spot.place}"
         + (f" ({spot.iterations} iterations)" if spot.iterations else "")
@@ -260,7 +291,7 @@ def named(spots: Iterable[Spot], *outcomes: Outcome) -> list[str]:
 
 
 def columns_of(maps: Sequence[Mapping[str, Any]]) -> dict[str, Column]:
-    """Every question of some maps' entries, one a row, with the numbers that all of the maps tell."""
+    """All spots of some maps, one a row, with the numbers that all of these maps have."""
     rows = [(one["family"], run) for one in maps for run in one["runs"]]
     shared = [{name for run in one["runs"] for name in run["numbers"]} for one in maps]
     own = sorted(set.intersection(*shared)) if shared else []
@@ -281,10 +312,10 @@ def columns_of(maps: Sequence[Mapping[str, Any]]) -> dict[str, Column]:
     }
 
 
-def table_of(counted: Mapping[str, Sequence[Mapping[str, Any]]], what: str) -> Table:
-    """How many runs by name came to which outcome, for the terminal."""
-    met = [one for one in Outcome if any(run["outcome"] == one for runs in counted.values() for run in runs)]
-    table = Table(what, *(outcome.value for outcome in met), "most iterations", "CPU s")
+def table_of(counted: Mapping[str, Sequence[Mapping[str, Any]]], title: str) -> Table:
+    """A table of the number of runs by name and outcome, for the terminal."""
+    met = [one for one in MapOutcome if any(run["outcome"] == one for runs in counted.values() for run in runs)]
+    table = Table(title, *(outcome.value for outcome in met), "most iterations", "CPU s")
     for name, runs in counted.items():
         counts = (str(sum(run["outcome"] == outcome for run in runs)) for outcome in met)
         most = max((run["iterations"] or 0 for run in runs), default=0)

@@ -1,8 +1,8 @@
-"""Where the models of a rough gap converge, and how they fail elsewhere: judged by exact flow, or by finer meshes."""
+"""The map of the models of a rough gap, judged by exact Stokes flow or by finer meshes."""
 
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,57 +15,69 @@ from roughfilm.batch.jobs import Failure, Job
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.figures.base import svg
 from roughfilm.figures.views.rough_gap import STYLES
-from roughfilm.ladder import models
 from roughfilm.rom.ladder.result import Result
-from roughfilm.stability.checks.gap import JUDGED, Truth, agreeing, exact_stokes, exact_thin, extrapolated
-from roughfilm.stability.form import GOOD, SECOND, Map, Outcome, Spot, count, failed, in_groups, in_rows
-from roughfilm.stability.questions.gap import CUT, CUTS, Probe, probes
+from roughfilm.stability.checks.gap import JUDGED, Coefficients, agreeing, exact_stokes, exact_thin, extrapolated
+from roughfilm.stability.form import (
+    GOOD,
+    SECOND_TRY,
+    MapOutcome,
+    Spot,
+    Spots,
+    StabilityMap,
+    count,
+    failed,
+    in_groups,
+    in_rows,
+)
+from roughfilm.stability.pocket import available_models
+from roughfilm.stability.questions.gap import CUT, CUTS, GapProbe, gap_runs
 
-KIND = "rough_gap"
-FEWEST, MOST = 32, 64
+MIN_COLUMNS, MAX_COLUMNS = 32, 64
 
-ALLOWED = 0.05
-"""A larger part of a coefficient than this is inaccurate."""
+ALLOWED_ERROR = 0.05
+"""Relative error of a coefficient above which it is inaccurate."""
 
-LEAST = 1e-3
-"""Coefficients below this part of a smooth gap's are judged as if they were as large."""
+MIN_COEFFICIENT = 1e-3
+"""Smaller coefficients, over those of a smooth gap, are judged as if they were this large."""
 
-SLOW = {"homogenized": 100, "slope_corrected": 100, "stokes": 600, "navier_stokes": 600}
-"""More iterations than this, of all drives together, are slow."""
+SLOW_ITERATIONS = {"homogenized": 100, "slope_corrected": 100, "stokes": 600, "navier_stokes": 600}
+"""Iterations of all drives together above which a run is slow, by model."""
 
-ROUNDING = 1e-9
+ROUND_OFF = 1e-9
+"""Allowed excess of an error over the uncertainty."""
 
-
-UNJUDGED = "nothing finer to judge it by"
+UNJUDGED = "no reference"
 """Why a run that converged has no error."""
 
-TOO_SHORT, LEFT_OUT, CUT_OUT, TOLD, SILENT = (
-    "error bar too short",
-    "slope left out",
-    "contact cut out",
-    "told",
-    "not told",
-)
-"""Why an answer is wrong, or inaccurate."""
+TOO_SMALL = "uncertainty too small"
+SLOPE_LEFT_OUT = "slope left out"
+CUT_OUT = "contact cut out"
+REPORTED = "reported"
+NOT_REPORTED = "not reported"
 
 
-def spot_of(probe: Probe, answer: Result | Failure, truth: Truth | None, thin: Truth | None = None) -> Spot:
-    """The judged answer to a probe.
+def spot_of(
+    run: GapProbe, answer: Result | Failure, truth: Coefficients | None, thin: Coefficients | None = None
+) -> Spot:
+    """The judged answer to a run.
 
-    The error is by ``truth``, Stokes flow or whatever is the best at hand. ``thin`` is thin-film theory: what the error
-    bars of ``homogenized`` are about, and of all flows that with the most flow and the least friction.
+    Parameters
+    ----------
+    truth : what the error is measured by: Stokes flow, or the best that is known; None if nothing is.
+    thin : thin-film theory, which the uncertainties of ``homogenized`` refer to, and which has the largest flow and the
+        least friction of all flows; None for a pressed wall.
     """
-    place: dict[str, Any] = {"group": probe.group, "row": probe.row, "column": probe.column}
-    cells = _cells(probe)
+    place: dict[str, Any] = {"group": run.group, "row": run.row, "column": run.column}
+    cells = _cell_shape(run)
     if isinstance(answer, Failure):
         blank: dict[str, float | None] = dict.fromkeys(("imbalance", *JUDGED))
         spot = failed(answer, **place, numbers=blank)
         return replace(spot, message=f"{spot.message} {cells}".strip())
-    values = {name: answer.quantities[name].value for name in JUDGED if name in answer.quantities}
-    imbalance = max((run.imbalance for run in answer.numerics.runs if run.imbalance is not None), default=None)
+    values = {name: answer[name].value for name in JUDGED if name in answer.quantities}
+    imbalance = max((one.imbalance for one in answer.numerics.runs if one.imbalance is not None), default=None)
     spot = Spot(
         **place,
-        outcome=Outcome.CONVERGED,
+        outcome=MapOutcome.CONVERGED,
         why="" if truth else UNJUDGED,
         iterations=answer.numerics.iterations,
         cpu_s=answer.numerics.cpu_s,
@@ -74,164 +86,141 @@ def spot_of(probe: Probe, answer: Result | Failure, truth: Truth | None, thin: T
     )
     worst = ""
     if truth:
-        parts = {n: abs(values[n] - right) / max(abs(right), LEAST) for n, right in truth.values.items() if n in values}
-        worst = max(parts, key=lambda name: parts[name])
-        spot = replace(spot, error=parts[worst], message=f"{worst} judged by {truth.source} {cells}".strip())
-    plain = probe.setting.model.name == "homogenized"
-    bars = {name: one.uncertainty for name, one in answer.quantities.items() if one.uncertainty is not None}
+        errors = {
+            name: abs(values[name] - right) / max(abs(right), MIN_COEFFICIENT)
+            for name, right in truth.values.items()
+            if name in values
+        }
+        worst = max(errors, key=lambda name: errors[name])
+        spot = replace(spot, error=errors[worst], message=f"{worst} judged by {truth.source} {cells}".strip())
+    homogenized = run.setting.model.name == "homogenized"
+    uncertainties = {name: one.uncertainty for name, one in answer.quantities.items() if one.uncertainty is not None}
     warned = bool(answer.warnings)
-    if short := _short(values, bars, thin if plain else truth):
-        return replace(spot, outcome=Outcome.WRONG, why=TOO_SHORT, message=short)
-    if thin and not plain and (beyond := _beyond(values, bars, thin)):
-        outcome, why = (Outcome.INACCURATE, TOLD) if warned else (Outcome.WRONG, SILENT)
-        return replace(spot, outcome=outcome, why=why, message=f"{beyond}; {spot.message}".strip("; "))
-    if spot.error is not None and spot.error > ALLOWED:
-        why = CUT_OUT if probe.wave is None else LEFT_OUT if plain else TOLD if warned or worst in bars else SILENT
-        return replace(spot, outcome=Outcome.WRONG if why == SILENT else Outcome.INACCURATE, why=why)
-    if any(run.recipe for run in answer.numerics.runs):
-        return replace(spot, outcome=Outcome.SLOW, why=SECOND)
-    slow = (spot.iterations or 0) > SLOW[answer.model]
-    return replace(spot, outcome=Outcome.SLOW if slow else Outcome.CONVERGED)
+    if message := _too_small(values, uncertainties, thin if homogenized else truth):
+        return replace(spot, outcome=MapOutcome.WRONG, why=TOO_SMALL, message=message)
+    if thin and not homogenized and (message := _impossible(values, uncertainties, thin)):
+        outcome, why = (MapOutcome.INACCURATE, REPORTED) if warned else (MapOutcome.WRONG, NOT_REPORTED)
+        return replace(spot, outcome=outcome, why=why, message=f"{message}; {spot.message}".strip("; "))
+    if spot.error is not None and spot.error > ALLOWED_ERROR:
+        why = REPORTED if warned or worst in uncertainties else NOT_REPORTED
+        why = CUT_OUT if run.wave is None else SLOPE_LEFT_OUT if homogenized else why
+        return replace(spot, outcome=MapOutcome.WRONG if why == NOT_REPORTED else MapOutcome.INACCURATE, why=why)
+    if any(one.recipe for one in answer.numerics.runs):
+        return replace(spot, outcome=MapOutcome.SLOW, why=SECOND_TRY)
+    slow = (spot.iterations or 0) > SLOW_ITERATIONS[answer.model]
+    return replace(spot, outcome=MapOutcome.SLOW if slow else MapOutcome.CONVERGED)
 
 
-def _short(values: Mapping[str, float], bars: Mapping[str, float], right: Truth | None) -> str:
-    """Which error bars are too short, in words."""
-    if right is None:
+def _too_small(values: Mapping[str, float], uncertainties: Mapping[str, float], truth: Coefficients | None) -> str:
+    """The uncertainties that do not cover the error, in words."""
+    if truth is None:
         return ""
-    errors = {name: abs(values[name] - right.values[name]) for name in right.values if name in bars and name in values}
-    short = [name for name, error in errors.items() if error > bars[name] + right.off[name] + ROUNDING]
-    return ", ".join(f"{name} off by {errors[name]:.2g}, its bar is {bars[name]:.2g}" for name in short)
+    judged = [name for name in truth.values if name in uncertainties and name in values]
+    errors = {name: abs(values[name] - truth.values[name]) for name in judged}
+    return ", ".join(
+        f"{name}: error {error:.2g}, uncertainty {uncertainties[name]:.2g}"
+        for name, error in errors.items()
+        if error > uncertainties[name] + truth.uncertainties[name] + ROUND_OFF
+    )
 
 
-def _beyond(values: Mapping[str, float], bars: Mapping[str, float], thin: Truth) -> str:
-    """What is not possible: more flow, or less friction, than in thin films."""
+def _impossible(values: Mapping[str, float], uncertainties: Mapping[str, float], thin: Coefficients) -> str:
+    """More flow, or less friction, than in thin films, in words."""
     for name, sign in (("A11", 1), ("A22", 1), ("friction", -1)):
         if name not in values:
             continue
-        slack = ALLOWED * max(thin.values[name], LEAST) + thin.off[name] + bars.get(name, 0.0)
-        if sign * (values[name] - thin.values[name]) > slack:
-            told = "more flow" if sign > 0 else "less friction"
-            return (
-                f"{told} than is possible: {name} is {values[name]:.3g}, thin-film theory has {thin.values[name]:.3g}"
-            )
+        right = thin.values[name]
+        slack = ALLOWED_ERROR * max(right, MIN_COEFFICIENT) + thin.uncertainties[name] + uncertainties.get(name, 0.0)
+        if sign * (values[name] - right) > slack:
+            words = "more flow" if sign > 0 else "less friction"
+            return f"{words} than is possible: {name} is {values[name]:.3g}, {right:.3g} by thin-film theory"
     return ""
 
 
-def _cells(probe: Probe) -> str:
-    """How long the cells are, over how thick."""
-    if probe.wave is None or probe.setting.resolution is None or probe.scene.layers is None:
+def _cell_shape(run: GapProbe) -> str:
+    """The length of the cells over their thickness, in words."""
+    if run.wave is None or run.setting.resolution is None or run.scene.layers is None:
         return ""
-    return f"(cells {probe.wave.wavelength / probe.setting.resolution * probe.scene.layers:.3g} times as long as thick)"
+    return f"(cells {run.wave.wavelength / run.setting.resolution * run.scene.layers:.3g} times as long as thick)"
 
 
-Answered = tuple[Probe, Result | Failure]
+GapAnswer = tuple[GapProbe, Result | Failure]
 
 
-@dataclass(frozen=True, kw_only=True)
-class GapFamily:
-    """The probes of the models of a rough gap."""
-
-    resolution: int = FEWEST
-    resolution_meaning: str = "mesh columns of OpenFOAM's finest bumps, half as many as of its finest ridges"
-
-    def make(self, *, resolution: int, out: Path, processes: int, scratch: Path) -> Map:
-        """Solve what is not in ``out`` already, and judge all of it."""
-        if not FEWEST <= resolution <= MOST or resolution % 2:
-            raise InputError(f"--resolution: got {resolution}; it must be even, {FEWEST} to {MOST}")
-        ladder = models(KIND)
-        absent = {model.name: it.detail for model in ladder if not (it := model.available()).available}
-        asked = list(probes([model for model in ladder if model.name not in absent], resolution))
-        jobs = [_job(probe, out) for probe in asked]
-        answers = answers_to(list({job.path: job for job in jobs}.values()), processes, scratch)
-        found = [(probe, answers[job.path]) for probe, job in zip(asked, jobs, strict=True)]
-        with local(processes, scratch) as executor:
-            spots = judged(found, executor)
-        return Map(
-            family=KIND,
-            title="Rough gaps in three dimensions",
-            axes="A gap of mean height h between a flat wall, which also slides, and ridges a cos(2πx/L), bumps "
-            "a cos(2πx/L) cos(2πy/L) (a and L over h), or a wall pressed against it: how near the walls come (columns: "
-            "the least distance, over h), how steep they are, contact (columns: the smallest gap that is open, over "
-            f"h), the shape of cells, inertia. OpenFOAM with {resolution} mesh columns and other numbers of "
-            "them as told, "
-            "with a quarter as many layers where nothing else is said.",
-            judge=f"The error is that of the coefficient ({', '.join(JUDGED)}) that is off most, over itself, by exact "
-            "Stokes flow where it is known, else by what two meshes tend to; of pressed walls that of A against the "
-            f"smallest gap of all. Good is within {ALLOWED:.0%} and within the error bar told; those of homogenized, "
-            "which leaves out slope, are held to thin-film theory. Iterations are those of all drives; slow is above "
-            f"{SLOW['homogenized']} of thin films, {SLOW['stokes']} of OpenFOAM.",
-            resolution=resolution,
-            resolution_meaning=self.resolution_meaning,
-            spots=spots,
-            told=in_words(spots),
-            absent=absent,
-            figures={"against_cut": against_cut(spots)},
-        )
+def solve(resolution: int, out: Path, processes: int, scratch: Path) -> Spots:
+    """Solve and judge all runs."""
+    if resolution % 2:
+        raise InputError(f"--resolution: got {resolution}; {GAP.allowed}")
+    here, absent = available_models("rough_gap")
+    runs = list(gap_runs(here, resolution))
+    jobs = [
+        Job(scene=run.scene, setting=run.setting, path=out / "runs" / run.place / f"{run.setting.name}.h5")
+        for run in runs
+    ]
+    answers = answers_to(list({job.path: job for job in jobs}.values()), processes, scratch)
+    with local(processes, scratch) as executor:
+        return judged([(run, answers[job.path]) for run, job in zip(runs, jobs, strict=True)], executor), absent
 
 
-def _job(probe: Probe, out: Path) -> Job:
-    path = out / "runs" / probe.place / f"{probe.setting.name}.h5"
-    return Job(scene=probe.scene, setting=probe.setting, path=path)
-
-
-def judged(found: Sequence[Answered], executor: Executor) -> list[Spot]:
-    """Every answer, judged by thin-film theory or Stokes flow of its wave, by two meshes, or by the smallest cut."""
-    waves = list(dict.fromkeys(probe.wave for probe, _ in found if probe.wave))
+def judged(answers: Sequence[GapAnswer], executor: Executor) -> list[Spot]:
+    """The judged answers: by theory for their wave, by two meshes, or by the smallest cut."""
+    waves = list(dict.fromkeys(run.wave for run, _ in answers if run.wave))
     thin = dict(zip(waves, executor.map(exact_thin, waves), strict=True))
     stokes = dict(zip(waves, executor.map(exact_stokes, waves), strict=True))
-    meshes = _two_meshes(found)
+    meshes = _two_meshes(answers)
     spots = []
-    for probe, answer in found:
-        model = probe.setting.model.name
-        if probe.wave is None:
-            spots.append(spot_of(probe, answer, _at_least_cut(probe, found)))
+    for run, answer in answers:
+        if run.wave is None:
+            spots.append(spot_of(run, answer, _at_least_cut(run, answers)))
             continue
-        truth = stokes[probe.wave] if model != "navier_stokes" else None
+        inertia = run.setting.model.name == "navier_stokes"
+        truth = None if inertia else stokes[run.wave]
         if truth is None:
-            truth = meshes.get((probe.place, "navier_stokes" if model == "navier_stokes" else "stokes"))
-            truth = truth if probe.setting.resolution else agreeing(truth)
-        spots.append(spot_of(probe, answer, truth, thin[probe.wave]))
+            truth = meshes.get((run.place, "navier_stokes" if inertia else "stokes"))
+            truth = truth if run.setting.resolution else agreeing(truth)
+        spots.append(spot_of(run, answer, truth, thin[run.wave]))
     return spots
 
 
-def _two_meshes(found: Sequence[Answered]) -> dict[tuple[str, str], Truth]:
-    """By the scene and the model, where both meshes have an answer."""
-    runs: dict[tuple[str, str], dict[int, Result]] = {}
-    for probe, answer in found:
-        setting = probe.setting
+def _two_meshes(answers: Sequence[GapAnswer]) -> dict[tuple[str, str], Coefficients]:
+    """The limits of two meshes by scene and model, where both meshes have an answer."""
+    results: dict[tuple[str, str], dict[int, Result]] = {}
+    for run, answer in answers:
+        setting = run.setting
         if isinstance(answer, Result) and setting.resolution and setting.scheme != "upwind":
-            runs.setdefault((probe.place, setting.model.name), {})[setting.resolution] = answer
-    return {key: extrapolated(own[min(own)], own[max(own)]) for key, own in runs.items() if len(own) == 2}
+            results.setdefault((run.place, setting.model.name), {})[setting.resolution] = answer
+    return {key: extrapolated(own[min(own)], own[max(own)]) for key, own in results.items() if len(own) == 2}
 
 
-def _at_least_cut(probe: Probe, found: Sequence[Answered]) -> Truth | None:
-    """A of the same setting where the least is cut out: the error told is that of cutting out more.
+def _at_least_cut(run: GapProbe, answers: Sequence[GapAnswer]) -> Coefficients | None:
+    """A of the same setting at the smallest cut, so that the error is that of cutting out more.
 
-    Error bars of the model do not count here, as both answers are off alike.
+    Uncertainties of the model do not count here, as they are common to both answers.
     """
-    last = f"{min(CUTS):g}"
-    least = next(
-        answer for other, answer in found if (other.group, other.row, other.column) == (probe.group, probe.row, last)
-    )
+    place = (run.group, run.row, f"{min(CUTS):g}")
+    least = next(answer for other, answer in answers if (other.group, other.row, other.column) == place)
     if isinstance(least, Failure):
         return None
-    values = {name: least.quantities[name].value for name in ("A11", "A22")}
-    return Truth(values=values, off=dict.fromkeys(values, np.inf), source=f"its own answer at a smallest gap of {last}")
+    values = {name: least[name].value for name in ("A11", "A22")}
+    source = f"its own answer at a smallest gap of {place[-1]}"
+    return Coefficients(values=values, uncertainties=dict.fromkeys(values, np.inf), source=source)
 
 
-def in_words(spots: Sequence[Spot]) -> list[str]:
-    """What a reader should know: of every group, where it is not good, and how."""
+def summary(spots: Sequence[Spot]) -> list[str]:
+    """Sentences about the map: where each group is not good, and the balance of the forces on the walls."""
     lines = []
     for group, own in in_groups(spots).items():
         words = dict.fromkeys(spot.why or spot.outcome for spot in own if spot.outcome not in GOOD)
-        told = [f"{word} at {_places([spot for spot in own if (spot.why or spot.outcome) == word])}" for word in words]
-        lines.append("; ".join([f"{group}: good at {count(own, *GOOD)} of {len(own)} places", *told]) + ".")
+        faults = [
+            f"{word} at {_places([spot for spot in own if (spot.why or spot.outcome) == word])}" for word in words
+        ]
+        lines.append("; ".join([f"{group}: good at {count(own, *GOOD)} of {len(own)} places", *faults]) + ".")
     held = [(imbalance, spot) for spot in spots if (imbalance := spot.numbers["imbalance"]) is not None]
     if held:
-        most, least = max(held, key=lambda pair: pair[0])
+        most, worst = max(held, key=lambda pair: pair[0])
         lines.append(
-            f"The walls hold the liquid within {most:.1e} of the drag of a smooth gap in all of {len(held)} resolved "
-            f"answers; the worst is {least.place}."
+            f"The forces of walls and pressure balance within {most:.1e} of the drag of a smooth gap in all "
+            f"{len(held)} resolved answers; the worst is {worst.place}."
         )
     return lines
 
@@ -241,14 +230,15 @@ def _places(spots: Sequence[Spot]) -> str:
 
 
 def against_cut(spots: Sequence[Spot]) -> str:
-    """A and friction against the smallest gap, of every pressed wall by every setting, as SVG."""
+    """A and friction against the smallest gap, for every pressed wall and setting, as SVG."""
     groups = {name: own for name, own in in_groups(spots).items() if name.startswith(f"{CUT}:")}
     figure = Figure(figsize=(10, 5.6), layout="constrained")
     panels = figure.subplots(2, len(groups), sharex=True, squeeze=False)
     for (name, own), column in zip(groups.items(), panels.T, strict=True):
-        finest = max(_columns(own), default=0)
+        rows = in_rows(own)
+        finest = max((int(columns) for row in rows if (columns := row.partition("-")[2])), default=0)
         for quantity, axes in zip(("A11", "friction"), column, strict=True):
-            for setting, cells in in_rows(own).items():
+            for setting, cells in rows.items():
                 model, _, columns = setting.partition("-")
                 known = [(float(c), value) for c, s in cells.items() if (value := s.numbers[quantity]) is not None]
                 if known:
@@ -269,8 +259,24 @@ def against_cut(spots: Sequence[Spot]) -> str:
     return svg(figure)
 
 
-def _columns(spots: Sequence[Spot]) -> set[int]:
-    return {int(columns) for spot in spots if (columns := spot.row.partition("-")[2])}
-
-
-GAP = GapFamily()
+GAP = StabilityMap(
+    name="rough_gap",
+    title="Rough gaps in three dimensions",
+    axes="A gap of mean height h between a flat wall, which also slides, and ridges a cos(2πx/L), bumps "
+    "a cos(2πx/L) cos(2πy/L) (a and L over h), or a wall pressed against it: distance of the walls (columns: "
+    "the least distance, over h), slope, contact (columns: the smallest gap that is open, over h), shape of cells, "
+    "inertia. OpenFOAM has {resolution} mesh columns unless a row says otherwise, with a quarter as many layers.",
+    judge=f"The error is the largest relative error of the coefficients {', '.join(JUDGED)}, by exact "
+    "Stokes flow where it is known, else by the limit of two meshes; for pressed walls that of A against the "
+    f"smallest gap of all. Good is within {ALLOWED_ERROR:.0%} and within the uncertainty; uncertainties of "
+    "homogenized, which leaves out slope, refer to thin-film theory. Iterations are those of all drives; slow is above "
+    f"{SLOW_ITERATIONS['homogenized']} of thin films, {SLOW_ITERATIONS['stokes']} of OpenFOAM.",
+    resolution=MIN_COLUMNS,
+    resolution_meaning="mesh columns of OpenFOAM's finest bumps, half as many as of its finest ridges",
+    least=MIN_COLUMNS,
+    most=MAX_COLUMNS,
+    allowed=f"it must be even, {MIN_COLUMNS} to {MAX_COLUMNS}",
+    solve=solve,
+    summary=summary,
+    draw=lambda spots: {"against_cut": against_cut(spots)},
+)

@@ -1,14 +1,12 @@
-"""Where pressed seals and mixed films are answered as nature allows: by laws that no model may break."""
+"""The maps of pressed seals and of mixed films, judged by physical laws that no model may break."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
-from pathlib import Path
+from itertools import product
 from typing import Any
 
 import numpy as np
 
-from roughfilm.contact.foundation.errors import InputError
 from roughfilm.ladder import find, models
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.model import Model
@@ -16,28 +14,42 @@ from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.stability.checks.invariants import broken
-from roughfilm.stability.form import BAD, Judged, Map, Outcome, Spot, count, in_groups, named, summed, tried
-from roughfilm.terminal.console import progress_bar
+from roughfilm.stability.form import (
+    BAD,
+    Judgement,
+    MapOutcome,
+    Probe,
+    Spot,
+    StabilityMap,
+    count,
+    in_groups,
+    in_numbers,
+    in_turn,
+    listed,
+)
 
-FEWEST, MOST = 32, 256
-"""Points along a side of the surfaces."""
+SIDE = 1e-3
+"""Period of the surfaces, m."""
 
-SEED, SIDE, ROUGHNESS = 20071, 1e-3, 1e-6
-"""m: the period of the surfaces, and their rms height."""
+ROUGHNESS = 1e-6
+"""Rms height of the surfaces, m."""
 
-SLACK = 1e-6
-"""A part by which what must fall with the load may grow, besides the error bars."""
+SEED = 20071
+
+MONOTONE_TOLERANCE = 1e-6
+"""Relative growth that is allowed where a quantity must fall, besides the uncertainties."""
 
 LOADS = (1e-3, 3e-3, 0.01, 0.03, 0.1, 0.2, 0.3, 0.5, 1.0)
-"""P/(E* g'), from a touch to past sealing."""
+"""Loads P/(E* g'), from first contact to past sealing."""
 
 SEPARATIONS = (10.0, 5.0, 3.0, 2.0, 1.0, 0.5, 0.0)
-"""Of the mean planes, over the rms height: from full film to crushed tips."""
+"""Separations of the mean planes over the rms height, from full film to crushed asperities."""
 
 SPEEDS = (0.0, 1e-3, 0.03, 1.0, 30.0, -1.0)
-"""m/s."""
+"""Sliding speeds, m/s."""
 
 CELLS = 32
+"""Cells along a side of the mixed films."""
 
 SHAPES: Mapping[str, Mapping[str, Any]] = {
     "pad": {"shape": "linear", "length": "20 mm", "width": "10 mm", "rise": "5 um"},
@@ -51,60 +63,41 @@ SHAPES: Mapping[str, Mapping[str, Any]] = {
     },
 }
 
-
-@dataclass(frozen=True, kw_only=True)
-class Probe:
-    """A scene for a rung, and where it stands; ``falling`` must not grow from one column of a row to the next."""
-
-    group: str
-    row: str
-    column: str
-    model: Model
-    scene: Callable[[], Scene]
-    resolution: int | None
-    falling: str
-    refused: bool = False
+SHOWN = ("permeability", "area_fraction", "load_per_width", "contact_share", "least_gap", "friction_coefficient")
+"""Quantities that a spot shows."""
 
 
 def surfaces(points: int) -> dict[str, dict[str, Any]]:
-    """Descriptions of rough walls by name."""
-    told = {"size": [f"{SIDE!r} m"] * 2, "points": [points, points], "seed": SEED, "rms_height": f"{ROUGHNESS!r} m"}
-    waves = {"roll_off": f"{SIDE / 4!r} m", "cut_off": f"{6 * SIDE / points!r} m"}
-    length = f"{3 * SIDE / points!r} m"
+    """Descriptions of rough surfaces by name."""
+    shared = {"size": [f"{SIDE!r} m"] * 2, "points": [points, points], "seed": SEED, "rms_height": f"{ROUGHNESS!r} m"}
+    waves = {"kind": "self_affine", "roll_off": f"{SIDE / 4!r} m", "cut_off": f"{6 * SIDE / points!r} m", **shared}
+    ridges = {"kind": "gaussian", "correlation_length": f"{3 * SIDE / points!r} m", "anisotropy": 4, **shared}
     return {
-        "self-affine, Hurst 0.8": {"kind": "self_affine", "hurst": 0.8, **waves, **told},
-        "self-affine, Hurst 0.3": {"kind": "self_affine", "hurst": 0.3, **waves, **told},
-        "ridges along the flow": {"kind": "gaussian", "correlation_length": length, "anisotropy": 4, **told},
-        "ridges across the flow": {
-            "kind": "gaussian",
-            "correlation_length": length,
-            "anisotropy": 4,
-            "lay_angle": "90 deg",
-            **told,
-        },
+        "self-affine, Hurst 0.8": {**waves, "hurst": 0.8},
+        "self-affine, Hurst 0.3": {**waves, "hurst": 0.3},
+        "ridges along the flow": ridges,
+        "ridges across the flow": {**ridges, "lay_angle": "90 deg"},
     }
 
 
 def seals(points: int) -> Iterator[Probe]:
-    """Surfaces pressed harder and harder, elastic and not."""
-    ladder = models("seal")
-    for name, surface in surfaces(points).items():
-        for hardness in (None, 0.5):
-            group = name + ("" if hardness is None else f", H = {hardness:g} E* g'")
-            unit = _seal(surface, 1.0, None).pressure_unit
-            limit = None if hardness is None else hardness * unit
-            for model in ladder:
-                for load in LOADS:
-                    yield Probe(
-                        group=group,
-                        row=model.name,
-                        column=f"P = {load:g} E* g'",
-                        model=model,
-                        scene=partial(_seal, surface, load * unit, limit),
-                        resolution=None,
-                        falling="permeability",
-                        refused=hardness is not None and load > hardness,
-                    )
+    """Surfaces pressed by growing loads, elastic and with a hardness, by every model."""
+    for (name, surface), hardness in product(surfaces(points).items(), (None, 0.5)):
+        group = name + ("" if hardness is None else f", H = {hardness:g} E* g'")
+        unit = _seal(surface, 1.0, None).pressure_unit
+        limit = None if hardness is None else hardness * unit
+        for model in models("seal"):
+            before: list[Result] = []
+            for load in LOADS:
+                scene = partial(_seal, surface, load * unit, limit)
+                yield Probe(
+                    group=group,
+                    row=model.name,
+                    column=f"P = {load:g} E* g'",
+                    ask=partial(_solved, model, scene, None),
+                    judge=partial(judged, "permeability", before),
+                    refused=hardness is not None and load > hardness,
+                )
 
 
 def _seal(surface: Mapping[str, Any], pressure: float, hardness: float | None) -> Any:
@@ -123,28 +116,27 @@ def _seal(surface: Mapping[str, Any], pressure: float, hardness: float | None) -
 
 
 def films(points: int) -> Iterator[Probe]:
-    """Bearings whose walls come nearer and nearer, at rest to fast, and backwards."""
+    """Bearings whose walls approach, at rest, at speed and backwards."""
     model = find("bearing", "mixed")
-    for shape, geometry in SHAPES.items():
-        for name, surface in list(surfaces(points).items())[::2]:
-            for speed in SPEEDS:
-                for separation in SEPARATIONS:
-                    yield Probe(
-                        group=f"{shape}, {name.replace('flow', 'sliding')}",
-                        row=f"{speed:g} m/s",
-                        column=f"α = {separation:g} Sq",
-                        model=model,
-                        scene=partial(_film, geometry, surface, separation * ROUGHNESS, speed),
-                        resolution=CELLS,
-                        falling="least_gap",
-                        refused=separation == 0,
-                    )
+    rough = list(surfaces(points).items())[::2]
+    for (shape, geometry), (name, surface), speed in product(SHAPES.items(), rough, SPEEDS):
+        before: list[Result] = []
+        for separation in SEPARATIONS:
+            scene = partial(_film, geometry, surface, separation * ROUGHNESS, speed)
+            yield Probe(
+                group=f"{shape}, {name.replace('flow', 'sliding')}",
+                row=f"{speed:g} m/s",
+                column=f"α = {separation:g} Sq",
+                ask=partial(_solved, model, scene, CELLS),
+                judge=partial(judged, "least_gap", before),
+                refused=separation == 0,
+            )
 
 
 def _film(geometry: Mapping[str, Any], surface: Mapping[str, Any], separation: float, speed: float) -> Scene:
-    film = {"film": f"{separation!r} m"}
+    film: dict[str, Any] = {"film": f"{separation!r} m"}
     if geometry["shape"] == "journal":
-        film = {"eccentricity": 1 - separation / 50e-6}  # type: ignore[dict-item]
+        film = {"eccentricity": 1 - separation / 50e-6}
     entries = {
         "name": "a mixed film",
         "kind": "bearing",
@@ -157,109 +149,73 @@ def _film(geometry: Mapping[str, Any], surface: Mapping[str, Any], separation: f
     return read_scene(entries | ({"boundary": {"sides": {"low": "0.1 MPa"}}} if geometry["shape"] == "washer" else {}))
 
 
-def put(probe: Probe, before: Result | None) -> tuple[Spot, Result | None]:
-    """The answer of a rung, judged by the laws of its kind and by the answer before; and that answer."""
-    kept: list[Result] = []
-
-    def ask() -> tuple[Scene, Result]:
-        scene = probe.scene()
-        result = probe.model.solve(scene, Request(resolution=probe.resolution))
-        kept.append(result)
-        return scene, result
-
-    spot = partial(Spot, group=probe.group, row=probe.row, column=probe.column)
-    return tried(spot, ask, partial(judged, probe, before), refused=probe.refused), kept[0] if kept else before
+def _solved(model: Model, scene: Any, resolution: int | None) -> tuple[Scene, Result]:
+    read = scene()
+    return read, model.solve(read, Request(resolution=resolution))
 
 
-def judged(probe: Probe, before: Result | None, found: tuple[Scene, Result]) -> Judged:
-    """By the laws, and against what came before."""
-    scene, result = found
-    value = result.quantities[probe.falling].value
+def judged(falling: str, before: list[Result], answer: tuple[Scene, Result]) -> Judgement:
+    """The judgement of a result by the laws of its kind, and by the result before it in the row.
+
+    Parameters
+    ----------
+    falling : the quantity that must not grow along a row.
+    before : the last result of the row, if there is one; this one takes its place.
+    """
+    scene, result = answer
+    value = result[falling].value
     faults = broken(scene, result)
-    if before is not None:
-        last = before.quantities[probe.falling].value
-        bars = sum(one[probe.falling].uncertainty or 0.0 for one in (before, result))
-        if value > last * (1 + SLACK) + bars:
-            faults.append(f"{probe.falling} grows from {last:.6g} to {value:.6g}")
-    names = ("permeability", "area_fraction", "load_per_width", "contact_share", "least_gap", "friction_coefficient")
-    return Judged(
+    for last in before:
+        uncertainty = sum(one[falling].uncertainty or 0.0 for one in (last, result))
+        if value > last[falling].value * (1 + MONOTONE_TOLERANCE) + uncertainty:
+            faults.append(f"{falling} grows from {last[falling].value:.6g} to {value:.6g}")
+    before[:] = [result]
+    return Judgement(
         iterations=result.numerics.iterations,
         right=not faults,
         error=np.nan,
-        numbers={name: result.quantities[name].value for name in names if name in result.quantities},
+        numbers={name: result[name].value for name in SHOWN if name in result.quantities},
         message="; ".join(faults),
     )
 
 
-@dataclass(frozen=True, kw_only=True)
-class LawfulFamily:
-    """Probes whose answers are judged by laws alone."""
-
-    name: str
-    title: str
-    axes: str
-    judge: str
-    probes: Callable[[int], Iterator[Probe]]
-    resolution: int = 64
-    resolution_meaning: str = "points along a side of the surfaces"
-
-    def make(self, *, resolution: int, out: Path, processes: int, scratch: Path) -> Map:  # noqa: ARG002
-        """Try every probe, one after the other."""
-        if not FEWEST <= resolution <= MOST:
-            raise InputError(
-                f"--resolution: got {resolution}; the surfaces take {FEWEST} to {MOST} points along a side"
-            )
-        asked = list(self.probes(resolution))
-        spots: list[Spot] = []
-        last: dict[tuple[str, str], Result | None] = {}
-        with progress_bar(len(asked)) as advance:
-            for probe in asked:
-                advance(len(spots), f"{probe.group}: {probe.row}, {probe.column}")
-                spot, last[probe.group, probe.row] = put(probe, last.get((probe.group, probe.row)))
-                spots.append(spot)
-        return Map(
-            family=self.name,
-            title=self.title,
-            axes=self.axes,
-            judge=self.judge,
-            resolution=resolution,
-            resolution_meaning=self.resolution_meaning,
-            spots=spots,
-            told=told(spots),
-        )
-
-
-def told(spots: Sequence[Spot]) -> list[str]:
-    """What a reader should know."""
-    lines = [f"{name}: {summed(own)}." for name, own in in_groups(spots).items()]
+def summary(spots: Sequence[Spot]) -> list[str]:
+    """Sentences about the map: each group, the most iterations, and the number of refusals."""
+    lines = [f"{name}: {in_numbers(own)}." for name, own in in_groups(spots).items()]
     slowest = max(spots, key=lambda spot: spot.iterations or 0)
     lines.append(f"The most iterations: {slowest.iterations}, {slowest.place}.")
-    return [*lines, f"{count(spots, Outcome.REFUSED)} are refused.", *named(spots, *BAD)]
+    return [*lines, f"{count(spots, MapOutcome.REFUSED)} are refused.", *listed(spots, *BAD)]
 
 
-SEAL = LawfulFamily(
-    name="seal",
-    title="Seals that are pressed",
-    axes="Surfaces pressed from a touch to past sealing (columns), elastic and with a hardness, by every rung (rows).",
-    judge="By laws that share nothing with the models: sealed just where no open path leads through, told by "
-    "what hangs "
-    "together in copies of the period; else no more than if pressure were even over every section, no less than "
-    "if every "
-    "line leaked by itself; the conditions of the answer; and never more at a greater load.",
-    probes=seals,
+LawMap = partial(
+    StabilityMap,
+    resolution=64,
+    resolution_meaning="points along a side of the surfaces",
+    least=32,
+    most=256,
+    allowed="the surfaces take 32 to 256 points along a side",
+    summary=summary,
 )
 
-MIXED = LawfulFamily(
+SEAL = LawMap(
+    name="seal",
+    title="Seals that are pressed",
+    axes="Surfaces pressed from first contact to past sealing (columns), elastic and with a hardness, by every model "
+    "(rows).",
+    judge="Physical laws that share nothing with the models: the seal leaks nothing exactly where no open path exists; "
+    "otherwise no more than if the pressure were uniform over every section, and no less than if every line leaked "
+    "separately; the conditions of the result; and never more at a greater load.",
+    solve=in_turn(seals),
+)
+
+MIXED = LawMap(
     name="mixed",
     title="Mixed films",
-    axes="Pads, journals and washers whose walls come nearer, from full film to crushed tips (columns: "
-    "separation of the "
-    "mean planes over the rms height), at rest to 30 m/s and backwards (rows).",
-    judge="By laws that share nothing with the model: pressures at the nodes add up to the load, film and asperities "
-    "share it, parts are parts, pressure never below that of cavitation, friction not below that of the "
-    "asperities; and "
-    "the mean gap never grows as the walls come nearer. A separation of 0 is below what the scene takes for a "
-    "film, and "
-    "refused.",
-    probes=films,
+    axes="Pads, journals and washers whose walls approach, from full film to crushed asperities (columns: "
+    "separation of the mean planes over the rms height), at rest to 30 m/s and backwards (rows).",
+    judge="Physical laws that share nothing with the model: the pressures at the nodes add up to the load, film and "
+    "asperities share it, fractions are within 0 and 1, the pressure is never below that of cavitation, friction is "
+    "not below that of the asperities; and the mean gap never grows as the walls approach. A separation of 0 is no "
+    "film for the scene, and refused.",
+    solve=in_turn(films),
 )

@@ -7,7 +7,7 @@ import numpy as np
 
 @dataclass(frozen=True, kw_only=True)
 class Wave:
-    """Heights a cos(2πx/L) h̄, or a cos(2πx/L) cos(2πy/L) h̄ if ``bumps``, under a flat wall; L in mean gaps h̄."""
+    """Heights a cos(2πx/L) h̄ under a flat wall, or a cos(2πx/L) cos(2πy/L) h̄ if ``bumps``; L in mean gaps h̄."""
 
     amplitude: float
     wavelength: float
@@ -15,10 +15,15 @@ class Wave:
 
     @property
     def slope(self) -> float:
-        """Rms slope; of bumps and ridges alike."""
+        """The rms slope, which is the same for bumps and ridges."""
         return float(np.sqrt(2) * np.pi * self.amplitude / self.wavelength)
 
     @property
+    def kind(self) -> str:
+        """The word for the wave: bumps or ridges."""
+        return "bumps" if self.bumps else "ridges"
+
+    @property
     def name(self) -> str:
-        """Fit for a directory."""
-        return f"{'bumps' if self.bumps else 'ridges'}-a{self.amplitude:.12g}-L{self.wavelength:g}"
+        """The name of the wave in a file path."""
+        return f"{self.kind}-a{self.amplitude:.12g}-L{self.wavelength:g}"

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from roughfilm.rom.bearing.effects.ablation import Amount
-from roughfilm.rom.bearing.effects.contributions import Study
+from roughfilm.rom.bearing.effects.contributions import EffectStudy
 from roughfilm.words.numbers import percent, with_error
 
 ROUNDING = 1e-9
@@ -35,7 +35,7 @@ AT_FILM = ("load", "friction", "inlet_flow_per_width", "side_leakage")
 UNDER_LOAD = ("film", "friction_coefficient", "inlet_flow_per_width", "side_leakage")
 
 
-def shown_quantities(study: Study, names: Sequence[str]) -> dict[str, Shown]:
+def shown_quantities(study: EffectStudy, names: Sequence[str]) -> dict[str, Shown]:
     """The quantities of these names that a study has, each per width where there is none of the whole bearing."""
     names = [name if name in study.full else f"{name}_per_width" for name in names]
     return {name: SHOWN[name] for name in names if name in study.full and name in SHOWN}
@@ -51,7 +51,7 @@ def cell(amount: Amount | None, how: Shown, *, sign: bool = False) -> str:
     return f"+{text}" if sign and amount.value > 0 and not text.startswith("(") else text.replace("-", "−")
 
 
-def sentences(study: Study, name: str, inertia: Amount | None) -> list[str]:
+def sentences(study: EffectStudy, name: str, inertia: Amount | None) -> list[str]:
     """What each effect adds to one quantity, with its fraction of the whole, as sentences."""
     how, full = SHOWN[name], study.full[name]
     lines = []

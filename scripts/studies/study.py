@@ -2,6 +2,7 @@
 
 import json
 import math
+import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, is_dataclass
@@ -37,6 +38,25 @@ class Claim:
     text: str
     verdict: str
     evidence: str
+
+
+Judgement = tuple[str, str]
+"""Verdict on a claim and its evidence."""
+
+
+def texts(folder: Path) -> dict[str, Any]:
+    """Return the texts of a study from its ``study.toml``: claims of the source, captions, and open choices."""
+    path = folder / "study.toml"
+    return tomllib.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+
+
+def claims_of(module: str, judgements: Mapping[int, Judgement]) -> list[Claim]:
+    """Return the claims with these numbers, whose texts are in ``study.toml`` beside a module."""
+    claims = texts(Path(module).parent)["claims"]
+    return [
+        Claim(number=number, text=claims[str(number)], verdict=judged, evidence=evidence)
+        for number, (judged, evidence) in judgements.items()
+    ]
 
 
 def verdict(holds: bool | np.bool, *, partly: bool | np.bool) -> str:
@@ -106,7 +126,8 @@ def write(
 
     Parameters
     ----------
-    folder : that of the study, whose name is the name of the files, with ``page.html.j2`` (see ``base.html.j2``).
+    folder : that of the study, whose name is the name of the files, with ``page.html.j2`` (see ``base.html.j2``) and,
+        if it has any texts, ``study.toml``.
     out : directory for the files; made where it does not exist.
     figures : by name. A figure is written as an SVG file, and the page has it as ``plots[name]``.
     numbers : entries of the JSON file, as :func:`plain` takes them.
@@ -124,7 +145,7 @@ def write(
     with replacing(out / f"{folder.name}.json") as scratch:
         scratch.write_text(json.dumps(written, indent=1, allow_nan=False) + "\n", encoding="utf-8")
     page = out / f"{folder.name}.html"
-    render(folder / "page.html.j2", page, study=folder.name, plots=plots, **entries)
+    render(folder / "page.html.j2", page, **{**texts(folder), "study": folder.name, "plots": plots, **entries})
     return written, page
 
 
@@ -151,8 +172,3 @@ def publish(
         line = f"{claim.number}. {claim.text}: [bold]{claim.verdict}[/]; {escape(claim.evidence)}"
         output.print(line, soft_wrap=True)
     output.print(f"page: {escape(str(page))}", soft_wrap=True)
-
-
-def captions(drawings: Mapping[str, Callable[..., Figure]]) -> dict[str, str]:
-    """Return the caption of each figure: the docstring of the function that draws it."""
-    return {name: str(draw.__doc__) for name, draw in drawings.items()}

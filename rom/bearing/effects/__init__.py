@@ -1,1 +1,1 @@
-"""How much each physical effect contributes to a bearing."""
+"""The contributions of physical effects to the load, friction and flow of a bearing."""

@@ -1,4 +1,4 @@
-"""One bearing, several effects: the same scene without some of them, and what each of them adds."""
+"""Variants of a bearing without some of its physical effects, and the differences between variants."""
 
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -9,17 +9,17 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.film import averaged_film
-from roughfilm.rom.bearing.mixed.film import Seeping, mixed_problem
-from roughfilm.rom.bearing.mixed.reading import mixed_doubt, mixed_quantities
+from roughfilm.rom.bearing.mixed.film import FlooredFlowFactors, mixed_problem
+from roughfilm.rom.bearing.mixed.quantities import MIXED_OUTPUTS
 from roughfilm.rom.bearing.mixed.wall import asperities_of
-from roughfilm.rom.bearing.model import Reading
 from roughfilm.rom.bearing.numbers import without_texture
-from roughfilm.rom.bearing.quantities import bearing_quantities
+from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Outputs
 from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.solve import load_loops, odd, unresolved
+from roughfilm.rom.bearing.solve import load_loops
+from roughfilm.rom.bearing.uncertainty import grid_sequence
+from roughfilm.rom.bearing.warnings import grid_warnings, scene_warnings
 from roughfilm.rom.cavitation.problem import Problem
-from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.cavitation.solve import solve as balance
 from roughfilm.rom.homogenization.gap_factors import GapFactors
 from roughfilm.rom.ladder.model import Progress, silent
@@ -28,15 +28,15 @@ from roughfilm.rom.lubricants.viscosity import ConstantViscosity
 
 
 @dataclass(frozen=True, kw_only=True)
-class Composition:
-    """A bearing as it is taken: its scene, and what of it counts.
+class Variant:
+    """A bearing with or without some of its effects.
 
     Attributes
     ----------
-    scene : whose film is the one that is solved.
-    sides : whether anything flows through its sides.
-    ruptures : whether the film does; else it bears any tension, and the inlet is full.
-    factors : whether roughness changes the flow; asperities touch all the same.
+    scene : the scene, with the film thickness that is solved.
+    sides : whether there is flow through the sides.
+    ruptures : whether the film cavitates; without cavitation pressures may be negative, and the inlet is full.
+    factors : whether roughness changes the flow; the contact of asperities does not depend on it.
     """
 
     scene: Bearing
@@ -49,10 +49,17 @@ class Composition:
         """Whether the flow is averaged over a roughness."""
         return self.scene.roughness is not None and self.factors
 
-    def problem(self, reach: float | None = None) -> Problem:
-        """The film to be solved; flow factors are those of mean gaps down to ``reach``, m, by default of this film.
+    def problem(self, min_gap: float | None = None) -> Problem:
+        """The problem of the film.
 
-        Raises InputError where flow factors are not known, or seal this film.
+        Parameters
+        ----------
+        min_gap : smallest mean gap for which flow factors are made, m; by default that of this film.
+
+        Raises
+        ------
+        InputError
+            If the flow factors are unknown, or seal this film.
         """
         scene = self.scene
         if scene.asperities is not None:
@@ -61,38 +68,36 @@ class Composition:
                 smooth = SmoothFlow(mean_gap=asperities_of(scene).mean_gap)
                 problem = replace(problem, shape=replace(problem.shape, roughness=smooth))
         else:
-            problem = averaged_film(scene) if self.rough and reach is None else scene.problem()
-            if reach is not None and self.rough and scene.roughness is not None:
-                known = Seeping(scene.roughness.factors(reach))
-                problem = replace(problem, shape=replace(problem.shape, roughness=known))
+            problem = averaged_film(scene) if self.rough and min_gap is None else scene.problem()
+            if min_gap is not None and self.rough and scene.roughness is not None:
+                factors = FlooredFlowFactors(scene.roughness.factors(min_gap))
+                problem = replace(problem, shape=replace(problem.shape, roughness=factors))
         return problem if self.sides else replace(problem, ends=replace(problem.ends, sides=None))
 
     @property
-    def reading(self) -> Reading:
-        """What is read off its film."""
-        if self.scene.asperities is not None:
-            return Reading(quantities=mixed_quantities, doubt=mixed_doubt)
-        return Reading(quantities=bearing_quantities)
+    def outputs(self) -> Outputs:
+        """The functions that evaluate its film."""
+        return FILM_OUTPUTS if self.scene.asperities is None else MIXED_OUTPUTS
 
 
 @dataclass(frozen=True, kw_only=True)
 class SmoothFlow:
-    """Flow as between smooth walls as far apart as the mean gap of rough ones, m, over their separation, m."""
+    """The flow factors of smooth walls at the mean gap of rough walls, over the separation of the rough walls, m."""
 
     mean_gap: Callable[[Array], Array]
 
     def __call__(self, separation: Array, /) -> GapFactors:
-        """Those of a smooth film, each of the shape of ``separation``."""
+        """The flow factors, each of the shape of ``separation``."""
         h = self.mean_gap(separation)
-        none, inverse = np.zeros_like(h), 1 / h
+        zero, inverse = np.zeros_like(h), 1 / h
         return GapFactors(
             along=h**3,
             across=h**3,
-            cross=none,
+            cross=zero,
             drag=h,
-            drag_across=none,
+            drag_across=zero,
             couette=inverse,
-            shear_couette=none,
+            shear_couette=zero,
             streaming=inverse,
             least=h,
         )
@@ -100,35 +105,42 @@ class SmoothFlow:
 
 @dataclass(frozen=True, kw_only=True)
 class SceneEffect:
-    """One effect of a bearing: whether a scene has it, and how the scene is taken without it."""
+    """An effect of a bearing.
+
+    Attributes
+    ----------
+    name : name of the effect.
+    present : present(scene), whether the scene has the effect.
+    without : without(variant), the variant without the effect.
+    """
 
     name: str
     present: Callable[[Bearing], bool]
-    without: Callable[[Composition], Composition]
+    without: Callable[[Variant], Variant]
 
 
 def _has_texture(scene: Bearing) -> bool:
     return without_texture(scene) is not scene
 
 
-def _flows_aside(scene: Bearing) -> bool:
+def _has_side_flow(scene: Bearing) -> bool:
     return not scene.wide and not (isinstance(scene.geometry, Ring) and scene.geometry.endless)
 
 
-def _feels_pressure(scene: Bearing) -> bool:
+def _depends_on_pressure(scene: Bearing) -> bool:
     lubricant = scene.lubricant
     return not isinstance(lubricant.compressibility, Incompressible) or not isinstance(
         lubricant.piezoviscosity, ConstantViscosity
     )
 
 
-def _unchanging(scene: Bearing) -> Bearing:
+def _independent_of_pressure(scene: Bearing) -> Bearing:
     laws = {"compressibility": Incompressible(), "piezoviscosity": ConstantViscosity()}
     return scene.model_copy(update={"lubricant": scene.lubricant.model_copy(update=laws)})
 
 
 EFFECTS: tuple[SceneEffect, ...] = (
-    SceneEffect(name="side flow", present=_flows_aside, without=lambda one: replace(one, sides=False)),
+    SceneEffect(name="side flow", present=_has_side_flow, without=lambda one: replace(one, sides=False)),
     SceneEffect(
         name="texture", present=_has_texture, without=lambda one: replace(one, scene=without_texture(one.scene))
     ),
@@ -139,8 +151,8 @@ EFFECTS: tuple[SceneEffect, ...] = (
     ),
     SceneEffect(
         name="pressure dependence",
-        present=_feels_pressure,
-        without=lambda one: replace(one, scene=_unchanging(one.scene)),
+        present=_depends_on_pressure,
+        without=lambda one: replace(one, scene=_independent_of_pressure(one.scene)),
     ),
     SceneEffect(
         name="roughness",
@@ -153,50 +165,55 @@ EFFECTS: tuple[SceneEffect, ...] = (
         without=lambda one: replace(one, scene=one.scene.model_copy(update={"asperities": None})),
     ),
 )
-"""In the order in which they are switched on. Without roughness asperities touch all the same, but no flow feels them;
-without asperities the flow factors are those of the roughness undeformed, cut off where it would touch."""
+"""All effects in the order in which they are switched on.
+
+Without roughness asperities touch but do not change the flow. Without asperities the flow factors are those of the
+undeformed roughness, truncated where the walls overlap.
+"""
 
 
 def effects_of(scene: Bearing) -> tuple[SceneEffect, ...]:
     """The effects that a scene has, in the order in which they are switched on."""
-    return tuple(part for part in EFFECTS if part.present(scene))
+    return tuple(effect for effect in EFFECTS if effect.present(scene))
 
 
-def without(scene: Bearing, parts: Sequence[SceneEffect]) -> Composition:
-    """The scene without some of its effects."""
-    taken = Composition(scene=scene)
-    for part in parts:
-        taken = part.without(taken)
-    return taken
+def without(scene: Bearing, effects: Sequence[SceneEffect]) -> Variant:
+    """The variant of a scene without some of its effects."""
+    variant = Variant(scene=scene)
+    for effect in effects:
+        variant = effect.without(variant)
+    return variant
 
 
-def steps(scene: Bearing) -> tuple[Composition, ...]:
-    """The scene with none of its effects, then with one after the other switched on; the last is all of it."""
-    parts = effects_of(scene)
-    return tuple(without(scene, parts[count:]) for count in range(len(parts) + 1))
+def steps(scene: Bearing) -> tuple[Variant, ...]:
+    """The variants with the first 0, 1, 2, ... effects of a scene, the last one with all of them."""
+    effects = effects_of(scene)
+    return tuple(without(scene, effects[count:]) for count in range(len(effects) + 1))
 
 
-def ablations(scene: Bearing) -> tuple[Composition, ...]:
-    """The whole scene without each of its effects alone."""
-    return tuple(without(scene, [part]) for part in effects_of(scene))
+def ablations(scene: Bearing) -> tuple[Variant, ...]:
+    """The variants without one effect each."""
+    return tuple(without(scene, [effect]) for effect in effects_of(scene))
 
 
 @dataclass(frozen=True, kw_only=True)
-class Composed:
-    """What a composition carries, rubs and lets through.
+class VariantSolution:
+    """The quantities of a variant.
 
     Attributes
     ----------
-    levels : values by name, in the units of ``units``: on the grid asked for, and on those half and a quarter as fine.
-    doubt : by how much values may be off as flow factors and contact pressures are, in their units.
-    residual : of the film; ``balance``: what the load misses that was asked for, relative to it.
-    cells, cpu_s : along a side; s.
+    levels : values by name on the finest grid and on the grids half and a quarter as fine, in the units of ``units``.
+    factor_uncertainties : uncertainties from flow factors and contact pressures, in the same units.
+    residual : residual of the film.
+    cells : number of cells along a side.
+    cpu_s : CPU time, s.
+    balance : relative error of the load.
     warnings : sentences.
     """
 
     levels: tuple[Mapping[str, float], ...]
     units: Mapping[str, str]
-    doubt: Mapping[str, float]
+    factor_uncertainties: Mapping[str, float]
     residual: float
     cells: int
     cpu_s: float
@@ -205,77 +222,77 @@ class Composed:
 
     @property
     def values(self) -> Mapping[str, float]:
-        """On the grid asked for."""
+        """The values on the finest grid."""
         return self.levels[0]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Amount:
-    """A number and how far off it may be, both in one unit."""
+    """A value with its uncertainty, which is infinite if unknown, both in ``unit``."""
 
     value: float
     uncertainty: float
     unit: str
 
 
-def at_film(taken: Composition, cells: int, progress: Progress = silent) -> Composed:
-    """Solve a composition at the film of its scene.
+def at_film(variant: Variant, cells: int, progress: Progress = silent) -> VariantSolution:
+    """Solve a variant at the film thickness of its scene.
 
     Raises
     ------
     InputError
-        Where roughness or contact are not known for so thin a film.
+        If flow factors or contact pressures are unknown for so thin a film.
     ConvergenceError
-        If the film does not come into balance.
+        If the film does not converge.
     """
-    problem, reading, scene = taken.problem(), taken.reading, taken.scene
+    problem, outputs, scene = variant.problem(), variant.outputs, variant.scene
     load_loops(problem.shape.wide)
     cpu = time.process_time()
-    found = balance(problem, (cells, cells), ruptures=taken.ruptures, progress=progress)
-    quantities = reading.quantities(scene, found)
+    solution = balance(problem, (cells, cells), ruptures=variant.ruptures, progress=progress)
+    quantities = outputs.quantities(scene, solution)
     rough = problem.shape.roughness is not None
-    return Composed(
-        levels=tuple({n: q.value for n, q in reading.quantities(scene, one).items()} for one in solved_grids(found)),
+    return VariantSolution(
+        levels=tuple(
+            {n: q.value for n, q in outputs.quantities(scene, one).items()} for one in grid_sequence(solution)
+        ),
         units={name: quantity.unit for name, quantity in quantities.items()},
-        doubt=reading.doubt(scene, found, quantities) if rough else {},
-        residual=found.residual,
+        factor_uncertainties=outputs.factor_uncertainties(scene, solution, quantities) if rough else {},
+        residual=solution.residual,
         cells=cells,
         cpu_s=time.process_time() - cpu,
-        warnings=(*unresolved(found), *odd(scene, found)),
+        warnings=(*grid_warnings(solution), *scene_warnings(scene, solution)),
     )
 
 
-def solved_grids(found: Solution) -> tuple[Solution, ...]:
-    """A solution and those on grids about half and a quarter as fine, as far as there are any."""
-    grids = [found]
-    while (coarser := grids[-1].coarser) is not None and coarser.grid.x.size <= 0.75 * grids[-1].grid.x.size:
-        grids.append(coarser)
-    return tuple(grids)
+def amount(one: VariantSolution, name: str) -> Amount | None:
+    """A quantity with its uncertainty; None if the variant does not have it."""
+    levels = [level.get(name) for level in one.levels]
+    return _amount(one.units, name, levels, one.factor_uncertainties.get(name, 0.0), (one,))
 
 
-def amount(one: Composed, name: str) -> Amount | None:
-    """One value and its error; None where there is none."""
-    return _told(one.units, name, [level.get(name) for level in one.levels], one.doubt.get(name, 0.0), (one,))
+def difference(more: VariantSolution, less: VariantSolution, name: str) -> Amount | None:
+    """The difference of two variants in a quantity with its uncertainty; None if one of them does not have it.
 
-
-def added(more: Composed, less: Composed, name: str) -> Amount | None:
-    """What one composition has more than another, and the error of that; None where either does not tell it.
-
-    Grids err alike, and so do flow factors: the error is that of the difference, by the rule for any quantity.
+    Errors of grids and flow factors are correlated, so that the uncertainty is estimated from the difference itself.
     """
     pairs = zip(more.levels, less.levels, strict=False)
     differences = [a[name] - b[name] if name in a and name in b else None for a, b in pairs]
-    doubt = abs(more.doubt.get(name, 0.0) - less.doubt.get(name, 0.0))
-    return _told(more.units, name, differences, doubt, (more, less))
+    of_factors = abs(more.factor_uncertainties.get(name, 0.0) - less.factor_uncertainties.get(name, 0.0))
+    return _amount(more.units, name, differences, of_factors, (more, less))
 
 
-def _told(
-    units: Mapping[str, str], name: str, levels: Sequence[float | None], doubt: float, of: Sequence[Composed]
+def _amount(
+    units: Mapping[str, str],
+    name: str,
+    levels: Sequence[float | None],
+    of_factors: float,
+    variants: Sequence[VariantSolution],
 ) -> Amount | None:
-    """The first level, with the larger of the last step of the grids and a quarter of the one before."""
+    """The value on the first level, with the larger of its change to the second level and a quarter of the next."""
     known = [level for level in levels if level is not None]
     if not known or levels[0] is None:
         return None
     changes = [abs(fine - coarse) / 4**count for count, (fine, coarse) in enumerate(pairwise(known))]
-    left = sum(abs(one.values[name]) * (one.residual * one.cells + one.balance) for one in of)
-    return Amount(value=known[0], uncertainty=max(changes, default=float("inf")) + doubt + left, unit=units[name])
+    of_residual = sum(abs(one.values[name]) * (one.residual * one.cells + one.balance) for one in variants)
+    uncertainty = max(changes, default=float("inf")) + of_factors + of_residual
+    return Amount(value=known[0], uncertainty=uncertainty, unit=units[name])

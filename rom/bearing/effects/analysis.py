@@ -1,12 +1,12 @@
-"""All that the effects of one bearing do: at its film, under its load, and the inertia beside both."""
+"""The analysis of the effects of a bearing: at its film thickness, under its load, and by inertia."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from roughfilm.rom.bearing.effects.ablation import EFFECTS, Amount, Composition, at_film, effects_of
-from roughfilm.rom.bearing.effects.contributions import Study, study
-from roughfilm.rom.bearing.effects.explanation import Treatment, treatments
-from roughfilm.rom.bearing.effects.inertia import InertiaAdded, inertia_added, judged, under_its_load
+from roughfilm.rom.bearing.effects.ablation import EFFECTS, Amount, Variant, at_film, effects_of
+from roughfilm.rom.bearing.effects.contributions import EffectStudy, study_effects
+from roughfilm.rom.bearing.effects.explanation import EffectModel, effect_models
+from roughfilm.rom.bearing.effects.inertia import InertiaAdded, inertia_added, inertia_obstacle, inertia_under_load
 from roughfilm.rom.bearing.effects.under_load import under_load
 from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.scene import Bearing
@@ -19,19 +19,19 @@ class EffectAnalysis:
 
     Attributes
     ----------
-    treated : the model by which each effect is computed.
-    at_film : contributions at the film of the scene.
-    inertia : what inertia adds at that film; None where it cannot be judged.
+    treated : the model of each effect.
+    at_film : contributions at the film thickness of the scene.
+    inertia : changes by inertia at that film thickness; None if they cannot be estimated.
     under_load : contributions under the load of the scene; None without a load.
-    loaded_inertia : what inertia adds under that load.
-    thicker : by how much inertia makes the film under that load thicker, m.
+    loaded_inertia : changes by inertia under that load; None if they cannot be estimated.
+    thicker : increase of the film thickness under that load by inertia, m.
     """
 
     scene: Bearing
-    treated: tuple[Treatment, ...]
-    at_film: Study
+    treated: tuple[EffectModel, ...]
+    at_film: EffectStudy
     inertia: InertiaAdded | None
-    under_load: Study | None = None
+    under_load: EffectStudy | None = None
     loaded_inertia: InertiaAdded | None = None
     thicker: Amount | None = None
 
@@ -43,42 +43,42 @@ class EffectAnalysis:
 
 
 def analyse_effects(scene: Bearing, cells: int, models: Sequence[Model], progress: Progress = silent) -> EffectAnalysis:
-    """Switch the effects of a bearing on one at a time, at its film and, if it has one, under its load.
+    """Analyse the contributions of effects at the film thickness of a scene and, if it has one, under its load.
 
     Parameters
     ----------
-    cells : along the sliding, and as many across.
-    models : models of pockets, by which inertia is judged, among others.
+    cells : number of cells along the sliding direction and across.
+    models : models, among them those of pockets, which are used to estimate inertia.
 
     Raises
     ------
     InputError
         If the scene cannot be solved on such a grid.
     ConvergenceError
-        If a film does not come into balance.
+        If a film does not converge.
     """
     if scene.asperities is not None:
         asperities_of(scene, lambda done, words: progress(0.4 * done, f"asperities: {words}"))
-    part = 0.6 if scene.load is None else 0.3
-    at = study(
+    fraction = 0.6 if scene.load is None else 0.3
+    at = study_effects(
         scene,
-        lambda taken, inner: at_film(taken, cells, inner),
-        lambda done, words: progress(0.4 + part * done, words),
+        lambda variant, inner: at_film(variant, cells, inner),
+        lambda done, words: progress(0.4 + fraction * done, words),
     )
-    whole, heavy = Composition(scene=scene), judged(scene) is None
+    whole, has_inertia = Variant(scene=scene), inertia_obstacle(scene) is None
     analysis = EffectAnalysis(
         scene=scene,
-        treated=treatments(scene),
+        treated=effect_models(scene),
         at_film=at,
-        inertia=inertia_added(whole, cells, models) if heavy else None,
+        inertia=inertia_added(whole, cells, models) if has_inertia else None,
     )
     if scene.load is None:
         return analysis
     pressure = scene.load.pressure
-    loaded = study(
+    loaded = study_effects(
         scene,
-        lambda taken, inner: under_load(taken, pressure, cells, inner),
-        lambda done, words: progress(0.7 + part * done, f"under load, {words}"),
+        lambda variant, inner: under_load(variant, pressure, cells, inner),
+        lambda done, words: progress(0.7 + fraction * done, f"under load, {words}"),
     )
-    there, thicker = under_its_load(whole, loaded.whole, pressure, cells, models) if heavy else (None, None)
+    there, thicker = inertia_under_load(whole, loaded.whole, pressure, cells, models) if has_inertia else (None, None)
     return replace(analysis, under_load=loaded, loaded_inertia=there, thicker=thicker)

@@ -1,4 +1,4 @@
-"""All that a bearing's effects do: switched on one after the other, and each switched off alone."""
+"""The contributions of effects: switched on one after the other, and each switched off alone."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -6,26 +6,32 @@ from dataclasses import dataclass
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.effects.ablation import (
     Amount,
-    Composed,
-    Composition,
+    Variant,
+    VariantSolution,
     ablations,
-    added,
     amount,
+    difference,
     effects_of,
     steps,
 )
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.model import Progress, silent
 
-Solve = Callable[[Composition, Progress], Composed]
-"""At a film, or under a load."""
+Solve = Callable[[Variant, Progress], VariantSolution]
+"""A function that solves a variant, at a film thickness or under a load."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Contribution:
-    """What one effect adds, by name of the quantity: switched on as the next one, and to all the others.
+    """The contribution of one effect, by name of the quantity.
 
-    The two differ by what it does together with those that come after it. ``off`` is the bearing without it alone.
+    Attributes
+    ----------
+    name : name of the effect.
+    on : change when the effect is switched on after those before it.
+    alone : change when the effect is added to all others.
+    after : values with the effect and those before it.
+    off : values without this effect alone.
     """
 
     name: str
@@ -36,17 +42,24 @@ class Contribution:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Study:
-    """The plain bearing, what each of its effects adds, and all of it.
+class EffectStudy:
+    """The contributions of all effects of a bearing.
 
-    ``untold`` says, by the name of a bearing, why there are no numbers of it: some of its effects alone may carry
-    nothing.
+    Attributes
+    ----------
+    plain : values without any effect.
+    contributions : one for each effect.
+    whole : the solution with all effects.
+    unsolved : reasons why variants have no solution, by the title of the variant.
+    warnings : warnings of all variants.
+    residual, balance : largest residual of a film and largest relative error of a load.
+    cpu_s : CPU time, s.
     """
 
     plain: Mapping[str, Amount]
     contributions: tuple[Contribution, ...]
-    whole: Composed
-    untold: Mapping[str, str]
+    whole: VariantSolution
+    unsolved: Mapping[str, str]
     warnings: tuple[str, ...]
     residual: float
     balance: float
@@ -54,43 +67,43 @@ class Study:
 
     @property
     def full(self) -> Mapping[str, Amount]:
-        """Of the bearing with all its effects."""
+        """The values with all effects."""
         return amounts(self.whole)
 
 
-def study(scene: Bearing, solve: Solve, progress: Progress = silent) -> Study:
-    """Switch the effects of a scene on one after the other, and each off alone.
+def study_effects(scene: Bearing, solve: Solve, progress: Progress = silent) -> EffectStudy:
+    """Solve a scene with its effects switched on one after the other, and with each switched off alone.
 
-    Contributions by steps add up to the difference between all of it and the plain bearing, wherever all are told.
+    The changes ``on`` add up to the difference between the variants with all effects and with none.
 
     Raises
     ------
     InputError, ConvergenceError
-        If the scene with all of its effects has no solution; what some of them alone cannot do is told as such.
+        If the scene with all of its effects has no solution.
     """
     effects, on, off = effects_of(scene), steps(scene), ablations(scene)
     titles = ["the plain film", *(f"with {effect.name}" for effect in effects)]
     tasks = [*zip(titles, on, strict=True), *((f"without {e.name}", c) for e, c in zip(effects, off, strict=True))]
-    solved: list[tuple[Composition, Composed | None]] = []
-    untold: dict[str, str] = {}
-    for count, (title, taken) in enumerate(tasks):
-        known = [found for before, found in solved if before == taken]
+    solved: list[tuple[Variant, VariantSolution | None]] = []
+    unsolved: dict[str, str] = {}
+    for count, (title, variant) in enumerate(tasks):
+        known = [solution for before, solution in solved if before == variant]
         if known:
-            solved.append((taken, known[0]))
+            solved.append((variant, known[0]))
             continue
 
         def within(done: float, words: str, count: int = count, title: str = title) -> None:
             progress((count + done) / len(tasks), f"{title}: {words}")
 
         try:
-            solved.append((taken, solve(taken, within)))
+            solved.append((variant, solve(variant, within)))
         except (InputError, ConvergenceError) as error:
-            if taken == on[-1]:
+            if variant == on[-1]:
                 raise
-            untold[title] = str(error)
-            solved.append((taken, None))
-    found = [one for _, one in solved]
-    ons, offs = found[: len(on)], found[len(on) :]
+            unsolved[title] = str(error)
+            solved.append((variant, None))
+    solutions = [one for _, one in solved]
+    ons, offs = solutions[: len(on)], solutions[len(on) :]
     whole = ons[-1]
     assert whole is not None
     contributions = tuple(
@@ -103,28 +116,28 @@ def study(scene: Bearing, solve: Solve, progress: Progress = silent) -> Study:
         )
         for effect, before, after, without in zip(effects, ons[:-1], ons[1:], offs, strict=True)
     )
-    told = [one for one in found if one is not None]
-    return Study(
+    successful = [one for one in solutions if one is not None]
+    return EffectStudy(
         plain=amounts(ons[0]),
         contributions=contributions,
         whole=whole,
-        untold=untold,
-        warnings=tuple(dict.fromkeys(warning for one in told for warning in one.warnings)),
-        residual=max(one.residual for one in told),
-        balance=max(one.balance for one in told),
-        cpu_s=sum(one.cpu_s for one in {id(one): one for one in told}.values()),
+        unsolved=unsolved,
+        warnings=tuple(dict.fromkeys(warning for one in successful for warning in one.warnings)),
+        residual=max(one.residual for one in successful),
+        balance=max(one.balance for one in successful),
+        cpu_s=sum(one.cpu_s for one in {id(one): one for one in successful}.values()),
     )
 
 
-def amounts(one: Composed | None) -> dict[str, Amount]:
-    """All values with their errors; none of a bearing without numbers."""
+def amounts(one: VariantSolution | None) -> dict[str, Amount]:
+    """All quantities of a variant with their uncertainties; empty without a solution."""
     if one is None:
         return {}
-    return {name: told for name in one.units if (told := amount(one, name)) is not None}
+    return {name: value for name in one.units if (value := amount(one, name)) is not None}
 
 
-def differences(more: Composed | None, less: Composed | None) -> dict[str, Amount]:
-    """What one has more than the other, of all that both tell."""
+def differences(more: VariantSolution | None, less: VariantSolution | None) -> dict[str, Amount]:
+    """The differences of two variants in all quantities that both have; empty if one of them has no solution."""
     if more is None or less is None:
         return {}
-    return {name: told for name in more.units if (told := added(more, less, name)) is not None}
+    return {name: value for name in more.units if (value := difference(more, less, name)) is not None}

@@ -1,101 +1,104 @@
-"""By which model each effect of a composed bearing is told, and why: in words, with the numbers that say so."""
+"""The model of each effect of a bearing and the reason, with the dimensionless numbers."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from roughfilm.rom.bearing.effects.ablation import effects_of
-from roughfilm.rom.bearing.effects.inertia import judged
+from roughfilm.rom.bearing.effects.inertia import inertia_obstacle
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.scene import Bearing
 
 Numbers = Mapping[str, float]
 
-HEAVY, LONG = 0.3, 0.1
-"""Re·h/l from which inertia is not small; period over length from which averaging is off by more than some per cent."""
+SMALL_REDUCED_REYNOLDS_NUMBER = 0.3
+"""Reduced Reynolds number Re·h/l below which inertia is small."""
+
+SMALL_PERIOD_RATIO = 0.1
+"""Period of the roughness over the length below which the error of averaging is a few per cent."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Treatment:
-    """An effect, the model that tells it, and why that one."""
+class EffectModel:
+    """An effect, its model, and the reason for that model."""
 
     effect: str
     model: str
     why: str
 
 
-def treatments(scene: Bearing) -> tuple[Treatment, ...]:
-    """One for each effect that a scene has, then that of inertia; those that it lacks are left out."""
+def effect_models(scene: Bearing) -> tuple[EffectModel, ...]:
+    """The models of the effects that a scene has, and of inertia."""
     numbers = bearing_numbers(scene)
-    told = [
-        Treatment(effect=effect.name, model=model, why=why(numbers))
+    models = [
+        EffectModel(effect=effect.name, model=model, why=why(numbers))
         for effect in effects_of(scene)
-        for model, why in [TOLD[effect.name]]
+        for model, why in [EFFECT_MODELS[effect.name]]
     ]
-    refused = judged(scene)
-    why = _inertia(numbers) if refused is None else f"left out: {refused}"
-    return (
-        *told,
-        Treatment(effect="inertia", model="first order, beside the film" if not refused else "none", why=why),
-    )
+    obstacle = inertia_obstacle(scene)
+    if obstacle is None:
+        inertia = EffectModel(effect="inertia", model="first order, separate from the film", why=_inertia(numbers))
+    else:
+        inertia = EffectModel(effect="inertia", model="none", why=f"left out: {obstacle}")
+    return (*models, inertia)
 
 
 def _sides(numbers: Numbers) -> str:
-    return f"the film is solved over its plane, since width over length = {numbers['slenderness']:.2g}"
+    return f"the film is solved in two dimensions: width over length = {numbers['slenderness']:.2g}"
 
 
 def _texture(numbers: Numbers) -> str:
-    covered = (
-        f"pockets over {numbers['texture_density']:.0%} of the area, {numbers['pocket_depth_ratio']:.2g} films deep, "
-        "are resolved as thin film"
+    resolved = (
+        f"pockets over {numbers['texture_density']:.0%} of the area, {numbers['pocket_depth_ratio']:.2g} times h deep, "
+        "are resolved as a thin film"
     )
     if "reduced_reynolds_number" not in numbers:
-        return covered
+        return resolved
     number = numbers["reduced_reynolds_number"]
-    return f"{covered}, since Re·h/l = {number:.2g}: " + (
-        "inertia is small, and told apart" if number < HEAVY else "inertia is not small, look at its row"
-    )
+    size = "small" if number < SMALL_REDUCED_REYNOLDS_NUMBER else "not small"
+    return f"{resolved}; Re·h/l = {number:.2g}: inertia is {size} and estimated separately"
 
 
 def _cavitation(numbers: Numbers) -> str:
     number = numbers["cavitation_number"]
-    bears = "it bears little of what sliding pulls" if number < 1 else "it hardly ever tears"
-    starved = "; without it the starved inlet counts as full" if numbers.get("starvation", 1.0) < 1 else ""
-    return f"mass is kept where the film tears, since (p_ambient − p_c)/(6ηuL/h²) = {number:.2g}: {bears}{starved}"
+    expected = "expected" if number < 1 else "unlikely"
+    starved = (
+        "; without cavitation the starved inlet is treated as flooded" if numbers.get("starvation", 1.0) < 1 else ""
+    )
+    return f"mass-conserving; (p_ambient − p_c)/(6ηuL/h²) = {number:.2g}: cavitation is {expected}{starved}"
 
 
 def _pressure(numbers: Numbers) -> str:
     return (
-        "density and viscosity follow pressure: at 6ηuL/h², of which a pad carries some hundredths, "
+        "density and viscosity depend on pressure: at 6ηuL/h² (pads carry a few per cent of it) "
         f"θ − 1 = {numbers['compression']:.2g} and ln η/η₀ = {numbers['piezoviscous']:.2g}"
     )
 
 
 def _roughness(numbers: Numbers) -> str:
-    told = f"Sq/h = {numbers['roughness_ratio']:.2g}"
+    height = f"Sq/h = {numbers['roughness_ratio']:.2g}"
     if "roughness_period" not in numbers:
-        return f"by the flow factors of its table, {told}"
+        return f"flow factors of its table, {height}"
     period = numbers["roughness_period"]
-    return f"by its flow factors, since period over length = {period:.2g}, {told}" + (
-        "" if period < LONG else "; so long waves are worth following by the rung direct"
-    )
+    remedy = "" if period < SMALL_PERIOD_RATIO else "; resolve such long waves with the model direct"
+    return f"flow factors: period over length = {period:.2g}, {height}{remedy}"
 
 
 def _asperities(numbers: Numbers) -> str:
     ratio = numbers["peak_ratio"]
-    return f"by the table of contact pressures, since λ = h/Sq = {1 / numbers['roughness_ratio']:.2g} and " + (
+    return f"table of contact pressures: λ = h/Sq = {1 / numbers['roughness_ratio']:.2g}, " + (
         f"Sp/h = {ratio:.2g}: the highest tips {'touch' if ratio > 1 else 'do not touch'}"
     )
 
 
 def _inertia(numbers: Numbers) -> str:
-    pocket = ", and in full in one pocket" if "pocket_depth_ratio" in numbers else ""
+    pocket = ", and fully in one pocket" if "pocket_depth_ratio" in numbers else ""
     return (
         f"Re = {numbers['reynolds_number']:.2g}, Re·h/l = {numbers['reduced_reynolds_number']:.2g}: to first order "
-        f"over the whole film{pocket}; not added to what the film carries"
+        f"over the whole film{pocket}; not included in the load of the film"
     )
 
 
-TOLD: Mapping[str, tuple[str, Callable[[Numbers], str]]] = {
+EFFECT_MODELS: Mapping[str, tuple[str, Callable[[Numbers], str]]] = {
     "side flow": ("reynolds", _sides),
     "texture": ("reynolds", _texture),
     "cavitation": ("reynolds_incompressible", _cavitation),
@@ -103,3 +106,4 @@ TOLD: Mapping[str, tuple[str, Callable[[Numbers], str]]] = {
     "roughness": ("homogenized", _roughness),
     "asperities": ("mixed", _asperities),
 }
+"""The model of each effect by the name of the effect, and the function that gives the reason."""

@@ -1,4 +1,4 @@
-"""What inertia would add to a composed bearing: to first order over its whole film, and in one pocket by the ladder."""
+"""The changes of a bearing by inertia: to first order over the whole film, and fully in one pocket."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -9,7 +9,7 @@ import numpy as np
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.rom.advice.advise import advise
-from roughfilm.rom.bearing.effects.ablation import Amount, Composed, Composition, added, solved_grids
+from roughfilm.rom.bearing.effects.ablation import Amount, Variant, VariantSolution, difference
 from roughfilm.rom.bearing.effects.under_load import under_load
 from roughfilm.rom.bearing.inertia import Inertia, inertia
 from roughfilm.rom.bearing.numbers import bearing_numbers, without_texture
@@ -17,6 +17,7 @@ from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.solve import load_loops
 from roughfilm.rom.bearing.texture import Texture
+from roughfilm.rom.bearing.uncertainty import grid_sequence
 from roughfilm.rom.cavitation.solve import solve
 from roughfilm.rom.ladder.model import Model, find, of_kind
 from roughfilm.rom.ladder.request import Request
@@ -24,24 +25,38 @@ from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.rom.studies.convergence import converge
 
 FIRST_ORDER = "inertial_reynolds"
-"""The rung of pockets that keeps as much of inertia as is kept here; the cheapest that is enough judges it."""
+"""The model of pockets with the same first-order inertia, to which the cheapest sufficient model is compared."""
 
-JUDGED_BY, WITHIN = "load_plus", 0.05
-"""What of one pocket it must be near in, and how near."""
+POCKET_QUANTITY = "load_plus"
+"""Quantity of one pocket by which its model is chosen."""
 
-PERIOD = 2.0
-"""Lengths of a pocket from one to the next, where one alone is judged."""
+POCKET_TOLERANCE = 0.05
+"""Relative error up to which a model of one pocket is sufficient."""
 
-ORDER = 2
-"""Of the loads in the cells, where nothing is torn."""
+POCKET_PERIOD_RATIO = 2.0
+"""Period over the length of a pocket in the scene of one pocket."""
 
-UNITS: Mapping[str, str] = {"load": "N", "friction": "N", "inlet_flow": "m^3/s"}
+LOAD_ORDER = 2
+"""Order of the load in the cell size without cavitation."""
+
+UNITS: Mapping[str, tuple[str, str]] = {
+    "load": ("N", "N/m"),
+    "friction": ("N", "N/m"),
+    "inlet_flow": ("m^3/s", "m^2/s"),
+}
+"""Units of the changes by inertia, of bearings with a width and of infinitely wide ones."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class PocketJudged:
-    """One pocket between flat lands: by which model, why, its load over that of first-order inertia, and by which part
-    that model may be off.
+class PocketInertia:
+    """The effect of inertia in one pocket between flat lands.
+
+    Attributes
+    ----------
+    model : model of the pocket.
+    why : reason for the model.
+    over_first_order : load of the pocket over its load with first-order inertia.
+    within : relative error of the model.
     """
 
     model: str
@@ -52,91 +67,98 @@ class PocketJudged:
 
 @dataclass(frozen=True, kw_only=True)
 class InertiaAdded:
-    """What inertia adds to a film in balance, to first order; never a part of what the film is said to carry.
+    """The changes of a converged film by inertia, to first order; quantities of the film do not include them.
 
     Attributes
     ----------
-    amounts : of ``load``, ``friction`` and ``inlet_flow``, over the whole bearing (per width if infinitely wide).
-    untextured_load : what it adds without the pockets, in the same film; None where ``pocket`` is.
-    pocket : what the models of pockets say of one; None without pockets, and where they cannot tell.
+    amounts : changes of ``load``, ``friction`` and ``inlet_flow`` of the bearing (per width if infinitely wide).
+    untextured_load : change of the load without the pockets; None where ``pocket`` is None.
+    pocket : effect of inertia in one pocket; None without pockets, or if no model can solve one.
     """
 
     amounts: Mapping[str, Amount]
     untextured_load: float | None
-    pocket: PocketJudged | None
+    pocket: PocketInertia | None
 
 
-def judged(scene: Bearing) -> str | None:
-    """Why inertia cannot be judged, in words; None where it can."""
+def inertia_obstacle(scene: Bearing) -> str | None:
+    """The reason why inertia cannot be estimated; None if it can."""
     if scene.lubricant.density is None:
-        return "the scene does not say how dense the lubricant is"
+        return "the scene has no lubricant.density"
     if isinstance(scene.geometry, Ring):
-        return "on a ring the liquid also turns, which is not looked at"
+        return "centrifugal forces on rings are not modelled"
     if scene.motion.speed == 0:
-        return "nothing slides"
+        return "the sliding speed is zero"
     return None
 
 
-def inertia_added(taken: Composition, cells: int, models: Sequence[Model]) -> InertiaAdded:
-    """First-order inertia of a composition's film, its error by two grids and by the nonlinear film in one pocket.
+def inertia_added(variant: Variant, cells: int, models: Sequence[Model]) -> InertiaAdded:
+    """Compute the first-order changes by inertia, with their uncertainty from coarser grids and from one pocket.
 
-    ``models`` : of pockets, among others; the cheapest is taken that is enough.
+    Parameters
+    ----------
+    cells : number of cells along a side.
+    models : models, among them those of pockets, of which the cheapest sufficient one is used.
 
     Raises
     ------
     InputError
-        Where it cannot be judged, as :func:`judged` says.
+        If inertia cannot be estimated (:func:`inertia_obstacle`).
     ConvergenceError
-        If a film does not come into balance.
+        If a film does not converge.
     """
-    scene = taken.scene
+    scene = variant.scene
     load_loops(scene.wide)
-    grids = solved_grids(solve(taken.problem(), (cells, cells), ruptures=taken.ruptures))
-    found = {grid.grid.x.size: inertia(scene, grid) for grid in reversed(grids)}
-    pocket = one_pocket(scene, models)
+    grids = grid_sequence(solve(variant.problem(), (cells, cells), ruptures=variant.ruptures))
+    changes = {grid.grid.x.size: inertia(scene, grid) for grid in reversed(grids)}
+    pocket = pocket_inertia(scene, models)
     number = bearing_numbers(scene)["reduced_reynolds_number"]
-    beyond = min(1.0, number) if pocket is None else abs(pocket.over_first_order - 1) + pocket.within
-    bare = None
+    higher_orders = min(1.0, number) if pocket is None else abs(pocket.over_first_order - 1) + pocket.within
+    untextured_load = None
     if pocket is not None:
         smooth = without_texture(scene)
-        plain = Composition(scene=smooth, sides=taken.sides, ruptures=taken.ruptures, factors=taken.factors)
-        bare = inertia(smooth, solve(plain.problem(), (cells, cells), ruptures=taken.ruptures)).load
+        problem = replace(variant, scene=smooth).problem()
+        untextured_load = inertia(smooth, solve(problem, (cells, cells), ruptures=variant.ruptures)).load
     return InertiaAdded(
-        amounts={name: _amount(name, found, beyond, wide=scene.wide) for name in UNITS},
-        untextured_load=bare,
+        amounts={name: _amount(name, changes, higher_orders, wide=scene.wide) for name in UNITS},
+        untextured_load=untextured_load,
         pocket=pocket,
     )
 
 
-def _amount(name: str, found: Mapping[int, Inertia], beyond: float, *, wide: bool) -> Amount:
-    """On the finest of some grids; as a film's torn part has an edge of cells, they are not trusted to be ordered."""
-    values = [getattr(one, name) for one in found.values()]
-    error = converge([*found], values, formal_order=ORDER).uncertainty if len(values) > 1 else math.inf
-    unit = {"N": "N/m", "m^3/s": "m^2/s"}[UNITS[name]] if wide else UNITS[name]
-    return Amount(value=values[-1], uncertainty=error + beyond * abs(values[-1]), unit=unit)
+def _amount(name: str, changes: Mapping[int, Inertia], higher_orders: float, *, wide: bool) -> Amount:
+    """The change on the finest grid; its uncertainty allows for an order below the formal one at edges of cavities."""
+    values = [getattr(change, name) for change in changes.values()]
+    error = converge([*changes], values, formal_order=LOAD_ORDER).uncertainty if len(values) > 1 else math.inf
+    return Amount(value=values[-1], uncertainty=error + higher_orders * abs(values[-1]), unit=UNITS[name][wide])
 
 
-def one_pocket(scene: Bearing, models: Sequence[Model]) -> PocketJudged | None:
-    """A pocket in the middle line of its texture, between flat lands as far apart as the walls are there.
+def pocket_inertia(scene: Bearing, models: Sequence[Model]) -> PocketInertia | None:
+    """The effect of inertia in a cylindrical pocket of the first column between flat lands.
 
-    None for walls without pockets, for pockets that are no scene of their own, such as those deeper than a half circle,
-    and where no model knows how near it is. The film is that at the middle of the first column, the thickest and so the
-    heaviest of a film that narrows; a flat floor counts as an arc.
+    None without pockets, for pockets outside the range of the models (such as those deeper than a half circle), and if
+    no model has a known error. The lands have the film thickness at the centre of the first column, where inertia is
+    strongest in a film that narrows.
     """
     texture, density = getattr(scene.geometry, "texture", None), scene.lubricant.density
     if texture is None or density is None:
         return None
     try:
-        return _judged_pocket(scene, texture, density, of_kind(models, "pocket"))
+        return _solved_pocket(scene, texture, density, of_kind(models, "pocket"))
     except (InputError, ConvergenceError, UnavailableError):
         return None
 
 
-def _judged_pocket(scene: Bearing, texture: Texture, density: float, models: Sequence[Model]) -> PocketJudged | None:
+def _solved_pocket(scene: Bearing, texture: Texture, density: float, models: Sequence[Model]) -> PocketInertia | None:
     shape = without_texture(scene).geometry.film_shape()
-    place = texture.start + texture.length / 2
-    film = float(shape.thickness(np.array([place]), np.array([sum(shape.across) / 2]))[0])
-    lengths = {"length": PERIOD * texture.length, "film": film, "width": texture.length, "depth": texture.depth}
+    centre = texture.start + texture.length / 2
+    film = float(shape.thickness(np.array([centre]), np.array([sum(shape.across) / 2]))[0])
+    lengths = {
+        "length": POCKET_PERIOD_RATIO * texture.length,
+        "film": film,
+        "width": texture.length,
+        "depth": texture.depth,
+    }
     pocket = read_scene(
         {
             "name": f"a pocket of {scene.name}"[:200],
@@ -149,31 +171,35 @@ def _judged_pocket(scene: Bearing, texture: Texture, density: float, models: Seq
             "motion": {"speed": with_unit(abs(scene.motion.speed), "m/s")},
         }
     )
-    found = advise(pocket, models, quantity=JUDGED_BY, within=WITHIN)
-    judge = found.chosen or found.nearest
-    if judge is None or judge.error is None or judge.error > 1 or not judge.sure:
+    advice = advise(pocket, models, quantity=POCKET_QUANTITY, within=POCKET_TOLERANCE)
+    verdict = advice.chosen or advice.nearest
+    if verdict is None or verdict.error is None or verdict.error > 1 or not verdict.sure:
         return None
     first = find(models, "pocket", FIRST_ORDER).solve(pocket).quantities["load_per_area"].value
-    told = found.result or find(models, "pocket", judge.model).solve(pocket, Request(resolution=judge.resolution))
-    ratio = told.quantities["load_per_area"].value / first
-    return PocketJudged(model=judge.model, why=judge.reason, over_first_order=ratio, within=judge.error)
+    request = Request(resolution=verdict.resolution)
+    result = advice.result or find(models, "pocket", verdict.model).solve(pocket, request)
+    ratio = result.quantities["load_per_area"].value / first
+    return PocketInertia(model=verdict.model, why=verdict.reason, over_first_order=ratio, within=verdict.error)
 
 
-def under_its_load(
-    taken: Composition, whole: Composed, pressure: float, cells: int, models: Sequence[Model]
+def inertia_under_load(
+    variant: Variant, whole: VariantSolution, pressure: float, cells: int, models: Sequence[Model]
 ) -> tuple[InertiaAdded, Amount]:
-    """What inertia adds at the film that carries a load, Pa over the nominal area, and how much thicker it makes it, m.
+    """The changes by inertia at the film under a load, and the increase of the film thickness by inertia, m.
 
-    ``whole`` is the composition under that load; with inertia its film has so much less to carry.
+    Parameters
+    ----------
+    whole : the variant under the load.
+    pressure : the load over the nominal area, Pa.
     """
-    scene = taken.scene
-    there = scene.model_copy(update={"geometry": scene.geometry.at_film(whole.values["film"])})
-    found = inertia_added(replace(taken, scene=there), cells, models)
-    load = found.amounts["load"]
-    part = load.value / whole.values["load_per_width" if scene.wide else "load"]
-    relieved = under_load(taken, pressure * (1 - part), cells)
-    thicker = added(relieved, whole, "film")
+    scene = variant.scene
+    loaded = scene.model_copy(update={"geometry": scene.geometry.at_film(whole.values["film"])})
+    changes = inertia_added(replace(variant, scene=loaded), cells, models)
+    load = changes.amounts["load"]
+    fraction = load.value / whole.values["load_per_width" if scene.wide else "load"]
+    relieved = under_load(variant, pressure * (1 - fraction), cells)
+    thicker = difference(relieved, whole, "film")
     assert thicker is not None
     relative = load.uncertainty / abs(load.value) if load.value else 0.0
-    unsure = abs(thicker.value) * relative + thicker.uncertainty
-    return found, Amount(value=thicker.value, uncertainty=unsure, unit="m")
+    uncertainty = abs(thicker.value) * relative + thicker.uncertainty
+    return changes, Amount(value=thicker.value, uncertainty=uncertainty, unit="m")

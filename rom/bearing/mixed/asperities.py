@@ -1,4 +1,4 @@
-"""What a mixed film asks of the roughness between its walls: flow factors, and the pressure where tips touch."""
+"""The interface of the roughness of a mixed film: flow factors and contact pressure over the separation."""
 
 from typing import Protocol
 
@@ -7,55 +7,54 @@ from roughfilm.rom.homogenization.gap_factors import GapFactors
 
 
 class Asperities(Protocol):
-    """Flow factors and contact pressure over the separation α of the rigid mean planes, m.
+    """Flow factors and contact pressure over the separation α of the mean planes of the undeformed walls, m.
 
-    While nothing touches α is the mean gap; :class:`rom.bearing.mixed.asperity_table.AsperityTable` is one, from a
-    surface.
+    Without contact α is the mean gap. :class:`roughfilm.rom.bearing.mixed.asperity_table.AsperityTable` implements it.
     """
 
     @property
     def touching(self) -> float:
-        """α where the highest point touches, m."""
+        """α at first contact, m."""
         ...
 
     @property
     def closest(self) -> float:
-        """The least α that is known, m; InputError below it."""
+        """The smallest known α, m; the methods raise InputError below it."""
         ...
 
     @property
     def largest_pressure(self) -> float:
-        """Contact pressure there, Pa."""
+        """The contact pressure at the smallest α, Pa."""
         ...
 
     def __call__(self, separation: Array, /) -> GapFactors:
-        """The factors, each of the shape of ``separation``."""
+        """The flow factors, each of the shape of ``separation``."""
         ...
 
     def contact_pressure(self, separation: Array) -> Array:
-        """p_c(α), Pa: 0 from touching on, strictly falling below it."""
+        """The contact pressure p_c(α), Pa: 0 without contact, strictly falling in contact."""
         ...
 
     def mean_gap(self, separation: Array) -> Array:
-        """ĥ, m."""
+        """The mean gap ĥ, m."""
         ...
 
     def area_fraction(self, separation: Array) -> Array:
-        """The part of the surface that touches."""
+        """The fraction of the nominal area in contact."""
         ...
 
-    def doubt_above(self, separation: float) -> float:
-        """The part by which factors may be off where no separation is below this, m."""
+    def factor_uncertainty(self, separation: float) -> float:
+        """The relative uncertainty of the flow factors at separations of at least this, m."""
         ...
 
-    def friction_doubt(self, separation: float) -> float:
-        """The part by which the film's friction factor d + 3e may be off at a separation, m."""
+    def friction_uncertainty(self, separation: float) -> float:
+        """The relative uncertainty of the friction factor d + 3e at a separation, m."""
         ...
 
-    def pressure_doubt(self, separation: Array) -> Array:
-        """The part by which contact pressures may be off."""
+    def pressure_uncertainty(self, separation: Array) -> Array:
+        """The relative uncertainty of the contact pressure."""
         ...
 
     def separation_at(self, pressure: float) -> float:
-        """α, m, of a contact pressure above 0, Pa."""
+        """The separation α, m, at a contact pressure above 0, Pa."""
         ...

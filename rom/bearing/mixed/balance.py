@@ -1,4 +1,4 @@
-"""How far apart film and asperities hold the walls under a load: a root, bracketed and found by few films."""
+"""The separation at which film and asperities carry a load: a bracketed root from few film solves."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -12,59 +12,67 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Ou
 from roughfilm.rom.cavitation.network import State
 from roughfilm.rom.cavitation.solve import Solution
 
-FILMS = 60
-"""Solved for one load, at most; three or four are usual."""
+MAX_FILMS = 60
+"""Largest number of film solves for one load; three or four are usual."""
 
 STEEPNESS = 1.5
-"""Of a film's load, as a power of the separation, before two films have told it."""
+"""Initial exponent n of a film's load over the separation, load ~ separation⁻ⁿ."""
 
-STEEPEST, LARGEST = 1e3, 600.0
-"""Of the same, between two films; and of exponents."""
+MAX_STEEPNESS = 1e3
+"""Largest absolute value of the exponent between two films."""
 
-EXTENSION = 4.0
-"""Times the separation, where no film has yet been found that carries too little."""
+MAX_EXPONENT = 600.0
+"""Largest argument of the exponential function."""
 
-BISECTED, SECANTS, INSIDE = 8, 3, 1e-3
-"""After so many films the bracket is halved; after so many a guess keeps this part of the bracket from its ends."""
+MAX_EXTENSION = 4.0
+"""Largest factor of the separation in a step without an upper bracket."""
+
+BISECTION_INTERVAL = 8
+"""Number of films after which the bracket is halved."""
+
+SECANT_FILMS = 3
+"""Number of films after which a guess keeps a distance from the ends of the bracket."""
+
+BRACKET_MARGIN = 1e-3
+"""That distance over the length of the bracket."""
+
+ORIGIN_DISTANCE = 0.1
+"""Smallest distance from the origin of the power law, over the separation of first contact."""
 
 
-NEAREST = 0.1
-"""Of the separation of touching: least distance from the origin from which a film's power is counted."""
-
-
-class Carrying(Protocol):
-    """A film in balance."""
+class LoadedFilm(Protocol):
+    """A converged film with its load."""
 
     @property
     def load(self) -> float:
-        """All that it carries, N."""
+        """The load of film and asperities, N."""
         ...
 
     @property
     def solution(self) -> Solution:
-        """The film, whose state others may begin from."""
+        """The film, whose state can start the next film."""
         ...
 
 
-Found = TypeVar("Found", bound=Carrying, covariant=True)
+FilmT = TypeVar("FilmT", bound=LoadedFilm, covariant=True)
 
 
-class Walls(Protocol[Found]):
-    """A bearing at any separation and speed, as :class:`roughfilm.rom.bearing.mixed.film.MixedFilm` is one."""
+class SeparableBearing(Protocol[FilmT]):
+    """A bearing that can be solved at any separation and speed, such as a mixed film."""
 
     @property
     def area(self) -> float:
-        """Nominal, m²."""
+        """The nominal area, m²."""
         ...
 
     @property
     def closest(self) -> float:
-        """The least separation that can be asked for, m."""
+        """The smallest separation that can be solved, m."""
         ...
 
     @property
     def touching(self) -> float:
-        """The separation from which a search begins, m."""
+        """The separation at which a search begins, m."""
         ...
 
     @property
@@ -72,147 +80,158 @@ class Walls(Protocol[Found]):
         """The largest separation, m."""
         ...
 
-    def at(self, separation: float, speed: float, start: State | None, /) -> Found:
-        """The film in balance, from the state of another if there is one."""
+    def at(self, separation: float, speed: float, start: State | None, /) -> FilmT:
+        """Solve the film, starting from the state of another film if given."""
         ...
 
     def contact_load(self, separation: float, /) -> float:
-        """The part of the load that is known without a film, N."""
+        """The part of the load that is known without solving a film, N."""
         ...
 
 
 @dataclass(kw_only=True)
-class Speed(Generic[Found]):
-    """What films of one bearing carry at one speed, as far as they have been solved.
+class FilmsAtSpeed(Generic[FilmT]):
+    """The solved films of one bearing at one speed.
 
-    ``loads`` by their separations, beside what is known without a film; ``steepness``, a power, of them as it was last
-    seen. Separations may be below 0 where tips are crushed or bodies bent, so that powers are those of ``distance``.
+    Attributes
+    ----------
+    film : the bearing.
+    speed : sliding speed, m/s.
+    loads : load of each solved film without its contact load, N, by the separation, m.
+    steepness : last exponent n of the load over the distance, load ~ distance⁻ⁿ; separations may be negative where
+        asperities are flattened or bodies bend.
     """
 
-    film: Walls[Found]
+    film: SeparableBearing[FilmT]
     speed: float
     loads: dict[float, float] = field(default_factory=dict)
     steepness: float = STEEPNESS
 
     def distance(self, separation: float) -> float:
-        """The logarithm of how far a separation is from one that is never reached; from 0 if none is below it."""
-        return log(separation - min(0.0, self.film.closest - NEAREST * self.film.touching))
+        """The logarithm of the distance of a separation, m, from the origin of the power law."""
+        return log(separation - min(0.0, self.film.closest - ORIGIN_DISTANCE * self.film.touching))
 
     def separation(self, distance: float) -> float:
-        """The inverse of ``distance``, m."""
-        return exp(distance) + min(0.0, self.film.closest - NEAREST * self.film.touching)
+        """The inverse of :meth:`distance`, m."""
+        return exp(distance) + min(0.0, self.film.closest - ORIGIN_DISTANCE * self.film.touching)
 
-    def at(self, separation: float, start: State | None) -> Found:
-        """Solve the film and remember its load."""
-        found = self.film.at(separation, self.speed, start)
-        self.loads[separation] = found.load - self.film.contact_load(separation)
-        return found
+    def at(self, separation: float, start: State | None) -> FilmT:
+        """Solve the film at a separation, m, and store its load."""
+        film = self.film.at(separation, self.speed, start)
+        self.loads[separation] = film.load - self.film.contact_load(separation)
+        return film
 
     def guess(self, near: float) -> Callable[[float], float]:
-        """What the film carries at other distances, as a power, from the two known ones nearest to one."""
+        """The load over the distance as a power law through the two solved films nearest to ``near``."""
         known = sorted((abs(self.distance(at) - near), self.distance(at), load) for at, load in self.loads.items())
         _, one, load = known[0]
         if len(known) > 1:
             _, two, other = known[1]
             if load > 0 and other > 0:
-                self.steepness = float(np.clip(-log(other / load) / (two - one), -STEEPEST, STEEPEST))
+                self.steepness = float(np.clip(-log(other / load) / (two - one), -MAX_STEEPNESS, MAX_STEEPNESS))
             else:
                 return lambda place: load + (other - load) * (place - one) / (two - one)
-        return lambda place: load * exp(min(-self.steepness * (place - one), LARGEST))
+        return lambda place: load * exp(min(-self.steepness * (place - one), MAX_EXPONENT))
 
 
 def balanced(
-    at: Speed[Found],
+    at: FilmsAtSpeed[FilmT],
     pressure: float,
     *,
     tolerance: float,
     guess: float | None = None,
     start: State | None = None,
-) -> Found:
-    """The film whose load and that of its asperities are together a pressure over the nominal area.
+) -> FilmT:
+    """Solve for the film whose load, together with that of the asperities, equals a pressure over the nominal area.
 
-    The total falls as the walls part. The asperities' part is known at once for any separation, so that only that of
-    the film is guessed from those that were solved, as a power of the separation: a secant method for the smooth part
-    of the balance, safe in the bracket that the films before leave.
+    The load falls with the separation. The contact load is known at any separation without a film solve; the load of
+    the film is approximated by a power law through two solved films. This secant method is safeguarded by a bracket.
 
     Parameters
     ----------
-    at : films at the speed; those that other loads have left there help.
-    pressure : Pa.
-    tolerance : of the balance, relative to the load.
-    guess : of the separation, m.
-    start : the state of a film near the guess.
+    at : films at the speed, with those that were solved for other loads.
+    pressure : the load over the nominal area, Pa.
+    tolerance : relative error of the load at which the search stops.
+    guess : initial separation, m.
+    start : state of a film near the guess.
 
     Raises
     ------
     InputError
-        If the walls cannot carry the load even where they are closest, naming the largest, or if the film carries more
-        however far apart they are.
+        If the walls cannot carry the load at the smallest separation, or carry more at the largest one.
     ConvergenceError
-        If a film does not come into balance, or the load does not.
+        If a film or the load does not converge.
     """
     film, load = at.film, pressure * at.film.area
     low, high = film.closest, film.widest
-    carries, floats = False, False
+    has_lower, has_upper = False, False
     separation = min(max(film.touching if guess is None else guess, low), high)
-    for count in range(FILMS):
-        found = at.at(separation, start)
-        start = found.solution.state
-        miss = found.load / load - 1
-        if abs(miss) <= tolerance:
-            return found
-        if miss > 0:
-            low, carries = separation, True
+    for count in range(MAX_FILMS):
+        solved = at.at(separation, start)
+        start = solved.solution.state
+        error = solved.load / load - 1
+        if abs(error) <= tolerance:
+            return solved
+        if error > 0:
+            low, has_lower = separation, True
             if separation >= film.widest * (1 - 1e-12):
-                raise _floats(at, pressure, found.load)
+                raise _load_too_low(at, pressure, solved.load)
         else:
-            high, floats = separation, True
+            high, has_upper = separation, True
             if separation <= film.closest:
-                raise _too_much(at, pressure, found.load)
-        separation = _next(at, load, low, high, separation, bracketed=(carries, floats), count=count)
+                raise _load_too_high(at, pressure, solved.load)
+        separation = _next(at, load, low, high, separation, bracketed=(has_lower, has_upper), count=count)
     raise ConvergenceError(
-        f"mixed film: the balance of load misses {tolerance:.1e} by {abs(miss):.1e} after {FILMS} films",
+        f"mixed film: the relative error of the load is {abs(error):.1e} after {MAX_FILMS} films, above the tolerance "
+        f"of {tolerance:.1e}; take more cells or a larger tolerance",
         outcome=Outcome.STALLED,
-        iterations=FILMS,
+        iterations=MAX_FILMS,
     )
 
 
 def _next(
-    at: Speed[Found], load: float, low: float, high: float, last: float, *, bracketed: tuple[bool, bool], count: int
+    at: FilmsAtSpeed[FilmT],
+    load: float,
+    low: float,
+    high: float,
+    last: float,
+    *,
+    bracketed: tuple[bool, bool],
+    count: int,
 ) -> float:
-    """Where the guessed film and the asperities carry the load, within the bracket."""
+    """The next separation, m, within the bracket: the approximated film and the asperities carry the load there."""
     here, below, above = (at.distance(place) for place in (last, low, high))
     film = at.guess(here)
 
-    def miss(place: float) -> float:
+    def excess(place: float) -> float:
         separation = min(max(at.separation(place), low), high)
         return film(place) + at.film.contact_load(separation) - load
 
-    if all(bracketed) and count % BISECTED == BISECTED - 1:
+    if all(bracketed) and count % BISECTION_INTERVAL == BISECTION_INTERVAL - 1:
         return at.separation((below + above) / 2)
     if not bracketed[1]:
-        above = min(above, here + log(EXTENSION))
-    if miss(above) >= 0:
+        above = min(above, here + log(MAX_EXTENSION))
+    if excess(above) >= 0:
         return at.separation((here + above) / 2) if bracketed[1] else min(at.separation(above), high)
-    if miss(below) <= 0:
+    if excess(below) <= 0:
         return at.separation((here + below) / 2) if bracketed[0] else low
-    found = float(scipy.optimize.brentq(miss, below, above, xtol=1e-14, rtol=1e-14))
-    if all(bracketed) and count > SECANTS:
-        slack = INSIDE * (above - below)
-        found = min(max(found, below + slack), above - slack)
-    return min(max(at.separation(found), low), high)
+    root = float(scipy.optimize.brentq(excess, below, above, xtol=1e-14, rtol=1e-14))
+    if all(bracketed) and count > SECANT_FILMS:
+        margin = BRACKET_MARGIN * (above - below)
+        root = min(max(root, below + margin), above - margin)
+    return min(max(at.separation(root), low), high)
 
 
-def _too_much(at: Speed[Found], pressure: float, most: float) -> InputError:
+def _load_too_high(at: FilmsAtSpeed[FilmT], pressure: float, largest: float) -> InputError:
     return InputError(
         f"load: got {pressure:.6g} Pa over the nominal area; at {at.speed:.4g} m/s film and asperities carry at most "
-        f"{most / at.film.area:.6g} Pa where they are known, down to a separation of "
-        f"{at.film.closest:.4g} m; lower the load, or make a table that reaches further"
+        f"{largest / at.film.area:.6g} Pa, at the smallest known separation of {at.film.closest:.4g} m; lower the "
+        "load, or make a table with larger loads"
     )
 
 
-def _floats(at: Speed[Found], pressure: float, load: float) -> InputError:
+def _load_too_low(at: FilmsAtSpeed[FilmT], pressure: float, load: float) -> InputError:
     return InputError(
-        f"load: got {pressure:.6g} Pa over the nominal area; at {at.speed:.4g} m/s the film carries "
-        f"{load / at.film.area:.6g} Pa however far apart the walls are; raise the load or lower the ends' pressures"
+        f"load: got {pressure:.6g} Pa over the nominal area; at {at.speed:.4g} m/s the film carries at "
+        f"least {load / at.film.area:.6g} Pa at any separation; raise the load or lower the pressures at the ends"
     )

@@ -1,7 +1,6 @@
-"""A sweep of speeds and loads whose table and points stay in a directory: what was finished is found again."""
+"""Stribeck curves of a scene with files for the table and the points, from which a stopped sweep continues."""
 
 import math
-import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.threads import checked_threads
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.bearing.mixed.curves_store import known_points, save_points
 from roughfilm.rom.bearing.mixed.film import MixedFilm
-from roughfilm.rom.bearing.mixed.resume import EVERY_S, kept_table
+from roughfilm.rom.bearing.mixed.resume import regular_saves, resumed_table
 from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve, StribeckPoint, stribeck
 from roughfilm.rom.bearing.mixed.tabulate import tabulate_pressed
 from roughfilm.rom.bearing.mixed.wall import asperities_of
@@ -30,74 +29,86 @@ from roughfilm.rom.ladder.provenance import code
 from roughfilm.rom.ladder.scene import scene_entries
 from roughfilm.rom.parts.solids import composite_modulus, hardness
 
-SAME = 1e-9
-"""How near what is told of a table's surface and solids has to be to those of the scene, as a part of it."""
+MATCH_TOLERANCE = 1e-9
+"""Relative difference up to which the surface and solids of a table match those of the scene."""
 
-SPARE, TURNS = 1.3, 12
-"""By how much more than is needed a table is extended, and how often at most."""
+EXTENSION_FACTOR = 1.3
+"""Largest load of an extended table over the estimated load that is needed."""
 
-NEAR = 1.02
-"""How near, as a factor, a table reaches to a load that closes the gap everywhere."""
+MAX_EXTENSIONS = 12
+"""Largest number of extensions of a table."""
 
-UNCOUNTED = ("name", "motion.speed", "geometry.film", "geometry.eccentricity", "lubricant.density", "load.pressure")
-"""Entries of a scene that curves do not depend on: loads and speeds take their place."""
+CLOSURE_RATIO = 1.02
+"""Ratio of the load that closes the gap to the largest load of the table below which the table is not extended."""
+
+IRRELEVANT = ("name", "motion.speed", "geometry.film", "geometry.eccentricity", "lubricant.density", "load.pressure")
+"""Entries of a scene on which the curves do not depend."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Wall:
-    """What the asperities of a scene do, and how that is known.
+    """The asperities of a scene and the origin of their table.
 
     Attributes
     ----------
-    asperities : over the separation.
-    told : sentences: how far a table was extended, a surface that is not periodic.
-    points, found : of the table, and how many of them were there already.
-    source : what the table was computed from, as entries that JSON can hold.
+    asperities : flow factors and contact pressures over the separation.
+    warnings : sentences about an extended table or a surface that is not periodic.
+    points : number of points of the table.
+    known_points : number of those that were already in a file.
+    source : input of the table as JSON entries.
     """
 
     asperities: AsperityTable
-    told: tuple[str, ...]
+    warnings: tuple[str, ...]
     points: int
-    found: int
+    known_points: int
     source: Mapping[str, Any]
 
 
 def wall_of(scene: Bearing, largest: float, table: Path | None, out: Path, progress: Progress, cells: int) -> Wall:
-    """The asperities' table: the one given, or that of the scene's surface, which is kept in ``out``.
+    """The asperities of a scene, from a given table or from its surface.
 
-    A table that does not reach the largest load, Pa over the nominal area, is extended, if the scene tells the surface.
+    Parameters
+    ----------
+    largest : largest load over the nominal area, Pa; a table that does not reach it is extended if the scene has the
+        surface.
+    table : path of a given table; None to compute one.
+    out : path where a computed table is stored.
+    cells : number of cells along a side of the film.
 
     Raises
     ------
     InputError
-        If the table is of another surface or of other solids, or cannot be extended; if no table of the surface
+        If the table belongs to another surface or other solids or cannot be extended, or if no table of the surface
         carries the load.
     """
     surface = scene.roughness if isinstance(scene.roughness, RoughSurface) else None
-    told: list[str] = []
+    warnings: list[str] = []
     if surface is not None and not surface.read().periodic:
         mismatch = periodicity_mismatch(surface.read())
         if mismatch > MISMATCH_THRESHOLD:
-            told.append(
-                f"{surface.name} is not periodic (mismatch {mismatch:.2g}): its edges meet in steps, which throttle "
-                "the flow; prepare it by roughfilm surface"
+            warnings.append(
+                f"{surface.name} is not periodic (edge mismatch {mismatch:.2g}): steps at its edges restrict the flow; "
+                "prepare it with roughfilm surface"
             )
     if table is not None:
         given: AsperityTable | None = AsperityTable(factors=_given(table, surface, scene))
     else:
         given = None if surface is not None else asperities_of(scene, progress)
-    if given is not None and (surface is None or _carried(scene, given, cells) >= largest):
-        _refuse_too_much(scene, given, largest, cells)
-        known = len(given.factors.points)
-        return Wall(asperities=given, told=tuple(told), points=known, found=known, source={"table": _digest(given)})
+    if given is not None and (surface is None or _capacity(scene, given, cells) >= largest):
+        _check_capacity(scene, given, largest, cells)
+        count = len(given.factors.points)
+        source: Mapping[str, Any] = {"table": _digest(given)}
+        return Wall(asperities=given, warnings=tuple(warnings), points=count, known_points=count, source=source)
     assert surface is not None
-    made, found, source = _tabulated(scene, surface, given, largest, out, progress, cells)
+    made, known, source = _tabulated(scene, surface, given, largest, out, progress, cells)
     if given is not None:
-        told.append(
-            f"{table} reaches {given.largest_pressure / 1e6:.4g} MPa of contact, too little for "
+        warnings.append(
+            f"{table} has contact pressures of up to {given.largest_pressure / 1e6:.4g} MPa, too little for "
             f"{largest / 1e6:.4g} MPa over the nominal area: extended to {made.largest_pressure / 1e6:.4g} MPa"
         )
-    return Wall(asperities=made, told=tuple(told), points=len(made.factors.points), found=found, source=source)
+    points = len(made.factors.points)
+    return Wall(asperities=made, warnings=tuple(warnings), points=points, known_points=known, source=source)
 
 
 def _tabulated(
@@ -109,6 +120,7 @@ def _tabulated(
     progress: Progress,
     cells: int,
 ) -> tuple[AsperityTable, int, Mapping[str, Any]]:
+    """The table of the scene's surface, the number of its points that were in the file, and its source."""
     stiffness, bound = _solids(scene)
     settings = {
         "rule": FaceRule.LINEAR.value,
@@ -122,13 +134,13 @@ def _tabulated(
     inputs = Inputs(heights=heights, spacing=spacing, settings=settings)
     before = () if given is None else tuple(given.factors.points)
 
-    def at_least(reach: float, known: Sequence[Point], keep: Callable[[Point], None]) -> AsperityTable:
+    def up_to(load: float, known: Sequence[Point], keep: Callable[[Point], None]) -> AsperityTable:
         return tabulate_pressed(
             heights,
             spacing,
             stiffness,
             hardness=bound,
-            reach=reach,
+            reach=load,
             known=known,
             keep=keep,
             threads=checked_threads(None),
@@ -136,67 +148,68 @@ def _tabulated(
         )
 
     def work(known: Sequence[Point], keep: Callable[[Point], None]) -> FactorTable:
-        made, most = at_least(0.0, [*before, *known], keep), bound
-        for _ in range(TURNS):
-            carried = _carried(scene, made, cells)
-            if carried >= largest or most < NEAR * made.largest_pressure:
+        made, closing = up_to(0.0, [*before, *known], keep), bound
+        for _ in range(MAX_EXTENSIONS):
+            capacity = _capacity(scene, made, cells)
+            if capacity >= largest or closing < CLOSURE_RATIO * made.largest_pressure:
                 break
-            reach = min(SPARE * made.largest_pressure * largest / carried, most)
+            load = min(EXTENSION_FACTOR * made.largest_pressure * largest / capacity, closing)
             try:
-                made = at_least(reach, made.factors.points, keep)
-            except InputError:  # so much closes the gap everywhere
-                most = math.sqrt(made.largest_pressure * reach)
-        _refuse_too_much(scene, made, largest, cells)
+                made = up_to(load, made.factors.points, keep)
+            except InputError:  # the load closes the gap everywhere
+                closing = math.sqrt(made.largest_pressure * load)
+        _check_capacity(scene, made, largest, cells)
         return made.factors
 
-    found, count = kept_table(out, inputs, work)
-    return AsperityTable(factors=found), count, {"table": inputs.digest}
+    table, count = resumed_table(out, inputs, work)
+    return AsperityTable(factors=table), count, {"table": inputs.digest}
 
 
 def _solids(scene: Bearing) -> tuple[float, float]:
-    """E* and H, Pa, of a scene that tells its surface; H is infinite where nothing yields."""
+    """E* and H, Pa, of a scene with a surface; H is infinite without plasticity."""
     assert scene.asperities is not None
     assert scene.asperities.solid is not None
     return composite_modulus(scene.asperities.solid, scene.asperities.counter), hardness(scene.asperities.solid)
 
 
 def _given(path: Path, surface: RoughSurface | None, scene: Bearing) -> FactorTable:
-    """A stored table; InputError if it is not of the scene's surface and solids."""
+    """The stored table; raises InputError if it belongs to another surface or other solids than those of the scene."""
     table, source = load_table_and_source(path)
     if surface is None:
         return table
     (dx, dy), (stiffness, bound) = surface.scaled_spacing(), _solids(scene)
-    its = source.settings
-    told = (
+    settings = source.settings
+    compared = (
         ("a highest point", table.peak, surface.peak, "m"),
         ("an rms height", table.rms, surface.rms, "m"),
         ("a spacing along x", source.spacing[0], dx, "m"),
         ("a spacing along y", source.spacing[1], dy, "m"),
-        ("a composite modulus", its.get("composite_modulus") or math.inf, stiffness, "Pa"),
-        ("a hardness", its.get("hardness") or math.inf, bound, "Pa"),
+        ("a composite modulus", settings.get("composite_modulus") or math.inf, stiffness, "Pa"),
+        ("a hardness", settings.get("hardness") or math.inf, bound, "Pa"),
     )
-    for name, there, here, unit in told:
-        if not math.isclose(there, here, rel_tol=SAME):
+    for name, there, here, unit in compared:
+        if not math.isclose(there, here, rel_tol=MATCH_TOLERANCE):
             what = "surface" if unit == "m" else "pair of solids"
             raise InputError(
-                f"table {path}: is of another {what}, with {name} of {there:.6g} {unit}, where the scene has "
-                f"{here:.6g} {unit}; leave the table out, or take another scene"
+                f"table {path}: belongs to another {what}, with {name} of {there:.6g} {unit}; the scene has "
+                f"{here:.6g} {unit}, leave the table out or take another scene"
             )
     return table
 
 
-def _carried(scene: Bearing, asperities: AsperityTable, cells: int) -> float:
-    """What the asperities alone carry where the walls are closest, Pa over the nominal area."""
+def _capacity(scene: Bearing, asperities: AsperityTable, cells: int) -> float:
+    """The load of the asperities over the nominal area at the smallest known separation, Pa."""
     film = MixedFilm(scene=scene, asperities=asperities, cells=cells)
     return film.contact_load(film.closest) / film.area
 
 
-def _refuse_too_much(scene: Bearing, asperities: AsperityTable, largest: float, cells: int) -> None:
-    carried = _carried(scene, asperities, cells)
-    if carried < largest:
+def _check_capacity(scene: Bearing, asperities: AsperityTable, largest: float, cells: int) -> None:
+    """Raise InputError if the asperities cannot carry a load over the nominal area, Pa."""
+    capacity = _capacity(scene, asperities, cells)
+    if capacity < largest:
         raise InputError(
             f"loads: got {largest / 1e6:.6g} MPa over the nominal area; at rest the surface carries at most "
-            f"{carried / 1e6:.6g} MPa, where its table ends; lower the load"
+            f"{capacity / 1e6:.6g} MPa, at the end of its table; lower the load"
         )
 
 
@@ -205,7 +218,7 @@ def _digest(asperities: AsperityTable) -> str:
     return Inputs(heights=rows, spacing=(1.0, 1.0), settings={}).digest
 
 
-def swept(
+def resumed_curves(
     scene: Bearing,
     speeds: Sequence[float],
     loads: Sequence[float],
@@ -214,31 +227,38 @@ def swept(
     resolution: int,
     progress: Progress,
 ) -> tuple[tuple[StribeckCurve, ...], int]:
-    """The curves, and how many of their points were in the file; what was finished is kept whenever this ends.
+    """The Stribeck curves of a scene, and the number of their points that were in the file.
+
+    Parameters
+    ----------
+    speeds, loads : sliding speeds, m/s, and loads over the nominal area, Pa.
+    wall : the asperities.
+    out : path of the file, which holds all finished points even if the sweep is stopped.
+    resolution : number of cells along a side.
 
     Raises
     ------
     InputError
-        If the file cannot be read or written, was damaged, or holds other curves; if a load cannot be carried.
+        If the file cannot be read or written, is damaged, or holds other curves; if a load cannot be carried.
     ConvergenceError
-        If a film does not come into balance.
+        If a film does not converge.
     """
     settings = {**_flat(scene_entries(scene)), **wall.source, "resolution": resolution, "code": code()}
-    for name in UNCOUNTED:
+    for name in IRRELEVANT:
         settings.pop(name, None)
     inputs = Inputs(heights=np.zeros((0, 0)), spacing=(1.0, 1.0), settings=settings)
     known = known_points(out, inputs)
-    found = {(point.pressure, point.speed): point for point in known}
-    kept = time.monotonic()
+    points = {(point.pressure, point.speed): point for point in known}
 
-    def keep(point: StribeckPoint) -> None:
-        nonlocal kept
-        found[point.pressure, point.speed] = point
-        if time.monotonic() - kept > EVERY_S:
-            save_points(out, inputs, tuple(found.values()))
-            kept = time.monotonic()
+    def save() -> None:
+        save_points(out, inputs, tuple(points.values()))
 
-    try:
+    with regular_saves(save, lambda: f"stopped: {len(points)} points; the same command goes on") as save_regularly:
+
+        def keep(point: StribeckPoint) -> None:
+            points[point.pressure, point.speed] = point
+            save_regularly()
+
         curves = stribeck(
             scene,
             speeds,
@@ -249,20 +269,13 @@ def swept(
             keep=keep,
             progress=progress,
         )
-    except ConvergenceError:
-        save_points(out, inputs, tuple(found.values()))
-        raise
-    except (KeyboardInterrupt, SystemExit) as stop:
-        save_points(out, inputs, tuple(found.values()))
-        stop.add_note(f"stopped: {len(found)} points; the same command goes on")
-        raise
-    save_points(out, inputs, tuple(found.values()), curves)
-    asked = {(point.pressure, point.speed) for curve in curves for point in curve.points}
-    return curves, len(asked & {(point.pressure, point.speed) for point in known})
+    save_points(out, inputs, tuple(points.values()), curves)
+    requested = {(point.pressure, point.speed) for curve in curves for point in curve.points}
+    return curves, len(requested & {(point.pressure, point.speed) for point in known})
 
 
 def _flat(entries: Mapping[str, Any], before: str = "") -> dict[str, Any]:
-    """Entries of nested tables by their dotted keys."""
+    """The entries of nested tables by dotted keys."""
     flat: dict[str, Any] = {}
     for name, entry in entries.items():
         if isinstance(entry, dict):

@@ -1,4 +1,4 @@
-"""Points of Stribeck curves in HDF5, keyed by what they are computed from, and as a table for spreadsheets."""
+"""Files of Stribeck curves: HDF5 with a digest of the input, and CSV."""
 
 import json
 from collections.abc import Sequence
@@ -31,7 +31,7 @@ UNITS = {
     "contact_pressure_max": "Pa",
     "cpu_s": "s",
 }
-"""Of the numbers of a point; all others are pure numbers."""
+"""Units of the numbers of a point; all others are dimensionless."""
 
 NUMBERS = tuple(entry.name for entry in fields(StribeckPoint) if entry.name != "uncertainty")
 
@@ -39,9 +39,10 @@ NUMBERS = tuple(entry.name for entry in fields(StribeckPoint) if entry.name != "
 def save_points(
     path: Path, inputs: Inputs, points: Sequence[StribeckPoint], curves: Sequence[StribeckCurve] = ()
 ) -> None:
-    """Write points whole or not at all: ``points/`` has a column for each number, by load, then speed.
+    """Write points in one step, in order of load and speed.
 
-    ``uncertainty/`` has a column for each number that was estimated, NaN where it was not; ``lift_off/`` a row a load.
+    ``points/`` has a column for each number, ``uncertainty/`` a column for each estimated uncertainty, NaN where there
+    is none, and ``lift_off/`` a row for each load.
 
     Raises
     ------
@@ -68,12 +69,12 @@ def save_points(
 
 
 def known_points(path: Path, inputs: Inputs) -> tuple[StribeckPoint, ...]:
-    """The points that a file holds for these inputs; none if there is no such file, or an empty one.
+    """The points of a file for these inputs; none if there is no file, or an empty one.
 
     Raises
     ------
     InputError
-        If the file cannot be read, was damaged or changed, or holds other curves or something else.
+        If the file cannot be read, is damaged, or holds other curves or something else.
     """
     try:
         if path.stat().st_size == 0:
@@ -82,10 +83,10 @@ def known_points(path: Path, inputs: Inputs) -> tuple[StribeckPoint, ...]:
             raise InputError(f"{path}: holds no Stribeck curves; {REMEDY}")
         with open_checked(path, MARK, SCHEMA, REMEDY) as file:
             if file.attrs["digest"] != inputs.digest:
-                told = inputs.difference(file.attrs["settings"])
-                raise InputError(f"{path}: holds other curves, {told}; {REMEDY}")
+                difference = inputs.difference(file.attrs["settings"])
+                raise InputError(f"{path}: holds other curves, {difference}; {REMEDY}")
             columns = {name: file[f"points/{name}"][()] for name in NUMBERS}
-            doubts = {name: column[()] for name, column in file.get("uncertainty", {}).items()}
+            uncertainties = {name: column[()] for name, column in file.get("uncertainty", {}).items()}
     except FileNotFoundError:
         return ()
     except OSError as error:
@@ -93,21 +94,23 @@ def known_points(path: Path, inputs: Inputs) -> tuple[StribeckPoint, ...]:
     return tuple(
         StribeckPoint(
             **{name: float(column[row]) for name, column in columns.items()},
-            uncertainty={name: float(column[row]) for name, column in doubts.items() if not np.isnan(column[row])},
+            uncertainty={
+                name: float(column[row]) for name, column in uncertainties.items() if not np.isnan(column[row])
+            },
         )
         for row in range(len(columns["speed"]))
     )
 
 
 def write_csv(path: Path, curves: Sequence[StribeckCurve]) -> None:
-    """One row a point, with its units in the first line and the uncertainty of each number that has one."""
-    doubts = sorted({name for curve in curves for point in curve.points for name in point.uncertainty})
+    """Write a row for each point with its uncertainties; the first line has names and units."""
+    uncertain = sorted({name for curve in curves for point in curve.points for name in point.uncertainty})
     heads = [f"{name} ({UNITS.get(name, '1')})" for name in NUMBERS]
-    heads += [f"{name} ± ({UNITS.get(name, '1')})" for name in doubts]
+    heads += [f"{name} ± ({UNITS.get(name, '1')})" for name in uncertain]
     lines = [", ".join(heads)]
     for point in (point for curve in curves for point in curve.points):
         numbers = [repr(float(getattr(point, name))) for name in NUMBERS]
-        numbers += [repr(float(point.uncertainty[name])) if name in point.uncertainty else "" for name in doubts]
+        numbers += [repr(float(point.uncertainty[name])) if name in point.uncertainty else "" for name in uncertain]
         lines.append(", ".join(numbers))
     with replacing(path) as scratch:
         scratch.write_text("\n".join(lines) + "\n", encoding="utf-8")

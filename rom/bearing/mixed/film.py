@@ -1,4 +1,4 @@
-"""A film and the asperities that reach through it, at any separation of the walls and any speed."""
+"""Mixed films: a film and the asperities in contact, at any separation of the walls and any speed."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -8,7 +8,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.mixed.asperities import Asperities
-from roughfilm.rom.bearing.mixed.touching import Touching, quarters, touching
+from roughfilm.rom.bearing.mixed.asperity_load import AsperityLoad, asperity_load, quarters
 from roughfilm.rom.bearing.quantities import carried, friction, nominal_area
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shapes import Journal
@@ -20,51 +20,59 @@ from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
 from roughfilm.rom.cavitation.solve import Solution, solve
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap, GapFactors
 
-SEEPING = 1e-6
-"""Of a smooth film's flow factors, at the least: it keeps the pressure of sealed places defined, by hardly a drop."""
+MIN_FACTOR_RATIO = 1e-6
+"""Lower bound on flow factors over those of a smooth film, which keeps the matrix regular where the gap is sealed."""
 
-SPARE, LEAST_RESIDUAL = 0.1, 1e-12
-"""Of the load's accuracy, what residuals may take; and the residual of a film, at the least."""
+RESIDUAL_FRACTION = 0.1
+"""Fraction of the error of the load that the residuals of the film may cause."""
+
+MIN_RESIDUAL = 1e-12
+"""Smallest residual that is required of a film."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class MixedState:
-    """A mixed film in balance; ``load`` and ``contact_load`` in N, N/m if infinitely wide, of a journal as vectors.
+    """A converged mixed film; forces in N (N/m if infinitely wide), in a journal bearing magnitudes of vectors.
 
     Attributes
     ----------
-    scene : at this separation and speed.
+    scene : the scene at this separation and speed.
     solution : the film.
-    contact : the asperities.
-    load : of film and asperities together.
-    contact_load : of the asperities alone.
-    friction : boundary friction, and that of the film, N.
+    contact : the contact of the asperities.
+    load : load of film and asperities together.
+    contact_load : load of the asperities alone.
+    friction : boundary friction plus friction of the film.
     """
 
     scene: Bearing
     solution: Solution
-    contact: Touching
+    contact: AsperityLoad
     load: float
     contact_load: float
     friction: float
 
     @property
     def film_load(self) -> float:
-        """What the film adds to the load of the asperities, N."""
+        """The load minus the contact load, N."""
         return self.load - self.contact_load
 
     @property
     def cavitated_fraction(self) -> float:
-        """The part of the film that is torn."""
+        """The cavitated fraction of the area of the film."""
         areas = self.solution.grid.areas
         return float(areas[self.solution.kind == CAVITY].sum() / areas.sum())
 
 
 @dataclass(frozen=True, kw_only=True)
 class MixedFilm:
-    """A bearing with asperities on a grid of ``cells`` along and across; its own film and speed do not count.
+    """A bearing with asperities at any separation and speed.
 
-    ``accuracy`` is that of the load, relative; the film's own residual adds up over the cells and is kept below it.
+    Attributes
+    ----------
+    scene : the bearing; its film thickness and speed have no effect.
+    asperities : flow factors and contact pressures.
+    cells : number of cells along and across.
+    accuracy : relative error of the load, which determines the residual of the film.
     """
 
     scene: Bearing
@@ -74,129 +82,127 @@ class MixedFilm:
 
     @cached_property
     def grid(self) -> Grid:
-        """The nodes, the same at all separations."""
+        """The grid, the same at all separations."""
         return grid(self.scene.geometry.film_shape(), (self.cells, self.cells))
 
     @property
     def boundary_friction(self) -> float:
-        """Friction over load where asperities touch."""
+        """The coefficient of boundary friction."""
         assert self.scene.asperities is not None
         return self.scene.asperities.friction
 
     @cached_property
     def area(self) -> float:
-        """Nominal area, m²; m if infinitely wide."""
+        """The nominal area, m² (m if infinitely wide)."""
         return nominal_area(self.scene, self.grid)
 
     @cached_property
     def dip(self) -> float:
-        """How much nearer than ``film`` the walls come at the narrowest place, m; 0 unless waves reach below it."""
+        """The film thickness of the geometry minus its minimum on the grid, m; above 0 only for wavy walls."""
         geometry = self.scene.geometry
         thickness = geometry.film_shape().thickness(*np.meshgrid(self.grid.x, self.grid.y, indexing="ij"))
         return max(0.0, geometry.film - float(thickness.min()))
 
     @cached_property
     def closest(self) -> float:
-        """The least film at which the asperities are known everywhere, m; below 0 where tips are crushed."""
+        """The smallest film thickness that can be solved, m; negative where asperities are flattened."""
         return self.asperities.closest + self.dip
 
     @cached_property
     def touching(self) -> float:
-        """The film at which the walls begin to touch, m."""
+        """The film thickness at first contact, m."""
         return self.asperities.touching + self.dip
 
     @property
     def residual(self) -> float:
-        """That the film may have."""
-        return min(max(SPARE * self.accuracy / self.cells, LEAST_RESIDUAL), RESIDUAL_TOLERANCE)
+        """The residual at which a film solve stops; residuals accumulate over the cells."""
+        return min(max(RESIDUAL_FRACTION * self.accuracy / self.cells, MIN_RESIDUAL), RESIDUAL_TOLERANCE)
 
     @property
     def widest(self) -> float:
-        """The thickest film that the geometry allows, m."""
+        """The largest film thickness of the geometry, m."""
         return widest_film(self.scene)
 
     def scene_at(self, film: float, speed: float) -> Bearing:
-        """The scene with another least film, m, and speed, m/s."""
+        """The scene at another film thickness, m, and speed, m/s."""
         motion = self.scene.motion.model_copy(update={"speed": speed})
         return self.scene.model_copy(update={"geometry": self.scene.geometry.at_film(film), "motion": motion})
 
     def at(self, film: float, speed: float, start: State | None = None) -> MixedState:
-        """Solve the film of a least thickness, m, at a speed, m/s, from the state of another if there is one."""
+        """Solve the film at a minimum thickness, m, and a speed, m/s, starting from the state of another film."""
         scene = self.scene_at(film, speed)
         problem, cells = mixed_problem(scene, self.asperities), (self.cells, self.cells)
-        found = solve(problem, cells, start=start, tolerance=self.residual)
-        contact = touching(found.problem.shape, found.grid, self.asperities)
-        return mixed_state(scene, found, contact)
+        solution = solve(problem, cells, start=start, tolerance=self.residual)
+        contact = asperity_load(solution.problem.shape, solution.grid, self.asperities)
+        return mixed_state(scene, solution, contact)
 
     @cached_property
-    def _floor(self) -> tuple[Array, Array]:
-        """How far above the film each height of a wall that shifts as a whole lies, m, and its area; no higher than
-        can touch.
-        """
+    def _contact_heights(self) -> tuple[Array, Array]:
+        """The distinct separations minus the film thickness where contact is possible, m, and their areas, m²."""
         geometry = self.scene.geometry
-        parts = list(quarters(geometry.film_shape(), self.grid))
-        above = np.concatenate([separation.ravel() for separation, _ in parts]) - geometry.film
-        areas = np.concatenate([area.ravel() for _, area in parts])
+        points = list(quarters(geometry.film_shape(), self.grid))
+        above = np.concatenate([separation.ravel() for separation, _ in points]) - geometry.film
+        areas = np.concatenate([area.ravel() for _, area in points])
         low = above < self.asperities.touching - self.asperities.closest
         heights, which = np.unique(np.maximum(above[low], -self.dip), return_inverse=True)
         merged: Array = np.bincount(which, weights=areas[low], minlength=heights.size).astype(np.float64)
         return heights, merged
 
     def contact_load(self, film: float) -> float:
-        """What the asperities alone carry at a least film, N."""
+        """The load of the asperities at a film thickness, N."""
         scene = self.scene_at(film, 0.0)
         if not isinstance(scene.geometry, Journal):
-            above, areas = self._floor
+            above, areas = self._contact_heights
             return float((areas * self.asperities.contact_pressure(film + above)).sum())
-        force = touching(scene.geometry.film_shape(), self.grid, self.asperities).force
+        force = asperity_load(scene.geometry.film_shape(), self.grid, self.asperities).force
         return carried(scene, self.grid.x, force)
 
 
 def widest_film(scene: Bearing) -> float:
-    """The thickest least film that a geometry allows, m."""
+    """The largest film thickness of a geometry, m."""
     return scene.geometry.clearance if isinstance(scene.geometry, Journal) else scene.geometry.length
 
 
 def mixed_problem(scene: Bearing, asperities: Asperities) -> Problem:
-    """The film of a scene, averaged over its asperities."""
+    """The problem of a film with the flow factors of its asperities."""
     problem = scene.problem()
-    return replace(problem, shape=replace(problem.shape, roughness=Seeping(asperities, asperities.mean_gap)))
+    return replace(problem, shape=replace(problem.shape, roughness=FlooredFlowFactors(asperities, asperities.mean_gap)))
 
 
-def mixed_state(scene: Bearing, found: Solution, contact: Touching) -> MixedState:
-    """Loads and friction of a film and its asperities."""
+def mixed_state(scene: Bearing, solution: Solution, contact: AsperityLoad) -> MixedState:
+    """The mixed film with its loads and friction, from the film and the contact of its asperities."""
     assert scene.asperities is not None
-    x = -found.grid.x if found.turned else found.grid.x
-    film = found.grid.areas * (found.state.pressure + scene.lubricant.cavitation_pressure)
+    x = -solution.grid.x if solution.turned else solution.grid.x
+    film = solution.grid.areas * (solution.state.pressure + scene.lubricant.cavitation_pressure)
     return MixedState(
         scene=scene,
-        solution=found,
+        solution=solution,
         contact=contact,
         load=carried(scene, x, film + contact.force),
         contact_load=carried(scene, x, contact.force),
-        friction=friction(found) + scene.asperities.friction * float(contact.force.sum()),
+        friction=friction(solution) + scene.asperities.friction * float(contact.force.sum()),
     )
 
 
 @dataclass(frozen=True)
-class Seeping:
-    """Flow factors that let at least ``SEEPING`` of a smooth film through, so that no place is cut off.
+class FlooredFlowFactors:
+    """Flow factors with a lower bound of ``MIN_FACTOR_RATIO`` times those of a smooth film.
 
-    ``mean_gap`` is that of rough walls over the separation, m, where the two are not the same.
+    ``mean_gap`` gives the mean gap over the separation, m; by default the two are equal.
     """
 
     factors: FactorsOverGap
     mean_gap: Callable[[Array], Array] = np.asarray
 
     def __call__(self, separation: Array, /) -> GapFactors:
-        """The factors, each of the shape of ``separation``."""
-        found, h = self.factors(separation), self.mean_gap(separation)
-        least = SEEPING * h**3
-        sealed = (found.along < least) | (found.across < least)
+        """The flow factors, each of the shape of ``separation``."""
+        factors, h = self.factors(separation), self.mean_gap(separation)
+        floor = MIN_FACTOR_RATIO * h**3
+        sealed = (factors.along < floor) | (factors.across < floor)
         return replace(
-            found,
-            along=np.maximum(found.along, least),
-            across=np.maximum(found.across, least),
-            cross=np.where(sealed, 0.0, found.cross),
-            drag=np.maximum(found.drag, SEEPING * h),
+            factors,
+            along=np.maximum(factors.along, floor),
+            across=np.maximum(factors.across, floor),
+            cross=np.where(sealed, 0.0, factors.cross),
+            drag=np.maximum(factors.drag, MIN_FACTOR_RATIO * h),
         )

@@ -1,4 +1,4 @@
-"""The speed from which on a film keeps the asperities of its walls apart."""
+"""The lift-off speed, above which a film separates the asperities of its walls."""
 
 from math import nan
 
@@ -7,14 +7,23 @@ import scipy
 from roughfilm.rom.bearing.mixed.film import MixedFilm
 from roughfilm.rom.cavitation.network import State
 
-FASTEST = 1000
-"""Times the speed near which it is sought."""
+MAX_SPEED_RATIO = 1000
+"""Largest speed that is tried over the initial guess."""
 
 
 def lift_off_speed(film: MixedFilm, pressure: float, near: float, *, tolerance: float) -> float:
-    """The speed at which the film alone carries a pressure over the nominal area where the walls just touch, m/s.
+    """The speed at which the film alone carries a load at the separation of first contact, m/s.
 
-    Sought round ``near``; 0 if the wall floats at rest, NaN if no speed up to 1000 times ``near`` is enough.
+    Parameters
+    ----------
+    pressure : the load over the nominal area, Pa.
+    near : initial guess, m/s.
+    tolerance : relative error of the speed.
+
+    Returns
+    -------
+    float
+        0 if the load is carried at rest, NaN if no speed up to ``MAX_SPEED_RATIO`` times ``near`` is sufficient.
     """
     separation = film.touching
     if separation >= film.widest:
@@ -23,16 +32,16 @@ def lift_off_speed(film: MixedFilm, pressure: float, near: float, *, tolerance: 
 
     def excess(speed: float) -> float:
         nonlocal state
-        found = film.at(separation, speed, state)
-        state = found.solution.state
-        return found.load / (pressure * film.area) - 1
+        solved = film.at(separation, speed, state)
+        state = solved.solution.state
+        return solved.load / (pressure * film.area) - 1
 
     if excess(0.0) >= 0:
         return 0.0
     low, high = 0.0, near
     while excess(high) < 0:
         low, high = high, 2 * high
-        if high > FASTEST * near:
+        if high > MAX_SPEED_RATIO * near:
             return nan
     while low == 0.0 or high > 2 * low:
         middle = high / 2

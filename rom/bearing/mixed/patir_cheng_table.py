@@ -1,4 +1,4 @@
-"""What Patir and Cheng's factors make of a table: the same gaps and contacts, each in a box with closed sides."""
+"""Tables with the flow factors of Patir and Cheng, computed in boxes with closed sides."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -21,17 +21,17 @@ def patir_cheng_table(
     known: dict[float, Point] | None = None,
     progress: Progress = silent,
 ) -> AsperityTable:
-    """The table with φ₁ĥ³ and φ₂ĥ³ in the place of A, without A₁₂, and with ĥ + σφ_s in that of B, without B₂.
+    """Replace the homogenized flow factors of a table by those of Patir and Cheng (Sahlin 2008, E.3.2).
 
-    Friction and contact pressures stay: Patir and Cheng's model is compared by what flows alone (Sahlin 2008, E.3.2).
-    What the homogenized factors say of grids and interpolation is taken over.
+    A₁₁ and A₂₂ become φ₁ĥ³ and φ₂ĥ³, B₁ becomes ĥ + σφ_s, and A₁₂ and B₂ become 0. Friction factors, contact pressures,
+    uncertainties and interpolation errors remain those of the homogenized table.
 
     Parameters
     ----------
-    table : of homogenized factors.
-    press : the surface that it is of, with its solids.
-    known : points by mean gap that need not be solved again.
-    keep : called with every new point.
+    table : table of homogenized factors.
+    press : the surface of the table, with its solids.
+    known : points by mean gap that are not solved again.
+    keep : called with each new point.
 
     Raises
     ------
@@ -41,15 +41,16 @@ def patir_cheng_table(
     points = []
     for number, point in enumerate(table.factors.points):
         progress(number / len(table.factors.points), f"Patir and Cheng, {number} of {len(table.factors.points)} points")
-        made = (known or {}).get(point.mean_gap)
-        if made is None:
-            made = _in_a_box(point, press)
-            keep(made)
-        points.append(made)
+        replaced = (known or {}).get(point.mean_gap)
+        if replaced is None:
+            replaced = _in_box(point, press)
+            keep(replaced)
+        points.append(replaced)
     return replace(table, factors=replace(table.factors, points=tuple(points)))
 
 
-def _in_a_box(point: Point, press: Press) -> Point:
+def _in_box(point: Point, press: Press) -> Point:
+    """The point with the flow factors of Patir and Cheng."""
     box = patir_cheng(gap_of(point, press), press.spacing)
     scale = point.mean_gap / box.mean_gap
     factors = replace(

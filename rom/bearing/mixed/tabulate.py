@@ -1,4 +1,4 @@
-"""A table of flow factors and contact pressures of a surface, from thick films to crushed asperities."""
+"""Computation of tables of flow factors and contact pressures, from thick films to flattened asperities."""
 
 import math
 from collections.abc import Callable, Iterable, Sequence
@@ -21,23 +21,32 @@ from roughfilm.rom.homogenization.table.separation import Separations
 from roughfilm.rom.homogenization.table.tabulate import INTERPOLATION_TOLERANCE, point_of, table_error, tabulate
 from roughfilm.rom.ladder.model import Progress, silent
 
-COMPLEMENTARITY = 1e-6
-"""Of contacts, over the rms height."""
+CONTACT_TOLERANCE = 1e-6
+"""Complementarity error of contacts over the rms height."""
 
-NEAREST = 1.05
-"""How far apart two loads are at least."""
+MIN_LOAD_RATIO = 1.05
+"""Smallest ratio of two neighbouring loads."""
 
-STEP, SHORT_STEP, LIGHT = 4.0, 1.5, 0.1
-"""From load to load, where none are given: with less contact than the last, and with more."""
+LOAD_STEP = 4.0
+"""Ratio of successive loads with light contact."""
 
-MOST_OF_HARDNESS, MOST_AREA = 0.9, 0.9
-"""Loads go no further by themselves."""
+SHORT_LOAD_STEP = 1.5
+"""Ratio of successive loads with heavier contact."""
 
-FEWEST = 8
-"""Nodes along a side of the coarser grid that says how far off separations are."""
+LIGHT_CONTACT = 0.1
+"""Fraction of the surface in contact that separates light and heavier contact."""
 
-SAFETY = 1.5
-"""Of the difference between two grids, at the first order."""
+MAX_HARDNESS_RATIO = 0.9
+"""Largest load over the hardness in a default series of loads."""
+
+MAX_CONTACT = 0.9
+"""Largest fraction of the surface in contact in a default series of loads."""
+
+MIN_COARSE_NODES = 8
+"""Smallest number of nodes along a side of the coarser grid for the uncertainty of separations."""
+
+GRID_SAFETY_FACTOR = 1.5
+"""Safety factor of the difference of two grids, at first order."""
 
 
 def tabulate_pressed(
@@ -56,32 +65,32 @@ def tabulate_pressed(
     threads: int = 1,
     progress: Progress = silent,
 ) -> AsperityTable:
-    """Flow factors and contact pressures over the separation of a surface and a flat one.
+    """Compute flow factors and contact pressures over the separation of a rough and a flat surface.
 
-    Open, the surface is as :func:`rom.homogenization.table.tabulate.tabulate` takes it, from its first touch on;
-    pressed, it deforms elastically and plastically. Half-way between two loads it is pressed again: where the table is
-    off by more than the tolerance, and than what is unsure, that is done on both sides of it, to within 5 % in load.
+    Without contact the points are those of :func:`roughfilm.rom.homogenization.table.tabulate.tabulate` down to first
+    contact. In contact the surface deforms elastically and plastically. Loads are added half-way between two loads
+    until the interpolation error is below the tolerance and below the uncertainty, or neighbouring loads differ by 5 %.
 
     Parameters
     ----------
-    heights : of one period, shape (nx, ny), m, upward, towards the flat wall.
+    heights : heights of one period, shape (nx, ny), m, upward, towards the flat wall.
     spacing : (dx, dy), m.
     composite_modulus : E*, Pa.
     hardness : H, Pa.
-    loads : two or more, Pa, that the table has at least; by default from about one pixel in contact to where both
+    loads : two or more loads of the table, Pa; by default a series from about one pixel in contact until both
         directions are sealed, 0.9 H, or 90 % contact.
-    reach : a load that it reaches in any case, Pa.
-    tolerance : as :func:`rom.homogenization.table.tabulate.tabulate` takes it, and of the separation over the rms
-        height.
-    known : points that need not be solved again.
-    keep : called with every new point.
-    stored : gives the contact at a load where there is one already.
-    threads : in which cells are solved at once; the table does not depend on it.
+    reach : load that the table includes, Pa.
+    tolerance : largest error of flow factors as in :func:`roughfilm.rom.homogenization.table.tabulate.tabulate`, and of
+        the separation over the rms height.
+    known : points that are not solved again.
+    keep : called with each new point.
+    stored : stored(load), a stored contact or None.
+    threads : number of cells that are solved at once, which does not change the table.
 
     Raises
     ------
     InputError
-        For heights that are no rough surface, or numbers out of range.
+        If the heights are not a rough surface, or a number is out of range.
     ConvergenceError
         If a contact or a cell does not converge.
     """
@@ -95,20 +104,20 @@ def tabulate_pressed(
         known=known,
         keep=keep,
         threads=threads,
-        progress=lambda part, words: progress(0.4 * part, words),
+        progress=lambda done, words: progress(0.4 * done, words),
     )
     press = Press(body.heights, spacing, composite_modulus, hardness=hardness)
     coarser = _coarser(press)
-    before = {point.load: point for point in known if point.load > 0}
+    solved = {point.load: point for point in known if point.load > 0}
     pressing, keeping = Lock(), Lock()
 
     def solve(load: float) -> Point | None:
-        if load in before:
-            return before[load]
+        if load in solved:
+            return solved[load]
         with pressing:
-            contact = stored(load) or press.at(load, tolerance=COMPLEMENTARITY)
+            contact = stored(load) or press.at(load, tolerance=CONTACT_TOLERANCE)
             alpha = body.peak - contact.approach
-            doubt = _doubt(body, coarser, load, alpha)
+            uncertainty = _separation_uncertainty(body, coarser, load, alpha)
         if not contact.gap.any():
             return None
         point = replace(
@@ -116,40 +125,43 @@ def tabulate_pressed(
             load=load,
             area_fraction=contact.area_fraction,
             plastic_fraction=contact.plastic_fraction,
-            separation_uncertainty=doubt,
+            separation_uncertainty=uncertainty,
         )
         with keeping:
             keep(point)
         return point
 
     def half_way(one: Point, two: Point) -> Point | None:
-        return None if two.load < NEAREST * one.load else solve(math.sqrt(one.load * two.load))
+        return None if two.load < MIN_LOAD_RATIO * one.load else solve(math.sqrt(one.load * two.load))
 
     def made(points: Iterable[Point]) -> AsperityTable:
         ordered = sorted((*open_table.points, *points), key=lambda point: point.mean_gap)
         return AsperityTable(factors=replace(open_table, points=tuple(ordered)))
 
-    def missed(table: AsperityTable, point: Point) -> float:
-        return abs(table.separation_at(point.load) - point.separation) / body.rms
+    def errors(table: AsperityTable, point: Point) -> tuple[float, float]:
+        separation = table.separation_at(point.load)
+        return table_error(table.factors, point), abs(separation - point.separation) / body.rms
 
-    def off(table: AsperityTable, point: Point) -> tuple[float, float]:
-        return table_error(table.factors, point), missed(table, point)
+    def later(done: float, words: str) -> None:
+        progress(0.4 + 0.6 * done, words)
 
-    def told(part: float, words: str) -> None:
-        progress(0.4 + 0.6 * part, words)
-
-    points = _series(solve, press, loads, reach, threads, told)
-    found = bisected(
-        points, half_way=half_way, made=made, errors=off, tolerance=tolerance, threads=threads, progress=told
+    points = bisected(
+        _series(solve, press, loads, reach, threads, later),
+        half_way=half_way,
+        made=made,
+        errors=errors,
+        tolerance=tolerance,
+        threads=threads,
+        progress=later,
     )
-    progress(1.0, f"{len(found) + len(open_table.points)} points")
-    return made(found)
+    progress(1.0, f"{len(points) + len(open_table.points)} points")
+    return made(points)
 
 
 def gap_of(point: Point, press: Press) -> Array:
-    """The gap at a point of a table, m: of the surface as it is, or pressed again."""
+    """The gap at a point of a table, m, shape (nx, ny); a point in contact is solved again."""
     if point.load:
-        return press.at(point.load, tolerance=COMPLEMENTARITY).gap
+        return press.at(point.load, tolerance=CONTACT_TOLERANCE).gap
     return Separations(heights=press.heights).gap(point.separation)
 
 
@@ -161,53 +173,53 @@ def _series(
     threads: int,
     progress: Progress,
 ) -> list[Point]:
-    """The points at the loads that are given, or up to where little is left open."""
-    most = MOST_OF_HARDNESS * press.hardness
+    """The points at the given loads, or at a default series of loads."""
+    largest = MAX_HARDNESS_RATIO * press.hardness
     if loads is not None:
-        asked = sorted(set(map(float, loads)))
-        if len(asked) < 2 or not (asked[0] > 0 and math.isfinite(asked[-1])):
+        remaining = sorted(set(map(float, loads)))
+        if len(remaining) < 2 or not (remaining[0] > 0 and math.isfinite(remaining[-1])):
             raise InputError(f"loads: got {list(loads)[:5]} Pa; give two or more above 0")
     else:
         slope = wave_power(press.heights, press.spacing).moments.rms_slope
-        asked = [min(press.composite_modulus * slope / 2, press.hardness) / press.heights.size]
-    if max(reach, asked[-1]) > press.hardness:
+        remaining = [min(press.composite_modulus * slope / 2, press.hardness) / press.heights.size]
+    if max(reach, remaining[-1]) > press.hardness:
         raise InputError(
-            f"loads: got up to {max(reach, asked[-1]):.6g} Pa, above the hardness of {press.hardness:.6g} Pa, which is "
-            "all that the whole area can bear; lower them"
+            f"loads: got up to {max(reach, remaining[-1]):.6g} Pa; they must not exceed the hardness of "
+            f"{press.hardness:.6g} Pa, lower them"
         )
     points: list[Point] = []
     with workers(threads) as pool:
-        while asked:
-            for load, point in zip(asked, pool.map(solve, asked), strict=True):
-                progress(0.5 * len(points) / (len(points) + len(asked)), f"{load / 1e6:.4g} MPa")
+        while remaining:
+            for load, point in zip(remaining, pool.map(solve, remaining), strict=True):
+                progress(0.5 * len(points) / (len(points) + len(remaining)), f"{load / 1e6:.4g} MPa")
                 if point is None and (loads is not None or load <= reach):
-                    told = f"loads: {load:.6g} Pa closes the gap everywhere, so that there is no film"
-                    raise InputError(f"{told}; lower it")
+                    raise InputError(f"loads: got {load:.6g} Pa, which closes the gap everywhere; lower the load")
                 if point is None:
                     return points
                 points.append(point)
-            last, asked = points[-1], []
-            if last.load < reach or (loads is None and _leaves_open(last, most)):
-                following = last.load * (STEP if last.contact < LIGHT else SHORT_STEP)
-                asked = [min(following, max(most, reach)) if loads is None else min(following, reach)]
+            last, remaining = points[-1], []
+            if last.load < reach or (loads is None and _leaves_open(last, largest)):
+                following = last.load * (LOAD_STEP if last.contact < LIGHT_CONTACT else SHORT_LOAD_STEP)
+                remaining = [min(following, max(largest, reach)) if loads is None else min(following, reach)]
     return points
 
 
-def _leaves_open(point: Point, most: float) -> bool:
-    return not all(point.factors.sealed) and point.load < most and point.contact < MOST_AREA
+def _leaves_open(point: Point, largest: float) -> bool:
+    return not all(point.factors.sealed) and point.load < largest and point.contact < MAX_CONTACT
 
 
-def _doubt(body: Separations, coarser: Press | None, load: float, separation: float) -> float:
-    """By how much a separation may be off, from that on every second node, m; infinite without such a grid."""
+def _separation_uncertainty(body: Separations, coarser: Press | None, load: float, separation: float) -> float:
+    """The uncertainty of a separation from a grid of every second node, m; infinite without such a grid."""
     if coarser is None:
         return math.inf
-    found = coarser.at(load, tolerance=COMPLEMENTARITY)
+    contact = coarser.at(load, tolerance=CONTACT_TOLERANCE)
     peak = float(coarser.heights.max() - body.heights.mean())
-    return SAFETY * abs(peak - found.approach - separation)
+    return GRID_SAFETY_FACTOR * abs(peak - contact.approach - separation)
 
 
 def _coarser(press: Press) -> Press | None:
-    if min(press.heights.shape) < 2 * FEWEST or any(count % 2 for count in press.heights.shape):
+    """The surface on every second node; None if the grid is too small or has an odd number of nodes."""
+    if min(press.heights.shape) < 2 * MIN_COARSE_NODES or any(count % 2 for count in press.heights.shape):
         return None
     dx, dy = press.spacing
     return Press(press.heights[::2, ::2], (2 * dx, 2 * dy), press.composite_modulus, hardness=press.hardness)

@@ -1,4 +1,4 @@
-"""The asperities of a bearing's rough wall, from what its scene says."""
+"""The asperities of the rough wall of a scene."""
 
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -13,30 +13,30 @@ from roughfilm.rom.parts.solids import composite_modulus, hardness
 
 
 def asperities_of(scene: Bearing, progress: Progress = silent) -> AsperityTable:
-    """Flow factors and contact pressures of a scene's roughness: read from a table, or made, which takes a while.
+    """The flow factors and contact pressures of a scene's roughness, from a stored table or computed.
 
     Raises
     ------
     InputError
-        For a scene without asperities, or a table that knows nothing of them.
+        If the scene has no asperities, or its table has no contact pressures.
     ConvergenceError
         If a contact or a cell does not converge.
     """
     roughness, asperities = scene.roughness, scene.asperities
     if asperities is None or not isinstance(roughness, RoughSurface | StoredTable):
-        raise InputError("scene.asperities: is missing; say of what the walls are that touch")
+        raise InputError("scene.asperities: is missing; give the solids of the walls")
     if isinstance(roughness, StoredTable):
         try:
             return AsperityTable(factors=roughness.read())
         except InputError as error:
             raise InputError(f"scene.roughness.table: {str(error).removeprefix('table: ')}") from None
-    told, solids = roughness.model_dump_json(exclude_none=True), asperities.model_dump_json(exclude_none=True)
-    return _tabulated(_Order(roughness=told, asperities=solids, progress=progress))
+    entries, solids = roughness.model_dump_json(exclude_none=True), asperities.model_dump_json(exclude_none=True)
+    return _tabulated(_TableInput(roughness=entries, asperities=solids, progress=progress))
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Order:
-    """A table to be made, by what it depends on."""
+class _TableInput:
+    """The input of a table; the progress does not count in comparisons."""
 
     roughness: str
     asperities: str
@@ -44,7 +44,7 @@ class _Order:
 
 
 @lru_cache(maxsize=4)
-def _tabulated(order: _Order) -> AsperityTable:
+def _tabulated(order: _TableInput) -> AsperityTable:
     from roughfilm.rom.bearing.mixed.tabulate import tabulate_pressed  # whose solvers are slow to import
 
     roughness = RoughSurface.model_validate_json(order.roughness)

@@ -1,12 +1,12 @@
-"""The Reynolds equation with cavitation over every wave of the roughness."""
+"""The Reynolds equation with cavitation, with all waves of the roughness resolved."""
 
-from roughfilm.rom.bearing.film import follows, rough_film, rough_resolutions
+from roughfilm.rom.bearing.film import direct_applies, rough_film, rough_resolutions
 from roughfilm.rom.bearing.model import SOURCES, bearing_model
 from roughfilm.rom.ladder.model import Effect
 
 MODEL = bearing_model(
     name="direct",
-    summary="Reynolds equation with mass-conserving cavitation over every wave of the roughness",
+    summary="Reynolds equation with mass-conserving cavitation, with all waves of the roughness resolved",
     keeps=frozenset(
         {
             Effect.SIDE_FLOW,
@@ -17,7 +17,7 @@ MODEL = bearing_model(
         }
     ),
     sources=SOURCES,
-    applies=follows,
+    applies=direct_applies,
     film=rough_film,
     resolutions=rough_resolutions,
     in_plane=2e-5,

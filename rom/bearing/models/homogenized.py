@@ -1,6 +1,6 @@
-"""The Reynolds equation with cavitation, its coefficients averaged over the roughness."""
+"""The homogenized Reynolds equation with cavitation: roughness by its flow factors."""
 
-from roughfilm.rom.bearing.film import averaged_film, averages_film
+from roughfilm.rom.bearing.film import averaged_film, homogenized_applies
 from roughfilm.rom.bearing.model import SOURCES, bearing_model
 from roughfilm.rom.ladder.model import Effect
 
@@ -9,7 +9,7 @@ MODEL = bearing_model(
     summary="homogenized Reynolds equation with mass-conserving cavitation: roughness by its flow factors",
     keeps=frozenset({Effect.SIDE_FLOW, Effect.CAVITATION, Effect.PRESSURE_DEPENDENCE, Effect.ROUGHNESS}),
     sources=(*SOURCES, "10.1016/j.jmaa.2005.09.036"),
-    applies=averages_film,
+    applies=homogenized_applies,
     film=averaged_film,
     in_plane=4e-6,
 )

@@ -1,9 +1,9 @@
-"""A bearing of finite width as if nothing flowed out at its sides: one line of the film stands for all."""
+"""The Reynolds equation with cavitation on one line of a bearing of finite width, without side flow."""
 
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from roughfilm.rom.bearing.model import SOURCES, bearing_model, line_resolutions
+from roughfilm.rom.bearing.model import SOURCES, bearing_model
 from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.model import Applicability, Effect
@@ -13,32 +13,33 @@ if TYPE_CHECKING:
 
 
 def one_line(scene: Bearing) -> "Problem":
-    """The film along its middle, infinitely wide."""
+    """The problem of the infinitely wide film with the thickness on the centre line."""
     problem = scene.problem()
     return replace(problem, shape=replace(problem.shape, wide=True), ends=replace(problem.ends, sides=None))
 
 
 def applies(scene: Bearing) -> Applicability:
-    """Where there are sides; says how far they are."""
+    """Whether the bearing has sides and its film does not vary across, with its width over its length."""
     width = scene.geometry.width
     if width is None:
-        return Applicability(applies=False, reason="the bearing is infinitely wide: reynolds_cavitating solves a line")
+        return Applicability(applies=False, reason="the bearing is infinitely wide; use reynolds_cavitating")
     if isinstance(scene.geometry, Ring) and scene.geometry.endless:
-        return Applicability(applies=False, reason="joined pads are fed through their sides, which one line has not")
+        return Applicability(
+            applies=False, reason="joined pads are fed through their sides, which one line does not have"
+        )
     texture = getattr(scene.geometry, "texture", None)
     if texture is not None and texture.width is not None:
-        return Applicability(applies=False, reason="the pockets have a width, and one line would hit or miss them")
+        return Applicability(applies=False, reason="the pockets have a width, which one line cannot describe")
     ratio = width / scene.geometry.length
-    return Applicability(applies=True, reason=f"leaves out flow through the sides: width over length = {ratio:.3g}")
+    return Applicability(applies=True, reason=f"leaves out side flow: width over length = {ratio:.3g}")
 
 
 MODEL = bearing_model(
     name="infinitely_wide",
-    summary="one line of the film, with cavitation and any compressibility, without flow through the sides",
+    summary="one line of the film, with cavitation and any compressibility, without side flow",
     keeps=frozenset({Effect.CAVITATION, Effect.PRESSURE_DEPENDENCE}),
     sources=SOURCES,
     applies=applies,
     film=one_line,
-    resolutions=line_resolutions,
     wide=True,
 )

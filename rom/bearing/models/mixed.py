@@ -1,8 +1,18 @@
-"""The Reynolds equation with cavitation, averaged over a roughness whose asperities reach through the film."""
+"""The homogenized Reynolds equation with cavitation, with asperities that touch and deform."""
 
 from roughfilm.contact.foundation.deferred import deferred
-from roughfilm.rom.bearing.model import SOURCES, Reading, bearing_model
-from roughfilm.rom.ladder.model import Effect
+from roughfilm.rom.bearing.film import averaging_applies
+from roughfilm.rom.bearing.model import SOURCES, bearing_model
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.ladder.model import Applicability, Effect
+
+
+def applies(scene: Bearing) -> Applicability:
+    """Whether the scene describes the contact of its walls and its roughness can be averaged."""
+    if scene.asperities is None:
+        return Applicability(applies=False, reason="the scene has no table asperities with the solids of the walls")
+    return averaging_applies(scene)
+
 
 MODEL = bearing_model(
     name="mixed",
@@ -18,12 +28,8 @@ MODEL = bearing_model(
         }
     ),
     sources=(*SOURCES, "Sahlin 2008, Paper E"),
-    applies=deferred("rom.bearing.mixed.reading", "touches"),
-    film=deferred("rom.bearing.mixed.reading", "touching_film"),
-    reading=Reading(
-        quantities=deferred("rom.bearing.mixed.reading", "mixed_quantities"),
-        doubt=deferred("rom.bearing.mixed.reading", "mixed_doubt"),
-        fields=deferred("rom.bearing.mixed.reading", "mixed_fields"),
-    ),
+    applies=applies,
+    film=deferred("rom.bearing.mixed.quantities", "film_of_scene"),
+    solve=deferred("rom.bearing.mixed.quantities", "solve_mixed"),
     in_plane=6e-6,
 )

@@ -6,7 +6,7 @@ from roughfilm.rom.ladder.model import Applicability, Effect
 
 
 def applies(scene: Bearing) -> Applicability:  # noqa: ARG001
-    """Always."""
+    """Always, with the effects that are left out."""
     return Applicability(applies=True, reason="leaves out inertia, heat and deformation")
 
 

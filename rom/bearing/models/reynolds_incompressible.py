@@ -1,21 +1,21 @@
-"""The Reynolds equation with cavitation, for a lubricant that pressure does nothing to."""
+"""The Reynolds equation with cavitation for constant density and viscosity."""
 
 import numpy as np
 
-from roughfilm.rom.bearing.model import SOURCES, bearing_model, unchanging_film
+from roughfilm.rom.bearing.model import SOURCES, bearing_model, incompressible_film
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.model import Applicability, Effect
 
 
 def applies(scene: Bearing) -> Applicability:
-    """Always; says how much density and viscosity would change."""
+    """Always, with the changes of density and viscosity that are left out."""
     problem = scene.problem()
     pressure = np.array([scene.pressure_unit / 10])
     with np.errstate(all="ignore"):
         denser = problem.compression(pressure)[0][0]
         thicker = 1 / problem.piezoviscosity.fluidity(pressure, problem.viscosity)[0][0] - 1
-    told = f"density by {100 * denser:.2g} % and viscosity by {100 * thicker:.2g} % at {pressure[0]:.2g} Pa"
-    return Applicability(applies=True, reason=f"leaves out what pressure does to the lubricant: {told}")
+    change = f"density by {100 * denser:.2g} % and viscosity by {100 * thicker:.2g} % at {pressure[0]:.2g} Pa"
+    return Applicability(applies=True, reason=f"leaves out changes under pressure: {change}")
 
 
 MODEL = bearing_model(
@@ -24,5 +24,5 @@ MODEL = bearing_model(
     keeps=frozenset({Effect.SIDE_FLOW, Effect.CAVITATION}),
     sources=SOURCES,
     applies=applies,
-    film=unchanging_film,
+    film=incompressible_film,
 )

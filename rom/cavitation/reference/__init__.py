@@ -1,1 +1,1 @@
-"""The cavitation algorithms of the source and of the literature, kept for comparison."""
+"""Cavitation algorithms of the source and of the literature, for comparison."""

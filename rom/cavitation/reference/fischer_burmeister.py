@@ -1,4 +1,4 @@
-"""Newton's method of Fischer–Burmeister type for the default solver's equations on a line, from a cold start."""
+"""Newton's method of Fischer–Burmeister type for the equations of the default solver on a line, without a start."""
 
 from dataclasses import dataclass
 
@@ -11,16 +11,16 @@ from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED, along
 from roughfilm.rom.cavitation.fluid import Fluid
 from roughfilm.rom.cavitation.network import Network, State
 
-LIMIT = 500
-"""Steps of Newton's method, at most."""
+NEWTON_STEPS = 500
+"""Largest number of Newton steps."""
 
 EPSILON = np.finfo(float).eps
-"""Added to the cavity in the derivatives, which have none where both parts are zero."""
+"""Cavity fraction added in the derivatives of F, which do not exist where both arguments are zero."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Balanced:
-    """A state that balances; ``residual`` is the largest net flow into a node over the largest through a face."""
+    """A converged state; ``residual`` is the largest net flow into a node over the largest flow through a face."""
 
     state: State
     residual: float
@@ -28,28 +28,27 @@ class Balanced:
 
 
 def fischer_burmeister(
-    network: Network, fluid: Fluid, *, pressure_unit: float, tolerance: float = 1e-9, limit: int = LIMIT
+    network: Network, fluid: Fluid, *, pressure_unit: float, tolerance: float = 1e-9, limit: int = NEWTON_STEPS
 ) -> Balanced:
-    """Solve G(p, c) = 0 and F(p, c) = p + c - √(p² + c²) = 0, where c = 1 - ξ is the cavity's part and p over its unit.
+    """Solve G(p, c) = 0 and F(p, c) = p + c - √(p² + c²) = 0 with the cavity fraction c = 1 - ξ and p over its unit.
 
-    G are the balances of ``network``, F = 0 says that p >= 0, c >= 0, p c = 0. Newton's method takes both at once: at
-    every node the unknown with the larger derivative of F is eliminated, and the Schur complement, tridiagonal, is
-    solved. Every step is taken whole and put back into 0 <= p, 0 <= c <= 1; it begins with a film at the pressure of
-    cavitation. What an inlet brings beyond need is the unknown in place of its pressure.
+    G are the balances of ``network``; F = 0 means p >= 0, c >= 0, p c = 0. Newton's method solves both together: at
+    every node the unknown with the larger derivative of F is eliminated, and the tridiagonal Schur complement is
+    solved. Full steps are projected to 0 <= p, 0 <= c <= 1, from a full film at cavitation pressure. The excess supply
+    of a starved inlet is the unknown in place of its pressure. The method is for lines that are not periodic.
 
     Parameters
     ----------
-    pressure_unit : Pa; the size of the pressures, against which c counts.
-    tolerance : of G, over the largest flow through a face, and of F.
-
-    Valid for lines whose ends are not joined.
+    pressure_unit : scale of the pressures relative to c, Pa.
+    tolerance : tolerance of G, over the largest flow through a face, and of F.
+    limit : largest number of steps.
 
     Raises
     ------
     InputError
         If the network is not such a line.
     ConvergenceError
-        If after ``limit`` steps either is above the tolerance, or the numbers grow beyond all bounds.
+        If either is above the tolerance after ``limit`` steps, or a number overflows.
 
     Source: Woloszynski, Podsiadlo and Stachowiak 2015, doi:10.1007/s11249-015-0487-4.
     """
@@ -99,7 +98,7 @@ def fischer_burmeister(
 def _step(
     network: Network, by_pressure: list[Array], by_fill: list[Array], pressure: Array, cavity: Array, unit: float
 ) -> tuple[Array, Array]:
-    """The changes of pressure, over its unit, and of the cavity."""
+    """The changes of the pressure, over its unit, and of the cavity fraction."""
     size = np.hypot(pressure, cavity + EPSILON)
     by_p, by_c = 1 - pressure / size, 1 - cavity / size
     merit = pressure + cavity - np.hypot(pressure, cavity)
@@ -135,9 +134,10 @@ def _step(
 
 @allocating
 def reduced(balance, centre_p, west_p, east_p, centre_f, west_f, east_f, by_p, by_c, merit, unit, lower, centre, upper, right):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
-    """The Schur complement, by columns; returns where the pressure is kept and the cavity eliminated.
+    """Compute the Schur complement by columns; returns the nodes where the cavity fraction is eliminated.
 
-    Derivatives ``_p`` are by the pressure, ``_f`` by the filled part; unknowns are p over ``unit`` and the cavity.
+    Derivatives ``_p`` are by the pressure, ``_f`` by the filling fraction; unknowns are p over ``unit`` and the cavity
+    fraction.
     """
     n = balance.size
     keeps = by_c >= by_p
@@ -154,7 +154,7 @@ def reduced(balance, centre_p, west_p, east_p, centre_f, west_f, east_f, by_p, b
             i = j + side - 1
             if i < 0 or i >= n:
                 continue
-            # how the balance of node i changes with the unknowns of node j
+            # derivatives of the balance of node i by the unknowns of node j
             if side == 0:
                 p, c = east_p[i] * unit, -east_f[i]
             elif side == 1:

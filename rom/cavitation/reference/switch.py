@@ -1,4 +1,4 @@
-"""The cavitation algorithm of Paper B for a line: density as the unknown, a switch in front of the pressure."""
+"""The cavitation algorithm of Paper B for a line, with density as the unknown and a switch of the pressure flow."""
 
 from dataclasses import dataclass
 
@@ -11,25 +11,25 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Ou
 from roughfilm.rom.cavitation.grid import Grid, grid
 from roughfilm.rom.cavitation.problem import Problem
 
-LIMIT = 3000
-"""Fixed-point steps, at most."""
+MAX_STEPS = 3000
+"""Largest number of fixed-point steps."""
 
-TOLERANCE = 1e-8
-"""Of the relative change of θ from one step to the next."""
+CHANGE_TOLERANCE = 1e-8
+"""Relative change of θ in a step at which the solver stops."""
 
-RETURNS = 50
-"""So many times the switch may come back to a state it had left before the steps are said to go round."""
+MAX_RETURNS = 50
+"""Number of returns of the switch to earlier states after which the steps count as cyclic."""
 
-PATIENCE = 200
-"""So many steps with the switch at rest must halve the change."""
+STALLED_STEPS = 200
+"""Number of steps at a constant switch that do not halve the change, after which the solver stops."""
 
-INVERSIONS = 60
-"""Steps of Newton's method from density to pressure."""
+INVERSION_STEPS = 60
+"""Largest number of Newton steps from density to pressure."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Switched:
-    """A film found by the switch algorithm: density ratio θ and pressure above that of cavitation, Pa, at the nodes."""
+    """A film of the switch algorithm: density ratio θ and pressure above cavitation pressure, Pa, at the nodes."""
 
     grid: Grid
     theta: Array
@@ -38,28 +38,28 @@ class Switched:
 
     @property
     def load(self) -> float:
-        """∫ p dx, N/m."""
+        """The load ∫ p dx, N/m."""
         return float((self.grid.volume_x * self.pressure).sum())
 
 
-def switched(problem: Problem, cells: int, *, limit: int = LIMIT) -> Switched:
+def switched(problem: Problem, cells: int, *, limit: int = MAX_STEPS) -> Switched:
     """Solve (u/2) d(θh)/dx - d/dx(θ h³/12η g dp/dθ dθ/dx) = 0 with the switch g = 1 where θ > 1, else 0.
 
-    The Couette term has second-order backward differences, the Poiseuille term central ones: the slope is
-    dp/dθ (g₂(θ₂ - 1) - g₁(θ₁ - 1)) over the distance, so that a cavity has the pressure of cavitation. Each step
-    θₙ = f(θₙ₋₁) takes g, dp/dθ and η from the one before; it begins from a film everywhere, at the pressure of
-    cavitation. The paper does not say how g is placed between nodes: here as in Elrod's scheme, which it builds on.
+    The Couette term has second-order backward differences, the Poiseuille term central ones: the pressure gradient is
+    dp/dθ (g₂(θ₂ - 1) - g₁(θ₁ - 1)) over the distance, so that a cavity has cavitation pressure. Each step
+    θₙ = f(θₙ₋₁) takes g, dp/dθ and η from the one before, from a full film at cavitation pressure. The position of g
+    between nodes is that of Elrod's scheme, since the paper does not state it.
 
-    Valid for infinitely wide films slid towards growing x, of a lubricant that is compressible; at a starved inlet the
-    film must not reach the inlet, whose density is given.
+    The method is for infinitely wide films that slide towards increasing x, with a compressible lubricant. The film
+    must not reach a starved inlet, whose density is given.
 
     Raises
     ------
     InputError
         If the film is not of that kind.
     ConvergenceError
-        If the changes do not get below 1e-8 within ``limit`` steps, if they no longer fall while the switch rests, if
-        the switch keeps coming back to states that it has left, or if densities leave the range of the lubricant's law.
+        If the change is above 1e-8 after ``limit`` steps, if it stalls at a constant switch, if the switch returns to
+        earlier states, or if densities leave the range of the lubricant's law.
 
     Sources: Sahlin et al. 2007, doi:10.1016/j.triboint.2007.02.021; Elrod 1981, doi:10.1115/1.3251669.
     """
@@ -89,27 +89,27 @@ def switched(problem: Problem, cells: int, *, limit: int = LIMIT) -> Switched:
             least, rested = np.inf, 0
         seen.add(switch)
         before = switch
-        if returns > RETURNS:
-            raise _failed("the switch goes round states it has left", Outcome.UNSTEADY, iteration)
-        found = _solved(problem, thickness, float(step.mean()), theta, pressure, film)
-        if not np.isfinite(found).all():
-            raise _failed("densities grow beyond all bounds", Outcome.DIVERGED, iteration)
-        change = float(np.abs(found - theta).max()) / float(np.abs(found).max())
-        theta, pressure = found, _pressure(problem, found, iteration)
-        if change < TOLERANCE:
+        if returns > MAX_RETURNS:
+            raise _failed("the switch repeats earlier states", Outcome.UNSTEADY, iteration)
+        density = _solved(problem, thickness, float(step.mean()), theta, pressure, film)
+        if not np.isfinite(density).all():
+            raise _failed("densities diverge", Outcome.DIVERGED, iteration)
+        change = float(np.abs(density - theta).max()) / float(np.abs(density).max())
+        theta, pressure = density, _pressure(problem, density, iteration)
+        if change < CHANGE_TOLERANCE:
             return Switched(grid=nodes, theta=theta, pressure=pressure, iterations=iteration)
         rested += 1
         if change < least / 2:
             least, rested = change, 0
-        elif rested > PATIENCE:
-            raise _failed(f"the switch rests, but the change stays near {least:.1e}", Outcome.STALLED, iteration)
-    raise _failed(f"relative change {change:.1e} misses {TOLERANCE:g}", Outcome.UNFINISHED, limit)
+        elif rested > STALLED_STEPS:
+            raise _failed(f"the change stays near {least:.1e} at a constant switch", Outcome.STALLED, iteration)
+    raise _failed(f"relative change {change:.1e} misses {CHANGE_TOLERANCE:g}", Outcome.UNFINISHED, limit)
 
 
 def _solved(
     problem: Problem, thickness: Array, step: float, theta: Array, pressure: Array, film: NDArray[np.bool_]
 ) -> Array:
-    """One step: θ from the switch, dp/dθ and viscosity of the step before; unknowns are all nodes."""
+    """The θ of all nodes after one step, from the switch, dp/dθ and viscosity of the step before."""
     n = theta.size
     mobility = problem.mobility(pressure)[0] / problem.compression(pressure)[1]
     cubed = mobility * thickness**3 / (12 * problem.viscosity * step)
@@ -124,7 +124,7 @@ def _solved(
     bands[1, inner] += 1.5 * carried[inner]
     bands[2, inner - 1] -= 2.0 * carried[inner - 1]
     bands[3, inner[1:] - 2] += 0.5 * carried[inner[1:] - 2]
-    bands[2, 0] += 0.5 * carried[0]  # the first node has one before it: its western face is the inlet
+    bands[2, 0] += 0.5 * carried[0]  # the western face of the first inner node is the inlet
     switch = film.astype(float)
     bands[1, inner] += (face[inner - 1] + face[inner]) * switch[inner]
     bands[2, inner - 1] -= face[inner - 1] * switch[inner - 1]
@@ -138,10 +138,10 @@ def _solved(
 
 
 def _pressure(problem: Problem, theta: Array, iteration: int) -> Array:
-    """The pressure of every density, 0 in cavities."""
+    """The pressure at every density; 0 in cavities."""
     excess = np.maximum(theta - 1, 0.0)
     pressure = np.log1p(excess) / problem.initial_compressibility
-    for _ in range(INVERSIONS):
+    for _ in range(INVERSION_STEPS):
         with np.errstate(all="ignore"):
             value, slope = problem.compression(pressure)
             change = (excess - value) / slope

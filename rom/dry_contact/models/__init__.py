@@ -1,1 +1,1 @@
-"""The models of a dry contact, one a file."""
+"""The models of a dry contact, one per file."""

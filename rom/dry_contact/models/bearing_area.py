@@ -1,4 +1,4 @@
-"""The bearing area: the surface cut off where it bears the load at its hardness."""
+"""The bearing area: the surface truncated where its area carries the load at the hardness."""
 
 from roughfilm.contact.mechanics.estimates.estimate import Estimate
 from roughfilm.contact.mechanics.estimates.truncation import bearing_area
@@ -9,7 +9,7 @@ from roughfilm.rom.ladder.model import Effect
 
 
 def guess(task: Task) -> Estimate:
-    """The bearing area of the heights at hand."""
+    """The bearing area of the task's heights."""
     scene: DryContact = task.scene
     return bearing_area(
         task.heights,
@@ -22,7 +22,7 @@ def guess(task: Task) -> Estimate:
 
 MODEL = estimated_model(
     name="bearing_area",
-    summary="truncation: what stands above a plane is flattened at the hardness, the rest is rigid",
+    summary="truncation: heights above a plane are flattened at the hardness, the rest is rigid",
     what="keeps plasticity, leaves out elastic deformation",
     keeps=frozenset({Effect.PLASTICITY}),
     sources=("10.1016/j.triboint.2005.11.008",),

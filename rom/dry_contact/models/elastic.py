@@ -6,17 +6,17 @@ from roughfilm.rom.ladder.model import Applicability, Effect
 
 
 def applies(scene: DryContact) -> Applicability:
-    """Always; says by which numbers plasticity is left out."""
+    """The neglected plasticity; the model applies to every dry contact."""
     if scene.solid.hardness is None:
         return Applicability(applies=True, reason="leaves nothing out of an elastic contact")
     ratio, index = scene.load.pressure / scene.hardness, scene.pressure_unit / scene.hardness
-    told = f"leaves out plasticity: P/H = {ratio:.3g}, plasticity index E* g'/H = {index:.3g}"
-    return Applicability(applies=True, reason=f"{told}; how much of the area is plastic cannot be known unsolved")
+    reason = f"leaves out plasticity: P/H = {ratio:.3g}, plasticity index E* g'/H = {index:.3g}"
+    return Applicability(applies=True, reason=f"{reason}; the plastic area is unknown before the solution")
 
 
 MODEL = pressed_model(
     name="elastic",
-    summary="the surface itself pressed into an elastic half-space: all of interaction",
+    summary="the surface itself on an elastic half-space, with full interaction",
     keeps=frozenset({Effect.DEFORMATION}),
     sources=("10.1016/S0043-1648(99)00113-1",),
     applies=applies,

@@ -1,4 +1,4 @@
-"""Greenwood and Williamson: elastic asperities that do not feel each other."""
+"""Greenwood and Williamson: elastic asperities without interaction."""
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.mechanics.estimates.estimate import Estimate
@@ -10,7 +10,7 @@ from roughfilm.rom.ladder.model import Effect
 
 
 def guess(task: Task) -> Estimate:
-    """The estimate from the spectral moments of the heights at hand; InputError for a flat surface."""
+    """The estimate from the spectral moments of the task's heights; InputError for a flat surface."""
     from roughfilm.contact.mechanics.estimates.greenwood_williamson import (
         greenwood_williamson,  # scipy is slow to import
     )
@@ -25,7 +25,7 @@ def guess(task: Task) -> Estimate:
 
 MODEL = estimated_model(
     name="greenwood_williamson",
-    summary="elastic asperities, each as if it were alone, from spectral moments",
+    summary="independent elastic asperities from spectral moments",
     what="keeps the elastic deformation of asperities, leaves out their interaction and plasticity",
     keeps=frozenset({Effect.DEFORMATION}),
     complete=False,

@@ -1,4 +1,4 @@
-"""Persson: pressures that diffuse as roughness is added, scale by scale."""
+"""Persson: diffusion of contact pressure as roughness of smaller scales is added."""
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.mechanics.estimates.estimate import Estimate
@@ -10,7 +10,7 @@ from roughfilm.rom.ladder.model import Effect
 
 
 def guess(task: Task) -> Estimate:
-    """The estimate from the spectrum of the heights at hand; InputError for a flat surface."""
+    """The estimate from the spectrum of the task's heights; InputError for a flat surface."""
     from roughfilm.contact.mechanics.estimates.persson import persson  # scipy is slow to import
 
     scene: DryContact = task.scene

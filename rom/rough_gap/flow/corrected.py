@@ -1,4 +1,4 @@
-"""A rough gap in Stokes flow at the cost of thin-film theory: corrected for slope, between bounds, with error bars."""
+"""Factors of a rough gap in Stokes flow from thin-film theory with a correction for slope, bounds and uncertainty."""
 
 from dataclasses import dataclass, replace
 
@@ -9,34 +9,34 @@ from roughfilm.rom.homogenization.flow_factors import flow_factors
 from roughfilm.rom.homogenization.grids import MIN_COARSENED_NODES
 from roughfilm.rom.homogenization.richardson import off
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors, of_thin_film
-from roughfilm.rom.rough_gap.flow.range_of_validity import REACH
+from roughfilm.rom.rough_gap.flow.range_of_validity import MAX_ADDED_DISSIPATION
 from roughfilm.rom.rough_gap.flow.slope import local_fluxes, slope_dissipation
 from roughfilm.rom.rough_gap.walls import Walls
 
-SAFETY = 2.5
-"""Of x²/(1 + x), with x what slope adds to a dissipation, over it, as the error of what is left out, over the factor.
+SAFETY_FACTOR = 2.5
+"""Ratio of the relative uncertainty of the theory to x²/(1 + x), with x the relative dissipation added by slope.
 
-On 65 ridges (sinusoids of amplitude 0.1 to 0.8 and 1.25 to 20 mean gaps long, sums of up to six waves with rms slopes
-of 0.1 to 0.8) solved exactly, across, along and sliding, all of 390 factors were within, the nearest at half of it; of
-236 factors of profiles with deep valleys or plateaus all were where x is below ``REACH``, the nearest at 0.72, and all
-but one (1.02) beyond; in 8 cells of random waves on one or both walls, rms slope 0.2 to 0.8, all were.
+It covers the error of all 390 factors of 65 ridges with exact solutions (sinusoids of amplitude 0.1 to 0.8 and 1.25 to
+20 mean gaps long, sums of up to six waves with rms slopes of 0.1 to 0.8; across, along and sliding), at most half used.
+It covers all 236 factors of profiles with deep valleys or plateaus for x below ``MAX_ADDED_DISSIPATION``, at most 0.72
+used, and all but one (1.02) above, and all of 8 cells of random waves on one or both walls with rms slope 0.2 to 0.8.
 """
 
 
 @dataclass(frozen=True, kw_only=True)
 class SlopeCorrected:
-    """What Stokes flow in a gap is, by theory for small slopes.
+    """Factors of a gap in Stokes flow by the theory for small slopes.
 
     Attributes
     ----------
-    thin : thin-film theory, which has the largest A (as a quadratic form) and the least friction possible.
-    corrected : the best estimate.
-    bound : Stokes flow has no smaller A (as a quadratic form) and no more friction than this, but for the grid.
-    uncertainty : of ``corrected``: what is left out of the theory, and the grid.
-    added : what slope adds to the dissipation of mean gradients along x and y and of sliding, over it, shape (2,) or
-        (3,); 0 where nothing gets through. Below 0.1 theory is good to 1.5 %.
-    flow : size of the thin films' flow under a gradient along x of 12η, shape (nx, ny), m³.
-    contact, unsolved, iterations : of the thin-film solution.
+    thin : factors of thin-film theory: an upper bound of A (as a quadratic form) and a lower bound of friction.
+    corrected : best estimate.
+    bound : lower bound of A (as a quadratic form) and upper bound of friction, apart from discretisation errors.
+    uncertainty : uncertainty of ``corrected`` from the neglected terms and the grid.
+    added : relative dissipation that slope adds under mean gradients along x and y and under sliding, shape (2,) or
+        (3,); 0 where the gap is sealed. Below 0.1 the error is at most 1.5 %.
+    flow : magnitude of the thin-film flow under a gradient of 12η along x, shape (nx, ny), m³.
+    contact, unsolved, iterations : those of the thin-film solution.
     """
 
     thin: RoughGapFactors
@@ -51,80 +51,80 @@ class SlopeCorrected:
 
     @property
     def holds(self) -> bool:
-        """Whether slope adds little enough, at most 0.25 of what thin films dissipate, for the theory to be used."""
-        return bool(self.added.max() <= REACH)
+        """Whether slope adds at most 0.25 of the thin-film dissipation, the limit of the theory."""
+        return bool(self.added.max() <= MAX_ADDED_DISSIPATION)
 
     @property
     def left_out(self) -> Array:
-        """By what part of themselves theory may have A along x and y wrong, on any grid, shape (2,)."""
-        return _rest(self.added[:2])
+        """The relative uncertainty of A along x and y from the neglected terms, shape (2,)."""
+        return _neglected(self.added[:2])
 
     @property
     def excess(self) -> Array:
-        """What thin-film theory lets too much through along x and y, over Stokes flow, shape (2,): the estimate."""
+        """The relative error of thin-film theory along x and y compared with Stokes flow, shape (2,)."""
         return _excess(self.thin, self.corrected)
 
     @property
     def greatest_excess(self) -> Array:
-        """More than that it cannot be, but for the grid; and not less than 0."""
+        """The upper bound of ``excess``, apart from discretisation errors; its lower bound is 0."""
         return _excess(self.thin, self.bound)
 
 
 def slope_corrected(walls: Walls, *, tolerance: float | None = None) -> SlopeCorrected:
-    """Factors of a gap in Stokes flow from thin-film theory and the slope of its walls.
+    """Compute the factors of a gap in Stokes flow from thin-film theory and the slope of its walls.
 
-    With K = diag(12 A, f) what thin films dissipate and E what slope adds, over η and the three drives of
-    :mod:`rom.rough_gap.flow.slope`, the flow that takes least to carry the same flux past the same sliding wall has
+    K = diag(12 A, f) is the thin-film dissipation and E the dissipation that slope adds, over η and the three drives of
+    :mod:`rom.rough_gap.flow.slope`. The flow of least dissipation with the same flux and sliding speed has
 
         A' = A (A + E_pp/12)⁻¹ A,    B' = B - 2A (12 A + E_pp)⁻¹ E_pu,    f' = f + E_uu - E_up (12 A + E_pp)⁻¹ E_pu.
 
-    E is taken wave by wave as Stokes flow has it over low roughness, so that this is right to second order in slope
-    whatever the height, and to second order in height whatever the wavelength; without that, errors over the ridges of
-    ``SAFETY`` are 1.5 times as large across and 5 times along. For ridges long against the gap, under a flat wall,
-    1/A' = <h⁻³ (1 + 4/5 h'²)> across and A' = <h³>²/<h³ (1 + h'²)> along. Around contact A' converges as A does, with
-    the square of the spacing where the gap closes smoothly; f has no limit there, as d has none.
+    Each wave of E has the magnitude of Stokes flow over low roughness. The result is therefore exact to second order in
+    slope for any height, and to second order in height for any wavelength; without this attenuation, errors of the
+    ridges of ``SAFETY_FACTOR`` are 1.5 times as large across and 5 times along. For ridges long compared with the gap,
+    under a flat wall, 1/A' = <h⁻³ (1 + 4/5 h'²)> across and A' = <h³>²/<h³ (1 + h'²)> along. With contact A' converges
+    as A does, with the square of the spacing where the gap closes smoothly; f diverges as d does.
 
     Parameters
     ----------
-    walls : as they are, m.
-    tolerance : of the cell problems, as :func:`rom.homogenization.flow_factors.flow_factors` takes it, which says what
-        is raised.
+    walls : both walls, m.
+    tolerance : tolerance of the cell problems, as in :func:`rom.homogenization.flow_factors.flow_factors`, whose errors
+        are raised.
     """
-    found = flow_factors(walls.gap, walls.spacing, tolerance=tolerance)
+    film = flow_factors(walls.gap, walls.spacing, tolerance=tolerance)
     mean, drives = walls.mean_gap, 3 if walls.slides else 2
-    correctors = found.correctors / np.array([mean, mean, 1 / mean])[:, None, None]
+    correctors = film.correctors / np.array([mean, mean, 1 / mean])[:, None, None]
     dx, dy = walls.spacing
     unit = Walls(lower=walls.lower / mean, upper=walls.upper / mean, spacing=(dx / mean, dy / mean))
-    thin = of_thin_film(found.factors.relative, slides=walls.slides)
+    thin = of_thin_film(film.factors.relative, slides=walls.slides)
     fluxes = local_fluxes(unit.gap, unit.spacing, correctors, drives)
     added = [slope_dissipation(*grid) for grid in _coarser(unit, fluxes)]
     rows = [_values(with_dissipation(thin, one.attenuated)) for one in added]
     corrected, finest = with_dissipation(thin, added[-1].attenuated), added[-1]
     bound = with_dissipation(thin, finest.second + finest.fourth)
     own = np.array([*(12 * np.diag(thin.pressure)), thin.friction])[:drives]
-    part = np.divide(np.diag(finest.second), own, out=np.zeros(drives), where=own > 0)
-    doubt = of_thin_film(found.uncertainty.scaled(1 / mean), slides=walls.slides)
-    uncertainty = _sum(_left_out(thin, corrected, bound, part), _of(off(rows), corrected), doubt)
+    ratio = np.divide(np.diag(finest.second), own, out=np.zeros(drives), where=own > 0)
+    of_film = of_thin_film(film.uncertainty.scaled(1 / mean), slides=walls.slides)
+    uncertainty = _sum(_left_out(thin, corrected, bound, ratio), _of(off(rows), corrected), of_film)
     return SlopeCorrected(
         thin=thin.scaled(mean),
         corrected=corrected.scaled(mean),
         bound=bound.scaled(mean),
         uncertainty=uncertainty.scaled(mean),
-        added=part,
+        added=ratio,
         flow=np.hypot(*fluxes[0]) * mean**3,
-        contact=found.contact,
-        unsolved=found.unsolved,
-        iterations=found.iterations,
+        contact=film.contact,
+        unsolved=film.unsolved,
+        iterations=film.iterations,
     )
 
 
 def with_dissipation(thin: RoughGapFactors, added: Array) -> RoughGapFactors:
-    """Factors if the thin films' flow dissipates that much more, as :func:`slope_corrected` says.
+    """The factors A', B' and f' of :func:`slope_corrected` for an added dissipation.
 
     Parameters
     ----------
-    thin : of a mean gap of 1.
-    added : over η and the drives, shape (drives, drives).
+    thin : factors of thin-film theory for a mean gap of 1.
+    added : added dissipation E over η and the drives, shape (drives, drives).
     """
     a = thin.pressure
     free = np.ix_(*[np.flatnonzero(np.diag(a) > 0)] * 2)
@@ -148,7 +148,7 @@ def _excess(thin: RoughGapFactors, other: RoughGapFactors) -> Array:
 
 
 def _coarser(walls: Walls, fluxes: Array) -> list[tuple[Walls, Array]]:
-    """Walls and fluxes on every fourth, second and each node, as far as that is possible."""
+    """The walls and fluxes on up to three grids, each of every second node of the next, the coarsest first."""
     grids = [(walls, fluxes)]
     while len(grids) < 3:
         finer, flow = grids[0]
@@ -174,22 +174,22 @@ def _sum(*parts: RoughGapFactors) -> RoughGapFactors:
     return _of(np.sum([_values(part) for part in parts], axis=0), parts[0])
 
 
-def _rest(part: Array) -> Array:
-    return np.asarray(SAFETY * part**2 / (1 + part))
+def _neglected(added: Array) -> Array:
+    return np.asarray(SAFETY_FACTOR * added**2 / (1 + added))
 
 
 def _left_out(
-    thin: RoughGapFactors, corrected: RoughGapFactors, bound: RoughGapFactors, part: Array
+    thin: RoughGapFactors, corrected: RoughGapFactors, bound: RoughGapFactors, added: Array
 ) -> RoughGapFactors:
-    rest = _rest(part)
+    """The uncertainty from the neglected terms, at most the distance to the farther bound."""
     a = np.minimum(
-        np.diag(corrected.pressure) * rest[:2],
+        np.diag(corrected.pressure) * _neglected(added)[:2],
         np.maximum(np.diag(thin.pressure - corrected.pressure), np.diag(corrected.pressure - bound.pressure)),
     )
     shear, friction = np.full(2, np.nan), np.nan
-    if len(part) > 2:
-        doubt = float(SAFETY * part[2] * part.max() / (1 + part.max()))
-        most = max(corrected.friction - thin.friction, bound.friction - corrected.friction)
-        friction = min(doubt * corrected.friction, most)
-        shear = np.full(2, doubt * np.hypot(*corrected.shear))
+    if len(added) > 2:
+        relative = float(SAFETY_FACTOR * added[2] * added.max() / (1 + added.max()))
+        largest = max(corrected.friction - thin.friction, bound.friction - corrected.friction)
+        friction = min(relative * corrected.friction, largest)
+        shear = np.full(2, relative * np.hypot(*corrected.shear))
     return replace(thin, pressure=np.sqrt(np.outer(a, a)), shear=shear, friction=friction)

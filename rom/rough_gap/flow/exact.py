@@ -1,4 +1,4 @@
-"""Stokes flow between walls that vary along one direction alone, to many digits: what cheaper models are judged by."""
+"""Accurate Stokes flow between walls that vary along one direction alone, a reference for simpler models."""
 
 from collections.abc import Iterator
 from dataclasses import astuple, dataclass
@@ -10,20 +10,23 @@ from numpy.typing import ArrayLike
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 
-TOLERANCE = 1e-8
-"""Of each factor, over itself."""
+FACTOR_TOLERANCE = 1e-8
+"""Default relative tolerance of each factor."""
 
-WAVES, HEIGHTS = 8, 5
-"""Functions along the period and across the gap in the first basis."""
+FIRST_WAVES = 8
+"""Number of functions along the period in the first basis."""
 
-GROWTH = 1.4
-"""Of both from one basis to the next."""
+FIRST_HEIGHTS = 5
+"""Number of functions across the gap in the first basis."""
 
-ROUNDING = 1e-13
-"""Of the mean gap, by which a wall may differ from its mirror image and count as even."""
+BASIS_GROWTH = 1.4
+"""Ratio of both numbers of functions from one basis to the next."""
 
-MOST = 2000
-"""Unknowns; more take above ten seconds."""
+EVENNESS_ROUNDOFF = 1e-13
+"""Largest difference of an even wall from its mirror image, over the mean gap."""
+
+MAX_UNKNOWNS = 2000
+"""Largest number of unknowns; more take above ten seconds."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,8 +36,8 @@ class RidgeFlow:
     Attributes
     ----------
     across, along : A/h̄³ across the ridges and along them.
-    drag, drag_along : B/h̄ where the upper wall slides across the ridges, and along them; NaN unless it is flat.
-    friction, friction_along : τh̄/(ηu) on it likewise, without a mean pressure gradient.
+    drag, drag_along : B/h̄ for sliding across the ridges and along them; NaN unless the upper wall is flat.
+    friction, friction_along : τh̄/(ηu) on the upper wall for the same sliding, without a mean pressure gradient.
     """
 
     across: float
@@ -45,18 +48,18 @@ class RidgeFlow:
     friction_along: float
 
 
-def sinusoidal_ridge_flow(amplitude: float, wavelength: float, *, tolerance: float = TOLERANCE) -> RidgeFlow:
-    """Stokes flow between a flat wall and ridges that leave a gap h/h̄ = 1 + a cos(2πx/L).
+def sinusoidal_ridge_flow(amplitude: float, wavelength: float, *, tolerance: float = FACTOR_TOLERANCE) -> RidgeFlow:
+    """Compute Stokes flow in a gap h/h̄ = 1 + a cos(2πx/L) between a flat wall and ridges.
 
     Parameters
     ----------
     amplitude : a over the mean gap, 0 <= a < 1.
     wavelength : L over the mean gap.
-    tolerance : and errors: as for :func:`ridge_flow`.
+    tolerance : tolerance of :func:`ridge_flow`, whose errors are raised.
 
     Examples
     --------
-    Over Reynolds' (1 - a²)^(5/2)/(1 + a²/2), where a wave is 20, 5 and 2.5 mean gaps long:
+    Ratios to Reynolds' (1 - a²)^(5/2)/(1 + a²/2) for wavelengths of 20, 5 and 2.5 mean gaps:
 
     >>> thin = (1 - 0.3**2) ** 2.5 / (1 + 0.3**2 / 2)
     >>> [round(sinusoidal_ridge_flow(0.3, length).across / thin, 5) for length in (20, 5, 2.5)]
@@ -64,39 +67,44 @@ def sinusoidal_ridge_flow(amplitude: float, wavelength: float, *, tolerance: flo
     """
     if not (0 <= amplitude < 1 and 0 < wavelength < np.inf):
         raise InputError(
-            f"ridges: got amplitude {amplitude!r}, wavelength {wavelength!r}, over the mean gap; "
+            f"ridges: got amplitude {amplitude!r}, wavelength {wavelength!r}, in mean gaps; "
             "give 0 to below 1, and above 0"
         )
     return ridge_flow(amplitude * np.array([-1, 0, 1, 0]), np.ones(4), wavelength, tolerance=tolerance)
 
 
 def ridge_flow(
-    lower: ArrayLike, upper: ArrayLike, period: float, *, tolerance: float = TOLERANCE, most: int = MOST
+    lower: ArrayLike,
+    upper: ArrayLike,
+    period: float,
+    *,
+    tolerance: float = FACTOR_TOLERANCE,
+    max_unknowns: int = MAX_UNKNOWNS,
 ) -> RidgeFlow:
-    """Stokes flow between two walls z₁(x) < z₂(x), by Ritz' method on bases that grow until nothing changes.
+    """Compute Stokes flow between two walls z₁(x) < z₂(x) by Ritz' method on bases that grow until convergence.
 
-    Across the ridges the stream function with the least dissipation ∫(∇²ψ)² of all that carry the flow q, between
-    walls at rest or with the upper one sliding at u: with s = (z - z₁)/h,
+    Across the ridges the stream function minimises the dissipation ∫(∇²ψ)² at the flow q, with the upper wall at rest
+    or sliding at u. With s = (z - z₁)/h,
 
         ψ = q (3s² - 2s³) + u h (s³ - s²) + Σ c_mn s²(1-s)² P_n(s) e^{2πi m x/L}.
 
-    Along them the velocity with the least dissipation ∫|∇v|² likewise. Errors of all factors are squares of those of
-    the flow, and fall exponentially with the size of the basis where the walls are smooth; A comes from below, friction
-    from above.
+    Along the ridges the velocity minimises the dissipation ∫|∇v|². Errors of the factors are quadratic in that of the
+    flow and decrease exponentially with the size of the basis for smooth walls; A converges from below, friction from
+    above.
 
     Parameters
     ----------
-    lower, upper : heights at nodes x_i = i L/n of one period, shape (n,); waves are drawn through them.
+    lower, upper : heights at nodes x_i = i L/n of one period, shape (n,), for trigonometric interpolation.
     period : L, in the same unit.
-    tolerance : of what the last, by 1.4 larger, basis changed in any factor over itself.
-    most : unknowns of a basis.
+    tolerance : largest relative change of any factor by the last increase of the basis by 1.4.
+    max_unknowns : largest number of unknowns of a basis.
 
     Raises
     ------
     InputError
-        For walls that touch or cross or are no profiles, or a tolerance that is not above 0.
+        If the walls are not profiles, touch or cross, or the tolerance is not above 0.
     ConvergenceError
-        If the tolerance is not met with so many unknowns. With 2000, sinusoids on one wall meet 1e-8 down to
+        If the tolerance is not met with the largest basis. With 2000 unknowns sinusoids on one wall meet 1e-8 down to
         wavelengths of 0.5, 1 and 1.5 mean gaps at amplitudes of 0.05, 0.3 and 0.8, and 1e-5 down to 0.5, 0.8 and 1 at
         0.1, 0.3 and 0.8.
     """
@@ -113,15 +121,15 @@ def ridge_flow(
     middle = float((two + one).mean()) / 2
     walls = ((one - middle) / mean, (two - middle) / mean)
     before, change, unknowns = None, np.inf, 0
-    for waves, heights in _sizes(1 if _even(*walls) else 2, most):
+    for waves, heights in _sizes(1 if _even(*walls) else 2, max_unknowns):
         strip = _strip(walls, period / mean, waves, heights)
         unknowns = len(strip.waves) * heights
-        found = _factors(strip, heights, slides=bool(np.ptp(two) == 0))
+        factors = _factors(strip, heights, slides=bool(np.ptp(two) == 0))
         if before is not None:
-            change = float(np.nanmax(np.abs(np.array(astuple(found)) / np.array(astuple(before)) - 1)))
+            change = float(np.nanmax(np.abs(np.array(astuple(factors)) / np.array(astuple(before)) - 1)))
             if change < tolerance:
-                return found
-        before = found
+                return factors
+        before = factors
     raise ConvergenceError(
         f"ridge flow: factors still change by {change:.1e} with {unknowns} functions; "
         "loosen the tolerance, or take longer or lower waves",
@@ -131,10 +139,10 @@ def ridge_flow(
 
 @dataclass(frozen=True, kw_only=True)
 class _Strip:
-    """Quadrature points of a gap, all arrays broadcast to (along, across), and the functions along it.
+    """Quadrature points of a gap, with arrays of shape (along, across), and the functions along it.
 
-    ``below`` and ``thickness`` hold the lower wall and the gap with their first two derivatives; ``waves`` functions
-    of x likewise; ``root`` is the square root of a point's weight, for means along x.
+    ``below``, ``thickness`` and ``waves`` are the lower wall, the gap and functions of x, each with two derivatives;
+    ``root`` is the square root of the weight of a point in a mean along x.
     """
 
     height: Array
@@ -144,16 +152,16 @@ class _Strip:
     root: Array
 
 
-def _sizes(parities: int, most: int) -> Iterator[tuple[int, int]]:
-    """Waves along and functions across, of bases that hold one or both parities, as long as they are small enough."""
-    waves, heights = float(WAVES), float(HEIGHTS)
-    while parities * waves * heights < most:
+def _sizes(parities: int, limit: int) -> Iterator[tuple[int, int]]:
+    """The numbers of waves along and functions across of bases of one or both parities, up to a limit of unknowns."""
+    waves, heights = float(FIRST_WAVES), float(FIRST_HEIGHTS)
+    while parities * waves * heights < limit:
         yield round(waves), round(heights)
-        waves, heights = GROWTH * waves, GROWTH * heights
+        waves, heights = BASIS_GROWTH * waves, BASIS_GROWTH * heights
 
 
 def _even(*walls: Array) -> bool:
-    return all(np.abs(wall[1:] - wall[:0:-1]).max() < ROUNDING for wall in walls)
+    return all(np.abs(wall[1:] - wall[:0:-1]).max() < EVENNESS_ROUNDOFF for wall in walls)
 
 
 def _strip(walls: tuple[Array, Array], length: float, waves: int, heights: int) -> _Strip:
@@ -180,7 +188,7 @@ def _strip(walls: tuple[Array, Array], length: float, waves: int, heights: int) 
 
 
 def _derivatives(wall: Array, x: Array, length: float) -> tuple[Array, ...]:
-    """The trigonometric polynomial through the nodes, and its first two derivatives, at x."""
+    """The trigonometric interpolant of a wall and its first two derivatives at x."""
     parts = np.fft.rfft(wall, norm="forward")
     q = 2 * np.pi * np.arange(parts.size) / length
     parts[1 : (wall.size + 1) // 2] *= 2
@@ -198,8 +206,8 @@ def _factors(strip: _Strip, heights: int, *, slides: bool) -> RidgeFlow:
     across = _columns([_curl(strip, wave, shape) for shape in twice for wave in strip.waves])
     flow = _curl(strip, still, (3 * s**2 - 2 * s**3, 6 * s * (1 - s), 6 - 12 * s))
     slide = _curl(strip, strip.thickness, (s**3 - s**2, 3 * s**2 - 2 * s, 6 * s - 2))
-    left = _less_projection(across, np.array([flow, slide]).T)
-    least = left.T @ left
+    remainder = _projection_error(across, np.array([flow, slide]).T)
+    least = remainder.T @ remainder
     pressure = 12 / least[0, 0]
     drag = -pressure * least[0, 1] / 6
 
@@ -207,7 +215,7 @@ def _factors(strip: _Strip, heights: int, *, slides: bool) -> RidgeFlow:
     z = strip.below[0] + s * strip.thickness[0]
     sheared = _gradient(strip, still, (s, one, 0 * one))
     push = np.concatenate([0 * strip.root.ravel(), (-z * strip.root).ravel()])
-    rest = _less_projection(along, np.array([push, sheared]).T)
+    rest = _projection_error(along, np.array([push, sheared]).T)
     driven = push - rest[:, 0]
     mean_of_sheared = float((s * strip.root**2).sum())
     return RidgeFlow(
@@ -235,7 +243,7 @@ def _product(one: tuple[Array, ...], two: tuple[Array, ...]) -> tuple[Array, Arr
 
 
 def _curl(strip: _Strip, wave: tuple[Array, ...], shape: tuple[Array, ...]) -> Array:
-    """∇² of wave(x) shape(s), times the roots of the weights."""
+    """The Laplacian of wave(x) shape(s), times the roots of the weights."""
     s, h = strip.height, strip.thickness
     fall = -(strip.below[1] + s * h[1]) / h[0]
     bend = -(strip.below[2] + s * h[2] + 2 * fall * h[1]) / h[0]
@@ -244,7 +252,7 @@ def _curl(strip: _Strip, wave: tuple[Array, ...], shape: tuple[Array, ...]) -> A
 
 
 def _gradient(strip: _Strip, wave: tuple[Array, ...], shape: tuple[Array, ...]) -> Array:
-    """∂/∂x and ∂/∂z of wave(x) shape(s), times the roots of the weights, one behind the other."""
+    """The derivatives ∂/∂x and ∂/∂z of wave(x) shape(s), times the roots of the weights, concatenated."""
     s, h = strip.height, strip.thickness
     fall = -(strip.below[1] + s * h[1]) / h[0]
     x, z = wave[1] * shape[0] + wave[0] * shape[1] * fall, wave[0] * shape[1] / h[0]
@@ -255,7 +263,7 @@ def _columns(vectors: list[Array]) -> Array:
     return np.array([vector / np.linalg.norm(vector) for vector in vectors]).T
 
 
-def _less_projection(basis: Array, values: Array) -> Array:
-    """What is left of each column of ``values`` when the nearest combination of the basis is taken away."""
-    found, *_ = scipy.linalg.lstsq(basis, values, cond=1e-14)
-    return np.asarray(values - basis @ found)
+def _projection_error(basis: Array, values: Array) -> Array:
+    """The columns of ``values`` minus their orthogonal projections on the basis."""
+    coefficients, *_ = scipy.linalg.lstsq(basis, values, cond=1e-14)
+    return np.asarray(values - basis @ coefficients)

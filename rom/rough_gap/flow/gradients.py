@@ -1,4 +1,4 @@
-"""Velocity gradients of thin films between sloping walls, in the middle of every four nodes, and sums over them."""
+"""Velocity gradients of thin films between sloping walls at the middles of cells of four nodes, and their sums."""
 
 from math import sqrt
 
@@ -7,12 +7,12 @@ import numpy as np
 from roughfilm.contact.foundation.compiled import allocating
 
 EVEN, CURVED, ODD = 0, 1, 2
-"""The parts of ∇u across the gap: with t = 1 - 2s, times 1, t² - 1/3 and t. Their mean squares are 1, 4/45 and 1/3."""
+"""The parts of ∇u across the gap in 1, t² - 1/3 and t, with t = 1 - 2s, whose mean squares are 1, 4/45 and 1/3."""
 
 
 @allocating
 def set_gradients(lower, gap, velocity, steps, part, out):  # type: ignore[no-untyped-def]
-    """Set one part of √h ∂_k u_i, times the root of its mean square, shape (drives, k, i, nx, ny); 0 in contact.
+    """Write one part of √h ∂_k u_i, times the root of its mean square, shape (drives, k, i, nx, ny); 0 in contact.
 
     With m = ∇z₁ + b/2, b = ∇h, and U = 1 for the third drive, the three parts of ∂_k u_i are
 
@@ -57,10 +57,10 @@ def set_gradients(lower, gap, velocity, steps, part, out):  # type: ignore[no-un
 
 @allocating
 def add_wave_energies(waves, normal, filters, weights, whole, weakened):  # type: ignore[no-untyped-def]
-    """Add sums of ∇u_i:∇u_j + (∇·u_i)(∇·u_j), of the gradients' waves as they are, and of the filtered ones.
+    """Add sums of ∇u_i:∇u_j + (∇·u_i)(∇·u_j) to ``whole`` from the waves, and to ``weakened`` from the filtered waves.
 
-    ``waves``: of ∂_k u_i, shape (drives, k, i, nx, n). ``normal``: their directions, shape (2, nx, n). ``filters``: of
-    the parts of u along that and across, shape (2, nx, n). ``weights``: of columns, shape (n,).
+    ``waves`` are those of ∂_k u_i, shape (drives, k, i, nx, n), ``normal`` their directions, shape (2, nx, n),
+    ``filters`` the factors of u along and across a direction, shape (2, nx, n), ``weights`` those of columns, (n,).
     """
     drives, _, _, count, length = waves.shape
     own, less = np.empty((drives, 5), dtype=np.complex128), np.empty((drives, 5), dtype=np.complex128)
@@ -87,11 +87,11 @@ def add_wave_energies(waves, normal, filters, weights, whole, weakened):  # type
 
 
 @allocating
-def add_rise_energies(lower, gap, rise, steps, shapes, steep, heights, weights, found):  # type: ignore[no-untyped-def]
+def add_rise_energies(lower, gap, rise, steps, shapes, steep, heights, weights, sums):  # type: ignore[no-untyped-def]
     """Add sums of h ∇w_i·∇w_j over the gap by Gauss' rule.
 
-    ``rise``: what w is made of at the nodes, shape (drives, 4, nx, ny); ``shapes`` and ``steep``: by which functions of
-    s, and their derivatives, shape (points, 4); ``heights`` and ``weights``: s and weights of the points.
+    ``rise`` are the coefficients of w at the nodes, shape (drives, 4, nx, ny), ``shapes`` and ``steep`` their functions
+    of s and the derivatives, shape (points, 4), ``heights`` and ``weights`` the s and weights of the points.
     """
     drives, parts, count, length = rise.shape
     value, along, aside = np.empty((drives, parts)), np.empty((drives, parts)), np.empty((drives, parts))
@@ -126,4 +126,4 @@ def add_rise_energies(lower, gap, rise, steps, shapes, steep, heights, weights, 
                 for first in range(drives):
                     for second in range(drives):
                         product = w[first, 0] * w[second, 0] + w[first, 1] * w[second, 1]
-                        found[first, second] += weights[point] * h * product
+                        sums[first, second] += weights[point] * h * product

@@ -1,4 +1,4 @@
-"""How steep a surface may be for thin-film theory and for its correction, before anything is solved."""
+"""Range of validity of thin-film theory and its slope correction, from the walls alone."""
 
 import numpy as np
 
@@ -7,31 +7,31 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.rough_gap.flow.waves import nearly_smooth_flow
 from roughfilm.rom.rough_gap.walls import Walls
 
-ACROSS, ALONG, NO_LAY = 0.8, 1.0, 0.9
-"""What thin-film theory lets too much through, over the mean square slope of one wall whose waves are long and low:
-across ridges, along them, and over a surface without a lay, in every direction."""
+ISOTROPIC_EXCESS = 0.9
+"""Relative flow error of thin-film theory over the mean square slope of one wall with long, low waves without a lay."""
 
-LEAST = 0.1
-"""Of a factor of nearly smooth flow: where roughness is large it may vanish, and is nothing to divide by."""
+MIN_FACTOR = 0.1
+"""Smallest factor of nearly smooth flow that a change is divided by; with large roughness it may vanish."""
 
-REACH = 0.25
-"""Largest part of the dissipation that slope may add: up to there ``slope_corrected`` gives
-errors below 13 %; on the ridges and cells on which it was judged they were below 1.8 %."""
+MAX_ADDED_DISSIPATION = 0.25
+"""Largest relative dissipation added by slope at which ``slope_corrected`` is valid.
+
+Its errors are then below 13 %, and below 1.8 % on the ridges and cells of the comparison.
+"""
+
+MAX_ROUGHNESS = 0.3
+"""Largest rms of the gap over its mean at which low-roughness theory is valid."""
 
 
-ROUGHEST = 0.3
-"""Rms of the gap over its mean, up to which low-roughness theory tells anything."""
-
-
-def allowed_rms_slope(excess: float, *, factor: float = NO_LAY) -> float:
-    """The rms slope |∇z| at which thin-film theory lets that part too much through: √(excess/c).
+def allowed_rms_slope(excess: float, *, factor: float = ISOTROPIC_EXCESS) -> float:
+    """The rms slope |∇z| = √(excess/c) at which thin-film theory has that relative flow error.
 
     Parameters
     ----------
-    excess : over Stokes flow, above 0, far below 1.
-    factor : c: 0.8 across ridges, 1 along them, 0.9 without a lay, for one rough wall, low and long against the gap.
-        High ridges have c = 0.8 <h'²/h³>/(<h'²><1/h³>) across and <h³h'²>/(<h³><h'²>) along: less if they are
-        sinusoids, up to twice as much if the deep places are the steep ones. Short waves count less.
+    excess : flow error relative to Stokes flow, above 0 and much less than 1.
+    factor : c: 0.8 across ridges, 1 along them, 0.9 without a lay, for one rough wall with low waves long compared with
+        the gap. High ridges have c = 0.8 <h'²/h³>/(<h'²><1/h³>) across and <h³h'²>/(<h³><h'²>) along: less for
+        sinusoids, up to twice as much if deep places are steep. Short waves have a smaller c.
 
     Examples
     --------
@@ -43,40 +43,40 @@ def allowed_rms_slope(excess: float, *, factor: float = NO_LAY) -> float:
     return float(np.sqrt(excess / factor))
 
 
-def part_of_lost_waves(whole: Walls, part: Walls, *, stokes: bool) -> Array:
-    """By what part of themselves A₁₁, A₂₂, B₁ and friction change if the walls lose waves, shape (4,).
+def change_by_lost_waves(whole: Walls, part: Walls, *, stokes: bool) -> Array:
+    """The relative changes of A₁₁, A₂₂, B₁ and friction if the walls lose waves, shape (4,).
 
-    By :func:`rom.rough_gap.flow.waves.nearly_smooth_flow`: a measure of what a grid cannot hold, of second order in
-    roughness over gap, and no more than a hint where that is large.
+    The estimate by :func:`rom.rough_gap.flow.waves.nearly_smooth_flow` is of second order in roughness over gap, and
+    only indicative for large roughness.
 
     Parameters
     ----------
-    whole, part : the walls, and the same less some waves; on any nodes.
+    whole, part : the walls, and the walls without some waves, on any nodes.
     stokes : False for Reynolds' theory.
     """
     rows = [
-        np.array([*np.diag(found.pressure), found.shear[0], found.friction])
-        for found in (nearly_smooth_flow(walls, stokes=stokes).relative for walls in (whole, part))
+        np.array([*np.diag(factors.pressure), factors.shear[0], factors.friction])
+        for factors in (nearly_smooth_flow(walls, stokes=stokes).relative for walls in (whole, part))
     ]
-    return np.asarray(np.abs(rows[0] - rows[1]) / np.maximum(np.abs(rows[1]), LEAST))
+    return np.asarray(np.abs(rows[0] - rows[1]) / np.maximum(np.abs(rows[1]), MIN_FACTOR))
 
 
 def expected_excess(walls: Walls) -> Array:
-    """What thin-film theory lets too much through along x and y, over Stokes flow, by the walls' spectra: shape (2,).
+    """The relative flow error of thin-film theory along x and y, from the spectra of the walls, shape (2,).
 
-    By :func:`rom.rough_gap.flow.waves.nearly_smooth_flow`, for any wavelength, of second order in roughness over gap:
-    1.2 to 1.4 times too much for a milled surface whose rms height is a quarter of the gap.
+    The estimate by :func:`rom.rough_gap.flow.waves.nearly_smooth_flow` holds for any wavelength, to second order in
+    roughness over gap. It is 1.2 to 1.4 times too large for a milled surface whose rms height is a quarter of the gap.
 
     Raises
     ------
     InputError
-        If the gap's rms is above 0.3 of its mean: :attr:`rom.rough_gap.flow.corrected.SlopeCorrected.excess` tells it
-        then.
+        If the gap's rms is above 0.3 of its mean; take :attr:`rom.rough_gap.flow.corrected.SlopeCorrected.excess`.
     """
-    part = float(walls.gap.std()) / walls.mean_gap
-    if not part <= ROUGHEST:
+    ratio = float(walls.gap.std()) / walls.mean_gap
+    if not ratio <= MAX_ROUGHNESS:
         raise InputError(
-            f"walls: the gap's rms is {part:.2g} of its mean; up to {ROUGHEST} can be told without solving"
+            f"walls: got a gap with rms {ratio:.2g} of its mean; it must be at most {MAX_ROUGHNESS}, take "
+            "slope_corrected"
         )
     thin, stokes = (np.diag(nearly_smooth_flow(walls, stokes=way).pressure) for way in (False, True))
     return np.asarray((thin - stokes) / stokes)

@@ -1,4 +1,4 @@
-"""Stokes flow in a small cell of a gap between any smooth walls, to several digits and without a mesh."""
+"""Stokes flow in a small cell of a gap between smooth walls by Ritz' method, without a mesh."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -11,32 +11,33 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Ou
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors
 from roughfilm.rom.rough_gap.walls import Walls
 
-TOLERANCE = 1e-4
-"""Of A, B and friction over those of a smooth film."""
+FACTOR_TOLERANCE = 1e-4
+"""Default tolerance of A, B and friction over those of a smooth film."""
 
-FIRST = (2, 2)
-"""Waves in a side, and functions across the gap, of the first basis."""
+FIRST_BASIS = (2, 2)
+"""Numbers of waves in a side and of functions across the gap in the first basis."""
 
-MOST = 2500
-"""Functions; more take above a minute."""
+MAX_FUNCTIONS = 2500
+"""Largest number of functions; more take above a minute."""
 
-Flow = tuple[Array, Array, Array]
-"""û, its gradient along the film, of shape (2, 3, points), and ∂û/∂s at places of one s."""
+BasisFlow = tuple[Array, Array, Array]
+"""A flow û, its gradient along the film, of shape (2, 3, points), and ∂û/∂s, at points of one s."""
 
 
-def ritz_flow(walls: Walls, *, tolerance: float = TOLERANCE) -> RoughGapFactors:
-    """Factors of a gap in Stokes flow: the least dissipation of all flows of a basis that grows until nothing changes.
+def ritz_flow(walls: Walls, *, tolerance: float = FACTOR_TOLERANCE) -> RoughGapFactors:
+    """Compute the factors of a gap in Stokes flow from the least dissipation in bases that grow until convergence.
 
-    On the strip 0 < s < 1, of which the gap is the image z = z₁ + s h, a flow û without divergence is made of uniform
-    ones, of (∂_yψ, -∂_xψ, 0) with ψ = e^{iq·x} s(1-s) P_n(s), and of (f'∂_xφ, f'∂_yφ, -f∇²φ) with f = s²(1-s)² P_n(s).
-    In the gap it is u = û_x/h, v = û_y/h, w = û_s + (∇z₁ + s∇h)·(u, v), again without divergence and at rest on the
-    walls. Errors are squares of those of the flow; A comes from below (as a quadratic form), friction from above.
+    On the strip 0 < s < 1, which z = z₁ + s h maps to the gap, divergence-free flows û are uniform ones,
+    (∂_yψ, -∂_xψ, 0) with ψ = e^{iq·x} s(1-s) P_n(s), and (f'∂_xφ, f'∂_yφ, -f∇²φ) with φ = e^{iq·x} and
+    f = s²(1-s)² P_n(s). In the gap u = û_x/h, v = û_y/h, w = û_s + (∇z₁ + s∇h)·(u, v) is also divergence-free and zero
+    on the walls. Errors are quadratic in that of the flow; A converges from below (as a quadratic form), friction from
+    above.
 
     Parameters
     ----------
-    walls : m, waves are drawn through their nodes. Smooth, with a few waves in a side: a basis with all waves up to m
-        in a side and n functions across has 8 m (m + 1) n functions.
-    tolerance : of what one more wave and function change in A/h̄³, B/h̄ and f h̄.
+    walls : smooth walls, m, with a few waves in a side, for trigonometric interpolation. A basis with waves up to m in
+        a side and n functions across has 8 m (m + 1) n functions.
+    tolerance : largest change of A/h̄³, B/h̄ and f h̄ by one more wave and function.
 
     Raises
     ------
@@ -48,7 +49,7 @@ def ritz_flow(walls: Walls, *, tolerance: float = TOLERANCE) -> RoughGapFactors:
     if not tolerance > 0:
         raise InputError(f"tolerance: got {tolerance!r}; it must be above 0")
     if not walls.gap.min() > 0:
-        raise InputError("walls: touch; keep them apart, this basis has no edges of contact")
+        raise InputError("walls: they touch; give walls apart, as this basis does not represent contact")
     mean, (dx, dy) = walls.mean_gap, walls.spacing
     unit = Walls(lower=walls.lower / mean, upper=walls.upper / mean, spacing=(dx / mean, dy / mean))
     before, change, functions = None, np.inf, 0
@@ -64,8 +65,7 @@ def ritz_flow(walls: Walls, *, tolerance: float = TOLERANCE) -> RoughGapFactors:
         if before is not None:
             change = float(np.nanmax(np.abs(now - before)))
             if change < tolerance:
-                found = RoughGapFactors(mean_gap=1.0, pressure=pressure, shear=shear, friction=friction)
-                return found.scaled(mean)
+                return RoughGapFactors(mean_gap=1.0, pressure=pressure, shear=shear, friction=friction).scaled(mean)
         before = now
     raise ConvergenceError(
         f"ritz flow: factors still change by {change:.1e} with {functions} functions; "
@@ -79,14 +79,14 @@ def _functions(waves: int, heights: int) -> int:
 
 
 def _sizes() -> Iterator[tuple[int, int]]:
-    waves, heights = FIRST
-    while _functions(waves, heights) <= MOST:
+    waves, heights = FIRST_BASIS
+    while _functions(waves, heights) <= MAX_FUNCTIONS:
         yield waves, heights
         waves, heights = waves + 1, heights + 1
 
 
 def _least_dissipation(walls: Walls, waves: int, heights: int) -> Array:
-    """Over η, for flow along x, along y and a sliding wall, shape (3, 3) or (2, 2)."""
+    """The least dissipation over η, for flow along x, along y and a sliding wall, shape (3, 3) or (2, 2)."""
     surface = _surface(walls, waves)
     points, weights = scipy.special.roots_legendre(heights + 4)
     drives = 3 if walls.slides else 2
@@ -104,10 +104,10 @@ def _least_dissipation(walls: Walls, waves: int, heights: int) -> Array:
 
 @dataclass(frozen=True, kw_only=True)
 class _Surface:
-    """At evenly spaced points of the cell, flat: the gap, ∇z₁ and ∇h with their gradients, and the waves.
+    """The gap, ∇z₁ and ∇h with their gradients, and the waves, at evenly spaced points of the cell.
 
-    ``lower`` and ``rise``: shape (2, points); ``lower_x``, ``rise_x``: (2, 2, points). ``waves``: value, gradient,
-    second derivatives and gradient of the Laplacian of each.
+    ``lower`` and ``rise`` have the shape (2, points), ``lower_x`` and ``rise_x`` (2, 2, points). Each of ``waves`` has
+    its value, gradient, second derivatives and squared wave number.
     """
 
     gap: Array
@@ -117,8 +117,8 @@ class _Surface:
     rise_x: Array
     waves: tuple[tuple[Array, Array, Array, float], ...]
 
-    def driven(self, s: float, drives: int) -> Iterator[Flow]:
-        """Unit flux along x, along y, and no flux under a wall that slides at 1."""
+    def driven(self, s: float, drives: int) -> Iterator[BasisFlow]:
+        """The flows of unit flux along x and along y, and that without flux under a wall that slides at 1."""
         yield from _uniform(6 * s * (1 - s), 6 - 12 * s, self.gap.size)
         if drives > 2:
             none, part, area = np.zeros_like(self.gap), 3 * s**2 - 2 * s, s**3 - s**2
@@ -126,8 +126,8 @@ class _Surface:
             up = np.array([self.gap * (6 * s - 2), none, -self.rise[0] * part])
             yield np.array([self.gap * part, none, -self.rise[0] * area]), along, up
 
-    def basis(self, s: float, heights: int) -> Iterator[Flow]:
-        """Flows without mean flux, at rest on the walls."""
+    def basis(self, s: float, heights: int) -> Iterator[BasisFlow]:
+        """The flows without mean flux that are zero on the walls."""
         none = np.zeros_like(self.gap)
         for n in range(heights):
             g, g_s, _ = _shape(n, 1, s)
@@ -140,8 +140,8 @@ class _Surface:
                 lifted = np.array([x * f_ss, y * f_ss, square * value * f_s])
                 yield np.array([x * f_s, y * f_s, square * value * f]), along, lifted
 
-    def gradient(self, s: float, flow: Flow) -> Array:
-        """Velocity gradient in the gap times √h, all components behind one another."""
+    def gradient(self, s: float, flow: BasisFlow) -> Array:
+        """The velocity gradient in the gap times √h, all components concatenated."""
         own, along, up = flow
         h, tilt, tilt_x = self.gap, self.lower + s * self.rise, self.lower_x + s * self.rise_x
         u, u_s = own[:2] / h, up[:2] / h
@@ -171,15 +171,15 @@ def _surface(walls: Walls, waves: int) -> _Surface:
     return _Surface(gap=gap[0], lower=below[1], lower_x=below[2], rise=gap[1], rise_x=gap[2], waves=tuple(made))
 
 
-def _uniform(value: float, slope: float, places: int) -> Iterator[Flow]:
-    """The same everywhere along the film, along x and along y."""
+def _uniform(value: float, slope: float, places: int) -> Iterator[BasisFlow]:
+    """The flows along x and along y that are uniform along the film."""
     for direction in np.eye(3)[:2, :, None]:
         constant = np.broadcast_to(direction, (3, places))
         yield constant * value, np.zeros((2, 3, places)), constant * slope
 
 
 def _shape(n: int, power: int, s: float) -> tuple[float, float, float]:
-    """(s(1-s))^power P_n(s) and its first two derivatives; P_n that of Jacobi for (s(1-s))^power."""
+    """(s(1-s))^power P_n(s) and its first two derivatives, with P_n the Jacobi polynomial for (s(1-s))^power."""
     bump = np.polynomial.Polynomial([0, 1, -1]) ** power
     t = 2 * s - 1
     values = [
@@ -197,12 +197,12 @@ def _shape(n: int, power: int, s: float) -> tuple[float, float, float]:
 
 
 def _derivatives(heights: Array, size: tuple[float, float], place: Array) -> tuple[Array, Array, Array]:
-    """Of the trigonometric polynomial through the nodes: value, gradient, second derivatives, at some places."""
+    """The value, gradient and second derivatives of the trigonometric interpolant at some places."""
     parts = np.fft.fft2(heights, norm="forward")
-    kept = np.argwhere(np.abs(parts) > 1e-15 * np.abs(parts).max())
+    present = np.argwhere(np.abs(parts) > 1e-15 * np.abs(parts).max())
     whole = np.array([np.fft.fftfreq(n, 1 / n) for n in heights.shape], dtype=object)
-    q = 2 * np.pi * np.array([[whole[i][place[i]] / size[i] for i in range(2)] for place in kept])
-    waves = np.exp(1j * q @ place) * parts[kept[:, 0], kept[:, 1]][:, None]
+    q = 2 * np.pi * np.array([[whole[i][place[i]] / size[i] for i in range(2)] for place in present])
+    waves = np.exp(1j * q @ place) * parts[present[:, 0], present[:, 1]][:, None]
     gradient = np.array([(1j * q[:, i] @ waves).real for i in range(2)])
     second = np.array([[-(q[:, i] * q[:, j]) @ waves for j in range(2)] for i in range(2)]).real
     return waves.sum(axis=0).real, gradient, second

@@ -1,1 +1,1 @@
-"""The models of a rough gap without OpenFOAM, one a file."""
+"""The models of a rough gap without OpenFOAM, one per file."""

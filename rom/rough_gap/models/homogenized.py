@@ -1,43 +1,43 @@
-"""The Reynolds equation over every wave of the period: the flow factors of the gap."""
+"""The Reynolds equation over one period of the gap: its flow factors."""
 
 import numpy as np
 
 from roughfilm.rom.homogenization.factors import FlowFactors
 from roughfilm.rom.ladder.model import Applicability, Effect
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors, of_thin_film
-from roughfilm.rom.rough_gap.model import Found, gap_model
+from roughfilm.rom.rough_gap.model import GapFlow, gap_model
 from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.rough_gap.walls import Walls
 
 
 def applies(scene: RoughGap) -> Applicability:
-    """Always; says how much slope and inertia it leaves out."""
+    """The neglected slope and inertia; the model applies to every rough gap."""
     excess = scene.slope_excess
-    lets = "" if excess is None else f", by which it lets about {100 * excess:.2g} % too much through"
+    error = "" if excess is None else f", which overestimates the flow by about {100 * excess:.2g} %"
     return Applicability(
         applies=True,
-        reason=f"leaves out slope (g' = {scene.rms_slope:.3g}{lets}) and inertia (Re g' = "
+        reason=f"leaves out slope (g' = {scene.rms_slope:.3g}{error}) and inertia (Re g' = "
         f"{scene.reynolds_number * scene.rms_slope:.3g})",
     )
 
 
-def find(walls: Walls, mean_gap: float) -> Found:
-    """Flow factors by the cell problems."""
+def find(walls: Walls, mean_gap: float) -> GapFlow:
+    """The flow factors from the cell problems."""
     from roughfilm.rom.homogenization.flow_factors import flow_factors  # numba is slow to import
     from roughfilm.rom.homogenization.flux import flux
 
-    found = flow_factors(walls.gap, walls.spacing)
-    driven = flux(walls.gap, walls.spacing, found.correctors[0], 0) / mean_gap**3
+    film = flow_factors(walls.gap, walls.spacing)
+    driven = flux(walls.gap, walls.spacing, film.correctors[0], 0) / mean_gap**3
 
     def over(factors: FlowFactors) -> RoughGapFactors:
         return of_thin_film(factors, slides=walls.slides).scaled(1 / mean_gap)
 
-    return Found(
-        factors=over(found.factors),
-        uncertainty=over(found.uncertainty),
+    return GapFlow(
+        factors=over(film.factors),
+        uncertainty=over(film.uncertainty),
         flow=np.hypot(*driven),
-        residual=found.unsolved,
-        iterations=found.iterations,
+        residual=film.unsolved,
+        iterations=film.iterations,
     )
 
 

@@ -1,40 +1,43 @@
-"""The Reynolds equation over every wave of the period, and what the slope of its walls adds, without a mesh across."""
+"""The Reynolds equation over one period of the gap with a correction for the slope of the walls."""
 
 from roughfilm.rom.ladder.model import Applicability, Effect
-from roughfilm.rom.rough_gap.flow.range_of_validity import REACH
-from roughfilm.rom.rough_gap.model import Found, gap_model
+from roughfilm.rom.rough_gap.flow.range_of_validity import MAX_ADDED_DISSIPATION
+from roughfilm.rom.rough_gap.model import GapFlow, gap_model
 from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.rough_gap.walls import Walls
 
 
 def applies(scene: RoughGap) -> Applicability:
-    """Always; says how steep the walls are, and whether they are expected to be too steep."""
+    """The slope of the walls, and whether it is within range; the model applies to every rough gap."""
     excess = scene.slope_excess
     reason = f"keeps slope to second order (g' = {scene.rms_slope:.3g})"
-    if excess is not None and excess > REACH:
-        reason += f", which is expected to take {100 * excess:.2g} % of the flow: out of its range, take stokes"
+    if excess is not None and excess > MAX_ADDED_DISSIPATION:
+        reason += f", which is expected to reduce the flow by {100 * excess:.2g} %: out of its range, take stokes"
     return Applicability(
         applies=True, reason=f"{reason}; leaves out inertia (Re g' = {scene.reynolds_number * scene.rms_slope:.3g})"
     )
 
 
-def find(walls: Walls, mean_gap: float) -> Found:
-    """Flow factors of the thin film, corrected."""
+def find(walls: Walls, mean_gap: float) -> GapFlow:
+    """The corrected flow factors of the thin film."""
     from roughfilm.rom.rough_gap.flow.corrected import slope_corrected  # numba is slow to import
 
-    found = slope_corrected(walls)
-    return Found(
-        factors=found.corrected.scaled(1 / mean_gap),
-        uncertainty=found.uncertainty.scaled(1 / mean_gap),
-        flow=found.flow / mean_gap**3,
-        residual=found.unsolved,
-        iterations=found.iterations,
-        warnings=() if found.holds else (_too_steep(float(found.added.max())),),
+    theory = slope_corrected(walls)
+    return GapFlow(
+        factors=theory.corrected.scaled(1 / mean_gap),
+        uncertainty=theory.uncertainty.scaled(1 / mean_gap),
+        flow=theory.flow / mean_gap**3,
+        residual=theory.unsolved,
+        iterations=theory.iterations,
+        warnings=() if theory.holds else (_too_steep(float(theory.added.max())),),
     )
 
 
 def _too_steep(added: float) -> str:
-    return f"slope adds {added:.2g} of what thin films dissipate, above {REACH:g}: out of its range, take stokes"
+    return (
+        f"slope adds {added:.2g} of the thin-film dissipation, above {MAX_ADDED_DISSIPATION:g}: out of its range, "
+        "take stokes"
+    )
 
 
 MODEL = gap_model(

@@ -1,23 +1,23 @@
-"""The mean gap alone: no roughness."""
+"""A smooth gap with the thickness of the mean gap."""
 
 import numpy as np
 
 from roughfilm.rom.ladder.model import Applicability
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors
-from roughfilm.rom.rough_gap.model import Found, gap_model
+from roughfilm.rom.rough_gap.model import GapFlow, gap_model
 from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.rough_gap.walls import Walls
 
 
 def applies(scene: RoughGap) -> Applicability:
-    """Always; says how rough the gap is."""
+    """The neglected roughness; the model applies to every rough gap."""
     reason = f"leaves out roughness (Sq/h̄ = {scene.rms_height / scene.mean_gap:.3g}), slope and inertia"
     return Applicability(applies=True, reason=reason)
 
 
-def find(walls: Walls, _mean_gap: float) -> Found:
-    """A smooth gap."""
-    return Found(
+def find(walls: Walls, _mean_gap: float) -> GapFlow:
+    """The factors of a smooth gap."""
+    return GapFlow(
         factors=RoughGapFactors(
             mean_gap=1.0,
             pressure=np.eye(2),
@@ -33,7 +33,7 @@ def find(walls: Walls, _mean_gap: float) -> Found:
 
 MODEL = gap_model(
     name="smooth_gap",
-    summary="a smooth gap as thick as the mean one",
+    summary="a smooth gap with the thickness of the mean gap",
     keeps=frozenset(),
     sources=("10.1098/rstl.1886.0005",),
     applies=applies,

@@ -1,4 +1,4 @@
-"""A series of leakage: contacts upward, each begun from the one before, and the flow through the gaps beside them."""
+"""Leakage over load: contacts at increasing loads, each started from the one before, and flow through their gaps."""
 
 import math
 import time
@@ -24,41 +24,41 @@ from roughfilm.rom.ladder.provenance import code
 from roughfilm.rom.seal.leakage.direct import direct_leakage
 from roughfilm.rom.seal.leakage.homogenized import homogenized_leakage
 from roughfilm.rom.seal.leakage.percolation import Threshold, thresholds
-from roughfilm.rom.seal.leakage.series import SOUGHT, UNITS, Kept, Row, kept_series, save_series
+from roughfilm.rom.seal.leakage.series import SOUGHT, UNITS, LeakageSeries, Row, save_series, stored_series
 from roughfilm.rom.seal.model import leakage_of
 from roughfilm.rom.seal.scene import Seal
 
-COUNT = 25
-"""Loads, where nobody says which."""
+DEFAULT_LOADS = 25
+"""Default number of loads."""
 
-LIGHTEST = 0.005
-"""Contact area at the first of them."""
+FIRST_AREA = 0.005
+"""Contact area at the first default load."""
 
-BEYOND = 1.02
-"""The last of them is so many times the last threshold's load."""
+LAST_LOAD_RATIO = 1.02
+"""Ratio of the last default load to that of the last threshold."""
 
-PER_LOAD = 2.1
-"""A E* g'/P of light contact."""
+LIGHT_CONTACT_RATIO = 2.1
+"""A E* g'/P in light contact."""
 
-PROBABLE = 0.3
-"""Contact area, guessed from that, at which the search for thresholds begins."""
+START_AREA = 0.3
+"""Contact area by this ratio at which the search for thresholds starts."""
 
-KEPT_EVERY_S = 2.0
-"""Between two writings of files that grow."""
+SAVE_INTERVAL_S = 2.0
+"""Time between two writings of the files, s."""
 
 Advance = Callable[[float, str], None]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Ready:
-    """A surface ready to be pressed, and where what is found is kept.
+    """A surface between its solids, and the files of the results.
 
     Attributes
     ----------
-    contacts, series : files.
-    inputs : what the numbers of both come from.
-    spread : E* g', Pa; E* of a flat surface.
-    most : the largest load that is tried, Pa.
+    contacts, series : files of contacts and of leakage.
+    inputs : inputs of both files.
+    spread : E* g', Pa, or E* for a flat surface.
+    most : largest load, Pa.
     """
 
     surface: Surface
@@ -71,7 +71,7 @@ class Ready:
 
 
 def ready(surface: Surface, press: Press, inputs: Inputs, directory: Path) -> Ready:
-    """Loads are tried up to the hardness, and to E*, where linear elasticity means nothing any more."""
+    """The surface with the files of a directory; the largest load is the smaller of hardness and E*."""
     flat = float(np.ptp(surface.heights)) == 0
     slope = 1.0 if flat else wave_power(surface.heights, surface.spacing).moments.rms_slope
     return Ready(
@@ -86,7 +86,7 @@ def ready(surface: Surface, press: Press, inputs: Inputs, directory: Path) -> Re
 
 
 def ready_seal(scene: Seal, directory: Path) -> Ready:
-    """The surface of a scene ready to be pressed between its solids, with the files of a directory."""
+    """The surface of a scene between its solids, with the files of a directory."""
     surface = scene.surface()
     settings = {
         "model": "elastic" if scene.solid.hardness is None else "elastic_plastic",
@@ -105,37 +105,37 @@ def ready_seal(scene: Seal, directory: Path) -> Ready:
 
 
 def sealing(body: Ready, advance: Advance) -> dict[str, Threshold]:
-    """Where it seals, by what is ``SOUGHT``; from the file, if that has it."""
-    kept = kept_series(body.series, body.inputs)
-    if kept.thresholds:
-        return dict(kept.thresholds)
-    begin = min(PROBABLE / PER_LOAD * body.spread, body.most / 2)
-    found = thresholds(_pressed(body), begin, body.most, progress=advance)
-    told = dict(zip(SOUGHT, found, strict=True))
-    save_series(body.series, body.inputs, Kept(rows=kept.rows, thresholds=told))
-    return told
+    """The thresholds by the names of ``SOUGHT``, from the file if it has them."""
+    stored = stored_series(body.series, body.inputs)
+    if stored.thresholds:
+        return dict(stored.thresholds)
+    begin = min(START_AREA / LIGHT_CONTACT_RATIO * body.spread, body.most / 2)
+    by_case = thresholds(_pressed(body), begin, body.most, progress=advance)
+    named = dict(zip(SOUGHT, by_case, strict=True))
+    save_series(body.series, body.inputs, LeakageSeries(rows=stored.rows, thresholds=named))
+    return named
 
 
 def chosen_loads(body: Ready, found: dict[str, Threshold]) -> tuple[float, ...]:
-    """From about half a per cent of contact to just beyond all thresholds, and the last ones seen open between ends."""
+    """The default loads, from half a per cent of contact to just above all thresholds, with the last open ones."""
     if float(np.ptp(body.surface.heights)) == 0:
-        raise InputError("geometry.surface: is flat, and sealed under any load; give loads to see that")
-    at, load = _pressed(body), LIGHTEST / PER_LOAD * body.spread
+        raise InputError("geometry.surface: is flat and sealed under any load; give loads for its numbers")
+    at, load = _pressed(body), FIRST_AREA / LIGHT_CONTACT_RATIO * body.spread
     for _ in range(4):
         area = at(load, None).area_fraction
-        if 0.8 < area / LIGHTEST < 1.25:
+        if 0.8 < area / FIRST_AREA < 1.25:
             break
-        load *= min(max(LIGHTEST / area, 0.1), 10.0)
+        load *= min(max(FIRST_AREA / area, 0.1), 10.0)
     sealed = [threshold.sealed.load for threshold in found.values() if threshold.sealed is not None]
-    last = max(sealed) * BEYOND if len(sealed) == len(found) else body.most
-    last = max(min(last, body.most), load * BEYOND)
+    last = max(sealed) * LAST_LOAD_RATIO if len(sealed) == len(found) else body.most
+    last = max(min(last, body.most), load * LAST_LOAD_RATIO)
     opened = [found[name].open for name in SOUGHT[:2]]
     more = {side.load for side in opened if side is not None and load < side.load < last}
-    return tuple(sorted({*(float(one) for one in np.geomspace(load, last, COUNT)), *more}))
+    return tuple(sorted({*(float(one) for one in np.geomspace(load, last, DEFAULT_LOADS)), *more}))
 
 
 def columns_of(scene: Seal, rows: Sequence[Row]) -> dict[str, tuple[str, list[float]]]:
-    """All numbers of the rows, and the leakage of the scene's liquid: unit and values, by name."""
+    """The units and values, by name, of all numbers of the rows and of the leakage of the scene's liquid."""
     columns = {name: (UNITS.get(name, "1"), [getattr(row, name) for row in rows]) for name in asdict(rows[0])}
     for name in SOUGHT:
         columns[f"leakage_{name}"] = "kg/(m*s)", [leakage_of(scene, getattr(row, name)) for row in rows]
@@ -147,26 +147,26 @@ def _pressed(body: Ready) -> Callable[[float, Contact | None], Contact]:
         try:
             return body.press.at(load, start=start)
         except ConvergenceError as error:
-            told = f"at {load / 1e6:.6g} MPa: {error}"
-            raise ConvergenceError(told, outcome=error.outcome, iterations=error.iterations) from None
+            message = f"at {load / 1e6:.6g} MPa: {error}"
+            raise ConvergenceError(message, outcome=error.outcome, iterations=error.iterations) from None
 
     return at
 
 
 def solved(body: Ready, loads: tuple[float, ...], threads: int, advance: Advance) -> tuple[dict[float, Row], int]:
-    """The rows of all loads, and how many of them the file had; what was finished is kept whenever this ends.
+    """The rows of all loads, and how many of them the file had; finished rows are saved even if this is interrupted.
 
     Raises
     ------
     InputError
         If a file was damaged, holds something else or cannot be written.
     ConvergenceError
-        At the first load that does not converge; those below it stay in the files.
+        If the contact at a load does not converge; the files keep the loads below it.
     """
-    kept = kept_series(body.series, body.inputs)
+    stored = stored_series(body.series, body.inputs)
     pressed = finished(body.contacts, body.inputs)
-    rows = {load: row for load, row in kept.rows.items() if load in pressed}
-    found = sum(load in rows for load in loads)
+    rows = {load: row for load, row in stored.rows.items() if load in pressed}
+    known = sum(load in rows for load in loads)
     fresh: list[tuple[ContactRow, Contact | None]] = []
     pending: dict[Future[Row], float] = {}
     saved = time.monotonic()
@@ -178,16 +178,16 @@ def solved(body: Ready, loads: tuple[float, ...], threads: int, advance: Advance
         if fresh:
             add(body.contacts, body.inputs, fresh)
             fresh.clear()
-        save_series(body.series, body.inputs, Kept(rows=rows, thresholds=kept.thresholds))
+        save_series(body.series, body.inputs, LeakageSeries(rows=rows, thresholds=stored.thresholds))
         saved = time.monotonic()
 
-    def collect(most: int) -> None:
-        while len(pending) > most:
+    def collect(limit: int) -> None:
+        while len(pending) > limit:
             for future in wait(pending, return_when=FIRST_COMPLETED).done:
                 rows[pending[future]] = future.result()
                 del pending[future]
                 advance(sum(load in rows for load in loads) / len(loads), f"{len(rows)} loads")
-                save(KEPT_EVERY_S)
+                save(SAVE_INTERVAL_S)
 
     try:
         with workers(threads) as pool:
@@ -210,7 +210,7 @@ def solved(body: Ready, loads: tuple[float, ...], threads: int, advance: Advance
     finally:
         rows |= {load: future.result() for future, load in pending.items() if _succeeded(future)}
         save(0.0)
-    return {load: rows[load] for load in loads}, found
+    return {load: rows[load] for load in loads}, known
 
 
 def _succeeded(future: Future[Row]) -> bool:
@@ -244,7 +244,7 @@ def _flow_of(body: Ready) -> Callable[[Contact], Row]:
 
 
 def _valley_depth(contact: Contact, apart: float) -> float:
-    """Svm of the surface under load."""
+    """The valley depth Svm of the surface under load, m."""
     loaded = contact.loaded_heights
     if float(np.ptp(loaded)) == 0:
         return math.nan

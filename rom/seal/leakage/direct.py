@@ -1,4 +1,4 @@
-"""The flow through one period of a gap, or several, between two reservoirs: every wave followed, nothing averaged."""
+"""Flow through one or several periods of a gap between two reservoirs, without averaging."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ from roughfilm.rom.seal.leakage.passage import Leakage, Passage, shut
 
 
 def direct_leakage(gap: ArrayLike, spacing: tuple[float, float], *, periods: int = 1) -> Leakage:
-    """Both directions, as :func:`direct_flow` takes one."""
+    """The leakage in both directions by :func:`direct_flow`."""
     return Leakage(
         along=direct_flow(gap, spacing, 0, periods=periods), across=direct_flow(gap, spacing, 1, periods=periods)
     )
@@ -36,33 +36,34 @@ def direct_flow(
     tolerance: float | None = None,
     solvers: Sequence[str] = tuple(SOLVERS),
 ) -> Passage:
-    """Solve ∇·(h³∇p) = 0 with p given at the two ends of a gap and periodic across, and take the flow.
+    """Solve ∇·(h³∇p) = 0 with p given at the two ends of a gap and periodic across, and return the flow.
 
-    The ends go through the nodes at x = 0 and their copies ``periods`` periods on. The flow is an energy: its error is
-    the square of that of the pressure. As the pressure at the ends is that of the reservoirs, more flows than on and on
-    in a periodic gap, K ≥ A₁₁ on any grid; the difference falls with the number of periods, as 1/periods.
+    The ends are the nodes at x = 0 and their copies ``periods`` periods on. The flow is an energy, whose error is
+    quadratic in that of the pressure. Since the pressure is uniform at the ends, K ≥ A₁₁ of the periodic gap on any
+    grid; the difference decreases as 1/periods.
 
     Parameters
     ----------
     gap : h >= 0, m, shape (nx, ny); one period. Nodes where h = 0 are contact, whose faces are closed; all may be.
-    spacing : (dx, dy), m; pixels need not be square.
+    spacing : (dx, dy), m.
     direction : 0 for flow in x, 1 in y.
-    periods : in the direction of the flow, one after the other.
-    tolerance : what iterating on may change K by, over itself; by default a hundredth of what coarser grids say that
-        the grid is off by.
+    periods : number of periods in the direction of the flow.
+    rule : interpolation of the gap between nodes.
+    tolerance : largest relative solver error of K; by default a hundredth of the discretisation error estimated from
+        coarser grids.
     solvers : names in :data:`roughfilm.rom.homogenization.solvers.SOLVERS`, tried in this order.
 
     Raises
     ------
     InputError
-        As :func:`roughfilm.rom.homogenization.flow_factors.flow_factors` does, and for periods below 1.
+        If :func:`roughfilm.rom.homogenization.flow_factors.flow_factors` raises it, or ``periods`` is below 1.
     ConvergenceError
         If none of the solvers meets the tolerance.
 
-    Second order in the spacing where the gap is smooth and open, near first order at the edges of contact; the
-    uncertainty comes from every second and fourth node, as that of flow factors.
+    The error is of second order in the spacing where the gap is smooth and open, of nearly first order at the edges of
+    contact; the uncertainty is estimated from every second and fourth node.
 
-    Source: Sahlin 2008, F.7 and F.11; there contact is 10 nm open, and what a sealed gap leaks is subtracted.
+    Source: Sahlin 2008, F.7 and F.11, where contact has a gap of 10 nm, and the leakage of a sealed gap is subtracted.
     """
     if tolerance is not None and not 0 < tolerance < 1:
         raise InputError(f"tolerance: got {tolerance!r}; it must be above 0 and below 1")
@@ -74,19 +75,20 @@ def direct_flow(
     if direction == 1:
         h, spacing = np.ascontiguousarray(h.T), (spacing[1], spacing[0])
     scale = float(h.mean())
-    found: list[_Solution] = []
+    solutions: list[_Solution] = []
     for grid, (dx, dy) in coarser_grids(h / scale, spacing):
-        flows = [np.array([one.permeability]) for one in found]
+        flows = [np.array([one.permeability]) for one in solutions]
         limit = sufficient(flows) if tolerance is None else tolerance
-        found.append(_solve(np.tile(grid, (periods, 1)), dy / dx, rule, limit, solvers, found[-1] if found else None))
-    finest = found[-1]
+        coarser = solutions[-1] if solutions else None
+        solutions.append(_solve(np.tile(grid, (periods, 1)), dy / dx, rule, limit, solvers, coarser))
+    finest = solutions[-1]
     closed = sealed_between_ends(np.tile(h, (periods, 1)), joined=True)
     trace = CLOSED_CUBE ** (1 / 3) * float(h.max()) if ((h > 0) & (without_traces(h) == 0)).any() else 0.0
-    doubt = float(off([np.array(one.permeability) for one in found])) + finest.left
+    uncertainty = float(off([np.array(one.permeability) for one in solutions])) + finest.left
     corrector = finest.corrector * spacing[0]
     return Passage(
         permeability=finest.permeability * scale**3,
-        uncertainty=0.0 if closed else doubt * scale**3 + trace**3,
+        uncertainty=0.0 if closed else uncertainty * scale**3 + trace**3,
         sealed=closed,
         corrector=np.ascontiguousarray(corrector.T) if direction == 1 else corrector,
         unsolved=finest.left / finest.permeability if finest.permeability > 0 else 0.0,
@@ -97,7 +99,7 @@ def direct_flow(
 
 @dataclass(frozen=True, kw_only=True)
 class _Solution:
-    """On one grid, of a gap of mean 1; the corrector in spacings."""
+    """The solution on one grid for a mean gap of 1, with the corrector in spacings."""
 
     permeability: float
     left: float
@@ -125,8 +127,8 @@ def _solve(
         left = max(solved.left / len(h), flow.uneven)
         if left > 2 * tolerance * flow.through:
             raise ConvergenceError(
-                f"the flow through the gap: sections differ by what may change it by {left / flow.through:.3g} of "
-                f"itself, not {tolerance:g}; ask for less",
+                f"leakage: relative flow error {left / flow.through:.3g} from unequal cross sections misses the "
+                f"tolerance {tolerance:g}; loosen it",
                 outcome=Outcome.STALLED,
                 iterations=solved.iterations,
             )

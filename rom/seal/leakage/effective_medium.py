@@ -1,4 +1,4 @@
-"""Leakage from the spectrum of a surface: gaps by Persson's theory, put together as an effective medium."""
+"""Leakage from the spectrum of a surface: gaps by Persson's theory, averaged as an effective medium."""
 
 import math
 from dataclasses import dataclass
@@ -11,37 +11,37 @@ from roughfilm.contact.mechanics.estimates.persson import elastic_mean_gap
 from roughfilm.contact.mechanics.moments import WavePower
 
 SCALES = 48
-"""At which roughness is cut off, from the longest wave to the shortest."""
+"""Number of scales at which roughness is cut off, from the longest wave to the shortest."""
 
-BINS = 400
-"""Of waves that are taken together."""
+WAVE_BINS = 400
+"""Largest number of groups of waves."""
 
-NODES = 24
-"""Of Gauss's and Hermite's rule, for what the gaps that appear at a scale let through."""
+GAUSS_POINTS = 24
+"""Number of Gauss-Hermite points over the gaps that appear at a scale."""
 
-PIECES = 1000
-"""Equal ones, into which the gaps that appear at a scale are parted where they are told: nodes would be spikes."""
+REPORTED_GAPS = 1000
+"""Number of gaps of equal probability by which those that appear at a scale are reported."""
 
-THRESHOLD = 0.415
+SEALING_AREA = 0.415
 """Contact area at which the medium seals, as large elastic contacts of self-affine surfaces do (Wang and Müser)."""
 
-OTHERS = THRESHOLD / (1 - THRESHOLD)
-"""Weight of what surrounds a piece; 1 in Bruggeman's medium of two dimensions, which seals at half of contact."""
+SURROUNDING_WEIGHT = SEALING_AREA / (1 - SEALING_AREA)
+"""Weight w of the medium around a piece; 1 in Bruggeman's medium in two dimensions, which seals at half contact."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class EffectiveMedium:
-    """What a spectrum tells of a gap under load.
+    """The gap under load as an effective medium.
 
     Attributes
     ----------
     permeability : K, m³; 0 if sealed.
-    mean_gap : m.
-    area_fraction : real area of contact over the nominal one.
-    sealed : whether that area is ``THRESHOLD`` or more.
-    gaps, shares : (n,), m and parts of the nominal area: how wide the gap is where; the rest is contact. Gaps that the
-        theory spreads to below 0 are folded up, so that together they hold more than ``mean_gap``, by a tenth or so.
-    residual : of the medium's equation at the permeability, over the parts of it that are above 0.
+    mean_gap : mean gap, m.
+    area_fraction : real area of contact over the nominal area.
+    sealed : whether that fraction is ``SEALING_AREA`` or more.
+    gaps, fractions : gaps, m, and their fractions of the nominal area, (n,); the rest is contact. Negative gaps of the
+        theory are taken by magnitude, so that their mean exceeds ``mean_gap`` by about a tenth.
+    residual : residual of the medium's equation over its positive terms.
     """
 
     permeability: float
@@ -49,32 +49,32 @@ class EffectiveMedium:
     area_fraction: float
     sealed: bool
     gaps: Array
-    shares: Array
+    fractions: Array
     residual: float
 
 
 def effective_medium(spectrum: WavePower, *, composite_modulus: float, load: float) -> EffectiveMedium:
-    """Permeability of the gap between an elastic, isotropic, Gaussian rough surface and a flat one.
+    """Compute the permeability of the gap between an elastic, isotropic, Gaussian rough surface and a flat one.
 
-    Seen at a scale, contact covers A = erf(P/√(2V)), V the variance of full-contact pressures of all longer waves;
-    what parts between two scales is open by u₁ = (ū A − ū'A')/(A − A') on average, where ū is the mean gap of the waves
-    that are still shorter under the load P/A, and by ± their rms height about it. The permeability is that of a medium
-    of which each piece is surrounded by itself, Σ a (u³ − K)/(u³ + w K) = 0 over all pieces a, those in contact
-    included; with w = A_c/(1 − A_c) it seals at the contact area A_c = 0.415.
+    With roughness down to a scale, contact covers A = erf(P/√(2V)), with V the variance of full-contact pressures of
+    all longer waves. The area that separates between two scales has the mean gap u₁ = (ū A − ū'A')/(A − A'), where ū is
+    the mean gap of the shorter waves under the load P/A, and their rms height about it. The permeability K of the
+    effective medium solves Σ a (u³ − K)/(u³ + w K) = 0 over all areas a including contact; with w = A_c/(1 − A_c) it
+    seals at the contact area A_c = 0.415.
 
     Parameters
     ----------
-    spectrum : of the surface.
+    spectrum : spectrum of the surface.
     composite_modulus : E*, Pa.
-    load : P, mean pressure, Pa; above 0.
+    load : mean pressure P > 0, Pa.
 
     Notes
     -----
-    Knows neither lay nor size. Beside the cells of three self-affine surfaces (256 x 256 points, Hurst 0.8, four waves
-    of the roll-off on a side) it is 1.1 to 2.3 times as large up to a third of the load at which they seal, 0.9 to 5
-    times at half of it, and off by orders of magnitude near it, as each surface seals at an area of its own. For low
-    roughness without contact it is not exact to second order, as it would be with w = 1. Persson's contact is 0.7 to
-    0.85 of the true area.
+    The theory has neither lay nor size. Compared with cells of three self-affine surfaces (256 x 256 points, Hurst 0.8,
+    four waves of the roll-off on a side) its ratio is 1.1 to 2.3 up to a third of the sealing load and 0.9 to 5 at half
+    of it; near sealing the error is orders of magnitude, since each surface has its own sealing area. For low roughness
+    without contact it is not exact to second order, unlike w = 1. Persson's contact area is 0.7 to 0.85 of the true
+    one.
 
     Source: Lorenz and Persson, Eur. Phys. J. E 31 (2010) 159, doi:10.1140/epje/i2010-10558-6; Dapp, Lücke, Persson
     and Müser, Phys. Rev. Lett. 108 (2012) 244301, doi:10.1103/PhysRevLett.108.244301; Wang and Müser, Tribol. Lett. 69
@@ -106,50 +106,52 @@ def effective_medium(spectrum: WavePower, *, composite_modulus: float, load: flo
     rms = np.sqrt(np.maximum(remaining[some], 0.0))
     contact = float(areas[-1])
 
-    def apart(steps: Array, weights: Array) -> tuple[Array, Array]:
-        """Gaps at so many rms heights from their mean, and the parts of the area that they have by the weights."""
+    def distribution(steps: Array, weights: Array) -> tuple[Array, Array]:
+        """The gaps at steps of rms heights from their means, and their area fractions by the weights."""
         gaps = np.abs(middle[:, None] + rms[:, None] * steps)
         return gaps.ravel(), (parted[some, None] * (weights / weights.sum())).ravel()
 
-    permeability, residual = _medium(*apart(*np.polynomial.hermite_e.hermegauss(NODES)), contact)
-    gaps, shares = apart(scipy.special.ndtri((np.arange(PIECES) + 0.5) / PIECES), np.ones(PIECES))
+    permeability, residual = _medium(*distribution(*np.polynomial.hermite_e.hermegauss(GAUSS_POINTS)), contact)
+    steps = scipy.special.ndtri((np.arange(REPORTED_GAPS) + 0.5) / REPORTED_GAPS)
+    gaps, fractions = distribution(steps, np.ones(REPORTED_GAPS))
     return EffectiveMedium(
         permeability=permeability,
         mean_gap=float(means[0]),
         area_fraction=contact,
         sealed=permeability == 0.0,
         gaps=gaps,
-        shares=shares,
+        fractions=fractions,
         residual=residual,
     )
 
 
 def _binned(spectrum: WavePower) -> WavePower:
-    """Fewer waves of the same heights and slopes."""
+    """The spectrum with at most ``WAVE_BINS`` waves of the same rms height and slope."""
     q, power = spectrum.wave_numbers[spectrum.power > 0], spectrum.power[spectrum.power > 0]
-    if q.size <= BINS:
+    if q.size <= WAVE_BINS:
         return WavePower(wave_numbers=q, power=power, line=spectrum.line)
-    edges = np.geomspace(q[0], q[-1] * (1 + 1e-12), BINS + 1)
-    bins = np.clip(np.searchsorted(edges, q, side="right") - 1, 0, BINS - 1)
-    total: Array = np.bincount(bins, power, BINS).astype(np.float64)
-    square = np.bincount(bins, power * q**2, BINS)
+    edges = np.geomspace(q[0], q[-1] * (1 + 1e-12), WAVE_BINS + 1)
+    bins = np.clip(np.searchsorted(edges, q, side="right") - 1, 0, WAVE_BINS - 1)
+    total: Array = np.bincount(bins, power, WAVE_BINS).astype(np.float64)
+    square = np.bincount(bins, power * q**2, WAVE_BINS)
     some = total > 0
     return WavePower(wave_numbers=np.sqrt(square[some] / total[some]), power=total[some], line=spectrum.line)
 
 
-def _medium(gaps: Array, shares: Array, contact: float) -> tuple[float, float]:
-    """K of the medium, and the residual of its equation."""
-    if contact >= THRESHOLD or not gaps.size:
+def _medium(gaps: Array, fractions: Array, contact: float) -> tuple[float, float]:
+    """The permeability K of the medium, and the residual of its equation."""
+    if contact >= SEALING_AREA or not gaps.size:
         return 0.0, 0.0
     conductance = gaps**3
     largest = float(conductance.max())
 
     def excess(logarithm: float) -> float:
         one = largest * math.exp(logarithm)
-        return float((shares * (conductance - one) / (conductance + OTHERS * one)).sum()) - contact / OTHERS
+        terms = fractions * (conductance - one) / (conductance + SURROUNDING_WEIGHT * one)
+        return float(terms.sum()) - contact / SURROUNDING_WEIGHT
 
     lowest = -200.0
     if excess(lowest) <= 0:
         return 0.0, 0.0
-    found = float(scipy.optimize.brentq(excess, lowest, 0.0, xtol=1e-12))
-    return largest * math.exp(found), abs(excess(found)) / float(shares.sum())
+    root = float(scipy.optimize.brentq(excess, lowest, 0.0, xtol=1e-12))
+    return largest * math.exp(root), abs(excess(root)) / float(fractions.sum())

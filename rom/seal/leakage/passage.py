@@ -1,4 +1,4 @@
-"""What a gap lets through: permeability by direction, and what that is in a seal."""
+"""Permeability of a gap by direction, and the leakage of a seal."""
 
 from dataclasses import dataclass
 
@@ -9,19 +9,19 @@ from roughfilm.contact.foundation.arrays import Array
 
 @dataclass(frozen=True, kw_only=True)
 class Passage:
-    """Through a gap in one direction.
+    """Flow through a gap in one direction.
 
     Attributes
     ----------
-    permeability : K = 12η Q L/Δp, m³, of the flow Q per width at a pressure drop Δp over the length L: h³ of a smooth
-        gap; exactly 0 where it is sealed.
-    uncertainty : m³, of its grid and its solver.
-    sealed : whether no open path leads through.
-    corrector : m, shape (nx, ny): pressure is linear but for it, p = Δp (1 − (x + ψ)/L); 0 if sealed.
-        :func:`roughfilm.rom.homogenization.flux.flux` takes it.
-    unsolved : the part of K by which iterating on would change it.
-    iterations : of conjugate gradients on the finest grid.
-    residual : recomputed, over the right-hand side; it may be far larger where next to nothing flows.
+    permeability : K = 12η Q L/Δp, m³, for the flow Q per width at a pressure drop Δp over the length L; h³ for a smooth
+        gap, and exactly 0 if sealed.
+    uncertainty : uncertainty of K from the grid and the solver, m³.
+    sealed : whether no open path leads through the gap.
+    corrector : deviation ψ of the pressure p = Δp (1 − (x + ψ)/L) from a linear one, m, shape (nx, ny), 0 if sealed;
+        an argument of :func:`roughfilm.rom.homogenization.flux.flux`.
+    unsolved : relative solver error of K.
+    iterations : conjugate-gradient iterations on the finest grid.
+    residual : recomputed residual over the right-hand side; it may be large where the flow is negligible.
     """
 
     permeability: float
@@ -35,29 +35,29 @@ class Passage:
 
 @dataclass(frozen=True, kw_only=True)
 class Leakage:
-    """Through a gap in x (``along``) and in y (``across``)."""
+    """Flow through a gap in x (``along``) and in y (``across``)."""
 
     along: Passage
     across: Passage
 
     @property
     def permeability(self) -> Array:
-        """Shape (2,), m³."""
+        """The permeability in x and y, shape (2,), m³."""
         return np.array([self.along.permeability, self.across.permeability])
 
     @property
     def uncertainty(self) -> Array:
-        """Shape (2,), m³."""
+        """The uncertainty of the permeability, shape (2,), m³."""
         return np.array([self.along.uncertainty, self.across.uncertainty])
 
     @property
     def sealed(self) -> tuple[bool, bool]:
-        """In x, in y."""
+        """Whether the gap is sealed in x, and in y."""
         return self.along.sealed, self.across.sealed
 
 
 def shut(shape: tuple[int, ...]) -> Passage:
-    """Of a gap that is closed everywhere."""
+    """The flow through a gap that is closed everywhere."""
     return Passage(
         permeability=0.0,
         uncertainty=0.0,
@@ -70,7 +70,7 @@ def shut(shape: tuple[int, ...]) -> Passage:
 
 
 def mass_flow(permeability: float, *, density: float, viscosity: float, pressure_drop: float, length: float) -> float:
-    """ρ K Δp/(12 η L), kg/(s m): what leaks for each metre of a seal's width, of a liquid that does not compress.
+    """The leakage per width ρ K Δp/(12 η L) of an incompressible liquid, kg/(s m).
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def mass_flow(permeability: float, *, density: float, viscosity: float, pressure
 
 
 def dimensionless(permeability: float, height: float) -> float:
-    """Q̃ = 12 η Q/(h_r³ p_r) of a square, which is K/h_r³: 1 of a smooth gap as thick as the height h_r, m.
+    """The dimensionless leakage Q̃ = 12 η Q/(h_r³ p_r) = K/h_r³ of a square, 1 for a smooth gap of the height h_r, m.
 
     Source: Sahlin 2008, F.13.
     """

@@ -1,4 +1,4 @@
-"""At which load and contact area a gap stops leaking: bisection between an open and a sealed contact."""
+"""Load and contact area at which a gap seals, by bisection between an open and a sealed contact."""
 
 import math
 from collections.abc import Callable
@@ -12,21 +12,21 @@ from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.rom.homogenization.paths import sealed, sealed_between_ends
 from roughfilm.rom.ladder.model import Progress, silent
 
-STEP = 1.4
-"""From load to load while a bracket is sought."""
+LOAD_RATIO = 1.4
+"""Ratio of successive loads while a bracket is sought."""
 
-PRECISION = 0.01
-"""Of a threshold's load: the two ends of its bracket are that close."""
+THRESHOLD_PRECISION = 0.01
+"""Default relative width of the bracket of a threshold's load."""
 
-LIGHTEST = 1e-9
-"""Of the first load: a gap that is sealed there still is sealed at every load."""
+MIN_LOAD = 1e-9
+"""Load over the first load at which a sealed gap counts as sealed under any load."""
 
 Look = Callable[[Array], tuple[bool, ...]]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Side:
-    """One end of a bracket: a contact, at a load, Pa, with its real area over the nominal one."""
+    """One end of a bracket: the load of a contact, Pa, and its real area over the nominal one."""
 
     load: float
     area_fraction: float
@@ -34,12 +34,12 @@ class Side:
 
 @dataclass(frozen=True, kw_only=True)
 class Threshold:
-    """Where a direction seals.
+    """The bracket of the load at which a gap seals.
 
     Attributes
     ----------
-    open : the greatest load, below the threshold, at which a path was seen; None if there is none at any load.
-    sealed : the least at which none was; None if there always is one, up to the largest load that was tried.
+    open : largest load below the threshold with an open path; None if there is none at any load.
+    sealed : smallest load without one; None if there is an open path up to the largest load.
     """
 
     open: Side | None
@@ -47,17 +47,17 @@ class Threshold:
 
     @property
     def found(self) -> bool:
-        """Whether it has two sides."""
+        """Whether the bracket has both ends."""
         return self.open is not None and self.sealed is not None
 
     @property
     def load(self) -> float:
-        """In the middle of the bracket, Pa; 0 if sealed at any load, inf if at none."""
+        """The load in the middle of the bracket, Pa; 0 if sealed at any load, inf if at none."""
         return self._between("load")
 
     @property
     def area_fraction(self) -> float:
-        """In the middle of the bracket; 0 if sealed at any load, and 1, that of full contact, if at none tried."""
+        """The contact area in the middle of the bracket; 0 if sealed at any load, and 1 if at none."""
         return min(self._between("area_fraction"), 1.0)
 
     def _between(self, name: str) -> float:
@@ -69,7 +69,7 @@ class Threshold:
 
 
 def ends_and_cell(gap: Array) -> tuple[bool, bool, bool, bool]:
-    """Whether a gap is sealed between ends in x, in y (sides joined), and on and on, as its cell is, in x, in y."""
+    """Whether a gap is sealed between its ends in x and in y (with periodic sides), and as a periodic cell."""
     return sealed_between_ends(gap, joined=True), sealed_between_ends(gap.T, joined=True), *sealed(gap)
 
 
@@ -79,29 +79,28 @@ def thresholds(
     most: float,
     *,
     look: Look = ends_and_cell,
-    precision: float = PRECISION,
+    precision: float = THRESHOLD_PRECISION,
     progress: Progress = silent,
 ) -> tuple[Threshold, ...]:
-    """The loads at which a surface seals, by bisection, each contact begun from the one nearest in load.
+    """Compute the loads at which a surface seals, by bisection.
+
+    Growing contact may open a path as it redistributes load. Where open and sealed loads alternate, the threshold lies
+    between the smallest sealed load and the largest open one below it.
 
     Parameters
     ----------
-    at : the contact at a load, from another if that helps, as ``Press.at`` gives it.
-    begin : the first load, Pa; loads are sought upward from it until all that is looked for is sealed, and downward
-        until all is open.
-    most : the largest load that is tried, Pa: the hardness, or what the solid is expected to bear.
-    look : what is sealed in a gap: a threshold is found for each of its answers.
-    precision : of the load, as a part of it.
+    at : at(load, start), the contact at a load from the solution at another, as ``Press.at`` returns it.
+    begin : first load, Pa; loads increase from it until the gap is sealed in all cases, and decrease until it is open.
+    most : largest load, Pa.
+    look : look(gap), whether the gap is sealed in each case; each has its threshold.
+    precision : relative width of the bracket of the load.
 
     Raises
     ------
     InputError
-        For loads that are not above 0, or a precision outside 0 to 1.
+        If a load is not above 0, or the precision is not between 0 and 1.
     ConvergenceError
         If a contact does not converge.
-
-    Contact that grows may open a path here and there as it shifts load: where open and sealed loads alternate, the
-    threshold is the least sealed load and the greatest open one below it.
     """
     if not (0 < begin < math.inf and begin <= most):
         raise InputError(f"percolation: got loads from {begin:g} to {most:g} Pa; give 0 < first <= largest")
@@ -113,16 +112,16 @@ def thresholds(
     def see(load: float) -> tuple[bool, ...]:
         nonlocal last
         if load not in seen:
-            progress(min(0.95, len(seen) / 25), f"{load:.4g} Pa, where it seals")
+            progress(min(0.95, len(seen) / 25), f"sealing load, {load:.4g} Pa")
             last = at(load, last)
             seen[load] = Side(load=load, area_fraction=last.area_fraction), look(last.gap)
         return seen[load][1]
 
     load = begin
     while not all(see(load)) and load < most:
-        load = min(load * STEP, most)
-    load, factor = begin, STEP
-    while any(see(load)) and load > LIGHTEST * begin:
+        load = min(load * LOAD_RATIO, most)
+    load, factor = begin, LOAD_RATIO
+    while any(see(load)) and load > MIN_LOAD * begin:
         load, factor = load / factor, min(factor**1.5, 1e3)
 
     def bracket(which: int) -> Threshold:
@@ -134,9 +133,9 @@ def thresholds(
     count = len(seen[begin][1])
     for which in range(count):
         while True:
-            found = bracket(which)
-            if found.open is None or found.sealed is None or found.sealed.load <= (1 + precision) * found.open.load:
+            ends = bracket(which)
+            if ends.open is None or ends.sealed is None or ends.sealed.load <= (1 + precision) * ends.open.load:
                 break
-            see(float(np.sqrt(found.open.load * found.sealed.load)))
-    progress(1.0, "where it seals")
+            see(float(np.sqrt(ends.open.load * ends.sealed.load)))
+    progress(1.0, "sealing load")
     return tuple(bracket(which) for which in range(count))

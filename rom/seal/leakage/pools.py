@@ -1,4 +1,4 @@
-"""Which part of a gap belongs to which end, and where the narrowest place of the widest path is."""
+"""The parts of a gap that are connected to either end, and the narrowest place of the widest path."""
 
 from dataclasses import dataclass
 from enum import IntEnum
@@ -12,7 +12,7 @@ from roughfilm.rom.homogenization.paths import FACE_NEIGHBOURS, sealed_between_e
 
 
 class Pool(IntEnum):
-    """What a node of a gap between two reservoirs belongs to."""
+    """The connection of a node of a gap between two reservoirs."""
 
     CONTACT = 0
     ISOLATED = 1
@@ -22,34 +22,31 @@ class Pool(IntEnum):
 
 
 def pools(gap: Array) -> NDArray[np.int8]:
-    """The :class:`Pool` of each node of a gap, shape (nx, ny), that is fed at line 0 and drained at its copy.
-
-    Sides are joined. Line 0 itself is the inlet.
-    """
-    wide = np.concatenate([gap, gap[:1]]) > 0
-    labels, count = scipy.ndimage.label(wide, structure=FACE_NEIGHBOURS)
-    both = wide[:, 0] & wide[:, -1]
+    """The :class:`Pool` of the nodes of a gap, shape (nx, ny): inlet at line 0, outlet at its copy, periodic sides."""
+    opened = np.concatenate([gap, gap[:1]]) > 0
+    labels, count = scipy.ndimage.label(opened, structure=FACE_NEIGHBOURS)
+    both = opened[:, 0] & opened[:, -1]
     first, last = labels[both, 0], labels[both, -1]
     links = scipy.sparse.coo_array((np.ones(first.size), (first, last)), shape=(count + 1, count + 1))
     piece = scipy.sparse.csgraph.connected_components(links, directed=False)[1][labels]
-    fed, drained = np.isin(piece, piece[0][wide[0]]) & wide, np.isin(piece, piece[-1][wide[-1]]) & wide
-    found = np.where(wide, np.int8(Pool.ISOLATED), np.int8(Pool.CONTACT))
-    found[fed], found[drained], found[fed & drained] = Pool.INLET, Pool.OUTLET, Pool.THROUGH
-    return found[:-1]
+    fed, drained = (np.isin(piece, piece[end][opened[end]]) & opened for end in (0, -1))
+    pool = np.where(opened, np.int8(Pool.ISOLATED), np.int8(Pool.CONTACT))
+    pool[fed], pool[drained], pool[fed & drained] = Pool.INLET, Pool.OUTLET, Pool.THROUGH
+    return pool[:-1]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Constriction:
-    """The narrowest place of the path that is widest there: its gap, m, and its node."""
+    """The narrowest place of the widest path: its gap, m, and its node."""
 
     gap: float
     node: tuple[int, int]
 
 
 def constriction(gap: Array) -> Constriction | None:
-    """Where the widest path between the ends of a gap, shape (nx, ny), sides joined, is narrowest; None if sealed.
+    """The narrowest place of the widest path between the ends of a gap, shape (nx, ny), periodic sides; None if sealed.
 
-    All that leaks passes places that are no wider than this one: near sealing, this one.
+    All leakage passes places that are at most as wide; near sealing it passes this place.
     """
     if sealed_between_ends(gap, joined=True):
         return None

@@ -1,1 +1,1 @@
-"""The models of a seal, one a file."""
+"""The models of a seal, one per file."""

@@ -1,50 +1,50 @@
-"""Leakage by Persson's contact and an effective medium: the spectrum alone, in closed form but for a root."""
+"""Leakage by Persson's contact theory and an effective medium, from the spectrum alone."""
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.mechanics.moments import wave_power
 from roughfilm.rom.dry_contact.model import Answer, Task, contact_model
 from roughfilm.rom.ladder.model import Applicability, Effect
-from roughfilm.rom.seal.model import gap_shares, quantities
+from roughfilm.rom.seal.model import gap_distribution, quantities
 from roughfilm.rom.seal.scene import Seal
 
-RESIDUAL_MEANING = "of the equation of the effective medium, over its positive terms"
+RESIDUAL_MEANING = "residual of the equation of the effective medium, over its positive terms"
 
-FLAT = "got a flat surface, which has no spectrum; it is sealed, take direct_leakage"
+FLAT_SURFACE = "got a flat surface, which has no spectrum; it is sealed, take direct_leakage"
 
 
 def work(task: Task) -> Answer:
-    """The estimate from the spectrum of the heights at hand; InputError for a flat surface."""
+    """The estimate from the spectrum of the task's heights; InputError for a flat surface."""
     from roughfilm.rom.seal.leakage.effective_medium import effective_medium  # scipy is slow to import
 
     scene: Seal = task.scene
     own = task.heights.shape == scene.surface().shape
     spectrum = scene.spectrum() if own else wave_power(task.heights, task.spacing)
     if spectrum is None:
-        raise InputError(f"effective_medium: {FLAT}")
-    found = effective_medium(spectrum, composite_modulus=scene.composite_modulus, load=scene.load.pressure)
-    told = quantities(scene, found.permeability, found.sealed, found.area_fraction, found.mean_gap, task.heights.std())
+        raise InputError(f"effective_medium: {FLAT_SURFACE}")
+    medium = effective_medium(spectrum, composite_modulus=scene.composite_modulus, load=scene.load.pressure)
+    rms = float(task.heights.std())
     return Answer(
-        quantities=told,
-        fields=gap_shares(float(task.heights.std()), found.gaps, found.shares),
-        residual=found.residual,
+        quantities=quantities(scene, medium.permeability, medium.sealed, medium.area_fraction, medium.mean_gap, rms),
+        fields=gap_distribution(rms, medium.gaps, medium.fractions),
+        residual=medium.residual,
         iterations=1,
-        warnings=() if scene.solid.hardness is None else ("takes the solid as elastic",),
+        warnings=() if scene.solid.hardness is None else ("the solid is treated as elastic",),
     )
 
 
 def prepare(_task: Task) -> None:
-    """Import what is slow to import, which is not the cost of a scene."""
+    """Import modules whose import time is not part of the cost."""
     import roughfilm.rom.seal.leakage.effective_medium  # noqa: F401
 
 
 def applies(scene: Seal) -> Applicability:
-    """To every rough surface."""
+    """The neglected effects and the error; the model applies to every rough surface."""
     if scene.spectrum() is None:
-        return Applicability(applies=False, reason=FLAT)
+        return Applicability(applies=False, reason=FLAT_SURFACE)
     reason = (
         "keeps elastic contact of all scales on average over all isotropic Gaussian surfaces of this spectrum; leaves "
-        "out plasticity, lay, and that a surface seals at an area of its own: within a factor of two or three up to a "
-        "third of the load that seals, off by orders of magnitude near it"
+        "out plasticity, lay, and the sealing area of the individual surface: error within a factor of two or three up "
+        "to a third of the load that seals, orders of magnitude near it"
     )
     return Applicability(applies=True, reason=reason)
 
@@ -52,7 +52,7 @@ def applies(scene: Seal) -> Applicability:
 MODEL = contact_model(
     kind="seal",
     name="effective_medium",
-    summary="leakage from the spectrum: gaps by Persson's theory, put together as an effective medium",
+    summary="leakage from the spectrum: gaps by Persson's theory, averaged as an effective medium",
     keeps=frozenset({Effect.DEFORMATION, Effect.ROUGHNESS}),
     complete=False,
     sources=(

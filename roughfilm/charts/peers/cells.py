@@ -17,8 +17,11 @@ import numpy as np
 from scipy.sparse import csc_matrix
 from scipy.sparse.csgraph import connected_components
 
-SMALL, LONG_S = 64, 5.0
-"""Nodes along a side of the first small problem; seconds after which nothing is repeated."""
+SMALL_NODES = 64
+"""Nodes along a side of the first small problem."""
+
+MAX_REPEATS_S = 5.0
+"""CPU seconds after which nothing is repeated."""
 
 FACES = ("east", "north", "drag")
 
@@ -79,22 +82,22 @@ class Case:
 
 
 def small_case():
-    """Smooth and open, to compile and load what there is."""
-    wave = np.cos(2 * np.pi * np.arange(SMALL) / SMALL)
+    """A smooth open gap that compiles and loads everything."""
+    wave = np.cos(2 * np.pi * np.arange(SMALL_NODES) / SMALL_NODES)
     gap = 1 + 0.5 * np.outer(wave, wave)
     faces = [(gap**3 + np.roll(gap, -1, axis=axis) ** 3) / 2 for axis in (0, 1)]
     return Case(gap, (*faces, gap))
 
 
 def memory(name):
-    """Bytes; getrusage tells those of the process that began this one, too."""
+    """Memory in bytes; getrusage would include the parent process."""
     lines = Path("/proc/self/status").read_text().splitlines()
     return next(int(line.split()[1]) * 1024 for line in lines if line.startswith(name))
 
 
 def attempt(solve, case, tolerance):
-    """Times, and what was found."""
-    Path("/proc/self/clear_refs").write_text("5")  # begins the peak anew
+    """Times and results of one solve; ``failed`` says why there is none."""
+    Path("/proc/self/clear_refs").write_text("5")  # resets the peak
     before = memory("VmHWM")
     started = time.process_time()
     try:
@@ -107,8 +110,8 @@ def attempt(solve, case, tolerance):
     return {"tolerance": tolerance, "cpu_s": spent, "peak_bytes": peak, "bytes_before": before, **judged}
 
 
-def off(run, right):
-    """By how much A₁₁ and A₂₂ are, over what is right."""
+def error_of(run, right):
+    """The larger relative error of A₁₁ and A₂₂."""
     if "failed" in run:
         return np.inf
     return max(abs(run["pressure"][i][i] / right[i] - 1) for i in (0, 1))
@@ -127,14 +130,14 @@ def main():
         assert case.matrix.shape[0] == len(case.sources)  # made before anything is timed
     for tolerance in module.TOLERANCES:
         found = attempt(solve, case, tolerance)
-        if off(found, right) <= asked["error"]:
+        if error_of(found, right) <= asked["error"]:
             break
     if "failed" not in found:
         runs = [found]
-        while len(runs) < asked["repeats"] and sum(run["cpu_s"] for run in runs) < LONG_S:
+        while len(runs) < asked["repeats"] and sum(run["cpu_s"] for run in runs) < MAX_REPEATS_S:
             runs.append(attempt(solve, case, found["tolerance"]))
         found["cpu_s"] = min(run["cpu_s"] for run in runs)
-        found["error"] = off(found, right)
+        found["error"] = error_of(found, right)
     Path(result).write_text(json.dumps({"version": metadata.version(module.NAME), **found}))
 
 

@@ -18,16 +18,16 @@ from GaPFlow.models import stress
 
 NAME = "GaPFlow"
 SAMPLES = 16
-"""Of the load, in the time that the wall takes to pass the slider."""
+"""Samples of the load while the wall passes the slider once."""
 
-SETTLED = 5
-"""Samples, in a quarter of that time, that differ by no more than the tolerance."""
+SETTLED_SAMPLES = 5
+"""Number of successive samples that must agree within the tolerance."""
 
-LONGEST = 6
-"""Passages of the wall, after which a load that still changes is given up."""
+MAX_PASSAGES = 6
+"""Number of passages of the wall after which a changing load is an error."""
 
-WEAK = 1e-6
-"""Murnaghan's exponent, so small that his law is that of a constant bulk modulus to 1e-7 of the pressure."""
+MURNAGHAN_EXPONENT = 1e-6
+"""Exponent for which Murnaghan's law is that of a constant bulk modulus to 1e-7 of the pressure."""
 
 VAPOUR = {"rho_v": 0.019, "c_v": 352.0}
 """GaPFlow's own, for a liquid of 850 kg/m³; scaled so that another density leaves the steady state as it is."""
@@ -61,7 +61,7 @@ def solve(problem):
     friction = 12 * problem["viscosity"] / (problem["density"] * problem["h_min"] ** 2)
     step = min(problem["courant"] * spacing / sound, 1 / friction)
     zero = 0.0
-    values = problem | {"step": step, "sound": sound, "weak": WEAK} | vapour(problem["density"])
+    values = problem | {"step": step, "sound": sound, "weak": MURNAGHAN_EXPONENT} | vapour(problem["density"])
     if problem["law"] == "bayada":
         zero = float(stress.eos_pressure(problem["density"], bayada(values)))
     with law(problem["law"]):
@@ -71,15 +71,15 @@ def solve(problem):
         setup, started = time.process_time() - started, time.process_time()
         passage = problem["length"] / problem["speed"]
         loads, settled = [], False
-        while not settled and run.simtime < LONGEST * passage:
+        while not settled and run.simtime < MAX_PASSAGES * passage:
             run.max_it = run.step + max(1, round(passage / SAMPLES / step))
             run.run(keep_open=True)
             if run.step < run.max_it:
                 return {"failed": f"not a number or a negative density after {run.step} steps", "steps": run.step}
             pressure = run.pressure.pressure[1:-1, 1] - zero
             loads.append(float(pressure.sum() * spacing))
-            last = loads[-SETTLED:]
-            settled = len(last) == SETTLED and max(last) - min(last) <= problem["steady"] * abs(last[-1])
+            last = loads[-SETTLED_SAMPLES:]
+            settled = len(last) == SETTLED_SAMPLES and max(last) - min(last) <= problem["steady"] * abs(last[-1])
         cpu = time.process_time() - started
     return {
         "setup_cpu_s": setup,

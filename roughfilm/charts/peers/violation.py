@@ -1,4 +1,4 @@
-"""What is wrong with a pressure as the answer of a contact problem: one measure, in float64, for every solver alike."""
+"""The violation of the conditions of contact by a pressure, in float64, with one measure for every solver."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Whether a film balances, told by NumPy alone: flows computed afresh from the film thickness and the state."""
+"""The balance of flows of a film, recomputed by NumPy from the film thickness and the state without solver code."""
 
 import math
 
@@ -9,16 +9,17 @@ from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.solve import Solution
 
 GAUSS = (0.5 - 0.5 / math.sqrt(3), 0.5 + 0.5 / math.sqrt(3))
+"""Gauss points of an interval, as fractions of its length."""
 
 
-def broken_balance(found: Solution) -> float:
-    """The largest net flow into a node whose state is free, over the largest flow; infinite if the state cannot be.
+def broken_balance(solution: Solution) -> float:
+    """The largest net flow into a node whose state is free, over the largest flow; infinite for an impossible state.
 
-    p >= 0, 0 <= ξ <= 1, and where p > 0 the gap is full; ends and sides have what was asked for. An inlet node that is
-    full may let in less than is brought, never more.
+    A state is possible if p >= 0, 0 <= ξ <= 1, the gap is full where p > 0, and ends and sides have their given
+    pressures. At a full inlet node the net flow may be less than the supply, never more.
     """
-    problem, x, y = found.problem, found.grid.x, found.grid.y
-    pressure, fill = found.state.pressure, found.state.fill
+    problem, x, y = solution.problem, solution.grid.x, solution.grid.y
+    pressure, fill = solution.state.pressure, solution.state.fill
     shape, ends = problem.shape, problem.ends
     if not (np.isfinite(pressure).all() and np.isfinite(fill).all()):
         return math.inf
@@ -37,21 +38,20 @@ def broken_balance(found: Solution) -> float:
     if (np.abs(pressure - wanted) > 0).any():
         return math.inf
     along, across = _flows(problem, x, y, pressure, fill)
-    left = along - np.roll(along, 1, axis=0) + across - np.roll(across, 1, axis=1)
+    net = along - np.roll(along, 1, axis=0) + across - np.roll(across, 1, axis=1)
     if ends.inlet is None and not shape.joined[0]:
-        drag = problem.speed / 2 * _across(problem, y) * _radius(problem, y)
-        brought = drag * ends.theta * shape.thickness(np.full_like(y, x[0]), y)
-        left[0] = along[0] - brought
-        left[0] = np.where(fill[0] < 1, left[0], np.maximum(left[0], 0.0))
+        drag = problem.speed / 2 * _widths(problem, y) * _radius(problem, y)
+        supply = drag * ends.theta * shape.thickness(np.full_like(y, x[0]), y)
+        net[0] = along[0] - supply
+        net[0] = np.where(fill[0] < 1, net[0], np.maximum(net[0], 0.0))
     largest = max(float(np.abs(along).max()), float(np.abs(across).max()))
-    return float(np.abs(left[free]).max()) / largest if largest > 0 and free.any() else 0.0
+    return float(np.abs(net[free]).max()) / largest if largest > 0 and free.any() else 0.0
 
 
 def _flows(problem: Problem, x: Array, y: Array, pressure: Array, fill: Array) -> tuple[Array, Array]:
-    """Through the faces towards the next node in x and in y, zero where there is none; m³/s at p = 0."""
+    """Flows through the faces towards the next node in x and in y, zero where there is none, m³/s at p = 0."""
     shape = problem.shape
-    share_x, share_y = _share(x, shape.breaks[-1] if shape.joined[0] else None), _across(problem, y)
-    radius = _radius(problem, y)
+    radius, widths = _radius(problem, y), _widths(problem, y)
     excess = problem.compression(pressure)[0]
     slope = float(problem.compression(np.zeros(1))[1][0])
     mobility = problem.mobility(pressure)[0]
@@ -61,22 +61,24 @@ def _flows(problem: Problem, x: Array, y: Array, pressure: Array, fill: Array) -
     mean, cube = np.zeros((faces, y.size)), np.zeros((faces, y.size))
     lowest = y[0] - (shape.across[1] - y[-1]) / 2 if shape.joined[1] else y[0]
     begins = np.append(lowest, (y[:-1] + y[1:]) / 2)
-    strips = [y] if shape.wide else [begins + part * share_y for part in (0.25, 0.75)]
+    strips = [y] if shape.wide else [begins + part * widths for part in (0.25, 0.75)]
     for strip in strips:
         h = [shape.thickness(*np.broadcast_arrays(x[:faces, None] + g * step, strip)) for g in GAUSS]
         cubed = h[0] ** -3.0 + h[1] ** -3.0
         mean += (h[0] ** -2.0 + h[1] ** -2.0) / cubed / len(strips)
         cube += 2 / cubed / len(strips)
-    carried = problem.speed / 2 * share_y * radius * mean
-    permits = cube * share_y / (12 * problem.viscosity * radius * step)
+    carried = problem.speed / 2 * widths * radius * mean
+    conductance = cube * widths / (12 * problem.viscosity * radius * step)
     with np.errstate(divide="ignore", invalid="ignore"):
-        upstream = np.where(carried * slope > 0, np.maximum(0.5, 1 - permits / (carried * slope)), 0.5)
+        upstream = np.where(carried * slope > 0, np.maximum(0.5, 1 - conductance / (carried * slope)), 0.5)
     ahead = np.roll(excess, -1, axis=0)[:faces]
     phi = _between(mobility, np.roll(mobility, -1, axis=0))[:faces]
+    density = fill[:faces] + upstream * excess[:faces] + (1 - upstream) * ahead
     along = np.zeros(pressure.shape)
-    along[:faces] = carried * (fill[:faces] + upstream * excess[:faces] + (1 - upstream) * ahead) - permits * phi * rise
+    along[:faces] = carried * density - conductance * phi * rise
     across = np.zeros(pressure.shape)
     if y.size > 1:
+        lengths = control_lengths(x, shape.breaks[-1] - x[0] if shape.joined[0] else None)[:, None]
         width = np.diff(y)
         rows = slice(1 if problem.ends.inlet is None and not shape.joined[0] else 0, None)
         before = np.append(step[-1] if shape.joined[0] else [[0.0]], step)[: x.size]
@@ -86,8 +88,8 @@ def _flows(problem: Problem, x: Array, y: Array, pressure: Array, fill: Array) -
             h = [shape.thickness(*np.broadcast_arrays(place, y[:-1] + g * width)) for g in GAUSS]
             cubed = 2 / (h[0] ** -3.0 + h[1] ** -3.0) / 2
             middle = (radius[:-1] + radius[1:]) / 2
-            permits = cubed * share_x[:, None] * middle / (12 * problem.viscosity * width)
-            flow = -permits * _between(mobility[:, :-1], mobility[:, 1:]) * np.diff(pressure, axis=1)
+            conductance = cubed * lengths * middle / (12 * problem.viscosity * width)
+            flow = -conductance * _between(mobility[:, :-1], mobility[:, 1:]) * np.diff(pressure, axis=1)
             across[rows, :-1] += flow[rows]
     return along, across
 
@@ -95,21 +97,22 @@ def _flows(problem: Problem, x: Array, y: Array, pressure: Array, fill: Array) -
 def _between(first: Array, second: Array) -> Array:
     """The mean of φ over p where φ is exponential in p: the integral of a^(1-s) b^s over s from 0 to 1."""
     nodes, weights = np.polynomial.legendre.leggauss(12)
-    parts = [weight / 2 * first ** ((1 - node) / 2) * second ** ((1 + node) / 2) for node, weight in zip(nodes, weights, strict=True)]  # fmt: skip  # noqa: E501
-    return np.asarray(sum(parts))
+    s = (1 + nodes)[:, None, None] / 2
+    return np.asarray((weights[:, None, None] / 2 * first ** (1 - s) * second**s).sum(axis=0))
 
 
 def _radius(problem: Problem, y: Array) -> Array:
     return y if problem.shape.polar else np.ones_like(y)
 
 
-def _across(problem: Problem, y: Array) -> Array:
+def _widths(problem: Problem, y: Array) -> Array:
+    """Widths of the control volumes, m; 1 for an infinitely wide film."""
     shape = problem.shape
-    return np.ones(1) if shape.wide else _share(y, shape.across[1] if shape.joined[1] else None)
+    return np.ones(1) if shape.wide else control_lengths(y, shape.across[1] - y[0] if shape.joined[1] else None)
 
 
-def _share(places: Array, end: float | None) -> Array:
-    """Lengths of the control volumes; with an ``end``, that is where the first place is met again."""
-    before = np.diff(places, prepend=places[0] if end is None else places[0] - (end - places[-1]))
-    after = np.diff(places, append=places[-1] if end is None else end)
+def control_lengths(places: Array, period: float | None) -> Array:
+    """Lengths of the control volumes of nodes on a line; with a ``period`` the last node is followed by the first."""
+    before = np.diff(places, prepend=places[0] if period is None else places[-1] - period)
+    after = np.diff(places, append=places[-1] if period is None else places[0] + period)
     return np.asarray((before + after) / 2)

@@ -1,25 +1,35 @@
-"""Whether a pressure is that of a contact, told by NumPy alone: none of the solver's code is asked."""
+"""The conditions of contact, recomputed by NumPy without any code of the solver."""
 
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from roughfilm.contact.foundation.arrays import Array
+
+
+def _wave_numbers(shape: tuple[int, ...], spacing: tuple[float, float]) -> Array:
+    """|q| of every wave of a periodic grid, 1/m."""
+    waves = [2 * math.pi * np.fft.fftfreq(n, step) for n, step in zip(shape, spacing, strict=True)]
+    return np.asarray(np.hypot(*np.meshgrid(*waves, indexing="ij")))
 
 
 def displacement(pressure: Array, spacing: tuple[float, float], composite_modulus: float) -> Array:
-    """Of the periodic half-space, without its mean: 2/(E* |q|) of every wave; shape to shape, m."""
-    waves = [2 * math.pi * np.fft.fftfreq(n, step) for n, step in zip(pressure.shape, spacing, strict=True)]
-    number = np.hypot(*np.meshgrid(*waves, indexing="ij"))
+    """The displacement of the periodic half-space without its mean, 2/(E* |q|) times every wave of the pressure, m.
+
+    Parameters
+    ----------
+    pressure : Pa, shape (nx, ny).
+    spacing : dx and dy, m.
+    composite_modulus : E*, Pa.
+    """
+    number = _wave_numbers(pressure.shape, spacing)
     number[0, 0] = math.inf
     return np.asarray(np.fft.ifft2(2 / (composite_modulus * number) * np.fft.fft2(pressure)).real)
 
 
 def rms_slope(heights: Array, spacing: tuple[float, float]) -> float:
-    """Of the periodic surface through the heights, by all its waves."""
-    waves = [2 * math.pi * np.fft.fftfreq(n, step) for n, step in zip(heights.shape, spacing, strict=True)]
-    number = np.hypot(*np.meshgrid(*waves, indexing="ij"))
+    """The rms slope of the periodic surface through the heights (m), by the sum over all its waves."""
+    number = _wave_numbers(heights.shape, spacing)
     return float(np.sqrt(np.sum(number**2 * np.abs(np.fft.fft2(heights, norm="forward")) ** 2)))
 
 
@@ -32,10 +42,18 @@ def broken_conditions(
     hardness: float,
     load: float,
 ) -> float:
-    """By how much the worst node breaks the conditions of contact; infinite if the pressure itself cannot be.
+    """The largest violation of the conditions of contact at a node, over the rms height; infinite for a bad pressure.
 
     The gap under the plane, h1 + u − g00, must be 0 where 0 < p < H, at least 0 where p = 0, at most 0 where p = H. The
-    plane is laid where the worst is least. Over the rms height, or for a flat surface over P L/E*.
+    plane is placed where the largest violation is smallest. For a flat surface the violation is over P L/E*. A pressure
+    is bad if it is not finite, outside of 0 to H, or does not carry the load.
+
+    Parameters
+    ----------
+    pressure, heights : Pa and m, shape (nx, ny).
+    spacing : dx and dy, m.
+    composite_modulus, hardness : E* and H, Pa.
+    load : mean pressure P, Pa.
     """
     if pressure.shape != heights.shape or not np.isfinite(pressure).all():
         return math.inf

@@ -1,4 +1,4 @@
-"""Laws of films, over grooves and in bearings: energy, means between extremes, mass, and what adds up to a load."""
+"""Physical laws of films over grooves and in bearings: energy, mean values, mass, and loads as sums of pressures."""
 
 from collections.abc import Iterator
 
@@ -10,42 +10,44 @@ from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shapes import Journal
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.pocket.scene import Pocket
+from roughfilm.stability.checks.cavitation import control_lengths
 
-ROUNDING = 1e-9
+ROUND_OFF = 1e-9
+"""Allowed relative difference of values that are equal but for round-off."""
 
-COARSE = 0.05
-"""Friction may be below its bound by this part of it, which coarse meshes miss."""
+COARSE_MESH_TOLERANCE = 0.05
+"""Relative amount by which friction may be below its bound on a coarse mesh."""
 
 SAMPLES = 20_000
-"""Of the film along a period, midpoints between its breaks."""
+"""Number of midpoints along a period."""
 
 
 def pocket(scene: Pocket, result: Result) -> Iterator[str]:
-    """A load lies between the extremes of pressure; friction dissipates at least as much as shear across the film.
+    """The violations of a pocket's result.
 
-    The wall's work is what the liquid dissipates, ∫∫(∂u/∂y)² and more, which is at least ∫ η u²/h dx; models that warn
-    of themselves may lose some of it.
+    The load lies between the extremes of pressure. The wall's work equals the dissipation, which is at least
+    ∫ η u²/h dx; a model that warns may miss some of it.
     """
     value = {name: quantity.value for name, quantity in result.quantities.items()}
     low, high = value["pressure_min_plus"], value["pressure_max_plus"]
-    slack = ROUNDING * max(abs(low), abs(high)) + 1e-12
+    slack = ROUND_OFF * max(abs(low), abs(high)) + 1e-12
     if not low - slack <= value["load_plus"] <= high + slack:
-        yield f"load+ {value['load_plus']:.6g} outside of the pressures, {low:.6g} to {high:.6g}"
+        yield f"load+ {value['load_plus']:.6g} is outside of the pressures, {low:.6g} to {high:.6g}"
     least = scene.plus_factor * _mean_inverse(scene) * scene.geometry.film
-    if not result.warnings and value["friction_plus"] < (1 - COARSE) * least:
-        yield f"friction+ {value['friction_plus']:.6g} is less than shear alone takes, {least:.6g}"
+    if not result.warnings and value["friction_plus"] < (1 - COARSE_MESH_TOLERANCE) * least:
+        yield f"friction+ {value['friction_plus']:.6g} is below that of plain shear, {least:.6g}"
     if value["backflow"] < 0:
         yield f"backflow {value['backflow']:.3g} is below 0"
     if (result.fields["film_thickness"].values < scene.geometry.film * (1 - 1e-6)).any():
         yield "the film is thinner than outside of the grooves"
     for name in ("load", "friction"):
         per_area = value[f"{name}_per_area"] / scene.pressure_unit * scene.plus_factor
-        if abs(per_area - value[f"{name}_plus"]) > ROUNDING * abs(per_area) + 1e-12:
+        if abs(per_area - value[f"{name}_plus"]) > ROUND_OFF * abs(per_area) + 1e-12:
             yield f"{name}+ and {name} per area do not agree"
 
 
 def _mean_inverse(scene: Pocket) -> float:
-    """<1/h>, 1/m."""
+    """The mean of 1/h over a period, 1/m."""
     gap = scene.gap()
     places, weights = [], []
     for begin, end in zip(gap.breaks, gap.breaks[1:], strict=False):
@@ -57,74 +59,67 @@ def _mean_inverse(scene: Pocket) -> float:
 
 
 def bearing(scene: Bearing, result: Result) -> Iterator[str]:
-    """Pressure above that of cavitation, what fills a gap at most the gap, and loads that add up from pressures.
+    """The violations of a bearing's result.
 
-    Where all around is ambient, the wall's work is dissipated or pumps against cavities: it is not below 0.
+    The pressure is not below that of cavitation, the filling fraction not below 0, and the load is the sum of the
+    pressures. At ambient pressure all around, the wall's work is dissipated or pumps against cavities, and not below 0.
     """
     value = {name: quantity.value for name, quantity in result.quantities.items()}
-    field = {name: found.values for name, found in result.fields.items()}
+    field = {name: one.values for name, one in result.fields.items()}
     lowest, pressure = scene.lubricant.cavitation_pressure, field["pressure"]
-    slack = ROUNDING * max(float(np.abs(pressure).max()), abs(lowest))
-    ruptures = "cavitation" in result.provenance["keeps"]
-    if ruptures and pressure.min() < lowest - slack:
+    slack = ROUND_OFF * max(float(np.abs(pressure).max()), abs(lowest))
+    if "cavitation" in result.provenance["keeps"] and pressure.min() < lowest - slack:
         yield f"pressure {pressure.min():.6g} Pa is below that of cavitation, {lowest:.6g} Pa"
     theta = field["density_ratio"]
-    if theta.min() < 0 or abs(value["theta_min"] - theta.min()) > ROUNDING:
-        yield f"the gap is filled to {theta.min():.6g}, told {value['theta_min']:.6g}"
+    if theta.min() < 0 or abs(value["theta_min"] - theta.min()) > ROUND_OFF:
+        yield f"the smallest density ratio is {theta.min():.6g}, reported {value['theta_min']:.6g}"
     if abs(value["pressure_max"] - pressure.max()) > slack:
-        yield f"the greatest pressure is {pressure.max():.6g} Pa, told {value['pressure_max']:.6g}"
+        yield f"the greatest pressure is {pressure.max():.6g} Pa, reported {value['pressure_max']:.6g}"
     if field["film_thickness"].min() <= 0 and result.model != "mixed":
         yield "the film has no thickness"
     for name in ("film_start", "rupture", "cavitated_fraction"):
-        if not -ROUNDING <= value[name] <= 1 + ROUNDING:
-            yield f"{name} is {value[name]:.6g}, not a part"
+        if not -ROUND_OFF <= value[name] <= 1 + ROUND_OFF:
+            yield f"{name} is {value[name]:.6g}, not a fraction"
     yield from _loads(scene, value, field)
-    own = scene.boundary == type(scene.boundary)()
-    if own and scene.motion.speed and result.model != "mixed" and value["friction_per_width"] < 0:
+    ambient = scene.boundary == type(scene.boundary)()
+    if ambient and scene.motion.speed and result.model != "mixed" and value["friction_per_width"] < 0:
         yield f"the film drives the wall, friction {value['friction_per_width']:.6g} N/m"
     if result.model == "mixed":
         yield from _touching(scene, value, field)
 
 
 def _loads(scene: Bearing, value: dict[str, float], field: dict[str, Array]) -> Iterator[str]:
-    """The load is that of the pressures on the control volumes of the nodes, of a journal as a vector."""
+    """The loads that are not the sum of the pressures on the control volumes, of a journal as a vector."""
     x, y = field["x"][:, 0], field["y"][0]
-    across = (np.ones(1) if y.size == 1 else _lengths(y, None)) * (y if isinstance(scene.geometry, Ring) else 1)
+    across = (np.ones(1) if y.size == 1 else control_lengths(y, None)) * (y if isinstance(scene.geometry, Ring) else 1)
     turn = scene.geometry.turn if isinstance(scene.geometry, Ring) and scene.geometry.endless else None
-    areas = _lengths(x, turn)[:, None] * across
+    areas = control_lengths(x, turn)[:, None] * across
     pressed = areas * field["contact_pressure"] if "contact_pressure" in field else np.zeros(areas.shape)
     forces = {"load_per_width": areas * field["pressure"] + pressed}
     if "contact_pressure" in field:
         forces["contact_load_per_width"] = pressed
     width = 1.0 if y.size == 1 else scene.geometry.width or 1.0
     for name, force in forces.items():
-        found = float(force.sum())
+        total = float(force.sum())
         if isinstance(scene.geometry, Journal):
             angle = (x / scene.geometry.radius)[:, None]
-            found = float(np.hypot((force * np.cos(angle)).sum(), (force * np.sin(angle)).sum()))
-        if abs(found / width - value[name]) > 1e-6 * float(np.abs(force).sum()) / width:
-            yield f"{name} is {value[name]:.9g} N/m, but pressures add up to {found / width:.9g}"
-
-
-def _lengths(places: Array, turn: float | None) -> Array:
-    """Of the control volumes; round a ``turn`` the last node is followed by the first."""
-    before = np.diff(places, prepend=places[0] if turn is None else places[-1] - turn)
-    after = np.diff(places, append=places[-1] if turn is None else places[0] + turn)
-    return np.asarray((before + after) / 2)
+            total = float(np.hypot((force * np.cos(angle)).sum(), (force * np.sin(angle)).sum()))
+        if abs(total / width - value[name]) > 1e-6 * float(np.abs(force).sum()) / width:
+            yield f"{name} is {value[name]:.9g} N/m, but pressures add up to {total / width:.9g}"
 
 
 def _touching(scene: Bearing, value: dict[str, float], field: dict[str, Array]) -> Iterator[str]:
-    """Film and asperities together carry the load and rub; what touches is a part of the walls."""
+    """The violations of the contact in a mixed film: film and asperities share the load and the friction."""
     assert scene.asperities is not None
     load, film, contact = (value[f"{part}load_per_width"] for part in ("", "film_", "contact_"))
-    if abs(film + contact - load) > ROUNDING * (abs(film) + contact):
+    if abs(film + contact - load) > ROUND_OFF * (abs(film) + contact):
         yield f"film {film:.6g} and contact {contact:.6g} N/m do not add up to the load, {load:.6g}"
     if contact < 0 or field["contact_pressure"].min() < 0 or field["mean_gap"].min() < 0:
         yield "asperities pull, or the mean gap is below 0"
     if not 0 <= value["contact_area"] <= 1:
-        yield f"the contact area is {value['contact_area']:.6g}, not a part"
+        yield f"the contact area is {value['contact_area']:.6g}, not a fraction"
     if (contact > 0) != (value["contact_area"] > 0):
         yield f"a contact load of {contact:.6g} N/m on an area of {value['contact_area']:.6g}"
-    plain = scene.boundary == type(scene.boundary)() and not isinstance(scene.geometry, Journal)
-    if plain and scene.motion.speed > 0 and value["friction_per_width"] < scene.asperities.friction * contact:
+    ambient = scene.boundary == type(scene.boundary)() and not isinstance(scene.geometry, Journal)
+    if ambient and scene.motion.speed > 0 and value["friction_per_width"] < scene.asperities.friction * contact:
         yield f"friction {value['friction_per_width']:.6g} N/m is less than that of the asperities alone"

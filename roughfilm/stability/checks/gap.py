@@ -1,4 +1,4 @@
-"""What answers about a rough gap are judged by: thin-film theory, exact Stokes flow, and what two meshes tend to."""
+"""References of the coefficients of a rough gap: thin-film theory, exact Stokes flow, and the limit of two meshes."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -12,27 +12,35 @@ from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors, of_thin_film
 from roughfilm.stability.wave import Wave
 
 JUDGED = ("A11", "A22", "B1", "friction")
+"""The coefficients that are judged."""
 
-REACH, NEAREST_EXACT, EXACT = 2.7, 0.009, (1e-5, 1e-3)
-"""The exact solver is asked for ridges up to this rms slope and down to this least distance, to these tolerances."""
+MAX_EXACT_SLOPE = 2.7
+"""Largest rms slope of ridges for the exact Stokes solver."""
 
-AGREEING = 0.1
-"""Cheap rungs are judged by two meshes where these differ by a smaller part of a coefficient."""
+MIN_EXACT_DISTANCE = 0.009
+"""Least distance of the walls over the mean gap for the exact Stokes solver."""
+
+EXACT_TOLERANCES = (1e-5, 1e-3)
+"""Tolerances of the exact Stokes solver; the second where the first fails."""
+
+AGREEMENT = 0.1
+"""Relative difference of two meshes up to which a coefficient judges the cheap models."""
 
 THIN_NODES = 256
+"""Nodes along a side of the cell problems of bumps."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Truth:
-    """Coefficients taken for right, by name, what they may be off, and where from."""
+class Coefficients:
+    """Coefficients that are taken for right, by name, with their uncertainties and their source."""
 
     values: Mapping[str, float]
-    off: Mapping[str, float]
+    uncertainties: Mapping[str, float]
     source: str
 
 
-def exact_thin(wave: Wave) -> Truth:
-    """Thin-film theory: of ridges in closed form, of bumps by cell problems on ``THIN_NODES``² nodes."""
+def exact_thin(wave: Wave) -> Coefficients:
+    """Thin-film theory: a closed form for ridges, cell problems on ``THIN_NODES``² nodes for bumps."""
     a = wave.amplitude
     if not wave.bumps:
         cubes = 1 + a * a / 2
@@ -42,49 +50,53 @@ def exact_thin(wave: Wave) -> Truth:
             "B1": (1 - a * a) / cubes,
             "friction": (4 - 3 / cubes) / np.sqrt(1 - a * a),
         }
-        return Truth(values=values, off=dict.fromkeys(values, 0.0), source="a formula")
+        return Coefficients(values=values, uncertainties=dict.fromkeys(values, 0.0), source="a formula")
     from roughfilm.rom.homogenization.flow_factors import flow_factors  # numba is slow to import
 
     one = np.cos(2 * np.pi * np.arange(THIN_NODES) / THIN_NODES)
-    found = flow_factors(1 - a * np.outer(one, one), (wave.wavelength / THIN_NODES,) * 2)
-    right, bar = of_thin_film(found.factors), of_thin_film(found.uncertainty)
+    average = flow_factors(1 - a * np.outer(one, one), (wave.wavelength / THIN_NODES,) * 2)
 
-    def named(of: RoughGapFactors) -> dict[str, float]:
-        a11, a22 = np.diag(of.pressure)
-        return {"A11": float(a11), "A22": float(a22), "B1": float(of.shear[0]), "friction": of.friction}
+    def named(factors: RoughGapFactors) -> dict[str, float]:
+        a11, a22 = np.diag(factors.pressure)
+        return {"A11": float(a11), "A22": float(a22), "B1": float(factors.shear[0]), "friction": factors.friction}
 
-    return Truth(values=named(right), off=named(bar), source=f"{THIN_NODES} nodes")
+    values, uncertainties = (named(of_thin_film(one)) for one in (average.factors, average.uncertainty))
+    return Coefficients(values=values, uncertainties=uncertainties, source=f"{THIN_NODES} nodes")
 
 
-def exact_stokes(wave: Wave) -> Truth | None:
-    """Of ridges that the exact solver reaches."""
-    if wave.bumps or wave.slope > REACH or 1 - wave.amplitude < NEAREST_EXACT:
+def exact_stokes(wave: Wave) -> Coefficients | None:
+    """Exact Stokes flow between ridges; None for bumps, and beyond the range of the exact solver."""
+    if wave.bumps or wave.slope > MAX_EXACT_SLOPE or 1 - wave.amplitude < MIN_EXACT_DISTANCE:
         return None
-    for tolerance in EXACT:
+    for tolerance in EXACT_TOLERANCES:
         try:
-            found = sinusoidal_ridge_flow(wave.amplitude, wave.wavelength, tolerance=tolerance)
+            flow = sinusoidal_ridge_flow(wave.amplitude, wave.wavelength, tolerance=tolerance)
         except ConvergenceError:
             continue
-        values = {"A11": found.across, "A22": found.along, "B1": found.drag, "friction": found.friction}
-        off = {name: tolerance * value for name, value in values.items()}
-        return Truth(values=values, off=off, source="the exact solver")
+        values = {"A11": flow.across, "A22": flow.along, "B1": flow.drag, "friction": flow.friction}
+        uncertainties = {name: tolerance * value for name, value in values.items()}
+        return Coefficients(values=values, uncertainties=uncertainties, source="the exact solver")
     return None
 
 
-def extrapolated(coarse: Result, fine: Result) -> Truth:
-    """From two meshes of second order, one half as fine, of what both tell; may be off by their whole difference."""
-    values, off = {}, {}
-    for name in JUDGED:
-        if name not in coarse.quantities or name not in fine.quantities:
-            continue
-        one, two = coarse.quantities[name].value, fine.quantities[name].value
-        values[name], off[name] = two + (two - one) / 3, abs(two - one)
-    return Truth(values=values, off=off, source="two meshes")
+def extrapolated(coarse: Result, fine: Result) -> Coefficients:
+    """The limit of two meshes of second order, one twice as fine; its uncertainty is their whole difference."""
+    pairs = {
+        name: (coarse[name].value, fine[name].value)
+        for name in JUDGED
+        if name in coarse.quantities and name in fine.quantities
+    }
+    return Coefficients(
+        values={name: two + (two - one) / 3 for name, (one, two) in pairs.items()},
+        uncertainties={name: abs(two - one) for name, (one, two) in pairs.items()},
+        source="two meshes",
+    )
 
 
-def agreeing(truth: Truth | None) -> Truth | None:
-    """What two meshes agree about; None if about nothing."""
+def agreeing(truth: Coefficients | None) -> Coefficients | None:
+    """The coefficients whose uncertainty is at most ``AGREEMENT``; None if there are none."""
     if truth is None:
         return None
-    values = {name: value for name, value in truth.values.items() if truth.off[name] <= AGREEING * abs(value)}
+    limits = {name: AGREEMENT * abs(value) for name, value in truth.values.items()}
+    values = {name: value for name, value in truth.values.items() if truth.uncertainties[name] <= limits[name]}
     return replace(truth, values=values) if values else None

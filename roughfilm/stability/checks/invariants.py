@@ -1,4 +1,4 @@
-"""What every answer must keep, whatever model gave it: each kind of scene has laws that no model may break."""
+"""Physical laws that every result must keep, whatever its model; each kind of scene has its own."""
 
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
@@ -10,7 +10,7 @@ from roughfilm.stability.checks.film_invariants import bearing, pocket
 from roughfilm.stability.checks.roughness_invariants import dry_contact, rough_gap, seal
 
 Law = Callable[[Any, Result], Iterator[str]]
-"""law(scene, result): what is broken, each in words."""
+"""law(scene, result): every violation in words."""
 
 LAWS: Mapping[str, Law] = {
     "pocket": pocket,
@@ -19,20 +19,20 @@ LAWS: Mapping[str, Law] = {
     "seal": seal,
     "rough_gap": rough_gap,
 }
+"""The laws by kind of scene."""
 
-
-RECOMPUTED = 2.0
-"""A residual that is found afresh, in fields read back from files, may be so many tolerances."""
+MAX_RESIDUAL_RATIO = 2.0
+"""Largest residual over the tolerance; a residual recomputed from stored fields may exceed the tolerance."""
 
 
 def broken(scene: Any, result: Result) -> list[str]:
-    """What an answer breaks, in words; nothing of a good one."""
+    """The violations of a result in words; empty for a good one."""
     faults = [*_not_finite(result), *_not_solved(result)]
     return faults if faults or _out_of_range(result) else list(LAWS[scene.kind](scene, result))
 
 
 def _out_of_range(result: Result) -> bool:
-    """Whether an estimate says of itself that it is none."""
+    """Whether an estimate warns that it is out of its range."""
     return any(warning.startswith("out of its range") for warning in result.warnings)
 
 
@@ -49,9 +49,9 @@ def _not_finite(result: Result) -> Iterator[str]:
 
 def _not_solved(result: Result) -> Iterator[str]:
     numerics = result.numerics
-    told = [(one.uncertainty or 0.0) / abs(one.value) for one in result.quantities.values() if one.value]
-    allowed = RECOMPUTED * max([numerics.tolerance, *told])
+    uncertainties = [(one.uncertainty or 0.0) / abs(one.value) for one in result.quantities.values() if one.value]
+    allowed = MAX_RESIDUAL_RATIO * max([numerics.tolerance, *uncertainties])
     if not (numerics.residual <= allowed or result.warnings):
-        yield f"the residual is {numerics.residual:.2g}, above {allowed:.2g}, and neither warning nor error bar says so"
+        yield f"the residual is {numerics.residual:.2g}, above {allowed:.2g}, without a warning"
     if min(numerics.cpu_s, numerics.wall_s, numerics.iterations) < 0 or numerics.degrees_of_freedom < 1:
-        yield f"counts that cannot be: {numerics}"
+        yield f"impossible counts: {numerics}"

@@ -1,4 +1,4 @@
-"""Laws of rough walls: what a pressed surface and a gap may be, and bounds of what passes through."""
+"""Physical laws of rough walls: conditions of contact, and bounds of the flow through a gap."""
 
 import math
 from collections.abc import Iterator
@@ -16,38 +16,41 @@ from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.seal.scene import Seal
 from roughfilm.stability.checks.contact import broken_conditions
 
-BROKEN = 2e-8
-"""Conditions of contact may be broken by that, over the rms height."""
+ALLOWED_VIOLATION = 2e-8
+"""Allowed violation of the conditions of contact, over the rms height."""
 
-BOUND = 1e-6
-"""Bounds may be passed by that part, for what solvers leave open and traces that count as closed."""
+BOUND_TOLERANCE = 1e-6
+"""Relative amount by which bounds may be exceeded, for solver tolerances and conductances that count as closed."""
 
-COARSE = 0.1
-"""And by that part by flow in three dimensions, on a coarse mesh."""
+COARSE_MESH_TOLERANCE = 0.1
+"""Relative amount by which flow in three dimensions on a coarse mesh may exceed bounds."""
 
-COVERS = (2, 3, 5)
-"""Copies of a period in which an open path is sought: what leads round it leads into another copy of one of them."""
+COPIES = (2, 3, 5)
+"""Numbers of copies of a period; a path around the period connects different copies in one of them."""
+
+ROUND_OFF = 1e-9
+"""Allowed excess of an area fraction over 1."""
 
 
 def dry_contact(scene: DryContact, result: Result) -> Iterator[str]:
-    """Parts are parts, and what touches can bear the load; resolved pressures keep the conditions of contact."""
+    """The violations of a dry contact: fractions, load on the area, and the conditions of contact."""
     value = {name: quantity.value for name, quantity in result.quantities.items()}
     plastic, load = "plasticity" in result.provenance["keeps"], scene.load.pressure
     area = value["area_fraction"]
-    if not 0 <= value.get("plastic_fraction", 0.0) <= area * (1 + BOUND) <= (1 + BOUND) ** 2:
+    if not 0 <= value.get("plastic_fraction", 0.0) <= area * (1 + BOUND_TOLERANCE) <= (1 + BOUND_TOLERANCE) ** 2:
         yield f"area {area:.6g}, of which plastic {value.get('plastic_fraction', 0.0):.6g}"
     if plastic and area * scene.hardness < load * (1 - 1e-3):
-        yield f"an area of {area:.6g} at the hardness cannot bear {load:.6g} Pa"
+        yield f"an area of {area:.6g} at the hardness cannot carry {load:.6g} Pa"
     if value.get("mean_gap", 0.0) < 0:
         yield f"the mean gap is {value['mean_gap']:.6g} m"
     density, edges = result.fields["pressure_density"].values, result.fields["bin_edges"].values
     if density.min() < 0 or (density * np.diff(edges)).sum() > 1 + 1e-6 or (np.diff(edges) <= 0).any():
-        yield "pressures are told that are no distribution"
+        yield "the pressure density is no distribution"
     if "pressure" in result.fields:
         hardness = scene.hardness if plastic else math.inf
         pressure, gap = result.fields["pressure"].values, result.fields["gap"].values
         worst = _broken(scene, pressure, hardness)
-        if worst > max(BROKEN, 2 * result.numerics.tolerance):
+        if worst > max(ALLOWED_VIOLATION, 2 * result.numerics.tolerance):
             yield f"the conditions of contact are broken by {worst:.2g} of the rms height"
         if gap.min() < 0 or gap[(pressure > 0) & (pressure < hardness)].any():
             yield "a gap below 0, or one where pressure is transmitted"
@@ -67,36 +70,34 @@ def _broken(scene: RoughContact, pressure: Array, hardness: float) -> float:
 
 
 def seal(scene: Seal, result: Result) -> Iterator[str]:
-    """Sealed where no open path leads through, and only there; else between the bounds of its gap."""
+    """The violations of a seal: flow where no open path exists, no flow where one does, flow outside of its bounds."""
     value = {name: quantity.value for name, quantity in result.quantities.items()}
-    passed, area = value["permeability"], value["area_fraction"]
-    if not 0 <= area <= 1 + ROUNDING_UP:
+    permeability, area = value["permeability"], value["area_fraction"]
+    if not 0 <= area <= 1 + ROUND_OFF:
         yield f"the area is {area:.6g}"
-    if (value["sealed"] == 1) != (passed == 0) or value["leakage_per_width"] < 0:
-        yield f"sealed is {value['sealed']:g} where {passed:.3g} m³ pass"
-    share = result.fields["gap_share"].values
-    if share.min() < 0 or share.sum() > 1 + 1e-6:
-        yield "gaps are told that are no distribution"
+    if (value["sealed"] == 1) != (permeability == 0) or value["leakage_per_width"] < 0:
+        yield f"sealed is {value['sealed']:g} where the permeability is {permeability:.3g} m³"
+    fractions = result.fields["gap_share"].values
+    if fractions.min() < 0 or fractions.sum() > 1 + 1e-6:
+        yield "the gap fractions are no distribution"
     if "gap" not in result.fields:
         return
     gap = result.fields["gap"].values
     gap = gap if scene.axis == 0 else gap.T
     low, high = bounds(gap)
     ends = result.model == "direct_leakage"
-    if not ends and (passed == 0) == leads_through(gap):
-        yield f"{passed:.3g} m³ pass where an open path {'leads' if leads_through(gap) else 'does not lead'} through"
-    if passed > high * (1 + BOUND) or passed < low * (1 - BOUND):
-        yield f"{passed:.6g} m³ pass, not {low:.6g} to {high:.6g}"
-
-
-ROUNDING_UP = 1e-9
+    open_ = leads_through(gap)
+    if not ends and (permeability == 0) == open_:
+        yield f"the permeability is {permeability:.3g} m³ where {'an' if open_ else 'no'} open path exists"
+    if permeability > high * (1 + BOUND_TOLERANCE) or permeability < low * (1 - BOUND_TOLERANCE):
+        yield f"the permeability is {permeability:.6g} m³, not {low:.6g} to {high:.6g}"
 
 
 def leads_through(gap: Array) -> bool:
-    """Whether an open path leads round the period in x: told by what hangs together in several copies of it."""
+    """Whether an open path leads around the period in x, from the connected components of several copies of it."""
     nx, ny = gap.shape
     nodes = np.arange(nx * ny).reshape(nx, ny)
-    for copies in COVERS:
+    for copies in COPIES:
         pairs = []
         for copy in range(copies):
             here = nodes + copy * nodes.size
@@ -117,7 +118,7 @@ def leads_through(gap: Array) -> bool:
 
 
 def bounds(gap: Array) -> tuple[float, float]:
-    """Of what passes along x through faces of 2 h₁² h₂²/(h₁ + h₂): every line by itself, and none kept apart, m³."""
+    """The bounds of the permeability along x for faces of 2 h₁² h₂²/(h₁ + h₂), m³: separate lines, uniform sections."""
     ahead = np.roll(gap, -1, axis=0)
     both = gap + ahead
     faces = np.divide(2 * gap**2 * ahead**2, both, out=np.zeros_like(gap), where=both > 0)
@@ -128,15 +129,16 @@ def bounds(gap: Array) -> tuple[float, float]:
 
 
 def rough_gap(scene: RoughGap, result: Result) -> Iterator[str]:
-    """A symmetric and at least 0, at most that of a thin film whose sections mix; friction at least a smooth gap's.
+    """The violations of a rough gap's result.
 
-    Stokes flow has more to dissipate than thin-film theory tells, and inertia more than Stokes flow.
+    A is symmetric, not negative, and at most that of a thin film with uniform pressure over every section, as Stokes
+    flow dissipates more than a thin film and inertia more than Stokes flow. Friction is at least a smooth gap's.
     """
     value = {name: quantity.value for name, quantity in result.quantities.items()}
     gap, mean = result.fields["gap"].values, scene.mean_gap
     a = np.array([[value["A11"], value["A12"]], [value["A21"], value["A22"]]])
     resolved = "vertices" in result.fields
-    slack = COARSE if resolved else 1e-6
+    slack = COARSE_MESH_TOLERANCE if resolved else 1e-6
     size = max(a[0, 0], a[1, 1], 1e-6)
     if "inertia" not in result.provenance["keeps"] and abs(a[0, 1] - a[1, 0]) > slack * size:
         yield f"A12 = {a[0, 1]:.6g} is not A21 = {a[1, 0]:.6g}"
@@ -148,12 +150,12 @@ def rough_gap(scene: RoughGap, result: Result) -> Iterator[str]:
         return
     for name, own in (("A11", gap), ("A22", gap.T)):
         low, high = (bound / mean**3 for bound in bounds(own))
-        if value[name] > high * (1 + slack) + BOUND:
-            yield f"{name} = {value[name]:.6g} is more than can pass, {high:.6g}"
-        if result.model == "homogenized" and value[name] < low * (1 - slack) - BOUND:
-            yield f"{name} = {value[name]:.6g} is less than must pass, {low:.6g}"
+        if value[name] > high * (1 + slack) + BOUND_TOLERANCE:
+            yield f"{name} = {value[name]:.6g} is above its upper bound, {high:.6g}"
+        if result.model == "homogenized" and value[name] < low * (1 - slack) - BOUND_TOLERANCE:
+            yield f"{name} = {value[name]:.6g} is below its lower bound, {low:.6g}"
         if result.model == "homogenized" and (value[name] == 0) == leads_through(own):
-            yield f"{name} = {value[name]:.6g} is not what open paths say"
+            yield f"{name} = {value[name]:.6g} contradicts the open paths"
     open_ = float(((gap > 0) & (np.roll(gap, -1, 0) > 0) & (np.roll(gap, 1, 0) > 0)).mean())
     if "friction" in value and value["friction"] < open_**2 * (1 - slack):
         yield f"friction {value['friction']:.6g} is less than that of a smooth gap where it is open"

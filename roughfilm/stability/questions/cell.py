@@ -1,8 +1,9 @@
-"""What the cell problems are tried on: contrast, contact, lays, awkward grids, and what they must refuse."""
+"""Gaps that the cell solvers are asked for: contrast, contact, lays, odd grids, and invalid input."""
 
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -13,44 +14,54 @@ from roughfilm.contact.synthetic.self_affine import self_affine
 from roughfilm.rom.homogenization.paths import sealed
 from roughfilm.stability.joint import cut_grooves, joined
 
-SIDE, ROUGHNESS = 1e-3, 1e-6
-"""m: the period of the surfaces, and their rms height."""
+SIDE = 1e-3
+"""Period of the surfaces, m."""
+
+ROUGHNESS = 1e-6
+"""Rms height of the surfaces, m."""
 
 SEED = 20071
 
 CONTRASTS = tuple(10.0**power for power in range(0, 17, 2))
-"""Of h³, the largest over the smallest."""
+"""Contrasts of h³: the largest over the smallest."""
 
 CONTACTS = (0.0, 0.01, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6)
-LAYS = (0.02, 0.1, 0.3, 3.0, 10.0, 50.0)
-ASPECTS = (0.01, 0.1, 0.3, 3.0, 10.0, 100.0)
-OFFSETS = (1e-8, 1e-9, 1e-10)
+"""Fractions of the area in contact."""
 
-SOLVED, REFUSED = "solved", "refused"
-"""What ought to come of a probe."""
+LAYS = (0.02, 0.1, 0.3, 3.0, 10.0, 50.0)
+"""Ratios of the correlation lengths along x and y."""
+
+ASPECTS = (0.01, 0.1, 0.3, 3.0, 10.0, 100.0)
+"""Ratios dx/dy."""
+
+OFFSETS = (1e-8, 1e-9, 1e-10)
+"""Constants added to the gap, m."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Probe:
-    """One question: where it stands on the page, a gap, and what ought to come of it.
+class CellGap:
+    """A gap of one period.
 
     Attributes
     ----------
-    exact : A₁₁, A₁₂ and A₂₂ of the network, where a formula has them, m³.
-    offset : m, as ``roughfilm.rom.homogenization.flow_factors`` takes it.
+    thickness : m, shape (nx, ny).
+    spacing : dx and dy, m.
+    offset : added to the thickness, m.
+    exact : A₁₁, A₁₂ and A₂₂ of the network where a formula has them, m³.
+    refused : whether the solver must refuse the gap.
     """
 
     group: str
     name: str
-    gap: Any
+    thickness: Any
     spacing: Any = (1e-6, 1e-6)
     offset: float = 0.0
     exact: tuple[float, float, float] | None = None
-    expected: str = SOLVED
+    refused: bool = False
 
 
-def probes(points: int) -> Iterator[Probe]:
-    """Every probe, on grids of about so many nodes along a side."""
+def gaps(points: int) -> Iterator[CellGap]:
+    """All gaps, on grids of about ``points`` nodes along a side."""
     yield from _contrasts(points)
     yield from _contacts(points)
     yield from _lays(points)
@@ -61,7 +72,13 @@ def probes(points: int) -> Iterator[Probe]:
 
 
 def rough(points: int, hurst: float = 0.8, shortest: int = 4, seed: int = SEED) -> Array:
-    """Heights of a self-affine surface of eight waves, its shortest wave so many nodes long, m."""
+    """Heights of a self-affine surface whose longest wave is 1/8 of the side and whose shortest has ``shortest`` nodes.
+
+    Returns
+    -------
+    Array
+        Heights, m, shape (points, points).
+    """
     return self_affine(
         size=(SIDE, SIDE),
         points=(points, points),
@@ -74,14 +91,14 @@ def rough(points: int, hurst: float = 0.8, shortest: int = 4, seed: int = SEED) 
 
 
 def truncated(heights: Array, contact: float) -> Array:
-    """A gap of which so much is in contact; without any, its least is a hundredth of the roughness."""
+    """The gap over heights cut off so that a fraction is in contact; without contact its least is 0.01 rms heights."""
     if contact == 0:
         return np.asarray(heights.max() - heights + 0.01 * heights.std())
     return np.maximum(np.quantile(heights, 1 - contact) - heights, 0.0)
 
 
-def _contrasts(points: int) -> Iterator[Probe]:
-    """Two gaps side by side in patterns, the smaller the least that a contrast allows, and one that is smooth."""
+def _contrasts(points: int) -> Iterator[CellGap]:
+    """Patterns of two thicknesses whose h³ have a given contrast, and a smooth gap of the same contrast."""
     i, j = np.indices((points, points))
     random = np.random.default_rng(SEED).random((points // 4, points // 4)).repeat(4, 0).repeat(4, 1)
     patterns = {
@@ -93,13 +110,13 @@ def _contrasts(points: int) -> Iterator[Probe]:
         "random nodes": np.random.default_rng(SEED + 1).random((points, points)) > 0.4,
     }
     smooth = np.cos(2 * np.pi * i / points) * np.cos(2 * np.pi * j / points)
-    for name, low in patterns.items():
-        for contrast in CONTRASTS:
-            gap = 1e-6 * np.where(low == 1, contrast ** (-1 / 3), 1.0)
-            exact = _laminate(gap) if "ridges a" in name else None
-            yield Probe(group="contrast of h³", name=f"{name}, {contrast:.0e}", gap=gap, exact=exact)
+    for (name, low), contrast in product(patterns.items(), CONTRASTS):
+        gap = 1e-6 * np.where(low == 1, contrast ** (-1 / 3), 1.0)
+        exact = _laminate(gap) if "ridges a" in name else None
+        yield CellGap(group="contrast of h³", name=f"{name}, {contrast:.0e}", thickness=gap, exact=exact)
     for contrast in CONTRASTS:
-        yield Probe(group="contrast of h³", name=f"smooth, {contrast:.0e}", gap=1e-6 * contrast ** (smooth / 6))
+        gap = 1e-6 * contrast ** (smooth / 6)
+        yield CellGap(group="contrast of h³", name=f"smooth, {contrast:.0e}", thickness=gap)
 
 
 def _laminate(gap: Array) -> tuple[float, float, float]:
@@ -111,19 +128,18 @@ def _laminate(gap: Array) -> tuple[float, float, float]:
     return (float(series), 0.0, float(aside)) if along == 0 else (float(aside), 0.0, float(series))
 
 
-def _contacts(points: int) -> Iterator[Probe]:
-    noise = np.random.default_rng(SEED).standard_normal((points, points)) * ROUGHNESS
+def _contacts(points: int) -> Iterator[CellGap]:
     surfaces = {
         "Hurst 0.8": rough(points),
         "Hurst 0.3 down to two nodes": rough(points, 0.3, 2),
-        "noise from node to node": noise,
+        "noise from node to node": np.random.default_rng(SEED).standard_normal((points, points)) * ROUGHNESS,
     }
-    for name, heights in surfaces.items():
-        for contact in CONTACTS:
-            yield Probe(group="contact", name=f"{name}, {100 * contact:g} %", gap=truncated(heights, contact))
+    for (name, heights), contact in product(surfaces.items(), CONTACTS):
+        gap = truncated(heights, contact)
+        yield CellGap(group="contact", name=f"{name}, {100 * contact:g} %", thickness=gap)
 
 
-def _lays(points: int) -> Iterator[Probe]:
+def _lays(points: int) -> Iterator[CellGap]:
     for lay in (one for one in LAYS if max(one, 1 / one) <= 0.45 * points):
         surface = gaussian(
             size=(SIDE, SIDE),
@@ -134,99 +150,98 @@ def _lays(points: int) -> Iterator[Probe]:
             anisotropy=lay,
         )
         for contact in (0.0, 0.2, 0.4):
-            gap = truncated(surface.heights, contact)
-            yield Probe(group="lay", name=f"γ = {lay:g}, {100 * contact:g} %", gap=gap, spacing=surface.spacing)
+            gap, name = truncated(surface.heights, contact), f"γ = {lay:g}, {100 * contact:g} %"
+            yield CellGap(group="lay", name=name, thickness=gap, spacing=surface.spacing)
     i, j = np.indices((points, points)) / points
-    for waves in ((1, 4), (3, 8), (8, 3), (1, 16)):
-        heights = ROUGHNESS * np.cos(2 * np.pi * (waves[0] * i + waves[1] * j))
-        for contact in (0.0, 0.3):
-            name = f"oblique grooves, {waves[0]} and {waves[1]} periods, {100 * contact:g} %"
-            yield Probe(group="lay", name=name, gap=truncated(heights, contact))
+    for (m, n), contact in product(((1, 4), (3, 8), (8, 3), (1, 16)), (0.0, 0.3)):
+        gap = truncated(ROUGHNESS * np.cos(2 * np.pi * (m * i + n * j)), contact)
+        yield CellGap(group="lay", name=f"oblique grooves, {m} and {n} periods, {100 * contact:g} %", thickness=gap)
     surface = joined(cut_grooves(0.9))
     heights = surface.heights - surface.heights.mean()
     for separation in (3e-6, 1e-6, 3e-7):
-        name = f"grooves that end at a joint, separation {separation:g} m"
-        yield Probe(group="lay", name=name, gap=np.maximum(separation - heights, 0.0), spacing=surface.spacing)
+        name, gap = f"grooves that end at a joint, separation {separation:g} m", np.maximum(separation - heights, 0.0)
+        yield CellGap(group="lay", name=name, thickness=gap, spacing=surface.spacing)
     steps = np.arange(points)
     spiral = np.zeros((points, points))
     spiral[steps, steps] = spiral[steps, (steps + 1) % points] = 1e-6
-    passed = 1e-18 / (2 * points)
-    yield Probe(group="lay", name="a spiral groove one node wide", gap=spiral, exact=(passed, passed, passed))
+    flow = 1e-18 / (2 * points)
+    yield CellGap(group="lay", name="a spiral groove one node wide", thickness=spiral, exact=(flow, flow, flow))
 
 
-def _grids(points: int) -> Iterator[Probe]:
-    whole = rough(points)
-    for aspect in ASPECTS:
-        for contact in (0.0, 0.2):
-            name, spacing = f"dx/dy = {aspect:g}, {100 * contact:g} %", (1e-6 * aspect, 1e-6)
-            yield Probe(group="pixels", name=name, gap=truncated(whole, contact), spacing=spacing)
-    n = points
+def _grids(points: int) -> Iterator[CellGap]:
+    whole, n = rough(points), points
+    for aspect, contact in product(ASPECTS, (0.0, 0.2)):
+        name, gap = f"dx/dy = {aspect:g}, {100 * contact:g} %", truncated(whole, contact)
+        yield CellGap(group="pixels", name=name, thickness=gap, spacing=(1e-6 * aspect, 1e-6))
     shapes = [(n - 1, n), (n, n - 1), (n - 1, n - 1), (n - 27, n - 25), (2, 2), (2, 3), (3, 2), (5, 7), (7, 9)]
     for shape in (*shapes, (2, n), (n, 2), (3, n // 2), (n, n // 8), (17, n - 5)):
         gap = truncated(whole[: shape[0], : shape[1]], 0.0 if min(shape) < 4 else 0.2)
-        yield Probe(group="sizes", name=f"{shape[0]} × {shape[1]}", gap=gap)
+        yield CellGap(group="sizes", name=f"{shape[0]} × {shape[1]}", thickness=gap)
     for unit in (1e-9, 1e5):
-        yield Probe(group="sizes", name=f"gap in units of {unit:g} m", gap=unit / ROUGHNESS * truncated(whole, 0.2))
+        gap = unit / ROUGHNESS * truncated(whole, 0.2)
+        yield CellGap(group="sizes", name=f"gap in units of {unit:g} m", thickness=gap)
 
 
-def _near_sealing(points: int) -> Iterator[Probe]:
-    """The most contact that still lets flow through: in either direction, and in one of them alone."""
+def _near_sealing(points: int) -> Iterator[CellGap]:
+    """Gaps with almost as much contact as seals them, in both directions or in one, and isolated pockets."""
     for seed in range(SEED, SEED + 4):
         heights = rough(points, 0.8 if seed % 2 else 0.5, 4, seed)
-        for name, closed in (("both", all), ("one", any)):
+        for name, closed in (("both seal", all), ("one seals", any)):
             low, high = 0.2, 0.9
             for _ in range(30):
                 middle = (low + high) / 2
                 low, high = (low, middle) if closed(sealed(truncated(heights, middle))) else (middle, high)
             for more in (0.0, 1e-4, 1e-2):
                 gap = truncated(heights, max(low - more, 0.0))
-                title = f"surface {seed - SEED + 1}, {100 * more:g} % before {name} seal{'s' if name == 'one' else ''}"
-                yield Probe(group="near sealing", name=title, gap=gap)
+                title = f"surface {seed - SEED + 1}, {100 * more:g} % before {name}"
+                yield CellGap(group="near sealing", name=title, thickness=gap)
     i, j = np.indices((points, points))
     heights = rough(points)
     strip = np.where(j < points // 3, 0.0, truncated(heights, 0.2))
-    yield Probe(group="near sealing", name="a wall along x", gap=strip)
-    yield Probe(group="near sealing", name="a wall along y", gap=np.ascontiguousarray(strip.T))
     pockets = np.where((i % 16 < 10) & (j % 16 < 10), 1e-6 + heights - heights.min(), 0.0)
-    yield Probe(group="near sealing", name="pockets alone", gap=pockets, exact=(0.0, 0.0, 0.0))
-    pierced = pockets + np.where((i % 16 >= 10) & (j % 16 == 5), 1e-9, 0.0)
-    yield Probe(group="near sealing", name="pockets joined along x by slits of 1 nm", gap=pierced)
-    shallow = np.where(pockets > 0, pockets, 1e-8)
-    yield Probe(group="near sealing", name="pockets in a film of 10 nm", gap=shallow)
+    others = {
+        "a wall along x": strip,
+        "a wall along y": np.ascontiguousarray(strip.T),
+        "pockets alone": pockets,
+        "pockets joined along x by slits of 1 nm": pockets + np.where((i % 16 >= 10) & (j % 16 == 5), 1e-9, 0.0),
+        "pockets in a film of 10 nm": np.where(pockets > 0, pockets, 1e-8),
+    }
+    for name, gap in others.items():
+        exact = (0.0, 0.0, 0.0) if name == "pockets alone" else None
+        yield CellGap(group="near sealing", name=name, thickness=gap, exact=exact)
 
 
-def _offsets(points: int) -> Iterator[Probe]:
-    for name, heights in (("Hurst 0.8", rough(points)), ("Hurst 0.3", rough(points, 0.3, 2))):
-        for contact in (0.2, 0.5, 0.8):
-            for offset in OFFSETS:
-                title = f"{name}, {100 * contact:g} %, {1e9 * offset:g} nm"
-                yield Probe(group="offset", name=title, gap=truncated(heights, contact), offset=offset)
+def _offsets(points: int) -> Iterator[CellGap]:
+    surfaces = {"Hurst 0.8": rough(points), "Hurst 0.3": rough(points, 0.3, 2)}
+    for (name, heights), contact, offset in product(surfaces.items(), (0.2, 0.5, 0.8), OFFSETS):
+        title = f"{name}, {100 * contact:g} %, {1e9 * offset:g} nm"
+        yield CellGap(group="offset", name=title, thickness=truncated(heights, contact), offset=offset)
 
 
-def _limits() -> Iterator[Probe]:
-    """What makes no sense."""
-    sound = truncated(rough(64), 0.2)
-    one = np.zeros(sound.shape)
+def _limits() -> Iterator[CellGap]:
+    """Invalid thicknesses, spacings and offsets."""
+    valid = truncated(rough(64), 0.2)
+    one = np.zeros(valid.shape)
     one[5, 7] = 1.0
-    broken = Probe(group="limits", name="", gap=sound, expected=REFUSED)
-    gaps: dict[str, Any] = {
-        "h < 0 at one node": sound - 1e-12 * one,
-        "h = NaN at one node": np.where(one > 0, math.nan, sound),
-        "h = inf at one node": np.where(one > 0, math.inf, sound),
+    invalid = CellGap(group="limits", name="", thickness=valid, refused=True)
+    values: dict[str, Any] = {
+        "h < 0 at one node": valid - 1e-12 * one,
+        "h = NaN at one node": np.where(one > 0, math.nan, valid),
+        "h = inf at one node": np.where(one > 0, math.inf, valid),
         "no nodes": np.zeros((0, 0)),
         "no columns": np.zeros((5, 0)),
         "one node": np.ones((1, 1)),
-        "one row": sound[:1],
-        "one column": sound[:, :1],
-        "a profile": sound[0],
+        "one row": valid[:1],
+        "one column": valid[:, :1],
+        "a profile": valid[0],
         "three dimensions": np.ones((4, 4, 4)),
         "closed everywhere": np.zeros((8, 8)),
-        "complex numbers": sound + 0j,
+        "complex numbers": valid + 0j,
         "words": np.full((4, 4), "wide"),
-        "truth values": sound > 0,
+        "truth values": valid > 0,
     }
-    for name, gap in gaps.items():
-        yield replace(broken, name=name, gap=gap)
+    for name, thickness in values.items():
+        yield replace(invalid, name=name, thickness=thickness)
     spacings: dict[str, Any] = {
         "dx = 0": (0.0, 1e-6),
         "dx < 0": (-1e-6, 1e-6),
@@ -236,6 +251,6 @@ def _limits() -> Iterator[Probe]:
         "three lengths": (1e-6, 1e-6, 1e-6),
     }
     for name, spacing in spacings.items():
-        yield replace(broken, name=name, spacing=spacing)
+        yield replace(invalid, name=name, spacing=spacing)
     for offset in (-1e-9, math.nan, math.inf):
-        yield replace(broken, name=f"an offset of {offset:g} m", offset=offset)
+        yield replace(invalid, name=f"an offset of {offset:g} m", offset=offset)

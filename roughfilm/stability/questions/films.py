@@ -1,7 +1,8 @@
-"""Films that the solvers of cavitation are asked for, and how an answer is judged."""
+"""Films that the cavitation solvers are asked for, and how their answers are judged."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from functools import partial
 
 from roughfilm.rom.bearing.shapes import Linear, Parabolic
 from roughfilm.rom.cavitation.discretise import Ends
@@ -13,117 +14,129 @@ from roughfilm.rom.cavitation.solve import Solution, solve
 from roughfilm.rom.lubricants.compressibility import ConstantBulkModulus
 from roughfilm.rom.lubricants.laws import Compressibility
 from roughfilm.stability.checks.cavitation import broken_balance
+from roughfilm.stability.form import Judgement, Probe
 
-SPEED, VISCOSITY = 4.57, 0.039
-"""m/s, Pa s."""
+SPEED = 4.57
+"""Sliding speed, m/s."""
 
-LENGTH, FILM = 76.2e-3, 25.4e-6
-"""m."""
+VISCOSITY = 0.039
+"""Viscosity, Pa s."""
 
-UNIT = 6 * VISCOSITY * SPEED * LENGTH / FILM**2
-"""Pa, of the pressures."""
+LENGTH = 76.2e-3
+"""Length of the sliders, m."""
+
+FILM = 25.4e-6
+"""Smallest film thickness, m."""
+
+PRESSURE_UNIT = 6 * VISCOSITY * SPEED * LENGTH / FILM**2
+"""Unit of pressure, Pa."""
 
 SEED = 20071
 
-SECOND_ORDER, FLOOR = 100.0, 1e-6
-"""A load may be off by so many squares of a cell over the length, and by what the tolerances leave."""
+SECOND_ORDER_FACTOR = 100.0
+"""Allowed error of a load over (cell/length)²."""
 
-BALANCED = 1e-8
-"""A net flow into a node, over the largest flow, recomputed: ten times what is asked of the solver."""
+ERROR_FLOOR = 1e-6
+"""Allowed error of a load on the finest grids, which the solver's tolerance leaves."""
 
-SAME = 1e-12
-"""What is the same but for rounding."""
+BALANCE_TOLERANCE = 1e-8
+"""Allowed net flow into a node, recomputed, over the largest flow: ten times the tolerance of the solver."""
+
+ROUND_OFF = 1e-12
+"""Allowed difference of answers that are equal but for round-off."""
 
 CELLS = 1000
-"""On lines."""
+"""Number of cells of a line."""
 
-SOLVED, REFUSED = "solved", "refused"
-
-
-@dataclass(frozen=True, kw_only=True)
-class Answer:
-    """What a question gave: Newton's steps on all grids, and by how much the answer is off."""
-
-    iterations: int
-    error: float
+Answer = tuple[int, float]
+"""Newton steps on all grids, and the error."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Probe:
-    """One question: where it stands on the page, how it is asked, how much the answer may be off, what is expected."""
+def film_probe(
+    group: str, row: str, column: str, ask: Callable[[], Answer], bound: float, *, refused: bool = False
+) -> Probe:
+    """A probe whose answer is right if its error is at most ``bound``."""
+    judge = partial(judged, bound=bound)
+    return Probe(group=group, row=row, column=column, ask=ask, judge=judge, refused=refused)
 
-    group: str
-    row: str
-    column: str
-    ask: Callable[[], Answer]
-    bound: float
-    expected: str = SOLVED
+
+def judged(answer: Answer, bound: float) -> Judgement:
+    """The judgement of an answer by the bound of its error."""
+    iterations, error = answer
+    right = bool(error <= bound)
+    return Judgement(
+        iterations=iterations,
+        right=right,
+        error=error,
+        numbers={"allowed": bound},
+        message="" if right else f"error {error:.2g}, allowed {bound:.2g}",
+    )
 
 
 def bound(cells: int) -> float:
-    """What a load of second order in the cells may be off."""
-    return SECOND_ORDER / cells**2 + FLOOR
+    """The allowed error of a load of second order on so many cells."""
+    return SECOND_ORDER_FACTOR / cells**2 + ERROR_FLOOR
 
 
 def liquid(gigapascals: float) -> ConstantBulkModulus:
-    """A constant bulk modulus."""
+    """A liquid of constant bulk modulus, GPa."""
     return ConstantBulkModulus(law="constant_bulk_modulus", bulk_modulus=f"{gigapascals!r} GPa")  # type: ignore[arg-type]
 
 
 def slider(theta: float, compressibility: Compressibility) -> Problem:
-    """The parabolic slider, with so full an inlet."""
-    shape = Parabolic(shape="parabolic", length=metres(LENGTH), film=metres(FILM), rise=metres(FILM)).film_shape()
-    return film(shape, Ends(theta=theta), compressibility=compressibility)
+    """The parabolic slider whose inlet is filled to ``theta``."""
+    return film(parabola(), Ends(theta=theta), compressibility=compressibility)
 
 
-def off(load: float, wanted: float) -> float:
-    """A load's error over what is wanted or, if that is nothing, over the unit."""
-    return abs(load - wanted) / (wanted or UNIT * LENGTH)
-
-
-def metres(value: float) -> float:
-    """A length as the scene's classes take it."""
-    return f"{value!r} m"  # type: ignore[return-value]
-
-
-def film(shape: Shape, ends: Ends, **given: object) -> Problem:
-    """The film with the speed and viscosity of all questions."""
-    return Problem(**{"shape": shape, "ends": ends, "speed": SPEED, "viscosity": VISCOSITY, **given})  # type: ignore[arg-type]
-
-
-def steps_of(found: Solution) -> int:
-    """Newton's steps on all grids."""
-    return sum(level.iterations for level in found.levels)
-
-
-def load_of(found: Solution) -> float:
-    """∫ p dx, N/m."""
-    return found.levels[-1].load
-
-
-def balance(problem: Problem, cells: tuple[int, int]) -> Answer:
-    """Solve, and judge by the flows into every node."""
-    found = solve(problem, cells)
-    return Answer(iterations=steps_of(found), error=broken_balance(found))
-
-
-def against(problem: Problem, cells: int, wanted: Callable[[], float], start: State | None = None) -> Answer:
-    """Solve, and judge by the load."""
-    found = solve(problem, (cells, 1), start=start)
-    return Answer(iterations=steps_of(found), error=off(load_of(found), wanted()))
-
-
-def known_load(problem: Problem) -> float:
-    """The exact one, N/m."""
-    return exact(problem).load
+def parabola(**given: object) -> Shape:
+    """A parabolic film: its inlet and outlet are twice as thick as its middle."""
+    lengths = {"length": metres(LENGTH), "film": metres(FILM), "rise": metres(FILM)}
+    return Parabolic(shape="parabolic", **lengths, **given).film_shape()  # type: ignore[arg-type]
 
 
 def linear() -> Shape:
-    """A film that halves towards the outlet."""
+    """A film whose thickness halves towards the outlet."""
     return Linear(shape="linear", length=metres(LENGTH), film=metres(FILM), rise=metres(FILM)).film_shape()
 
 
 def mirrored(shape: Shape) -> Shape:
-    """The film with x turned round."""
+    """The film mirrored in x."""
     breaks = tuple(LENGTH - place for place in reversed(shape.breaks))
     return replace(shape, breaks=breaks, thickness=lambda x, y: shape.thickness(LENGTH - x, y))
+
+
+def metres(value: float) -> float:
+    """A length in m as the classes of a scene take it."""
+    return f"{value!r} m"  # type: ignore[return-value]
+
+
+def film(shape: Shape, ends: Ends, **given: object) -> Problem:
+    """The film problem of a shape, by default with the speed and viscosity above."""
+    return Problem(**{"shape": shape, "ends": ends, "speed": SPEED, "viscosity": VISCOSITY, **given})  # type: ignore[arg-type]
+
+
+def load_error(load: float, truth: float) -> float:
+    """The error of a load over the truth; over the unit where the truth is 0."""
+    return abs(load - truth) / (truth or PRESSURE_UNIT * LENGTH)
+
+
+def steps_of(solution: Solution) -> int:
+    """The Newton steps on all grids."""
+    return sum(level.iterations for level in solution.levels)
+
+
+def balance(problem: Problem, cells: tuple[int, int]) -> Answer:
+    """Solve, and measure the error by the net flow into every node."""
+    solution = solve(problem, cells)
+    return steps_of(solution), broken_balance(solution)
+
+
+def against(problem: Problem, cells: int, truth: Callable[[], float], start: State | None = None) -> Answer:
+    """Solve, and measure the error of the load ∫ p dx, N/m."""
+    solution = solve(problem, (cells, 1), start=start)
+    return steps_of(solution), load_error(solution.levels[-1].load, truth())
+
+
+def against_exact(problem: Problem, cells: int, start: State | None = None) -> Answer:
+    """Solve, and measure the error of the load by the exact one."""
+    return against(problem, cells, lambda: exact(problem).load, start)

@@ -23,7 +23,7 @@ from roughfilm.rom.advice import laws
 from roughfilm.rom.advice.laws import Grid, Law, Numbers, Step, on_grid
 from roughfilm.rom.ladder.kind import Kind, Scene, kinds
 from roughfilm.rom.ladder.model import Model, Resolutions, best
-from roughfilm.rom.studies.convergence import Kind as Way
+from roughfilm.rom.studies.convergence import ConvergenceKind as Way
 from roughfilm.rom.studies.convergence import converge
 from roughfilm.rom.studies.ordering import CERTAINTY
 from roughfilm.terminal.console import in_one_line, make_directory, output, run_alone

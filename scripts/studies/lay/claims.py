@@ -10,7 +10,7 @@ from scripts.studies.lay.data import THICKNESSES, FactorPair, Turned, angle
 from scripts.studies.lay.joint import Joint, Joints, lowest
 from scripts.studies.lay.measured import OBLIQUE, MeasuredLay
 from scripts.studies.lay.offset import MADE, OFFSET, Offset
-from scripts.studies.study import Claim, verdict
+from scripts.studies.study import Claim, Judgement, claims_of, verdict
 
 EQUAL, SAMPLED, FAILS = 0.02, 0.1, 0.2
 """Parts of A: what counts as equal, as the scatter of one finite box, and as failing."""
@@ -37,11 +37,12 @@ class Lay:
 
 def judge(lay: Lay) -> list[Claim]:
     """Judge claims 20, 21 and 26."""
-    return [joint_throttles(lay.joints), box_equals_cell(lay), offset_is_harmless(lay.offsets)]
+    judgements = {20: joint_throttles(lay.joints), 21: box_equals_cell(lay), 26: offset_is_harmless(lay.offsets)}
+    return claims_of(__file__, judgements)
 
 
-def joint_throttles(joints: Joints) -> Claim:
-    """Claim 20."""
+def joint_throttles(joints: Joints) -> Judgement:
+    """Judge claim 20."""
     cut = [one for row in joints.cut.values() for one in row]
     measured = {name: row for name, row in joints.measured.items() if name != OBLIQUE}
     bad = [one for one in cut + list(joints.windows) if one.mismatch[0] > GOOD_JOINT]
@@ -60,11 +61,9 @@ def joint_throttles(joints: Joints) -> Claim:
         f" (edges blended: {_all([of(row, thickness)[1] for thickness in THICKNESSES])})"
         for name, (of, row) in rows.items()
     )
-    return Claim(
-        number=20,
-        text="A bad periodic joint throttles the flow",
-        verdict=verdict(harm and clean, partly=max(lost) > 0.1),
-        evidence=f"flow along the lay over that without a joint, at {', '.join(f'{t:g}' for t in THICKNESSES)} Sq: "
+    return (
+        verdict(harm and clean, partly=max(lost) > 0.1),
+        f"flow along the lay over that without a joint, at {', '.join(f'{t:g}' for t in THICKNESSES)} Sq: "
         f"{said}. Windows whose grooves meet pass at least {_share(min(one.passed[0] for one in good))}. The loss of "
         f"cut grooves is ordered by periodicity_mismatch (rank correlation at least {min(order):.2f}); its size "
         f"depends on the thickness of the film more than on the mismatch. Blended edges restore a small part of the "
@@ -96,8 +95,8 @@ def worst(found: Sequence[FactorPair]) -> float:
     return float(np.nanmax(np.abs([one.short for one in found])))
 
 
-def box_equals_cell(lay: Lay) -> Claim:
-    """Claim 21."""
+def box_equals_cell(lay: Lay) -> Judgement:
+    """Judge claim 21."""
     turned = lay.turned
 
     def of(texture: str, *, straight: bool) -> list[FactorPair]:
@@ -119,11 +118,9 @@ def box_equals_cell(lay: Lay) -> Claim:
         for one in lay.measured.values()
         if (row := one.found.get(1)) is not None
     )
-    return Claim(
-        number=21,
-        text="Patir–Cheng equals HNS for straight or isotropic lay and fails for crossed or oblique lay",
-        verdict=verdict(as_said and min(crossed, worst(crossed_oblique)) > FAILS, partly=as_said),
-        evidence=f"at {', '.join(f'{t:g}' for t in THICKNESSES)} Sq: straight grooves within {straight:.0e}, "
+    return (
+        verdict(as_said and min(crossed, worst(crossed_oblique)) > FAILS, partly=as_said),
+        f"at {', '.join(f'{t:g}' for t in THICKNESSES)} Sq: straight grooves within {straight:.0e}, "
         f"isotropic surfaces equal within the scatter of one box (rms {', '.join(map(_share, scatter))}), straight "
         f"random lay too (largest {_share(max(random))}); grooves at 45° "
         + ", ".join(f"{100 * one.short[0]:+.3g} %" for one in oblique)
@@ -134,8 +131,8 @@ def box_equals_cell(lay: Lay) -> Claim:
     )
 
 
-def offset_is_harmless(offsets: Mapping[str, Sequence[Offset]]) -> Claim:
-    """Claim 26."""
+def offset_is_harmless(offsets: Mapping[str, Sequence[Offset]]) -> Judgement:
+    """Judge claim 26."""
     added = {name: max(_added(one) for one in row) for name, row in offsets.items()}
     coarse = next(iter(MADE))
     leaks = {
@@ -145,11 +142,9 @@ def offset_is_harmless(offsets: Mapping[str, Sequence[Offset]]) -> Claim:
     gave_up = sum(bool(np.isnan(one.offset).any()) for row in offsets.values() for one in row)
     questions = sum(len(row) for row in offsets.values())
     harmless = added[coarse] < HARMLESS
-    return Claim(
-        number=26,
-        text="A 10 nm offset at contact is enough and harmless",
-        verdict=verdict(not invented and max(added.values()) < HARMLESS, partly=harmless),
-        evidence=f"undeformed contact; while A > {OPEN:g} ĥ³ it adds at most "
+    return (
+        verdict(not invented and max(added.values()) < HARMLESS, partly=harmless),
+        f"undeformed contact; while A > {OPEN:g} ĥ³ it adds at most "
         + ", ".join(f"{_share(part)} ({name})" for name, part in added.items())
         + f", about 3 · {1e9 * OFFSET:g} nm over the channels' height. Near sealing the increase has no bound, and "
         "a sealed gap leaks like a smooth slit of "

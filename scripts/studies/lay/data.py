@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import product
 from math import atan2
 
 import numpy as np
@@ -168,24 +169,18 @@ class Turned:
 def turn_all(advance: Callable[[str], None], *, points: int = POINTS, coarser: int = 1) -> Turned:
     """Compute every texture at every turn and seed, or every n-th only; ``advance`` is called ``PARTS`` times."""
     found = {}
-    chosen = TURNS[::coarser]
-    spacing = (SIDE / points, SIDE / points)
+    chosen, spacing = TURNS[::coarser], (SIDE / points, SIDE / points)
     for texture in TEXTURES:
         advance(texture)
         for turn in chosen:
             heights = heights_of(texture, turn, points)
             for thickness in THICKNESSES:
-                gap = gap_at(heights, thickness * ROUGHNESS)
-                found[texture, thickness, turn] = compare(gap, spacing)
+                found[texture, thickness, turn] = compare(gap_at(heights, thickness * ROUGHNESS), spacing)
     straight = {}
-    for texture in TEXTURES:
-        for thickness in THICKNESSES:
-            first, last = (found[texture, thickness, turn].cell for turn in (chosen[0], chosen[-1]))
-            straight[texture, thickness] = (
-                grooves_exactly(thickness)
-                if texture == "grooves"
-                else (np.diag(first.pressure)[::-1], np.array([last.shear[0], first.shear[0]]))
-            )
+    for texture, thickness in product(TEXTURES, THICKNESSES):
+        first, last = (found[texture, thickness, turn].cell for turn in (chosen[0], chosen[-1]))
+        computed = np.diag(first.pressure)[::-1], np.array([last.shear[0], first.shear[0]])
+        straight[texture, thickness] = grooves_exactly(thickness) if texture == "grooves" else computed
     advance("isotropic")
     made = [isotropic(seed, points) for seed in SEEDS[::coarser]]
     return Turned(

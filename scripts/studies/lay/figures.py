@@ -4,7 +4,6 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from roughfilm.figures.base import new_figure
@@ -19,6 +18,14 @@ COLOURS = ("#08519c", "#4292c6", "#9ecae1")
 SURFACES = ("#2166ac", "#b2182b", "#1a7f37", "#b07d2b")
 THIN = 2.0
 """Separation over Sq at which shear is drawn."""
+
+CELL_FACTORS = (((0, 0), ALONG, "A₁₁"), ((1, 1), ACROSS, "A₂₂"), ((0, 1), MIXED, "A₁₂"))
+BOX_FACTORS = ((0, ALONG, "φ₁"), (1, ACROSS, "φ₂"))
+DRAG_FACTORS = ((0, ALONG, "B₁"), (1, MIXED, "B₂"))
+"""Index, colour and label of the factors that are drawn."""
+
+SQUARES: dict[str, Any] = {"marker": "s", "linestyle": "", "markersize": 4.5, "markerfacecolor": "white"}
+LINE_OF_SQUARES: dict[str, Any] = {"marker": "s", "ms": 4, "mfc": "white", "lw": 0.8}
 
 
 def drawings(lay: Lay) -> dict[str, Callable[[Lay], Figure]]:
@@ -41,13 +48,13 @@ def pressure(lay: Lay) -> Figure:
         for axes, thickness in zip(row, THICKNESSES, strict=True):
             tensors = np.array([lay.turned.tensor(texture, thickness, turn) for turn in turns])
             large = np.array([box_of(tensor, (1, 1)) for tensor in tensors])
-            places = np.degrees(turns)
-            for (i, j), colour, name in (((0, 0), ALONG, "A₁₁"), ((1, 1), ACROSS, "A₂₂"), ((0, 1), MIXED, "A₁₂")):
-                axes.plot(places, tensors[:, i, j], color=colour, linewidth=1.2)
-                _dots(axes, lay, (texture, thickness), _entry(i, j), colour, name)
-            for i, colour, name in ((0, ALONG, "φ₁"), (1, ACROSS, "φ₂")):
-                axes.plot(places, large[:, i], color=colour, linewidth=1, linestyle="--")
-                _dots(axes, lay, (texture, thickness), _box_factor(i), colour, name, full=False)
+            places, computed = _turns(lay, texture, thickness)
+            for (i, j), colour, name in CELL_FACTORS:
+                axes.plot(np.degrees(turns), tensors[:, i, j], color=colour, linewidth=1.2)
+                axes.plot(places, [one.cell.pressure[i, j] for one in computed], "o", color=colour, label=name, ms=4.5)
+            for i, colour, name in BOX_FACTORS:
+                axes.plot(np.degrees(turns), large[:, i], color=colour, linewidth=1, linestyle="--")
+                axes.plot(places, [one.box.pressure[i] for one in computed], color=colour, label=name, **SQUARES)
             axes.set_title(f"{texture}, {thickness:g} Sq", fontsize=9)
         row[0].set_ylabel("over ĥ³")
     for axes in panels[-1]:
@@ -56,38 +63,14 @@ def pressure(lay: Lay) -> Figure:
     return figure
 
 
-def _entry(i: int, j: int) -> Callable[[FactorPair], float]:
-    return lambda one: float(one.cell.pressure[i, j])
-
-
-def _box_factor(i: int) -> Callable[[FactorPair], float]:
-    return lambda one: float(one.box.pressure[i])
-
-
-def _drag(i: int) -> Callable[[FactorPair], float]:
-    return lambda one: float(one.cell.shear[i])
-
-
-def _dots(
-    axes: Axes,
-    lay: Lay,
-    setting: tuple[str, float],
-    of: Callable[[FactorPair], float],
-    colour: str,
-    name: str,
-    *,
-    full: bool = True,
-) -> None:
-    """Draw a value at each turn of a texture at a thickness."""
+def _turns(lay: Lay, texture: str, thickness: float) -> tuple[list[float], list[FactorPair]]:
+    """Return the angles of the lay, degrees, in order, and the factors at each."""
     found = {
-        np.degrees(angle(turn)): of(one)
+        np.degrees(angle(turn)): one
         for (own, thick, turn), one in lay.turned.found.items()
-        if (own, thick) == setting
+        if (own, thick) == (texture, thickness)
     }
-    style: dict[str, Any] = {} if full else {"markerfacecolor": "white"}
-    axes.plot(
-        *zip(*sorted(found.items()), strict=True), "o" if full else "s", color=colour, label=name, ms=4.5, **style
-    )
+    return sorted(found), [found[place] for place in sorted(found)]
 
 
 def shear(lay: Lay) -> Figure:
@@ -99,11 +82,12 @@ def shear(lay: Lay) -> Figure:
         tensors = np.array([lay.turned.tensor(texture, THIN, turn) for turn in turns])
         first = np.array([box_of(tensor, (1, 1))[0] for tensor in tensors])
         large = drag[:, 0] - drag[:, 1] * (tensors[:, 0, 0] - first) / tensors[:, 0, 1]
-        for i, colour, name in ((0, ALONG, "B₁"), (1, MIXED, "B₂")):
+        places, computed = _turns(lay, texture, THIN)
+        for i, colour, name in DRAG_FACTORS:
             axes.plot(np.degrees(turns), drag[:, i], color=colour, linewidth=1.2)
-            _dots(axes, lay, (texture, THIN), _drag(i), colour, name)
+            axes.plot(places, [one.cell.shear[i] for one in computed], "o", color=colour, label=name, ms=4.5)
         axes.plot(np.degrees(turns), large, color=ALONG, linewidth=1, linestyle="--")
-        _dots(axes, lay, (texture, THIN), lambda one: one.box.shear, ALONG, "1 + σφs/ĥ", full=False)
+        axes.plot(places, [one.box.shear for one in computed], color=ALONG, label="1 + σφs/ĥ", **SQUARES)
         axes.set_title(f"{texture}, {THIN:g} Sq", fontsize=9)
         axes.set_xlabel("lay against flow, degrees")
     panels[0].set_ylabel("over ĥ")
@@ -137,16 +121,14 @@ def measured(lay: Lay) -> Figure:
     figure, (left, right) = new_figure((10, 4.2), 1, 2)
     places = sorted(one.found)
     rows = [one.found[place] for place in places]
-    for (i, j), colour, name in (((0, 0), ALONG, "A₁₁"), ((1, 1), ACROSS, "A₂₂"), ((0, 1), MIXED, "A₁₂")):
+    for (i, j), colour, name in CELL_FACTORS:
         left.plot(places, [row.cell.pressure[i, j] for row in rows], color=colour, label=name)
-    for i, colour, name in ((0, ALONG, "φ₁"), (1, ACROSS, "φ₂")):
-        left.plot(
-            places, [row.box.pressure[i] for row in rows], "s-", color=colour, label=name, ms=4, mfc="white", lw=0.8
-        )
+    for i, colour, name in BOX_FACTORS:
+        left.plot(places, [row.box.pressure[i] for row in rows], color=colour, label=name, **LINE_OF_SQUARES)
         left.plot(places, [one.boxes[place][i] for place in places], "--", color=colour, linewidth=1)
-    for i, colour, name in ((0, ALONG, "B₁"), (1, MIXED, "B₂")):
+    for i, colour, name in DRAG_FACTORS:
         right.plot(places, [row.cell.shear[i] for row in rows], color=colour, label=name)
-    right.plot(places, [row.box.shear for row in rows], "s-", color=ALONG, label="1 + σφs/ĥ", ms=4, mfc="white", lw=0.8)
+    right.plot(places, [row.box.shear for row in rows], color=ALONG, label="1 + σφs/ĥ", **LINE_OF_SQUARES)
     for axes, name in ((left, "pressure flow factors, over ĥ³"), (right, "shear flow factors, over ĥ")):
         axes.axvline(1, color="black", linewidth=0.8, linestyle="--")
         axes.set(xlabel="separation over highest point, α/ĥ₁", ylabel=name)
@@ -164,15 +146,15 @@ def joints(lay: Lay) -> Figure:
     picture.set_xlabel("along the lay, periods")
     picture.grid(visible=False)
     for number, (thickness, colour) in enumerate(zip(THICKNESSES, COLOURS, strict=True)):
-        rows = [(shift, row[number].passed) for shift, row in lay.joints.cut.items()]
-        shifted.plot([s for s, _ in rows], [p[0] for _, p in rows], color=colour, label=f"{thickness:g} Sq")
-        shifted.plot([s for s, _ in rows], [p[1] for _, p in rows], color=colour, linestyle="--", linewidth=1)
+        shifts = list(lay.joints.cut)
+        raw, blended = np.transpose([row[number].passed for row in lay.joints.cut.values()])
+        shifted.plot(shifts, raw, color=colour, label=f"{thickness:g} Sq")
+        shifted.plot(shifts, blended, color=colour, linestyle="--", linewidth=1)
+        windows = [one for one in lay.joints.windows if one.thickness == thickness]
         for kind, marker in ((0, "o"), (1, "x")):
-            windows = [
-                (one.mismatch[kind], one.passed[kind]) for one in lay.joints.windows if one.thickness == thickness
-            ]
             label = ("raw", "edges blended")[kind] if thickness == THIN else None
-            scattered.plot(*zip(*windows, strict=True), marker, color=colour, ms=4, label=label)
+            x, y = [one.mismatch[kind] for one in windows], [one.passed[kind] for one in windows]
+            scattered.plot(x, y, marker, color=colour, ms=4, label=label)
     shifted.set(xlabel="shift over distance (dashed: blended)", ylabel="flow along the lay, over the truth")
     shifted.legend(fontsize=8)
     scattered.axvline(0.1, color="black", linewidth=0.8, linestyle=":")
@@ -192,14 +174,9 @@ def offsets(lay: Lay) -> Figure:
         left.plot(places, [1e9 * one.slit[0] for one in row], color=colour, linestyle="--", linewidth=1)
         both = [(r, a) for one in row for r, a in zip(one.relative, one.added, strict=True) if r > 0]
         right.plot(*zip(*both, strict=True), "o", color=colour, ms=4, label=name)
-    left.set(
-        yscale="log", xlabel="separation over Sq (dashed: with the offset)", ylabel="slit that leaks as much, ∛A₁₁, nm"
-    )
+    left.set(yscale="log", xlabel="separation over Sq (dashed: with the offset)")
+    left.set_ylabel("slit that leaks as much, ∛A₁₁, nm")
     left.legend(fontsize=8)
-    right.set(
-        xscale="log",
-        yscale="log",
-        xlabel="A₁₁/ĥ³ and A₂₂/ĥ³ with closed contact",
-        ylabel="what the offset adds, over A",
-    )
+    right.set(xscale="log", yscale="log", xlabel="A₁₁/ĥ³ and A₂₂/ĥ³ with closed contact")
+    right.set_ylabel("what the offset adds, over A")
     return figure

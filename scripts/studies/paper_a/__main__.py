@@ -21,7 +21,7 @@ from roughfilm.terminal.console import AsJson, in_one_line, make_directory, run_
 from scripts.studies.paper_a import figures
 from scripts.studies.paper_a.claims import judge
 from scripts.studies.paper_a.data import DEPTHS, NUMBERS, SHAPES, WIDTHS, PaperA, first_zero, still_wall_shear
-from scripts.studies.study import Out, captions, counted, publish
+from scripts.studies.study import Out, counted, publish
 
 
 @in_one_line
@@ -42,15 +42,13 @@ def command(
         ],
         "upwind": upwind,
     }
-    drawn = {name: draw(paper) for name, draw in figures.NUMBERED.items()}
     publish(
         Path(__file__).parent,
         out,
-        drawn | {"onset": figures.onset(paper, onsets), "scheme": figures.scheme(paper)},
+        {name: draw(paper) for name, draw in figures.DRAWINGS.items()} | {"onset": figures.onset(paper, onsets)},
         numbers,
         claims=judge(paper, onsets),
         as_json=as_json,
-        captions=captions(figures.NUMBERED),
         pictures=_streamlines(paper, out),
         upwind=upwind,
     )

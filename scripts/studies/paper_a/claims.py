@@ -6,7 +6,7 @@ from itertools import product
 import numpy as np
 
 from scripts.studies.paper_a.data import DEPTHS, NUMBERS, SHAPES, WIDTHS, PaperA, highest
-from scripts.studies.study import Claim, verdict
+from scripts.studies.study import Claim, Judgement, claims_of, verdict
 
 CYLINDRICAL, AHEAD, LEVEL, BEHIND = SHAPES.values()
 NEGLIGIBLE = 0.01
@@ -15,23 +15,26 @@ DEPTH = np.array(DEPTHS)
 
 def judge(paper: PaperA, onsets: dict[tuple[str, float, float], float]) -> list[Claim]:
     """Judge claims 1 to 7; ``onsets`` gives the depth d+ at which back-flow begins, by shape, w+ and Re."""
-    return [
-        inertia_carries(paper),
-        load_grows(paper),
-        optimum_depth(paper),
-        optimum_at_onset(paper, onsets),
-        friction_falls(paper),
-        splined_against_cylindrical(paper),
-        cylindrical_has_less_friction(paper),
-    ]
+    return claims_of(
+        __file__,
+        {
+            1: inertia_carries(paper),
+            2: load_grows(paper),
+            3: optimum_depth(paper),
+            4: optimum_at_onset(paper, onsets),
+            5: friction_falls(paper),
+            6: splined_against_cylindrical(paper),
+            7: cylindrical_has_less_friction(paper),
+        },
+    )
 
 
 def _verdict(part: float, *, whole: float = 0.99, some: float = 0.5) -> str:
     return verdict(part >= whole, partly=part >= some)
 
 
-def inertia_carries(paper: PaperA) -> Claim:
-    """Claim 1."""
+def inertia_carries(paper: PaperA) -> Judgement:
+    """Judge claim 1."""
     worst = {}
     for name, shape in SHAPES.items():
         rows = paper.rows(shape)
@@ -39,19 +42,17 @@ def inertia_carries(paper: PaperA) -> Claim:
         worst[name] = float(np.nanmax(np.abs(stokes) / np.abs(loads)))
     level = max(worst["cylindrical"], worst["splined, xd+ = 0"])
     shifted = max(worst["splined, xd+ = -0.3"], worst["splined, xd+ = 0.3"])
-    return Claim(
-        number=1,
-        text="Parallel textured surfaces carry load by inertia; Stokes gives (almost) none",
-        verdict=verdict(max(level, shifted) <= NEGLIGIBLE, partly=level <= NEGLIGIBLE),
-        evidence=f"symmetric grooves: Stokes load at most {level:.1e} of the Navier-Stokes load "
+    return (
+        verdict(max(level, shifted) <= NEGLIGIBLE, partly=level <= NEGLIGIBLE),
+        f"symmetric grooves: Stokes load at most {level:.1e} of the Navier-Stokes load "
         "(the small positive load in Fig. A.4 is a discretisation error: creeping flow is reversible); grooves "
         f"with their lowest point off centre carry or lose load without inertia too, up to {shifted:.2g} times the "
         f"load with it",
     )
 
 
-def load_grows(paper: PaperA) -> Claim:
-    """Claim 2."""
+def load_grows(paper: PaperA) -> Judgement:
+    """Judge claim 2."""
     grows_with_number, grows_with_width, exceptions = [], [], set()
     for name, shape in SHAPES.items():
         loads = np.array([paper.table(shape, "load_plus", number) for number in NUMBERS])
@@ -61,11 +62,9 @@ def load_grows(paper: PaperA) -> Claim:
         if not with_width.all():
             exceptions.add(name)
     by_number, by_width = (float(np.concatenate(kept).mean()) for kept in (grows_with_number, grows_with_width))
-    return Claim(
-        number=2,
-        text="Load grows with Re and with groove width",
-        verdict=_verdict(min(by_number, by_width)),
-        evidence=f"the load grows in {by_number:.1%} of the steps of Re and in {by_width:.1%} of the steps of width"
+    return (
+        _verdict(min(by_number, by_width)),
+        f"the load grows in {by_number:.1%} of the steps of Re and in {by_width:.1%} of the steps of width"
         + ("; not always with width: " + ", ".join(sorted(exceptions)) if exceptions else ""),
     )
 
@@ -82,8 +81,8 @@ def _optima(paper: PaperA, setting: str) -> dict[tuple[str, float, float], float
     }
 
 
-def optimum_depth(paper: PaperA) -> Claim:
-    """Claim 3."""
+def optimum_depth(paper: PaperA) -> Judgement:
+    """Judge claim 3."""
 
     def inside(setting: str) -> float:
         values = np.array(list(_optima(paper, setting).values()))
@@ -95,22 +94,18 @@ def optimum_depth(paper: PaperA) -> Claim:
         for name in SHAPES
         if (v := [depth for key, depth in best.items() if key[0] == name])
     )
-    return Claim(
-        number=3,
-        text="Load has an optimum depth, in general at 0.5 < d+ < 0.75",
-        verdict=_verdict(part, whole=0.9, some=0.4),
-        evidence=f"{part:.0%} of the {len(best)} curves have their optimum there; "
-        f"{by_shape}{_with_upwind(paper, inside)}",
+    return (
+        _verdict(part, whole=0.9, some=0.4),
+        f"{part:.0%} of the {len(best)} curves have their optimum there; {by_shape}{_with_upwind(paper, inside)}",
     )
 
 
-def optimum_at_onset(paper: PaperA, onsets: dict[tuple[str, float, float], float]) -> Claim:
-    """Claim 4."""
+def optimum_at_onset(paper: PaperA, onsets: dict[tuple[str, float, float], float]) -> Judgement:
+    """Judge claim 4."""
     best = _optima(paper, paper.best)
     inner = [key for key in best if 0 < onsets[key] < DEPTHS[-1] and best[key] < DEPTHS[-1]]
-    text = "The optimum lies where a vortex begins to form; the vortex harms load"
     if not inner:
-        return Claim(number=4, text=text, verdict="false", evidence="no curve has both an optimum and a vortex")
+        return "false", "no curve has both an optimum and a vortex"
     optimum, onset = (np.array([depths[key] for key in inner]) for depths in (best, onsets))
     falls, turned = [], []
     for (name, shape), number in product(SHAPES.items(), NUMBERS):
@@ -122,11 +117,9 @@ def optimum_at_onset(paper: PaperA, onsets: dict[tuple[str, float, float], float
     near = float((np.abs(ratio - 1) < 0.2).mean())
     order_of_optima, order_of_onsets = (np.argsort(np.argsort(depths)) for depths in (optimum, onset))
     together = float(np.corrcoef(order_of_optima, order_of_onsets)[0, 1])
-    return Claim(
-        number=4,
-        text=text,
-        verdict=verdict(near >= 0.9, partly=together > 0.6),
-        evidence=f"both depths shrink with Re and grow with width (rank correlation {together:.2f}), but the depth "
+    return (
+        verdict(near >= 0.9, partly=together > 0.6),
+        f"both depths shrink with Re and grow with width (rank correlation {together:.2f}), but the depth "
         f"of the greatest load is {np.median(ratio):.2f} times that of the first back-flow (from {ratio.min():.2f} to "
         f"{ratio.max():.2f}; within 20 % of each other in {near:.0%} of {len(inner)} curves), where the reverse flow "
         f"has {np.median(turned):.1%} of the sliding speed; {np.mean(falls):.0%} of the steps in depth beyond the "
@@ -134,8 +127,8 @@ def optimum_at_onset(paper: PaperA, onsets: dict[tuple[str, float, float], float
     )
 
 
-def friction_falls(paper: PaperA) -> Claim:
-    """Claim 5."""
+def friction_falls(paper: PaperA) -> Judgement:
+    """Judge claim 5."""
 
     def exceptions(setting: str) -> list[tuple[float, float, float]]:
         """Width, depth and Re of the steps in depth over which friction does not fall."""
@@ -157,16 +150,14 @@ def friction_falls(paper: PaperA) -> Claim:
     narrow_only = bool(found) and max(width for width, _, _ in found) < 0.35
     upwind = "" if paper.upwind is None else f"; with first-order upwind {in_words(exceptions(paper.upwind))}"
     falls = by_width > 0.99 and (narrow_only or not found)
-    return Claim(
-        number=5,
-        text="Friction falls with depth and width, except for narrow deep grooves at high Re",
-        verdict=verdict(falls and narrow_only, partly=falls),
-        evidence=f"{in_words(found)} and in {by_width:.0%} of the steps of width{upwind}",
+    return (
+        verdict(falls and narrow_only, partly=falls),
+        f"{in_words(found)} and in {by_width:.0%} of the steps of width{upwind}",
     )
 
 
-def splined_against_cylindrical(paper: PaperA) -> Claim:
-    """Claim 6."""
+def splined_against_cylindrical(paper: PaperA) -> Judgement:
+    """Judge claim 6."""
 
     def share(setting: str, number: float) -> float:
         """Return the fraction of widths at which the splined groove carries more, each shape at its best depth."""
@@ -177,26 +168,22 @@ def splined_against_cylindrical(paper: PaperA) -> Claim:
     upwind = ""
     if paper.upwind is not None:
         upwind = f"; with first-order upwind {share(paper.upwind, 40.0):.0%} and {share(paper.upwind, 160.0):.0%}"
-    return Claim(
-        number=6,
-        text="Splined with xd+ = -0.3 beats cylindrical in load at Re = 40, the reverse at Re = 160",
-        verdict=_verdict(min(low, 1 - high)),
-        evidence=f"each at its best depth, the splined one carries more in {low:.0%} of the widths at Re = 40 and in "
+    return (
+        _verdict(min(low, 1 - high)),
+        f"each at its best depth, the splined one carries more in {low:.0%} of the widths at Re = 40 and in "
         f"{high:.0%} at Re = 160{upwind}",
     )
 
 
-def cylindrical_has_less_friction(paper: PaperA) -> Claim:
-    """Claim 7."""
+def cylindrical_has_less_friction(paper: PaperA) -> Judgement:
+    """Judge claim 7."""
     less = [
         (paper.table(CYLINDRICAL, "friction_plus", number) < paper.table(shape, "friction_plus", number)).ravel()
         for number in NUMBERS
         for shape in (AHEAD, LEVEL, BEHIND)
     ]
     part = float(np.concatenate(less).mean())
-    return Claim(
-        number=7,
-        text="Cylindrical grooves have less friction than splined",
-        verdict=_verdict(part),
-        evidence=f"true in {part:.1%} of the pairs of equal width, depth and Re",
+    return (
+        _verdict(part),
+        f"true in {part:.1%} of the pairs of equal width, depth and Re",
     )

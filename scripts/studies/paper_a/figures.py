@@ -1,6 +1,7 @@
 """Figures A.3 to A.15 of Paper A from a sweep, each under its number; dots are Navier-Stokes, lines film_slope."""
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -54,8 +55,8 @@ def _against(
     axes.plot(x, paper.of(quantity, rows, LINE), "-", color=colour, lw=1)
 
 
-def a3(paper: PaperA) -> Figure:
-    """Pressure by Navier-Stokes and Stokes, cylindrical, w+ = 0.2, d+ = 0.25, Re = 10 and 160."""
+def _inertial_pressures(paper: PaperA) -> Figure:
+    """Draw the pressure by Navier-Stokes and Stokes."""
     figure, panels = _panels(2)
     for axes, number in zip(panels, (10.0, 160.0), strict=True):
         rows = paper.rows(CYLINDRICAL, width=0.2, depth=0.25, number=number)
@@ -67,8 +68,8 @@ def a3(paper: PaperA) -> Figure:
     return figure
 
 
-def a4(paper: PaperA) -> Figure:
-    """Load against w+ by Navier-Stokes and Stokes, cylindrical, d+ = 0.25, Re = 10 and 160; logarithmic."""
+def _inertial_loads(paper: PaperA) -> Figure:
+    """Draw the load by Navier-Stokes and Stokes."""
     figure, panels = _panels(2)
     for axes, number in zip(panels, (10.0, 160.0), strict=True):
         rows = paper.rows(CYLINDRICAL, depth=0.25, number=number)
@@ -81,7 +82,8 @@ def a4(paper: PaperA) -> Figure:
     return figure
 
 
-def _pressures(paper: PaperA, cases: Sequence[tuple[str, Shape, float, float]]) -> Figure:
+def _pressures(cases: Sequence[tuple[str, Shape, float, float]], paper: PaperA) -> Figure:
+    """Draw the pressure for four Re: a panel for each title, shape, w+ and d+."""
     figure, panels = _panels(3)
     for axes, (title, shape, width, depth) in zip(panels, cases, strict=True):
         for number, colour in zip(NUMBERS, _colours(4), strict=True):
@@ -93,80 +95,58 @@ def _pressures(paper: PaperA, cases: Sequence[tuple[str, Shape, float, float]]) 
     return figure
 
 
-def a5(paper: PaperA) -> Figure:
-    """Pressure, cylindrical, w+ = 0.3, three depths, four Re."""
-    return _pressures(paper, [(f"d+ = {depth:g}", CYLINDRICAL, 0.3, depth) for depth in (0.25, 0.75, 1.25)])
-
-
-def a6(paper: PaperA) -> Figure:
-    """Pressure, splined, w+ = 0.5, d+ = 0.25, three xd+, four Re."""
-    return _pressures(paper, [(f"xd+ = {shape[1]:g}", shape, 0.5, 0.25) for shape in (AHEAD, LEVEL, BEHIND)])
-
-
-def a11(paper: PaperA) -> Figure:
-    """Load against w+ at d+ = 0.25: cylindrical, and splined with xd+ = 0."""
+def _load_by_width(paper: PaperA) -> Figure:
     figure, panels = _panels(2)
-    for axes, (title, shape) in zip(panels, (("cylindrical", CYLINDRICAL), ("splined, xd+ = 0", LEVEL)), strict=True):
+    for axes, name in zip(panels, ("cylindrical", "splined, xd+ = 0"), strict=True):
         for number, colour in zip(NUMBERS, _colours(4), strict=True):
-            rows = paper.rows(shape, depth=0.25, number=number)
+            rows = paper.rows(SHAPES[name], depth=0.25, number=number)
             _against(axes, paper, "load_plus", rows, "width_plus", f"Re = {number:g}", colour)
-        _labels(axes, "w+", "Fy+", title)
+        _labels(axes, "w+", "Fy+", name)
     return figure
 
 
-def a12(paper: PaperA) -> Figure:
-    """Load of the splined grooves at Re = 40: against w+ at d+ = 0.25, and against d+ at w+ = 0.15."""
+def _splined_loads(paper: PaperA) -> Figure:
     figure, panels = _panels(2)
-    for shape, colour in zip((AHEAD, LEVEL, BEHIND), _colours(3), strict=True):
-        rows = paper.rows(shape, depth=0.25, number=40)
-        _against(panels[0], paper, "load_plus", rows, "width_plus", f"xd+ = {shape[1]:g}", colour)
-        rows = paper.rows(shape, width=0.15, number=40)
-        _against(panels[1], paper, "load_plus", rows, "depth_plus", f"xd+ = {shape[1]:g}", colour)
-    _labels(panels[0], "w+", "Fy+", "Re = 40, d+ = 0.25")
-    _labels(panels[1], "d+", "Fy+", "Re = 40, w+ = 0.15")
+    for axes, fixed, key, x in zip(
+        panels, ({"depth": 0.25}, {"width": 0.15}), ("width_plus", "depth_plus"), ("w+", "d+"), strict=True
+    ):
+        for shape, colour in zip((AHEAD, LEVEL, BEHIND), _colours(3), strict=True):
+            rows = paper.rows(shape, **fixed, number=40)
+            _against(axes, paper, "load_plus", rows, key, f"xd+ = {shape[1]:g}", colour)
+        ((name, value),) = fixed.items()
+        _labels(axes, x, "Fy+", f"Re = 40, {name[0]}+ = {value:g}")
     return figure
 
 
-def a13(paper: PaperA) -> Figure:
-    """Friction against d+ for every w+: full at Re = 40, dashed at Re = 160."""
+def _friction(paper: PaperA) -> Figure:
     figure, panels = _panels(2)
-    for axes, (title, shape) in zip(panels, (("cylindrical", CYLINDRICAL), ("splined, xd+ = 0", LEVEL)), strict=True):
+    for axes, name in zip(panels, ("cylindrical", "splined, xd+ = 0"), strict=True):
         for width, colour in zip(WIDTHS, _colours(len(WIDTHS)), strict=True):
             for number, style in ((40.0, "o-"), (160.0, "s--")):
-                rows = paper.rows(shape, width=width, number=number)
+                rows = paper.rows(SHAPES[name], width=width, number=number)
                 label = f"w+ = {width:g}" if number == 40 else None
                 axes.plot(DEPTH, paper.of("friction_plus", rows), style, color=colour, ms=3, lw=1, label=label)
-        _labels(axes, "d+", "Fx+", title)
+        _labels(axes, "d+", "Fx+", name)
     panels[1].set_ylim(panels[0].get_ylim())
     return figure
 
 
-def _loads(paper: PaperA, number: float) -> Figure:
+def _loads(number: float, paper: PaperA) -> Figure:
+    """Draw the load against d+ for every w+; a tick is at the greatest load."""
     figure, panels = _panels(2, height=4.6)
-    shapes = (("cylindrical", CYLINDRICAL), ("splined, xd+ = -0.3", AHEAD))
-    for axes, (title, shape) in zip(panels, shapes, strict=True):
+    for axes, name in zip(panels, ("cylindrical", "splined, xd+ = -0.3"), strict=True):
         for width, colour in zip(WIDTHS, _colours(len(WIDTHS)), strict=True):
-            rows = paper.rows(shape, width=width, number=number)
+            rows = paper.rows(SHAPES[name], width=width, number=number)
             _against(axes, paper, "load_plus", rows, "depth_plus", f"w+ = {width:g}", colour)
             if paper.upwind is not None:
                 axes.plot(DEPTH, paper.of("load_plus", rows, paper.upwind), ":", color=colour, lw=1.2)
             best = highest(DEPTH, paper.of("load_plus", rows))
             axes.plot(best, np.interp(best, DEPTH, paper.of("load_plus", rows)), "|", color=colour, ms=14)
-        _labels(axes, "d+", "Fy+", f"{title}, Re = {number:g}")
+        _labels(axes, "d+", "Fy+", f"{name}, Re = {number:g}")
     limits = [axes.get_ylim() for axes in panels]
     for axes in panels:
         axes.set_ylim(min(low for low, _ in limits), max(high for _, high in limits))
     return figure
-
-
-def a14(paper: PaperA) -> Figure:
-    """Load against d+ at Re = 40 for every w+: cylindrical, and splined with xd+ = -0.3."""
-    return _loads(paper, 40.0)
-
-
-def a15(paper: PaperA) -> Figure:
-    """Load against d+ at Re = 160 for every w+: cylindrical, and splined with xd+ = -0.3."""
-    return _loads(paper, 160.0)
 
 
 def onset(paper: PaperA, onsets: Onsets) -> Figure:
@@ -204,16 +184,17 @@ def _labels(axes: Axes, x: str, y: str, title: str) -> None:
     axes.legend(fontsize=8)
 
 
-NUMBERED: dict[str, Callable[[PaperA], Figure]] = {
-    "A.3": a3,
-    "A.4": a4,
-    "A.5": a5,
-    "A.6": a6,
-    "A.11": a11,
-    "A.12": a12,
-    "A.13": a13,
-    "A.14": a14,
-    "A.15": a15,
+DRAWINGS: dict[str, Callable[[PaperA], Figure]] = {
+    "A.3": _inertial_pressures,
+    "A.4": _inertial_loads,
+    "A.5": partial(_pressures, [(f"d+ = {depth:g}", CYLINDRICAL, 0.3, depth) for depth in (0.25, 0.75, 1.25)]),
+    "A.6": partial(_pressures, [(f"xd+ = {shape[1]:g}", shape, 0.5, 0.25) for shape in (AHEAD, LEVEL, BEHIND)]),
+    "A.11": _load_by_width,
+    "A.12": _splined_loads,
+    "A.13": _friction,
+    "A.14": partial(_loads, 40.0),
+    "A.15": partial(_loads, 160.0),
+    "scheme": scheme,
 }
 
 STREAMLINES: dict[str, tuple[tuple[str, str, float, float, float], ...]] = {

@@ -12,26 +12,8 @@ from typing import Any
 from roughfilm.terminal.console import AsJson, in_one_line, make_directory, run_alone
 from scripts.studies.paper_b import data, figures
 from scripts.studies.paper_b.claims import MAXIMA_APART, PrintedDifference, judge, maxima, rows
-from scripts.studies.paper_b.data import COARSE, CONSTANT, HALF, MODULUS, ORIGINAL, ROUNDED, PaperB, compute, difference
-from scripts.studies.study import Out, captions, counted, publish
-
-OPEN = (
-    (
-        "what S is (Eq. B.11)",
-        "both |∫ψ* dx − ∫ψ dx| / ∫ψ dx, as it is printed, and ∫|ψ* − ψ| dx / ∫ψ dx",
-        "ψ is p above ambient, or θ; the reference ψ is D&H-MNL, in B.10 and B.12 constant β, MNL",
-    ),
-    ("H0 = 25 µm (B.2 to B.5)", "25.4 µm", "the axes of B.2 and B.4 say 2.54 and 5.08"),
-    ("β of constant β, MNL: 3.3 or 3.34 GPa", f"{MODULUS:.4f} GPa", "C1/(C2 − 1), dp/dθ of the fit at θ = 1"),
-    ("θ = 1.0001 at the inlet (B.3, B.5)", "θ = 1.0001 in each law", "6.9 kPa in one law and 336 kPa in the other"),
-    ("measured oil (B.1)", "left out", "the points are not printed"),
-    ("film of B.13 to B.15", "H0 = 10 µm, A = 5 µm", "as B.16 and B.17, whose numbers are printed"),
-    ("wavelengths (B.13, B.16)", "10 and 5 mm", "peaks then reach 1.06 MPa in B.14 and θ = 1.0003 in B.15"),
-    ("inlet of B.14 and B.15", "flooded, p = pc", "the caption is damaged"),
-    ("lubricant of B.14 to B.17", "D&H-MNL", "not stated; at 2 MPa it hardly matters"),
-    ("pressures", "above ambient", "the paper's are absolute where it writes pw = 2·10⁵ Pa; add 0.1 MPa"),
-)
-"""What the paper leaves open, our choice, and its reason."""
+from scripts.studies.paper_b.data import COARSE, CONSTANT, HALF, ORIGINAL, ROUNDED, PaperB, compute, difference
+from scripts.studies.study import Out, counted, publish
 
 FRONTS = {"starved": ORIGINAL, "starved, moduli": HALF}
 """Films that begin a little downstream of the reference."""
@@ -45,18 +27,15 @@ def command(out: Out, as_json: AsJson = False) -> None:
         paper = compute(advance)
     compared = rows(paper)
     results = numbers(paper, compared)
-    drawings = figures.NUMBERED | {"claim 9": figures.reach}
     publish(
         Path(__file__).parent,
         out,
-        {name: draw(paper) for name, draw in drawings.items()},
+        {name: draw(paper) for name, draw in figures.DRAWINGS.items()},
         results,
         claims=judge(paper),
         as_json=as_json,
-        captions=captions(drawings),
         rows=compared,
         maxima_apart=MAXIMA_APART,
-        open=OPEN,
         **{name: results[name] for name in ("cells", "maxima", "fronts", "readings", "moduli", "patterns")},
     )
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from scripts.studies.paper_b.data import CONSTANT, DOUBLE, HALF, ORIGINAL, SOFT, CavitatingFilm, FilmDifference, PaperB
-from scripts.studies.study import Claim, verdict
+from scripts.studies.study import Claim, Judgement, claims_of, verdict
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,21 +77,19 @@ def maxima(film: CavitatingFilm) -> tuple[float, float]:
 
 def judge(paper: PaperB) -> list[Claim]:
     """Judge claims 8 to 10."""
-    return [laws_differ(paper), constant_modulus(paper), inlet_matters(paper)]
+    return claims_of(__file__, {8: laws_differ(paper), 9: constant_modulus(paper), 10: inlet_matters(paper)})
 
 
-def laws_differ(paper: PaperB) -> Claim:
-    """Claim 8."""
+def laws_differ(paper: PaperB) -> Judgement:
+    """Judge claim 8."""
     said = {"flooded": 0.017, "starved": 0.074, "gap": 0.22}
     found = {case: paper.found[case, ORIGINAL, "p"][0] for case in said}
     near = [abs(found[case].integrals / value - 1) <= 0.1 for case, value in said.items()]
     ordered = bool((np.diff([one.integrals for one in found.values()]) > 0).all())
     flooded = found["flooded"]
-    return Claim(
-        number=8,
-        text="Two compressibility laws differ by 1.7 % in load flooded, 7.4 % and 22 % starved",
-        verdict=verdict(all(near), partly=any(near) and ordered),
-        evidence="loads with D&H-Orig and D&H-MNL differ by "
+    return (
+        verdict(all(near), partly=any(near) and ordered),
+        "loads with D&H-Orig and D&H-MNL differ by "
         + ", ".join(f"{100 * one.integrals:.3g} % ({case})" for case, one in found.items())
         + f"; the number of the paper for the flooded film is ∫|p* − p| dx / ∫p dx, here {100 * flooded.between:.3g} "
         f"%: excess upstream and deficit downstream add up in it, while they cancel in the load; for starved "
@@ -99,8 +97,8 @@ def laws_differ(paper: PaperB) -> Claim:
     )
 
 
-def constant_modulus(paper: PaperB) -> Claim:
-    """Claim 9."""
+def constant_modulus(paper: PaperB) -> Judgement:
+    """Judge claim 9."""
     summary, at_fifty = [], []
     for name, sweep in paper.sweeps.items():
         reach = []
@@ -114,16 +112,14 @@ def constant_modulus(paper: PaperB) -> Claim:
             f"{100 * sweep.at(CONSTANT, 100e6):.2g} % at 100 MPa "
             f"(D&H-Orig: {100 * sweep.at(ORIGINAL, 50e6):.2g} % and {100 * sweep.at(ORIGINAL, 100e6):.2g} %)"
         )
-    return Claim(
-        number=9,
-        text="Constant bulk modulus at ambient is as good as Dowson–Higginson up to about 50–100 MPa",
-        verdict=verdict(max(at_fifty) < 0.02, partly=min(at_fifty) < 0.02),
-        evidence="loads with constant β against D&H-MNL at rising speed: " + "; ".join(summary),
+    return (
+        verdict(max(at_fifty) < 0.02, partly=min(at_fifty) < 0.02),
+        "loads with constant β against D&H-MNL at rising speed: " + "; ".join(summary),
     )
 
 
-def inlet_matters(paper: PaperB) -> Claim:
-    """Claim 10."""
+def inlet_matters(paper: PaperB) -> Judgement:
+    """Judge claim 10."""
     full = {name: film.load for (name, inlet), film in paper.patterns.items() if inlet == "pc"}
     pressed = {name: film.load for (name, inlet), film in paper.patterns.items() if inlet == "2 pc"}
     raised = {name: pressed[name] / load - 1 for name, load in full.items()}
@@ -131,11 +127,9 @@ def inlet_matters(paper: PaperB) -> Claim:
     by_pressure, somewhere = min(raised.values()) >= 0.1, max(raised.values()) >= 0.1
     loads = ", ".join(f"{name} {load / 1e3:.4g} kN/m" for name, load in full.items())
     rises = ", ".join(f"{name} {100 * rise:+.3g} %" for name, rise in raised.items())
-    return Claim(
-        number=10,
-        text="Surface pattern and pressure at the inlet matter much for load",
-        verdict=verdict(by_pattern and by_pressure, partly=by_pattern or somewhere),
-        evidence=f"inlet at pc: {loads}, while the plain parallel gap has no load; inlet at 2 pc: {rises}, while the "
+    return (
+        verdict(by_pattern and by_pressure, partly=by_pattern or somewhere),
+        f"inlet at pc: {loads}, while the plain parallel gap has no load; inlet at 2 pc: {rises}, while the "
         "plain gap has 5 kN/m. The pattern decides: waves about the plain gap rupture the film, and the load grows "
         "with their length; pockets that end in a step do not, and the load does not depend on their length. For "
         "these the inlet pressure adds little more than in the plain gap",

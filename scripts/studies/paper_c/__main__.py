@@ -19,52 +19,7 @@ from scripts.studies.paper_c.claims import apart, judge, order_holds_to
 from scripts.studies.paper_c.data import ALPHAS, RANGE, TABLE, WAYS, PaperC, compute
 from scripts.studies.paper_c.films import LOADS
 from scripts.studies.paper_d.data import MACHINING
-from scripts.studies.study import Out, captions, counted, publish
-
-OPEN = (
-    (
-        "the measured profiles",
-        "random ones, self-affine (H = 0.8 from the 4th wave on), 512 points on 0.42 mm",
-        "not public; all five numbers of each row of Table C.2 are met, see above",
-    ),
-    (
-        "rmax",
-        "height of the highest point over the mean",
-        "Eq. C.12 has contact at α = 1 and a mean of G of 1, so that it cannot be the whole height",
-    ),
-    (
-        "which factor is which",
-        "φx of pressure, φs of sliding",
-        "Eqs. C.14 to C.18; the nomenclature has them exchanged",
-    ),
-    (
-        "β, printed 10⁹ GPa",
-        "1 GPa",
-        "10 GPa would take S of C.10 and C of C.12 beyond the axes of the paper, 100 and 140 MPa, see below",
-    ),
-    (
-        "where the nodes lie on the profile",
-        "on its points (N = 2ᵏ), and beside them (N = 2ᵏ − 4)",
-        "not stated; it decides the order of Simpson's rule",
-    ),
-    (
-        "the joint of the period",
-        "a straight line from the last point to the first",
-        "512 lines; the paper may have 511",
-    ),
-    (
-        "rearrangements",
-        "six, cut at random levels (roughfilm.contact.synthetic.rearrangement)",
-        "the paper has five, built peak by peak, of a profile with 2¹⁶ points",
-    ),
-    (
-        "flow factors between computed α (C.10 to C.12)",
-        "none are: closed forms at every point",
-        "the paper uses splines",
-    ),
-    ("films of C.13", "narrowing by 1 µm from inlet to outlet", "the caption's max h0 = min h0 + 1 µm"),
-)
-"""What the paper leaves open, our choice, and its reason."""
+from scripts.studies.study import Out, counted, publish
 
 
 @in_one_line
@@ -74,15 +29,13 @@ def command(out: Out, as_json: AsJson = False) -> None:
     with counted(data.PARTS) as advance:
         paper = compute(advance)
     results = numbers(paper)
-    drawings = figures.NUMBERED | {"claim 14": figures.claim_14}
     publish(
         Path(__file__).parent,
         out,
-        {name: draw(paper) for name, draw in drawings.items()},
+        {name: draw(paper) for name, draw in figures.DRAWINGS.items()},
         results,
         claims=judge(paper),
         as_json=as_json,
-        captions=captions(drawings),
         table=TABLE,
         machining=MACHINING,
         made=results["profiles"],
@@ -92,7 +45,6 @@ def command(out: Out, as_json: AsJson = False) -> None:
         spread=results["spread"],
         until=results["order_holds_to"],
         best=results["a_flows_best"],
-        open=OPEN,
     )
 
 

@@ -8,7 +8,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.homogenization.node_sums import Rule
 from scripts.studies.paper_c.data import ALPHAS, BESIDE, POINTS, RANGE, TABLE, WAYS, PaperC
 from scripts.studies.paper_c.films import LOADS, MODULUS, SMOOTH, SPAN, Curve
-from scripts.studies.study import Claim, verdict
+from scripts.studies.study import Claim, Judgement, claims_of, verdict
 
 EQUAL_FACTORS = 1e-10
 """Relative difference below which factors count as equal."""
@@ -25,7 +25,7 @@ ORDERED_FRACTION = 0.95
 
 def judge(paper: PaperC) -> list[Claim]:
     """Judge claims 11, 12 and 14."""
-    return [same_bearing_curve(paper), fewer_nodes(paper), ordered_by_roughness(paper)]
+    return claims_of(__file__, {11: same_bearing_curve(paper), 12: fewer_nodes(paper), 14: ordered_by_roughness(paper)})
 
 
 def apart(values: Array) -> Array:
@@ -33,26 +33,24 @@ def apart(values: Array) -> Array:
     return np.asarray(np.ptp(values, axis=0) / values[0])
 
 
-def same_bearing_curve(paper: PaperC) -> Claim:
-    """Claim 11."""
+def same_bearing_curve(paper: PaperC) -> Judgement:
+    """Judge claim 11."""
     near = int(np.argmin(np.abs(RANGE - ALPHAS[0])))
     worst = {way: max(float(apart(paper.shuffled[name, way]).max()) for name in TABLE) for way in WAYS}
     thick = {way: max(float(apart(paper.shuffled[name, way])[near].max()) for name in TABLE) for way in WAYS}
     sums, lines, refined = WAYS
     said = "; ".join(f"{way}: {thick[way]:.1e} at α = {RANGE[near]:.2f}, {worst[way]:.1e} at most" for way in WAYS)
-    return Claim(
-        number=11,
-        text="Profiles with the same bearing curve have the same flow factors",
-        verdict="true" if worst[sums] < EQUAL_FACTORS and worst[refined] < worst[lines] else "false",
-        evidence=f"six rearrangements and the profile itself differ by: {said}. The claim is a theorem for flow across "
+    return (
+        "true" if worst[sums] < EQUAL_FACTORS and worst[refined] < worst[lines] else "false",
+        f"six rearrangements and the profile itself differ by: {said}. The claim is a theorem for flow across "
         f"the ridges, and exact where only the heights are summed. Straight lines between rearranged points have "
         f"another bearing curve: {POINTS} heights do not determine the factors near contact, where the lines next to "
         f"the highest point decide",
     )
 
 
-def fewer_nodes(paper: PaperC) -> Claim:
-    """Claim 12."""
+def fewer_nodes(paper: PaperC) -> Judgement:
+    """Judge claim 12."""
     near = ALPHAS[-1]
 
     def needed(name: str, rule: Rule, left_out: int) -> float:
@@ -75,11 +73,9 @@ def fewer_nodes(paper: PaperC) -> Claim:
         )
 
     on, beside = min(ratios(0)) >= 2, min(ratios(BESIDE)) >= 2
-    return Claim(
-        number=12,
-        text="Simpson's rule needs far fewer nodes than the trapezoid rule or the differential equation",
-        verdict=verdict(on and beside, partly=on or beside),
-        evidence=f"nodes for {100 * FACTOR_ERROR:g} % at α = {near}, where N is a multiple of {POINTS} and every "
+    return (
+        verdict(on and beside, partly=on or beside),
+        f"nodes for {100 * FACTOR_ERROR:g} % at α = {near}, where N is a multiple of {POINTS} and every "
         f"point is a node: {in_words(0)}; with {BESIDE} nodes fewer, most of them beside the points: "
         f"{in_words(BESIDE)}: corners inside its pairs of steps reduce the order of Simpson's rule. At α = "
         f"{ALPHAS[0]} all rules are within {_worst_at_first(paper):.0e} on "
@@ -93,8 +89,8 @@ def _worst_at_first(paper: PaperC) -> float:
     return max(float(study.errors(rule, left_out)[:, 0].max()) for study in studies for rule, left_out in study.found)
 
 
-def ordered_by_roughness(paper: PaperC) -> Claim:
-    """Claim 14."""
+def ordered_by_roughness(paper: PaperC) -> Judgement:
+    """Judge claim 14."""
     loads = [k for k, load in enumerate(LOADS) if JUDGED_LOADS[0] <= load <= JUDGED_LOADS[1]]
     until = order_holds_to(paper.curves)
     random, alike = paper.orderings["random"], paper.orderings["of one Ra"]
@@ -105,11 +101,9 @@ def ordered_by_roughness(paper: PaperC) -> Claim:
     said = ", ".join(f"{number} {100 * min(parts):.1f} to {100 * max(parts):.1f} %" for number, parts in by.items())
     within = [alike.concordance("rmax", k) for k in loads]
     spread = np.ptp(alike.clearance[:, loads[-1]])
-    return Claim(
-        number=14,
-        text="The minimum film at a load follows Ra",
-        verdict=verdict(four and general, partly=four or general),
-        evidence=f"the four profiles, smooth first, keep the order of Ra for every seed up to {until / 1e6:.3g} MN/m "
+    return (
+        verdict(four and general, partly=four or general),
+        f"the four profiles, smooth first, keep the order of Ra for every seed up to {until / 1e6:.3g} MN/m "
         f"(mean pressure {until / SPAN / 1e6:.3g} MPa, {until / SPAN / MODULUS:.2g} of β). Their rmax has the same "
         f"order, and it decides: of the pairs of {random.clearance.shape[0]} random profiles at "
         f"{JUDGED_LOADS[0] / 1e6:g} to {JUDGED_LOADS[1] / 1e6:g} MN/m the rougher has the thinner film in: {said}; in "

@@ -1,7 +1,9 @@
 """Figures C.4 to C.13 of Paper C; A to D are profiles made to its table, S is smooth."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable
+from functools import partial
+from itertools import product
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,6 +13,7 @@ from matplotlib.ticker import NullFormatter
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.parameters.bearing_curve import bearing_curve
+from roughfilm.figures.base import new_figure
 from roughfilm.rom.homogenization.node_sums import Rule
 from scripts.studies.paper_c.data import ALPHAS, BESIDE, RANGE, WAYS, PaperC
 from scripts.studies.paper_c.films import LOADS, SMOOTH
@@ -23,8 +26,9 @@ FACTORS = ("φx", "φs")
 
 
 def _panels(rows: int, columns: int, height: float = 3.5, *, same: bool = False) -> tuple[Figure, list[Axes]]:
-    figure = Figure(figsize=((5 if columns < 3 else 3.9) * columns, height * rows), layout="constrained")
-    return figure, list(figure.subplots(rows, columns, squeeze=False, sharey="row" if same else False).ravel())
+    size = (5 if columns < 3 else 3.9) * columns, height * rows
+    figure, panels = new_figure(size, rows, columns, squeeze=False, sharey="row" if same else False)
+    return figure, list(panels.ravel())
 
 
 def _powers(axis: Axis, base: int) -> None:
@@ -46,8 +50,7 @@ def _nodes(axes: Axes) -> None:
     axes.set_xlabel("nodes N")
 
 
-def c4(paper: PaperC) -> Figure:
-    """Bearing curves: r in µm, and G = 1 − r/rmax, whose mean is 1 and whose least is 0."""
+def _bearing_curves(paper: PaperC) -> Figure:
     figure, (left, right) = _panels(1, 2)
     for name, made in paper.profiles.items():
         heights = made[0]
@@ -62,11 +65,7 @@ def c4(paper: PaperC) -> Figure:
     return figure
 
 
-def c5(paper: PaperC) -> Figure:
-    """Profile A at α = 0.98: change from N/2 to N nodes (above), and error against the closed form (below).
-
-    The paper's figure is the upper one. Dashed: four nodes fewer, so that they lie beside the points of the profile.
-    """
+def _profile_a(paper: PaperC) -> Figure:
     figure, panels = _panels(2, 2)
     study = paper.convergence["A", ALPHAS[-1]]
     for i, factor in enumerate(FACTORS):
@@ -83,31 +82,27 @@ def c5(paper: PaperC) -> Figure:
     return figure
 
 
-def c6(paper: PaperC) -> Figure:
-    """Change from N/2 to N nodes by Simpson's rule at α = 0.49 (above), 0.98 (below); dashed: nodes beside points."""
+def _change(axes: Axes, name: str, left_out: int, nodes: Array, values: Array) -> None:
+    """Draw the change of a value of one profile from N/2 to N nodes."""
+    style, _ = PLACES[left_out]
+    label = name if style == "-" else ""
+    axes.plot(nodes[1:], np.maximum(values, 1e-15), style, color=COLOURS[name], label=label, lw=1.4)
+
+
+def _changes(paper: PaperC) -> Figure:
     figure, panels = _panels(2, 2, same=True)
-    for row, alpha in enumerate(ALPHAS):
-        for i, factor in enumerate(FACTORS):
-            axes = panels[2 * row + i]
-            for name in paper.profiles:
-                study = paper.convergence[name, alpha]
-                for left_out, (style, _) in PLACES.items():
-                    values = np.maximum(study.changes(Rule.SIMPSON, left_out)[0, :, i], 1e-15)
-                    label = name if style == "-" else ""
-                    axes.plot(study.nodes[1:], values, style, color=COLOURS[name], label=label, lw=1.4)
-            axes.set_title(f"α = {alpha}", fontsize=10)
-            axes.set_ylabel(f"change of {factor}")
-            _nodes(axes)
+    for axes, (alpha, (i, factor)) in zip(panels, product(ALPHAS, enumerate(FACTORS)), strict=True):
+        for name, left_out in product(paper.profiles, PLACES):
+            study = paper.convergence[name, alpha]
+            _change(axes, name, left_out, study.nodes, study.changes(Rule.SIMPSON, left_out)[0, :, i])
+        axes.set_title(f"α = {alpha}", fontsize=10)
+        axes.set_ylabel(f"change of {factor}")
+        _nodes(axes)
     panels[0].legend()
     return figure
 
 
-def c7(paper: PaperC) -> Figure:
-    """Standard deviation of φx over a profile and six rearrangements of it, integrated in three ways.
-
-    Sums over the 512 heights are the same to rounding; straight lines between them are not, unless the profile was
-    refined before it was rearranged, as in the paper.
-    """
+def _rearranged(paper: PaperC) -> Figure:
     figure, panels = _panels(1, 3, same=True)
     for axes, way in zip(panels, WAYS, strict=True):
         for name in paper.profiles:
@@ -121,8 +116,7 @@ def c7(paper: PaperC) -> Figure:
     return figure
 
 
-def c8(paper: PaperC) -> Figure:
-    """Flow factors over α; bands: from the least to the greatest of the seeds, visible near contact only (insets)."""
+def _factors(paper: PaperC) -> Figure:
     figure, panels = _panels(1, 2, 4.2)
     for i, (axes, factor) in enumerate(zip(panels, FACTORS, strict=True)):
         inset = axes.inset_axes((0.1, 0.1, 0.42, 0.42))
@@ -139,17 +133,13 @@ def c8(paper: PaperC) -> Figure:
     return figure
 
 
-def c9(paper: PaperC) -> Figure:
-    """Change of the load from N/2 to N nodes, ĥ = 6 to 5 µm; the paper has below 2.8·10⁻⁵ at 2¹⁶ (grey)."""
+def _load_changes(paper: PaperC) -> Figure:
     figure, panels = _panels(1, 2, 3.8, same=True)
     nodes = 2.0 ** np.array(paper.powers)
     for axes, rule in zip(panels, (Rule.SIMPSON, Rule.TRAPEZOID), strict=True):
-        for name in paper.profiles:
-            for left_out, (style, _) in PLACES.items():
-                loads = paper.loads[name, rule, left_out]
-                change = np.abs(2 * np.diff(loads) / (loads[1:] + loads[:-1]))
-                label = name if style == "-" else ""
-                axes.plot(nodes[1:], np.maximum(change, 1e-15), style, color=COLOURS[name], label=label, lw=1.4)
+        for name, left_out in product(paper.profiles, PLACES):
+            loads = paper.loads[name, rule, left_out]
+            _change(axes, name, left_out, nodes, np.abs(2 * np.diff(loads) / (loads[1:] + loads[:-1])))
         axes.plot([2**16], [2.8e-5], "v", color="#5b6675", ms=8)
         axes.set_title(f"{rule} rule" if rule is Rule.TRAPEZOID else f"{rule}'s rule", fontsize=10)
         _nodes(axes)
@@ -158,9 +148,8 @@ def c9(paper: PaperC) -> Figure:
     return figure
 
 
-def _pressures(paper: PaperC, figure_name: str) -> Figure:
-    figure, (axes,) = _panels(1, 1, 3.9)
-    figure.set_size_inches(8, 3.9)
+def _pressures(figure_name: str, paper: PaperC) -> Figure:
+    figure, axes = new_figure((8, 3.9))
     for name, film in paper.films[figure_name].items():
         axes.plot(film.x, film.pressure / 1e6, color=COLOURS[name], label=name, lw=1.6)
     axes.set(xlabel="x, m", ylabel="p, MPa", xlim=(0, film.x[-1]), ylim=(0, None))
@@ -168,23 +157,7 @@ def _pressures(paper: PaperC, figure_name: str) -> Figure:
     return figure
 
 
-def c10(paper: PaperC) -> Figure:
-    """Pressure at equal h0 = 3.4 to 3.0 µm, from the highest points."""
-    return _pressures(paper, "C.10")
-
-
-def c11(paper: PaperC) -> Figure:
-    """Pressure at equal mean ĥ = 4.4 to 4.0 µm."""
-    return _pressures(paper, "C.11")
-
-
-def c12(paper: PaperC) -> Figure:
-    """Pressure at equal Λ = min h0/Rq = 10, narrowing by 0.4 µm."""
-    return _pressures(paper, "C.12")
-
-
-def c13(paper: PaperC) -> Figure:
-    """Films min h0 and Λ over load, the film narrowing by 1 µm: on the paper's axes, and beyond them (right)."""
+def _films_by_load(paper: PaperC) -> Figure:
     figure, (left, middle, right) = _panels(1, 3, 3.9)
     loads = np.geomspace(LOADS[0], 1e8, 200)
     for name, curves in paper.curves.items():
@@ -193,38 +166,39 @@ def c13(paper: PaperC) -> Figure:
             axes.plot(loads / 1e5, 1e6 * clearance, color=COLOURS[name], label=name, lw=1.6)
         if name != SMOOTH:
             middle.plot(loads / 1e5, clearance / curves[0].rms, color=COLOURS[name], lw=1.6)
-    _range(left, (0, 10), (5, 25), "min h0, µm")
-    _range(middle, (0, 10), (0, 130), "Λ")
+    left.set(xlim=(0, 10), ylim=(5, 25), xlabel="W, 10⁵ N/m", ylabel="min h0, µm")
+    middle.set(xlim=(0, 10), ylim=(0, 130), xlabel="W, 10⁵ N/m", ylabel="Λ")
     right.set_xscale("log")
     _powers(right.xaxis, 10)
     _logarithmic(right)
-    _range(right, (LOADS[0] / 1e5, 1000), (0.02, 30), "min h0, µm")
+    right.set(xlim=(LOADS[0] / 1e5, 1000), ylim=(0.02, 30), xlabel="W, 10⁵ N/m", ylabel="min h0, µm")
     left.legend()
     return figure
 
 
-def _range(axes: Axes, x: tuple[float, float], y: tuple[float, float], label: str) -> None:
-    axes.set(xlim=x, ylim=y, xlabel="W, 10⁵ N/m", ylabel=label)
-
-
-NUMBERED = {
-    f"C.{number}": draw for number, draw in zip(range(4, 14), (c4, c5, c6, c7, c8, c9, c10, c11, c12, c13), strict=True)
-}
-
-
-def claim_14(paper: PaperC) -> Figure:
-    """Films min h0 of random profiles at 5·10⁵ N/m over Ra, Rq and rmax: only the last one orders them."""
+def _random_films(paper: PaperC) -> Figure:
     figure, panels = _panels(1, 3, 3.9, same=True)
     load = LOADS.index(5e5)
     for axes, number in zip(panels, ("Ra", "Rq", "rmax"), strict=True):
-        _scatter(axes, [paper.orderings[kind].numbers[number] for kind in paper.orderings], paper, load)
+        for (kind, ordering), colour in zip(paper.orderings.items(), ("#2166ac", "#b2182b"), strict=True):
+            x, y = 1e6 * ordering.numbers[number], 1e6 * ordering.clearance[:, load]
+            axes.plot(x, y, ".", color=colour, label=kind, ms=5, alpha=0.8)
         axes.set_xlabel(f"{number}, µm")
     panels[0].set_ylabel("min h0, µm")
     panels[0].legend()
     return figure
 
 
-def _scatter(axes: Axes, values: Sequence[Array], paper: PaperC, load: int) -> None:
-    marks = zip(paper.orderings.items(), values, ("#2166ac", "#b2182b"), strict=True)
-    for (kind, ordering), rough, colour in marks:
-        axes.plot(1e6 * rough, 1e6 * ordering.clearance[:, load], ".", color=colour, label=kind, ms=5, alpha=0.8)
+DRAWINGS: dict[str, Callable[[PaperC], Figure]] = {
+    "C.4": _bearing_curves,
+    "C.5": _profile_a,
+    "C.6": _changes,
+    "C.7": _rearranged,
+    "C.8": _factors,
+    "C.9": _load_changes,
+    "C.10": partial(_pressures, "C.10"),
+    "C.11": partial(_pressures, "C.11"),
+    "C.12": partial(_pressures, "C.12"),
+    "C.13": _films_by_load,
+    "claim 14": _random_films,
+}

@@ -16,7 +16,7 @@ from scripts.studies.paper_d import figures
 from scripts.studies.paper_d.claims import judge
 from scripts.studies.paper_d.data import MACHINING, SPECTRA, PaperD, State, compute
 from scripts.studies.paper_e.surface import Reloading, load_model, reload
-from scripts.studies.study import Out, captions, counted, publish
+from scripts.studies.study import Out, counted, publish
 
 
 @in_one_line
@@ -31,11 +31,10 @@ def command(out: Out, as_json: AsJson = False) -> None:
     publish(
         Path(__file__).parent,
         out,
-        {name: draw(paper) for name, draw in figures.NUMBERED.items()} | {"E.4": figures.e4(model)},
+        {name: draw(paper) for name, draw in figures.DRAWINGS.items()} | {"E.4": figures.e4(model)},
         results,
         claims=judge(paper),
         as_json=as_json,
-        captions=captions({**figures.NUMBERED, "E.4": figures.e4}),
         table=STEEL_PROFILES,
         machining=MACHINING,
         made=results["profiles"],

@@ -5,7 +5,7 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.synthetic.profile import STEEL_PROFILES
 from scripts.studies.paper_d.data import LENGTH, SPECTRA, STEEL, PaperD
-from scripts.studies.study import Claim, verdict
+from scripts.studies.study import Claim, Judgement, claims_of, verdict
 
 LEAST_NODES = 4
 """Least number of nodes in contact, on average, at the loads that are fitted."""
@@ -13,7 +13,8 @@ LEAST_NODES = 4
 
 def judge(paper: PaperD) -> list[Claim]:
     """Judge claims 15 to 18."""
-    return [area_grows(paper), area_by_roughness(paper), plasticity(paper), highest_waves(paper)]
+    judges = {15: area_grows, 16: area_by_roughness, 17: plasticity, 18: highest_waves}
+    return claims_of(__file__, {number: judge_one(paper) for number, judge_one in judges.items()})
 
 
 def power_of(x: Array, y: Array) -> float:
@@ -37,8 +38,8 @@ def _in_words(values: dict[str, float], form: str) -> str:
     return ", ".join(f"{name} {value:{form}}" for name, value in values.items())
 
 
-def area_grows(paper: PaperD) -> Claim:
-    """Claim 15."""
+def area_grows(paper: PaperD) -> Judgement:
+    """Judge claim 15."""
     loads, powers, fits = np.array(paper.loads), {}, {}
     for (spectrum, name), state in paper.pressed.items():
         area = state["area"].mean(axis=0)
@@ -48,17 +49,15 @@ def area_grows(paper: PaperD) -> Claim:
         fits[key] = straightness(loads[used], area[used])
     worst = max(abs(power - 1) for power in powers.values())
     straight = min(fits.values())
-    return Claim(
-        number=15,
-        text="The real area of contact grows nearly linearly with load",
-        verdict=verdict(worst <= 0.1 and straight >= 0.99, partly=worst <= 0.25),
-        evidence=f"exponents {_in_words(powers, '.2f')}; R² of the line through the origin at least {straight:.3f} "
+    return (
+        verdict(worst <= 0.1 and straight >= 0.99, partly=worst <= 0.25),
+        f"exponents {_in_words(powers, '.2f')}; R² of the line through the origin at least {straight:.3f} "
         f"(loads at which {LEAST_NODES} nodes or more are in contact on average)",
     )
 
 
-def area_by_roughness(paper: PaperD) -> Claim:
-    """Claim 16."""
+def area_by_roughness(paper: PaperD) -> Judgement:
+    """Judge claim 16."""
     rough = np.array([row.average for row in STEEL_PROFILES.values()])
     bound = paper.loads[-1] / LENGTH / STEEL.hardness
     powers, ratios, said = {}, {}, []
@@ -69,18 +68,16 @@ def area_by_roughness(paper: PaperD) -> Claim:
             f"{spectrum}: {', '.join(f'{n} {100 * a:.1f} %' for n, a in zip(STEEL_PROFILES, areas, strict=True))}"
         )
     worst = max(ratios.values())
-    return Claim(
-        number=16,
-        text="The real area of contact hardly depends on Ra",
-        verdict=verdict(worst <= 1.2, partly=max(abs(p) for p in powers.values()) <= 0.5),
-        evidence=f"at the highest load {'; '.join(said)}; the greatest is {_in_words(ratios, '.2f')} times the least "
+    return (
+        verdict(worst <= 1.2, partly=max(abs(p) for p in powers.values()) <= 0.5),
+        f"at the highest load {'; '.join(said)}; the greatest is {_in_words(ratios, '.2f')} times the least "
         f"while Ra spans {rough.max() / rough.min():.1f}, A ~ Ra^n with n: {_in_words(powers, '.2f')}; this must "
         f"be so where most contact is plastic, because no surface can have less than W/H = {100 * bound:.1f} %",
     )
 
 
-def plasticity(paper: PaperD) -> Claim:
-    """Claim 17."""
+def plasticity(paper: PaperD) -> Judgement:
+    """Judge claim 17."""
     rough = [row.average for row in STEEL_PROFILES.values()]
     said, ranked, starts = [], [], []
     for spectrum in SPECTRA:
@@ -101,16 +98,14 @@ def plasticity(paper: PaperD) -> Claim:
         for spectrum in SPECTRA
     )
     strong, always = all(ranked) and spread > 1.5, min(starts) > 0.01
-    return Claim(
-        number=17,
-        text="The plasticity index depends strongly on roughness and is not zero at small loads",
-        verdict=verdict(strong and always, partly=strong or always),
-        evidence="; ".join(said),
+    return (
+        verdict(strong and always, partly=strong or always),
+        "; ".join(said),
     )
 
 
-def highest_waves(paper: PaperD) -> Claim:
-    """Claim 18."""
+def highest_waves(paper: PaperD) -> Judgement:
+    """Judge claim 18."""
     waves, said, kept = np.array(paper.waves), [], []
     for spectrum, state in paper.cut.items():
         for name, areas in state.items():
@@ -122,11 +117,9 @@ def highest_waves(paper: PaperD) -> Claim:
                 f"{spectrum}, {name}: within 5 % from n = {n5} on, within 1 % from {n1} on "
                 f"(single profiles 5 %: {min(fives)} to {max(fives)})"
             )
-    return Claim(
-        number=18,
-        text="The highest frequencies do not change the real area of contact",
-        verdict=verdict(all(kept), partly=any(kept)),
-        evidence=f"mean area of profile D at the highest load, of {waves[-1]} waves: "
+    return (
+        verdict(all(kept), partly=any(kept)),
+        f"mean area of profile D at the highest load, of {waves[-1]} waves: "
         + "; ".join(said)
         + f"; the smooth profiles have no waves beyond {SPECTRA['smooth']}",
     )

@@ -1,6 +1,7 @@
 """Figures D.1 to D.7 of Paper D and E.4 of Paper E; a line is the mean over seeds, a band their standard deviation."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 
 import numpy as np
 from matplotlib import colormaps
@@ -30,8 +31,7 @@ def _band(axes: Axes, x: Array, values: Array, colour: str, style: str, label: s
         axes.fill_between(x, mean - spread, mean + spread, color=colour, alpha=0.15, lw=0)
 
 
-def d1(paper: PaperD) -> Figure:
-    """Real area of contact of profile D at the highest load with waves 1 to n only."""
+def _waves(paper: PaperD) -> Figure:
     figure, panels = _panels(2)
     for axes, spectrum in zip(panels, SPECTRA, strict=True):
         for name, colour in (("elastic-plastic", "#b2182b"), ("elastic", "#2166ac")):
@@ -44,8 +44,7 @@ def d1(paper: PaperD) -> Figure:
     return figure
 
 
-def d2(paper: PaperD) -> Figure:
-    """Bearing curves and height distributions of the four profiles, all seeds together."""
+def _bearing_curves(paper: PaperD) -> Figure:
     figure, (left, right) = _panels(2)
     for name, colour in COLOURS.items():
         heights = np.concatenate(paper.profiles[MAIN, name]) * 1e6
@@ -59,8 +58,7 @@ def d2(paper: PaperD) -> Figure:
     return figure
 
 
-def d3(paper: PaperD) -> Figure:
-    """A profile D (first seed) and what the highest load takes off it for good (shaded, and below by itself)."""
+def _plastic_profile(paper: PaperD) -> Figure:
     figure, (above, below) = new_figure((10, 4.6), 2, 1, sharex=True, height_ratios=(3, 1))
     contact = paper.shown
     x = 1e6 * LENGTH * np.arange(contact.heights.shape[0]) / contact.heights.shape[0]
@@ -73,9 +71,10 @@ def d3(paper: PaperD) -> Figure:
     return figure
 
 
-def _against_load(paper: PaperD, wanted: Sequence[tuple[str, str, float]]) -> Figure:
-    figure, panels = _panels(len(wanted))
-    for axes, (quantity, label, factor) in zip(panels, wanted, strict=True):
+def _against_load(quantities: Sequence[tuple[str, str, float]], paper: PaperD) -> Figure:
+    """Draw a panel for each quantity, with its label and the factor to its unit."""
+    figure, panels = _panels(len(quantities))
+    for axes, (quantity, label, factor) in zip(panels, quantities, strict=True):
         for name, colour in COLOURS.items():
             for spectrum, style in DASHES.items():
                 values = factor * paper.pressed[spectrum, name][quantity]
@@ -85,34 +84,22 @@ def _against_load(paper: PaperD, wanted: Sequence[tuple[str, str, float]]) -> Fi
     return figure
 
 
-def d4(paper: PaperD) -> Figure:
-    """Real area of contact and plasticity index against load."""
-    return _against_load(paper, [("area", "Ar/An, %", 100), ("plasticity_index", "Ap/Ar", 1)])
-
-
-def d5(paper: PaperD) -> Figure:
-    """Ra and Rq of the loaded profiles."""
-    return _against_load(paper, [("Ra", "Ra, µm", 1e6), ("Rq", "Rq, µm", 1e6)])
-
-
-def d6(paper: PaperD) -> Figure:
-    """Skewness and kurtosis of the loaded profiles."""
-    return _against_load(paper, [("skewness", "skewness", 1), ("kurtosis", "kurtosis", 1)])
-
-
-def d7(paper: PaperD) -> Figure:
-    """Mean separation: from the plane to the mean of the loaded profile."""
-    return _against_load(paper, [("separation", "mean separation, µm", 1e6)])
-
-
-NUMBERED = {"D.1": d1, "D.2": d2, "D.3": d3, "D.4": d4, "D.5": d5, "D.6": d6, "D.7": d7}
+DRAWINGS: dict[str, Callable[[PaperD], Figure]] = {
+    "D.1": _waves,
+    "D.2": _bearing_curves,
+    "D.3": _plastic_profile,
+    "D.4": partial(_against_load, [("area", "Ar/An, %", 100), ("plasticity_index", "Ap/Ar", 1)]),
+    "D.5": partial(_against_load, [("Ra", "Ra, µm", 1e6), ("Rq", "Rq, µm", 1e6)]),
+    "D.6": partial(_against_load, [("skewness", "skewness", 1), ("kurtosis", "kurtosis", 1)]),
+    "D.7": partial(_against_load, [("separation", "mean separation, µm", 1e6)]),
+}
 
 
 def e4(contacts: Sequence[Contact]) -> Figure:
     """The model surface loaded, and its elastic and plastic parts; dots: nodes of purely elastic contact."""
-    figure, ((corner, loaded), (elastic, plastic), (elastic_move, plastic_move)) = new_figure(
-        (10, 9), 3, 2, sharex=True
-    )
+    figure, panels = new_figure((10, 9), 3, 2, sharex=True)
+    corner, *shown = panels.ravel()
+    loaded, elastic, plastic, elastic_move, plastic_move = shown
     first = contacts[0]
     x = 1e3 * first.spacing[0] * np.arange(first.heights.shape[0])
     for axes in (loaded, elastic, plastic):
@@ -121,27 +108,23 @@ def e4(contacts: Sequence[Contact]) -> Figure:
     corner.set_axis_off()
     corner.plot([], [], color="black", lw=1, label="no load")
     for contact, colour in zip(contacts, colormaps["viridis"](np.linspace(0, 0.88, len(contacts))), strict=True):
-        z, u_e, u_p = (
-            1e6 * field[:, 0] for field in (contact.heights, contact.elastic_displacement, contact.plastic_displacement)
-        )
+        fields = contact.heights, contact.elastic_displacement, contact.plastic_displacement
+        z, u_e, u_p = (1e6 * field[:, 0] for field in fields)
         u_e = u_e - u_e.min()
         only = (contact.in_contact & ~contact.plastic)[:, 0]
         corner.plot([], [], color=colour, label=f"{contact.load / 1e6:g} MPa")
-        loaded.plot(x, z - u_e - u_p, color=colour, lw=1.2)
-        elastic.plot(x, z - u_e, color=colour, lw=1.2)
-        elastic.plot(x[only], (z - u_e)[only], ".", color="black", ms=4)
-        plastic.plot(x, z - u_p, color=colour, lw=1.2)
-        elastic_move.plot(x, u_e, color=colour, lw=1.2)
-        elastic_move.plot(x[only], u_e[only], ".", color="black", ms=4)
-        plastic_move.plot(x, u_p, color=colour, lw=1.2)
-    titles = {
-        loaded: "loaded surface, µm",
-        elastic: "elastically deformed, µm",
-        plastic: "plastically deformed (unloaded), µm",
-        elastic_move: "elastic displacement from its least, µm",
-        plastic_move: "plastic displacement, µm",
-    }
-    for axes, title in titles.items():
+        for axes, y in zip(shown, (z - u_e - u_p, z - u_e, z - u_p, u_e, u_p), strict=True):
+            axes.plot(x, y, color=colour, lw=1.2)
+            if axes in (elastic, elastic_move):
+                axes.plot(x[only], y[only], ".", color="black", ms=4)
+    titles = (
+        "loaded surface, µm",
+        "elastically deformed, µm",
+        "plastically deformed (unloaded), µm",
+        "elastic displacement from its least, µm",
+        "plastic displacement, µm",
+    )
+    for axes, title in zip(shown, titles, strict=True):
         axes.set_title(title, fontsize=10)
     for axes in (elastic_move, plastic_move):
         axes.set_xlabel("x, mm")

@@ -164,7 +164,7 @@ def numbers(paper: PaperE) -> dict[str, Any]:
                 "patir_cheng": lifts(one, boxed=True),
                 "films_apart": one.apart(),
                 "table_points": one.wall.points,
-                "warnings": one.wall.told,
+                "warnings": one.wall.warnings,
             }
             for name, one in paper.washers.items()
         },

@@ -9,7 +9,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.words.numbers import with_error
 from scripts.studies.paper_e.data import LOADS, SEEDS, Washer
 from scripts.studies.paper_e.windows import LOAD, PARTS, Leak
-from scripts.studies.study import Claim, verdict
+from scripts.studies.study import Claim, Judgement, claims_of, verdict
 
 FEW_PER_CENT = 0.05
 """Within which two leakages count as equal."""
@@ -41,12 +41,12 @@ class PaperE:
 
 def judge(paper: PaperE) -> list[Claim]:
     """Judge claims 21 and 22, and 19 where the milled surface is there."""
-    direct = [direct_is_homogenized(paper.windows, paper.rows)] if paper.windows else []
-    return [*direct, methods_agree(paper.washers), lift_off(paper)]
+    direct = {19: direct_is_homogenized(paper.windows, paper.rows)} if paper.windows else {}
+    return claims_of(__file__, direct | {21: methods_agree(paper.washers), 22: lift_off(paper)})
 
 
-def direct_is_homogenized(windows: Sequence[Leak], rows: Sequence[tuple[int, float]]) -> Claim:
-    """Claim 19."""
+def direct_is_homogenized(windows: Sequence[Leak], rows: Sequence[tuple[int, float]]) -> Judgement:
+    """Judge claim 19."""
     usual = [one for one in windows if one.resolution == 1.0]
     parts = {
         window: np.array([[one.apart(axis) for axis in (0, 1)] for one in usual if _is(one, window, LOAD)])
@@ -61,11 +61,9 @@ def direct_is_homogenized(windows: Sequence[Leak], rows: Sequence[tuple[int, flo
         for window, found in parts.items()
     )
     longer = ", ".join(_share(part) for _, part in rows)
-    return Claim(
-        number=19,
-        text="HNS equals DNS in leakage within a few per cent for measured surfaces",
-        verdict=verdict(within > 0.95, partly=within > 0.3),
-        evidence="the flow through one window between two reservoirs is always larger than through the window repeated "
+    return (
+        verdict(within > 0.95, partly=within > 0.3),
+        "the flow through one window between two reservoirs is always larger than through the window repeated "
         f"without end, because flow also enters valleys that do not continue: at {LOAD / 1e6:g} MPa by (median and "
         f"range) {shown}; {_share(within)} of all within {_share(FEW_PER_CENT)}. The largest difference falls with "
         f"the number of windows in a row, not with their size alone: {longer} over "
@@ -91,8 +89,8 @@ def parted(washer: Washer) -> Array:
     return np.asarray(washer.lift(boxed=True)[:, 0] / washer.lift()[:, 0] - 1)
 
 
-def methods_agree(washers: Mapping[str, Washer]) -> Claim:
-    """Claim 21, by lift-off speeds."""
+def methods_agree(washers: Mapping[str, Washer]) -> Judgement:
+    """Judge claim 21, by lift-off speeds."""
     straight = max(float(np.abs(parted(washers[name])).max()) for name in STRAIGHT)
     crossed = parted(washers[CROSSED])
     least = float(np.abs(crossed).min())
@@ -103,11 +101,9 @@ def methods_agree(washers: Mapping[str, Washer]) -> Claim:
         f"; {name}, measured, {' / '.join(_signed(part) for part in parted(washers[name]))}" for name in there
     )
     holds = straight < EQUAL and least > max(PARTED, uncertainty)
-    return Claim(
-        number=21,
-        text="Patir–Cheng equals HNS for straight or isotropic lay and fails for crossed or oblique lay",
-        verdict=verdict(holds, partly=straight < EQUAL or least > PARTED),
-        evidence=f"lift-off speeds by Patir and Cheng over the homogenized ones, at "
+    return (
+        verdict(holds, partly=straight < EQUAL or least > PARTED),
+        f"lift-off speeds by Patir and Cheng over the homogenized ones, at "
         f"{', '.join(f'{load / 1e6:g}' for load in LOADS)} MPa: straight lays within {_share(straight)}; marks that "
         f"cross obliquely, one of them deeper, {' / '.join(_signed(part) for part in crossed)} (± "
         f"{_share(uncertainty)} by grids and tables), films differ by up to {_share(washers[CROSSED].apart())}{said}. "
@@ -121,8 +117,8 @@ def lay_lifts(lays: Mapping[str, Washer], lay: str) -> Array:
     return np.array([lays[f"{lay}, {seed}"].lift()[:, 0] for seed in SEEDS])
 
 
-def lift_off(paper: PaperE) -> Claim:
-    """Claim 22."""
+def lift_off(paper: PaperE) -> Judgement:
+    """Judge claim 22."""
     found = {name: one.lift() for name, one in (*paper.washers.items(), *paper.lays.items())}
     rises = all((np.diff(lift[:, 0]) > lift[:-1, 1] + lift[1:, 1]).all() for lift in found.values())
     along, across = lay_lifts(paper.lays, "along"), lay_lifts(paper.lays, "across")
@@ -137,11 +133,9 @@ def lift_off(paper: PaperE) -> Claim:
     helps = (
         "they lower the speed" if lowers else "they raise the speed" if raises else "which is within the uncertainty"
     )
-    return Claim(
-        number=22,
-        text="Higher load needs higher speed to lift off; ridges across the leakage direction lower that speed",
-        verdict=verdict(rises and lowers, partly=rises or lowers),
-        evidence=f"at {', '.join(f'{load / 1e6:g}' for load in LOADS)} MPa walls lift off at "
+    return (
+        verdict(rises and lowers, partly=rises or lowers),
+        f"at {', '.join(f'{load / 1e6:g}' for load in LOADS)} MPa walls lift off at "
         + "; ".join(f"{name} {_speeds(found[name])}" for name in names)
         + f" rpm: {'always later' if rises else 'not always later'} under more load ({order} at {one}). Ridges across "
         "the leakage against the same ridges along it: surface 3 "

@@ -15,9 +15,9 @@ from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.store import save_surface
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
-from roughfilm.rom.bearing.mixed.curves import Wall, swept, wall_of
+from roughfilm.rom.bearing.mixed.curves import Wall, resumed_curves, wall_of
 from roughfilm.rom.bearing.mixed.patir_cheng_table import patir_cheng_table
-from roughfilm.rom.bearing.mixed.resume import kept_table
+from roughfilm.rom.bearing.mixed.resume import resumed_table
 from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
@@ -156,12 +156,14 @@ def washer(
 
     asked = sorted({speed_of(scene, turns) for turns in (*speeds, *SHOWN)})
     wall = wall_of(scene, LOADS[-1], None, folder / "table.h5", report, cells)
-    curves, _ = swept(scene, asked, LOADS, wall, folder / "stribeck.h5", cells, report)
+    curves, _ = resumed_curves(scene, asked, LOADS, wall, folder / "stribeck.h5", cells, report)
     if not boxed:
         return Washer(scene=scene, wall=wall, boxes=None, curves=curves, boxed=())
     boxes = _boxes(surface, wall.asperities, folder / "patir_cheng.h5")
-    other = Wall(asperities=boxes, told=(), points=0, found=0, source={**wall.source, "factors": "Patir and Cheng"})
-    found, _ = swept(scene, asked, LOADS, other, folder / "patir_cheng_curves.h5", cells, report)
+    other = Wall(
+        asperities=boxes, warnings=(), points=0, known_points=0, source={**wall.source, "factors": "Patir and Cheng"}
+    )
+    found, _ = resumed_curves(scene, asked, LOADS, other, folder / "patir_cheng_curves.h5", cells, report)
     return Washer(scene=scene, wall=wall, boxes=boxes, curves=curves, boxed=found)
 
 
@@ -178,4 +180,4 @@ def _boxes(surface: Surface, table: AsperityTable, path: Path) -> AsperityTable:
         before = {point.mean_gap: point for point in known}
         return patir_cheng_table(table, press, known=before, keep=keep).factors
 
-    return AsperityTable(factors=kept_table(path, inputs, work)[0])
+    return AsperityTable(factors=resumed_table(path, inputs, work)[0])

@@ -21,7 +21,7 @@ from scripts.studies.paper_f.fits import SLOPE, ratios
 from scripts.studies.paper_f.laws import SealStudy, fit_groups
 from scripts.studies.paper_f.sizes import COUNTS, grow
 from scripts.studies.paper_f.surfaces import FAMILIES, HEIGHTS, POINTS, SEEDS, made_surfaces, measured_surfaces
-from scripts.studies.study import Out, Surfaces, captions, counted, publish
+from scripts.studies.study import Out, Surfaces, counted, publish
 
 
 @in_one_line
@@ -33,11 +33,10 @@ def command(out: Out, surfaces: Surfaces = None, as_json: AsJson = False) -> Non
     publish(
         Path(__file__).parent,
         out,
-        {name: draw(study) for name, draw in figures.NUMBERED.items()},
+        {name: draw(study) for name, draw in figures.DRAWINGS.items()},
         results,
         claims=judge(study),
         as_json=as_json,
-        captions=captions(figures.NUMBERED),
         count=len(study.sample),
         laws=study.laws,
         slope=SLOPE,

@@ -10,7 +10,7 @@ from scripts.studies.paper_f.data import MODULUS, Pressed
 from scripts.studies.paper_f.fits import SHARES, SLOPE, Constant
 from scripts.studies.paper_f.laws import DIRECTED, GroupLaws, SealStudy
 from scripts.studies.paper_f.surfaces import HEIGHTS
-from scripts.studies.study import Claim, verdict
+from scripts.studies.study import Claim, Judgement, claims_of, verdict
 
 PRESSED = 1e5
 """W, Pa, at which areas are compared."""
@@ -41,14 +41,17 @@ VALLEYS, PEAKS = ("Sv", "Svm"), ("Sp", "Spm")
 
 def judge(study: SealStudy) -> list[Claim]:
     """Judge claims 16, 19, 23, 24, 25 and 26."""
-    return [
-        areas_differ(study),
-        cell_equals_direct(study.sample),
-        lost_between(study),
-        peaks_rule_sealing(study.laws),
-        valleys_rule_leakage(study),
-        offset_is_harmless(study.sample),
-    ]
+    return claims_of(
+        __file__,
+        {
+            16: areas_differ(study),
+            19: cell_equals_direct(study.sample),
+            23: lost_between(study),
+            24: peaks_rule_sealing(study.laws),
+            25: valleys_rule_leakage(study),
+            26: offset_is_harmless(study.sample),
+        },
+    )
 
 
 def area_at(one: Pressed, load: float) -> float:
@@ -56,17 +59,15 @@ def area_at(one: Pressed, load: float) -> float:
     return float(np.interp(load, one.loads, one.area, left=np.nan, right=np.nan))
 
 
-def areas_differ(study: SealStudy) -> Claim:
-    """Claim 16, its half on surfaces in space."""
+def areas_differ(study: SealStudy) -> Judgement:
+    """Judge claim 16, its half on surfaces in space."""
     same_load = np.array([area_at(one, PRESSED) for one in study.sample])
     alike = np.array([area_at(one, ALIKE * MODULUS * one.numbers.slope) for one in study.sample])
     same_load, alike = same_load[np.isfinite(same_load)], alike[np.isfinite(alike)]
     apart, left = float(same_load.max() / same_load.min()), float(alike.std() / alike.mean())
-    return Claim(
-        number=16,
-        text="Area differs strongly between 3D surfaces",
-        verdict=verdict(apart > 2, partly=apart > 1.25),
-        evidence=f"at {PRESSED / 1e6:g} MPa the area is {_share(same_load.min())} to {_share(same_load.max())} "
+    return (
+        verdict(apart > 2, partly=apart > 1.25),
+        f"at {PRESSED / 1e6:g} MPa the area is {_share(same_load.min())} to {_share(same_load.max())} "
         f"({apart:.2g} times). The rms slope makes the difference: at W/(E* g′) = {ALIKE:g} all have "
         f"{_share(float(alike.mean()))} ± {_share(float(alike.std()))}, a relative spread of {_share(left)}. The "
         "profiles that hardly differ (study paper_d) are of steel and mostly plastic, with an area of W/H "
@@ -86,8 +87,8 @@ def above_the_cell(sample: Sequence[Pressed]) -> tuple[Array, Array]:
     return parts, more
 
 
-def cell_equals_direct(sample: Sequence[Pressed]) -> Claim:
-    """Claim 19."""
+def cell_equals_direct(sample: Sequence[Pressed]) -> Judgement:
+    """Judge claim 19."""
     parts, more = above_the_cell(sample)
     said, within = [], []
     for low, high in BINS:
@@ -99,11 +100,9 @@ def cell_equals_direct(sample: Sequence[Pressed]) -> Claim:
                 f"{_share(within[-1])} within {_share(FEW)}"
             )
     earlier = np.array([one.round_threshold < one.threshold / 1.01 for one in sample])
-    return Claim(
-        number=19,
-        text="HNS equals DNS in leakage within a few per cent (for these surfaces)",
-        verdict=verdict(min(within) > 0.9, partly=within[0] > 0.5),
-        evidence="DNS of one period between two reservoirs is never below HNS. DNS/HNS at fractions of the "
+    return (
+        verdict(min(within) > 0.9, partly=within[0] > 0.5),
+        "DNS of one period between two reservoirs is never below HNS. DNS/HNS at fractions of the "
         f"sealing load: {'; '.join(said)}. A path between ends need not end where it began: "
         f"{_share(float(earlier.mean()))} of the directions are sealed by HNS at a load at which DNS still leaks. "
         "The cell assumes many waves in a period, and these surfaces have few; over the six decades of Fig. F.9 both "
@@ -111,8 +110,8 @@ def cell_equals_direct(sample: Sequence[Pressed]) -> Claim:
     )
 
 
-def lost_between(study: SealStudy) -> Claim:
-    """Claim 23."""
+def lost_between(study: SealStudy) -> Judgement:
+    """Judge claim 23."""
     area = np.array([one.sealed_area for one in study.sample])
     inside = (area >= RANGE[0]) & (area <= RANGE[1])
     directed = np.array([one.family in DIRECTED for one in study.sample])
@@ -131,16 +130,14 @@ def lost_between(study: SealStudy) -> Claim:
         f"{_share(float(one[:, :2].std()))}"
         for lengths, one in study.sizes.area.items()
     )
-    return Claim(
-        number=23,
-        text="Percolation is lost between 33 and 55 % real contact area",
-        verdict=verdict(inside.all(), partly=bool(plain.size) and inside[~directed].mean() > 0.5),
-        evidence=f"{said}. The range is that of small surfaces, not a law: for one kind of random surface, {sizes}",
+    return (
+        verdict(inside.all(), partly=bool(plain.size) and inside[~directed].mean() > 0.5),
+        f"{said}. The range is that of small surfaces, not a law: for one kind of random surface, {sizes}",
     )
 
 
-def peaks_rule_sealing(laws: Mapping[str, GroupLaws]) -> Claim:
-    """Claim 24."""
+def peaks_rule_sealing(laws: Mapping[str, GroupLaws]) -> Judgement:
+    """Judge claim 24."""
     every = laws["all"]
     spreads = {name: every.sealing[name].spread for name in HEIGHTS}
     first, last = min(spreads, key=spreads.__getitem__), max(spreads, key=spreads.__getitem__)
@@ -153,11 +150,9 @@ def peaks_rule_sealing(laws: Mapping[str, GroupLaws]) -> Claim:
         for name, one in laws.items()
         if name != "all"
     )
-    return Claim(
-        number=24,
-        text="Peak parameters (Spm) rule the sealing load: W = 3.6e4 E Spm",
-        verdict=verdict(rule and holds, partly=rule or holds),
-        evidence=f"of the eight heights {first} orders the loads best (standard deviation of the ratio: a factor of "
+    return (
+        verdict(rule and holds, partly=rule or holds),
+        f"of the eight heights {first} orders the loads best (standard deviation of the ratio: a factor of "
         f"{spreads[first]:.3g}; Spm {spreads['Spm']:.3g}, Sq {spreads['Sq']:.3g}, {last} {spreads[last]:.3g}, the "
         f"worst). k, 1/m: {_constant(k, 3)}; the source's {SEALING:g} is "
         f"{'inside' if holds else 'outside'}, and k contains a wavelength: it is half as large for a surface twice as "
@@ -170,8 +165,8 @@ def peaks_rule_sealing(laws: Mapping[str, GroupLaws]) -> Claim:
     )
 
 
-def valleys_rule_leakage(study: SealStudy) -> Claim:
-    """Claim 25."""
+def valleys_rule_leakage(study: SealStudy) -> Judgement:
+    """Judge claim 25."""
     every = study.laws["all"]
     apart = {one.scale[0]: one.apart for one in every.collapses if one.scale[0] and one.scale[0] == one.scale[1]}
     best = [min((values[k], name) for name, values in apart.items())[1] for k in (0, 1)]
@@ -188,11 +183,9 @@ def valleys_rule_leakage(study: SealStudy) -> Claim:
         for name, one in study.laws.items()
         if name != "all"
     )
-    return Claim(
-        number=25,
-        text="Valley parameters (Svm) rule the leakage and collapse it",
-        verdict=verdict(rule and all(holds), partly=rule or all(holds)),
-        evidence="standard deviation of the leakage of surfaces scaled to the same height, as a factor, at "
+    return (
+        verdict(rule and all(holds), partly=rule or all(holds)),
+        "standard deviation of the leakage of surfaces scaled to the same height, as a factor, at "
         f"{', '.join(f'{share:g}' for share in SHARES)} of the load that seals: {spread}; best {' and '.join(best)} at "
         "the lighter loads. This must be so: at the first touch the mean gap is Sp, hence Q̃ → φ (Sp/Svm)³. "
         f"F.18 read as K = (1.1 Svm^⅓ − 0.023 (W/E*)^⅓)⁹: fitted a = {_constant(law.a, 3)}, b = "
@@ -244,8 +237,8 @@ def subtracted(sample: Sequence[Pressed]) -> Subtracted:
     return Subtracted(part=part, average=average, added=added, error=error)
 
 
-def offset_is_harmless(sample: Sequence[Pressed]) -> Claim:
-    """Claim 26, of Paper F's surfaces."""
+def offset_is_harmless(sample: Sequence[Pressed]) -> Judgement:
+    """Judge claim 26, of Paper F's surfaces."""
     found = subtracted(sample)
     middle = float(np.sqrt(found.average.min() * found.average.max()))
     said, medians = [], []
@@ -261,11 +254,9 @@ def offset_is_harmless(sample: Sequence[Pressed]) -> Claim:
             ]
             said.append(f"{low:g} to {high:g}: {' and '.join(both)}")
     slit = np.array([np.cbrt(one.sealed_offset) for one in sample])
-    return Claim(
-        number=26,
-        text="A 10 nm offset at contact is enough and harmless (with what is left at the threshold subtracted)",
-        verdict=verdict(max(map(abs, medians)) < FEW, partly=abs(medians[0]) < 2 * FEW),
-        evidence="leakage over that with closed contact (and after the subtraction), medians of surfaces rougher and "
+    return (
+        verdict(max(map(abs, medians)) < FEW, partly=abs(medians[0]) < 2 * FEW),
+        "leakage over that with closed contact (and after the subtraction), medians of surfaces rougher and "
         f"smoother than Sa {1e6 * middle:.2g} µm, at fractions of the sealing load: {'; '.join(said)}. At the "
         f"threshold the 10 nm alone leak like a slit of {1e9 * np.nanmin(slit):.2g} to {1e9 * np.nanmax(slit):.2g} nm; "
         "subtracting this is right at one load only, and the decrease over decades becomes a gentle one",

@@ -14,7 +14,7 @@ from scipy.special import erf
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures.base import new_figure
 from scripts.studies.paper_f.claims import LEAKAGE, RANGE, SEALING, above_the_cell, subtracted
-from scripts.studies.paper_f.data import MODULUS
+from scripts.studies.paper_f.data import MODULUS, Pressed
 from scripts.studies.paper_f.fits import SLOPE, LeakageLaw, scale_of
 from scripts.studies.paper_f.laws import SealStudy
 from scripts.studies.paper_f.surfaces import HEIGHTS
@@ -25,22 +25,34 @@ COLOURS = (
 )
 """Colours of the families: random blue, skewed orange and brown, with a lay green, self-affine violet."""
 
-FOUND, SOURCE = "#1d2530", "#b42318"
-DENSITY, VISCOSITY, DROP, LENGTH = 1e3, 1e-3, 1e6, 1e-3
-"""kg/m³, Pa s, Pa, m, of the source."""
+COMPUTED, SOURCE = "#1d2530", "#b42318"
+"""Colours of fitted laws, and of those of the source."""
 
-LEAST = 1e-6
-"""kg/(h m); below it leakage is not drawn."""
+DENSITY, VISCOSITY, PRESSURE_DROP, LENGTH = 1e3, 1e-3, 1e6, 1e-3
+"""Density, kg/m³, viscosity, Pa s, pressure drop, Pa, and length, m, of the source."""
+
+MIN_LEAKAGE = 1e-6
+"""Leakage below which it is not drawn, kg/(h m)."""
 
 
 def kilograms(permeability: Array) -> Array:
     """Leakage per width over the length of the source, kg/(h m): 3600 ρ K Δp/(12 η L)."""
-    return 3600 * DENSITY * permeability * DROP / (12 * VISCOSITY * LENGTH)
+    return 3600 * DENSITY * permeability * PRESSURE_DROP / (12 * VISCOSITY * LENGTH)
 
 
 def _colours(study: SealStudy) -> Mapping[str, str]:
     families = dict.fromkeys(one.family for one in study.sample)
     return dict(zip(families, COLOURS, strict=False))
+
+
+def _firsts(study: SealStudy) -> dict[str, Pressed]:
+    """Return the first surface of each family."""
+    return {one.family: one for one in reversed(study.sample)}
+
+
+def _limits_of_area(axes: Axes) -> None:
+    for part in RANGE:
+        axes.axhline(100 * part, color=COMPUTED, lw=0.8, ls="--")
 
 
 def _legend(figure: Figure, study: SealStudy) -> None:
@@ -49,16 +61,11 @@ def _legend(figure: Figure, study: SealStudy) -> None:
 
 
 def _panels(rows: int, columns: int, height: float) -> tuple[Figure, list[Axes]]:
-    figure = Figure(figsize=(10.5, height * rows), layout="constrained")
-    return figure, list(figure.subplots(rows, columns, squeeze=False).ravel())
+    figure, panels = new_figure((10.5, height * rows), rows, columns, squeeze=False)
+    return figure, list(panels.ravel())
 
 
-def area(study: SealStudy) -> Figure:
-    """Real area of contact until both directions are sealed (dots: along x full, along y white; dashed: 33 and 55 %).
-
-    Left as the source has it; right over E* times the rms slope, where surfaces fall together. Grey: measured ones.
-    Dotted: Persson's erf(√2 W/(E* g′)).
-    """
+def _area(study: SealStudy) -> Figure:
     figure, (left, right) = _panels(1, 2, 4.6)
     colours = _colours(study)
     for one in (*study.sample, *study.measured):
@@ -68,28 +75,24 @@ def area(study: SealStudy) -> Figure:
             for i, face in ((0, colour), (1, "white")):
                 axes.plot(one.threshold[i] / unit, 100 * one.sealed_area[i], "o", color=colour, mfc=face, ms=4)
     for axes in (left, right):
-        for part in RANGE:
-            axes.axhline(100 * part, color=FOUND, lw=0.8, ls="--")
+        _limits_of_area(axes)
         axes.set(ylabel="real area of contact, %", ylim=(0, 90))
     x = np.linspace(0, 0.8, 200)
-    right.plot(x, 100 * erf(np.sqrt(2) * x), ":", color=FOUND)
-    left.set_xlim(0, 1.6)
-    right.set_xlim(0, 0.8)
-    left.set_xlabel("load W, MPa")
-    right.set_xlabel("W/(E* g′)")
+    right.plot(x, 100 * erf(np.sqrt(2) * x), ":", color=COMPUTED)
+    left.set(xlim=(0, 1.6), xlabel="load W, MPa")
+    right.set(xlim=(0, 0.8), xlabel="W/(E* g′)")
     _legend(figure, study)
     return figure
 
 
-def spots(study: SealStudy) -> Figure:
-    """Contact (dark) when the last path from end to end closes: along x (left of each pair) and along y."""
-    firsts = list({one.family: one for one in reversed(study.sample)}.values())[::-1]
+def _spots(study: SealStudy) -> Figure:
+    firsts = list(_firsts(study).values())[::-1]
     rows = math.ceil(len(firsts) / 3)
     figure, grid = new_figure((10.5, 2.05 * rows), rows, 6, squeeze=False)
     panels = grid.ravel()
     for axes in panels:
         axes.set_axis_off()
-    shades = ListedColormap(["#e8eef5", FOUND])
+    shades = ListedColormap(["#e8eef5", COMPUTED])
     for number, one in enumerate(firsts):
         for i, sign in ((0, "→"), (1, "↑")):
             axes = panels[2 * number + i]
@@ -99,11 +102,7 @@ def spots(study: SealStudy) -> Figure:
     return figure
 
 
-def heights(study: SealStudy) -> Figure:
-    """Load at the threshold over the eight heights, both directions; lines: geometric mean of the ratio; red: F.14.
-
-    The spread is the standard deviation of the ratio, as a factor.
-    """
+def _heights(study: SealStudy) -> Figure:
     figure, panels = _panels(2, 4, 2.9)
     for axes, name in zip(panels, HEIGHTS, strict=True):
         _thresholds(axes, study, name, 1e6)
@@ -128,32 +127,26 @@ def _thresholds(axes: Axes, study: SealStudy, name: str, unit: float) -> None:
     axes.xaxis.set_major_formatter("{x:g}")
     axes.xaxis.set_minor_formatter(NullFormatter())
     ends = np.array(axes.get_xlim())
-    axes.plot(ends, law.constant.value * MODULUS * ends / unit / 1e6, color=FOUND, lw=1)
+    axes.plot(ends, law.constant.value * MODULUS * ends / unit / 1e6, color=COMPUTED, lw=1)
     axes.set_xlim(*ends)
     axes.set_title(f"spread {law.spread:.3g}, R² {law.explained:.2f}", fontsize=8)
 
 
-def pure(study: SealStudy) -> Figure:
-    """Left: k of F.14 falls as the length Sq/g′ of a surface grows; red: k of the source.
-
-    Middle: load over the rms slope, whose ratio is a pure number; line: geometric mean. Right: that number over the
-    skewness, with the fitted law.
-    """
+def _sealing_law(study: SealStudy) -> Figure:
     figure, (left, middle, right) = _panels(1, 3, 3.7)
     colours, laws = _colours(study), study.laws["all"]
     for one in study.sample:
         colour = colours[one.family]
         length, k = one.numbers.heights["Sq"] / one.numbers.slope, one.threshold / MODULUS / one.numbers.heights["Spm"]
         left.plot(np.full(2, 1e6 * length), k, ".", color=colour, ms=5)
-        right.plot(
-            np.full(2, one.numbers.skewness), one.threshold / (MODULUS * one.numbers.slope), ".", color=colour, ms=5
-        )
+        load = one.threshold / (MODULUS * one.numbers.slope)
+        right.plot(np.full(2, one.numbers.skewness), load, ".", color=colour, ms=5)
     left.axhline(SEALING, color=SOURCE, lw=1.2)
     left.set(xlabel="Sq/g′, µm", ylabel="W/(E* Spm), 1/m")
     _thresholds(middle, study, SLOPE, 1.0)
     middle.set(xlabel="g′", ylabel="W at the threshold, MPa")
     x = np.linspace(*right.get_xlim(), 50)
-    right.plot(x, laws.skewed.constant.value * np.exp(laws.skewed.skewness.value * x), color=FOUND, lw=1)
+    right.plot(x, laws.skewed.constant.value * np.exp(laws.skewed.skewness.value * x), color=COMPUTED, lw=1)
     right.set(xlabel="Ssk", ylabel="W/(E* g′)")
     for axes in (left, right):
         axes.set_yscale("log")
@@ -161,27 +154,18 @@ def pure(study: SealStudy) -> Figure:
     return figure
 
 
-def leakage(study: SealStudy) -> Figure:
-    """Leakage along x, a surface of each family: HNS (lines) and DNS (circles), 1 MPa over 1 mm, 10³ kg/m³, 1 mPa s.
-
-    Right: DNS over HNS of all surfaces and directions; line: median, dashed: nine in ten below.
-    """
+def _leakage(study: SealStudy) -> Figure:
     figure, (left, right) = _panels(1, 2, 4.4)
     colours = _colours(study)
-    firsts = {one.family: one for one in reversed(study.sample)}
-    for family, one in firsts.items():
-        open_cell, open_ends = one.flow[:, 0] > 0, one.direct[:, 0] > 0
-        left.plot(one.loads[open_cell], kilograms(one.flow[open_cell, 0]), color=colours[family], lw=1)
-        left.plot(
-            one.loads[open_ends], kilograms(one.direct[open_ends, 0]), "o", color=colours[family], ms=4, mfc="none"
-        )
-    left.set(xscale="log", yscale="log", ylim=(LEAST, None), xlabel="load W, Pa", ylabel="leakage, kg/(h m)")
+    for family, one in _firsts(study).items():
+        for flow, look in ((one.flow[:, 0], {"lw": 1}), (one.direct[:, 0], {"ls": "", "marker": "o", "ms": 4})):
+            left.plot(one.loads[flow > 0], kilograms(flow[flow > 0]), color=colours[family], mfc="none", **look)
+    left.set(xscale="log", yscale="log", ylim=(MIN_LEAKAGE, None), xlabel="load W, Pa", ylabel="leakage, kg/(h m)")
     parts, more = above_the_cell(study.sample)
     right.plot(parts, 1 + more, ".", color="#4292c6", ms=2.5, alpha=0.5)
-    _bands(right, parts, 1 + more, FOUND)
-    right.set(
-        yscale="log", xscale="log", ylim=(0.9, 100), xlabel="load over the one that seals the cell", ylabel="DNS/HNS"
-    )
+    _bands(right, parts, 1 + more, COMPUTED)
+    right.set(xscale="log", yscale="log", ylim=(0.9, 100))
+    right.set(xlabel="load over the one that seals the cell", ylabel="DNS/HNS")
     _legend(figure, study)
     return figure
 
@@ -195,8 +179,7 @@ def _bands(axes: Axes, parts: Array, values: Array, colour: str) -> None:
     axes.plot(places, [float(np.nanpercentile(values[one], 90)) for one in bins], color=colour, lw=1.4, ls="--")
 
 
-def same_heights(study: SealStudy) -> Figure:
-    """Leakage of all surfaces in both directions (DNS) scaled to the same height, which is the mean of all."""
+def _same_heights(study: SealStudy) -> Figure:
     figure, panels = _panels(2, 4, 2.8)
     colours = _colours(study)
     apart = {one.scale[0]: one.apart for one in study.laws["all"].collapses if one.scale[0] == one.scale[1]}
@@ -206,8 +189,13 @@ def same_heights(study: SealStudy) -> Figure:
             factor = mean / one.numbers.heights[name]
             for i in (0, 1):
                 flow = kilograms(one.direct[:, i] * factor**3)
-                axes.plot(one.loads * factor, np.where(flow > LEAST, flow, np.nan), color=colours[one.family], lw=0.5)
-        axes.set(xscale="log", yscale="log", ylim=(LEAST, 1e2), xlim=(1e1, 2e6))
+                axes.plot(
+                    one.loads * factor,
+                    np.where(flow > MIN_LEAKAGE, flow, np.nan),
+                    color=colours[one.family],
+                    lw=0.5,
+                )
+        axes.set(xscale="log", yscale="log", ylim=(MIN_LEAKAGE, 1e2), xlim=(1e1, 2e6))
         label = ", ".join(f"{10**value:.2g}" for value in apart[name][:2])
         axes.set_title(f"{name} = {1e6 * mean:.3g} µm; spread {label}", fontsize=8)
     for axes in panels[::4]:
@@ -218,11 +206,7 @@ def same_heights(study: SealStudy) -> Figure:
     return figure
 
 
-def dimensionless(study: SealStudy) -> Figure:
-    """Leakage (DNS) over that of a smooth gap as high as Svm (left) and as Svm under load (right), both directions.
-
-    Loads for surfaces of Svm = 1 µm. Under load Svm hardly changes, and does not follow the leakage.
-    """
+def _dimensionless(study: SealStudy) -> Figure:
     figure, panels = _panels(1, 2, 4.2)
     colours = _colours(study)
     for one in study.sample:
@@ -233,49 +217,43 @@ def dimensionless(study: SealStudy) -> Figure:
                 y = one.direct[:, i] / height**3
                 axes.plot(x, np.where(y > 1e-6, y, np.nan), color=colours[one.family], lw=0.6)
     for axes, name in zip(panels, ("Svm", "Svm under load"), strict=True):
-        axes.set(xscale="log", yscale="log")
-        axes.axhline(1, color=FOUND, lw=0.8)
-        axes.set(ylim=(1e-6, 1e3), xlabel="W/E*, for Svm = 1 µm", ylabel=f"12 η Q/(h³ p), h = {name}")
+        axes.axhline(1, color=COMPUTED, lw=0.8)
+        axes.set(
+            xscale="log",
+            yscale="log",
+            ylim=(1e-6, 1e3),
+            xlabel="W/E*, for Svm = 1 µm",
+            ylabel=f"12 η Q/(h³ p), h = {name}",
+        )
     _legend(figure, study)
     return figure
 
 
-def closed_form(study: SealStudy) -> Figure:
-    """Leakage of a surface of each family by DNS, in x (circles) and y (crosses), and by F.18 as the source has it.
-
-    The closed form (lines) knows no direction, and no sealing but where its base is 0.
-    """
+def _closed_form(study: SealStudy) -> Figure:
     figure, (axes,) = _panels(1, 1, 4.4)
     colours = _colours(study)
-    firsts = {one.family: one for one in reversed(study.sample)}
-    for family, one in firsts.items():
+    for family, one in _firsts(study).items():
         for axis, marker in enumerate("ox"):
             leaks = one.direct[:, axis] > 0
             shown = kilograms(one.direct[leaks, axis])
             axes.plot(one.loads[leaks], shown, marker, color=colours[family], ms=4, mfc="none")
         height = LEAKAGE[0] * np.cbrt(scale_of(one, "Svm")) - LEAKAGE[1] * np.cbrt(one.loads / MODULUS)
         axes.plot(one.loads, kilograms(np.maximum(height, 0.0) ** 9), color=colours[family], lw=1)
-    axes.set(xscale="log", yscale="log", ylim=(LEAST, None), xlabel="load W, Pa", ylabel="leakage, kg/(h m)")
+    axes.set(xscale="log", yscale="log", ylim=(MIN_LEAKAGE, None), xlabel="load W, Pa", ylabel="leakage, kg/(h m)")
     _legend(figure, study)
     return figure
 
 
-def laws(study: SealStudy) -> Figure:
-    """F.18 as a straight line, K = s³ (a − b (W/(E* r))^⅓)⁹, K = 12ηQL/Δp by DNS, both directions.
-
-    Left: s = r = Svm, as the source has it (red: its constants). Right: s = Sp, the mean gap at the first touch, with
-    loads over the rms slope.
-    """
+def _leakage_law(study: SealStudy) -> Figure:
     figure, panels = _panels(1, 2, 4.2)
     fitted = study.laws["all"].leakage
-    for axes, pair in zip(panels, (("Svm", "Svm"), ("Sp", SLOPE)), strict=True):
+    pairs = {("Svm", "Svm"): "(W/(E* Svm))^⅓, 1/m^⅓", ("Sp", SLOPE): "(W/(E* g′))^⅓"}
+    for axes, (pair, load) in zip(panels, pairs.items(), strict=True):
         _line(axes, study, fitted[pair])
+        axes.set(xlabel=load, ylabel=f"(K/{pair[0]}³)^(1/9)")
     x = np.array(panels[0].get_xlim())
     panels[0].plot(x, LEAKAGE[0] - LEAKAGE[1] * x, color=SOURCE, lw=1.4, label="1.1 − 0.023 x, the source")
-    panels[0].set_xlabel("(W/(E* Svm))^⅓, 1/m^⅓")
-    panels[1].set_xlabel("(W/(E* g′))^⅓")
-    for axes, name in zip(panels, ("Svm", "Sp"), strict=True):
-        axes.set_ylabel(f"(K/{name}³)^(1/9)")
+    for axes in panels:
         axes.legend(fontsize=8)
     _legend(figure, study)
     return figure
@@ -290,46 +268,39 @@ def _line(axes: Axes, study: SealStudy, law: LeakageLaw) -> None:
             axes.plot(x, np.where(y > 0, y, np.nan), ".", color=colours[one.family], ms=3, alpha=0.7)
     ends = np.array([0.0, axes.get_xlim()[1]])
     label = f"{law.a.value:.3g} − {law.b.value:.3g} x, R² {law.explained:.2f}"
-    axes.plot(ends, law.a.value - law.b.value * ends, color=FOUND, lw=1.4, label=label)
+    axes.plot(ends, law.a.value - law.b.value * ends, color=COMPUTED, lw=1.4, label=label)
     axes.set(xlim=ends, ylim=(0, 1.9))
 
 
-def size(study: SealStudy) -> Figure:
-    """One kind of random surface, larger and larger: area, and load over E* g′, when the last path closes.
-
-    A dot for each surface and direction; bars: mean and standard deviation. Dashed: 33 and 55 %.
-    """
+def _size(study: SealStudy) -> Figure:
     figure, panels = _panels(1, 2, 3.6)
     draw = np.random.default_rng(11)
     rows: Sequence[tuple[Mapping[float, Array], float, str]] = (
         (study.sizes.area, 100.0, "real area of contact, %"),
         (study.sizes.load, 1.0, "W/(E* g′)"),
     )
-    for axes, (found, unit, name) in zip(panels, rows, strict=True):
-        for lengths, values in found.items():
+    for axes, (by_length, unit, name) in zip(panels, rows, strict=True):
+        for lengths, values in by_length.items():
             ends = unit * values[:, :2].ravel()
             axes.plot(lengths * np.exp(draw.uniform(-0.1, 0.1, ends.size)), ends, ".", color="#4292c6", ms=4)
-            axes.errorbar(lengths, ends.mean(), ends.std(), color=FOUND, fmt="o", ms=5, capsize=5, lw=1.4)
+            axes.errorbar(lengths, ends.mean(), ends.std(), color=COMPUTED, fmt="o", ms=5, capsize=5, lw=1.4)
         axes.set_xscale("log", base=2)
-        axes.set_xticks(list(found), [f"{one:.3g}" for one in found])
+        axes.set_xticks(list(by_length), [f"{one:.3g}" for one in by_length])
         axes.set(xlabel="side, correlation lengths Sal", ylabel=name)
-    for part in RANGE:
-        panels[0].axhline(100 * part, color=FOUND, lw=0.8, ls="--")
+    _limits_of_area(panels[0])
     return figure
 
 
-def offset(study: SealStudy) -> Figure:
-    """Leakage of the cell with 10 nm let through everywhere, over that with closed contact.
-
-    Left as it is, right after what is left at the threshold is subtracted. Lines: median, and nine in ten below.
-    """
+def _offset(study: SealStudy) -> Figure:
     figure, panels = _panels(1, 2, 3.9)
-    found = subtracted(study.sample)
-    for axes, values, name in zip(panels, (found.added, found.error), ("as it is", "after subtraction"), strict=True):
+    leakage = subtracted(study.sample)
+    for axes, values, name in zip(
+        panels, (leakage.added, leakage.error), ("as it is", "after subtraction"), strict=True
+    ):
         drawn = axes.scatter(
-            found.part, 1 + values, c=1e6 * found.average, s=4, cmap="viridis", norm="log", rasterized=True
+            leakage.part, 1 + values, c=1e6 * leakage.average, s=4, cmap="viridis", norm="log", rasterized=True
         )
-        _bands(axes, found.part, 1 + values, FOUND)
+        _bands(axes, leakage.part, 1 + values, COMPUTED)
         axes.set_title(name, fontsize=9)
         axes.set(yscale="log", ylim=(0.5, 1e4), xlabel="load over the one that seals the cell")
     panels[0].set_ylabel("leakage over that with closed contact")
@@ -338,17 +309,17 @@ def offset(study: SealStudy) -> Figure:
     return figure
 
 
-NUMBERED: dict[str, Callable[[SealStudy], Figure]] = {
-    "F.5": area,
-    "F.6": spots,
-    "F.7": heights,
-    "sealing law": pure,
-    "F.9": leakage,
-    "F.10": same_heights,
-    "F.11": dimensionless,
-    "F.12": closed_form,
-    "leakage law": laws,
-    "size": size,
-    "offset": offset,
+DRAWINGS: dict[str, Callable[[SealStudy], Figure]] = {
+    "F.5": _area,
+    "F.6": _spots,
+    "F.7": _heights,
+    "sealing law": _sealing_law,
+    "F.9": _leakage,
+    "F.10": _same_heights,
+    "F.11": _dimensionless,
+    "F.12": _closed_form,
+    "leakage law": _leakage_law,
+    "size": _size,
+    "offset": _offset,
 }
-"""In the order of the page."""
+"""Figures in the order of the page."""

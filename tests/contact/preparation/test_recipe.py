@@ -75,7 +75,7 @@ def test_overrides_reach_every_table():
         ("grid.points=[1, 64]", r"^recipe\.grid\.points"),
         ("grid.points=lots", r"^recipe\.grid\.points"),
         ("grid=7", r"^recipe\.grid: got 7"),
-        ("nothing", r"^--set nothing: got no key=value; write for example edges\.direction=x"),
+        ("nothing", r"^set nothing: got no key=value; write for example edges\.direction=x"),
         ("form.order=2", r"^recipe\.form: got \{'order': 2\}"),
     ],
 )

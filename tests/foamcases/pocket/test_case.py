@@ -60,7 +60,7 @@ def test_the_case_says_what_it_is(make_scene, tmp_path):
 
 @pytest.mark.parametrize(
     ("resolution", "tolerance", "words"),
-    [(3, None, "--resolution: got 3"), (10**8, None, "--resolution: got"), (None, 0.5, "--tolerance: got 0.5")],
+    [(3, None, "resolution: got 3"), (10**8, None, "resolution: got"), (None, 0.5, "tolerance: got 0.5")],
 )
 def test_options_out_of_range(make_scene, tmp_path, resolution, tolerance, words):
     with pytest.raises(InputError, match=words):

@@ -88,12 +88,12 @@ def test_shear_that_columns_do_not_see_is_known_before_anything_is_solved(amplit
     assert lost_shear(scene, mesh_of(scene, columns)[1]) == pytest.approx(1 - seen, abs=1e-6)
 
 
-def test_walls_that_come_nearer_between_columns_are_told():
+def test_walls_that_are_nearer_between_columns_cause_a_warning():
     apart, near = (
         MODEL.solve(
             scene_of(surface="sinusoid", amplitude=f"{amplitude} um", wavelength="5 um"), Request(resolution=16)
         )
         for amplitude in (0.3, 0.9)
     )
-    assert not any("come nearer" in warning for warning in apart.warnings)
+    assert not any("are nearer between" in warning for warning in apart.warnings)
     assert any("friction is too small by as much" in warning for warning in near.warnings)

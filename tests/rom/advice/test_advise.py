@@ -1,4 +1,4 @@
-"""Which rung is enough: the laws, the two estimates, and what is decided where they disagree."""
+"""The advice: the laws, the two estimates, and the verdict where they disagree."""
 
 from dataclasses import replace
 
@@ -136,7 +136,7 @@ def test_both_estimates_agree_that_the_cheapest_will_do(scene):
     assert found.spent_cpu_s == pytest.approx(1e-4 + 1e-2)
 
 
-def test_a_rung_that_is_hopeless_by_its_numbers_is_not_run(scene):
+def test_a_model_that_the_laws_rule_out_is_not_run(scene):
     fakes = Fakes({"reynolds": 0.5, "film": 0.01})
     found = fakes.advise(scene, 0.05)
     assert found.chosen.model == "film"
@@ -254,15 +254,15 @@ def test_a_check_that_does_not_converge_decides_nothing(scene):
     assert found.result.model == "reynolds"
 
 
-def test_a_rung_that_was_tried_in_vain_is_not_advised(scene):
+def test_a_model_that_failed_is_not_advised(scene):
     fakes = Fakes({"reynolds": 0.02, "film": 0.01}, {"reynolds": None})
     found = fakes.advise(scene, 0.05)
     assert found.chosen.model == "film"
-    assert (found.considered[0].verdict, found.considered[0].reason) == (Verdict.IN_VAIN, "no")
+    assert (found.considered[0].verdict, found.considered[0].reason) == (Verdict.FAILED, "no")
     top = Fakes({"reynolds": 0.5, "film": 0.2}, {"navier_stokes": None})
     top.models = [replace(one, outside=False) for one in top.models]
     found = top.advise(scene, 0.01)
-    assert found.considered[-1].verdict is Verdict.IN_VAIN
+    assert found.considered[-1].verdict is Verdict.FAILED
     assert (found.chosen, found.nearest.model) == (None, "film")
 
 
@@ -360,7 +360,7 @@ def test_steep_fast_grooves_need_more_than_shallow_slow_ones(make_scene):
     assert steep.chosen is None or steep.chosen.cpu_s > shallow.chosen.cpu_s
 
 
-def test_inertia_that_no_rung_of_a_bearing_keeps_is_that_of_a_wide_wedge_to_first_order():
+def test_inertia_that_no_model_of_a_bearing_includes_is_that_of_a_wide_wedge_to_first_order():
     """Half the density, half the part: to first order; without a density nothing is said."""
     entries = {
         "name": "wedge",
@@ -374,6 +374,6 @@ def test_inertia_that_no_rung_of_a_bearing_keeps_is_that_of_a_wide_wedge_to_firs
     half = kind.read({**entries, "lubricant": {"viscosity": "0.01 Pa*s", "density": "400 kg/m^3"}})
     assert whole.part == pytest.approx(2 * kind.omitted(half, "load_per_width").part, rel=1e-9)
     assert whole.reason.startswith(
-        "Re·h/L = 0.064: inertia, which no rung of a bearing keeps, changes the load by about "
+        "Re·h/L = 0.064: inertia, which no model of a bearing includes, changes the load by about "
     )
     assert kind.omitted(kind.read({**entries, "lubricant": {"viscosity": "0.01 Pa*s"}}), "load_per_width") is None

@@ -11,8 +11,8 @@ from roughfilm import foamcases, rom
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.ladder import find
-from roughfilm.rom.bearing.effects.ablation import Composed, Composition, at_film
-from roughfilm.rom.bearing.effects.inertia import inertia_added, judged, one_pocket, under_its_load
+from roughfilm.rom.bearing.effects.ablation import Variant, VariantSolution, at_film
+from roughfilm.rom.bearing.effects.inertia import inertia_added, inertia_obstacle, inertia_under_load, pocket_inertia
 from roughfilm.rom.bearing.effects.under_load import under_load
 from roughfilm.rom.bearing.inertia import Inertia, inertia
 from roughfilm.rom.bearing.scene import Bearing
@@ -209,7 +209,7 @@ def test_a_torn_film_has_none_where_it_is_torn() -> None:
 
 def test_its_error_covers_the_models_that_keep_all_of_inertia() -> None:
     scene = bearing(speed_of(60))
-    told = inertia_added(Composition(scene=scene, ruptures=False), 512, POCKET_MODELS)
+    told = inertia_added(Variant(scene=scene, ruptures=False), 512, POCKET_MODELS)
     truth = find("pocket", "film_slope").solve(pocket(speed_of(60))).quantities["load_per_area"].value * LENGTH
     assert told.pocket is not None
     assert told.pocket.model == "film_slope"
@@ -219,27 +219,27 @@ def test_its_error_covers_the_models_that_keep_all_of_inertia() -> None:
 
 def test_under_its_load_inertia_lifts_a_wedge_by_what_it_carries_less() -> None:
     wedge = {"shape": "linear", "length": "10 mm", "film": "40 um", "rise": "40 um", "texture": None}
-    taken = Composition(scene=bearing(20.0, geometry=wedge))
-    whole: Composed = under_load(taken, 5e5, 512)
-    added, thicker = under_its_load(taken, whole, 5e5, 512, POCKET_MODELS)
+    taken = Variant(scene=bearing(20.0, geometry=wedge))
+    whole: VariantSolution = under_load(taken, 5e5, 512)
+    changes, thicker = inertia_under_load(taken, whole, 5e5, 512, POCKET_MODELS)
     film, gained = whole.values["film"], thicker.value
-    assert added.amounts["load"].value * gained > 0
+    assert changes.amounts["load"].value * gained > 0
     geometry = taken.scene.geometry.at_film(film + gained)
-    lifted = Composition(scene=taken.scene.model_copy(update={"geometry": geometry}))
+    lifted = Variant(scene=taken.scene.model_copy(update={"geometry": geometry}))
     missing = 5e5 * 10e-3 - at_film(lifted, 512).values["load_per_width"]
-    assert missing == pytest.approx(added.amounts["load"].value, rel=1e-2)
+    assert missing == pytest.approx(changes.amounts["load"].value, rel=1e-2)
 
 
 def test_what_cannot_be_judged_is_refused_and_said() -> None:
     light = bearing(2.0)
     light = light.model_copy(update={"lubricant": light.lubricant.model_copy(update={"density": None})})
-    assert judged(bearing(2.0)) is None
-    assert judged(bearing(0.0)) == "nothing slides"
+    assert inertia_obstacle(bearing(2.0)) is None
+    assert inertia_obstacle(bearing(0.0)) == "the sliding speed is zero"
     with pytest.raises(InputError, match="density: is missing"):
         judged_film(light, 16)
 
 
 @pytest.mark.parametrize("odd", ["geometry.texture.depth=1.5mm", "lubricant.density=1e20 kg/m^3"])
 def test_pockets_that_are_no_scene_of_their_own_are_not_judged(odd: str) -> None:
-    assert one_pocket(cast(Bearing, load_scene(PAD, [])), POCKET_MODELS) is not None
-    assert one_pocket(cast(Bearing, load_scene(PAD, [odd])), POCKET_MODELS) is None
+    assert pocket_inertia(cast(Bearing, load_scene(PAD, [])), POCKET_MODELS) is not None
+    assert pocket_inertia(cast(Bearing, load_scene(PAD, [odd])), POCKET_MODELS) is None

@@ -84,7 +84,7 @@ def test_pockets_lie_where_they_are_put():
     [
         ("geometry.shape=oval", "scene.geometry.shape: got 'oval'; it must be 'parallel'"),
         ("geometry.rises=3 um", "scene.geometry.rises: unknown key; did you mean 'rise'"),
-        ("geometry.film=1 m", "scene.geometry.film: got 1.0 m, thicker than the bearing is long"),
+        ("geometry.film=1 m", "scene.geometry.film: got 1.0 m, more than the length of the bearing"),
         ("geometry.count=0", "scene.geometry.count: got 0; input should be greater than or equal to 1"),
         ("lubricant.viscosity=0", "scene.lubricant.viscosity: got 0, a number without a unit"),
         ("lubricant.compressibility.law=stiff", "law: got 'stiff'; it must be one of 'incompressible'"),
@@ -98,20 +98,20 @@ def test_pockets_lie_where_they_are_put():
         ("boundary.inlet.thetta=1", "scene.boundary.inlet.thetta: unknown key; did you mean 'theta'"),
         (
             "boundary.inlet.pressure=-1 MPa",
-            "scene.boundary.inlet.pressure: got -1000000.0 Pa, below",
+            "scene.boundary.inlet.pressure: got -1000000.0 Pa; it must be at least",
         ),
-        ("boundary.outlet.pressure=-1 MPa", "scene.boundary.outlet.pressure: got -1000000.0 Pa, below"),
-        ("lubricant.cavitation_pressure=1 MPa", "below the pressure of cavitation"),
+        ("boundary.outlet.pressure=-1 MPa", "scene.boundary.outlet.pressure: got -1000000.0 Pa; it must be at least"),
+        ("lubricant.cavitation_pressure=1 MPa", "it must be at least the cavitation pressure"),
         ("motion.speed=nan m/s", "write a number and a unit"),
         ("geometry.shape=[1]", "scene.geometry.shape: got [1]; it must be"),
         ("geometry.shape={}", "scene.geometry.shape: got {}; it must be"),
-        ("geometry.rise=1 m", "scene.geometry.rise: got 1.0 m, higher than the bearing is long"),
-        ("geometry.width=1 nm", "scene.geometry.width: got 1e-09 m, less than the film is thick"),
+        ("geometry.rise=1 m", "scene.geometry.rise: got 1.0 m, more than the length of the bearing"),
+        ("geometry.width=1 nm", "scene.geometry.width: got 1e-09 m, less than the film thickness"),
         ('boundary.sides={"low": "1 bar"}', "boundary.sides: got pressures for an infinitely wide bearing"),
         ('geometry.texture={"length": "1 mm", "depth": "1 um", "columns": 3}', "geometry.texture.pitch: is missing"),
         (
             'geometry.texture={"length": "1 mm", "depth": "1 um", "start": "76 mm"}',
-            "geometry.texture: reaches from",
+            "geometry.texture: extends from",
         ),
     ],
 )
@@ -156,10 +156,10 @@ def sector(**more):
 
 def test_a_ring_of_pads_that_nothing_feeds_is_refused():
     assert sector().geometry.joined
-    with pytest.raises(InputError, match=r"boundary\.sides: got no pressure above that of cavitation, 0\.0 Pa"):
+    with pytest.raises(InputError, match=r"boundary\.sides: got no pressure above the cavitation pressure of 0\.0 Pa"):
         sector(sides={})
     for ends in ({"inlet": {"theta": 0.5}}, {"inlet": {"pressure": "1 bar"}}, {"outlet": {"pressure": "1 bar"}}):
-        with pytest.raises(InputError, match="boundary: got an inlet or outlet for joined pads"):
+        with pytest.raises(InputError, match="boundary: got an inlet or outlet, but joined pads"):
             sector(**ends)
 
 

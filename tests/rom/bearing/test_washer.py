@@ -51,11 +51,11 @@ def test_the_floor_rises_from_the_wall_and_from_the_inner_edge_to_the_land():
         ("geometry.pocket.start=0.6", r"geometry\.pocket\.share: got 0\.5 from 0\.6 on; .* end within its cell"),
         ("geometry.pocket.start=1.5", r"geometry\.pocket\.start: got 1\.5; it must be 0 to 1"),
         ("geometry.pocket.extent=31 mm", r"geometry\.pocket\.extent: got 0\.031 m; the washer is only 0\.03"),
-        ("geometry.pocket.depth=1 m", r"geometry\.pocket\.depth: got 1\.0 m, deeper"),
+        ("geometry.pocket.depth=1 m", r"geometry\.pocket\.depth: got 1\.0 m, more than the outer radius"),
         ("geometry.pockets=0", r"geometry\.pockets: got 0"),
         ("geometry.inner_radius=0.2 m", r"geometry\.outer_radius: got 0\.18 m; it must be above inner_radius"),
-        ("boundary.sides.low=-0.2 MPa", r"boundary\.sides\.low\.pressure: got -200000\.0 Pa, below"),
-        ("boundary.inlet.theta=0.5", "boundary: got an inlet or outlet for joined pads"),
+        ("boundary.sides.low=-0.2 MPa", r"boundary\.sides\.low\.pressure: got -200000\.0 Pa; it must be at least"),
+        ("boundary.inlet.theta=0.5", "boundary: got an inlet or outlet, but joined pads"),
     ],
 )
 def test_faults_of_a_washer_are_told_in_one_line(override, words):
@@ -138,7 +138,7 @@ def test_films_that_cannot_be_read_are_refused_in_one_line(tmp_path, values, nam
 def test_another_film_under_the_same_name_is_refused(tmp_path):
     written = scene_entries(given(tmp_path, np.array([[1e-6, 2e-6], [3e-6, 4e-6]])))
     np.save(tmp_path / "h.npy", np.array([[1e-6, 2e-6], [3e-6, 5e-6]]))
-    with pytest.raises(InputError, match=r"geometry\.digest: got .* holds other numbers by now"):
+    with pytest.raises(InputError, match=r"geometry\.digest: got .* leave the digest out to accept them"):
         read_scene(written)
 
 

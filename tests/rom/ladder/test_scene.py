@@ -57,8 +57,8 @@ def test_entries_are_complete_and_read_back_unchanged(pocket_file):
         ("motion.reynolds_number=1e13", r"scene\.motion: got Reynolds number"),
         ("motion.reynolds_number=1" + "0" * 400, r"scene\.motion\.reynolds_number: got a number beyond"),
         ("geometry.film=1 fm", r"scene\.geometry\.length: .* film thicknesses"),
-        ("geometry", r"--set geometry: got no key=value"),
-        ("=5", r"--set =5: got no key=value"),
+        ("geometry", r"^set geometry: got no key=value"),
+        ("=5", r"^set =5: got no key=value"),
         ("name.x=5", r"'name' is not a table"),
     ],
 )

@@ -15,7 +15,7 @@ from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.foamcases.openfoam.program import succeed
 from roughfilm.rom.ladder.result import Field, Numerics, Result
 from roughfilm.rom.meshes.result_mesh import result_mesh
-from roughfilm.rom.meshes.walls_mesh import Part, gap_mesh, wall_mesh
+from roughfilm.rom.meshes.walls_mesh import GapPart, gap_mesh, wall_mesh
 from roughfilm.rom.rough_gap.walls import Walls
 
 MEAN, AMPLITUDE = 1e-5, 3e-6
@@ -70,7 +70,7 @@ def test_the_boundary_of_a_gap_is_closed(walls, touching):
 
 
 def test_walls_face_the_liquid_and_lie_where_they_are(walls):
-    for part, sign, heights in ((Part.LOWER, 1, walls.lower), (Part.UPPER, -1, walls.upper)):
+    for part, sign, heights in ((GapPart.LOWER, 1, walls.lower), (GapPart.UPPER, -1, walls.upper)):
         mesh = wall_mesh(walls, part)
         a, b, c = np.moveaxis(mesh.points[in_triangles(mesh).cells], 1, 0)
         assert np.all(sign * np.cross(b - a, c - a)[:, 2] > 0)
@@ -179,5 +179,5 @@ def test_a_sector_has_the_area_of_a_ring():
 
 
 def test_a_result_without_places_is_refused():
-    with pytest.raises(InputError, match=r"none of its fields \(pressure\) says where"):
+    with pytest.raises(InputError, match=r"none of its fields \(pressure\) has positions in a plane"):
         result_mesh(result_of(pressure=(np.ones((3, 3)), "Pa")))

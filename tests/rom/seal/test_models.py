@@ -16,7 +16,7 @@ from roughfilm.rom.ladder.model import Effect, best, ladder, of_kind, one_effect
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene, scene_entries
 from roughfilm.rom.ladder.store import load, save
-from roughfilm.rom.seal.leakage.effective_medium import THRESHOLD, effective_medium
+from roughfilm.rom.seal.leakage.effective_medium import SEALING_AREA, effective_medium
 from roughfilm.rom.seal.leakage.passage import dimensionless, mass_flow
 
 RUNGS = of_kind(ladder(rom), "seal")
@@ -195,7 +195,7 @@ def test_a_bad_joint_is_warned_of(tmp_path):
     result = find("seal", "direct_leakage").solve(
         seal(str(tmp_path / "stepped.npy"), spacing="1 um", pressure="200 kPa")
     )
-    assert any("meets itself badly" in warning for warning in result.warnings)
+    assert any("is not periodic" in warning for warning in result.warnings)
     assert not find("seal", "direct_leakage").solve(seal()).warnings
 
 
@@ -210,15 +210,15 @@ def spectrum():
 def test_the_gaps_of_the_medium_and_its_contact_fill_the_area(spectrum):
     for pressure in (1e3, 3e4, 3e5):
         found = effective_medium(spectrum, composite_modulus=1.3e7, load=pressure)
-        assert found.shares.sum() + found.area_fraction == pytest.approx(1.0, abs=1e-9)
-        mean = (found.gaps * found.shares).sum()
+        assert found.fractions.sum() + found.area_fraction == pytest.approx(1.0, abs=1e-9)
+        mean = (found.gaps * found.fractions).sum()
         assert found.mean_gap * (1 - 1e-9) <= mean <= found.mean_gap + math.sqrt(2 / math.pi) * 1e-7
 
 
 def test_the_gaps_of_a_medium_hardly_pressed_are_gaussian_as_its_heights_are(spectrum):
     found = effective_medium(spectrum, composite_modulus=1.3e7, load=100.0)
     order = np.argsort(found.gaps)
-    below, gaps = np.cumsum(found.shares[order]), found.gaps[order]
+    below, gaps = np.cumsum(found.fractions[order]), found.gaps[order]
     assert np.abs(below - ndtr((gaps - found.mean_gap) / 1e-7)).max() < 0.02
 
 
@@ -227,7 +227,7 @@ def test_the_medium_leaks_less_the_harder_it_is_pressed_and_seals_at_its_thresho
     found = [effective_medium(spectrum, composite_modulus=1.3e7, load=float(pressure)) for pressure in loads]
     leaks = [one.permeability for one in found]
     assert all(a > b or a == b == 0 for a, b in pairwise(leaks))
-    assert [one.sealed for one in found] == [one.area_fraction >= THRESHOLD for one in found]
+    assert [one.sealed for one in found] == [one.area_fraction >= SEALING_AREA for one in found]
     assert all(one.residual < 1e-9 for one in found)
     assert found[-1].sealed
 

@@ -8,7 +8,7 @@ import pytest
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.ladder import find
 from roughfilm.rom.ladder.request import Request
-from roughfilm.rom.studies.convergence import Kind, converge, convergence
+from roughfilm.rom.studies.convergence import ConvergenceKind, converge, convergence
 
 RATIOS = [(60, 120, 240), (40, 60, 90), (50, 60, 110), (12, 97, 101)]
 
@@ -22,7 +22,7 @@ def manufactured(grids, *terms, limit=-3.7):
 @pytest.mark.parametrize("constant", [-40.0, 0.3])
 def test_a_power_law_is_recovered(grids, order, constant):
     found = converge(grids, manufactured(grids, (constant, order)), formal_order=2)
-    assert found.kind is Kind.MONOTONE
+    assert found.kind is ConvergenceKind.MONOTONE
     assert found.order == pytest.approx(order, rel=1e-6)
     assert found.value == pytest.approx(-3.7, rel=1e-9)
     safety = 1.25 if order >= 1.8 else 3
@@ -42,7 +42,7 @@ def test_the_published_example():
 def test_a_higher_order_than_the_formal_one_is_told_but_not_trusted(grids):
     values = manufactured(grids, (30.0, 3.5))
     found = converge(grids, values, formal_order=2)
-    assert (found.order, found.order_used, found.order_told) == (pytest.approx(3.5), 2, "3.50 → 2")
+    assert (found.order, found.order_used, found.order_text) == (pytest.approx(3.5), 2, "3.50 → 2")
     assert abs(values[-1] + 3.7) < found.uncertainty
     assert abs(found.value + 3.7) < found.uncertainty
 
@@ -66,7 +66,7 @@ def test_the_next_term_stays_within_the_uncertainty(grids):
 def test_oscillating_values_are_not_extrapolated():
     values = [-3.7 + sign / n for sign, n in ((1, 40), (-1, 60), (1, 90))]
     found = converge((40, 60, 90), values, formal_order=2)
-    assert (found.kind, found.order, found.value) == (Kind.OSCILLATORY, None, values[-1])
+    assert (found.kind, found.order, found.value) == (ConvergenceKind.OSCILLATORY, None, values[-1])
     assert abs(values[-1] + 3.7) < found.uncertainty
     assert found.uncertainty == pytest.approx(3 * (1 / 40 + 1 / 60))
 
@@ -74,34 +74,36 @@ def test_oscillating_values_are_not_extrapolated():
 @pytest.mark.parametrize("values", [(1.0, 1.1, 1.3), (1.0, 1.1, 1.2), (1.0, 1.0, 1.2)])
 def test_steps_that_do_not_shrink_are_divergence(values):
     found = converge((60, 120, 240), values, formal_order=2)
-    assert (found.kind, found.order, found.value) == (Kind.DIVERGENT, None, values[-1])
+    assert (found.kind, found.order, found.value) == (ConvergenceKind.DIVERGENT, None, values[-1])
     assert found.uncertainty == pytest.approx(3 * (values[-1] - 1))
 
 
 def test_equal_steps_converge_only_where_the_fine_one_is_the_longer_leap():
-    assert converge((100, 110, 220), (1.0, 1.1, 1.2), formal_order=2).kind is Kind.MONOTONE
-    assert converge((100, 200, 220), (1.0, 1.1, 1.2), formal_order=2).kind is Kind.DIVERGENT
+    assert converge((100, 110, 220), (1.0, 1.1, 1.2), formal_order=2).kind is ConvergenceKind.MONOTONE
+    assert converge((100, 200, 220), (1.0, 1.1, 1.2), formal_order=2).kind is ConvergenceKind.DIVERGENT
 
 
 def test_constants_and_noise_are_at_round_off():
     exact = converge((60, 120, 240), (2.5, 2.5, 2.5), formal_order=2)
-    assert (exact.kind, exact.value, exact.uncertainty) == (Kind.ROUND_OFF, 2.5, 0)
+    assert (exact.kind, exact.value, exact.uncertainty) == (ConvergenceKind.ROUND_OFF, 2.5, 0)
     noisy = converge((60, 120, 240), (2.5, 2.5 + 1e-9, 2.5 - 1e-9), formal_order=2, noise=1e-8)
-    assert noisy.kind is Kind.ROUND_OFF
+    assert noisy.kind is ConvergenceKind.ROUND_OFF
     assert noisy.uncertainty >= 1e-8
-    assert converge((60, 120, 240), (2.5, 2.5 + 1e-7, 2.5), formal_order=2, noise=1e-8).kind is Kind.OSCILLATORY
+    assert (
+        converge((60, 120, 240), (2.5, 2.5 + 1e-7, 2.5), formal_order=2, noise=1e-8).kind is ConvergenceKind.OSCILLATORY
+    )
 
 
 def test_two_grids_take_the_formal_order_and_the_greater_factor():
     found = converge((80, 120), manufactured((80, 120), (9.0, 2)), formal_order=2)
-    assert (found.kind, found.order, found.order_used) == (Kind.TWO_GRIDS, None, 2)
+    assert (found.kind, found.order, found.order_used) == (ConvergenceKind.TWO_GRIDS, None, 2)
     assert found.value == pytest.approx(-3.7, rel=1e-12)
     assert found.uncertainty == pytest.approx(3 * 9 / 120**2)
 
 
 def test_without_a_formal_order_the_last_step_is_uncertain():
     found = converge((8, 12, 16), (1.0, 1.5, 1.49), formal_order=None)
-    assert (found.kind, found.value, found.uncertainty) == (Kind.NO_FORMAL_ORDER, 1.49, pytest.approx(0.01))
+    assert (found.kind, found.value, found.uncertainty) == (ConvergenceKind.NO_FORMAL_ORDER, 1.49, pytest.approx(0.01))
 
 
 def test_only_the_finest_three_grids_count():
@@ -150,7 +152,7 @@ def test_load_of_navier_stokes_extrapolates_to_the_independent_value(make_scene,
     scene = make_scene(width, depth, 160)
     found = convergence(model, [model.solve(scene, Request(resolution=n)) for n in (240, 60, 120)])["load_plus"]
     assert found.grids == (60, 120, 240)
-    assert found.kind is Kind.MONOTONE
+    assert found.kind is ConvergenceKind.MONOTONE
     assert least < found.order < most
     assert abs(found.value - load) < found.uncertainty < 0.01 * load
     assert found.value == pytest.approx(load, rel=1e-3)

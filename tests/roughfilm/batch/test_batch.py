@@ -98,6 +98,12 @@ class Batch:
         return [pid for pid in self.family() if group(pid) == pid]
 
 
+def called(study, out, *arguments):
+    """``roughfilm batch`` in this process: exit code, output and errors."""
+    result = CliRunner().invoke(app, ["batch", str(study), "--out", str(out), *map(str, arguments)])
+    return result.exit_code, result.stdout, result.stderr
+
+
 def group(pid):
     try:
         return os.getpgid(pid)
@@ -186,7 +192,7 @@ def test_finished_jobs_are_skipped_also_when_the_study_grows(tmp_path):
 
 
 def test_a_dry_run_makes_nothing(tmp_path):
-    code, told, _ = Batch(POCKET, tmp_path / "out", tmp_path, "--dry-run").end()
+    code, told, _ = called(POCKET, tmp_path / "out", "--dry-run")
     assert code == 0
     assert "12 cases" in told
     assert not (tmp_path / "out").exists()
@@ -374,7 +380,7 @@ def test_a_killed_batch_of_openfoam_runs_goes_on(tmp_path):
 )
 def test_bad_input_is_one_line_and_code_2(tmp_path, more, arguments, words):
     study = write_study(tmp_path / "s.toml", more=more)
-    code, told, error = Batch(study, tmp_path / "out", tmp_path, *arguments).end()
+    code, told, error = called(study, tmp_path / "out", *arguments)
     assert code == 2
     (line,) = error.splitlines()
     assert words in line
@@ -459,7 +465,7 @@ def test_a_scheduler_that_goes_ends_the_batch_in_one_line(tmp_path, cluster):
 
 def test_without_dask_it_says_how_to_get_it(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
-    arguments = ["batch", POCKET, "--out", tmp_path / "out", "--executor", "dask", "--scheduler", "tcp://127.0.0.1:9"]
-    result = CliRunner().invoke(app, [str(argument) for argument in arguments])
-    assert result.exit_code == 4
-    assert "pip install 'roughfilm[cluster]'" in result.stderr
+    place = ("--executor", "dask", "--scheduler", "tcp://127.0.0.1:9")
+    code, _, error = called(POCKET, tmp_path / "out", *place)
+    assert code == 4
+    assert "pip install 'roughfilm[cluster]'" in error

@@ -14,7 +14,7 @@ from roughfilm.charts import peer_runs as charts_peers
 from roughfilm.charts import store as charts_kept
 from roughfilm.charts.cells import rough_gap, truth
 from roughfilm.charts.families import FAMILIES
-from roughfilm.charts.family import Ask, Family, Measured, Peer, Truth, extrapolated, fastest, of_scene
+from roughfilm.charts.family import Ask, ChartFamily, Measured, Peer, ReferenceValue, extrapolated, fastest, of_scene
 from roughfilm.charts.judgement import counting, entries_of, judged
 from roughfilm.charts.openfoam import pocket_load
 from roughfilm.charts.store import answers
@@ -44,13 +44,13 @@ class Solvers:
     def __init__(self, known, *, uncertainty=1e-5, peers=(), broken=()):
         self.asked = []
         self.broken = dict(broken)
-        self.family = Family(
+        self.family = ChartFamily(
             name="test",
             work="Something is computed.",
             quantity="load",
             unit="N",
             resolution_meaning="nodes",
-            truth=lambda: self._found("truth", Truth(value=2.0, uncertainty=uncertainty, source="a formula")),
+            truth=lambda: self._found("truth", ReferenceValue(value=2.0, uncertainty=uncertainty, source="a formula")),
             truth_cost=1.0,
             own=[
                 Ask(solver=solver, resolution=n, cost=1.0, measure=partial(self._found, (solver, n), found))
@@ -133,7 +133,7 @@ def test_answers_of_another_code_or_machine_are_not_used(tmp_path, monkeypatch, 
     assert len(solvers.asked) == 2 * (len(KNOWN) + 1)
 
 
-def test_a_solver_without_an_answer_is_told_and_asked_again(tmp_path):
+def test_a_solver_that_failed_is_named_and_asked_again(tmp_path):
     path, solvers = tmp_path / "test.json", Solvers(KNOWN, broken={("fine", 4): ConvergenceError("it swings")})
     found = answers(solvers.family, path, silent)
     assert found.failed == {"fine-4": "it swings"}
@@ -156,7 +156,7 @@ def test_the_fastest_run_counts_and_what_compiles_runs_twice_at_least():
 
 def test_a_truth_is_extrapolated_from_grids_of_second_order():
     def measure(n):
-        return Measured(value=3 + 5 / n**2, cpu_s=1.0, told={"residual": 1e-12})
+        return Measured(value=3 + 5 / n**2, cpu_s=1.0, details={"residual": 1e-12})
 
     found = extrapolated(measure, (16, 32, 64), "a formula")
     assert found.value == pytest.approx(3, rel=1e-12)
@@ -171,7 +171,7 @@ def small_family(ladder):
     return replace(whole, name="small slider", own=own)
 
 
-def test_a_rung_that_is_added_appears_by_itself():
+def test_a_model_that_is_added_appears_by_itself():
     ladder = models()
     added = replace(
         find("bearing", "reynolds_cavitating"),
@@ -217,7 +217,7 @@ def test_an_absent_model_is_left_out_by_name():
         quantity="load",
         unit="1",
         key="load_plus",
-        truth=lambda: Truth(value=3.303, uncertainty=1e-4, source="an independent solver"),
+        truth=lambda: ReferenceValue(value=3.303, uncertainty=1e-4, source="an independent solver"),
         truth_cost=0.0,
         resolution_meaning="",
     )
@@ -229,7 +229,7 @@ def test_the_slider_is_judged_by_its_exact_load():
     assert FAMILIES["cavitating slider"](models()).truth().value == pytest.approx(SLIDER_LOAD, rel=1e-7)
 
 
-def test_the_gap_is_like_its_own_inverse_and_the_same_turned():
+def test_the_gap_is_its_own_inverse_shifted_and_unchanged_by_rotation():
     h = rough_gap(64)
     np.testing.assert_allclose(np.roll(h, (32, 32), (0, 1)) * h, 1, rtol=1e-12)
     turned = np.roll(np.rot90(h), 1, axis=0)
@@ -252,9 +252,9 @@ def test_an_environment_that_is_absent_says_how_it_is_made(monkeypatch, tmp_path
     monkeypatch.delenv("ROUGHFILM_GAPFLOW", raising=False)
     assert charts_peers.GAPFLOW.absent() == GAPFLOW_ABSENT
     with pytest.raises(UnavailableError, match="setup_gapflow"):
-        charts_peers.GAPFLOW.run("run_gapflow.py", asked={})
+        charts_peers.GAPFLOW.run("run_gapflow.py", problem={})
     monkeypatch.setenv("ROUGHFILM_GAPFLOW", str(tmp_path))
-    assert "is no environment of Python" in charts_peers.GAPFLOW.absent()
+    assert "is no Python environment" in charts_peers.GAPFLOW.absent()
 
 
 def test_a_contact_peer_solves_the_very_heights_of_the_scene(monkeypatch):
@@ -272,12 +272,12 @@ def test_a_contact_peer_solves_the_very_heights_of_the_scene(monkeypatch):
 
 
 @pytest.mark.openfoam
-def test_the_tutorials_settings_stop_early_and_are_off():
+def test_the_tutorials_settings_stop_early_and_are_inaccurate():
     """3.303 by an independent solver; the tutorial's residuals let the flow stop far from it."""
     scene = FAMILIES["pocket"](models()).peers[0].measure.args[0]
     found = pocket_load(scene, 40)
     assert 0.5 < found.value / 3.303 < 1.5
-    assert found.told["iterations"] < 200
+    assert found.details["iterations"] < 200
 
 
 def run(*arguments):
@@ -315,7 +315,7 @@ def test_the_command_writes_the_page_and_its_numbers(tmp_path, monkeypatch):
     assert (out / "measured" / "small_slider.json").read_bytes() == before
 
 
-def test_a_family_without_a_truth_is_told(tmp_path, monkeypatch):
+def test_a_family_without_a_reference_is_an_error(tmp_path, monkeypatch):
     def gone():
         raise ConvergenceError("no truth today")
 

@@ -90,7 +90,7 @@ def test_it_says_when_none_will_do(run):
     assert told["nearest"]
     found = run("solve", *asked)
     assert found.exit_code == NOT_CONVERGED
-    assert "no rung here is known to give the load within" in found.stderr.replace("\n", " ")
+    assert "no model here is known to give the load within" in found.stderr.replace("\n", " ")
 
 
 @pytest.mark.parametrize(

@@ -38,7 +38,7 @@ def wall(stored, tmp_path, *overrides):
 
 def test_the_table_of_the_scene_is_taken_as_it_is(stored, tmp_path):
     taken = wall(stored, tmp_path)
-    assert taken.points == taken.found == len(load_table(stored).points)
+    assert taken.points == taken.known_points == len(load_table(stored).points)
     assert not (tmp_path / "own.h5").exists()
 
 

@@ -76,5 +76,5 @@ def test_the_report_orders_the_errors_of_every_model(finished):
 def test_a_directory_without_a_table_is_one_line(tmp_path):
     run = CliRunner().invoke(app, ["report", str(tmp_path)])
     assert run.exit_code == 2
-    assert "is not a table of roughfilm" in run.stderr
+    assert "table.h5: no such file" in run.stderr
     assert len(run.stderr.strip().splitlines()) == 1

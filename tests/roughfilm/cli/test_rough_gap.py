@@ -56,7 +56,7 @@ def test_overrides_that_take_each_others_place_are_refused():
     ("override", "words"),
     [
         ("geometry.mean_gap=1um", "the walls cross"),
-        ("mesh.layers=1", "too few"),
+        ("mesh.layers=1", "it must be 4 to 1000"),
         ("geometry.amplitude=3", "a number without a unit"),
         ("geometry.surface=nowhere.h5", "no such file"),
     ],

@@ -10,8 +10,7 @@ from roughfilm.cli import compare
 from roughfilm.figures.streamlines import shown
 from roughfilm.figures.views.pocket import pressure
 from roughfilm.foamcases.openfoam.block_mesh import layered
-from roughfilm.ladder import find, models
-from roughfilm.rom.ladder.model import of_kind
+from roughfilm.ladder import find
 from roughfilm.rom.ladder.scene import load_scene
 
 ONE = ["geometry.profile=points", "geometry.points=[[-1e-4,0],[0,1e-5],[2e-4,0]]"]
@@ -21,12 +20,11 @@ FIVE = "geometry.grooves=[{}]".format(
 
 
 @pytest.fixture
-def film_only(monkeypatch):
-    film = tuple(model for model in models() if not model.outside)
-    monkeypatch.setattr(compare, "models", lambda kind: of_kind(film, kind))
+def reynolds_only(monkeypatch):
+    monkeypatch.setattr(compare, "models", lambda _: (find("pocket", "reynolds"),))
 
 
-@pytest.mark.usefixtures("film_only")
+@pytest.mark.usefixtures("reynolds_only")
 @pytest.mark.parametrize(
     ("name", "overrides", "words"),
     [

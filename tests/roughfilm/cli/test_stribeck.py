@@ -144,7 +144,7 @@ def test_a_table_that_does_not_reach_is_extended_and_that_is_told(swept, tmp_pat
     done = run("--out", tmp_path / "out", "--table", short, "--loads", "2MPa", "--speeds", "0", "--json")
     assert done.exit_code == 0, done.stderr
     told = json.loads(done.stdout)
-    warned = [words for words in told["provenance"]["warnings"] if "T.h5 reaches 0.5 MPa" in words]
+    warned = [words for words in told["provenance"]["warnings"] if "T.h5 has contact pressures of up to 0.5" in words]
     assert len(warned) == 1
     assert "extended to" in warned[0]
     assert told["curves"][0]["points"][0]["contact_load"] > 0

@@ -1,21 +1,18 @@
 """The map of the contact solver: the judge tells right from wrong by itself, and the whole map is drawn and stored."""
 
-import csv
-import json
 import math
+from collections import Counter
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
-from roughfilm.cli.main import app
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.stability import contact as stability_contact
 from roughfilm.stability.checks.contact import broken_conditions, displacement, rms_slope
-from roughfilm.stability.contact import put, told
-from roughfilm.stability.form import Outcome as Found
-from roughfilm.stability.questions.contact import MODULUS, Probe, probes
+from roughfilm.stability.contact import probe, summary
+from roughfilm.stability.form import MapOutcome
+from roughfilm.stability.questions.contact import MODULUS, Pressing, pressings
 
 N, LENGTH, DEPTH = 64, 1e-4, 1e-7
 X = LENGTH * np.arange(N)[:, None] / N + np.zeros(N)
@@ -28,6 +25,10 @@ FULL = MODULUS * math.pi / LENGTH * RIPPLE
 def judged(pressure, **changes):
     given = {"composite_modulus": MODULUS, "hardness": math.inf, "load": 2 * FULL.max(), **changes}
     return broken_conditions(pressure, RIPPLE, SPACING, **given)
+
+
+def outcome_of(pressing):
+    return probe(pressing).spot().outcome
 
 
 def test_the_displacement_of_a_wave_is_two_over_modulus_and_wave_number():
@@ -52,61 +53,43 @@ def test_a_pressure_that_is_clipped_breaks_what_it_must():
     assert judged(pulled * load / pulled.mean(), load=load) > 0.01
 
 
-def test_every_way_to_go_wrong_is_told(monkeypatch):
-    probe = Probe(
+def test_every_way_to_go_wrong_has_an_outcome(monkeypatch):
+    pressing = Pressing(
         group="g", row="r", column="c", heights=RIPPLE, spacing=SPACING, hardness=math.inf, load=2 * FULL.max()
     )
-    assert put(probe).outcome is Found.CONVERGED
-    assert put(replace(probe, load=-1.0)).outcome is Found.WRONG
-    assert put(replace(probe, load=-1.0, expected="refused")).outcome is Found.REFUSED
-    assert put(replace(probe, expected="refused")).outcome is Found.WRONG
+    assert outcome_of(pressing) is MapOutcome.CONVERGED
+    assert outcome_of(replace(pressing, load=-1.0)) is MapOutcome.WRONG
+    assert outcome_of(replace(pressing, load=-1.0, refused=True)) is MapOutcome.REFUSED
+    assert outcome_of(replace(pressing, refused=True)) is MapOutcome.WRONG
 
-    found = stability_contact.pressed(probe)
+    found = stability_contact.contact_of(pressing)
 
-    def stalls(_probe):
+    def stalls(_pressing):
         raise ConvergenceError("contact: stalled", outcome=Outcome.STALLED, iterations=7)
 
-    monkeypatch.setattr(stability_contact, "pressed", stalls)
-    stalled = put(probe)
-    assert (stalled.outcome, stalled.iterations) == (Found.STALLED, 7)
-    assert "Stalled: g: r, c (7 iterations): contact: stalled" in told([stalled])
-    monkeypatch.setattr(stability_contact, "pressed", lambda _probe: replace(found, iterations=101))
-    assert put(probe).outcome is Found.SLOW
-    even = np.full(found.pressure.shape, probe.load)
-    monkeypatch.setattr(stability_contact, "pressed", lambda _probe: replace(found, pressure=even))
-    assert put(probe).outcome is Found.WRONG
+    monkeypatch.setattr(stability_contact, "contact_of", stalls)
+    stalled = probe(pressing).spot()
+    assert (stalled.outcome, stalled.iterations) == (MapOutcome.STALLED, 7)
+    assert "Stalled: g: r, c (7 iterations): contact: stalled" in summary([stalled])
+    monkeypatch.setattr(stability_contact, "contact_of", lambda _pressing: replace(found, iterations=101))
+    assert outcome_of(pressing) is MapOutcome.SLOW
+    even = np.full(found.pressure.shape, pressing.load)
+    monkeypatch.setattr(stability_contact, "contact_of", lambda _pressing: replace(found, pressure=even))
+    assert outcome_of(pressing) is MapOutcome.WRONG
 
 
 def test_the_probes_are_different_and_hold_what_they_should():
-    asked = list(probes(64))
-    places = {(probe.group, probe.row, probe.column) for probe in asked}
+    asked = list(pressings(64))
+    places = {(one.group, one.row, one.column) for one in asked}
     assert len(places) == len(asked)
-    shapes = {probe.heights.shape for probe in asked}
+    shapes = {one.heights.shape for one in asked}
     assert {(63, 64), (64, 63), (63, 63), (64, 1), (1, 63)} <= shapes
-    assert any(probe.heights.dtype == np.float32 for probe in asked)
-    rough = [probe for probe in asked if probe.group == "amplitude" and probe.row == "rms slope 100"]
+    assert any(one.heights.dtype == np.float32 for one in asked)
+    rough = [one for one in asked if one.group == "amplitude" and one.row == "rms slope 100"]
     assert rms_slope(rough[0].heights, rough[0].spacing) == pytest.approx(100)
 
 
-def test_the_map_is_a_page_a_table_and_json(tmp_path, monkeypatch):
-    some = [probe for probe in probes(64) if probe.group in ("elastic-plastic", "limits")]
-    monkeypatch.setattr(stability_contact, "probes", lambda _points: iter(some))
-    result = CliRunner().invoke(app, ["stability", "contact", "--out", str(tmp_path), "--resolution", "64", "--json"])
-    assert result.exit_code == 0, result.stderr
-    entries = json.loads(result.stdout)
-    assert entries == json.loads((tmp_path / "stability.json").read_text())
-    assert entries["counts"]["converged"] == 49
-    assert entries["counts"]["wrong"] == 0
-    assert max(spot["iterations"] or 0 for spot in entries["runs"]) <= 100
-    with (tmp_path / "stability.csv").open() as file:
-        rows = list(csv.DictReader(file))
-    assert len(rows) == len(some)
-    page = (tmp_path / "report.html").read_text()
-    assert "elastic-plastic" in page
-    assert "src=" not in page
-
-
-def test_too_few_points_are_refused(tmp_path):
-    result = CliRunner().invoke(app, ["stability", "contact", "--out", str(tmp_path), "--resolution", "8"])
-    assert result.exit_code == 2
-    assert "--resolution: got 8; the surfaces need at least 32 points" in result.stderr
+def test_hard_and_soft_surfaces_converge_and_invalid_input_is_refused():
+    spots = [probe(one).spot() for one in pressings(64) if one.group in ("elastic-plastic", "limits")]
+    counts = Counter(spot.outcome for spot in spots)
+    assert counts == {MapOutcome.CONVERGED: 49, MapOutcome.REFUSED: len(spots) - 49}

@@ -16,15 +16,14 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Ou
 from roughfilm.ladder import find, models
 from roughfilm.pages.render import TEMPLATES
 from roughfilm.rom.ladder.setting import Setting
-from roughfilm.stability import form as stability_form
 from roughfilm.stability import laws as stability_laws
 from roughfilm.stability import pocket as stability_pocket
-from roughfilm.stability.form import MEANING, SECOND, Judged, Map, Spot, tried
-from roughfilm.stability.pocket import in_words, spot_of
+from roughfilm.stability.form import MEANING, SECOND_TRY, Judgement, MapOutcome, Probe, Spot, StabilityMap
+from roughfilm.stability.pocket import POCKET, Places, scene_at, spot_of, summary
 
 NAVIER_STOKES = find("pocket", "navier_stokes")
 SETTING = Setting(model=NAVIER_STOKES, scheme="linear_upwind")
-HERE = partial(Spot, group="g", row="r", column="c")
+PLACE = {"group": "g", "row": "r", "column": "c"}
 
 
 def run(*arguments):
@@ -38,8 +37,8 @@ def small(monkeypatch):
     def family(names, reynolds_numbers=(2000.0,), depths_plus=(0.25, 1e-6)):
         chosen = tuple(model for model in models("pocket") if model.name in names)
         monkeypatch.setattr(stability_pocket, "models", lambda _: chosen)
-        made = stability_pocket.PocketFamily(reynolds_numbers=reynolds_numbers, depths_plus=depths_plus)
-        monkeypatch.setitem(stability.FAMILIES, "pocket", made)
+        places = Places(reynolds_numbers=reynolds_numbers, depths_plus=depths_plus)
+        monkeypatch.setitem(stability.FAMILIES, "pocket", replace(POCKET, solve=places.solve))
 
     return family
 
@@ -64,7 +63,7 @@ def test_every_way_to_fail_has_an_outcome(error, outcome, why):
 
 
 def judge(right, iterations=3):
-    return lambda _answer: Judged(iterations=iterations, right=right, error=1e-3, message="" if right else "off")
+    return lambda _answer: Judgement(iterations=iterations, right=right, error=1e-3, message="" if right else "off")
 
 
 def raises(error):
@@ -89,13 +88,13 @@ def raises(error):
     ],
 )
 def test_questions_come_to_what_they_must(ask, judged, refused, outcome):
-    assert tried(HERE, ask, judged, refused=refused).outcome == outcome
+    assert Probe(**PLACE, ask=ask, judge=judged, refused=refused).spot().outcome == outcome
 
 
 def test_every_outcome_has_a_meaning_and_a_colour():
-    assert set(MEANING) == set(stability_form.Outcome)
+    assert set(MEANING) == set(MapOutcome)
     css = (TEMPLATES / "map.css").read_text()
-    assert all(f".{outcome} {{" in css for outcome in stability_form.Outcome)
+    assert all(f".{outcome} {{" in css for outcome in MapOutcome)
 
 
 def places(states, loads=None):
@@ -107,7 +106,7 @@ def places(states, loads=None):
                 group="a model",
                 row=f"d+ {depth:g}",
                 column=f"Re {reynolds_number:g}",
-                outcome=stability_form.Outcome(outcome),
+                outcome=MapOutcome(outcome),
                 why=why,
                 numbers={"load_plus": loads[number] if loads else None},
             )
@@ -120,14 +119,14 @@ def test_words_say_where_what_happened():
         {
             (40.0, 1.0): "converged",
             (40.0, 3.0): "stalled: unsteady",
-            (160.0, 1.0): f"slow: {SECOND}",
+            (160.0, 1.0): f"slow: {SECOND_TRY}",
             (160.0, 3.0): "stalled: unsteady",
         }
     )
-    assert in_words("a model", own, own) == [
+    assert summary(own) == [
         "a model: converges at 1 of 4 places.",
         "a model: unsteady at 2: d+ 3 at Re 40, 160.",
-        f"a model: {SECOND} at 1: Re 160 at d+ 1.",
+        f"a model: {SECOND_TRY} at 1: Re 160 at d+ 1.",
     ]
 
 
@@ -135,15 +134,13 @@ def test_words_compare_a_scheme_with_the_first_one():
     where = {(40.0, 1.0): "converged", (160.0, 1.0): "converged"}
     first = [replace(spot, group="film, linear_upwind") for spot in places(where, [4.0, 4.0])]
     second = [replace(spot, group="film, upwind") for spot in places(where, [5.0, 5.0])]
-    assert in_words("film, upwind", second, [*first, *second])[1:] == [
+    assert summary([*first, *second])[2:] == [
         "film, upwind: at half of them its load is 25 % or more from that of linear_upwind."
     ]
 
 
 def test_the_scenes_of_a_family_are_where_they_say():
-    family = stability.FAMILIES["pocket"]
-    assert len(family.places) == len(set(family.places)) == 36
-    scene = family.at(5000.0, 3.0)
+    scene = scene_at(5000.0, 3.0)
     assert scene.reynolds_number == 5000.0
     along = np.linspace(-0.5e-3, 0.5e-3, 101)
     assert scene.gap().thickness(along).max() == pytest.approx(4 * 30e-6)
@@ -156,7 +153,7 @@ def test_a_map_is_a_page_a_table_and_json_and_is_not_made_twice(small, tmp_path)
     told = json.loads(result.stdout)
     assert told == json.loads((tmp_path / "stability.json").read_text())
     assert told["provenance"]["machine"]["cores"]
-    assert told["counts"] == dict.fromkeys(stability_form.Outcome, 0) | {"converged": 4}
+    assert told["counts"] == dict.fromkeys(MapOutcome, 0) | {"converged": 4}
     with (tmp_path / "stability.csv").open() as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == 4
@@ -171,36 +168,34 @@ def test_a_map_is_a_page_a_table_and_json_and_is_not_made_twice(small, tmp_path)
 
 
 class Counted:
-    """A family of one question, that counts how often it is asked; stopped once if it is to be."""
-
-    resolution = 7
-    resolution_meaning = "nothing"
+    """A map of one probe that counts how often it is made, and is stopped the first time if ``stops``."""
 
     def __init__(self, name, outcome="converged", stops=False):
         self.name, self.outcome, self.stops, self.asked = name, outcome, stops, 0
+        self.map = StabilityMap(
+            name=name,
+            title=f"The map of {name}",
+            axes="One question.",
+            judge="Nobody.",
+            resolution=7,
+            resolution_meaning="nothing",
+            solve=self.solve,
+            summary=lambda _spots: [f"summary of {name}"],
+            draw=lambda _spots: {"drawn": "<svg></svg>"} if name == "one" else {},
+        )
 
-    def make(self, *, resolution, **_):
+    def solve(self, *_):
         self.asked += 1
         if self.stops:
             self.stops = False
             raise KeyboardInterrupt
-        spot = HERE(outcome=stability_form.Outcome(self.outcome), message="what went wrong" * (self.outcome == "wrong"))
-        return Map(
-            family=self.name,
-            title=f"The map of {self.name}",
-            axes="One question.",
-            judge="Nobody.",
-            resolution=resolution,
-            resolution_meaning=self.resolution_meaning,
-            spots=[spot],
-            told=[f"told of {self.name}"],
-            figures={"drawn": "<svg></svg>"} if self.name == "one" else {},
-        )
+        message = "what went wrong" * (self.outcome == "wrong")
+        return [Spot(**PLACE, outcome=MapOutcome(self.outcome), message=message)], {}
 
 
 def test_all_maps_stand_in_one_place_and_a_run_that_was_stopped_goes_on(monkeypatch, tmp_path):
     one, two, three = Counted("one"), Counted("two", "wrong"), Counted("three", stops=True)
-    monkeypatch.setattr(stability, "FAMILIES", {each.name: each for each in (one, two, three)})
+    monkeypatch.setattr(stability, "FAMILIES", {each.name: each.map for each in (one, two, three)})
     assert run("all", "--out", tmp_path).exit_code != 0
     assert (one.asked, two.asked, three.asked) == (1, 1, 1)
     assert not (tmp_path / "report.html").exists()
@@ -215,7 +210,7 @@ def test_all_maps_stand_in_one_place_and_a_run_that_was_stopped_goes_on(monkeypa
         ("three", 0),
     ]
     page = (tmp_path / "report.html").read_text()
-    assert all(words in page for words in ("The map of three", "told of two", "what went wrong", "<svg></svg>"))
+    assert all(words in page for words in ("The map of three", "summary of two", "what went wrong", "<svg></svg>"))
     with (tmp_path / "stability.csv").open() as file:
         assert [row["family"] for row in csv.DictReader(file)] == ["one", "two", "three"]
     monkeypatch.setattr(stability, "code", lambda: "another")
@@ -229,21 +224,22 @@ def test_maps_by_laws_alone_are_drawn_and_what_breaks_a_law_is_wrong(monkeypatch
     assert result.exit_code == 0, result.stderr
     counts = json.loads(result.stdout)["counts"]
     assert (counts["wrong"], counts["stalled"], counts["refused"]) == (0, 0, 12)
-    probe = next(iter(stability_laws.seals(32)))
-    spot, lighter = stability_laws.put(probe, None)
-    assert spot.outcome in stability_form.GOOD
-    less = {name: replace(found, value=found.value / 2, uncertainty=None) for name, found in lighter.quantities.items()}
-    grown, _ = stability_laws.put(probe, replace(lighter, quantities=less))
-    assert (grown.outcome, "permeability grows from" in grown.message) == ("wrong", True)
+    answer = next(iter(stability_laws.seals(32))).ask()
+    judge = partial(stability_laws.judged, "permeability")
+    assert judge([], answer).right
+    value = answer[1]["permeability"]
+    less = replace(value, value=value.value / 2, uncertainty=None)
+    grown = judge([replace(answer[1], quantities={**answer[1].quantities, "permeability": less})], answer)
+    assert (grown.right, "permeability grows from" in grown.message) == (False, True)
     monkeypatch.setattr(stability_laws, "broken", lambda *_: ["a law is broken"])
-    assert stability_laws.put(probe, None)[0].message == "a law is broken"
+    assert judge([], answer).message == "a law is broken"
 
 
 def test_mixed_films_near_and_far_keep_the_laws(monkeypatch):
     monkeypatch.setattr(stability_laws, "SEPARATIONS", (5.0, 1.0, 0.0))
     monkeypatch.setattr(stability_laws, "SPEEDS", (0.0, 0.1))
     asked = [probe for probe in stability_laws.films(32) if "Hurst" in probe.group]
-    outcomes = [stability_laws.put(probe, None)[0].outcome for probe in asked]
+    outcomes = [probe.spot().outcome for probe in asked]
     assert outcomes == ["converged", "converged", "refused"] * 6
 
 
@@ -257,7 +253,7 @@ def test_a_second_try_and_a_failure_are_told_from_what_simply_converges(small, t
         group: [(one["outcome"], one["why"]) for one in runs if one["group"] == group]
         for group in ("navier_stokes, linear_upwind", "stokes")
     }
-    assert told["navier_stokes, linear_upwind"] == [("converged", ""), ("slow", SECOND), ("stalled", "")]
+    assert told["navier_stokes, linear_upwind"] == [("converged", ""), ("slow", SECOND_TRY), ("stalled", "")]
     assert told["stokes"] == [("converged", ""), ("converged", ""), ("stalled", "")]
     assert all(one["iterations"] > 100 and one["cpu_s"] > 0 for one in runs)
     assert (tmp_path / "report.html").read_text().count('td class="stalled"') == 3
@@ -270,6 +266,12 @@ def test_a_second_try_and_a_failure_are_told_from_what_simply_converges(small, t
         (["pocket", "--jobs", "0"], "--jobs: got 0; it must be 1 or more"),
         (["all", "--resolution", "30"], "--resolution: got 30 for all; every map counts it in its own way"),
         (["seal", "--resolution", "8"], "--resolution: got 8; the surfaces take 32 to 256 points along a side"),
+        (["contact", "--resolution", "8"], "--resolution: got 8; the surfaces need at least 32 points"),
+        (["cell", "--resolution", "8"], "--resolution: got 8; the cells take 64 to 512 nodes along a side"),
+        (["cavitation", "--resolution", "8"], "--resolution: got 8; the slider takes 100 to 100000 nodes"),
+        (["rough_gap", "--resolution", "16"], "--resolution: got 16; it must be even, 32 to 64"),
+        (["rough_gap", "--resolution", "33"], "--resolution: got 33; it must be even, 32 to 64"),
+        (["rough_gap", "--resolution", "256"], "--resolution: got 256; it must be even, 32 to 64"),
     ],
 )
 def test_bad_input_is_one_line_and_code_2(tmp_path, arguments, words):

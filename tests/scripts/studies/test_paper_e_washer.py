@@ -121,7 +121,7 @@ def test_a_washer_is_found_again(small, monkeypatch):
     monkeypatch.setattr(paper_e_data, "patir_cheng_table", only_known)
     again = washer(made("surface 2", 64), folder, boxed=True, speeds=(0.0, 100.0), cells=16)
     assert isinstance(again, Washer)
-    assert again.wall.found == again.wall.points
+    assert again.wall.known_points == again.wall.points
     for mine, other in zip((*one.curves, *one.boxed), (*again.curves, *again.boxed), strict=True):
         assert mine.points == other.points
 

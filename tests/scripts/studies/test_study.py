@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from scripts.studies.study import Claim, captions, kept, plain, publish
+from scripts.studies.study import Claim, kept, plain, publish
 
 
 def test_what_is_kept_is_made_once_for_the_same_inputs(tmp_path):
@@ -45,11 +45,6 @@ def test_entries_of_json_have_lists_for_arrays_and_null_for_what_is_no_number():
     }
 
 
-def drawing() -> Figure:
-    """A figure."""
-    return Figure()
-
-
 def test_a_study_is_a_page_its_figures_and_its_numbers(tmp_path, capsys):
     folder = tmp_path / "small"
     folder.mkdir()
@@ -60,17 +55,16 @@ def test_a_study_is_a_page_its_figures_and_its_numbers(tmp_path, capsys):
         source = Path(__file__).parents[3] / "scripts" / "studies" / name
         (tmp_path / name).write_text(source.read_text(encoding="utf-8"), encoding="utf-8")
     claim = Claim(number=7, text="It is small", verdict="partly", evidence="1 < 2")
-    figures = {"a b": drawing()}
+    (folder / "study.toml").write_text('captions = {"a b" = "A figure."}', encoding="utf-8")
     for as_json in (False, True):
         publish(
             folder,
             tmp_path / "out",
-            figures,
+            {"a b": Figure()},
             {"value": np.inf},
             claims=[claim],
             tables=["first"],
             as_json=as_json,
-            captions=captions({"a b": drawing}),
         )
         printed = capsys.readouterr().out
         if as_json:

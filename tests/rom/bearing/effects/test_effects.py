@@ -12,17 +12,17 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.ladder import find
 from roughfilm.rom.bearing.effects.ablation import (
     EFFECTS,
-    Composed,
-    Composition,
+    Variant,
+    VariantSolution,
     ablations,
-    added,
     amount,
     at_film,
+    difference,
     effects_of,
     steps,
 )
-from roughfilm.rom.bearing.effects.contributions import study
-from roughfilm.rom.bearing.effects.explanation import treatments
+from roughfilm.rom.bearing.effects.contributions import study_effects
+from roughfilm.rom.bearing.effects.explanation import effect_models
 from roughfilm.rom.bearing.effects.under_load import under_load
 from roughfilm.rom.bearing.mixed.equilibrium import equilibrium
 from roughfilm.rom.bearing.scene import Bearing
@@ -87,7 +87,7 @@ def smooth(**tables: Any) -> Bearing:
 
 
 @pytest.fixture(scope="module")
-def all_steps() -> tuple[Composed, ...]:
+def all_steps() -> tuple[VariantSolution, ...]:
     """The whole pad, its effects switched on one after the other."""
     return tuple(at_film(taken, CELLS) for taken in steps(scene()))
 
@@ -98,7 +98,7 @@ def rung(taken: Bearing, name: str) -> dict[str, float]:
     return {quantity: told.value for quantity, told in found.quantities.items()}
 
 
-def test_the_whole_pad_and_its_steps_are_the_rungs_of_the_ladder(all_steps: tuple[Composed, ...]) -> None:
+def test_the_whole_pad_and_its_steps_are_the_rungs_of_the_ladder(all_steps: tuple[VariantSolution, ...]) -> None:
     names = ["reynolds", "reynolds_incompressible", "reynolds_cavitating", "homogenized", "mixed"]
     for name, step in zip(names, all_steps[2:], strict=True):
         for quantity, value in rung(scene(), name).items():
@@ -115,19 +115,19 @@ def test_without_side_flow_a_pad_is_a_line_of_it() -> None:
     assert found["side_leakage"] == pytest.approx(0.0, abs=1e-15)
 
 
-def test_steps_add_up_to_all_of_it(all_steps: tuple[Composed, ...]) -> None:
+def test_steps_add_up_to_all_of_it(all_steps: tuple[VariantSolution, ...]) -> None:
     first, last = all_steps[0], all_steps[-1]
     for name in ("load", "friction", "inlet_flow_per_width", "side_leakage", "cavitated_fraction"):
-        parts = [added(more, less, name) for less, more in pairwise(all_steps)]
+        parts = [difference(more, less, name) for less, more in pairwise(all_steps)]
         total = sum(part.value for part in parts if part is not None)
         assert total == pytest.approx(last.values[name] - first.values[name], rel=1e-12)
 
 
-def test_every_effect_of_this_pad_does_something(all_steps: tuple[Composed, ...]) -> None:
+def test_every_effect_of_this_pad_does_something(all_steps: tuple[VariantSolution, ...]) -> None:
     whole = all_steps[-1]
     assert [effect.name for effect in effects_of(scene())] == [effect.name for effect in EFFECTS]
     for less, more, taken in zip(all_steps, all_steps[1:], ablations(scene()), strict=False):
-        on, alone = added(more, less, "load"), added(whole, at_film(taken, CELLS), "load")
+        on, alone = difference(more, less, "load"), difference(whole, at_film(taken, CELLS), "load")
         assert on is not None
         assert alone is not None
         assert abs(on.value) > 1e-3 * whole.values["load"]
@@ -139,10 +139,10 @@ def test_taking_away_what_a_scene_lacks_changes_nothing() -> None:
         geometry={"texture": None}, lubricant={"compressibility": "incompressible", "piezoviscosity": "constant"}
     )
     assert [effect.name for effect in effects_of(lacking)] == ["side flow", "cavitation"]
-    whole = at_film(Composition(scene=lacking), CELLS)
+    whole = at_film(Variant(scene=lacking), CELLS)
     for effect in EFFECTS:
         if effect not in effects_of(lacking):
-            assert at_film(effect.without(Composition(scene=lacking)), CELLS).values == whole.values
+            assert at_film(effect.without(Variant(scene=lacking)), CELLS).values == whole.values
 
 
 CONSTANT = {"compressibility": "incompressible", "piezoviscosity": "constant"}
@@ -162,28 +162,28 @@ POCKETS = PAD["geometry"]["texture"]
 )
 def test_effects_vanish_where_they_should(effect: str, tables: dict[str, Any], most: float) -> None:
     pad = smooth(**tables)
-    whole = at_film(Composition(scene=pad), CELLS)
+    whole = at_film(Variant(scene=pad), CELLS)
     which = next(place for place, one in enumerate(effects_of(pad)) if one.name == effect)
     without = at_film(ablations(pad)[which], CELLS)
     assert without.values["load"] == pytest.approx(whole.values["load"], rel=most)
-    friction = added(whole, without, "friction")
+    friction = difference(whole, without, "friction")
     assert friction is not None
     assert abs(friction.value) <= most * whole.values["friction"] + friction.uncertainty
 
 
 def test_walls_far_apart_neither_touch_nor_feel_what_was_taken_from_their_flow() -> None:
     apart = scene(geometry={"film": "200 um", "rise": "100 um"})
-    whole = at_film(Composition(scene=apart), CELLS).values
+    whole = at_film(Variant(scene=apart), CELLS).values
     assert whole["contact_load"] == 0
-    smoothed = at_film(Composition(scene=apart, factors=False), CELLS).values
-    truth = at_film(Composition(scene=smooth(geometry={"film": "200 um", "rise": "100 um"})), CELLS).values
+    smoothed = at_film(Variant(scene=apart, factors=False), CELLS).values
+    truth = at_film(Variant(scene=smooth(geometry={"film": "200 um", "rise": "100 um"})), CELLS).values
     for name, near in (("load", 1e-6), ("friction", 1e-3), ("side_leakage", 1e-6)):
         assert smoothed[name] == pytest.approx(truth[name], rel=near)
         assert whole[name] == pytest.approx(truth[name], rel=1e-3)
 
 
-def test_without_flow_factors_asperities_carry_what_they_did(all_steps: tuple[Composed, ...]) -> None:
-    found = at_film(Composition(scene=scene(), factors=False), CELLS)
+def test_without_flow_factors_asperities_carry_what_they_did(all_steps: tuple[VariantSolution, ...]) -> None:
+    found = at_film(Variant(scene=scene(), factors=False), CELLS)
     assert found.values["contact_load"] == pytest.approx(all_steps[-1].values["contact_load"], rel=1e-12)
 
 
@@ -192,7 +192,7 @@ def test_the_error_of_a_difference_covers_what_finer_grids_say() -> None:
     coarse, fine = ([at_film(taken, cells) for taken in steps(pad)] for cells in (CELLS, 4 * CELLS))
     sharper = 0
     for place, (less, more) in enumerate(pairwise(coarse)):
-        told, truth = added(more, less, "load"), added(fine[place + 1], fine[place], "load")
+        told, truth = difference(more, less, "load"), difference(fine[place + 1], fine[place], "load")
         whole = amount(more, "load")
         assert told is not None
         assert truth is not None
@@ -218,7 +218,7 @@ def test_a_wedge_carries_its_load_where_reynolds_says() -> None:
     ratio = rise / film
     unit = 6 * 0.02 * 3 * length / film**2
     pressure = unit * (math.log(1 + ratio) - 2 * ratio / (2 + ratio)) / ratio**2
-    found = under_load(Composition(scene=wedge), pressure, 1024)
+    found = under_load(Variant(scene=wedge), pressure, 1024)
     assert found.values["film"] == pytest.approx(film, rel=1e-5)
     told = amount(found, "film")
     assert told is not None
@@ -228,7 +228,7 @@ def test_a_wedge_carries_its_load_where_reynolds_says() -> None:
 def test_the_whole_pad_under_a_load_is_the_mixed_film_in_balance() -> None:
     pressure = 1.5e6
     found, truth = (
-        under_load(Composition(scene=scene()), pressure, CELLS),
+        under_load(Variant(scene=scene()), pressure, CELLS),
         equilibrium(scene(), pressure, resolution=CELLS),
     )
     assert found.values["load"] == pytest.approx(pressure * 20e-3 * 16e-3, rel=1e-6)
@@ -255,8 +255,8 @@ def test_a_film_that_carries_nothing_is_told_and_the_rest_goes_on() -> None:
         }
     )
     assert isinstance(waves, Bearing)
-    found = study(waves, lambda taken, progress: under_load(taken, 5e4, 128, progress))
-    assert set(found.untold) == {"the plain film"}
+    found = study_effects(waves, lambda taken, progress: under_load(taken, 5e4, 128, progress))
+    assert set(found.unsolved) == {"the plain film"}
     assert found.plain == {}
     (cavitation,) = found.contributions
     assert cavitation.on == {} == cavitation.alone
@@ -265,19 +265,19 @@ def test_a_film_that_carries_nothing_is_told_and_the_rest_goes_on() -> None:
 
 def test_more_than_any_film_carries_is_refused() -> None:
     with pytest.raises(InputError, match="at most"):
-        under_load(Composition(scene=smooth(lubricant=CONSTANT)), 1e12, CELLS)
+        under_load(Variant(scene=smooth(lubricant=CONSTANT)), 1e12, CELLS)
     with pytest.raises(InputError, match="must be above 0"):
-        under_load(Composition(scene=smooth()), -1.0, CELLS)
+        under_load(Variant(scene=smooth()), -1.0, CELLS)
 
 
 def test_a_study_solves_no_bearing_twice_and_adds_up() -> None:
-    solved: list[Composition] = []
+    solved: list[Variant] = []
 
-    def solve(taken: Composition, _progress: object) -> Composed:
+    def solve(taken: Variant, _progress: object) -> VariantSolution:
         solved.append(taken)
         return at_film(taken, CELLS)
 
-    found = study(smooth(), solve)
+    found = study_effects(smooth(), solve)
     assert len(solved) == 2 * len(found.contributions)
     assert all(one != other for place, one in enumerate(solved) for other in solved[:place])
     total = found.plain["load"].value + sum(one.on["load"].value for one in found.contributions)
@@ -287,26 +287,26 @@ def test_a_study_solves_no_bearing_twice_and_adds_up() -> None:
 
 
 def test_each_effect_has_its_model_and_its_numbers() -> None:
-    told = {one.effect: one for one in treatments(scene(lubricant={**PAD["lubricant"], "density": "850 kg/m^3"}))}
+    told = {one.effect: one for one in effect_models(scene(lubricant={**PAD["lubricant"], "density": "850 kg/m^3"}))}
     assert list(told) == [*(effect.name for effect in EFFECTS), "inertia"]
     assert told["roughness"].model == "homogenized"
     assert "period over length = 0.015" in told["roughness"].why
     assert "λ = h/Sq = 2.3" in told["asperities"].why
     assert f"Re·h/l = {850 * 4 * 2.8e-6 / 0.01 * 2.8e-6 / 4e-3:.2g}" in told["texture"].why
-    assert [one.why for one in treatments(smooth())][-1].startswith("left out: the scene does not say how dense")
+    assert [one.why for one in effect_models(smooth())][-1].startswith("left out: the scene has no lubricant.density")
 
 
 def test_compositions_of_one_scene_are_told_apart() -> None:
-    whole = Composition(scene=scene())
+    whole = Variant(scene=scene())
     assert replace(whole, sides=False) != whole
-    assert Composition(scene=scene()) == whole
+    assert Variant(scene=scene()) == whole
 
 
 def test_a_film_that_its_roughness_seals_is_told_and_the_asperities_carry_on() -> None:
     thin = scene(geometry={"film": "0.3 um", "rise": "0.1 um", "texture": None}, lubricant=CONSTANT)
-    found = study(thin, lambda taken, _progress: at_film(taken, CELLS))
-    assert set(found.untold) == {"with roughness"}
-    assert "seals a film" in found.untold["with roughness"]
+    found = study_effects(thin, lambda taken, _progress: at_film(taken, CELLS))
+    assert set(found.unsolved) == {"with roughness"}
+    assert "blocks the flow" in found.unsolved["with roughness"]
     assert found.full["contact_load"].value > 0
     roughness, asperities = found.contributions[-2:]
     assert roughness.on == {} == asperities.on == asperities.alone

@@ -9,7 +9,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.homogenization.exact import nearly_smooth, sinusoid
 from roughfilm.rom.rough_gap.flow.exact import ridge_flow, sinusoidal_ridge_flow
 from roughfilm.rom.rough_gap.flow.ritz import ritz_flow
-from roughfilm.rom.rough_gap.flow.waves import THIN, attenuation, nearly_smooth_flow, wall_response
+from roughfilm.rom.rough_gap.flow.waves import THIN_RESPONSE, attenuation, nearly_smooth_flow, wall_response
 from roughfilm.rom.rough_gap.walls import Walls
 
 SEED = 7753
@@ -122,7 +122,7 @@ def test_perturbation_theory_without_slope_is_that_of_thin_films():
 
 
 def test_walls_answer_long_waves_as_thin_films_do_and_short_ones_alone():
-    assert wall_response(0.0) == pytest.approx(THIN)
+    assert wall_response(0.0) == pytest.approx(THIN_RESPONSE)
     k = 60.0
     assert wall_response(k) == pytest.approx(np.array([[1, 1], [0.5, 0.5]]) * k, rel=0.06)
     assert wall_response(1e6) == pytest.approx(np.array([[1, 1], [0.5, 0.5]]) * 1e6, rel=1e-5)
@@ -180,7 +180,7 @@ def test_what_cannot_be_solved_is_told():
     with pytest.raises(InputError, match="tolerance 0"):
         ridge_flow(np.zeros(4), np.ones(4), 3.0, tolerance=0)
     with pytest.raises(ConvergenceError, match="loosen the tolerance"):
-        ridge_flow([0.9, 0, -0.9, 0], np.ones(4), 0.2, most=200)
+        ridge_flow([0.9, 0, -0.9, 0], np.ones(4), 0.2, max_unknowns=200)
     contact = np.zeros((4, 4))
     contact[1, 1] = 1.0
     with pytest.raises(InputError, match="touch"):

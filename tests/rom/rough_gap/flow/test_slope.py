@@ -238,9 +238,9 @@ def test_what_is_expected_of_low_surfaces_is_what_slope_has_them():
     assert allowed_rms_slope(0.9 * squared) == pytest.approx(np.sqrt(squared))
 
 
-def test_steep_walls_are_out_of_reach():
+def test_rough_walls_are_outside_the_range_of_the_estimate():
     assert not slope_corrected(ridges(0.5, 2.0)).holds
     with pytest.raises(InputError, match="excess"):
         allowed_rms_slope(0.0)
-    with pytest.raises(InputError, match="without solving"):
+    with pytest.raises(InputError, match="take slope_corrected"):
         expected_excess(ridges(0.5, 2.0))

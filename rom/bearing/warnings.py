@@ -1,0 +1,68 @@
+"""Warnings about films outside the range of their grid, their lubricant laws or their scene."""
+
+import math
+from collections.abc import Mapping
+
+from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.bearing.pad import CELLS_PER_FEATURE
+from roughfilm.rom.bearing.quantities import nominal_area
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.cavitation.balance import CAVITY, FILM
+from roughfilm.rom.cavitation.solve import Solution
+
+LOAD_WARNING_LEVEL = 0.01
+"""Relative difference between the load of a given film and that of the scene up to which no warning is given."""
+
+
+def grid_warnings(solution: Solution) -> list[str]:
+    """Warnings about a grid that is too coarse for the features of the wall."""
+    shape, grid = solution.problem.shape, solution.grid
+    warnings = []
+    for name, feature, spacing in zip(("along", "across"), shape.finest, (grid.spacing_x, grid.spacing_y), strict=True):
+        cells = feature / spacing.max() if spacing.max() > 0 else math.inf
+        if cells < 0.99 * CELLS_PER_FEATURE:
+            warnings.append(
+                f"the shortest feature of the wall {name} the sliding direction has {cells:.2g} cells; take at least "
+                f"{CELLS_PER_FEATURE / cells:.2g} times the resolution"
+            )
+    return warnings
+
+
+def pressure_warnings(solution: Solution) -> list[str]:
+    """Warnings about pressures above the range of validity of a lubricant law."""
+    problem, highest = solution.problem, float(solution.state.pressure.max())
+    return [
+        f"pressure: {highest:.3g} Pa above cavitation pressure; the law {law.law} is valid up to {law.valid_to:.3g} Pa"
+        for law in (problem.compressibility, problem.piezoviscosity)
+        if highest > law.valid_to
+    ]
+
+
+def scene_warnings(scene: Bearing, solution: Solution) -> list[str]:
+    """Warnings about boundary conditions: no film, a starved inlet without sliding, pressure jumps at corners."""
+    warnings, ends = [], solution.problem.ends
+    if (solution.kind == CAVITY).any() and not (solution.kind == FILM).any():
+        warnings.append("no film forms: the inlet flow is smaller than the flow that the narrowest place can carry")
+    if scene.motion.speed == 0 and ends.theta < 1:
+        warnings.append("the sliding speed is zero; the starved inlet is treated as flooded")
+    if ends.sides is not None and not solution.problem.shape.joined[0]:
+        jumps = {ends.inlet or 0.0, ends.outlet} - set(ends.sides)
+        if jumps:
+            warnings.append(
+                "the pressure jumps at the corners: flows through the ends grow with the logarithm of the cells"
+            )
+    return warnings
+
+
+def load_warnings(scene: Bearing, solution: Solution, quantities: Mapping[str, Quantity]) -> list[str]:
+    """A warning if the load of the given film differs from the load of the scene."""
+    if scene.load is None:
+        return []
+    width = 1.0 if solution.problem.shape.wide else scene.geometry.width or 1.0
+    pressure = quantities["load_per_width"].value * width / nominal_area(scene, solution.grid)
+    if abs(pressure - scene.load.pressure) <= LOAD_WARNING_LEVEL * scene.load.pressure:
+        return []
+    return [
+        f"load: the film as given carries {pressure:.4g} Pa over the nominal area, not the {scene.load.pressure:.4g} "
+        "Pa of the scene; roughfilm effects solves for the film under the load"
+    ]
