@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.rom.bearing.quantities import Fields, Outputs, density_ratio
+from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Fields, Outputs, density_ratio
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.uncertainty import uncertainties
 from roughfilm.rom.bearing.warnings import grid_warnings, load_warnings, pressure_warnings, scene_warnings
@@ -35,7 +35,7 @@ def solve(
     *,
     film: Callable[[Bearing], Problem],
     ruptures: bool,
-    outputs: Outputs,
+    outputs: Outputs = FILM_OUTPUTS,
 ) -> Result:
     """Solve the film of a bearing on successively finer grids and estimate the uncertainty of its quantities.
 

@@ -16,7 +16,8 @@ from roughfilm.rom.cavitation.balance import CAVITY
 from roughfilm.rom.cavitation.grid import Grid, grid
 from roughfilm.rom.cavitation.network import State
 from roughfilm.rom.cavitation.problem import Problem
-from roughfilm.rom.cavitation.solve import RESIDUAL_TOLERANCE, Solution, solve
+from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
+from roughfilm.rom.cavitation.solve import Solution, solve
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap, GapFactors
 
 MIN_FACTOR_RATIO = 1e-6

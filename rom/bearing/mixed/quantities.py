@@ -1,14 +1,18 @@
 """The quantities, uncertainties and fields of a mixed film."""
 
 from collections.abc import Mapping
+from functools import partial
 
 import numpy as np
 
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.mixed.contact_load import AsperityLoad, asperity_load
+from roughfilm.rom.bearing.mixed.film import mixed_problem
 from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.quantities import Fields, Outputs, bearing_quantities, load_of, scene_positions
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.solve import solve
+from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.solve import Solution
 
 
@@ -84,3 +88,12 @@ def _contact(scene: Bearing, solution: Solution) -> AsperityLoad:
 
 def _narrowest(solution: Solution) -> float:
     return float(solution.faces.thickness.min())
+
+
+def film_of_scene(scene: Bearing) -> Problem:
+    """The problem of the film of a scene, averaged over its asperities."""
+    return mixed_problem(scene, asperities_of(scene))
+
+
+solve_mixed = partial(solve, outputs=MIXED_OUTPUTS)
+"""The solver of the model ``mixed``."""
