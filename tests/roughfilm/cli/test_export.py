@@ -75,7 +75,7 @@ def test_a_result_is_written(run, tmp_path):
         (("rough_gap.toml", "--out", "x.vtu", "--resolution", "257"), "take 2 to 256"),
         (("rough_gap.toml", "--out", "x.vtu", "--layers", "100000"), "at most"),
         (("rough_gap.toml", "--out", "x.vtu", "--what", "lower", "--layers", "3"), "a wall has none"),
-        (("missing.h5", "--out", "x.vtu"), "is not a result"),
+        (("missing.h5", "--out", "x.vtu"), "no such file"),
         (("missing.npy", "--out", "x.vtu"), "no such file"),
     ],
 )
