@@ -1,1 +1,1 @@
-"""Roughness averaged: what a periodic gap lets through, drags along and rubs, as factors of a smooth film."""
+"""Flow factors: averaged conductance, drag and friction of a periodic rough gap, relative to a smooth film."""

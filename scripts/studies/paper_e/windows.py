@@ -129,7 +129,7 @@ def leaks(
         contact = before = press.at(load, tolerance=CONTACT_TOLERANCE, start=before)
         one = flow_factors(contact.gap, surface.spacing)
         straight = direct_leakage(contact.gap, surface.spacing)
-        passed, doubt = (np.diag(part.pressure) for part in (one.factors, one.uncertainty))
+        passed, uncertainty = (np.diag(part.pressure) for part in (one.factors, one.uncertainty))
         found.append(
             Leak(
                 window=window,
@@ -141,7 +141,7 @@ def leaks(
                 area_fraction=contact.area_fraction,
                 roughness=float(surface.heights.std()),
                 homogenized=(float(passed[0]), float(passed[1])),
-                uncertainty=(float(doubt[0]), float(doubt[1])),
+                uncertainty=(float(uncertainty[0]), float(uncertainty[1])),
                 direct=(float(straight.permeability[0]), float(straight.permeability[1])),
                 direct_uncertainty=(float(straight.uncertainty[0]), float(straight.uncertainty[1])),
             )

@@ -262,7 +262,7 @@ def reach(study: RoughGapStudy) -> Figure:
     for axes in (by_slope, by_gap):
         _dotted(axes, 0.7)
         axes.set(xscale="log", yscale="log", ylim=(3e-6, 3000))
-    by_slope.set(xlabel="rms slope g′", ylabel="Reynolds lets through too much, % of Stokes flow")
+    by_slope.set(xlabel="rms slope g′", ylabel="excess of Reynolds flow, % of Stokes flow")
     by_gap.set_xlabel("mean gap over rms height, h̄/Sq")
     _ticks(by_gap, [2, 3, 5, 10, 20, 30])
     figure.legend(loc="outside right upper", fontsize=8)
