@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import BeforeValidator, Field, field_validator, model_validator
 
-from roughfilm.contact.foundation.entries import InUnit, Part, PositiveNumber, any_number
+from roughfilm.contact.foundation.entries import InUnit, Part, PositiveNumber
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.rom.bearing.asperity_contact import AsperityContact
@@ -20,8 +20,8 @@ from roughfilm.rom.lubricants.laws import Compressibility, Piezoviscosity
 from roughfilm.rom.lubricants.viscosity import LOG_VISCOSITY, ConstantViscosity, Roelands
 from roughfilm.rom.parts.pressed_surface import Load
 
-GaugePressure = Annotated[float, InUnit("Pa", any_number)]
-Speed = Annotated[float, InUnit("m/s", any_number)]
+GaugePressure = Annotated[float, InUnit("Pa", any_sign=True)]
+Speed = Annotated[float, InUnit("m/s", any_sign=True)]
 Viscosity = Annotated[float, InUnit("Pa*s")]
 Density = Annotated[float, InUnit("kg/m^3")]
 

@@ -1,1 +1,1 @@
-"""Roughness averaged: what a periodic gap lets through, drags along and rubs, as factors of a smooth film."""
+"""Homogenization of roughness: pressure, shear and friction flow factors of a periodic gap."""
