@@ -21,7 +21,7 @@ Count = Annotated[int, Field(strict=True, ge=2, le=100_000)]
 
 
 class Reading(Part):
-    """Channel, pixel spacing (m; one, or two along x and y) and unit of heights, where the file of the surface lacks them or is wrong."""
+    """Channel, pixel spacing (m) and unit of heights, where the file of the surface lacks them or is wrong."""
 
     channel: str | None = None
     spacing: LengthPair | None = None

@@ -69,7 +69,7 @@ def print_notes(error: BaseException, style: str | None = None) -> None:
 
 
 def in_one_line(command: Callable[..., None]) -> Callable[..., None]:
-    """A command that ends an error in one line with exit code 2, 3 or 4, and says in one what an interruption leaves."""
+    """A command that ends an error in one line with exit code 2, 3 or 4, and an interruption in one that says what is kept."""
 
     @functools.wraps(command)
     def wrapped(*arguments: Any, **options: Any) -> None:
@@ -98,12 +98,11 @@ def in_one_line(command: Callable[..., None]) -> Callable[..., None]:
 
 def _what_is_left(out: Path | None, makes_out: bool) -> str:
     """The line on an interruption; a directory that the command made is removed if it is empty."""
-    if out is not None and out.is_dir():
-        if any(out.iterdir()):
-            return f"stopped; finished results are kept in {out}, and the same command goes on"
-        if makes_out:
-            out.rmdir()
-    return "stopped; no result is kept, and the same command starts again"
+    if out is not None and (out.is_file() or (out.is_dir() and any(out.iterdir()))):
+        return f"stopped; what {out} holds is kept; give the same command to go on"
+    if makes_out and out is not None and out.is_dir():
+        out.rmdir()
+    return "stopped; nothing is kept; give the same command to start again"
 
 
 def launch(app: typer.Typer, arguments: list[str]) -> None:

@@ -34,8 +34,8 @@ def test_a_stop_without_a_note_says_what_is_kept_and_leaves_no_empty_directory(f
 
     with pytest.raises(KeyboardInterrupt):
         in_one_line(command)(out=place)
-    kept = f"finished results are kept in {place}, and the same command goes on"
-    lost = "no result is kept, and the same command starts again"
+    kept = f"what {place} holds is kept; give the same command to go on"
+    lost = "nothing is kept; give the same command to start again"
     assert capsys.readouterr().err == f"stopped; {kept if finished else lost}\n"
     assert place.exists() == finished
 
@@ -46,7 +46,7 @@ def test_a_stop_leaves_an_empty_directory_that_was_there_before(tmp_path, capsys
 
     with pytest.raises(KeyboardInterrupt):
         in_one_line(command)(out=tmp_path)
-    assert capsys.readouterr().err.startswith("stopped; no result is kept")
+    assert capsys.readouterr().err.startswith("stopped; nothing is kept")
     assert tmp_path.exists()
 
 
