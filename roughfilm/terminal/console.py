@@ -69,7 +69,7 @@ def print_notes(error: BaseException, style: str | None = None) -> None:
 
 
 def in_one_line(command: Callable[..., None]) -> Callable[..., None]:
-    """A command that ends an error in one line with exit code 2, 3 or 4, and an interruption in one that says what is kept."""
+    """A command that ends an error in one line with exit code 2, 3 or 4, and says in one line what a stop leaves."""
 
     @functools.wraps(command)
     def wrapped(*arguments: Any, **options: Any) -> None:
