@@ -32,19 +32,20 @@ class Loop:
 
 
 compiled: Any = partial(Loop, cache=True, _nrt=False)
-"""A decorator for loops: sums may be reordered to be vectorised, infinities and NaN are kept.
+"""Decorator of a loop: numba may reorder sums to vectorise them, and keeps infinities and NaN.
 
-No references to arrays are counted, which would cost more than a short row: such a loop makes and returns no array.
+The loop makes and returns no array: ``_nrt=False`` leaves out the counting of references to arrays, which would cost
+more than a short row takes. The option is private to numba.
 """
 
 called: Any = partial(compiled, no_cpython_wrapper=True)
-"""For a loop that only compiled ones call: it is compiled sooner, without what Python needs to call it."""
+"""Decorator of a loop that only compiled loops call: it compiles faster without an interface to Python."""
 
 inlined: Any = partial(Loop, inline="always")
-"""For a loop that is called at one place, or is small: it becomes part of the loop that calls it."""
+"""Decorator of a small loop, or of one with a single caller: numba copies it into the loop that calls it."""
 
 allocating: Any = partial(Loop, cache=True)
-"""For loops that make or return arrays."""
+"""Decorator of a loop that makes or returns arrays."""
 
 
 @cache

@@ -1,4 +1,4 @@
-"""A series of contacts, load by load: each begins from the one before, and those already in the file are kept."""
+"""Contacts at increasing loads, each started from the one before; loads that the file holds are not solved again."""
 
 import math
 import time
@@ -16,20 +16,24 @@ from roughfilm.contact.mechanics.estimates.estimate import Estimate
 from roughfilm.contact.mechanics.gap_map import GapMap, gap_map
 from roughfilm.contact.mechanics.store import Row, add, finished, load_contact, row_of
 
-FEWEST_POINTS, MOST_BINS = 25, 60
-"""Of a histogram of pressures."""
+MIN_HISTOGRAM_POINTS = 25
+"""Smallest number of contact points below the hardness for a histogram of pressures."""
+
+MAX_BINS = 60
+"""Largest number of bins of a histogram of pressures."""
 
 Solver = Callable[[float, Contact | None], Contact]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Spread:
-    """How pressures spread at one load.
+class PressureDensity:
+    """The distribution of contact pressure at one load.
 
     Attributes
     ----------
-    pressure : shape (n,), Pa.
-    density : shape (n,), 1/Pa: f dp of the nominal area carries p ... p + dp, without what carries the hardness.
+    load : mean pressure on the nominal area, Pa.
+    pressure : contact pressures p, Pa, shape (n,).
+    density : fraction of the nominal area per pressure, 1/Pa, shape (n,), without the area at the hardness.
     """
 
     load: float
@@ -38,12 +42,22 @@ class Spread:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Series:
-    """Rows for the loads asked, how many of them were found in the file, and what pictures need."""
+class ContactSeries:
+    """Contacts at the requested loads.
+
+    Attributes
+    ----------
+    rows : results at each load.
+    reused : number of loads taken from the file.
+    densities : distributions of pressure at the loads that are drawn.
+    last : the contact at the largest load; None for a statistical model.
+    gap_maps : gaps at the loads that are drawn.
+    untrusted : loads outside the range of a statistical model, Pa.
+    """
 
     rows: tuple[Row, ...]
-    found: int
-    spreads: tuple[Spread, ...]
+    reused: int
+    densities: tuple[PressureDensity, ...]
     last: Contact | None
     gap_maps: tuple[GapMap, ...] = ()
     untrusted: tuple[float, ...] = ()
@@ -56,28 +70,31 @@ def solved(
     shown: tuple[float, ...],
     out: Path | None,
     advance: Callable[[float, str], None],
-) -> Series:
-    """Solve what the file does not hold yet, upward, and add each load to it as it comes.
+) -> ContactSeries:
+    """Solve the loads that the file does not hold, in increasing order, and add each to the file when it is done.
 
     Parameters
     ----------
-    at : gives the contact at a load, from the one before if that helps.
-    shown : the loads whose pressures are drawn.
-    out : the file; None to keep nothing.
+    at : at(load, start), the contact at a load, started from another contact if one is given.
+    inputs : inputs of the file.
+    loads : mean pressures on the nominal area, Pa, increasing.
+    shown : loads whose pressures are drawn.
+    out : the file; None to store nothing.
+    advance : called with the number of loads done and a few words.
 
     Raises
     ------
     InputError
-        If the file was damaged, holds something else or cannot be written.
+        If the file is damaged, holds something else or cannot be written.
     ConvergenceError
-        At the first load that does not converge; those below it stay in the file.
+        At the first load that does not converge; the lower loads stay in the file.
     """
     stored = {} if out is None else finished(out, inputs)
     rows: list[Row] = []
-    spreads: list[Spread] = []
+    densities: list[PressureDensity] = []
     gap_maps: list[GapMap] = []
     before: Contact | None = None
-    found = sum(load in stored for load in loads)
+    reused = sum(load in stored for load in loads)
     try:
         for done, load in enumerate(loads):
             advance(done, f"{load / 1e6:.4g} MPa")
@@ -95,21 +112,23 @@ def solved(
                     add(out, inputs, [(row, before)])
             rows.append(row)
             if load in shown and before is not None:
-                spreads += _spread(before)
+                densities += _histogram(before)
                 gap_maps.append(gap_map(before))
     except (KeyboardInterrupt, SystemExit) as stop:
-        kept = "; the same command goes on" if out is not None else ", none kept, as no file was named"
-        stop.add_note(f"stopped: {len(rows)} of {len(loads)} loads{kept}")
+        stored_note = "; the same command goes on" if out is not None else ", none kept, as no file was named"
+        stop.add_note(f"stopped: {len(rows)} of {len(loads)} loads{stored_note}")
         raise
-    return Series(rows=tuple(rows), found=found, spreads=tuple(spreads), last=before, gap_maps=tuple(gap_maps))
+    return ContactSeries(
+        rows=tuple(rows), reused=reused, densities=tuple(densities), last=before, gap_maps=tuple(gap_maps)
+    )
 
 
 def _at(at: Solver, load: float, start: Contact | None) -> Contact:
     try:
         return at(load, start)
     except ConvergenceError as error:
-        told = f"at {load / 1e6:.6g} MPa: {error}"
-        raise ConvergenceError(told, outcome=error.outcome, iterations=error.iterations) from None
+        message = f"at {load / 1e6:.6g} MPa: {error}"
+        raise ConvergenceError(message, outcome=error.outcome, iterations=error.iterations) from None
 
 
 def estimated(
@@ -118,37 +137,37 @@ def estimated(
     loads: tuple[float, ...],
     shown: tuple[float, ...],
     out: Path | None,
-) -> Series:
-    """The rows of a statistical rung; they cost nothing, so that all are written at once."""
+) -> ContactSeries:
+    """The rows of a statistical model, which are cheap and therefore written at once."""
     hardness = inputs.settings["hardness"] or math.inf
     answers = [at(load) for load in loads]
     if out is not None:
         add(out, inputs, [(row, None) for row, _ in answers])
-    return Series(
+    return ContactSeries(
         rows=tuple(row for row, _ in answers),
-        found=0,
-        spreads=tuple(
-            spread for _, answer in answers if answer.load in shown for spread in _spread_of(answer, hardness)
+        reused=0,
+        densities=tuple(
+            density for _, answer in answers if answer.load in shown for density in _estimated_density(answer, hardness)
         ),
         last=None,
         untrusted=tuple(answer.load for _, answer in answers if not answer.trusted),
     )
 
 
-def _spread(contact: Contact) -> list[Spread]:
-    """A histogram of the pressures above 0 and below H, with more bins the more points there are."""
+def _histogram(contact: Contact) -> list[PressureDensity]:
+    """A histogram of the pressures between 0 and H; the number of bins grows with the number of points."""
     inside = contact.pressure[contact.in_contact & ~contact.plastic]
-    if inside.size < FEWEST_POINTS:
+    if inside.size < MIN_HISTOGRAM_POINTS:
         return []
-    bins = min(int(inside.size**0.5), MOST_BINS)
+    bins = min(int(inside.size**0.5), MAX_BINS)
     count, edges = np.histogram(inside, bins=bins, range=(0.0, float(contact.pressure.max())))
     density = count / contact.pressure.size / (edges[1] - edges[0])
-    return [Spread(load=contact.load, pressure=(edges[:-1] + edges[1:]) / 2, density=density)]
+    return [PressureDensity(load=contact.load, pressure=(edges[:-1] + edges[1:]) / 2, density=density)]
 
 
-def _spread_of(answer: Estimate, hardness: float) -> list[Spread]:
-    """The density that a statistical rung gives, up to five times the mean pressure in contact."""
+def _estimated_density(answer: Estimate, hardness: float) -> list[PressureDensity]:
+    """The pressure density of a statistical model, up to five times the mean pressure in contact."""
     if answer.pressure_density is None:
         return []
     pressure = min(5 * answer.mean_contact_pressure, hardness) * np.linspace(0.005, 0.999, 200)
-    return [Spread(load=answer.load, pressure=pressure, density=answer.pressure_density(pressure))]
+    return [PressureDensity(load=answer.load, pressure=pressure, density=answer.pressure_density(pressure))]

@@ -10,7 +10,8 @@ from pathlib import Path
 
 from roughfilm.rom.ladder.model import Availability
 
-PROGRAMS = ("checkMesh", "simpleFoam")
+PROGRAMS = ("checkMesh", "simpleFoam", "foamDictionary")
+"""The programs that are run; the last, the quickest to start, says the version."""
 OPEN_MPI = {
     "OMPI_ALLOW_RUN_AS_ROOT": "1",
     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
@@ -41,27 +42,20 @@ def availability() -> Availability:
         return Availability(available=False, detail=f"no {' or '.join(missing)} on the PATH; {REMEDY}")
     try:
         answer = subprocess.run(
-            ["simpleFoam", "-help"], env=environment(), capture_output=True, text=True, timeout=60, check=False
+            ["foamDictionary", "-help"], env=environment(), capture_output=True, text=True, timeout=60, check=False
         )
     except (OSError, subprocess.SubprocessError) as error:
-        return Availability(available=False, detail=f"simpleFoam does not start ({error}); {REMEDY}")
+        return Availability(available=False, detail=f"OpenFOAM does not start ({error}); {REMEDY}")
     if answer.returncode != 0:
         return Availability(
             available=False,
-            detail="simpleFoam does not start; set WM_PROJECT_DIR to OpenFOAM's share directory, or " + REMEDY,
+            detail="OpenFOAM does not start; set WM_PROJECT_DIR to OpenFOAM's share directory, or " + REMEDY,
         )
     version = re.search(r"OpenFOAM-\W*v?(\w+)", answer.stdout)
     return Availability(available=True, detail=f"OpenFOAM v{version[1]}" if version else "OpenFOAM, version unknown")
 
 
 def _packaged() -> Path | None:
-    try:
-        listing = subprocess.run(
-            ["dpkg", "-L", "openfoam"], capture_output=True, text=True, timeout=60, check=True
-        ).stdout
-    except (OSError, subprocess.SubprocessError):
-        return None
-    for line in listing.splitlines():
-        if line.endswith("/etc/controlDict") and "templates" not in line:
-            return Path(line).parent.parent
-    return None
+    program = shutil.which("simpleFoam")
+    place = Path(program or "/").resolve().parent.parent / "share" / "openfoam"
+    return place if program and (place / "etc" / "controlDict").exists() else None

@@ -10,10 +10,10 @@ from roughfilm.foamcases.rough_gap.fields import GapFlow
 def held(flow: GapFlow, speed: float) -> Array:
     """The force per plan area along x and y of the walls on the liquid, shape (2,), in ηV/h̄.
 
-    Shear and pressure on both walls and on the edges of contact, as the scheme computes them: the velocity at the
-    centroid of the cell at the wall over its distance, and that cell's pressure. In a steady flow it is the mean
-    gradient
-    times the liquid's volume, 12 <h> along it, 0 under a sliding wall, up to an error that falls with the cells.
+    The force is the sum of shear and pressure on both walls and on the edges of contact, as the scheme computes them:
+    the velocity at the centroid of the cell at the wall over its distance, and that cell's pressure. In a steady flow
+    it is the mean gradient times the liquid's volume, 12 <h> along it, and 0 under a sliding wall, up to an error that
+    falls with the cells.
 
     Parameters
     ----------

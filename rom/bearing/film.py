@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,9 +12,11 @@ from roughfilm.rom.bearing.pad import CELLS_PER_FEATURE
 from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.roughness import StoredTable
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.cavitation.problem import Problem
-from roughfilm.rom.cavitation.shape import Shape
 from roughfilm.rom.ladder.model import Applicability
+
+if TYPE_CHECKING:
+    from roughfilm.rom.cavitation.problem import Problem
+    from roughfilm.rom.cavitation.shape import Shape
 
 REFINEMENTS = {True: (1, 2, 4, 8), False: (1, 2, 4)}
 """Multiples of the cells that resolve the waves, for an infinitely wide film (True) and for others."""
@@ -22,7 +25,7 @@ REFINED_CELLS = {True: 4_000_000, False: 512}
 """Number of cells along a side up to which refinements above 2 are used, for an infinitely wide film and for others."""
 
 
-def averaged_film(scene: Bearing) -> Problem:
+def averaged_film(scene: Bearing) -> "Problem":
     """The problem of the mean gap with the flow factors of the roughness.
 
     Raises
@@ -47,7 +50,7 @@ def averaged_film(scene: Bearing) -> Problem:
     return replace(problem, shape=replace(problem.shape, roughness=factors))
 
 
-def rough_film(scene: Bearing) -> Problem:
+def rough_film(scene: Bearing) -> "Problem":
     """The problem of the film with all waves of the roughness."""
     problem, roughness = scene.problem(), scene.roughness
     assert roughness is not None

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.rom.bearing.quantities import carried
+from roughfilm.rom.bearing.quantities import load_of, scene_positions
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.balance import CAVITY, FILM
 from roughfilm.rom.cavitation.solve import Solution
@@ -91,11 +91,11 @@ def inertia(scene: Bearing, solution: Solution) -> Inertia:
     shear += _slope(_means(h * b * (3 * speed / 10 + 3 * a / 5), 0), 1, grid.y)
     shear -= rise * _means(speed / 20 + a / 10, 0)
     stress = _means(h, 0) / 2 * np.diff(pressure, axis=0) / dx + density * shear * _both(wet, 0)
-    x = -grid.x if solution.turned else grid.x
+    x = scene_positions(solution)
     force = grid.areas * (solution.state.pressure + scene.lubricant.cavitation_pressure)
     return Inertia(
         pressure=pressure,
-        load=carried(scene, x, force + grid.areas * pressure) - carried(scene, x, force),
+        load=load_of(scene, x, force + grid.areas * pressure) - load_of(scene, x, force),
         friction=float((stress * dx * grid.volume_y).sum()),
         inlet_flow=float(flow[0].sum()),
     )

@@ -3,14 +3,15 @@
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from typing import Unpack
+from typing import TYPE_CHECKING, Any, Unpack
 
-from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Outputs
+from roughfilm.contact.foundation.deferred import deferred
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.solve import solve
-from roughfilm.rom.cavitation.problem import Problem
-from roughfilm.rom.cavitation.solve import RESIDUAL_TOLERANCE
+from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
 from roughfilm.rom.ladder.model import About, Applicability, Effect, Model, Resolutions
+
+if TYPE_CHECKING:
+    from roughfilm.rom.cavitation.problem import Problem
 
 RESOLUTION_MEANING = "cells along the sliding direction, and as many across if the bearing has a width"
 RESIDUAL_MEANING = "largest net flow into a node over the largest flow through a face"
@@ -27,6 +28,8 @@ MIN_CELLS = 8
 
 MAX_CELLS = {True: 4_000_000, False: 2048}
 """Largest number of cells along a side, for an infinitely wide film (True) and for others."""
+
+_solve = deferred("rom.bearing.solve", "solve")
 
 
 def cost(scene: Bearing, cells: int, *, wide: bool, in_plane: float) -> float:
@@ -48,13 +51,20 @@ def smooth_resolutions(scene: Bearing) -> tuple[int, ...]:
     return LINE_CELLS if scene.wide else PLANE_CELLS
 
 
+def incompressible_film(scene: Bearing) -> "Problem":
+    """The problem of the smooth film of a lubricant that pressure does not change."""
+    from roughfilm.rom.cavitation.problem import unchanging  # slow to import
+
+    return unchanging(scene.problem())
+
+
 def bearing_model(
     *,
     applies: Callable[[Bearing], Applicability],
-    film: Callable[[Bearing], Problem] = Bearing.problem,
+    film: Callable[[Bearing], "Problem"] = Bearing.problem,
     resolutions: Callable[[Bearing], tuple[int, ...]] = smooth_resolutions,
     ruptures: bool = True,
-    outputs: Outputs = FILM_OUTPUTS,
+    solve: Callable[..., Any] = _solve,
     wide: bool = False,
     in_plane: float = 2e-6,
     **about: Unpack[About],
@@ -67,7 +77,7 @@ def bearing_model(
     film : film(scene), the problem that the model solves.
     resolutions : numbers of cells from coarse to fine, the finest of which is the default.
     ruptures : whether the film cavitates.
-    outputs : the functions that evaluate the film.
+    solve : the solver, as :func:`roughfilm.rom.bearing.solve.solve`.
     wide : whether the model solves a single line of any film.
     in_plane : expected CPU seconds for each cell of a film with a width.
     about : name, summary, effects and sources of the model.
@@ -89,5 +99,5 @@ def bearing_model(
         tolerance=RESIDUAL_TOLERANCE,
         cost=partial(cost, wide=wide, in_plane=in_plane),
         applies=applies,
-        compute=partial(solve, film=film, ruptures=ruptures, outputs=outputs),
+        compute=partial(solve, film=film, ruptures=ruptures),
     )

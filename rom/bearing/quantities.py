@@ -56,7 +56,7 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
         "theta_min": (float(density_ratio(solution).min()), "1"),
     }
     if isinstance(scene.geometry, Journal):
-        angle, load = journal_load(scene.geometry, grid.x if not solution.turned else -grid.x, force)
+        angle, load = journal_load(scene.geometry, scene_positions(solution), force)
         values["load_per_width"] = (load / width, "N/m")
         values["attitude_angle"] = (angle, "deg")
         if load > 0:
@@ -76,10 +76,10 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
 def density_ratio(solution: Solution) -> Array:
     """The density ratio θ at the nodes, shape (nx, ny), in cavities that of the liquid that flows out of the node."""
     film = 1 + solution.problem.compression(solution.state.pressure)[0]
-    return np.where(solution.kind == CAVITY, np.minimum(_carried(solution), 1.0), film)
+    return np.where(solution.kind == CAVITY, np.minimum(_filled_fraction(solution), 1.0), film)
 
 
-def _carried(solution: Solution) -> Array:
+def _filled_fraction(solution: Solution) -> Array:
     """The filled fraction of each node according to the flow out of it."""
     mean, rough = solution.faces.mean, solution.faces.averaged
     thickness = solution.faces.thickness if rough is None else rough.drag
@@ -177,10 +177,10 @@ def _begins(solution: Solution, row: int, first: int, x: Array) -> float:
         return float(x[max(first - 1, 0)])
     net, fill = solution.network, solution.state.fill[:, row]
     if first > 1:
-        carried = net.couette[first - 2, row] * fill[first - 2]
+        inflow = net.couette[first - 2, row] * fill[first - 2]
     else:
-        carried = net.supplied[row] if net.supplied.size else net.couette[0, row] * fill[0]
-    empty = carried / net.couette[first - 1, row] if net.couette[first - 1, row] > 0 else 1.0
+        inflow = net.supplied[row] if net.supplied.size else net.couette[0, row] * fill[0]
+    empty = inflow / net.couette[first - 1, row] if net.couette[first - 1, row] > 0 else 1.0
     fraction = (fill[first - 1] - empty) / (1 - empty) if empty < 1 else 0.0
     return float(x[first] - (x[first] - x[first - 1]) * min(max(fraction, 0.0), 1.0))
 
@@ -189,7 +189,7 @@ def _ends(solution: Solution, row: int, last: int, x: Array) -> float:
     """The position where a film ends, m: θ extrapolated to 1 from the two nodes behind it."""
     if last + 2 >= x.size:
         return float(x[min(last + 1, x.size - 1)])
-    theta = _carried(solution)[:, row]
+    theta = _filled_fraction(solution)[:, row]
     fall = theta[last + 1] - theta[last + 2]
     if fall <= 0:
         return float(x[last + 1])
@@ -204,7 +204,12 @@ def nominal_area(scene: Bearing, grid: Grid) -> float:
     return float(grid.areas.sum())
 
 
-def carried(scene: Bearing, x: Array, force: Array) -> float:
+def scene_positions(solution: Solution) -> Array:
+    """The positions of the nodes in the direction of the scene's x, m, up to a constant (one turn of a journal)."""
+    return -solution.grid.x if solution.turned else solution.grid.x
+
+
+def load_of(scene: Bearing, x: Array, force: Array) -> float:
     """The load of forces at the nodes, N (N/m if infinitely wide): their sum, in a journal bearing their vector sum.
 
     ``x`` is the position in the coordinates of the scene, m.

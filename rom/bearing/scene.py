@@ -1,7 +1,7 @@
 """Scenes of bearings: a lubricant film between a shaped fixed wall and a flat sliding wall."""
 
 import math
-from typing import Annotated, Any, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from pydantic import BeforeValidator, Field, field_validator, model_validator
 
@@ -12,13 +12,15 @@ from roughfilm.rom.bearing.asperity_contact import AsperityContact
 from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.roughness import AnyRoughness, RoughSurface, Sinusoid, StoredTable
 from roughfilm.rom.bearing.shapes import SHAPES, AnyShape, Journal
-from roughfilm.rom.cavitation.discretise import Ends
-from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.lubricants.compressibility import Incompressible
 from roughfilm.rom.lubricants.laws import Compressibility, Piezoviscosity
 from roughfilm.rom.lubricants.viscosity import LOG_VISCOSITY, ConstantViscosity, Roelands
 from roughfilm.rom.parts.pressed_surface import Load
+
+if TYPE_CHECKING:
+    from roughfilm.rom.cavitation.discretise import Ends
+    from roughfilm.rom.cavitation.problem import Problem
 
 GaugePressure = Annotated[float, InUnit("Pa", any_sign=True)]
 Speed = Annotated[float, InUnit("m/s", any_sign=True)]
@@ -194,8 +196,10 @@ class Bearing(Scene):
         return self.geometry.radius if isinstance(self.geometry, Journal | Ring) else None
 
     @property
-    def ends(self) -> Ends:
+    def ends(self) -> "Ends":
         """The boundary conditions, with pressures above cavitation pressure."""
+        from roughfilm.rom.cavitation.discretise import Ends  # slow to import
+
         lowest, boundary = self.lubricant.cavitation_pressure, self.boundary
         theta = boundary.inlet.theta
         if theta is None:
@@ -213,8 +217,10 @@ class Bearing(Scene):
             sides=None if self.wide else sides,
         )
 
-    def problem(self) -> Problem:
+    def problem(self) -> "Problem":
         """The problem of the film without roughness."""
+        from roughfilm.rom.cavitation.problem import Problem  # slow to import
+
         geometry, lubricant = self.geometry, self.lubricant
         radius = geometry.radius if isinstance(geometry, Ring) else 1.0
         return Problem(

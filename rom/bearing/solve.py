@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.rom.bearing.quantities import Fields, Outputs, density_ratio
+from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Fields, Outputs, density_ratio
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.uncertainty import uncertainties
 from roughfilm.rom.bearing.warnings import grid_warnings, load_warnings, pressure_warnings, scene_warnings
@@ -35,7 +35,7 @@ def solve(
     *,
     film: Callable[[Bearing], Problem],
     ruptures: bool,
-    outputs: Outputs,
+    outputs: Outputs = FILM_OUTPUTS,
 ) -> Result:
     """Solve the film of a bearing on successively finer grids and estimate the uncertainty of its quantities.
 
@@ -72,9 +72,7 @@ def solve(
     if not uncertainty:
         warnings.append(NO_COARSER_GRID)
     if unknown := [name for name, value in uncertainty.items() if not math.isfinite(value)]:
-        warnings.append(
-            f"{', '.join(unknown)}: uncertainty unknown, the roughness has too few points for a coarser grid"
-        )
+        warnings.append(f"{', '.join(unknown)}: unknown uncertainty, as the roughness has too few points")
     return Result(
         model=solver.name,
         quantities=with_uncertainties(quantities, uncertainty),

@@ -13,7 +13,7 @@ depend on the pressure. The flows of an oblique lay are in the operator, but not
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.compiled import allocating, compiled
+from roughfilm.contact.foundation.compiled import compiled
 from roughfilm.rom.cavitation.balance import CAVITY, FILM
 from roughfilm.rom.cavitation.bicgstab import bicgstab
 from roughfilm.rom.cavitation.network import Network
@@ -65,19 +65,19 @@ def conductances(network: Network, linear: Linear) -> tuple[Array, Array, Array]
     centre, east, north = (np.zeros(network.shape) for _ in range(3))
     to_east, to_north = network.conductance(linear.mobility)
     slopes = (linear.centre, linear.south, linear.north)
-    couple(linear.kind, to_east, to_north, *network.periodic, *slopes, centre, east, north)
+    feeds = np.zeros(network.shape, dtype=bool)
+    couple(linear.kind, to_east, to_north, *network.periodic, *slopes, feeds, centre, east, north)
     return centre, east, north
 
 
-@allocating
-def couple(kind, east, north, periodic_x, periodic_y, by_self, by_south, by_north, centre, to_east, to_north):  # type: ignore[no-untyped-def]  # fmt: skip
+@compiled
+def couple(kind, east, north, periodic_x, periodic_y, by_self, by_south, by_north, feeds, centre, to_east, to_north):  # type: ignore[no-untyped-def]  # fmt: skip
     """Compute the couplings of film nodes; all other nodes are decoupled.
 
     ``by_self``, ``by_south`` and ``by_north`` are derivatives of the balances; they account for liquid that drifts back
-    from a cavity beside the film.
+    from a cavity beside the film. ``feeds`` is set to the cavities whose liquid drifts into the film.
     """
     nx, ny = kind.shape
-    feeds = np.zeros(kind.shape, dtype=np.bool_)
     for _ in range(2 if periodic_x else 1):
         for i in range(nx - 1 if periodic_x else nx - 2, -1, -1):
             k = i + 1 if i + 1 < nx else 0

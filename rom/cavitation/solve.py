@@ -11,11 +11,10 @@ from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.rom.cavitation.discretise import Faces, faces, network
 from roughfilm.rom.cavitation.grid import Grid, grid
 from roughfilm.rom.cavitation.interpolation import carried, interpolated
-from roughfilm.rom.cavitation.line import line_step
 from roughfilm.rom.cavitation.network import Network, State
 from roughfilm.rom.cavitation.newton import UnsettledError, settle
-from roughfilm.rom.cavitation.plane import plane_step
 from roughfilm.rom.cavitation.problem import Problem
+from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
 from roughfilm.rom.homogenization.gap_factors import mirrored_factors
 
 COARSEST_CELLS = 16
@@ -26,9 +25,6 @@ COLD_SWEEPS = 400
 
 WARM_SWEEPS = 6
 """Relaxation sweeps before Newton's method from the solution of a coarser grid or of a time step."""
-
-RESIDUAL_TOLERANCE = 1e-9
-"""Residual at which the solver stops by default."""
 
 NEGATIVE_FILL_TOLERANCE = 1e-6
 """Tolerated negative filling fraction (round-off)."""
@@ -186,7 +182,10 @@ def on_grid(
         ruptures=ruptures,
     )
     state = start or State(pressure=np.zeros(net.shape), fill=np.ones(net.shape))
-    step = line_step if problem.shape.wide else plane_step
+    if problem.shape.wide:  # each step is slow to import
+        from roughfilm.rom.cavitation.line import line_step as step
+    else:
+        from roughfilm.rom.cavitation.plane import plane_step as step
     with np.errstate(over="ignore", invalid="ignore"):  # an overflow gives a residual that is not finite
         settled = settle(net, problem, state, step, sweeps=sweeps, tolerance=tolerance, ruptures=ruptures)
     load = float((nodes.areas * settled.state.pressure).sum())

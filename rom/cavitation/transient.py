@@ -11,7 +11,8 @@ from roughfilm.rom.cavitation.discretise import faces
 from roughfilm.rom.cavitation.grid import grid
 from roughfilm.rom.cavitation.network import State
 from roughfilm.rom.cavitation.problem import Problem
-from roughfilm.rom.cavitation.solve import RESIDUAL_TOLERANCE, WARM_SWEEPS, Solution, on_grid, solve
+from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
+from roughfilm.rom.cavitation.solve import WARM_SWEEPS, Solution, on_grid, solve
 
 
 def march(

@@ -1,1 +1,1 @@
-"""Homogenization of roughness: pressure, shear and friction flow factors of a periodic gap."""
+"""Flow factors: averaged conductance, drag and friction of a periodic rough gap, relative to a smooth film."""

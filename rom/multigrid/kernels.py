@@ -136,7 +136,7 @@ def add_previous(rows, row, values, place, total):  # type: ignore[no-untyped-de
     total[last] += down[row, 0] * values[place, 0]
 
 
-@inlined
+@called
 def factorise_row(rows, row, work):  # type: ignore[no-untyped-def]
     """Compute the diagonal and factorise T; for a periodic row ``border`` is the response to its last unknown."""
     north, border = rows.north, rows.border
@@ -191,7 +191,7 @@ def add_own(north, rows, row, between, share, forward):  # type: ignore[no-untyp
         north[last] += share[0] * up[last] + share[last] * down[0]
 
 
-@inlined
+@called
 def set_coupling(east, up, down, rows, row, first, second):  # type: ignore[no-untyped-def]
     """Compute a coarse row's couplings to the next, BS + FB − FTS, across an odd row of interpolation weights F, S."""
     own, along = rows.centre[row], rows.north[row]
@@ -216,7 +216,7 @@ def set_coupling(east, up, down, rows, row, first, second):  # type: ignore[no-u
     down[0] += before[0] * second[last] + first[0] * after[0]
 
 
-@inlined
+@called
 def share(rows, row, work):  # type: ignore[no-untyped-def]
     """Compute the interpolation weights T⁻¹B1 of an odd row from the previous and next rows in ``work[:2]``.
 
@@ -237,7 +237,7 @@ def share(rows, row, work):  # type: ignore[no-untyped-def]
                 work[side, j] = 0.0
 
 
-@inlined
+@called
 def leaks(rows, row, work):  # type: ignore[no-untyped-def]
     """Whether an odd row leaks; ``work[3]`` is then the loss of its unknowns for ones in the rows beside it."""
     total = work[2]

@@ -15,7 +15,6 @@ from roughfilm.contact.mechanics.moments import WavePower, wave_power
 from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.store import is_surface
 from roughfilm.contact.surfaces.surface import Surface
-from roughfilm.contact.synthetic.description import description_entries, make, read_description, read_entries
 
 PLAIN_FORMATS = (".npy", ".csv")
 """Suffixes of files without metadata; their heights are taken as one period."""
@@ -23,6 +22,8 @@ PLAIN_FORMATS = (".npy", ".csv")
 
 def _described(value: object) -> object:
     """The name of a file of heights, or a description from a table or TOML file with all defaults."""
+    from roughfilm.contact.synthetic.description import description_entries, read_description, read_entries
+
     if isinstance(value, str):
         if not value.lower().endswith(".toml"):
             return value
@@ -124,6 +125,8 @@ def digest_of(surface: Surface) -> str:
 
 @lru_cache(maxsize=2)
 def _made(description: str) -> Surface:
+    from roughfilm.contact.synthetic.description import make, read_entries  # slow to import
+
     return make(read_entries(json.loads(description)))
 
 

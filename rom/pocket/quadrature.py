@@ -1,43 +1,23 @@
 """Pressure, load and friction of a film by quadrature over one period of the gap."""
 
 import time
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
-from typing import Unpack
 
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError
-from roughfilm.rom.ladder.model import About, Applicability, Effect, Model, Progress, Resolutions
+from roughfilm.rom.ladder.model import Effect, Model, Progress
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.ladder.result import Field, Numerics, Result
 from roughfilm.rom.pocket import closed_form as film_flow
 from roughfilm.rom.pocket.error_law import ErrorLaw
 from roughfilm.rom.pocket.gap import Gap
+from roughfilm.rom.pocket.model import MAX_NODES
 from roughfilm.rom.pocket.piecewise import GaussRule, extrema, gauss_rule
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
 from roughfilm.rom.pocket.validity import cautions
-
-DEFAULT_NODES = 24
-"""Default number of Gauss points on each smooth piece of the gap."""
-
-NODE_SERIES = (2, 3, 4, 6, 8, 12, 16, 24)
-"""Numbers of Gauss points of a convergence study."""
-
-MIN_NODES = 2
-"""Smallest number of Gauss points."""
-
-MAX_NODES = 768
-"""Largest number of Gauss points."""
-
-RESIDUAL_TOLERANCE = 1e-7
-"""Default tolerance of the residual."""
-
-RESOLUTION_MEANING = "Gauss points on each smooth piece of the gap"
-RESIDUAL_MEANING = "mean mismatch of dp/dx between the nodes, relative to its mean size"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -151,23 +131,4 @@ def solve(
             scheme=scheme,
         ),
         warnings=tuple(warnings),
-    )
-
-
-def quadrature_model(
-    *, applies: Callable[[Pocket], Applicability], law: ErrorLaw | None = None, **about: Unpack[About]
-) -> Model[Pocket]:
-    """A model that uses quadrature; the cost is that of the default rule (a half circle takes seconds)."""
-    return Model(
-        **about,
-        kind="pocket",
-        resolutions=Resolutions(least=MIN_NODES, most=MAX_NODES, default=DEFAULT_NODES, series=NODE_SERIES),
-        resolution_meaning=RESOLUTION_MEANING,
-        residual_meaning=RESIDUAL_MEANING,
-        order=None,
-        tolerance=RESIDUAL_TOLERANCE,
-        tolerances=(1e-300, 1.0),
-        cost=lambda _scene, resolution: 2e-4 + 1e-7 * resolution**2,
-        applies=applies,
-        compute=partial(solve, law=law),
     )

@@ -1,45 +1,25 @@
 """Newton's method for the thin-film equations of a pocket, with continuation in the Reynolds number if needed."""
 
 import time
-from collections.abc import Callable
-from functools import partial
-from typing import Unpack
 
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
-from roughfilm.rom.ladder.model import About, Applicability, Effect, Model, Progress, Resolutions
+from roughfilm.rom.ladder.model import Effect, Model, Progress
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.ladder.result import Field, Numerics, Result
 from roughfilm.rom.pocket import slope, thin_film
 from roughfilm.rom.pocket.basis import Basis, even_basis, gauss_basis, sliding_wall_slope
 from roughfilm.rom.pocket.error_law import ErrorLaw
+from roughfilm.rom.pocket.model import SCHEMES
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
 from roughfilm.rom.pocket.thin_film import Strip, StripFlow
 from roughfilm.rom.pocket.validity import cautions
 
 MODES = 10
 """Polynomials across the film; with 16 load changes by at most 3e-5 and friction by 3e-4 in 120 published cases."""
-
-DEFAULT_CELLS = 400
-"""Default number of cells along the film."""
-
-CELL_SERIES = (50, 100, 200, 400)
-"""Numbers of cells of a convergence study."""
-
-MIN_CELLS = 12
-"""Smallest number of cells along the film."""
-
-MAX_CELLS = 4000
-"""Largest number of cells along the film."""
-
-RESIDUAL_TOLERANCE = 1e-11
-"""Default tolerance of the residual."""
-
-SCHEMES = ("linear_upwind", "upwind")
-"""Advection schemes, the default first."""
 
 LAYERS = 24
 """Number of layers across the film in the velocity of a result."""
@@ -58,9 +38,6 @@ MIN_CONTINUATION_STEP = 1e-3
 
 MAX_LAST_MODE = 0.1
 """Largest last amplitude over the largest one at which the velocity across the film is resolved."""
-
-RESOLUTION_MEANING = "cells along the film, each with 10 polynomials across it"
-RESIDUAL_MEANING = "largest imbalance of momentum in a cell, relative to the largest force in one"
 
 
 def _residual(film: Strip, across: Basis, linear: thin_film.Linearised) -> float:
@@ -203,21 +180,3 @@ def _vertices(film: Strip) -> Array:
     h = np.append(film.face_thickness, film.face_thickness[0])
     y = 1 - h[:, None] * (1 - np.linspace(0, 1, LAYERS + 1))
     return np.stack([np.broadcast_to(film.faces[:, None], y.shape), y], axis=2)
-
-
-def film_model(*, applies: Callable[[Pocket], Applicability], law: ErrorLaw, **about: Unpack[About]) -> Model[Pocket]:
-    """A model that solves the thin-film equations; the cost was measured for 50 to 800 cells."""
-    return Model(
-        **about,
-        kind="pocket",
-        resolutions=Resolutions(least=MIN_CELLS, most=MAX_CELLS, default=DEFAULT_CELLS, series=CELL_SERIES),
-        resolution_meaning=RESOLUTION_MEANING,
-        residual_meaning=RESIDUAL_MEANING,
-        order=2,
-        tolerance=RESIDUAL_TOLERANCE,
-        tolerances=(1e-14, 1.0),
-        schemes=SCHEMES,
-        cost=lambda _scene, resolution: 3e-3 + 1e-4 * resolution,
-        applies=applies,
-        compute=partial(solve, law=law),
-    )

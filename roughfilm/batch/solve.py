@@ -9,7 +9,7 @@ from roughfilm.batch.directory import CASES, places, put_scene
 from roughfilm.batch.execute import Solved, run
 from roughfilm.batch.jobs import Failure, Job, store, stored
 from roughfilm.batch.progress import BatchProgress
-from roughfilm.batch.tabulate import Row, columns, row_of
+from roughfilm.batch.tabulate import TableRow, columns, row_of
 from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.studies.study import Case, Study
 from roughfilm.rom.studies.table import write_csv, write_hdf5
@@ -29,7 +29,7 @@ def tasks_of(study: Study, out: Path) -> Tasks:
     return tasks
 
 
-def finished(study: Study, tasks: Tasks, counts: BatchProgress) -> tuple[dict[Path, Row], list[Job]]:
+def finished(study: Study, tasks: Tasks, counts: BatchProgress) -> tuple[dict[Path, TableRow], list[Job]]:
     """The rows that need no solving, and the jobs that do; both are counted."""
     rows, missing = {}, []
     for path, (case, job) in tasks.items():

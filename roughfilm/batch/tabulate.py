@@ -15,11 +15,11 @@ from roughfilm.rom.studies.table import Column
 Cell = Quantity | str
 
 
-Row = tuple[Mapping[str, Cell], Mapping[str, Cell]]
+TableRow = tuple[Mapping[str, Cell], Mapping[str, Cell]]
 """What was requested, and the answer, by the name of the column."""
 
 
-def row_of(keys: Mapping[str, Key], case: Case, job: Job, answer: Result | Failure) -> Row:
+def row_of(keys: Mapping[str, Key], case: Case, job: Job, answer: Result | Failure) -> TableRow:
     """The row of a job: one case of a study in which ``keys`` vary."""
     setting = job.setting
     entries = scene_entries(case.scene)
@@ -50,7 +50,7 @@ def row_of(keys: Mapping[str, Key], case: Case, job: Job, answer: Result | Failu
     }
 
 
-def columns(rows: Sequence[Row]) -> dict[str, Column]:
+def columns(rows: Sequence[TableRow]) -> dict[str, Column]:
     """The rows as columns, in the order in which their names first appear."""
     table: dict[str, Column] = {}
     for parts in zip(*rows, strict=True):

@@ -13,10 +13,10 @@ from roughfilm.batch.jobs import Job, jobs_of, run_all
 from roughfilm.cli.solve import quantity_table
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.foundation.files import write_json
-from roughfilm.figures.rendering import draw_apart
+from roughfilm.figures.rendering import draw_apart, embedded
 from roughfilm.figures.view import views
 from roughfilm.ladder import models
-from roughfilm.pages.comparison import Picture, Report, cheapest_within, write_comparison
+from roughfilm.pages.comparison import Report, cheapest_within, write_comparison
 from roughfilm.pages.render import write_figures
 from roughfilm.rom.ladder.kind import Scene, kind_of_name
 from roughfilm.rom.ladder.model import Model, best
@@ -187,12 +187,14 @@ def _chart_entries(report: Report) -> dict[str, Any]:
     }
 
 
-def _pictures(results: Mapping[str, Result], drawing: str, out: Path) -> tuple[Picture, ...]:
-    def picture(name: str) -> Picture:
+def _pictures(results: Mapping[str, Result], drawing: str, out: Path) -> dict[str, tuple[str, str]]:
+    """By model that resolves the flow, the address of an image that holds its picture, or "" and the reason."""
+
+    def picture(name: str) -> tuple[str, str]:
         path = out / f"flow-{name}.png"
         drawn = draw_apart(drawing, out / RESULTS / f"{name}.h5", path)
-        return Picture(model=name, path=path if drawn.available else None, reason=drawn.detail)
+        return embedded(path) if drawn.available else "", drawn.detail
 
-    resolved = [name for name, result in results.items() if "vertices" in result.fields]
+    resolved = [name for name, result in results.items() if "vertices" in result.fields][::-1]
     with ThreadPoolExecutor() as pool:
-        return tuple(pool.map(picture, reversed(resolved)))
+        return dict(zip(resolved, pool.map(picture, resolved), strict=True))

@@ -15,7 +15,7 @@ from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.threads import checked_threads
 from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.units import to_si
-from roughfilm.contact.mechanics.load_series import Series, estimated, solved
+from roughfilm.contact.mechanics.load_series import ContactSeries, estimated, solved
 from roughfilm.contact.mechanics.models import (
     GRID_MODELS,
     MODELS_WITHOUT_HARDNESS,
@@ -193,7 +193,7 @@ def _spread_out(loads: tuple[float, ...]) -> tuple[float, ...]:
     return tuple(loads[round(k * (len(loads) - 1) / max(count - 1, 1))] for k in range(count))
 
 
-def _entries(model: ContactModel, rough: HeightMap, settings: dict[str, Any], series: Series) -> dict[str, Any]:
+def _entries(model: ContactModel, rough: HeightMap, settings: dict[str, Any], series: ContactSeries) -> dict[str, Any]:
     """The object of ``--json``, without the cost."""
     last = asdict(series.rows[-1])
     units = {name: UNITS.get(name, "1") for name in last}
@@ -215,7 +215,7 @@ def _entries(model: ContactModel, rough: HeightMap, settings: dict[str, Any], se
             "iterations": sum(row.iterations or 0 for row in series.rows),
             "points": rough.heights.size,
             "loads": len(series.rows),
-            "loads_found": series.found,
+            "loads_found": series.reused,
         },
         "provenance": origin([SOURCES[model]], warnings, surface=dict(rough.source), settings=settings),
     }

@@ -15,7 +15,7 @@ from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.mechanics.store import load_contact
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
 from roughfilm.rom.ladder.scene import load_scene, scene_entries
-from roughfilm.rom.seal.leakage.curve import Ready, chosen_loads, columns_of, ready_seal, sealing, solved
+from roughfilm.rom.seal.leakage.curve import SealSetup, chosen_loads, columns_of, seal_setup, sealing, solved
 from roughfilm.rom.seal.leakage.joint import joint_seals
 from roughfilm.rom.seal.leakage.percolation import Threshold
 from roughfilm.rom.seal.leakage.series import SOUGHT, Row
@@ -73,7 +73,7 @@ def command(
         progress_bar(1.0) as advance,
     ):
         advance(0.0, "reading the surface")
-        body = ready_seal(seal, out)
+        body = seal_setup(seal, out)
         thresholds = sealing(body, lambda done, words: advance(0.2 * done, words))
         series = chosen_loads(body, thresholds) if requested is None else requested
         rows, known = solved(body, series, workers, lambda done, words: advance(0.2 + 0.7 * done, words))
@@ -102,7 +102,7 @@ def command(
 
 
 def _entries(
-    seal: Seal, body: Ready, rows: Mapping[float, Row], thresholds: Mapping[str, Threshold]
+    seal: Seal, body: SealSetup, rows: Mapping[float, Row], thresholds: Mapping[str, Threshold]
 ) -> tuple[dict[str, Any], dict[str, Column]]:
     """The object of ``--json``, and the rows as columns of the table."""
     columns = {
@@ -131,7 +131,7 @@ def _entries(
     return entries, columns
 
 
-def _warnings(seal: Seal, body: Ready, rows: Mapping[float, Row], thresholds: Mapping[str, Threshold]) -> list[str]:
+def _warnings(seal: Seal, body: SealSetup, rows: Mapping[float, Row], thresholds: Mapping[str, Threshold]) -> list[str]:
     """Warnings of directions that never seal or are always sealed, of edges that do not fit, and of lifted surfaces."""
     warnings = []
     for name, threshold in thresholds.items():
@@ -151,7 +151,7 @@ def _warnings(seal: Seal, body: Ready, rows: Mapping[float, Row], thresholds: Ma
     return warnings
 
 
-def _edge_warnings(body: Ready, rows: Mapping[float, Row]) -> list[str]:
+def _edge_warnings(body: SealSetup, rows: Mapping[float, Row]) -> list[str]:
     """Warnings of the edges of a measured surface, which is repeated periodically."""
     mismatch, where = periodicity_mismatch(body.surface), []
     for number, axis in enumerate("xy"):

@@ -53,7 +53,23 @@ def command(
     entries = {"reference": reference, "cases": len(sweep.names), "settings": rows, "failures": list(sweep.failures)}
     path = out or directory / "report.html"
     make_directory(path.parent)
-    _write_page(sweep, reference, settings, numbers, rows, path)
+    from roughfilm.figures.sweep import errors_in_order, sweep_chart  # matplotlib is slow to import
+
+    view, chosen = views()[sweep.kind], {key: orders["chosen"] for key, orders in numbers.items() if orders}
+    render(
+        "sweep.html.j2",
+        path,
+        sweep=sweep,
+        reference=reference,
+        rows=rows,
+        tolerances=[f"{tolerance:g}" for tolerance in TOLERANCES],
+        chart=sweep_chart(sweep, reference, settings),
+        order=errors_in_order(sweep, reference, chosen, settings),
+        maps={key: view.maps(sweep, key[0], reference, key[1]) for key in numbers} if view.maps else {},
+        compared=compared,
+        view=view,
+        machine=machine(),
+    )
     write_json({**entries, "machine": machine()}, path.with_suffix(".json"))
     if as_json:
         print_json({**entries, "report": str(path)})
@@ -150,38 +166,5 @@ def _spread(error: Array) -> dict[str, float]:
     return {"median": float(median), "high": float(high), "worst": float(worst)}
 
 
-def _percent(part: float | None) -> str:
-    return "-" if part is None else f"{100 * part:.3g} %"
-
-
-def _write_page(
-    sweep: Sweep,
-    reference: str,
-    settings: list[str],
-    numbers: Mapping[tuple[str, str], Mapping[str, Ordering]],
-    rows: list[dict[str, Any]],
-    path: Path,
-) -> None:
-    from roughfilm.figures import sweep as sweep_figures  # matplotlib is slow to import
-
-    kind, view = kind_of_name(sweep.kind), views()[sweep.kind]
-    chosen = {key: orders["chosen"] for key, orders in numbers.items() if orders}
-    render(
-        "sweep.html.j2",
-        path,
-        sweep=sweep,
-        reference=reference,
-        rows=rows,
-        tolerances=[f"{tolerance:g}" for tolerance in TOLERANCES],
-        chart=sweep_figures.sweep_chart(sweep, reference, settings),
-        order=sweep_figures.errors_in_order(sweep, reference, chosen, settings),
-        maps={
-            (setting, quantity): view.maps(sweep, setting, reference, quantity)
-            for setting in settings
-            for quantity in kind.compared
-            if view.maps is not None
-        },
-        compared=kind.compared,
-        view=view,
-        machine=machine(),
-    )
+def _percent(fraction: float | None) -> str:
+    return "-" if fraction is None else f"{100 * fraction:.3g} %"

@@ -12,7 +12,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import write_json
 from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.rom.bearing.mixed.curves import Wall, resumed_curves, wall_of
-from roughfilm.rom.bearing.mixed.curves_store import NUMBERS, UNITS, write_csv
+from roughfilm.rom.bearing.mixed.store import NUMBERS, UNITS, write_csv
 from roughfilm.rom.bearing.mixed.stribeck import MAX_CELLS, MIN_CELLS, RESOLUTION, StribeckCurve, StribeckPoint
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.model import Progress

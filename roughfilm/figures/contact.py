@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from roughfilm.contact.mechanics.contact import Contact
-from roughfilm.contact.mechanics.load_series import MOST_BINS, Spread
+from roughfilm.contact.mechanics.load_series import MAX_BINS, PressureDensity
 from roughfilm.contact.mechanics.store import Row
 from roughfilm.figures.base import new_figure, size_of, surface_map, svg
 
@@ -57,7 +57,7 @@ def maps(contact: Contact) -> str:
     return svg(figure)
 
 
-def pressures(spreads: Sequence[Spread], hardness: float) -> str:
+def pressures(spreads: Sequence[PressureDensity], hardness: float) -> str:
     """Density of the nominal area over the pressure at a few loads; empty if the model does not give it."""
     drawn = [spread for spread in spreads if spread.density.any()]
     if not drawn:
@@ -69,7 +69,7 @@ def pressures(spreads: Sequence[Spread], hardness: float) -> str:
         axes.plot(
             spread.pressure / 1e9,
             density,
-            ".-" if density.size <= MOST_BINS else "-",
+            ".-" if density.size <= MAX_BINS else "-",
             color=colour,
             label=f"{float(f'{spread.load / 1e6:.3g}'):g} MPa",
         )

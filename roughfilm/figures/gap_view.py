@@ -8,6 +8,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.files import replacing
+from roughfilm.figures.rendering import scalar_bar
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.store import load
 
@@ -46,17 +47,6 @@ def draw(result: Result, picture: Path) -> None:
         plotter.add_mesh(touching, color=CONTACT)
     open_film = film.threshold(0.5, scalars="kept").cell_data_to_point_data()
     bounds = film.bounds
-    bar: pyvista.ScalarBarArgs = {
-        "title": "",
-        "n_labels": 5,
-        "fmt": "%.1f",
-        "color": "#222222",
-        "label_font_size": 18,
-        "position_x": 0.3,
-        "position_y": 0.005,
-        "width": 0.4,
-        "height": 0.07,
-    }
     top = float(np.percentile(open_film[SPEED], 99.9))
     for number, (normal, place) in enumerate((("x", bounds[1] - 1e-3 * length), ("y", bounds[3] - 1e-3 * length))):
         origin = [bounds[0], bounds[2], low]
@@ -70,7 +60,7 @@ def draw(result: Result, picture: Path) -> None:
                 clim=(0, top),
                 lighting=False,
                 show_scalar_bar=number == 0,
-                scalar_bar_args=bar,
+                scalar_bar_args=scalar_bar((0.3, 0.005), (0.4, 0.07), labels=5),
             )
     seeds = pyvista.PolyData(_seeds(film))
     lines = open_film.streamlines_from_source(
@@ -93,10 +83,12 @@ def film_of(result: Result) -> "pyvista.StructuredGrid":
     import pyvista
 
     vertices = result.fields["vertices"].values * 1e6
-    velocity, kept = result.fields["cell_velocity"].values, result.fields["kept"].values
+    velocity, open_cells = result.fields["cell_velocity"].values, result.fields["kept"].values
     length, width = (float(np.ptp(vertices[..., axis])) for axis in range(2))
     repeats = max(1, round(MIN_WIDTH * length / width))
-    points, flow, there = _repeated(vertices, velocity, kept, repeats, width)
+    shifts = [vertices[:, (0 if n == 0 else 1) :] + [0.0, n * width, 0.0] for n in range(repeats)]
+    points, flow = np.concatenate(shifts, axis=1), np.tile(velocity, (1, repeats, 1, 1))
+    there = np.tile(open_cells, (1, repeats))
     stretch = max(1.0, MIN_HEIGHT * max(length, width * repeats) / float(np.ptp(points[..., 2])))
     grid = pyvista.StructuredGrid(points[..., 0], points[..., 1], points[..., 2] * stretch)
     shown = flow * [1.0, 1.0, stretch]
@@ -120,11 +112,6 @@ def contact_of(film: "pyvista.StructuredGrid") -> "pyvista.UnstructuredGrid | No
     nx, ny, nz = film.dimensions
     patch = film.extract_subset((0, nx - 1, 0, ny - 1, nz - 1, nz - 1)).threshold(0.5, scalars="kept", invert=True)
     return patch if patch.n_cells else None
-
-
-def _repeated(vertices: Array, velocity: Array, kept: Array, repeats: int, width: float) -> tuple[Array, Array, Array]:
-    shifts = [vertices[:, (0 if n == 0 else 1) :] + [0.0, n * width, 0.0] for n in range(repeats)]
-    return np.concatenate(shifts, axis=1), np.tile(velocity, (1, repeats, 1, 1)), np.tile(kept, (1, repeats))
 
 
 def _seeds(film: "pyvista.StructuredGrid") -> Array:

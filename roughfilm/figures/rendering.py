@@ -4,8 +4,12 @@ import base64
 import subprocess
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from roughfilm.rom.ladder.model import Availability
+
+if TYPE_CHECKING:
+    import pyvista
 
 REMEDY = "install graphics libraries with: sudo apt-get install libegl1 libgl1-mesa-dri libxrender1"
 TIME_LIMIT_S = 180
@@ -24,17 +28,40 @@ def embedded(picture: Path) -> str:
     return "data:image/png;base64," + base64.b64encode(picture.read_bytes()).decode("ascii")
 
 
+def scalar_bar(
+    place: tuple[float, float],
+    extent: tuple[float, float],
+    *,
+    labels: int,
+    digits: int = 1,
+    size: int = 18,
+) -> "pyvista.ScalarBarArgs":
+    """The options of a horizontal colour bar in pyvista; its place and extent are fractions of the window."""
+    return {
+        "title": "",
+        "n_labels": labels,
+        "fmt": f"%.{digits}f",
+        "color": "#222222",
+        "label_font_size": size,
+        "vertical": False,
+        "position_x": place[0],
+        "position_y": place[1],
+        "width": extent[0],
+        "height": extent[1],
+    }
+
+
 def draw_apart(module: str, file: Path, picture: Path) -> Availability:
-    """Run a module that draws what a file holds into a PNG; says why where it fails."""
+    """Draw the content of a file into a PNG by a module that runs in a process of its own, and say whether it did."""
     return _apart("-m", module, str(file), str(picture))
 
 
 def probe() -> Availability:
-    """Whether a picture can be drawn here."""
-    found = _apart("-c", PROBE)
-    if not found.available:
-        return found
-    return Availability(available=True, detail="pyvista draws, VTK " + found.detail.strip("()").replace(", ", "."))
+    """Whether pictures can be drawn on this machine."""
+    drawn = _apart("-c", PROBE)
+    if not drawn.available:
+        return drawn
+    return Availability(available=True, detail="pyvista draws, VTK " + drawn.detail.strip("()").replace(", ", "."))
 
 
 def _apart(*arguments: str) -> Availability:

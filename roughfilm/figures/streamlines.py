@@ -7,6 +7,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.files import replacing
+from roughfilm.figures.rendering import scalar_bar
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.store import load
 
@@ -78,18 +79,7 @@ def draw(result: Result, picture: Path) -> None:
         cmap="viridis",
         clim=(0, 1),
         lighting=False,
-        scalar_bar_args={
-            "title": "",
-            "n_labels": 6,
-            "vertical": False,
-            "width": 0.4,
-            "height": 0.09,
-            "position_x": 0.3,
-            "position_y": 0.02,
-            "label_font_size": 22,
-            "fmt": "%.1f",
-            "color": "#222222",
-        },
+        scalar_bar_args=scalar_bar((0.3, 0.02), (0.4, 0.09), labels=6, size=22),
     )
     plotter.add_mesh(lines, color="white", line_width=2)
     plotter.add_mesh(grid.extract_feature_edges(), color="#222222", line_width=2)

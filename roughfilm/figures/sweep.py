@@ -10,7 +10,7 @@ from roughfilm.rom.ladder.kind import kind_of_name
 from roughfilm.rom.studies.ordering import Ordering, product
 from roughfilm.rom.studies.sweep import Sweep, loaded, relative_error, sweeping
 
-LEAST_PERCENT = 1e-3
+MIN_PERCENT = 1e-3
 
 
 def errors_in_order(
@@ -26,20 +26,20 @@ def errors_in_order(
                 axes.set_axis_off()
                 axes.set_title(f"{setting}: {title}, nothing to order", fontsize=9)
                 continue
-            found = orderings[setting, quantity]
-            number = product(sweep.features(), found.powers)
+            law = orderings[setting, quantity]
+            number = product(sweep.features(), law.powers)
             error = 100 * relative_error(sweep, setting, reference, quantity)
             error[~loaded(sweep, reference)] = np.nan
             for (group, rows), sign in zip(groups.items(), "osD^v<>", strict=False):
                 label = None if group in named else group
                 named.add(group)
-                axes.plot(number[rows], np.maximum(error[rows], LEAST_PERCENT), sign, ms=3, alpha=0.6, label=label)
-            for tolerance, limit in found.thresholds.items():
+                axes.plot(number[rows], np.maximum(error[rows], MIN_PERCENT), sign, ms=3, alpha=0.6, label=label)
+            for tolerance, limit in law.thresholds.items():
                 if limit is not None:
-                    axes.plot([number.min(), limit, limit], [100 * tolerance] * 2 + [LEAST_PERCENT], "k:", lw=0.8)
+                    axes.plot([number.min(), limit, limit], [100 * tolerance] * 2 + [MIN_PERCENT], "k:", lw=0.8)
             axes.set(xscale="log", yscale="log")
-            axes.set_title(f"{setting}: {title}, rank correlation {found.rank:.3f}", fontsize=9)
-            axes.set_xlabel(sweeping(kind).words(found.powers), fontsize=8)
+            axes.set_title(f"{setting}: {title}, rank correlation {law.rank:.3f}", fontsize=9)
+            axes.set_xlabel(sweeping(kind).words(law.powers), fontsize=8)
             axes.tick_params(axis="x", which="both", labelsize=7)
             axes.set_ylabel("error, %", fontsize=8)
     figure.legend(loc="outside upper center", ncols=4, fontsize=8)
@@ -52,7 +52,7 @@ def sweep_chart(sweep: Sweep, reference: str, settings: Sequence[str]) -> str:
     figure, panels = new_figure((10, 4.6), 1, len(kind.compared))
     for axes, (quantity, title) in zip(panels, kind.compared.items(), strict=True):
         for setting in settings:
-            error = np.maximum(100 * relative_error(sweep, setting, reference, quantity), LEAST_PERCENT)
+            error = np.maximum(100 * relative_error(sweep, setting, reference, quantity), MIN_PERCENT)
             time = sweep.cpu_s[setting]
             known = np.isfinite(error) & np.isfinite(time) & loaded(sweep, reference)
             if not known.any():

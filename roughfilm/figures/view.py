@@ -1,4 +1,4 @@
-"""How pages and figures show a kind of scene, as data."""
+"""The view of a kind of scene in pages and figures, as data."""
 
 import importlib
 import pkgutil
@@ -18,7 +18,7 @@ from roughfilm.rom.studies.sweep import Sweep
 
 @dataclass(frozen=True, kw_only=True)
 class Style:
-    """How matplotlib draws a model."""
+    """Colour, line and marker of a model."""
 
     colour: str | None = None
     line: str | tuple[int, tuple[int, ...]] = "-"
@@ -27,21 +27,21 @@ class Style:
 
 @dataclass(frozen=True, kw_only=True)
 class View:
-    """How one kind of scene is shown; every file under ``figures/views/`` ends with ``VIEW``.
+    """The words, figures and styles of a kind of scene; every file under ``figures/views/`` ends with ``VIEW``.
 
     Attributes
     ----------
-    page : the template of its comparisons, which extends comparison.html.j2.
-    styles : how each model is drawn.
-    labels : a compared quantity as tables name it.
-    headings : the quantities in the table of the ladder, with their headings (HTML).
-    plots : plots(scene, results): figures of its own, SVG by name.
-    groups : groups(given): which cases of a sweep share a marker, masks by name.
-    drawing : the module that draws a result which resolves the film, in space; empty where there is none.
-    maps : maps(sweep, setting, reference, quantity): errors over what was varied, SVG; None where there is no such map.
-    errors : of what a sweep gives errors, in words.
-    ordering : what the features of its sweeps are, in words.
-    left_out : which cases of a sweep are left out of its numbers, in words, after a space; empty if none.
+    page : template of a comparison, which extends comparison.html.j2.
+    styles : style of each model.
+    labels : names of the compared quantities in tables.
+    headings : quantities in the table of the models, with their headings (HTML).
+    plots : plots(scene, results), figures of the kind, SVG by name.
+    groups : groups(given), masks of the cases of a sweep that share a marker, by name.
+    drawing : module that draws a result which resolves the film, in space; empty where there is none.
+    maps : maps(sweep, setting, reference, quantity), errors over the varied entries, SVG; None where there is no map.
+    errors : quantities whose errors a sweep gives, in words.
+    ordering : features of a sweep, in words.
+    left_out : cases of a sweep that its numbers leave out, in words, after a space; empty if none.
     """
 
     page: str
@@ -57,11 +57,11 @@ class View:
     left_out: str = ""
 
     def style(self, model: str) -> Style:
-        """How a model is drawn, a plain way if nobody said."""
+        """The style of a model."""
         return self.styles.get(model, Style())
 
     def style_of(self, setting: str) -> Style:
-        """How a setting is drawn: as the model that its name begins with, by a cross if more was chosen."""
+        """The style of a setting: that of its model, with a cross if the setting chooses more than the model."""
         name, *chosen = setting.split("-")
         style = self.style(name)
         return Style(colour=style.colour, line=style.line, marker="X") if chosen else style

@@ -17,7 +17,7 @@ from roughfilm.rom.bearing.mixed import stribeck as mixed
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.model import Progress, silent
-from roughfilm.rom.seal.leakage.curve import chosen_loads, columns_of, ready_seal, sealing, solved
+from roughfilm.rom.seal.leakage.curve import chosen_loads, columns_of, seal_setup, sealing, solved
 from roughfilm.rom.seal.leakage.percolation import Threshold
 from roughfilm.rom.seal.scene import Seal
 
@@ -157,7 +157,7 @@ def leakage_curve(
             Path(place).mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise InputError(f"directory: {place} cannot be made ({error.strerror}); choose another place") from error
-        body = ready_seal(scene, Path(place))
+        body = seal_setup(scene, Path(place))
         found = sealing(body, lambda done, words: progress(0.2 * done, words))
         series = chosen_loads(body, found) if asked is None else asked
         pressed, _ = solved(

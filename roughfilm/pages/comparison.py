@@ -4,7 +4,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from roughfilm.figures.rendering import embedded
 from roughfilm.figures.view import View
 from roughfilm.pages.render import render
 from roughfilm.rom.ladder.kind import Kind, Scene
@@ -15,15 +14,6 @@ from roughfilm.rom.studies.comparison import Difference, Point
 from roughfilm.rom.studies.convergence import Convergence
 
 LINKS = "https://doi.org/"
-
-
-@dataclass(frozen=True, kw_only=True)
-class Picture:
-    """A picture of one model's flow, or why there is none."""
-
-    model: str
-    path: Path | None
-    reason: str
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,7 +33,7 @@ class Report:
     uncertainty: Mapping[str, float]
     convergence: Mapping[str, Mapping[str, Convergence]]
     plots: Mapping[str, str]
-    pictures: tuple[Picture, ...]
+    pictures: Mapping[str, tuple[str, str]]
 
 
 def cheapest_within(report: Report, fraction: float) -> str:
@@ -74,7 +64,6 @@ def write_comparison(report: Report, path: Path) -> None:
         cheapest={fraction: cheapest_within(report, fraction) for fraction in (0.01, 0.10)},
         known=max(report.uncertainty.values(), default=0.0),
         differences=_by_model(report.to_best),
-        pictures=[(picture, "" if picture.path is None else embedded(picture.path)) for picture in report.pictures],
         sources=[(doi, LINKS + doi) for doi in sorted(sources)],
     )
 

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from roughfilm.contact.mechanics.load_series import Series
+from roughfilm.contact.mechanics.load_series import ContactSeries
 from roughfilm.figures import contact as contact_figures
-from roughfilm.figures.contact_view import view_picture
+from roughfilm.figures.pressed_surface import view_picture
 from roughfilm.pages.render import render
 from roughfilm.words.numbers import digits
 
@@ -40,7 +40,7 @@ COLUMNS = (
 )
 
 
-def write_page(name: str, entries: Mapping[str, Any], series: Series, path: Path) -> None:
+def write_page(name: str, entries: Mapping[str, Any], series: ContactSeries, path: Path) -> None:
     """Write the page of a series and of the object of ``--json``; InputError if the file cannot be written."""
     last, settings = series.last, entries["provenance"]["settings"]
     hardness = settings["hardness"] or math.inf
@@ -68,7 +68,7 @@ def write_page(name: str, entries: Mapping[str, Any], series: Series, path: Path
         maps=None if last is None or line else contact_figures.maps(last),
         picture=picture,
         missing=missing,
-        pressures=contact_figures.pressures(series.spreads, hardness),
+        pressures=contact_figures.pressures(series.densities, hardness),
         section=None if last is None else contact_figures.section(last),
         provenance=entries["provenance"],
     )

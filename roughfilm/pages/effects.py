@@ -1,7 +1,6 @@
 """The page of a bearing's effects."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -11,23 +10,11 @@ from roughfilm.rom.bearing.effects.ablation import Amount
 from roughfilm.rom.bearing.effects.analysis import EffectAnalysis
 from roughfilm.rom.bearing.effects.contributions import EffectStudy
 from roughfilm.rom.ladder.kind import kind_of_name
-from roughfilm.words.effects import AT_FILM, SHOWN, UNDER_LOAD, Shown, cell, sentences, shown_quantities
+from roughfilm.words.effects import AT_FILM, SHOWN, UNDER_LOAD, cell, sentences, shown_quantities
 from roughfilm.words.numbers import percent
 
 LAST_COLUMN = "contact_share"
 """The last column of the tables, which is not drawn."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class View:
-    """What the page shows at the film of the scene, or under its load."""
-
-    title: str
-    columns: Mapping[str, Shown]
-    tables: Mapping[str, Sequence[tuple[str, Sequence[str]]]]
-    figure: str
-    words: Mapping[str, Sequence[str]]
-    untold: Mapping[str, str]
 
 
 def write_page(analysis: EffectAnalysis, entries: Mapping[str, Any], out: Path) -> None:
@@ -39,7 +26,7 @@ def write_page(analysis: EffectAnalysis, entries: Mapping[str, Any], out: Path) 
         beside = {} if analysis.thicker is None else {"film": analysis.thicker}
         views.append(_view(title, analysis.under_load, UNDER_LOAD, beside))
     names = ("effects_at_film", "effects_under_load")
-    write_figures({name: view.figure for name, view in zip(names, views, strict=False)}, out)
+    write_figures({name: view["figure"] for name, view in zip(names, views, strict=False)}, out)
     kind = kind_of_name(analysis.scene.kind)
     render(
         "effects.html.j2",
@@ -73,7 +60,8 @@ def _beside(analysis: EffectAnalysis) -> dict[str, Amount]:
     }
 
 
-def _view(title: str, study: EffectStudy, drawn: Sequence[str], beside: Mapping[str, Amount]) -> View:
+def _view(title: str, study: EffectStudy, drawn: Sequence[str], beside: Mapping[str, Amount]) -> dict[str, Any]:
+    """The title, tables, figure and sentences of a study at a film, or under a load."""
     columns = shown_quantities(study, (*drawn, LAST_COLUMN))
 
     def row(title: str, of: Mapping[str, Amount], *, sign: bool = True) -> tuple[str, list[str]]:
@@ -88,11 +76,11 @@ def _view(title: str, study: EffectStudy, drawn: Sequence[str], beside: Mapping[
     if beside:
         alone.append(row("inertia, not counted", beside))
     judged = {name: how for name, how in shown_quantities(study, drawn).items() if name != "side_leakage"}
-    return View(
-        title=title,
-        columns=columns,
-        tables={"Switched on one after the other": on, "Each added to all the others": alone},
-        figure=effects_figures.waterfall(study, shown_quantities(study, drawn), beside),
-        words={SHOWN[name].title: sentences(study, name, beside.get(name)) for name in judged},
-        untold=study.unsolved,
-    )
+    return {
+        "title": title,
+        "columns": columns,
+        "tables": {"Switched on one after the other": on, "Each added to all the others": alone},
+        "figure": effects_figures.waterfall(study, shown_quantities(study, drawn), beside),
+        "words": {SHOWN[name].title: sentences(study, name, beside.get(name)) for name in judged},
+        "untold": study.unsolved,
+    }

@@ -11,9 +11,9 @@ from roughfilm.contact.mechanics.store import load_contact
 from roughfilm.contact.parameters.autocorrelation import autocorrelation, decay_lengths
 from roughfilm.contact.parameters.peaks import lowest_valleys
 from roughfilm.figures import leakage as leakage_figures
-from roughfilm.figures.contact_view import view_picture
+from roughfilm.figures.pressed_surface import view_picture
 from roughfilm.pages.render import render
-from roughfilm.rom.seal.leakage.curve import Ready
+from roughfilm.rom.seal.leakage.curve import SealSetup
 from roughfilm.rom.seal.leakage.effective_medium import effective_medium
 from roughfilm.rom.seal.leakage.percolation import Threshold
 from roughfilm.rom.seal.leakage.series import SOUGHT, Row
@@ -24,7 +24,7 @@ from roughfilm.words.numbers import digits
 
 def write_page(
     scene: Seal,
-    body: Ready,
+    body: SealSetup,
     rows: Mapping[float, Row],
     thresholds: Mapping[str, Threshold],
     entries: Mapping[str, Any],
@@ -71,7 +71,7 @@ def write_page(
     )
 
 
-def _valley_depth(body: Ready) -> float:
+def _valley_depth(body: SealSetup) -> float:
     apart = decay_lengths(autocorrelation(body.surface), body.surface.spacing).shortest
     return float(lowest_valleys(body.surface, apart).mean())
 

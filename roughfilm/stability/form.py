@@ -180,7 +180,7 @@ class StabilityMap:
     Attributes
     ----------
     axes : the quantities that are varied, in words; {resolution} stands for the resolution.
-    judge : how right and wrong are told apart and how the error is measured, in words.
+    judge : how answers are judged and how the error is measured, in words.
     resolution, resolution_meaning : the default, and what it counts.
     least, most, allowed : range of the resolution, and the same in words.
     solve : solve(resolution, out, processes, scratch) gives the spots; runs that ``out`` already holds are used again.

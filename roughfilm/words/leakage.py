@@ -14,7 +14,7 @@ WORDS = {
 
 
 def in_words(threshold: Threshold) -> str:
-    """Where a direction seals, with the bracket of its contact area."""
+    """The load at which a direction seals, with the bracket of its contact area."""
     if threshold.sealed is None:
         return "does not seal"
     if threshold.open is None:
@@ -24,5 +24,5 @@ def in_words(threshold: Threshold) -> str:
 
 
 def leaks(scene: Seal, row: Row, name: str) -> str:
-    """Leakage in kg/h for each metre of width, or that there is none."""
+    """Leakage per metre of width, kg/h, or "sealed"."""
     return "sealed" if getattr(row, f"{name}_sealed") else f"{3600 * leakage_of(scene, getattr(row, name)):.3g}"

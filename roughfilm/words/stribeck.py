@@ -1,4 +1,4 @@
-"""Speeds of Stribeck curves, in turns a minute where something turns."""
+"""Speeds of Stribeck curves in their unit."""
 
 import math
 from dataclasses import dataclass
@@ -10,14 +10,14 @@ from roughfilm.words.numbers import with_error
 
 @dataclass(frozen=True, kw_only=True)
 class SpeedScale:
-    """The unit in which speeds are shown, and how many of it are 1 m/s."""
+    """The unit in which speeds are shown, and the factor from m/s."""
 
     unit: str
     factor: float
 
 
 def speed_scale(scene: Bearing) -> SpeedScale:
-    """Turns a minute where something turns, else m/s."""
+    """The scale of speeds of a bearing: rpm where something turns, else m/s."""
     radius = scene.turning_radius
     if radius is None:
         return SpeedScale(unit="m/s", factor=1.0)
@@ -25,8 +25,8 @@ def speed_scale(scene: Bearing) -> SpeedScale:
 
 
 def lift_off(curve: StribeckCurve, scale: SpeedScale, *, named: bool = True) -> str:
-    """The speed from which on the film carries the whole load, with its error and, if ``named``, its unit."""
-    speed, error = scale.factor * curve.lift_off.speed, scale.factor * curve.lift_off.uncertainty
+    """The speed above which the film carries the whole load, with its uncertainty and, if ``named``, its unit."""
+    speed, uncertainty = scale.factor * curve.lift_off.speed, scale.factor * curve.lift_off.uncertainty
     if math.isnan(speed):
-        return "none found"
-    return f"{with_error(speed, error)} {scale.unit}" if named else with_error(speed, error)
+        return "not reached"
+    return f"{with_error(speed, uncertainty)} {scale.unit}" if named else with_error(speed, uncertainty)

@@ -18,7 +18,7 @@ from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.store import load_contact
 from roughfilm.contact.synthetic.self_affine import self_affine
 from roughfilm.rom.ladder.provenance import circumstances
-from roughfilm.rom.seal.leakage.curve import chosen_loads, ready, sealing, solved
+from roughfilm.rom.seal.leakage.curve import chosen_loads, sealing, setup, solved
 from roughfilm.rom.seal.leakage.direct import direct_flow, direct_leakage
 from roughfilm.rom.seal.leakage.homogenized import homogenized_leakage
 from roughfilm.rom.seal.leakage.series import SOUGHT
@@ -57,7 +57,7 @@ def found(tmp_path_factory):
     )
     inputs = Inputs(heights=surface.heights, spacing=surface.spacing, settings={"benchmark": "leakage"})
     press = Press(surface.heights, surface.spacing, MODULUS)
-    body = ready(surface, press, inputs, tmp_path_factory.mktemp("seal"))
+    body = setup(surface, press, inputs, tmp_path_factory.mktemp("seal"))
     told, whole = {}, times()
     before = times()
     thresholds = sealing(body, lambda *_: None)

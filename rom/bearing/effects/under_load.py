@@ -8,12 +8,13 @@ from functools import cached_property
 import numpy as np
 
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.effects.ablation import Variant, VariantSolution
-from roughfilm.rom.bearing.mixed.asperity_load import asperity_load
 from roughfilm.rom.bearing.mixed.balance import FilmsAtSpeed, balanced
+from roughfilm.rom.bearing.mixed.contact_load import asperity_load
 from roughfilm.rom.bearing.mixed.film import MixedFilm, widest_film
 from roughfilm.rom.bearing.mixed.wall import asperities_of
-from roughfilm.rom.bearing.quantities import carried, nominal_area
+from roughfilm.rom.bearing.quantities import load_of, nominal_area, scene_positions
 from roughfilm.rom.bearing.roughness import Sinusoid
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.solve import load_loops
@@ -52,13 +53,17 @@ class VariantState:
     solution: Solution
     load: float
 
+    @cached_property
+    def quantities(self) -> dict[str, Quantity]:
+        """The quantities, with the film thickness as ``film``."""
+        scene = self.variant.scene
+        film = Quantity(value=scene.geometry.film, unit="m")
+        return self.variant.outputs.quantities(scene, self.solution) | {"film": film}
+
     @property
     def values(self) -> dict[str, float]:
-        """The quantities, and the film thickness as ``film``, in SI units."""
-        quantities = self.variant.outputs.quantities(self.variant.scene, self.solution)
-        return {name: quantity.value for name, quantity in quantities.items()} | {
-            "film": self.variant.scene.geometry.film
-        }
+        """The values of the quantities in SI units."""
+        return {name: quantity.value for name, quantity in self.quantities.items()}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -132,8 +137,8 @@ class VariantFilm:
         force = solution.grid.areas * (solution.state.pressure + scene.lubricant.cavitation_pressure)
         if self.mixed is not None:
             force = force + asperity_load(solution.problem.shape, solution.grid, self.mixed.asperities).force
-        x = -solution.grid.x if solution.turned else solution.grid.x
-        return VariantState(variant=variant, solution=solution, load=carried(scene, x, force))
+        load = load_of(scene, scene_positions(solution), force)
+        return VariantState(variant=variant, solution=solution, load=load)
 
 
 def under_load(variant: Variant, pressure: float, cells: int, progress: Progress = silent) -> VariantSolution:
@@ -165,10 +170,9 @@ def under_load(variant: Variant, pressure: float, cells: int, progress: Progress
         guess = states[-1].variant.scene.geometry.film
     here = states[-1]
     thicker = film.at((1 + FILM_STEP) * guess, speed, here.solution.state)
-    quantities = here.variant.outputs.quantities(here.variant.scene, here.solution)
     return VariantSolution(
         levels=tuple(state.values for state in reversed(states)),
-        units={name: quantity.unit for name, quantity in quantities.items()} | {"film": "m"},
+        units={name: quantity.unit for name, quantity in here.quantities.items()},
         factor_uncertainties=_factor_uncertainties(here, thicker),
         residual=here.solution.residual,
         balance=abs(here.load / (pressure * film.area) - 1),
@@ -185,9 +189,8 @@ def _factor_uncertainties(here: VariantState, thicker: VariantState) -> dict[str
     """
     if here.solution.problem.shape.roughness is None:
         return {}
-    scene, values, others = here.variant.scene, here.values, thicker.values
-    quantities = here.variant.outputs.quantities(scene, here.solution)
-    own = here.variant.outputs.factor_uncertainties(scene, here.solution, quantities)
+    values, others, variant = here.values, thicker.values, here.variant
+    own = variant.outputs.factor_uncertainties(variant.scene, here.solution, here.quantities)
     step = FILM_STEP * values["film"]
     slope = (values["load_per_width"] - others["load_per_width"]) / step
     of_film = own["load_per_width"] / slope if slope > 0 else float("inf")

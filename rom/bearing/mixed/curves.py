@@ -13,9 +13,9 @@ from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.threads import checked_threads
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
-from roughfilm.rom.bearing.mixed.curves_store import known_points, save_points
 from roughfilm.rom.bearing.mixed.film import MixedFilm
 from roughfilm.rom.bearing.mixed.resume import regular_saves, resumed_table
+from roughfilm.rom.bearing.mixed.store import known_points, save_points
 from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve, StribeckPoint, stribeck
 from roughfilm.rom.bearing.mixed.tabulate import tabulate_pressed
 from roughfilm.rom.bearing.mixed.wall import asperities_of
@@ -140,7 +140,7 @@ def _tabulated(
             spacing,
             stiffness,
             hardness=bound,
-            reach=load,
+            required_load=load,
             known=known,
             keep=keep,
             threads=checked_threads(None),

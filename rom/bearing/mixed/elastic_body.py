@@ -9,8 +9,8 @@ import scipy
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.contact.mechanics.half_space import HalfSpace
-from roughfilm.rom.bearing.mixed.asperity_load import asperity_load
 from roughfilm.rom.bearing.mixed.balance import FilmsAtSpeed, balanced
+from roughfilm.rom.bearing.mixed.contact_load import asperity_load
 from roughfilm.rom.bearing.mixed.film import MixedFilm, MixedState, mixed_problem, mixed_state
 from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing

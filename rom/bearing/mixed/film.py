@@ -8,15 +8,16 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.mixed.asperities import Asperities
-from roughfilm.rom.bearing.mixed.asperity_load import AsperityLoad, asperity_load, quarters
-from roughfilm.rom.bearing.quantities import carried, friction, nominal_area
+from roughfilm.rom.bearing.mixed.contact_load import AsperityLoad, asperity_load, quarters
+from roughfilm.rom.bearing.quantities import friction, load_of, nominal_area, scene_positions
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shapes import Journal
 from roughfilm.rom.cavitation.balance import CAVITY
 from roughfilm.rom.cavitation.grid import Grid, grid
 from roughfilm.rom.cavitation.network import State
 from roughfilm.rom.cavitation.problem import Problem
-from roughfilm.rom.cavitation.solve import RESIDUAL_TOLERANCE, Solution, solve
+from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
+from roughfilm.rom.cavitation.solve import Solution, solve
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap, GapFactors
 
 MIN_FACTOR_RATIO = 1e-6
@@ -154,7 +155,7 @@ class MixedFilm:
             above, areas = self._contact_heights
             return float((areas * self.asperities.contact_pressure(film + above)).sum())
         force = asperity_load(scene.geometry.film_shape(), self.grid, self.asperities).force
-        return carried(scene, self.grid.x, force)
+        return load_of(scene, self.grid.x, force)
 
 
 def widest_film(scene: Bearing) -> float:
@@ -171,14 +172,14 @@ def mixed_problem(scene: Bearing, asperities: Asperities) -> Problem:
 def mixed_state(scene: Bearing, solution: Solution, contact: AsperityLoad) -> MixedState:
     """The mixed film with its loads and friction, from the film and the contact of its asperities."""
     assert scene.asperities is not None
-    x = -solution.grid.x if solution.turned else solution.grid.x
+    x = scene_positions(solution)
     film = solution.grid.areas * (solution.state.pressure + scene.lubricant.cavitation_pressure)
     return MixedState(
         scene=scene,
         solution=solution,
         contact=contact,
-        load=carried(scene, x, film + contact.force),
-        contact_load=carried(scene, x, contact.force),
+        load=load_of(scene, x, film + contact.force),
+        contact_load=load_of(scene, x, contact.force),
         friction=friction(solution) + scene.asperities.friction * float(contact.force.sum()),
     )
 

@@ -1,14 +1,18 @@
 """The quantities, uncertainties and fields of a mixed film."""
 
 from collections.abc import Mapping
+from functools import partial
 
 import numpy as np
 
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.rom.bearing.mixed.asperity_load import AsperityLoad, asperity_load
+from roughfilm.rom.bearing.mixed.contact_load import AsperityLoad, asperity_load
+from roughfilm.rom.bearing.mixed.film import mixed_problem
 from roughfilm.rom.bearing.mixed.wall import asperities_of
-from roughfilm.rom.bearing.quantities import Fields, Outputs, bearing_quantities, carried
+from roughfilm.rom.bearing.quantities import Fields, Outputs, bearing_quantities, load_of, scene_positions
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.solve import solve
+from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.solve import Solution
 
 
@@ -24,7 +28,7 @@ def mixed_quantities(scene: Bearing, solution: Solution) -> dict[str, Quantity]:
     contact = _contact(scene, solution)
     quantities = bearing_quantities(scene, solution, contact.force)
     width = 1.0 if solution.problem.shape.wide else scene.geometry.width or 1.0
-    pressed = carried(scene, -solution.grid.x if solution.turned else solution.grid.x, contact.force)
+    pressed = load_of(scene, scene_positions(solution), contact.force)
     load = quantities["load_per_width"].value * width
     narrowest = float(asperities_of(scene).mean_gap(np.array([_narrowest(solution)]))[0])
     values = {
@@ -84,3 +88,12 @@ def _contact(scene: Bearing, solution: Solution) -> AsperityLoad:
 
 def _narrowest(solution: Solution) -> float:
     return float(solution.faces.thickness.min())
+
+
+def film_of_scene(scene: Bearing) -> Problem:
+    """The problem of the film of a scene, averaged over its asperities."""
+    return mixed_problem(scene, asperities_of(scene))
+
+
+solve_mixed = partial(solve, outputs=MIXED_OUTPUTS)
+"""The solver of the model ``mixed``."""

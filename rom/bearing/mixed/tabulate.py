@@ -56,7 +56,7 @@ def tabulate_pressed(
     *,
     hardness: float = math.inf,
     loads: Sequence[float] | None = None,
-    reach: float = 0.0,
+    required_load: float = 0.0,
     tolerance: float = INTERPOLATION_TOLERANCE,
     rule: FaceRule = FaceRule.LINEAR,
     known: Iterable[Point] = (),
@@ -79,7 +79,7 @@ def tabulate_pressed(
     hardness : H, Pa.
     loads : two or more loads of the table, Pa; by default a series from about one pixel in contact until both
         directions are sealed, 0.9 H, or 90 % contact.
-    reach : load that the table includes, Pa.
+    required_load : load that the table includes, Pa.
     tolerance : largest error of flow factors as in :func:`roughfilm.rom.homogenization.table.tabulate.tabulate`, and of
         the separation over the rms height.
     known : points that are not solved again.
@@ -146,7 +146,7 @@ def tabulate_pressed(
         progress(0.4 + 0.6 * done, words)
 
     points = bisected(
-        _series(solve, press, loads, reach, threads, later),
+        _series(solve, press, loads, required_load, threads, later),
         half_way=half_way,
         made=made,
         errors=errors,
@@ -169,7 +169,7 @@ def _series(
     solve: Callable[[float], Point | None],
     press: Press,
     loads: Sequence[float] | None,
-    reach: float,
+    required_load: float,
     threads: int,
     progress: Progress,
 ) -> list[Point]:
@@ -182,9 +182,9 @@ def _series(
     else:
         slope = wave_power(press.heights, press.spacing).moments.rms_slope
         remaining = [min(press.composite_modulus * slope / 2, press.hardness) / press.heights.size]
-    if max(reach, remaining[-1]) > press.hardness:
+    if max(required_load, remaining[-1]) > press.hardness:
         raise InputError(
-            f"loads: got up to {max(reach, remaining[-1]):.6g} Pa; they must not exceed the hardness of "
+            f"loads: got up to {max(required_load, remaining[-1]):.6g} Pa; they must not exceed the hardness of "
             f"{press.hardness:.6g} Pa, lower them"
         )
     points: list[Point] = []
@@ -192,15 +192,17 @@ def _series(
         while remaining:
             for load, point in zip(remaining, pool.map(solve, remaining), strict=True):
                 progress(0.5 * len(points) / (len(points) + len(remaining)), f"{load / 1e6:.4g} MPa")
-                if point is None and (loads is not None or load <= reach):
+                if point is None and (loads is not None or load <= required_load):
                     raise InputError(f"loads: got {load:.6g} Pa, which closes the gap everywhere; lower the load")
                 if point is None:
                     return points
                 points.append(point)
             last, remaining = points[-1], []
-            if last.load < reach or (loads is None and _leaves_open(last, largest)):
+            if last.load < required_load or (loads is None and _leaves_open(last, largest)):
                 following = last.load * (LOAD_STEP if last.contact < LIGHT_CONTACT else SHORT_LOAD_STEP)
-                remaining = [min(following, max(largest, reach)) if loads is None else min(following, reach)]
+                remaining = [
+                    min(following, max(largest, required_load)) if loads is None else min(following, required_load)
+                ]
     return points
 
 

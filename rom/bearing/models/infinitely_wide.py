@@ -1,15 +1,18 @@
 """The Reynolds equation with cavitation on one line of a bearing of finite width, without side flow."""
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from roughfilm.rom.bearing.model import SOURCES, bearing_model
 from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.ladder.model import Applicability, Effect
 
+if TYPE_CHECKING:
+    from roughfilm.rom.cavitation.problem import Problem
 
-def one_line(scene: Bearing) -> Problem:
+
+def one_line(scene: Bearing) -> "Problem":
     """The problem of the infinitely wide film with the thickness on the centre line."""
     problem = scene.problem()
     return replace(problem, shape=replace(problem.shape, wide=True), ends=replace(problem.ends, sides=None))

@@ -1,9 +1,7 @@
 """The homogenized Reynolds equation with cavitation, with asperities that touch and deform."""
 
+from roughfilm.contact.foundation.deferred import deferred
 from roughfilm.rom.bearing.film import averaging_applies
-from roughfilm.rom.bearing.mixed.film import mixed_problem
-from roughfilm.rom.bearing.mixed.quantities import MIXED_OUTPUTS
-from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.model import SOURCES, bearing_model
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.model import Applicability, Effect
@@ -31,7 +29,7 @@ MODEL = bearing_model(
     ),
     sources=(*SOURCES, "Sahlin 2008, Paper E"),
     applies=applies,
-    film=lambda scene: mixed_problem(scene, asperities_of(scene)),
-    outputs=MIXED_OUTPUTS,
+    film=deferred("rom.bearing.mixed.quantities", "film_of_scene"),
+    solve=deferred("rom.bearing.mixed.quantities", "solve_mixed"),
     in_plane=6e-6,
 )

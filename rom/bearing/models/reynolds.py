@@ -1,8 +1,7 @@
 """The Reynolds equation of an incompressible liquid without cavitation."""
 
-from roughfilm.rom.bearing.model import bearing_model
+from roughfilm.rom.bearing.model import bearing_model, incompressible_film
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.cavitation.problem import unchanging
 from roughfilm.rom.ladder.model import Applicability, Effect
 
 
@@ -26,6 +25,6 @@ MODEL = bearing_model(
     keeps=frozenset({Effect.SIDE_FLOW}),
     sources=("10.1098/rstl.1886.0005",),
     applies=applies,
-    film=lambda scene: unchanging(scene.problem()),
+    film=incompressible_film,
     ruptures=False,
 )

@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from roughfilm.rom.bearing.model import SOURCES, bearing_model
+from roughfilm.rom.bearing.model import SOURCES, bearing_model, incompressible_film
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.cavitation.problem import unchanging
 from roughfilm.rom.ladder.model import Applicability, Effect
 
 
@@ -25,5 +24,5 @@ MODEL = bearing_model(
     keeps=frozenset({Effect.SIDE_FLOW, Effect.CAVITATION}),
     sources=SOURCES,
     applies=applies,
-    film=lambda scene: unchanging(scene.problem()),
+    film=incompressible_film,
 )

@@ -2,8 +2,8 @@
 
 from roughfilm.rom.ladder.model import Applicability, Effect
 from roughfilm.rom.pocket.error_law import ErrorLaw
+from roughfilm.rom.pocket.model import film_model
 from roughfilm.rom.pocket.scene import Pocket
-from roughfilm.rom.pocket.solve import film_model
 
 LAW = ErrorLaw(powers={"depth": -1, "aspect": 1}, thresholds={0.05: 0.4})
 

@@ -2,8 +2,8 @@
 
 from roughfilm.rom.ladder.model import Applicability, Effect
 from roughfilm.rom.pocket.error_law import ErrorLaw
+from roughfilm.rom.pocket.model import film_model
 from roughfilm.rom.pocket.scene import Pocket
-from roughfilm.rom.pocket.solve import film_model
 
 LAW = ErrorLaw(powers={"slope": 1}, thresholds={0.01: 0.46, 0.02: 0.75, 0.05: 1.25})
 

@@ -2,7 +2,7 @@
 
 from roughfilm.rom.ladder.model import Applicability, Effect
 from roughfilm.rom.pocket.error_law import ErrorLaw
-from roughfilm.rom.pocket.quadrature import quadrature_model
+from roughfilm.rom.pocket.model import quadrature_model
 from roughfilm.rom.pocket.scene import Pocket
 
 LAW = ErrorLaw(powers={"reynolds_number": 1, "aspect": 1}, thresholds={0.02: 1.2, 0.05: 3.0, 0.10: 5.3})

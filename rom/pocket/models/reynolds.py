@@ -1,7 +1,7 @@
 """The Reynolds equation: viscous film flow, no inertia, lowest order in slope."""
 
 from roughfilm.rom.ladder.model import Applicability
-from roughfilm.rom.pocket.quadrature import quadrature_model
+from roughfilm.rom.pocket.model import quadrature_model
 from roughfilm.rom.pocket.scene import Pocket
 
 

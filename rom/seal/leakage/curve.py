@@ -50,7 +50,7 @@ Advance = Callable[[float, str], None]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Ready:
+class SealSetup:
     """A surface between its solids, and the files of the results.
 
     Attributes
@@ -70,11 +70,11 @@ class Ready:
     most: float
 
 
-def ready(surface: Surface, press: Press, inputs: Inputs, directory: Path) -> Ready:
+def setup(surface: Surface, press: Press, inputs: Inputs, directory: Path) -> SealSetup:
     """The surface with the files of a directory; the largest load is the smaller of hardness and E*."""
     flat = float(np.ptp(surface.heights)) == 0
     slope = 1.0 if flat else wave_power(surface.heights, surface.spacing).moments.rms_slope
-    return Ready(
+    return SealSetup(
         surface=surface,
         press=press,
         inputs=inputs,
@@ -85,7 +85,7 @@ def ready(surface: Surface, press: Press, inputs: Inputs, directory: Path) -> Re
     )
 
 
-def ready_seal(scene: Seal, directory: Path) -> Ready:
+def seal_setup(scene: Seal, directory: Path) -> SealSetup:
     """The surface of a scene between its solids, with the files of a directory."""
     surface = scene.surface()
     settings = {
@@ -101,10 +101,10 @@ def ready_seal(scene: Seal, directory: Path) -> Ready:
         "code": code(),
     }
     press = Press(surface.heights, surface.spacing, scene.composite_modulus, hardness=scene.hardness)
-    return ready(surface, press, Inputs(heights=surface.heights, spacing=surface.spacing, settings=settings), directory)
+    return setup(surface, press, Inputs(heights=surface.heights, spacing=surface.spacing, settings=settings), directory)
 
 
-def sealing(body: Ready, advance: Advance) -> dict[str, Threshold]:
+def sealing(body: SealSetup, advance: Advance) -> dict[str, Threshold]:
     """The thresholds by the names of ``SOUGHT``, from the file if it has them."""
     stored = stored_series(body.series, body.inputs)
     if stored.thresholds:
@@ -116,7 +116,7 @@ def sealing(body: Ready, advance: Advance) -> dict[str, Threshold]:
     return named
 
 
-def chosen_loads(body: Ready, by_flow: dict[str, Threshold]) -> tuple[float, ...]:
+def chosen_loads(body: SealSetup, by_flow: dict[str, Threshold]) -> tuple[float, ...]:
     """The default loads, from half a per cent of contact to just above all thresholds, with the last open ones."""
     if float(np.ptp(body.surface.heights)) == 0:
         raise InputError("geometry.surface: is flat and sealed under any load; give loads for its numbers")
@@ -142,7 +142,7 @@ def columns_of(scene: Seal, rows: Sequence[Row]) -> dict[str, tuple[str, list[fl
     return columns
 
 
-def _pressed(body: Ready) -> Callable[[float, Contact | None], Contact]:
+def _pressed(body: SealSetup) -> Callable[[float, Contact | None], Contact]:
     def at(load: float, start: Contact | None) -> Contact:
         try:
             return body.press.at(load, start=start)
@@ -153,7 +153,7 @@ def _pressed(body: Ready) -> Callable[[float, Contact | None], Contact]:
     return at
 
 
-def solved(body: Ready, loads: tuple[float, ...], threads: int, advance: Advance) -> tuple[dict[float, Row], int]:
+def solved(body: SealSetup, loads: tuple[float, ...], threads: int, advance: Advance) -> tuple[dict[float, Row], int]:
     """The rows of all loads, and how many of them the file had; finished rows are saved even if this is interrupted.
 
     Raises
@@ -217,7 +217,7 @@ def _succeeded(future: Future[Row]) -> bool:
     return future.done() and not future.cancelled() and future.exception() is None
 
 
-def _flow_of(body: Ready) -> Callable[[Contact], Row]:
+def _flow_of(body: SealSetup) -> Callable[[Contact], Row]:
     flat = float(np.ptp(body.surface.heights)) == 0
     apart = math.nan if flat else decay_lengths(autocorrelation(body.surface), body.surface.spacing).shortest
 

@@ -17,10 +17,10 @@ def solver(way):
         except ConvergenceError as error:
             raise ArithmeticError(str(error)) from error
         factors = found.factors
-        told = {"iterations": found.iterations, "residual": found.residual}
+        answer = {"iterations": found.iterations, "residual": found.residual}
         if kind == "factors":
             bar = found.uncertainty.pressure
-            told["uncertainty"] = max(bar[i, i] / factors.pressure[i, i] for i in (0, 1))
-        return {"pressure": factors.pressure.tolist(), "shear": factors.shear.tolist(), **told}
+            answer["uncertainty"] = max(bar[i, i] / factors.pressure[i, i] for i in (0, 1))
+        return {"pressure": factors.pressure.tolist(), "shear": factors.shear.tolist(), **answer}
 
     return solve

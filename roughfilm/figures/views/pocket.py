@@ -16,7 +16,7 @@ from roughfilm.rom.pocket.kind import KIND
 from roughfilm.rom.pocket.scene import Pocket
 from roughfilm.rom.studies.sweep import Sweep, relative_error
 
-LEAST_PERCENT = 1e-3
+MIN_PERCENT = 1e-3
 
 STYLES = {
     "reynolds": Style(colour="#7f7f7f", line="--", marker="s"),
@@ -89,7 +89,7 @@ def error_maps(sweep: Sweep, setting: str, reference: str, quantity: str) -> str
             )
             grid[place] = error[rows]
             axes.grid(visible=False)
-            axes.pcolormesh(np.maximum(grid, LEAST_PERCENT), norm=norm, cmap="viridis_r")
+            axes.pcolormesh(np.maximum(grid, MIN_PERCENT), norm=norm, cmap="viridis_r")
             for (i, j), value in np.ndenumerate(grid):
                 if np.isfinite(value):
                     ink = "white" if value > 4 else "black"

@@ -24,7 +24,7 @@ COEFFICIENTS = ("A11", "A22", "B1", "friction")
 
 
 def factors(results: Mapping[str, Result]) -> str:
-    """The coefficients by every model, with the error bars that it tells."""
+    """The coefficients by every model, with their uncertainty."""
     given = [name for name in COEFFICIENTS if all(name in result.quantities for result in results.values())]
     figure, panels = new_figure((10, 2.9), 1, len(given), sharey=True, squeeze=False)
     for axes, name in zip(panels[0], given, strict=True):
@@ -51,10 +51,10 @@ def sections(results: Mapping[str, Result]) -> str:
     fastest = max(float(result.fields["cell_velocity"].values[..., 0].max()) for result in results.values())
     for axes, (name, result) in zip(panels[:, 0], results.items(), strict=True):
         vertices, velocity = (result.fields[field].values for field in ("vertices", "cell_velocity"))
-        kept = result.fields["kept"].values > 0
+        open_cells = result.fields["kept"].values > 0
         gap = vertices[:, :, -1, 2] - vertices[:, :, 0, 2]
-        row = int(np.argmin(np.where(kept, gap[:-1, :-1], np.inf).min(axis=0)))
-        speed = np.where(kept[:, row, None], velocity[:, row, :, 0], np.nan)
+        row = int(np.argmin(np.where(open_cells, gap[:-1, :-1], np.inf).min(axis=0)))
+        speed = np.where(open_cells[:, row, None], velocity[:, row, :, 0], np.nan)
         image = axes.pcolormesh(
             vertices[:, row, :, 0] * 1e6,
             vertices[:, row, :, 2] * 1e6,

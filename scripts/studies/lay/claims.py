@@ -12,14 +12,14 @@ from scripts.studies.lay.measured import OBLIQUE, MeasuredLay
 from scripts.studies.lay.offset import MADE, OFFSET, Offset
 from scripts.studies.study import Claim, Judgement, claims_of, verdict
 
-EQUAL, SAMPLED, FAILS = 0.02, 0.1, 0.2
-"""Parts of A: what counts as equal, as the scatter of one finite box, and as failing."""
+EQUAL_FACTORS, BOX_SCATTER, FAILED_DIFFERENCE = 0.02, 0.1, 0.2
+"""Differences relative to A: of equal factors, by the scatter of one finite box, and of a failed method."""
 
-OPEN = 0.1
-"""A/ĥ³ above which a gap counts as open."""
+OPEN_GAP_FACTOR = 0.1
+"""Flow factor A/ĥ³ above which a gap counts as open."""
 
-HARMLESS = 0.05
-"""Part of A that the offset may add."""
+HARMLESS_INCREASE = 0.05
+"""Largest relative increase of A by a harmless offset."""
 
 GOOD_JOINT = 0.1
 """Periodicity mismatch below which there is no warning."""
@@ -49,7 +49,7 @@ def joint_throttles(joints: Joints) -> Judgement:
     good = [one for one in cut if one.mismatch[0] < GOOD_JOINT]
     lost = [1 - one.passed[0] for one in bad]
     harm = min(lost) > 0 and max(lost) > 0.1
-    clean = max(abs(1 - one.passed[0]) for one in good) < EQUAL
+    clean = max(abs(1 - one.passed[0]) for one in good) < EQUAL_FACTORS
     order = [_order([one for one in cut if one.thickness == thickness]) for thickness in THICKNESSES]
     rows = {
         "grooves that end between two others": (lowest, cut),
@@ -110,7 +110,7 @@ def box_equals_cell(lay: Lay) -> Judgement:
     crossed, crossed_oblique = worst(of("crossed grooves", straight=True)), of("crossed grooves", straight=False)
     scatter = [float(np.sqrt(np.nanmean(np.square([o.short for o in row])))) for row in turned.isotropic.values()]
     random = [worst([o]) for o in of("random lay", straight=True)]
-    as_said = straight < EQUAL and max(scatter) < SAMPLED and worst(oblique) > FAILS
+    as_said = straight < EQUAL_FACTORS and max(scatter) < BOX_SCATTER and worst(oblique) > FAILED_DIFFERENCE
     across = max(one.cell.pressure[0, 1] / one.cell.pressure[0, 0] for one in crossed_oblique)
     said = "".join(
         f"; {one.name} where it touches: φ₁ {row.box.pressure[0]:.3g} and φ₂ {row.box.pressure[1]:.3g}, A₁₁ "
@@ -119,7 +119,7 @@ def box_equals_cell(lay: Lay) -> Judgement:
         if (row := one.found.get(1)) is not None
     )
     return (
-        verdict(as_said and min(crossed, worst(crossed_oblique)) > FAILS, partly=as_said),
+        verdict(as_said and min(crossed, worst(crossed_oblique)) > FAILED_DIFFERENCE, partly=as_said),
         f"at {', '.join(f'{t:g}' for t in THICKNESSES)} Sq: straight grooves within {straight:.0e}, "
         f"isotropic surfaces equal within the scatter of one box (rms {', '.join(map(_share, scatter))}), straight "
         f"random lay too (largest {_share(max(random))}); grooves at 45° "
@@ -141,10 +141,10 @@ def offset_is_harmless(offsets: Mapping[str, Sequence[Offset]]) -> Judgement:
     invented = {name: np.nanmax(np.concatenate(values)) for name, values in leaks.items() if values}
     gave_up = sum(bool(np.isnan(one.offset).any()) for row in offsets.values() for one in row)
     questions = sum(len(row) for row in offsets.values())
-    harmless = added[coarse] < HARMLESS
+    harmless = added[coarse] < HARMLESS_INCREASE
     return (
-        verdict(not invented and max(added.values()) < HARMLESS, partly=harmless),
-        f"undeformed contact; while A > {OPEN:g} ĥ³ it adds at most "
+        verdict(not invented and max(added.values()) < HARMLESS_INCREASE, partly=harmless),
+        f"undeformed contact; while A > {OPEN_GAP_FACTOR:g} ĥ³ it adds at most "
         + ", ".join(f"{_share(part)} ({name})" for name, part in added.items())
         + f", about 3 · {1e9 * OFFSET:g} nm over the channels' height. Near sealing the increase has no bound, and "
         "a sealed gap leaks like a smooth slit of "
@@ -156,4 +156,4 @@ def offset_is_harmless(offsets: Mapping[str, Sequence[Offset]]) -> Judgement:
 
 def _added(one: Offset) -> float:
     """Return the largest relative increase in an open gap; 0 where there is none."""
-    return float(np.nanmax(np.where(one.relative > OPEN, one.added, 0.0), initial=0.0))
+    return float(np.nanmax(np.where(one.relative > OPEN_GAP_FACTOR, one.added, 0.0), initial=0.0))

@@ -37,7 +37,7 @@ SEEDS = tuple(range(811, 819))
 LENGTHS = (1 / 8, 1 / 4, 1 / 2, 1, 2, 4, 8)
 """Lengths of boxes divided by their widths."""
 
-RESOLVED = 1e-3
+RESOLVED_DETERMINANT = 1e-3
 """Fraction of A₁₁A₂₂ below which det A is only a discretisation error."""
 
 
@@ -132,7 +132,7 @@ def grooves_exactly(thickness: float) -> tuple[Array, Array]:
 
 def box_of(tensor: Array, size: tuple[float, float]) -> Array:
     """:func:`box_factors`, or nan where det A is not resolved."""
-    if np.linalg.det(tensor) < RESOLVED * tensor[0, 0] * tensor[1, 1]:
+    if np.linalg.det(tensor) < RESOLVED_DETERMINANT * tensor[0, 0] * tensor[1, 1]:
         return np.array([np.nan, np.nan])
     try:
         return box_factors(tensor, size)

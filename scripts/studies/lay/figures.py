@@ -1,6 +1,6 @@
 """Figures of the study of the lay."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -16,7 +16,7 @@ from scripts.studies.lay.measured import OBLIQUE
 ALONG, ACROSS, MIXED = "#2166ac", "#1a7f37", "#b2182b"
 COLOURS = ("#08519c", "#4292c6", "#9ecae1")
 SURFACES = ("#2166ac", "#b2182b", "#1a7f37", "#b07d2b")
-THIN = 2.0
+DRAWN_THICKNESS = 2.0
 """Separation over Sq at which shear is drawn."""
 
 CELL_FACTORS = (((0, 0), ALONG, "A₁₁"), ((1, 1), ACROSS, "A₂₂"), ((0, 1), MIXED, "A₁₂"))
@@ -28,7 +28,7 @@ SQUARES: dict[str, Any] = {"marker": "s", "linestyle": "", "markersize": 4.5, "m
 LINE_OF_SQUARES: dict[str, Any] = {"marker": "s", "ms": 4, "mfc": "white", "lw": 0.8}
 
 
-def drawings(lay: Lay) -> dict[str, Callable[[Lay], Figure]]:
+def drawings(lay: Lay) -> Mapping[str, Callable[[Lay], Figure]]:
     """Return the functions that draw, by name of the figure."""
     made: dict[str, Callable[[Lay], Figure]] = {
         "pressure": pressure,
@@ -78,17 +78,17 @@ def shear(lay: Lay) -> Figure:
     figure, panels = new_figure((10, 3.4), 1, len(TEXTURES), sharey=True)
     turns = np.linspace(1e-3, np.pi / 2 - 1e-3, 91)
     for axes, texture in zip(panels, TEXTURES, strict=True):
-        drag = np.array([lay.turned.drag(texture, THIN, turn) for turn in turns])
-        tensors = np.array([lay.turned.tensor(texture, THIN, turn) for turn in turns])
+        drag = np.array([lay.turned.drag(texture, DRAWN_THICKNESS, turn) for turn in turns])
+        tensors = np.array([lay.turned.tensor(texture, DRAWN_THICKNESS, turn) for turn in turns])
         first = np.array([box_of(tensor, (1, 1))[0] for tensor in tensors])
         large = drag[:, 0] - drag[:, 1] * (tensors[:, 0, 0] - first) / tensors[:, 0, 1]
-        places, computed = _turns(lay, texture, THIN)
+        places, computed = _turns(lay, texture, DRAWN_THICKNESS)
         for i, colour, name in DRAG_FACTORS:
             axes.plot(np.degrees(turns), drag[:, i], color=colour, linewidth=1.2)
             axes.plot(places, [one.cell.shear[i] for one in computed], "o", color=colour, label=name, ms=4.5)
         axes.plot(np.degrees(turns), large, color=ALONG, linewidth=1, linestyle="--")
         axes.plot(places, [one.box.shear for one in computed], color=ALONG, label="1 + σφs/ĥ", **SQUARES)
-        axes.set_title(f"{texture}, {THIN:g} Sq", fontsize=9)
+        axes.set_title(f"{texture}, {DRAWN_THICKNESS:g} Sq", fontsize=9)
         axes.set_xlabel("lay against flow, degrees")
     panels[0].set_ylabel("over ĥ")
     panels[0].legend(fontsize=8)
@@ -99,7 +99,7 @@ def boxes(lay: Lay) -> Figure:
     """φ₁ of grooves at 45° in boxes of several shapes."""
     figure, axes = new_figure((7.5, 3.6))
     shapes = np.geomspace(0.05, 20, 121)
-    principal = grooves_exactly(THIN)[0]
+    principal = grooves_exactly(DRAWN_THICKNESS)[0]
     tensor = turned(principal, np.pi / 4)
     axes.plot(shapes, [box_factors(tensor, (one, 1))[0] for one in shapes], color=ALONG, label="large box, exact")
     axes.plot(*lay.turned.boxes, "s", color=ALONG, markerfacecolor="white", label="φ₁, computed")
@@ -152,7 +152,7 @@ def joints(lay: Lay) -> Figure:
         shifted.plot(shifts, blended, color=colour, linestyle="--", linewidth=1)
         windows = [one for one in lay.joints.windows if one.thickness == thickness]
         for kind, marker in ((0, "o"), (1, "x")):
-            label = ("raw", "edges blended")[kind] if thickness == THIN else None
+            label = ("raw", "edges blended")[kind] if thickness == DRAWN_THICKNESS else None
             x, y = [one.mismatch[kind] for one in windows], [one.passed[kind] for one in windows]
             scattered.plot(x, y, marker, color=colour, ms=4, label=label)
     shifted.set(xlabel="shift over distance (dashed: blended)", ylabel="flow along the lay, over the truth")

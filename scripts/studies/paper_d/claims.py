@@ -7,7 +7,7 @@ from roughfilm.contact.synthetic.profile import STEEL_PROFILES
 from scripts.studies.paper_d.data import LENGTH, SPECTRA, STEEL, PaperD
 from scripts.studies.study import Claim, Judgement, claims_of, verdict
 
-LEAST_NODES = 4
+MIN_CONTACT_NODES = 4
 """Least number of nodes in contact, on average, at the loads that are fitted."""
 
 
@@ -43,7 +43,7 @@ def area_grows(paper: PaperD) -> Judgement:
     loads, powers, fits = np.array(paper.loads), {}, {}
     for (spectrum, name), state in paper.pressed.items():
         area = state["area"].mean(axis=0)
-        used = area * paper.profiles[spectrum, name][0].size >= LEAST_NODES
+        used = area * paper.profiles[spectrum, name][0].size >= MIN_CONTACT_NODES
         key = f"{name} {spectrum}"
         powers[key] = power_of(loads[used], area[used])
         fits[key] = straightness(loads[used], area[used])
@@ -52,7 +52,7 @@ def area_grows(paper: PaperD) -> Judgement:
     return (
         verdict(worst <= 0.1 and straight >= 0.99, partly=worst <= 0.25),
         f"exponents {_in_words(powers, '.2f')}; R² of the line through the origin at least {straight:.3f} "
-        f"(loads at which {LEAST_NODES} nodes or more are in contact on average)",
+        f"(loads at which {MIN_CONTACT_NODES} nodes or more are in contact on average)",
     )
 
 

@@ -28,8 +28,10 @@ SPECTRA = {"self-affine": 256, "smooth": 32}
 ROLL_OFF = LENGTH / 4
 """Longer waves are as high as this one; the plasticity indices are then about as high as those of Fig. D.4."""
 
-FINER = 8
-TOLERANCE = 1e-7
+REFINEMENT = 8
+"""Factor by which the number of nodes is raised on the finer grid."""
+
+CONTACT_TOLERANCE = 1e-7
 
 State = dict[str, Array]
 """Values by quantity, shape (seeds, loads) or (seeds, waves)."""
@@ -56,7 +58,7 @@ class PaperD:
     shown: Contact
     """Self-affine profile D of the first seed at the highest load."""
     finer: dict[tuple[str, str], State]
-    """The same as ``pressed`` on ``FINER`` times as many nodes, at the least and the greatest load."""
+    """The same as ``pressed`` on ``REFINEMENT`` times as many nodes, at the least and the greatest load."""
 
 
 def low_pass(heights: Array, waves: int) -> Array:
@@ -75,7 +77,7 @@ def line_contacts(heights: Array, loads: Sequence[float], *, hardness: float = S
     """A profile of ``LENGTH`` under loads in N/m."""
     spacing = LENGTH / heights.size
     press = Press(heights[:, None], (spacing, spacing), composite_modulus(STEEL), hardness=hardness)
-    return [press.at(load / LENGTH, tolerance=TOLERANCE) for load in loads]
+    return [press.at(load / LENGTH, tolerance=CONTACT_TOLERANCE) for load in loads]
 
 
 QUANTITIES: dict[str, Callable[[Contact], float]] = {
@@ -126,7 +128,7 @@ def compute(
             ]
             profiles[spectrum, name] = made
             pressed[spectrum, name] = press_all(made, loads)
-            finer[spectrum, name] = press_all([refined(z, FINER) for z in made], (loads[0], loads[-1]))
+            finer[spectrum, name] = press_all([refined(z, REFINEMENT) for z in made], (loads[0], loads[-1]))
         advance(f"cutting off waves, {spectrum}")
         made = profiles[spectrum, "D"]
         cut[spectrum] = area_by_waves(made, waves, loads[-1])

@@ -16,7 +16,7 @@ from roughfilm.contact.mechanics.gap_map import gap_map
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.solid import composite_modulus
 from roughfilm.contact.surfaces.files import read_surface
-from roughfilm.figures.contact_view import view_picture
+from roughfilm.figures.pressed_surface import view_picture
 from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.terminal.console import AsJson, in_one_line, make_directory, progress_bar, run_alone
 from roughfilm.words.numbers import with_error
@@ -64,7 +64,7 @@ def compute(
 ) -> PaperE:
     """Compute everything the page shows; tables, curves and leaks are kept in ``out`` for the next run."""
     jobs = [(name, body, True, speeds) for name, body in data.surfaces(surfaces, points).items()]
-    jobs += [(f"lays/{name}", body, False, data.FEW) for name, body in data.lays(points).items()]
+    jobs += [(f"lays/{name}", body, False, data.FEW_SPEEDS) for name, body in data.lays(points).items()]
     milled = None if surfaces is None else surfaces / MILLED
     with progress_bar(len(jobs) + 1) as bar:
         done: dict[str, Washer] = {}

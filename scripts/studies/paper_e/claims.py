@@ -12,12 +12,12 @@ from scripts.studies.paper_e.windows import LOAD, PARTS, Leak
 from scripts.studies.study import Claim, Judgement, claims_of, verdict
 
 FEW_PER_CENT = 0.05
-"""Within which two leakages count as equal."""
+"""Relative difference below which two leakages count as equal."""
 
-EQUAL, PARTED = 0.02, 0.1
-"""Parts of the lift-off speed within which two methods agree, and beyond which they part."""
+EQUAL_LIFT_OFF, DIFFERENT_LIFT_OFF = 0.02, 0.1
+"""Relative differences of the lift-off speed up to which two methods agree, and from which they differ."""
 
-STRAIGHT, CROSSED = ("surface 1", "surface 3"), "surface 2"
+STRAIGHT_LAYS, CROSSED_LAY = ("surface 1", "surface 3"), "surface 2"
 MEASURED = ("milled", "ground")
 AXES = "xy"
 
@@ -91,22 +91,23 @@ def parted(washer: Washer) -> Array:
 
 def methods_agree(washers: Mapping[str, Washer]) -> Judgement:
     """Judge claim 21, by lift-off speeds."""
-    straight = max(float(np.abs(parted(washers[name])).max()) for name in STRAIGHT)
-    crossed = parted(washers[CROSSED])
+    straight = max(float(np.abs(parted(washers[name])).max()) for name in STRAIGHT_LAYS)
+    crossed = parted(washers[CROSSED_LAY])
     least = float(np.abs(crossed).min())
-    bars = washers[CROSSED].lift()
+    bars = washers[CROSSED_LAY].lift()
     uncertainty = float((bars[:, 1] / bars[:, 0]).max())
     there = [name for name in MEASURED if name in washers]
     said = "".join(
         f"; {name}, measured, {' / '.join(_signed(part) for part in parted(washers[name]))}" for name in there
     )
-    holds = straight < EQUAL and least > max(PARTED, uncertainty)
+    holds = straight < EQUAL_LIFT_OFF and least > max(DIFFERENT_LIFT_OFF, uncertainty)
     return (
-        verdict(holds, partly=straight < EQUAL or least > PARTED),
+        verdict(holds, partly=straight < EQUAL_LIFT_OFF or least > DIFFERENT_LIFT_OFF),
         f"lift-off speeds by Patir and Cheng over the homogenized ones, at "
         f"{', '.join(f'{load / 1e6:g}' for load in LOADS)} MPa: straight lays within {_share(straight)}; marks that "
         f"cross obliquely, one of them deeper, {' / '.join(_signed(part) for part in crossed)} (± "
-        f"{_share(uncertainty)} by grids and tables), films differ by up to {_share(washers[CROSSED].apart())}{said}. "
+        f"{_share(uncertainty)} by grids and tables), films differ by up to "
+        f"{_share(washers[CROSSED_LAY].apart())}{said}. "
         f"The method lacks A₁₂ and B₂: such a lay pumps sideways. Marks that cross symmetrically about the sliding "
         f"have neither, and both methods agree (scripts.studies.lay)",
     )

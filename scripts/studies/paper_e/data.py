@@ -46,7 +46,7 @@ SCALED = TABLE["surface 3"].rms
 SEEDS = (0, 11)
 """Added to those of surface 3, for how much one sample of a texture differs from the next."""
 
-FEW = (0.0, 10.0, 50.0, 200.0)
+FEW_SPEEDS = (0.0, 10.0, 50.0, 200.0)
 """Turns a minute, of curves of which only lift-off is asked."""
 
 CELLS = 48

@@ -20,7 +20,7 @@ HEIGHT = 80e-6
 WAVES = ((1, 0.3, 0.4), (3, 1.0, 0.1), (7, 0.35, 0.62), (16, 0.07, 0.2))
 """Waves in a length, amplitude over the largest, and phase in turns."""
 
-TOLERANCE = 1e-9
+CONTACT_TOLERANCE = 1e-9
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,12 +52,13 @@ def load_model(points: int = POINTS, loads: Sequence[float] = LOADS) -> list[Con
     """The contacts of the model surface."""
     z = model_heights(points)
     press = Press(z, (LENGTH / points, LENGTH / points), composite_modulus(STEEL), hardness=STEEL.hardness)
-    return [press.at(load, tolerance=TOLERANCE) for load in loads]
+    return [press.at(load, tolerance=CONTACT_TOLERANCE) for load in loads]
 
 
 def reload(first: Contact) -> Reloading:
     """Press the unloaded surface again, without a bound on the pressure."""
-    again = Press(first.unloaded_heights, first.spacing, composite_modulus(STEEL)).at(first.load, tolerance=TOLERANCE)
+    press = Press(first.unloaded_heights, first.spacing, composite_modulus(STEEL))
+    again = press.at(first.load, tolerance=CONTACT_TOLERANCE)
     return Reloading(
         load=first.load,
         pressure=float(np.abs(again.pressure - first.pressure).max()) / first.hardness,

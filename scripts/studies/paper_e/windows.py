@@ -22,7 +22,7 @@ STEEL = Solid(modulus=210e9, poisson=0.3, hardness=5e9)
 VISCOSITY, DENSITY = 1.26e-3, 789.0
 """Viscosity, Pa s, and density, kg/m³, of the ethanol in the rig of the source."""
 
-DROP, LENGTH, WIDTH, DURATION = 1e6, 15e-3, 60e-3, 300.0
+PRESSURE_DROP, LENGTH, WIDTH, DURATION = 1e6, 15e-3, 60e-3, 300.0
 """Pressure, Pa (the rig's is not published), length of the leak and width of the middle part, m, and time, s."""
 
 LOAD = 4e6
@@ -40,7 +40,7 @@ PLACES = {"a": 1, "b": 2, "c": 3}
 PERIODS = (1, 2, 4, 8, 16)
 """One after the other, of the cell whose ends count most."""
 
-TOLERANCE = 1e-6
+CONTACT_TOLERANCE = 1e-6
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -76,7 +76,7 @@ class Leak:
     def volume(self, direction: int, *, direct: bool = False) -> float:
         """Return the volume that leaks through the middle part of the rig in 300 s, m³, along x (0) or y (1)."""
         passed = (self.direct if direct else self.homogenized)[direction]
-        return passed * DROP / (12 * VISCOSITY * LENGTH) * WIDTH * DURATION
+        return passed * PRESSURE_DROP / (12 * VISCOSITY * LENGTH) * WIDTH * DURATION
 
 
 def study(
@@ -126,10 +126,10 @@ def leaks(
     mismatch = prepared.record["periodicity_mismatch"]
     found, before = [], None
     for load in loads:
-        contact = before = press.at(load, tolerance=TOLERANCE, start=before)
+        contact = before = press.at(load, tolerance=CONTACT_TOLERANCE, start=before)
         one = flow_factors(contact.gap, surface.spacing)
         straight = direct_leakage(contact.gap, surface.spacing)
-        passed, doubt = (np.diag(part.pressure) for part in (one.factors, one.uncertainty))
+        passed, uncertainty = (np.diag(part.pressure) for part in (one.factors, one.uncertainty))
         found.append(
             Leak(
                 window=window,
@@ -141,7 +141,7 @@ def leaks(
                 area_fraction=contact.area_fraction,
                 roughness=float(surface.heights.std()),
                 homogenized=(float(passed[0]), float(passed[1])),
-                uncertainty=(float(doubt[0]), float(doubt[1])),
+                uncertainty=(float(uncertainty[0]), float(uncertainty[1])),
                 direct=(float(straight.permeability[0]), float(straight.permeability[1])),
                 direct_uncertainty=(float(straight.uncertainty[0]), float(straight.uncertainty[1])),
             )
@@ -178,7 +178,7 @@ def in_a_row(measured: Surface, cell: Leak, direction: int, *, coarser: int = 2)
     prepared = prepare(measured, read_recipe(recipe(measured, cell.window, cell.start, cell.resolution, coarser)))
     surface = prepared.surface
     press = Press(surface.heights, surface.spacing, composite_modulus(STEEL), hardness=STEEL.hardness)
-    gap = press.at(cell.load, tolerance=TOLERANCE).gap
+    gap = press.at(cell.load, tolerance=CONTACT_TOLERANCE).gap
     endless = flow_factors(gap, surface.spacing).factors.pressure[direction, direction]
     return tuple(
         (count, direct_flow(gap, surface.spacing, direction, periods=count).permeability / endless - 1)

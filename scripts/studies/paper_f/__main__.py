@@ -17,8 +17,7 @@ from roughfilm.terminal.console import AsJson, in_one_line, make_directory, run_
 from scripts.studies.paper_f import figures
 from scripts.studies.paper_f.claims import judge
 from scripts.studies.paper_f.data import MODULUS, PARTS, Pressed, press_all
-from scripts.studies.paper_f.fits import SLOPE, ratios
-from scripts.studies.paper_f.laws import SealStudy, fit_groups
+from scripts.studies.paper_f.fits import SLOPE, SealStudy, fit_groups, ratios
 from scripts.studies.paper_f.sizes import COUNTS, grow
 from scripts.studies.paper_f.surfaces import FAMILIES, HEIGHTS, POINTS, SEEDS, made_surfaces, measured_surfaces
 from scripts.studies.study import Out, Surfaces, counted, publish

@@ -7,27 +7,23 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from scripts.studies.paper_f.data import MODULUS, Pressed
-from scripts.studies.paper_f.fits import SHARES, SLOPE, Constant
-from scripts.studies.paper_f.laws import DIRECTED, GroupLaws, SealStudy
+from scripts.studies.paper_f.fits import DIRECTED, LOAD_FRACTIONS, SLOPE, Constant, GroupLaws, SealStudy
 from scripts.studies.paper_f.surfaces import HEIGHTS
 from scripts.studies.study import Claim, Judgement, claims_of, verdict
 
-PRESSED = 1e5
-"""W, Pa, at which areas are compared."""
-
-ALIKE = 0.1
-"""W/(E* g′) at which they are."""
+COMPARED_LOAD, COMPARED_REDUCED_LOAD = 1e5, 0.1
+"""Load W, Pa, and reduced load W/(E* g′) at which areas are compared."""
 
 RANGE = (0.33, 0.55)
-"""Area at the threshold, of the source."""
+"""Range of the real area of contact at the threshold in the source."""
 
 SEALING = 3.6e4
-"""k of F.14, 1/m."""
+"""Constant k of Eq. F.14 in the source, 1/m."""
 
 LEAKAGE = (1.1, 0.023)
-"""a, and b in m^(1/3), of F.18."""
+"""Constants a and b, m^(1/3), of Eq. F.18 in the source."""
 
-FEW = 0.05
+FEW_PER_CENT = 0.05
 """The few per cent of the claims, as a fraction."""
 
 BINS = ((0.0, 0.1), (0.1, 0.5), (0.5, 0.9), (0.9, 1.0))
@@ -55,20 +51,20 @@ def judge(study: SealStudy) -> list[Claim]:
 
 
 def area_at(one: Pressed, load: float) -> float:
-    """Area under a load, Pa; nan beyond those that were found."""
+    """Return the area under a load, Pa; nan outside the computed loads."""
     return float(np.interp(load, one.loads, one.area, left=np.nan, right=np.nan))
 
 
 def areas_differ(study: SealStudy) -> Judgement:
     """Judge claim 16, its half on surfaces in space."""
-    same_load = np.array([area_at(one, PRESSED) for one in study.sample])
-    alike = np.array([area_at(one, ALIKE * MODULUS * one.numbers.slope) for one in study.sample])
+    same_load = np.array([area_at(one, COMPARED_LOAD) for one in study.sample])
+    alike = np.array([area_at(one, COMPARED_REDUCED_LOAD * MODULUS * one.numbers.slope) for one in study.sample])
     same_load, alike = same_load[np.isfinite(same_load)], alike[np.isfinite(alike)]
     apart, left = float(same_load.max() / same_load.min()), float(alike.std() / alike.mean())
     return (
         verdict(apart > 2, partly=apart > 1.25),
-        f"at {PRESSED / 1e6:g} MPa the area is {_share(same_load.min())} to {_share(same_load.max())} "
-        f"({apart:.2g} times). The rms slope makes the difference: at W/(E* g′) = {ALIKE:g} all have "
+        f"at {COMPARED_LOAD / 1e6:g} MPa the area is {_share(same_load.min())} to {_share(same_load.max())} "
+        f"({apart:.2g} times). The rms slope makes the difference: at W/(E* g′) = {COMPARED_REDUCED_LOAD:g} all have "
         f"{_share(float(alike.mean()))} ± {_share(float(alike.std()))}, a relative spread of {_share(left)}. The "
         "profiles that hardly differ (study paper_d) are of steel and mostly plastic, with an area of W/H "
         "for every roughness; an elastomer has no such bound, in the plane or in space",
@@ -76,7 +72,7 @@ def areas_differ(study: SealStudy) -> Judgement:
 
 
 def above_the_cell(sample: Sequence[Pressed]) -> tuple[Array, Array]:
-    """K/A − 1 of open gaps, and their loads over the one that seals the cell."""
+    """Return loads divided by the sealing load of the cell, and K/A − 1, of all open gaps."""
     rows = []
     for one in sample:
         for i in (0, 1):
@@ -94,10 +90,10 @@ def cell_equals_direct(sample: Sequence[Pressed]) -> Judgement:
     for low, high in BINS:
         chosen = 1 + more[(parts >= low) & (parts < high)]
         if chosen.size:
-            within.append(float((np.abs(chosen - 1) < FEW).mean()))
+            within.append(float((np.abs(chosen - 1) < FEW_PER_CENT).mean()))
             said.append(
                 f"{low:g} to {high:g}: median {np.median(chosen):.3g}, a tenth above {np.percentile(chosen, 90):.3g}, "
-                f"{_share(within[-1])} within {_share(FEW)}"
+                f"{_share(within[-1])} within {_share(FEW_PER_CENT)}"
             )
     earlier = np.array([one.round_threshold < one.threshold / 1.01 for one in sample])
     return (
@@ -186,8 +182,9 @@ def valleys_rule_leakage(study: SealStudy) -> Judgement:
     return (
         verdict(rule and all(holds), partly=rule or all(holds)),
         "standard deviation of the leakage of surfaces scaled to the same height, as a factor, at "
-        f"{', '.join(f'{share:g}' for share in SHARES)} of the load that seals: {spread}; best {' and '.join(best)} at "
-        "the lighter loads. This must be so: at the first touch the mean gap is Sp, hence Q̃ → φ (Sp/Svm)³. "
+        f"{', '.join(f'{part:g}' for part in LOAD_FRACTIONS)} of the load that seals: {spread}; best "
+        f"{' and '.join(best)} at the lighter loads. This must be so: "
+        "at the first touch the mean gap is Sp, hence Q̃ → φ (Sp/Svm)³. "
         f"F.18 read as K = (1.1 Svm^⅓ − 0.023 (W/E*)^⅓)⁹: fitted a = {_constant(law.a, 3)}, b = "
         f"{_constant(law.b, 3)} m^⅓; the constants of the source {'lie' if all(holds) else 'do not both lie'} within "
         f"the intervals over families, "
@@ -255,7 +252,7 @@ def offset_is_harmless(sample: Sequence[Pressed]) -> Judgement:
             said.append(f"{low:g} to {high:g}: {' and '.join(both)}")
     slit = np.array([np.cbrt(one.sealed_offset) for one in sample])
     return (
-        verdict(max(map(abs, medians)) < FEW, partly=abs(medians[0]) < 2 * FEW),
+        verdict(max(map(abs, medians)) < FEW_PER_CENT, partly=abs(medians[0]) < 2 * FEW_PER_CENT),
         "leakage over that with closed contact (and after the subtraction), medians of surfaces rougher and "
         f"smoother than Sa {1e6 * middle:.2g} µm, at fractions of the sealing load: {'; '.join(said)}. At the "
         f"threshold the 10 nm alone leak like a slit of {1e9 * np.nanmin(slit):.2g} to {1e9 * np.nanmax(slit):.2g} nm; "

@@ -26,22 +26,22 @@ MODULUS = composite_modulus(Solid(modulus=10e6, poisson=0.5), Solid(modulus=210e
 """E*, Pa, of the elastomer against steel."""
 
 PARTS = (*np.geomspace(1e-4, 0.3, 9).tolist(), 0.45, 0.6, 0.75, 0.85, 0.92, 0.97)
-"""Loads at which leakage is found, over the one that seals both directions."""
+"""Loads at which leakage is computed, divided by the load that seals both directions."""
 
-NEAR = 2e-3
+THRESHOLD_PRECISION = 2e-3
 """Relative difference between the last load with an open path and the first without."""
 
-TOLERANCE = 1e-6
-"""Tolerance of contacts, see ``Press.at``."""
+CONTACT_TOLERANCE = 1e-6
+"""Tolerance of the contact solver, see ``Press.at``."""
 
 OFFSET = 1e-8
-"""m; the source lets this much through where it is closed."""
+"""Height of the slit that the source adds where the contact is closed, m."""
 
-FIRST, MOST = 0.3, 10.0
+FIRST_LOAD, MAX_LOAD = 0.3, 10.0
 """First and last load of the search for sealing, in units of E* g′."""
 
 
-OWN = hashlib.sha256(Path(__file__).read_bytes()).hexdigest()[:16]
+CODE_DIGEST = hashlib.sha256(Path(__file__).read_bytes()).hexdigest()[:16]
 """Digest of this file: kept surfaces are those of the same code."""
 
 
@@ -53,15 +53,15 @@ class Pressed:
     ----------
     size : m, along x and y.
     loads : W, Pa.
-    area : real over nominal area, corrected for whole pixels; ``pixels`` is not.
+    area : real over nominal area, corrected for whole pixels.
     mean_gap : m.
     valley : Svm of the surface under load, m.
-    flow : A₁₁ and A₂₂ of the cell, m³: HNS; ``doubt`` is how far off they may be.
+    flow : A₁₁ and A₂₂ of the cell, m³: HNS.
     direct : K between two reservoirs one period apart, in x and in y, m³: DNS.
-    offset : as ``flow``, with 10 nm let through everywhere; nan where the solver gave up.
+    offset : as ``flow``, with 10 nm added everywhere; nan where the solver failed.
     threshold : the least load that leaves no path from end to end, Pa, in x and in y; sides are joined.
     round_threshold : the least load that leaves none round the cell, as ``flow`` has it; never above the other.
-    sealed_area, sealed_pixels, round_area : area there.
+    sealed_area, round_area : area at ``threshold`` and at ``round_threshold``.
     sealed_offset : as ``offset`` at ``threshold``, in its direction, m³.
     spots : contact at ``threshold``, shape (2, nx, ny).
     """
@@ -72,17 +72,14 @@ class Pressed:
     numbers: Numbers
     loads: Array
     area: Array
-    pixels: Array
     mean_gap: Array
     valley: Array
     flow: Array
-    doubt: Array
     direct: Array
     offset: Array
     threshold: Array
     round_threshold: Array
     sealed_area: Array
-    sealed_pixels: Array
     round_area: Array
     sealed_offset: Array
     spots: Array
@@ -94,35 +91,35 @@ class Pressed:
 
 
 class Series:
-    """A surface under many loads, each found once and begun from the nearest one known."""
+    """A surface under many loads; each contact is solved once, from the solution at the nearest load."""
 
     def __init__(self, heights: Array, spacing: tuple[float, float]) -> None:
         self._press = Press(heights, spacing, MODULUS)
         self._known: dict[float, Contact] = {}
 
     def at(self, load: float, _start: Contact | None = None) -> Contact:
-        """The contact under a load, Pa."""
+        """Return the contact under a load, Pa."""
         if load not in self._known:
             nearest = min(self._known, key=lambda one: abs(np.log(one / load)), default=None)
             start = None if nearest is None else self._known[nearest]
-            self._known[load] = self._press.at(load, tolerance=TOLERANCE, start=start)
+            self._known[load] = self._press.at(load, tolerance=CONTACT_TOLERANCE, start=start)
         return self._known[load]
 
 
 def sealed_contacts(series: Series, slope: float) -> list[Contact]:
     """Contacts at the least loads that seal a surface of a rms slope: between ends in x and y, and round the cell.
 
-    Raises InputError where a path stays open up to ``MOST``.
+    Raises InputError where a path stays open up to ``MAX_LOAD``.
     """
-    loads = (FIRST * MODULUS * slope, MOST * MODULUS * slope)
-    found = [one.sealed for one in thresholds(series.at, *loads, precision=NEAR)]
-    if None in found:
-        raise InputError(f"surface: stays open up to {loads[1]:.3g} Pa; press one whose valleys do not lead through")
-    return [series.at(one.load) for one in found if one is not None]
+    loads = (FIRST_LOAD * MODULUS * slope, MAX_LOAD * MODULUS * slope)
+    sealed = [one.sealed for one in thresholds(series.at, *loads, precision=THRESHOLD_PRECISION)]
+    if None in sealed:
+        raise InputError(f"surface: stays open up to {loads[1]:.3g} Pa; press a surface whose valleys close")
+    return [series.at(one.load) for one in sealed if one is not None]
 
 
 def press(made: Made, parts: Sequence[float] = PARTS) -> Pressed:
-    """Thresholds, and at each part of the greater one area, gap and leakage."""
+    """Return thresholds, and area, gap and leakage at fractions of the greater threshold."""
     surface, numbers = made.surface, numbers_of(made.surface)
     series = Series(surface.heights, surface.spacing)
     *ends, first_round, second_round = sealed_contacts(series, numbers.slope)
@@ -140,17 +137,14 @@ def press(made: Made, parts: Sequence[float] = PARTS) -> Pressed:
         numbers=numbers,
         loads=np.array(loads),
         area=np.array([one.area_fraction for one in contacts]),
-        pixels=np.array([one.area_fraction_pixel for one in contacts]),
         mean_gap=np.array([one.mean_gap for one in contacts]),
         valley=np.array([valley(one) for one in contacts]),
         flow=np.array([np.diag(one.factors.pressure) for one in flows]),
-        doubt=np.array([np.diag(one.uncertainty.pressure) for one in flows]),
         direct=np.array([direct_leakage(one.gap, surface.spacing).permeability for one in contacts]),
         offset=np.array([_with_offset(one) for one in contacts]),
         threshold=np.array([one.load for one in ends]),
         round_threshold=np.array([first_round.load, second_round.load]),
         sealed_area=np.array([one.area_fraction for one in ends]),
-        sealed_pixels=np.array([one.area_fraction_pixel for one in ends]),
         round_area=np.array([first_round.area_fraction, second_round.area_fraction]),
         sealed_offset=np.array([_with_offset(one)[i] for i, one in enumerate(ends)]),
         spots=np.array([one.in_contact for one in ends]),
@@ -171,20 +165,26 @@ def press_all(
     parts: Sequence[float] = PARTS,
 ) -> list[Pressed]:
     """Press each surface, or read it from the folder where it is kept; ``advance`` is called for each."""
-    found = []
+    pressed = []
     for one in surfaces:
         advance(one.name)
-        settings = {"own": OWN, "modulus": MODULUS, "parts": list(parts), "near": NEAR, "offset": OFFSET}
+        settings = {
+            "own": CODE_DIGEST,
+            "modulus": MODULUS,
+            "parts": list(parts),
+            "near": THRESHOLD_PRECISION,
+            "offset": OFFSET,
+        }
         inputs = Inputs(heights=one.surface.heights, spacing=one.surface.spacing, settings=settings)
         path = folder and folder / f"{one.name.replace(' ', '_')}.json"
-        found.append(_restored(kept(path, {"digest": inputs.digest}, partial(_stored, one, parts))))
-    return found
+        pressed.append(_restored(kept(path, {"digest": inputs.digest}, partial(_stored, one, parts))))
+    return pressed
 
 
 def _stored(made: Made, parts: Sequence[float]) -> dict[str, Any]:
-    found = press(made, parts)
-    spots = [np.packbits(one).tobytes().hex() for one in found.spots]
-    return {**vars(found), "spots": spots, "nodes": found.spots.shape[1:]}
+    pressed = press(made, parts)
+    spots = [np.packbits(one).tobytes().hex() for one in pressed.spots]
+    return {**vars(pressed), "spots": spots, "nodes": pressed.spots.shape[1:]}
 
 
 def _restored(entries: dict[str, Any]) -> Pressed:

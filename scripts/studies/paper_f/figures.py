@@ -15,8 +15,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures.base import new_figure
 from scripts.studies.paper_f.claims import LEAKAGE, RANGE, SEALING, above_the_cell, subtracted
 from scripts.studies.paper_f.data import MODULUS, Pressed
-from scripts.studies.paper_f.fits import SLOPE, LeakageLaw, scale_of
-from scripts.studies.paper_f.laws import SealStudy
+from scripts.studies.paper_f.fits import SLOPE, LeakageLaw, SealStudy, scale_of
 from scripts.studies.paper_f.surfaces import HEIGHTS
 
 COLOURS = (

@@ -1,6 +1,6 @@
-"""Laws of sealing load and leakage: constants with intervals, and the scatter of surfaces."""
+"""Laws of sealing load and leakage: constants with intervals, and the scatter of surfaces, by groups of families."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,20 +8,22 @@ from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from scripts.studies.paper_f.data import MODULUS, Pressed
+from scripts.studies.paper_f.sizes import Sizes
+from scripts.studies.paper_f.surfaces import HEIGHTS
 
 SLOPE = "g′"
 """The rms slope as a scale of loads: W/(E* g′) is a pure number, and the same for a surface stretched along or up."""
 
-TIMES = 1000
+RESAMPLES = 1000
 """Resamples of a bootstrap."""
 
 CONFIDENCE = (2.5, 97.5)
 """Per cent."""
 
-SHARES = (0.003, 0.03, 0.3)
+LOAD_FRACTIONS = (0.003, 0.03, 0.3)
 """Fractions of the median sealing load at which leakages of surfaces are compared."""
 
-LIGHT = 0.1
+LIGHT_LOAD_FRACTION = 0.1
 """Fraction of the sealing load below which a load counts as light."""
 
 Sample = Sequence[Pressed]
@@ -91,9 +93,9 @@ def bootstrapped(sample: Sample, statistic: Callable[[Places], Array]) -> list[C
     families = [np.array(rows) for rows in _families(sample)]
     draw = np.random.default_rng(90731)
     everyone = np.arange(len(sample))
-    once = [statistic(draw.choice(everyone, everyone.size)) for _ in range(TIMES)]
+    once = [statistic(draw.choice(everyone, everyone.size)) for _ in range(RESAMPLES)]
     twice = []
-    for _ in range(TIMES):
+    for _ in range(RESAMPLES):
         drawn = draw.integers(len(families), size=len(families))
         twice.append(statistic(np.concatenate([draw.choice(families[one], families[one].size) for one in drawn])))
     low, high = np.percentile(once, CONFIDENCE, axis=0)
@@ -155,9 +157,9 @@ class Collapse:
 
     Attributes
     ----------
-    scale : what heights are measured in, and loads in: two names.
-    apart : the standard deviation of log10 K over surfaces and directions, at ``SHARES`` of the median load that seals.
-    sealed : part of them that let nothing through there, and do not count.
+    scale : names of the scales of heights and of loads.
+    apart : standard deviation of log10 K over surfaces and directions, for each of ``LOAD_FRACTIONS``.
+    sealed : fraction of them that are sealed there and do not count.
     """
 
     scale: tuple[str, str]
@@ -171,8 +173,8 @@ def collapse(sample: Sample, height: str, load: str) -> Collapse:
         float(np.median(ratios(sample, load))) if load else float(np.median([o.threshold for o in sample])) / MODULUS
     )
     apart, shut = [], []
-    for share in SHARES:
-        logs = np.array([leakage_at(one, share * middle, height, load) for one in sample])
+    for fraction in LOAD_FRACTIONS:
+        logs = np.array([leakage_at(one, fraction * middle, height, load) for one in sample])
         shut.append(float(np.isnan(logs).mean()))
         apart.append(float(np.std(logs[~np.isnan(logs)])) if not np.isnan(logs).all() else float("nan"))
     return Collapse(scale=(height, load), apart=tuple(apart), sealed=tuple(shut))
@@ -297,7 +299,74 @@ def _read(formula: str, law: Callable[[Array, Array], Array], sample: Sample) ->
         formula=formula,
         valley=misfit(expected, valley)[0],
         leakage=leaks,
-        light=misfit(cube[part < LIGHT], flow[part < LIGHT])[0],
+        light=misfit(cube[part < LIGHT_LOAD_FRACTION], flow[part < LIGHT_LOAD_FRACTION])[0],
         missed=missed,
         scales=bool(abs(twice[0] - 2) < 1e-9),
     )
+
+
+DIRECTED, SKEWED = ("striated", "oblique"), ("peaky", "valley-rich", "plateau")
+GROUPS: Mapping[str, Callable[[Pressed], bool]] = {
+    "all": lambda _: True,
+    "isotropic": lambda one: one.family not in DIRECTED,
+    "isotropic, symmetric heights": lambda one: one.family not in DIRECTED + SKEWED,
+}
+"""Groups of the families."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class GroupLaws:
+    """Laws fitted to one group of surfaces.
+
+    Attributes
+    ----------
+    sealing : by scale, the eight heights and the rms slope.
+    skewed : with the skewness beside the slope.
+    collapses : of leakage by the eight heights, as they are (""), and by a height with loads over the slope.
+    leakage : of F.18's form: by Svm, as the source has it, and by Sp and the slope.
+    readings : of F.17.
+    """
+
+    count: int
+    sealing: Mapping[str, SealingLaw]
+    skewed: SkewedLaw
+    collapses: Sequence[Collapse]
+    leakage: Mapping[tuple[str, str], LeakageLaw]
+    readings: Sequence[FormulaReading]
+
+
+@dataclass(frozen=True, kw_only=True)
+class SealStudy:
+    """Everything that is judged and drawn; ``measured`` is empty where the instrument files are absent.
+
+    Attributes
+    ----------
+    sample : independent made surfaces.
+    finer : the first of each family again on twice as many nodes a side.
+    laws : by ``GROUPS``.
+    """
+
+    sample: Sequence[Pressed]
+    finer: Sequence[Pressed]
+    measured: Sequence[Pressed]
+    sizes: Sizes
+    laws: Mapping[str, GroupLaws]
+
+
+def fit(sample: Sequence[Pressed]) -> GroupLaws:
+    """Fit all laws of a group."""
+    return GroupLaws(
+        count=len(sample),
+        sealing={name: sealing_law(sample, name) for name in (*HEIGHTS, SLOPE)},
+        skewed=skewed_law(sample),
+        collapses=[collapse(sample, name, name) for name in ("", *HEIGHTS)]
+        + [collapse(sample, name, SLOPE) for name in ("Sq", "Sp", "Spm")],
+        leakage={pair: leakage_law(sample, *pair) for pair in (("Svm", "Svm"), ("Sp", "Sp"), ("Sp", SLOPE))},
+        readings=read_formulas(sample),
+    )
+
+
+def fit_groups(sample: Sequence[Pressed]) -> dict[str, GroupLaws]:
+    """The laws of each group that has surfaces."""
+    groups = {name: [one for one in sample if counts(one)] for name, counts in GROUPS.items()}
+    return {name: fit(members) for name, members in groups.items() if members}

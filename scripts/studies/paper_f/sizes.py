@@ -10,7 +10,7 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.synthetic.distribution import rms_slope
 from roughfilm.contact.synthetic.gaussian import gaussian
-from scripts.studies.paper_f.data import MODULUS, NEAR, Series, sealed_contacts
+from scripts.studies.paper_f.data import MODULUS, THRESHOLD_PRECISION, Series, sealed_contacts
 from scripts.studies.paper_f.surfaces import SIDE
 from scripts.studies.study import kept
 
@@ -43,7 +43,7 @@ def grow(folder: Path | None, advance: Callable[[str], None], counts: Mapping[in
     area, load = {}, {}
     for nodes, count in counts.items():
         advance(f"{nodes} × {nodes} nodes")
-        inputs = {"count": count, "correlation": CORRELATION, "near": NEAR}
+        inputs = {"count": count, "correlation": CORRELATION, "near": THRESHOLD_PRECISION}
         found = np.array(kept(folder and folder / f"size_{nodes}.json", inputs, partial(_all, nodes, count)))
         lengths = nodes / NODES_PER_SIDE * SIDE / CORRELATION
         area[lengths], load[lengths] = found[:, 0], found[:, 1]

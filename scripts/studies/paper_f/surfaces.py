@@ -22,10 +22,10 @@ SIDE = 42e-6
 """m, of the source."""
 
 POINTS = 128
-SHORTEST = SIDE / 16
+SHORTEST_WAVE = SIDE / 16
 """m; the shortest wave of the self-affine families, 8 nodes long."""
 
-LEAST, MOST = 0.06e-6, 0.48e-6
+MIN_AVERAGE, MAX_AVERAGE = 0.06e-6, 0.48e-6
 """Sa of the source's surfaces, m."""
 
 SEEDS = tuple(range(501, 509))
@@ -78,7 +78,7 @@ def _fractal(seed: int, points: int, *, hurst: float, roll_off: float) -> Surfac
         seed=seed,
         hurst=hurst,
         roll_off=roll_off,
-        cut_off=SHORTEST,
+        cut_off=SHORTEST_WAVE,
         rms_height=1e-6,
         amplitudes="random",
     )
@@ -125,12 +125,12 @@ def scaled(surface: Surface, average: float) -> Surface:
 def made_surfaces(
     families: Sequence[str] = tuple(FAMILIES), seeds: Sequence[int] = SEEDS, points: int = POINTS
 ) -> list[Made]:
-    """Independent surfaces; those of a family have Sa from ``LEAST`` to ``MOST``, by a constant factor.
+    """Independent surfaces; those of a family have Sa from ``MIN_AVERAGE`` to ``MAX_AVERAGE``, by a constant factor.
 
     Sa only sets the unit of heights and loads: elasticity is linear, and a surface s times as high needs s times the
     load for the same spots of contact. It is given out in another order in each family.
     """
-    averages = np.geomspace(LEAST, MOST, len(seeds)) if len(seeds) > 1 else np.array([MEASURED_AVERAGE])
+    averages = np.geomspace(MIN_AVERAGE, MAX_AVERAGE, len(seeds)) if len(seeds) > 1 else np.array([MEASURED_AVERAGE])
     return [
         Made(family=family, seed=seed, surface=scaled(FAMILIES[family](seed + 1000 * number, points), average))
         for number, family in enumerate(families)

@@ -121,10 +121,7 @@ def across(wave: waves.Wave) -> dict[str, Any]:
         "exact": wave.exact.get("A11"),
         "mesh": None if mesh is None else mesh.value,
         "mesh_bar": None if mesh is None else mesh.uncertainty,
-        "corrected": theory.corrected,
-        "bar": theory.bar,
-        "bound": theory.bound,
-        "perturbed": theory.perturbed,
+        **asdict(theory),
         "bare": 1 - waves.bare_coefficient(wave.amplitude) * wave.slope**2,
     }
 

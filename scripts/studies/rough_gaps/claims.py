@@ -10,7 +10,7 @@ from scripts.studies.rough_gaps.map import serves
 from scripts.studies.rough_gaps.range_of_validity import SurfaceValidity
 from scripts.studies.rough_gaps.scenes import MILLED
 from scripts.studies.rough_gaps.study import (
-    STEEP,
+    MAX_FITTED_SLOPE,
     RoughGapStudy,
     bounds_hold,
     mesh_meets_exact,
@@ -128,9 +128,10 @@ def _surfaces(study: RoughGapStudy, *, study_random: bool) -> str:
     said = f"In {len(gaps)} gaps over {steepness} Stokes flow is {max(ratios):.3f} to {min(ratios):.3f} of Reynolds'."
     if not meeting.count:
         return said
-    gentle = theory_meets_mesh([one for one in gaps if one.slope < STEEP])
+    gentle = theory_meets_mesh([one for one in gaps if one.slope < MAX_FITTED_SLOPE])
     where = (
-        f"{_share(gentle.worst)} where the rms slope is below {STEEP:g} and within {_share(meeting.worst)} everywhere"
+        f"{_share(gentle.worst)} where the rms slope is below {MAX_FITTED_SLOPE:g} and within "
+        f"{_share(meeting.worst)} everywhere"
         if meeting.worst > gentle.worst
         else _share(meeting.worst)
     )

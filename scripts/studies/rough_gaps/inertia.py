@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -31,16 +32,16 @@ RANDOM: Random = {
 GRIDS, RANDOM_GRIDS = (48, 64), (32, 48, 64)
 """Columns of the waves and of random surfaces."""
 
-LARGEST, FEWEST = 0.1, 4
-"""Part of the flow up to which what is held back is fitted, and how many flows that takes."""
+MAX_FITTED_LOSS, MIN_FITTED_FLOWS = 0.1, 4
+"""Largest relative loss of flow that is fitted, and least number of flows for a fit."""
 
 RIDGES, SURFACES = "waves", "random surfaces"
 
 NOISE = 1e-4
-"""Part of the flow that the solver's tolerance may hold back."""
+"""Relative loss of flow that the tolerance of the solver may cause."""
 
-KNOWN = 0.4
-"""Error bar, over what is held back, up to which it is fitted."""
+MAX_RELATIVE_UNCERTAINTY = 0.4
+"""Largest uncertainty of a fitted loss, relative to the loss."""
 
 LEVELS = (0.01, 0.05)
 
@@ -130,10 +131,8 @@ class _Flow:
     asked: tuple[tuple[ModelRun, ModelRun], ...]
 
 
-def _flow(
-    group: str, name: str, make: Callable[[float], RoughGap], reynolds_number: float, grids: Sequence[int]
-) -> _Flow:
-    scene, creeping = make(reynolds_number), make(CREEPING)
+def _flow(group: str, name: str, make: Callable[..., RoughGap], reynolds_number: float, grids: Sequence[int]) -> _Flow:
+    scene, creeping = (make(reynolds_number=number) for number in (reynolds_number, CREEPING))
     return _Flow(
         group=group,
         name=name,
@@ -148,28 +147,17 @@ def _flow(
     )
 
 
-def _over(shape: tuple[float, float]) -> Callable[[float], RoughGap]:
-    return lambda reynolds_number: over_waves(*shape, reynolds_number)
-
-
-def _over_random(shape: tuple[float, float]) -> Callable[[float], RoughGap]:
-    return lambda reynolds_number: over_random(*shape, reynolds_number=reynolds_number)
-
-
 def _flows(shapes: Sequence[tuple[float, float]], reynolds: Sequence[float], random: Random) -> list[_Flow]:
     """Return the flows over sinusoids and over random surfaces."""
-    return [
-        *(
-            _flow(RIDGES, f"a = {shape[0]:g}, L = {shape[1]:g}", _over(shape), one, GRIDS)
-            for shape in shapes
-            for one in reynolds
-        ),
-        *(
-            _flow(SURFACES, f"random, Sq = {shape[0]:g}, λ = {shape[1]:g}", _over_random(shape), one, RANDOM_GRIDS)
-            for shape, own in random.items()
-            for one in own
-        ),
+    flows = [
+        _flow(RIDGES, f"a = {a:g}, L = {length:g}", partial(over_waves, a, length), number, GRIDS)
+        for a, length in shapes
+        for number in reynolds
     ]
+    for (roughness, length), numbers in random.items():
+        name, make = f"random, Sq = {roughness:g}, λ = {length:g}", partial(over_random, roughness, length)
+        flows += [_flow(SURFACES, name, make, number, RANDOM_GRIDS) for number in numbers]
+    return flows
 
 
 def asked(
@@ -215,8 +203,12 @@ def _held(flow: _Flow, answers: Answers) -> InertialLoss:
 
 
 def _fit(group: str, found: Sequence[InertialLoss]) -> InertiaLaw | None:
-    own = [one for one in found if one.group == group and 0 < one.lost < LARGEST and one.bar < KNOWN * one.lost]
-    if len(own) < FEWEST:
+    own = [
+        one
+        for one in found
+        if one.group == group and 0 < one.lost < MAX_FITTED_LOSS and one.bar < MAX_RELATIVE_UNCERTAINTY * one.lost
+    ]
+    if len(own) < MIN_FITTED_FLOWS:
         return None
     reynolds = np.array([one.flow_reynolds_number for one in own])
     squares = np.log((reynolds * np.array([one.slope for one in own])) ** 2)

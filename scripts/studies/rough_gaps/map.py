@@ -1,4 +1,4 @@
-"""The cheapest rung that is good enough for a sinusoid of one slope and wavelength."""
+"""The cheapest model that is accurate enough for a sinusoid of one slope and wavelength."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,18 +10,18 @@ from scripts.studies.rough_gaps.data import theory_of
 from scripts.studies.rough_gaps.scenes import over_waves
 from scripts.studies.rough_gaps.waves import exact_ratios, thin_ratios
 
-RUNGS = ("smooth_gap", "homogenized", "slope_corrected", "stokes")
-"""From the cheapest; the last is always good enough, without inertia."""
+MODELS = ("smooth_gap", "homogenized", "slope_corrected", "stokes")
+"""Models from the cheapest; without inertia the last is always accurate enough."""
 
 SLOPES = tuple(float(slope) for slope in np.geomspace(0.02, 1, 14))
 LENGTHS = tuple(float(length) for length in np.geomspace(2, 60, 12))
 """g', and λ/h̄."""
 
-HIGHEST = 0.8
+MAX_AMPLITUDE = 0.8
 """Amplitude over the mean gap."""
 
-SURE = 1e-3
-"""Error bar of the slope correction below which it stands for the exact flow, too."""
+NEGLIGIBLE_UNCERTAINTY = 1e-3
+"""Uncertainty of the slope correction below which it replaces the exact flow."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,11 +35,11 @@ class ModelErrors:
     slope_corrected: float
 
     def cheapest(self, level: float) -> str:
-        """The first rung whose error is within ``level``."""
-        for name in RUNGS[:-1]:
+        """Return the first model whose error is within ``level``."""
+        for name in MODELS[:-1]:
             if getattr(self, name) <= level:
                 return name
-        return RUNGS[-1]
+        return MODELS[-1]
 
 
 def errors(
@@ -51,12 +51,12 @@ def errors(
 
 def _errors(slope: float, length: float, folder: Path) -> ModelErrors | None:
     amplitude = float(slope * np.sqrt(2) * length / (2 * np.pi))
-    if amplitude > HIGHEST:
+    if amplitude > MAX_AMPLITUDE:
         return None
     scene = over_waves(amplitude, length)
     theory, thin = theory_of(scene.walls(max(scene.surface().shape))), thin_ratios(amplitude)
     names = ("A11", "A22")
-    sure = max(theory[name].bar for name in names) < SURE
+    sure = max(theory[name].bar for name in names) < NEGLIGIBLE_UNCERTAINTY
     exact = {name: theory[name].corrected for name in names} if sure else exact_ratios(amplitude, length, folder)
     worst = [
         max(abs(row[name] / exact[name] - 1) for name in names) if exact else np.inf
@@ -72,6 +72,6 @@ def _errors(slope: float, length: float, folder: Path) -> ModelErrors | None:
 
 
 def serves(found: Sequence[ModelErrors], name: str, level: float) -> float:
-    """The largest slope up to which a rung is within ``level`` for waves of every length; 0 if for none."""
+    """The largest slope up to which a model is within ``level`` for waves of every length; 0 if for none."""
     bad = min((one.slope for one in found if getattr(one, name) > level), default=np.inf)
     return max((one.slope for one in found if one.slope < bad), default=0.0)

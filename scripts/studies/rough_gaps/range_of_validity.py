@@ -30,20 +30,20 @@ NOT_SURFACES = ("recipe",)
 POINTS = 256
 """Nodes along each side, and pixels that a window of a measured surface has at least, if there are a third more."""
 
-BELOW = 0.75
+MAX_WINDOW_FRACTION = 0.75
 """Largest side of a window divided by that of the measurement."""
 
-JUST_ABOVE = 1.05
+MIN_GAP_OVER_PEAK = 1.05
 """Smallest mean gap divided by the highest point."""
 
 THICKNESSES = (3.5, 5.0, 7.0, 10.0, 15.0, 20.0, 30.0)
 """h̄/Sq; those at which the walls would touch are left out."""
 
-FEWEST = 8
-"""Nodes along a side of a grid that tells how far a finer one is off."""
+MIN_GRID_NODES = 8
+"""Least number of nodes along a side of a coarser grid by which the error of a finer one is estimated."""
 
-COARSER = (1, 2, 4, 8)
-AT = 2.0
+GRID_DIVISORS = (1, 2, 4, 8)
+COMPARED_GAP_OVER_PEAK = 2.0
 """Mean gap over the highest point at which grids are compared."""
 
 LEVELS = (0.01, 0.05)
@@ -72,7 +72,7 @@ class ReynoldsError:
 
 @dataclass(frozen=True, kw_only=True)
 class CoarserGrid:
-    """A surface on a coarser grid: pixel, m, rms slope, and the error at ``AT`` times the highest point."""
+    """A surface on a coarser grid: pixel, m, rms slope, and the error at ``COMPARED_GAP_OVER_PEAK``."""
 
     pixel: float
     slope: float
@@ -121,7 +121,7 @@ def measured_surfaces(folder: Path | None, points: int = POINTS) -> dict[str, Su
             whole = read_surface(file)
         except InputError:
             continue  # no instrument file
-        pixels = [min(points, int(BELOW * count)) for count in whole.shape]
+        pixels = [min(points, int(MAX_WINDOW_FRACTION * count)) for count in whole.shape]
         size = [count * step for count, step in zip(pixels, whole.spacing, strict=True)]
         found[file.name] = window_of(whole, size, [2 ** round(np.log2(count)) for count in pixels])
     return found
@@ -143,14 +143,14 @@ def reach(
     measured: bool,
     folder: Path,
     thicknesses: Sequence[float] = THICKNESSES,
-    coarser: Sequence[int] = COARSER,
+    coarser: Sequence[int] = GRID_DIVISORS,
     advance: Callable[[str], None] = lambda _words: None,
 ) -> tuple[SurfaceValidity, ...]:
     """Each surface over its mean gaps and pixels; kept in the folder."""
     found = []
     for name, surface in surfaces.items():
         advance(name)
-        settings = {"thicknesses": [*thicknesses], "coarser": [*coarser], "just_above": JUST_ABOVE}
+        settings = {"thicknesses": [*thicknesses], "coarser": [*coarser], "just_above": MIN_GAP_OVER_PEAK}
         digest = Inputs(heights=surface.heights, spacing=surface.spacing, settings=settings).digest
 
         make_it = partial(_reach, name, surface, measured, thicknesses, coarser)
@@ -170,7 +170,7 @@ def _reach(
     name: str, surface: Surface, measured: bool, thicknesses: Sequence[float], coarser: Sequence[int]
 ) -> SurfaceValidity:
     peak, rms = peak_over_rms(surface), float(surface.heights.std())
-    nearest = JUST_ABOVE * peak
+    nearest = MIN_GAP_OVER_PEAK * peak
     mismatch = periodicity_mismatch(surface)
     return SurfaceValidity(
         name=name,
@@ -182,7 +182,7 @@ def _reach(
         peak=peak,
         mismatch=mismatch,
         found=tuple(off(surface, one) for one in (nearest, *(t for t in thicknesses if t > 1.02 * nearest))),
-        coarser=tuple(_coarse(surface, part, AT * peak * rms) for part in coarser),
+        coarser=tuple(_coarse(surface, part, COMPARED_GAP_OVER_PEAK * peak * rms) for part in coarser),
     )
 
 
@@ -212,7 +212,7 @@ def off(surface: Surface, thickness: float) -> ReynoldsError:
     grids = [
         _on_nodes(heights, gap, surface.spacing, every)
         for every in (4, 2, 1)
-        if every == 1 or all(count % every == 0 and count >= FEWEST * every for count in surface.shape)
+        if every == 1 or all(count % every == 0 and count >= MIN_GRID_NODES * every for count in surface.shape)
     ]
     doubts = grid_doubt([grid.excess for grid in grids])
     found = grids[-1]

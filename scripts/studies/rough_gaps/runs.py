@@ -28,7 +28,7 @@ FOUND = "found"
 
 @dataclass(frozen=True, kw_only=True)
 class ModelRun:
-    """A gap, a rung, and nodes along the longer side."""
+    """A gap, a model, and nodes along the longer side."""
 
     scene: RoughGap
     model: str
@@ -50,7 +50,7 @@ Place = Callable[[int, Path], AbstractContextManager[Executor]]
 def answers(asked: Sequence[ModelRun], folder: Path, place: Place = local) -> tuple[Answers, dict[str, str]]:
     """Return stored results, solve the missing ones, and return the reason of each failure, both by key.
 
-    A rung that is not on this machine fails in all that is asked of it.
+    A model that is not available on this machine fails for every run.
     """
     failed: dict[str, str] = {}
     found: dict[str, Result] = {}

@@ -11,7 +11,7 @@ from scripts.studies.rough_gaps.map import ModelErrors
 from scripts.studies.rough_gaps.range_of_validity import SurfaceValidity
 from scripts.studies.rough_gaps.waves import Wave, Waves
 
-STEEP = 0.35
+MAX_FITTED_SLOPE = 0.35
 """g' from which on no law in g'² is fitted."""
 
 
@@ -69,7 +69,7 @@ class RoughGapStudy:
     @property
     def factors(self) -> list[float]:
         """Relative error of Reynolds' equation divided by g'², for every gentle surface and mean gap."""
-        return [off.error / one.slope**2 for one in self.reach if one.slope < STEEP for off in one.found]
+        return [off.error / one.slope**2 for one in self.reach if one.slope < MAX_FITTED_SLOPE for off in one.found]
 
 
 def mesh_meets_exact(waves: Sequence[Wave]) -> Agreement:

@@ -21,7 +21,7 @@ LENGTHS = (40.0, *MARKED, 1.0)
 DRAWN = tuple(float(length) for length in np.geomspace(1, 40, 15))
 GRIDS = (32, 48, 64)
 
-TOLERANCE = 1e-5
+FLOW_TOLERANCE = 1e-5
 """Tolerance of the exact flow, far below every error here."""
 
 
@@ -66,7 +66,7 @@ def exact_ratios(amplitude: float, length: float, folder: Path) -> dict[str, flo
 
     def make() -> dict[str, float]:
         try:
-            flow = sinusoidal_ridge_flow(amplitude, length, tolerance=TOLERANCE)
+            flow = sinusoidal_ridge_flow(amplitude, length, tolerance=FLOW_TOLERANCE)
         except ConvergenceError:
             return {}
         thin = thin_ratios(amplitude)
@@ -77,7 +77,7 @@ def exact_ratios(amplitude: float, length: float, folder: Path) -> dict[str, flo
             "friction": flow.friction / thin["friction"],
         }
 
-    inputs = {"amplitude": amplitude, "length": length, "tolerance": TOLERANCE}
+    inputs = {"amplitude": amplitude, "length": length, "tolerance": FLOW_TOLERANCE}
     found: dict[str, float] = kept(folder / f"exact-{amplitude:.4g}-{length:.4g}.json", inputs, make)
     return found
 

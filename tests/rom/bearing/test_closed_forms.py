@@ -24,7 +24,7 @@ def film(shape, **given):
 
 
 def test_the_linear_slider_is_the_integral_of_its_own_equation():
-    found = linear_slider(film=FILM, rise=RISE, length=LENGTH, speed=SPEED, viscosity=VISCOSITY)
+    solution = linear_slider(film=FILM, rise=RISE, length=LENGTH, speed=SPEED, viscosity=VISCOSITY)
 
     def h(x):
         return FILM + RISE * (1 - x / LENGTH)
@@ -34,19 +34,19 @@ def test_the_linear_slider_is_the_integral_of_its_own_equation():
     def slope(x):
         return 6 * VISCOSITY * SPEED * (h(x) - full) / h(x) ** 3
 
-    assert found.load == pytest.approx(quad(lambda x: -x * slope(x), 0, LENGTH)[0], rel=1e-10)
+    assert solution.load == pytest.approx(quad(lambda x: -x * slope(x), 0, LENGTH)[0], rel=1e-10)
     rub = quad(lambda x: VISCOSITY * SPEED / h(x) + h(x) / 2 * slope(x), 0, LENGTH)[0]
-    assert found.friction == pytest.approx(rub, rel=1e-10)
+    assert solution.friction == pytest.approx(rub, rel=1e-10)
     peak = LENGTH * (1 - (full - FILM) / RISE)
-    assert found.pressure_max == pytest.approx(quad(slope, 0, peak)[0], rel=1e-10)
+    assert solution.pressure_max == pytest.approx(quad(slope, 0, peak)[0], rel=1e-10)
 
 
 def test_the_default_solver_makes_the_linear_slider():
     known = linear_slider(film=FILM, rise=RISE, length=LENGTH, speed=SPEED, viscosity=VISCOSITY)
-    found = solve(film(LINEAR), (1000, 1))
-    assert found.levels[-1].load == pytest.approx(known.load, rel=1e-5)
-    assert friction(found) == pytest.approx(known.friction, rel=1e-6)
-    assert found.state.pressure.max() == pytest.approx(known.pressure_max, rel=1e-5)
+    solution = solve(film(LINEAR), (1000, 1))
+    assert solution.levels[-1].load == pytest.approx(known.load, rel=1e-5)
+    assert friction(solution) == pytest.approx(known.friction, rel=1e-6)
+    assert solution.state.pressure.max() == pytest.approx(known.pressure_max, rel=1e-5)
 
 
 @pytest.mark.parametrize("jump", [2, 100])
@@ -55,18 +55,18 @@ def test_the_default_solver_makes_rayleighs_step(jump):
     rise = (jump - 1) * FILM
     shape = Step(shape="step", length="50 mm", film="20 um", rise=f"{rise} m", step="35 mm").film_shape()
     known = rayleigh_step(film=FILM, rise=rise, length=LENGTH, step=0.035, speed=SPEED, viscosity=VISCOSITY)
-    found = solve(film(shape), (20, 1))
-    assert found.levels[-1].load == pytest.approx(known.load, rel=1e-10)
-    assert found.state.pressure.max() == pytest.approx(known.pressure_max, rel=1e-10)
-    assert friction(found) == pytest.approx(known.friction, rel=1e-10)
+    solution = solve(film(shape), (20, 1))
+    assert solution.levels[-1].load == pytest.approx(known.load, rel=1e-10)
+    assert solution.state.pressure.max() == pytest.approx(known.pressure_max, rel=1e-10)
+    assert friction(solution) == pytest.approx(known.friction, rel=1e-10)
 
 
 @pytest.mark.parametrize("eccentricity", [0.2, 0.9])
 def test_the_default_solver_makes_sommerfelds_bearing(eccentricity):
     geometry = Journal(shape="journal", radius="30 mm", clearance="40 um", eccentricity=eccentricity)
-    found = solve(film(geometry.film_shape()), (2000, 1), ruptures=False)
+    solution = solve(film(geometry.film_shape()), (2000, 1), ruptures=False)
     known = sommerfeld(radius=0.03, clearance=40e-6, eccentricity=eccentricity, speed=SPEED, viscosity=VISCOSITY)
-    angle, load = journal_load(geometry, found.grid.x, found.grid.areas * found.state.pressure)
+    angle, load = journal_load(geometry, solution.grid.x, solution.grid.areas * solution.state.pressure)
     assert load == pytest.approx(known.load, rel=1e-8)
     assert angle == pytest.approx(known.attitude_angle, abs=1e-6)
 
@@ -82,11 +82,11 @@ def test_barus_pressure_undoes_the_integral_of_the_fluidity():
 def test_the_default_solver_makes_barus_pressure(part):
     reduced = linear_slider(film=FILM, rise=RISE, length=LENGTH, speed=SPEED, viscosity=VISCOSITY).pressure_max
     law = Barus(law="barus", pressure_coefficient=f"{part / reduced} Pa^-1")
-    found = solve(film(LINEAR, piezoviscosity=law), (1000, 1))
+    solution = solve(film(LINEAR, piezoviscosity=law), (1000, 1))
     plain = solve(film(LINEAR), (1000, 1))
-    assert found.state.pressure.max() == pytest.approx(barus_pressure(reduced, part / reduced), rel=1e-4)
+    assert solution.state.pressure.max() == pytest.approx(barus_pressure(reduced, part / reduced), rel=1e-4)
     everywhere = [barus_pressure(float(p), part / reduced) for p in plain.state.pressure[::100, 0]]
-    assert np.allclose(found.state.pressure[::100, 0], everywhere, rtol=1e-4, atol=0)
+    assert np.allclose(solution.state.pressure[::100, 0], everywhere, rtol=1e-4, atol=0)
 
 
 @pytest.mark.parametrize(

@@ -38,7 +38,7 @@ def bearing(speed: float, **tables: Any) -> Bearing:
         "density": f"{DENSITY} kg/m^3",
         "cavitation_pressure": "-1000 MPa",
     }
-    found = read_scene(
+    scene = read_scene(
         {
             "name": "slider",
             "kind": "bearing",
@@ -47,14 +47,14 @@ def bearing(speed: float, **tables: Any) -> Bearing:
             "motion": {"speed": f"{speed} m/s"},
         }
     )
-    assert isinstance(found, Bearing)
-    return found
+    assert isinstance(scene, Bearing)
+    return scene
 
 
 def judged_film(scene: Bearing, cells: int, **changes: Any) -> tuple[Solution, Inertia]:
     """The film with something else in its problem, and what inertia adds to it."""
-    found = solve(replace(scene.problem(), **changes), (cells, cells), ruptures=False)
-    return found, inertia(scene, found)
+    solved = solve(replace(scene.problem(), **changes), (cells, cells), ruptures=False)
+    return solved, inertia(scene, solved)
 
 
 def speed_of(reynolds_number: float) -> float:
@@ -84,11 +84,11 @@ def pocket(speed: float) -> Any:
 def test_a_groove_carries_what_an_independent_solution_of_a_pocket_says() -> None:
     """F+ = 0.890 at Re = 40 to first order, with which ends at ambient pressure agree: the flow is that of a period."""
     speed = speed_of(40)
-    _, found = judged_film(bearing(speed), 2048)
-    plus = 100 * found.load / LENGTH * FILM**2 / (VISCOSITY * speed * LENGTH)
+    _, solved = judged_film(bearing(speed), 2048)
+    plus = 100 * solved.load / LENGTH * FILM**2 / (VISCOSITY * speed * LENGTH)
     assert plus == pytest.approx(0.890, abs=1e-3)
-    assert found.friction == pytest.approx(0.0, abs=1e-9 * VISCOSITY * speed / FILM * LENGTH)
-    assert found.inlet_flow == pytest.approx(0.0, abs=1e-9 * speed * FILM)
+    assert solved.friction == pytest.approx(0.0, abs=1e-9 * VISCOSITY * speed / FILM * LENGTH)
+    assert solved.inlet_flow == pytest.approx(0.0, abs=1e-9 * speed * FILM)
 
 
 def test_it_is_of_second_order_in_the_cells() -> None:
@@ -100,12 +100,12 @@ def test_it_is_of_second_order_in_the_cells() -> None:
 def test_slow_flow_over_a_groove_is_that_of_the_mesh() -> None:
     """Navier–Stokes at Re = 5, less Stokes: 0.7 % below first order, as slope and the rest of inertia have it."""
     speed = speed_of(5)
-    _, found = judged_film(bearing(speed), 1024)
+    _, solved = judged_film(bearing(speed), 1024)
     loads = [
         find("pocket", name).solve(pocket(speed), Request(resolution=80)).quantities["load_per_area"].value
         for name in ("navier_stokes", "stokes")
     ]
-    assert found.load / LENGTH == pytest.approx(loads[0] - loads[1], rel=0.01)
+    assert solved.load / LENGTH == pytest.approx(loads[0] - loads[1], rel=0.01)
 
 
 @pytest.mark.parametrize("degrees", [0.0, 30.0, 60.0])
@@ -118,20 +118,20 @@ def test_ridges_at_an_angle_are_those_of_a_line_at_the_speed_across_them(degrees
     def ridges(x: Array, y: Array) -> Array:
         return np.asarray(FILM + amplitude * np.cos(2 * np.pi * (across * x + along * y) / wave))
 
-    found, added = judged_film(pad, cells, shape=replace(pad.problem().shape, thickness=ridges))
+    solved, added = judged_film(pad, cells, shape=replace(pad.problem().shape, thickness=ridges))
     line = 1 + amplitude / FILM * np.cos(2 * np.pi * np.linspace(0, 1, 4000, endpoint=False))
     flow = (line**-2).mean() / (2 * (line**-3).mean())
     number = DENSITY * speed * across * FILM / VISCOSITY
-    truth = VISCOSITY * speed * across / FILM * number * inertia_pressure(found.faces.thickness / FILM, flow)
-    x, y = np.meshgrid(found.grid.x, found.grid.y, indexing="ij")
+    truth = VISCOSITY * speed * across / FILM * number * inertia_pressure(solved.faces.thickness / FILM, flow)
+    x, y = np.meshgrid(solved.grid.x, solved.grid.y, indexing="ij")
     middle = (abs(x - 3e-3) < wave) & (abs(y - 3e-3) < wave)
-    got, told = added.pressure[middle], truth[middle]
-    got, told = got - got.mean(), told - told.mean()
-    assert (got * told).sum() / (told**2).sum() == pytest.approx(1.0, abs=0.03)
-    assert np.sqrt(((got - told) ** 2).mean()) < 0.06 * told.std()
+    got, expected = added.pressure[middle], truth[middle]
+    got, expected = got - got.mean(), expected - expected.mean()
+    assert (got * expected).sum() / (expected**2).sum() == pytest.approx(1.0, abs=0.03)
+    assert np.sqrt(((got - expected) ** 2).mean()) < 0.06 * expected.std()
 
 
-def test_pressed_flow_knows_no_axis_by_name() -> None:
+def test_pressure_driven_flow_is_symmetric_in_the_axes() -> None:
     """Without sliding, a film turned over its diagonal has its inertia turned over it."""
     pad = bearing(0.0, geometry={"length": "2 mm", "width": "2 mm", "texture": None})
     low = pad.lubricant.cavitation_pressure
@@ -153,12 +153,12 @@ def test_pressed_flow_knows_no_axis_by_name() -> None:
     assert np.abs(one[inner] - other.T[inner]).max() < 0.02 * np.abs(one[inner]).max()
 
 
-def test_a_wedge_rubs_as_the_momentum_of_its_own_velocity_has_it() -> None:
+def test_the_friction_of_a_wedge_follows_from_its_momentum_balance() -> None:
     """τ = ηU/h + h/2 ∂p/∂x + ρ ∫ Y (u ∂u/∂x + w ∂u/∂z) dz, the integral by brute force from u and its continuity."""
     speed, length, low, rise = 4.0, 1e-3, 20e-6, 25e-6
     wedge = {"shape": "linear", "length": f"{length} m", "film": f"{low} m", "rise": f"{rise} m", "texture": None}
-    found, added = judged_film(bearing(speed, geometry=wedge), 512)
-    flow = float((found.network.couette[0] - found.network.east[0] * np.diff(found.state.pressure, axis=0)[0])[0])
+    solved, added = judged_film(bearing(speed, geometry=wedge), 512)
+    flow = float((solved.network.couette[0] - solved.network.east[0] * np.diff(solved.state.pressure, axis=0)[0])[0])
 
     def velocity(x: float, z: Array) -> Array:
         h = low + rise * (1 - x / length)
@@ -173,7 +173,7 @@ def test_a_wedge_rubs_as_the_momentum_of_its_own_velocity_has_it() -> None:
         above = -np.concatenate([[0.0], np.cumsum((along[1:] + along[:-1]) / 2) * (z[1] - z[0])])
         return float(np.trapezoid(z / h * (u * along + above * np.gradient(u, z)), z))
 
-    places = (found.grid.x[1:] + found.grid.x[:-1]) / 2
+    places = (solved.grid.x[1:] + solved.grid.x[:-1]) / 2
     felt = DENSITY * sum(momentum(float(x)) for x in places) * length / places.size
     pressed = float((np.diff(added.pressure[:, 0]) * (low + rise * (1 - places / length)) / 2).sum())
     assert abs(felt) > 1e-3 * abs(pressed)
@@ -183,14 +183,14 @@ def test_a_wedge_rubs_as_the_momentum_of_its_own_velocity_has_it() -> None:
 def test_a_pad_without_flow_through_its_sides_is_a_line_of_it() -> None:
     line = judged_film(bearing(2.0), 64)[1]
     pad = bearing(2.0, geometry={"width": "1 mm"})
-    found = judged_film(pad, 64, ends=replace(pad.problem().ends, sides=None))[1]
-    assert found.load / 1e-3 == pytest.approx(line.load, rel=1e-9)
+    solved = judged_film(pad, 64, ends=replace(pad.problem().ends, sides=None))[1]
+    assert solved.load / 1e-3 == pytest.approx(line.load, rel=1e-9)
 
 
-def test_sides_let_its_pressure_out() -> None:
+def test_open_sides_lower_the_pressure_of_inertia() -> None:
     line = judged_film(bearing(2.0), 64)[1]
-    found = judged_film(bearing(2.0, geometry={"width": "1 mm"}), 64)[1]
-    assert 0.2 * line.load < found.load / 1e-3 < 0.95 * line.load
+    solved = judged_film(bearing(2.0, geometry={"width": "1 mm"}), 64)[1]
+    assert 0.2 * line.load < solved.load / 1e-3 < 0.95 * line.load
 
 
 def test_it_grows_with_density_alone() -> None:
@@ -199,25 +199,25 @@ def test_it_grows_with_density_alone() -> None:
     assert thrice.load == pytest.approx(3 * once.load, rel=1e-12)
 
 
-def test_a_torn_film_has_none_where_it_is_torn() -> None:
+def test_inertia_changes_no_pressure_in_cavities() -> None:
     torn = bearing(20.0, geometry={"width": "1 mm"}, lubricant={"cavitation_pressure": "-1 kPa"})
-    found = solve(torn.problem(), (64, 64))
-    added = inertia(torn, found)
-    assert (found.state.fill < 1).any()
-    assert (added.pressure[found.state.fill < 1] == 0).all()
+    solved = solve(torn.problem(), (64, 64))
+    added = inertia(torn, solved)
+    assert (solved.state.fill < 1).any()
+    assert (added.pressure[solved.state.fill < 1] == 0).all()
 
 
-def test_its_error_covers_the_models_that_keep_all_of_inertia() -> None:
+def test_the_uncertainty_covers_models_with_full_inertia() -> None:
     scene = bearing(speed_of(60))
-    told = inertia_added(Variant(scene=scene, ruptures=False), 512, POCKET_MODELS)
+    change = inertia_added(Variant(scene=scene, ruptures=False), 512, POCKET_MODELS)
     truth = find("pocket", "film_slope").solve(pocket(speed_of(60))).quantities["load_per_area"].value * LENGTH
-    assert told.pocket is not None
-    assert told.pocket.model == "film_slope"
-    assert told.untextured_load == pytest.approx(0.0, abs=1e-9 * told.amounts["load"].value)
-    assert abs(told.amounts["load"].value - truth) <= told.amounts["load"].uncertainty < 0.1 * truth
+    assert change.pocket is not None
+    assert change.pocket.model == "film_slope"
+    assert change.untextured_load == pytest.approx(0.0, abs=1e-9 * change.amounts["load"].value)
+    assert abs(change.amounts["load"].value - truth) <= change.amounts["load"].uncertainty < 0.1 * truth
 
 
-def test_under_its_load_inertia_lifts_a_wedge_by_what_it_carries_less() -> None:
+def test_inertia_thickens_a_wedge_film_until_its_load_is_the_same() -> None:
     wedge = {"shape": "linear", "length": "10 mm", "film": "40 um", "rise": "40 um", "texture": None}
     taken = Variant(scene=bearing(20.0, geometry=wedge))
     whole: VariantSolution = under_load(taken, 5e5, 512)
@@ -230,7 +230,7 @@ def test_under_its_load_inertia_lifts_a_wedge_by_what_it_carries_less() -> None:
     assert missing == pytest.approx(changes.amounts["load"].value, rel=1e-2)
 
 
-def test_what_cannot_be_judged_is_refused_and_said() -> None:
+def test_where_inertia_cannot_be_estimated_the_reason_is_given() -> None:
     light = bearing(2.0)
     light = light.model_copy(update={"lubricant": light.lubricant.model_copy(update={"density": None})})
     assert inertia_obstacle(bearing(2.0)) is None
@@ -240,6 +240,6 @@ def test_what_cannot_be_judged_is_refused_and_said() -> None:
 
 
 @pytest.mark.parametrize("odd", ["geometry.texture.depth=1.5mm", "lubricant.density=1e20 kg/m^3"])
-def test_pockets_that_are_no_scene_of_their_own_are_not_judged(odd: str) -> None:
+def test_pockets_outside_the_range_of_the_models_are_not_solved(odd: str) -> None:
     assert pocket_inertia(cast(Bearing, load_scene(PAD, [])), POCKET_MODELS) is not None
     assert pocket_inertia(cast(Bearing, load_scene(PAD, [odd])), POCKET_MODELS) is None

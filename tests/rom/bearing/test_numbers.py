@@ -36,9 +36,9 @@ def scene(**tables: Any) -> Bearing:
     entries = {name: dict(table) if isinstance(table, dict) else table for name, table in PAD.items()}
     for name, table in tables.items():
         entries[name] = {**entries.get(name, {}), **table}
-    found = read_scene(entries)
-    assert isinstance(found, Bearing)
-    return found
+    result = read_scene(entries)
+    assert isinstance(result, Bearing)
+    return result
 
 
 def test_a_smooth_pad_has_the_numbers_of_its_film_and_no_others() -> None:
@@ -108,9 +108,9 @@ def test_a_ring_counts_along_its_mean_radius_and_joined_pads_have_no_inlet() -> 
     }
     entries = {**PAD, "geometry": washer, "boundary": {"sides": {"low": "0.2 MPa"}}}
     entries["lubricant"] = {"viscosity": "0.01 Pa*s", "density": "1000 kg/m^3"}
-    found = read_scene(entries)
-    assert isinstance(found, Bearing)
-    numbers = bearing_numbers(found)
+    result = read_scene(entries)
+    assert isinstance(result, Bearing)
+    numbers = bearing_numbers(result)
     pocket = 0.25 * 2 * math.pi / 12 * 40e-3
     assert numbers["convergence"] == pytest.approx(0.0)
     assert numbers["texture_density"] == pytest.approx(0.25)
@@ -118,10 +118,10 @@ def test_a_ring_counts_along_its_mean_radius_and_joined_pads_have_no_inlet() -> 
     assert "starvation" not in numbers
 
 
-def test_the_table_of_many_cases_tells_the_same_numbers() -> None:
+def test_the_table_of_cases_has_the_same_numbers() -> None:
     rough = scene(roughness=RIDGES)
-    numbers, told = bearing_numbers(rough), columns(rough)
-    assert not isinstance(told["width_ratio"], str)
-    assert not isinstance(told["roughness_ratio"], str)
-    assert told["width_ratio"].value == pytest.approx(numbers["slenderness"])
-    assert told["roughness_ratio"].value == pytest.approx(numbers["roughness_ratio"])
+    numbers, entries = bearing_numbers(rough), columns(rough)
+    assert not isinstance(entries["width_ratio"], str)
+    assert not isinstance(entries["roughness_ratio"], str)
+    assert entries["width_ratio"].value == pytest.approx(numbers["slenderness"])
+    assert entries["roughness_ratio"].value == pytest.approx(numbers["roughness_ratio"])

@@ -40,18 +40,18 @@ def errors(make, ratios, names=("load_per_width",)):
     """Of the averaged film against the one with every wave of ε = ``ratios``: pressure at most, then by name."""
     averaged = HOMOGENIZED.solve(make(ratios[0]))
     x, p = pressure(averaged)
-    found = []
+    result = []
     for ratio in ratios:
         followed = DIRECT.solve(make(ratio))
         assert followed.warnings == ()
         there, waves = pressure(followed)
         most = np.abs(waves - np.interp(there, x, p)).max() / p.max()
-        found.append([most, *(value(followed, name) / value(averaged, name) - 1 for name in names)])
-    return np.array(found).T
+        result.append([most, *(value(followed, name) / value(averaged, name) - 1 for name in names)])
+    return np.array(result).T
 
 
-def slope(ratios, found):
-    return float(np.polyfit(np.log(ratios), np.log(np.abs(found)), 1)[0])
+def slope(ratios, result):
+    return float(np.polyfit(np.log(ratios), np.log(np.abs(result)), 1)[0])
 
 
 # scenes
@@ -73,7 +73,7 @@ def test_ridges_are_those_of_the_source():
     assert mean == pytest.approx(5e-6 - 1e-6 * np.linspace(0, 1, 101))
 
 
-def test_slanting_ridges_lie_across_their_direction():
+def test_oblique_ridges_lie_across_their_direction():
     wave = load_scene(PAD, ["roughness.direction=30 deg", "roughness.phase=90 deg"]).roughness
     along = np.array([np.cos(np.pi / 6), np.sin(np.pi / 6)]) * 1e-3
     steps = np.linspace(0, 1, 9)
@@ -136,7 +136,7 @@ def test_another_surface_under_the_same_name_is_refused(tmp_path):
         ('roughness={"kind": "surface", "surface": "s.h5", "size": 1}', "scene.roughness.size: unknown key"),
     ],
 )
-def test_faults_are_told_in_one_line(override, words):
+def test_errors_are_reported_in_one_line(override, words):
     with pytest.raises(InputError) as caught:
         load_scene(SLIDER, [override])
     assert words in str(caught.value)
@@ -150,22 +150,22 @@ def applied(scene):
     return {model.name: model.applies(scene) for model in MODELS}
 
 
-def test_smooth_walls_have_nothing_to_average_or_follow():
-    found = applied(load_scene(SCENES / "journal.toml"))
+def test_models_of_roughness_refuse_smooth_walls():
+    result = applied(load_scene(SCENES / "journal.toml"))
     for name in ("homogenized", "direct"):
-        assert not found[name].applies
-        assert "the wall is smooth" in found[name].reason
+        assert not result[name].applies
+        assert "the wall is smooth" in result[name].reason
 
 
-def test_smooth_rungs_say_how_rough_the_wall_is():
-    found = applied(load_scene(SLIDER))
-    assert {name for name, fits in found.items() if fits.applies} == {model.name for model in MODELS} - {
+def test_models_of_smooth_walls_report_the_roughness():
+    result = applied(load_scene(SLIDER))
+    assert {name for name, fits in result.items() if fits.applies} == {model.name for model in MODELS} - {
         "infinitely_wide",
         "mixed",
     }
     for name in ("reynolds", "reynolds_incompressible", "reynolds_cavitating"):
-        assert "treats the wall as smooth: rms height over film = 0.071" in found[name].reason
-    assert "period over length = 0.016" in found["homogenized"].reason
+        assert "treats the wall as smooth: rms height over film = 0.071" in result[name].reason
+    assert "period over length = 0.016" in result["homogenized"].reason
 
 
 @pytest.mark.parametrize(
@@ -175,7 +175,7 @@ def test_smooth_rungs_say_how_rough_the_wall_is():
         (PAD, ["roughness.wavelength=10 um"], "at most 2048 are allowed"),
     ],
 )
-def test_waves_that_cannot_be_followed_are_refused(path, overrides, words):
+def test_waves_that_cannot_be_resolved_are_refused(path, overrides, words):
     scene = load_scene(path, overrides)
     assert words in applied(scene)["direct"].reason
     with pytest.raises(InputError, match=words):
@@ -183,7 +183,7 @@ def test_waves_that_cannot_be_followed_are_refused(path, overrides, words):
     assert HOMOGENIZED.applies(scene).applies
 
 
-def test_walls_that_would_touch_are_averaged_but_not_followed(tmp_path):
+def test_walls_that_touch_are_averaged_but_not_resolved(tmp_path):
     made = np.kron(heights(), np.ones((2, 2)))
     scene = rough_surface(tmp_path, made, scale=12.0)
     assert scene.roughness.peak > scene.geometry.film
@@ -198,8 +198,8 @@ def test_default_grids_resolve_the_waves():
             for cells in DIRECT.resolutions_of(scene):
                 sides = (scene.geometry.length, scene.geometry.width or 0)
                 assert all(cells * w >= 7.99 * s for s, w in zip(sides, scene.roughness.finest, strict=True))
-    told = DIRECT.solve(load_scene(SLIDER), Request(resolution=256)).warnings
-    assert any("has 4 cells; take at least 2 times" in words for words in told)
+    warning = DIRECT.solve(load_scene(SLIDER), Request(resolution=256)).warnings
+    assert any("has 4 cells; take at least 2 times" in words for words in warning)
 
 
 # averaged against followed
@@ -209,7 +209,7 @@ SINES = 2.0 ** -np.arange(4, 9)
 
 
 @pytest.mark.parametrize("more", [[], [INCOMPRESSIBLE]])
-def test_pressure_and_load_come_nearer_in_proportion_to_the_waves(more):
+def test_pressure_and_load_converge_at_first_order_in_the_wavelength(more):
     def make(ratio):
         return load_scene(SLIDER, [f"roughness.wavelength={0.1 * ratio} m", *more])
 
@@ -219,7 +219,7 @@ def test_pressure_and_load_come_nearer_in_proportion_to_the_waves(more):
     assert most[-1] < 0.01
 
 
-def test_waves_that_begin_at_their_crest_load_nearer_at_second_order():
+def test_the_load_of_waves_that_begin_at_a_crest_converges_at_second_order():
     # the first correction of the load is ε times the heights' primitive at the ends, which is 0 for a cosine
     def make(ratio):
         return load_scene(SLIDER, [f"roughness.wavelength={0.1 * ratio} m", "roughness.phase=90 deg"])
@@ -240,7 +240,7 @@ def test_where_scales_do_not_separate_the_average_fails():
     assert np.abs(load[:, 1]).max() < 0.005
 
 
-def test_a_profile_comes_nearer_too(tmp_path, monkeypatch):
+def test_the_load_of_a_profile_converges(tmp_path, monkeypatch):
     monkeypatch.setattr("roughfilm.rom.bearing.roughness.FACTOR_TOLERANCE", 1e-5)  # below the compared differences
     rng = np.random.default_rng(20071)
     place = np.arange(128) / 128
@@ -260,7 +260,7 @@ def test_a_profile_comes_nearer_too(tmp_path, monkeypatch):
     assert slope(ratios, rub) == pytest.approx(1, abs=0.1)
 
 
-def test_films_that_rupture_over_ridges_come_nearer_too():
+def test_cavitating_films_over_ridges_converge():
     def make(ratio):
         return load_scene(SLIDER, [*PARABOLIC, ridges(amplitude="2 um", wavelength=f"{0.1 * ratio} m")])
 
@@ -272,24 +272,24 @@ def test_films_that_rupture_over_ridges_come_nearer_too():
     assert abs(flow[-1]) < 1e-3
 
 
-def test_slanting_ridges_come_nearer_on_a_pad_with_sides():
+def test_oblique_ridges_on_a_pad_with_sides_converge():
     ratios, overrides = np.array([0.25, 0.125, 0.0625]), ["geometry.shape=linear", "roughness.direction=40 deg"]
     averaged = HOMOGENIZED.solve(load_scene(PAD, overrides), Request(resolution=128))
     smooth = SMOOTH.solve(load_scene(PAD, overrides), Request(resolution=128))
-    found = []
+    result = []
     for ratio in ratios:
         scene = load_scene(PAD, [*overrides, f"roughness.wavelength={20 * ratio} mm"])
         followed = DIRECT.solve(scene, Request(resolution=256))
         names = ("load", "friction", "pressure_max", "side_leakage")
-        found.append([value(followed, name) / value(averaged, name) - 1 for name in names])
-    off = np.abs(found)
+        result.append([value(followed, name) / value(averaged, name) - 1 for name in names])
+    off = np.abs(result)
     assert (off[-1] < (0.03, 0.02, 0.07, 0.05)).all()
     assert (off[-1] < off[0])[:3].all()
     assert slope(ratios, off[:, 2]) == pytest.approx(1, abs=0.3)
     assert value(averaged, "load") > 1.15 * value(smooth, "load")
 
 
-def test_slanting_ridges_lead_to_the_side_that_they_open_to():
+def test_oblique_ridges_lead_the_flow_to_one_side():
     high, low = (
         HOMOGENIZED.solve(load_scene(PAD, [f"roughness.direction={angle} deg"]), Request(resolution=64))
         for angle in (-45, 45)
@@ -327,13 +327,13 @@ def test_a_short_journal_is_ocvirks_with_the_factors_of_its_roughness(angle):
     width, radius = 0.8e-3, 25e-3
     rough = ridges(amplitude="10 um", direction=f"{angle} deg")
     scene = load_scene(SCENES / "journal.toml", [f"geometry.width={width} m", rough])
-    found = HOMOGENIZED.solve(scene, Request(resolution=192))
+    result = HOMOGENIZED.solve(scene, Request(resolution=192))
     # ∂/∂y (A₂₂/12η ∂p/∂y) = u/2 ∂B₁/∂x where the film narrows, p = 0 at both sides
     angles = np.linspace(0, np.pi, 20_001)
     factors = sinusoidal_ridges(10e-6, math.radians(angle))(25e-6 * (1 + 0.4 * np.cos(angles)))
     narrowing = -np.gradient(factors.drag, angles * radius)
     expected = 3 * 0.02 * 2 * width**2 / 4 * (narrowing / factors.across).max()
-    assert value(found, "pressure_max") == pytest.approx(expected, rel=0.01)
+    assert value(result, "pressure_max") == pytest.approx(expected, rel=0.01)
 
 
 # behind a film
@@ -371,7 +371,7 @@ def streaks(ratio, part):
 
 
 @pytest.mark.parametrize(("ratio", "within"), [(0.1, 0.1), (0.3, 0.13), (0.6, 0.24)])
-def test_tips_stay_wet_behind_a_film_as_is_said(ratio, within):
+def test_the_length_of_wet_tips_behind_a_film(ratio, within):
     ridge = sinusoidal_ridges(ratio, 0.0)(np.array([1.0]))
     torn = float(ridge.least[0] / ridge.drag[0])
     for part in (0.3, 0.5, 0.7, 0.8, 0.9):

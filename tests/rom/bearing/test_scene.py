@@ -74,8 +74,8 @@ def test_pockets_lie_where_they_are_put():
     texture = pockets | {"pitch": "2 mm", "columns": 3, "pitch_across": "3 mm", "rows": 2}
     scene = changed(shape="parallel", width="8 mm", texture=texture)
     # rows are centred: middles at y = 2.5 and 5.5 mm; columns at x = 2.5, 4.5 and 6.5 mm
-    found = film_of(scene, np.array([2.5, 2.5, 2.5, 4.5, 6.5, 6.75, 8.5, 3.5]) * 1e-3, np.array([2.5, 4, 5.5, 5.5, 5.5, 5.5, 5.5, 5.5]) * 1e-3)  # fmt: skip  # noqa: E501
-    assert found == pytest.approx(np.array([15, 10, 15, 15, 15, 13.75, 10, 10]) * 1e-6)
+    result = film_of(scene, np.array([2.5, 2.5, 2.5, 4.5, 6.5, 6.75, 8.5, 3.5]) * 1e-3, np.array([2.5, 4, 5.5, 5.5, 5.5, 5.5, 5.5, 5.5]) * 1e-3)  # fmt: skip  # noqa: E501
+    assert result == pytest.approx(np.array([15, 10, 15, 15, 15, 13.75, 10, 10]) * 1e-6)
     assert scene.geometry.film_shape().breaks == pytest.approx(np.array([0, 2, 3, 4, 5, 6, 7, 10]) * 1e-3)
 
 
@@ -115,7 +115,7 @@ def test_pockets_lie_where_they_are_put():
         ),
     ],
 )
-def test_faults_are_told_in_one_line(override, words):
+def test_errors_are_reported_in_one_line(override, words):
     with pytest.raises(InputError) as caught:
         load_scene(SLIDER, [override])
     assert words in str(caught.value)

@@ -1,4 +1,4 @@
-"""The rungs of a bearing: published numbers, closed forms, limits in which they agree, and the contract."""
+"""The models of a bearing: published numbers, closed forms, limits in which they agree, and the contract."""
 
 import math
 
@@ -94,33 +94,33 @@ def test_contract(model, tips):
     ],
 )
 def test_the_parabolic_slider_of_vijayaraghavan_and_keith(overrides, expected):
-    found = values(solve("parabolic_slider", *overrides, resolution=100_000))
+    result = values(solve("parabolic_slider", *overrides, resolution=100_000))
     for name, value in expected.items():
-        assert found[name] == pytest.approx(value, rel=1e-6 if "film" not in name else 1e-5, abs=1e-5)
+        assert result[name] == pytest.approx(value, rel=1e-6 if "film" not in name else 1e-5, abs=1e-5)
 
 
 @pytest.mark.parametrize("modulus", ["0.05 GPa", "1 GPa", "100 GPa"])
 @pytest.mark.parametrize("theta", [0.52, 0.6, 0.9])
-def test_a_starved_film_ruptures_where_it_is_as_thin_as_what_came_in(modulus, theta):
+def test_a_starved_film_forms_where_the_gap_is_as_thin_as_the_supplied_film(modulus, theta):
     law = f"lubricant.compressibility.bulk_modulus={modulus}"
-    found = values(solve("parabolic_slider", law, f"boundary.inlet.theta={theta}", resolution=4000))
+    result = values(solve("parabolic_slider", law, f"boundary.inlet.theta={theta}", resolution=4000))
     # h(x2) = θ h(0): 1 + (2x - 1)² = 2 θ; a film that reaches the inlet turns away what it cannot take
-    if found["film_start"] > 0:
-        assert found["rupture"] == pytest.approx((1 + math.sqrt(2 * theta - 1)) / 2, abs=2e-6)
-        assert found["inlet_flow_per_width"] == pytest.approx(4.57 / 2 * theta * 50.8e-6, rel=1e-12)
+    if result["film_start"] > 0:
+        assert result["rupture"] == pytest.approx((1 + math.sqrt(2 * theta - 1)) / 2, abs=2e-6)
+        assert result["inlet_flow_per_width"] == pytest.approx(4.57 / 2 * theta * 50.8e-6, rel=1e-12)
     else:
-        assert found["inlet_flow_per_width"] < 4.57 / 2 * theta * 50.8e-6
+        assert result["inlet_flow_per_width"] < 4.57 / 2 * theta * 50.8e-6
 
 
 @pytest.mark.parametrize(("eccentricity", "sommerfeld", "angle"), [(0.1, 1.330, 79.5), (0.2, 0.632, 73.9), (0.4, 0.260, 62.6)])  # fmt: skip  # noqa: E501
 def test_the_journal_bearing_of_raimondi_and_boyd(eccentricity, sommerfeld, angle):
-    found = values(solve("journal", f"geometry.eccentricity={eccentricity}", resolution=128))
-    assert found["sommerfeld_number"] == pytest.approx(sommerfeld, rel=0.015)
-    assert found["attitude_angle"] == pytest.approx(angle, rel=0.015)
+    result = values(solve("journal", f"geometry.eccentricity={eccentricity}", resolution=128))
+    assert result["sommerfeld_number"] == pytest.approx(sommerfeld, rel=0.015)
+    assert result["attitude_angle"] == pytest.approx(angle, rel=0.015)
 
 
 def test_a_full_journal_without_cavitation_is_sommerfelds():
-    found = values(solve("journal", "geometry.width=1 km", model="reynolds", resolution=64))
+    result = values(solve("journal", "geometry.width=1 km", model="reynolds", resolution=64))
     wide = load_scene(SCENES / "journal.toml")
     entries = scene_entries(wide)
     del entries["geometry"]["width"]
@@ -131,7 +131,7 @@ def test_a_full_journal_without_cavitation_is_sommerfelds():
     assert line["attitude_angle"] == pytest.approx(90, abs=1e-6)
     torque = 4 * math.pi * 0.02 * 2 * 1e3 * (1 + 2 * e**2) / ((2 + e**2) * math.sqrt(1 - e**2))
     assert line["friction_per_width"] == pytest.approx(torque, rel=1e-6)
-    assert found["load_per_width"] == pytest.approx(load, rel=0.03)  # its last cells at the sides see the bath
+    assert result["load_per_width"] == pytest.approx(load, rel=0.03)  # its last cells at the sides see the bath
 
 
 def test_sliding_backwards_gives_the_mirrored_film():
@@ -143,13 +143,13 @@ def test_sliding_backwards_gives_the_mirrored_film():
         assert back.quantities[name].value == pytest.approx(quantity.value, rel=1e-9, abs=1e-12)
 
 
-def test_without_sliding_pressure_falls_as_the_film_resists():
-    found = solve("parabolic_slider", "motion.speed=0 m/s", "boundary.inlet.pressure=1 bar", resolution=2000)
+def test_without_sliding_the_pressure_falls_with_the_resistance():
+    result = solve("parabolic_slider", "motion.speed=0 m/s", "boundary.inlet.pressure=1 bar", resolution=2000)
     # incompressible: q = Δp / (12 η ∫h⁻³ dx), ∫ (1 + s²)⁻³ ds = 1/2 + 3π/16 over (-1, 1)
     integral = 76.2e-3 / 2 / 25.4e-6**3 * (0.5 + 3 * math.pi / 16)
-    flow = values(found)["inlet_flow_per_width"]
+    flow = values(result)["inlet_flow_per_width"]
     assert flow == pytest.approx(1e5 / (12 * 0.039 * integral), rel=1e-3)  # compression: p / 2β = 7e-4
-    assert values(found)["cavitated_fraction"] == 0
+    assert values(result)["cavitated_fraction"] == 0
 
 
 def test_pressure_that_compresses_nothing_changes_nothing():
@@ -173,14 +173,14 @@ def test_a_film_that_only_narrows_needs_no_cavitation():
 
 
 def test_what_leaves_a_bearing_at_its_sides_was_brought():
-    # full at the inlet, torn at the outlet: what does not leave through the sides is what the torn film carries away
+    # the film is full at the inlet and cavitated at the outlet; what does not leave through the sides leaves there
     result = solve("journal", resolution=256)
     theta, h, pressure = (result.fields[name].values for name in ("density_ratio", "film_thickness", "pressure"))
     carried = 2.0 / 2 * (theta * h)[-3, 1:-1].mean() * 50e-3
     assert pressure[-4:].max() == 0
-    found = values(result)
-    assert found["inlet_flow_per_width"] * 50e-3 - found["side_leakage"] == pytest.approx(carried, rel=0.01)
-    assert found["side_leakage"] > 0.01 * carried
+    quantities = values(result)
+    assert quantities["inlet_flow_per_width"] * 50e-3 - quantities["side_leakage"] == pytest.approx(carried, rel=0.01)
+    assert quantities["side_leakage"] > 0.01 * carried
 
 
 def test_the_infinitely_wide_line_stands_for_a_wide_bearing():
@@ -190,30 +190,30 @@ def test_the_infinitely_wide_line_stands_for_a_wide_bearing():
     assert not find("bearing", "infinitely_wide").applies(load_scene(SCENES / "parabolic_slider.toml")).applies
 
 
-def test_a_starved_inlet_is_nothing_for_the_plain_equation():
+def test_the_model_without_cavitation_refuses_a_starved_inlet():
     scene = load_scene(SCENES / "parabolic_slider.toml", ["boundary.inlet.theta=0.9"])
     assert not find("bearing", "reynolds").applies(scene).applies
     with pytest.raises(InputError, match=r"^model: got 'reynolds'; the inlet is starved"):
         find("bearing", "reynolds").solve(scene)
 
 
-def test_an_inlet_that_brings_too_little_makes_no_film_and_says_so():
-    found = solve("parabolic_slider", "boundary.inlet.theta=0.3")
-    assert values(found)["load_per_width"] == 0
-    assert values(found)["pressure_max"] == 0
-    assert (values(found)["film_start"], values(found)["rupture"]) == (1, 1)
-    assert values(found)["cavitated_fraction"] > 0.999
-    assert "no film forms" in found.warnings[0]
+def test_a_supply_too_small_for_a_film_is_reported():
+    result = solve("parabolic_slider", "boundary.inlet.theta=0.3")
+    assert values(result)["load_per_width"] == 0
+    assert values(result)["pressure_max"] == 0
+    assert (values(result)["film_start"], values(result)["rupture"]) == (1, 1)
+    assert values(result)["cavitated_fraction"] > 0.999
+    assert "no film forms" in result.warnings[0]
 
 
 def test_loads_count_from_ambient():
     pumped = ["lubricant.cavitation_pressure=-1 bar", "motion.speed=0 m/s"]
-    found = values(solve("parabolic_slider", *pumped, "boundary.inlet.pressure=0 bar"))
-    assert found["load_per_width"] == pytest.approx(0, abs=1e-6)
-    assert found["cavitated_fraction"] == 0
+    result = values(solve("parabolic_slider", *pumped, "boundary.inlet.pressure=0 bar"))
+    assert result["load_per_width"] == pytest.approx(0, abs=1e-6)
+    assert result["cavitated_fraction"] == 0
 
 
-def test_grids_tell_how_far_off_a_result_is():
+def test_the_uncertainty_covers_a_finer_grid():
     coarse, fine = (solve("parabolic_slider", resolution=n) for n in (250, 16_000))
     for name in ("load_per_width", "friction_per_width", "pressure_max"):
         error = abs(coarse.quantities[name].value - fine.quantities[name].value)
@@ -246,11 +246,11 @@ def test_the_line_of_the_greatest_pressure_lies_in_the_film():
     entries = scene_entries(load_scene(SCENES / "parabolic_slider.toml"))
     entries["geometry"]["width"] = "0.1 m"
     entries["boundary"]["sides"] = {"low": "10 MPa"}
-    found = values(CAVITATING.solve(read_scene(entries), Request(resolution=48)))
-    assert found["film_start"] < 0.1
+    result = values(CAVITATING.solve(read_scene(entries), Request(resolution=48)))
+    assert result["film_start"] < 0.1
 
 
-def test_only_a_film_that_is_nowhere_whole_is_none():
+def test_no_film_is_reported_only_without_any_film_node():
     still = solve("journal", "geometry.eccentricity=0", resolution=32)
     assert still.warnings == ()
     below = ["lubricant.cavitation_pressure=-1 bar", "boundary.outlet.pressure=-1 bar"]
@@ -258,26 +258,26 @@ def test_only_a_film_that_is_nowhere_whole_is_none():
     assert "no film forms" in empty.warnings[0]
 
 
-def test_a_starved_inlet_that_does_not_slide_is_told():
-    found = solve("parabolic_slider", "boundary.inlet.theta=0.5", "motion.speed=0 m/s", resolution=64)
-    assert "is treated as flooded" in found.warnings[0]
+def test_a_starved_inlet_without_sliding_is_reported():
+    result = solve("parabolic_slider", "boundary.inlet.theta=0.5", "motion.speed=0 m/s", resolution=64)
+    assert "is treated as flooded" in result.warnings[0]
 
 
-def test_what_is_not_known_is_not_called_nothing():
+def test_an_unknown_uncertainty_is_not_zero():
     fine = solve("parabolic_slider", resolution=16_000)
     for options in ({"resolution": 256}, {"resolution": 1024}, {"tolerance": 1e-3}):
-        found = solve("parabolic_slider", **options)
+        result = solve("parabolic_slider", **options)
         for name in ("load_per_width", "friction_per_width", "rupture", "cavitated_fraction", "pressure_max"):
-            error = abs(found.quantities[name].value - fine.quantities[name].value)
-            assert error <= found[name].uncertainty, (name, options)
+            error = abs(result.quantities[name].value - fine.quantities[name].value)
+            assert error <= result[name].uncertainty, (name, options)
     assert "there is no coarser grid" in solve("parabolic_slider", resolution=12).warnings[0]
     same = solve("parabolic_slider", "geometry.count=1000", resolution=500)  # one cell for each, on every grid
     assert all(quantity.uncertainty is None for quantity in same.quantities.values())
-    assert any("has 1 cells" in told for told in same.warnings)
+    assert any("has 1 cells" in warning for warning in same.warnings)
 
 
 @pytest.mark.parametrize("modulus", ["1 Pa", "1 GPa"])
-def test_what_is_left_out_is_told_whatever_the_film(modulus):
+def test_the_neglected_effects_are_reported_for_any_film(modulus):
     law = ["lubricant.piezoviscosity.law=barus", "lubricant.piezoviscosity.pressure_coefficient=20 GPa^-1"]
     bulk = f"lubricant.compressibility.bulk_modulus={modulus}"
     rough = 'roughness={"kind": "sinusoid", "amplitude": "0.05 um", "wavelength": "1 mm"}'
@@ -292,19 +292,19 @@ def test_one_line_does_not_stand_for_pockets_or_rings():
     assert not find("bearing", "infinitely_wide").applies(read_scene(entries)).applies
 
 
-def test_a_grid_too_coarse_for_the_wall_says_so():
+def test_a_grid_too_coarse_for_the_wall_is_reported():
     coarse = solve("textured_slider", resolution=40)
-    assert any("has 4 cells; take at least 2 times" in told for told in coarse.warnings)
+    assert any("has 4 cells; take at least 2 times" in warning for warning in coarse.warnings)
     fine, enough = solve("textured_slider"), solve("textured_slider", resolution=80)
     assert fine.warnings == enough.warnings == ()
     assert values(enough)["load_per_width"] == pytest.approx(values(fine)["load_per_width"], rel=0.05)
 
 
-def test_a_law_beyond_its_pressures_says_so():
+def test_pressures_outside_the_range_of_a_law_are_reported():
     rows = [[0, 870], [1e6, 870.5], [2e6, 871]]
     entries = scene_entries(load_scene(SCENES / "parabolic_slider.toml"))
     entries["lubricant"]["compressibility"] = {"law": "tabulated", "table": rows}
-    told = CAVITATING.solve(read_scene(entries), Request(resolution=256)).warnings
-    assert len(told) == 1
-    assert "the law tabulated is valid up to 2e+06 Pa" in told[0]
+    warning = CAVITATING.solve(read_scene(entries), Request(resolution=256)).warnings
+    assert len(warning) == 1
+    assert "the law tabulated is valid up to 2e+06 Pa" in warning[0]
     assert solve("parabolic_slider", resolution=256).warnings == ()

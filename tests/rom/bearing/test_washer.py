@@ -58,7 +58,7 @@ def test_the_floor_rises_from_the_wall_and_from_the_inner_edge_to_the_land():
         ("boundary.inlet.theta=0.5", "boundary: got an inlet or outlet, but joined pads"),
     ],
 )
-def test_faults_of_a_washer_are_told_in_one_line(override, words):
+def test_errors_of_a_washer_are_reported_in_one_line(override, words):
     with pytest.raises(InputError, match=words) as caught:
         washer(override)
     assert "\n" not in str(caught.value)
@@ -68,12 +68,14 @@ def test_a_washer_at_rest_without_pockets_leaks_as_the_logarithm_of_the_radii():
     """p = p₁ ln(R/r)/ln(R/r₁), Q = φ h³ p₁/(12 η ln(R/r₁)), F = φ p₁ ((R² - r₁²)/(4 ln(R/r₁)) - r₁²/2)."""
     entries = scene_entries(washer("motion.speed=0 m/s"))
     del entries["geometry"]["pocket"]
-    found = solve(read_scene(entries).problem(), (8, 256))
-    pressure, log = found.state.pressure - 1e5, math.log(OUTER / INNER)
-    assert pressure == pytest.approx(np.broadcast_to(1e5 * np.log(OUTER / found.grid.y) / log, pressure.shape), abs=0.2)
-    force = float((found.grid.areas * pressure).sum())
+    result = solve(read_scene(entries).problem(), (8, 256))
+    pressure, log = result.state.pressure - 1e5, math.log(OUTER / INNER)
+    assert pressure == pytest.approx(
+        np.broadcast_to(1e5 * np.log(OUTER / result.grid.y) / log, pressure.shape), abs=0.2
+    )
+    force = float((result.grid.areas * pressure).sum())
     assert force == pytest.approx(TURN * 1e5 * ((OUTER**2 - INNER**2) / (4 * log) - INNER**2 / 2), rel=2e-6)
-    fine = found.network.conductance(np.ones_like(pressure))[1]
+    fine = result.network.conductance(np.ones_like(pressure))[1]
     flow = float((-fine[:, :-1] * np.diff(pressure, axis=1)).sum(axis=0)[-1])
     assert flow == pytest.approx(TURN * (5e-6) ** 3 * 1e5 / (12 * 0.14 * log), rel=1e-5)
 
@@ -110,8 +112,8 @@ def test_points_of_a_wedge_are_the_wedge(tmp_path):
 
 def test_points_in_a_text_file_have_the_unit_of_its_header(tmp_path):
     """A line for each y, a column for each x."""
-    told = given(tmp_path, "# spacing: 1 mm, 1 mm; heights: um\n14, 13, 12\n14, 13, 13\n", "h.csv")
-    assert film_of(told, [0, 10e-3, 20e-3], [0, 10e-3, 10e-3]) == pytest.approx(np.array([12, 11, 11]) * 1e-6)
+    scene = given(tmp_path, "# spacing: 1 mm, 1 mm; heights: um\n14, 13, 12\n14, 13, 13\n", "h.csv")
+    assert film_of(scene, [0, 10e-3, 20e-3], [0, 10e-3, 10e-3]) == pytest.approx(np.array([12, 11, 11]) * 1e-6)
     plain = given(tmp_path, "14e-6, 13e-6, 12e-6\n14e-6, 13e-6, 13e-6\n", "p.csv")
     assert film_of(plain, [0, 5e-3], 5e-3) == pytest.approx(np.array([12, 11.5]) * 1e-6)
 
@@ -142,12 +144,12 @@ def test_another_film_under_the_same_name_is_refused(tmp_path):
         read_scene(written)
 
 
-def test_a_film_is_sought_beside_its_scene(tmp_path):
+def test_a_film_file_is_relative_to_its_scene(tmp_path):
     scene = given(tmp_path, np.array([[1e-6, 2e-6], [3e-6, 4e-6]]))
     text = SCENE.read_text().split("[lubricant]")[1]
     head = 'name = "pad"\nkind = "bearing"\n[geometry]\nshape = "given"\nlength = "20 mm"\nwidth = "10 mm"\n'
     (tmp_path / "pad.toml").write_text(head + 'film = "10 um"\nthickness = "h.npy"\n[lubricant]' + text)
-    found = load_scene(tmp_path / "pad.toml").geometry
-    assert found.digest == scene.geometry.digest
+    result = load_scene(tmp_path / "pad.toml").geometry
+    assert result.digest == scene.geometry.digest
     with pytest.raises(InputError, match=r"scene\.geometry\.thickness: in .*other\.npy: no such file"):
         load_scene(tmp_path / "pad.toml", ["geometry.thickness=other.npy"])

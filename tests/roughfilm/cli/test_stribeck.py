@@ -13,7 +13,7 @@ from roughfilm.cli.main import app
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.mechanics.store import load_contact
 from roughfilm.rom.bearing.mixed import curves as stribeck_sweep
-from roughfilm.rom.bearing.mixed.curves_store import NUMBERS
+from roughfilm.rom.bearing.mixed.store import NUMBERS
 from roughfilm.rom.homogenization.table.store import load_table
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.terminal.ranges import speeds_of

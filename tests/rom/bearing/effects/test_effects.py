@@ -1,4 +1,4 @@
-"""A bearing without some of its effects: the rungs of the ladder, limits, sums, loads."""
+"""A bearing without some of its effects: the models of the ladder, limits, sums, loads."""
 
 import math
 from dataclasses import replace
@@ -76,9 +76,9 @@ def scene(*left_out: str, **tables: Any) -> Bearing:
     entries = {name: table for name, table in PAD.items() if name not in left_out}
     for name, table in tables.items():
         entries[name] = {**entries.get(name, {}), **table}
-    found = read_scene(entries)
-    assert isinstance(found, Bearing)
-    return found
+    result = read_scene(entries)
+    assert isinstance(result, Bearing)
+    return result
 
 
 def smooth(**tables: Any) -> Bearing:
@@ -92,27 +92,27 @@ def all_steps() -> tuple[VariantSolution, ...]:
     return tuple(at_film(taken, CELLS) for taken in steps(scene()))
 
 
-def rung(taken: Bearing, name: str) -> dict[str, float]:
-    """What a rung of the ladder says on the same cells."""
-    found = find("bearing", name).solve(taken, Request(resolution=CELLS))
-    return {quantity: told.value for quantity, told in found.quantities.items()}
+def model_values(taken: Bearing, name: str) -> dict[str, float]:
+    """The quantities of a model on the same cells."""
+    result = find("bearing", name).solve(taken, Request(resolution=CELLS))
+    return {quantity: entry.value for quantity, entry in result.quantities.items()}
 
 
-def test_the_whole_pad_and_its_steps_are_the_rungs_of_the_ladder(all_steps: tuple[VariantSolution, ...]) -> None:
+def test_the_whole_pad_and_its_steps_are_models_of_the_ladder(all_steps: tuple[VariantSolution, ...]) -> None:
     names = ["reynolds", "reynolds_incompressible", "reynolds_cavitating", "homogenized", "mixed"]
     for name, step in zip(names, all_steps[2:], strict=True):
-        for quantity, value in rung(scene(), name).items():
+        for quantity, value in model_values(scene(), name).items():
             assert step.values[quantity] == pytest.approx(value, rel=1e-9, abs=1e-12), (name, quantity)
 
 
 def test_without_side_flow_a_pad_is_a_line_of_it() -> None:
     bare = smooth(geometry={"texture": None})
     taken = next(one for one in ablations(bare) if not one.sides)
-    line = rung(bare, "infinitely_wide")
-    found = at_film(taken, CELLS).values
+    line = model_values(bare, "infinitely_wide")
+    result = at_film(taken, CELLS).values
     for name in ("load_per_width", "friction_per_width", "inlet_flow_per_width", "pressure_max"):
-        assert found[name] == pytest.approx(line[name], rel=1e-7)
-    assert found["side_leakage"] == pytest.approx(0.0, abs=1e-15)
+        assert result[name] == pytest.approx(line[name], rel=1e-7)
+    assert result["side_leakage"] == pytest.approx(0.0, abs=1e-15)
 
 
 def test_steps_add_up_to_all_of_it(all_steps: tuple[VariantSolution, ...]) -> None:
@@ -134,7 +134,7 @@ def test_every_effect_of_this_pad_does_something(all_steps: tuple[VariantSolutio
         assert abs(alone.value) > 1e-3 * whole.values["load"]
 
 
-def test_taking_away_what_a_scene_lacks_changes_nothing() -> None:
+def test_switching_off_an_absent_effect_changes_nothing() -> None:
     lacking = smooth(
         geometry={"texture": None}, lubricant={"compressibility": "incompressible", "piezoviscosity": "constant"}
     )
@@ -171,7 +171,7 @@ def test_effects_vanish_where_they_should(effect: str, tables: dict[str, Any], m
     assert abs(friction.value) <= most * whole.values["friction"] + friction.uncertainty
 
 
-def test_walls_far_apart_neither_touch_nor_feel_what_was_taken_from_their_flow() -> None:
+def test_distant_walls_have_the_flow_of_a_smooth_film() -> None:
     apart = scene(geometry={"film": "200 um", "rise": "100 um"})
     whole = at_film(Variant(scene=apart), CELLS).values
     assert whole["contact_load"] == 0
@@ -183,22 +183,22 @@ def test_walls_far_apart_neither_touch_nor_feel_what_was_taken_from_their_flow()
 
 
 def test_without_flow_factors_asperities_carry_what_they_did(all_steps: tuple[VariantSolution, ...]) -> None:
-    found = at_film(Variant(scene=scene(), factors=False), CELLS)
-    assert found.values["contact_load"] == pytest.approx(all_steps[-1].values["contact_load"], rel=1e-12)
+    result = at_film(Variant(scene=scene(), factors=False), CELLS)
+    assert result.values["contact_load"] == pytest.approx(all_steps[-1].values["contact_load"], rel=1e-12)
 
 
-def test_the_error_of_a_difference_covers_what_finer_grids_say() -> None:
+def test_the_uncertainty_of_a_difference_covers_finer_grids() -> None:
     pad = smooth()
     coarse, fine = ([at_film(taken, cells) for taken in steps(pad)] for cells in (CELLS, 4 * CELLS))
     sharper = 0
     for place, (less, more) in enumerate(pairwise(coarse)):
-        told, truth = difference(more, less, "load"), difference(fine[place + 1], fine[place], "load")
+        estimate, truth = difference(more, less, "load"), difference(fine[place + 1], fine[place], "load")
         whole = amount(more, "load")
-        assert told is not None
+        assert estimate is not None
         assert truth is not None
         assert whole is not None
-        assert abs(told.value - truth.value) <= told.uncertainty + truth.uncertainty
-        sharper += told.uncertainty < whole.uncertainty / 2
+        assert abs(estimate.value - truth.value) <= estimate.uncertainty + truth.uncertainty
+        sharper += estimate.uncertainty < whole.uncertainty / 2
     assert sharper >= 2
 
 
@@ -218,26 +218,26 @@ def test_a_wedge_carries_its_load_where_reynolds_says() -> None:
     ratio = rise / film
     unit = 6 * 0.02 * 3 * length / film**2
     pressure = unit * (math.log(1 + ratio) - 2 * ratio / (2 + ratio)) / ratio**2
-    found = under_load(Variant(scene=wedge), pressure, 1024)
-    assert found.values["film"] == pytest.approx(film, rel=1e-5)
-    told = amount(found, "film")
-    assert told is not None
-    assert abs(told.value - film) <= told.uncertainty
+    result = under_load(Variant(scene=wedge), pressure, 1024)
+    assert result.values["film"] == pytest.approx(film, rel=1e-5)
+    estimate = amount(result, "film")
+    assert estimate is not None
+    assert abs(estimate.value - film) <= estimate.uncertainty
 
 
 def test_the_whole_pad_under_a_load_is_the_mixed_film_in_balance() -> None:
     pressure = 1.5e6
-    found, truth = (
+    result, truth = (
         under_load(Variant(scene=scene()), pressure, CELLS),
         equilibrium(scene(), pressure, resolution=CELLS),
     )
-    assert found.values["load"] == pytest.approx(pressure * 20e-3 * 16e-3, rel=1e-6)
-    assert found.values["film"] == pytest.approx(truth.separation, rel=1e-5)
-    assert found.values["friction"] == pytest.approx(truth.friction, rel=1e-4)
-    assert found.values["contact_share"] == pytest.approx(truth.contact_share, rel=1e-4)
+    assert result.values["load"] == pytest.approx(pressure * 20e-3 * 16e-3, rel=1e-6)
+    assert result.values["film"] == pytest.approx(truth.separation, rel=1e-5)
+    assert result.values["friction"] == pytest.approx(truth.friction, rel=1e-4)
+    assert result.values["contact_share"] == pytest.approx(truth.contact_share, rel=1e-4)
 
 
-def test_a_film_that_carries_nothing_is_told_and_the_rest_goes_on() -> None:
+def test_a_variant_without_a_solution_is_reported_with_the_others_solved() -> None:
     waves = read_scene(
         {
             "name": "waves",
@@ -255,10 +255,10 @@ def test_a_film_that_carries_nothing_is_told_and_the_rest_goes_on() -> None:
         }
     )
     assert isinstance(waves, Bearing)
-    found = study_effects(waves, lambda taken, progress: under_load(taken, 5e4, 128, progress))
-    assert set(found.unsolved) == {"the plain film"}
-    assert found.plain == {}
-    (cavitation,) = found.contributions
+    result = study_effects(waves, lambda taken, progress: under_load(taken, 5e4, 128, progress))
+    assert set(result.unsolved) == {"the plain film"}
+    assert result.plain == {}
+    (cavitation,) = result.contributions
     assert cavitation.on == {} == cavitation.alone
     assert cavitation.after["load_per_width"].value == pytest.approx(5e4 * 10e-3, rel=1e-5)
 
@@ -277,37 +277,37 @@ def test_a_study_solves_no_bearing_twice_and_adds_up() -> None:
         solved.append(taken)
         return at_film(taken, CELLS)
 
-    found = study_effects(smooth(), solve)
-    assert len(solved) == 2 * len(found.contributions)
+    result = study_effects(smooth(), solve)
+    assert len(solved) == 2 * len(result.contributions)
     assert all(one != other for place, one in enumerate(solved) for other in solved[:place])
-    total = found.plain["load"].value + sum(one.on["load"].value for one in found.contributions)
-    assert total == pytest.approx(found.full["load"].value, rel=1e-12)
-    last = found.contributions[-1]
+    total = result.plain["load"].value + sum(one.on["load"].value for one in result.contributions)
+    assert total == pytest.approx(result.full["load"].value, rel=1e-12)
+    last = result.contributions[-1]
     assert last.alone["load"].value == last.on["load"].value
 
 
 def test_each_effect_has_its_model_and_its_numbers() -> None:
-    told = {one.effect: one for one in effect_models(scene(lubricant={**PAD["lubricant"], "density": "850 kg/m^3"}))}
-    assert list(told) == [*(effect.name for effect in EFFECTS), "inertia"]
-    assert told["roughness"].model == "homogenized"
-    assert "period over length = 0.015" in told["roughness"].why
-    assert "λ = h/Sq = 2.3" in told["asperities"].why
-    assert f"Re·h/l = {850 * 4 * 2.8e-6 / 0.01 * 2.8e-6 / 4e-3:.2g}" in told["texture"].why
+    models = {one.effect: one for one in effect_models(scene(lubricant={**PAD["lubricant"], "density": "850 kg/m^3"}))}
+    assert list(models) == [*(effect.name for effect in EFFECTS), "inertia"]
+    assert models["roughness"].model == "homogenized"
+    assert "period over length = 0.015" in models["roughness"].why
+    assert "λ = h/Sq = 2.3" in models["asperities"].why
+    assert f"Re·h/l = {850 * 4 * 2.8e-6 / 0.01 * 2.8e-6 / 4e-3:.2g}" in models["texture"].why
     assert [one.why for one in effect_models(smooth())][-1].startswith("left out: the scene has no lubricant.density")
 
 
-def test_compositions_of_one_scene_are_told_apart() -> None:
+def test_variants_of_one_scene_differ() -> None:
     whole = Variant(scene=scene())
     assert replace(whole, sides=False) != whole
     assert Variant(scene=scene()) == whole
 
 
-def test_a_film_that_its_roughness_seals_is_told_and_the_asperities_carry_on() -> None:
+def test_a_film_sealed_by_its_roughness_is_reported_with_the_others_solved() -> None:
     thin = scene(geometry={"film": "0.3 um", "rise": "0.1 um", "texture": None}, lubricant=CONSTANT)
-    found = study_effects(thin, lambda taken, _progress: at_film(taken, CELLS))
-    assert set(found.unsolved) == {"with roughness"}
-    assert "blocks the flow" in found.unsolved["with roughness"]
-    assert found.full["contact_load"].value > 0
-    roughness, asperities = found.contributions[-2:]
+    result = study_effects(thin, lambda taken, _progress: at_film(taken, CELLS))
+    assert set(result.unsolved) == {"with roughness"}
+    assert "blocks the flow" in result.unsolved["with roughness"]
+    assert result.full["contact_load"].value > 0
+    roughness, asperities = result.contributions[-2:]
     assert roughness.on == {} == asperities.on == asperities.alone
     assert roughness.alone["load"].value > 0

@@ -76,7 +76,7 @@ def test_flow_across_the_ridges_falls_with_load_until_it_is_sealed(table):
     assert pressed[-1].factors.sealed[0]
 
 
-def test_between_its_loads_it_says_what_the_contact_and_its_cell_say(table):
+def test_interpolation_between_loads_agrees_with_contact_and_cell_problem(table):
     press = Press(HEIGHTS, SPACING, MODULUS, hardness=HARDNESS)
     peak = HEIGHTS.max() - HEIGHTS.mean()
     for load in (3.3e6, 4.7e7, 6.1e8):
@@ -86,15 +86,15 @@ def test_between_its_loads_it_says_what_the_contact_and_its_cell_say(table):
         assert table.separation_at(load) == pytest.approx(alpha[0], abs=0.04 * HEIGHTS.std())
         assert table.mean_gap(alpha) == pytest.approx(contact.mean_gap, rel=0.01)
         assert table.area_fraction(alpha) == pytest.approx(contact.area_fraction, rel=0.1, abs=2 / SIDE**2)
-        own, told = flow_factors(contact.gap, SPACING).factors, table(alpha)
+        own, interpolated = flow_factors(contact.gap, SPACING).factors, table(alpha)
         size = own.mean_gap**3
-        assert told.along[0] / size == pytest.approx(own.pressure[0, 0] / size, abs=0.03)
-        assert told.across[0] / size == pytest.approx(own.pressure[1, 1] / size, rel=0.03)
-        assert told.cross[0] / size == pytest.approx(own.pressure[0, 1] / size, abs=0.03)
-        assert told.drag[0] == pytest.approx(own.shear[0], rel=0.03)
+        assert interpolated.along[0] / size == pytest.approx(own.pressure[0, 0] / size, abs=0.03)
+        assert interpolated.across[0] / size == pytest.approx(own.pressure[1, 1] / size, rel=0.03)
+        assert interpolated.cross[0] / size == pytest.approx(own.pressure[0, 1] / size, abs=0.03)
+        assert interpolated.drag[0] == pytest.approx(own.shear[0], rel=0.03)
 
 
-def test_the_doubt_of_the_pressure_covers_what_a_finer_grid_says():
+def test_the_uncertainty_of_the_pressure_covers_a_finer_grid():
     fine = zoom(HEIGHTS, 4)
     press = Press(fine, (SPACING[0] / 4, SPACING[1] / 4), MODULUS, hardness=HARDNESS)
     table = tabulate_pressed(HEIGHTS, SPACING, MODULUS, hardness=HARDNESS, loads=[2e7, 2e8, 1e9], tolerance=0.05)
@@ -126,18 +126,18 @@ def test_a_single_wave_carries_what_westergaard_says():
     spacing = (100e-6 / 64, 100e-6 / 8)
     table = tabulate_pressed(heights, spacing, MODULUS, loads=np.geomspace(0.02, 0.6, 5) * 2e9 * np.pi, tolerance=0.02)
     pressure = 0.2 * 2e9 * np.pi
-    found = table.area_fraction(np.array([table.separation_at(pressure)]))
+    result = table.area_fraction(np.array([table.separation_at(pressure)]))
     exact = Westergaard(amplitude=1e-6, wavelength=100e-6, composite_modulus=MODULUS, load=pressure).area_fraction
-    assert found == pytest.approx(exact, abs=2 / 64)
+    assert result == pytest.approx(exact, abs=2 / 64)
 
 
 @pytest.mark.parametrize("ask", ["__call__", "contact_pressure", "mean_gap", "area_fraction", "pressure_uncertainty"])
-def test_nothing_is_said_closer_than_the_greatest_load(elastic, ask):
+def test_separations_below_the_largest_load_are_refused(elastic, ask):
     with pytest.raises(InputError, match=r"it must be at least .* where the contact pressure is 1e\+09 Pa"):
         getattr(elastic, ask)(np.array([0.9 * elastic.closest]))
 
 
-def test_no_separation_is_told_for_pressures_that_it_does_not_know(elastic):
+def test_pressures_outside_the_table_have_no_separation(elastic):
     for pressure in (0.0, -1.0, 1.1e9, np.nan):
         with pytest.raises(InputError, match="make a table with larger loads"):
             elastic.separation_at(pressure)
@@ -150,7 +150,7 @@ def test_a_table_is_extended_and_nothing_known_is_solved_again(elastic):
         SPACING,
         MODULUS,
         loads=[1e7, 1e8, 1e9],
-        reach=2e9,
+        required_load=2e9,
         tolerance=0.05,
         known=elastic.factors.points,
         keep=solved.append,
@@ -167,7 +167,7 @@ def test_two_threads_make_the_same_table(elastic):
     assert np.array_equal(both(alpha).across, elastic(alpha).across)
 
 
-def test_a_file_gives_it_back(elastic, tmp_path):
+def test_a_table_is_read_back_from_its_file(elastic, tmp_path):
     inputs = Inputs(heights=HEIGHTS, spacing=SPACING, settings={"rule": "linear"})
     save_table(tmp_path / "T.h5", inputs, elastic.factors)
     again = AsperityTable(factors=load_table(tmp_path / "T.h5"))
@@ -177,7 +177,7 @@ def test_a_file_gives_it_back(elastic, tmp_path):
     assert np.array_equal(again.pressure_uncertainty(alpha), elastic.pressure_uncertainty(alpha))
 
 
-def test_a_table_without_loads_cannot_say_what_asperities_carry(elastic):
+def test_a_table_without_loads_is_refused(elastic):
     points = [point for point in elastic.factors.points if not point.load]
     with pytest.raises(InputError, match="has 0 points under load"):
         AsperityTable(factors=dataclasses.replace(elastic.factors, points=points))
@@ -190,7 +190,7 @@ def test_a_table_without_loads_cannot_say_what_asperities_carry(elastic):
         ({"loads": [1e6, -1e6]}, "two or more"),
         ({"loads": [1e6, np.nan]}, "two or more"),
         ({"loads": [1e6, 5e9], "hardness": HARDNESS}, "must not exceed the hardness of 4e\\+09 Pa"),
-        ({"reach": 5e9, "hardness": HARDNESS}, "must not exceed the hardness"),
+        ({"required_load": 5e9, "hardness": HARDNESS}, "must not exceed the hardness"),
         ({"loads": [1e6, 1e13]}, "closes the gap everywhere"),
     ],
 )
@@ -199,7 +199,7 @@ def test_loads_out_of_range_are_refused(how, words):
         tabulate_pressed(HEIGHTS, SPACING, MODULUS, tolerance=0.5, **how)
 
 
-def test_patir_and_cheng_agree_on_ridges_along_the_sliding_and_know_no_oblique_flow(table):
+def test_patir_and_cheng_agree_on_longitudinal_ridges_and_have_no_oblique_flow(table):
     ridges = np.tile(0.5e-6 * np.sin(2 * np.pi * np.arange(32) / 32), (8, 1))
     straight = tabulate_pressed(ridges, SPACING, MODULUS, loads=[1e8, 1e9], tolerance=0.05)
     same = patir_cheng_table(straight, Press(ridges, SPACING, MODULUS))

@@ -28,7 +28,7 @@ def love(x, y, side_x, side_y):
     return sum(i * j * corner(x + i * side_x / 2, y + j * side_y / 2) for i, j in signs)
 
 
-def test_stiff_bodies_do_not_bend(tips):
+def test_stiff_bodies_do_not_deform(tips):
     film = film_of(tips)
     rigid = balanced(FilmsAtSpeed(film=film, speed=0.1), 3e6, tolerance=1e-9)
     bent = elastic_equilibrium(film, 1e9 * MODULUS, 3e6, 0.1, tolerance=1e-8)
@@ -79,7 +79,7 @@ def test_the_softer_the_bodies_the_more_of_a_crown_touches(tips):
     assert 4 < widths[0] < 0.99 * widths[1] < 0.98 * widths[2]
 
 
-def test_a_load_that_presses_bent_walls_beyond_the_table_is_refused(tips):
+def test_a_load_beyond_the_table_of_elastic_bodies_is_refused(tips):
     with pytest.raises(InputError, match=r"closer than the smallest separation|carry at most"):
         elastic_equilibrium(film_of(tips), MODULUS, 45e6, 0.0)
 
@@ -104,6 +104,6 @@ def test_a_symmetric_pad_bends_symmetrically_whichever_way_it_slides(tips):
         ),
     ],
 )
-def test_what_cannot_bend_is_refused(tips, geometry, modulus, words):
+def test_bearings_without_elastic_bodies_are_refused(tips, geometry, modulus, words):
     with pytest.raises(InputError, match=words):
         elastic_equilibrium(film_of(tips, geometry), modulus, 1e6, 0.1)

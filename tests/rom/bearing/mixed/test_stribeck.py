@@ -42,11 +42,11 @@ def at_speed(scene, speed):
 @pytest.mark.parametrize("pressure", [1e3, 1e6, 30e6])
 def test_at_rest_asperities_alone_carry_a_parallel_pad(tips, pressure):
     scene = tips.scene(PARALLEL, motion={"speed": "0 m/s"})
-    found = equilibrium(scene, pressure, resolution=16)
-    assert found.separation == pytest.approx(tips.touching * (1 - (pressure / tips.stiffness) ** (2 / 3)), rel=1e-6)
-    assert found.friction_coefficient == pytest.approx(tips.friction, rel=1e-12)
-    assert found.contact_share == pytest.approx(1, rel=1e-12)
-    assert found.load == pytest.approx(pressure * 2e-4, rel=TOLERANCE)
+    result = equilibrium(scene, pressure, resolution=16)
+    assert result.separation == pytest.approx(tips.touching * (1 - (pressure / tips.stiffness) ** (2 / 3)), rel=1e-6)
+    assert result.friction_coefficient == pytest.approx(tips.friction, rel=1e-12)
+    assert result.contact_share == pytest.approx(1, rel=1e-12)
+    assert result.load == pytest.approx(pressure * 2e-4, rel=TOLERANCE)
 
 
 @pytest.mark.parametrize(("pressure", "speed"), [(0.5e6, 1.0), (2e6, 1.0), (2e6, 0.1), (20e6, 0.1)])
@@ -62,28 +62,28 @@ def test_a_wedge_lies_where_its_closed_forms_balance(tips, pressure, speed):
 
     film = brentq(lambda h: carried(h)[0].load + carried(h)[1] - pressure * 20e-3, tips.closest, 1e-3, xtol=1e-16)
     slider, contact = carried(film)
-    found = equilibrium(at_speed(tips.scene(LINEAR), speed), pressure, resolution=512)
-    assert found.separation == pytest.approx(film, rel=3e-5)
-    assert found.least_gap == found.separation
-    assert found.contact_load == pytest.approx(contact, rel=3e-4, abs=1e-9)
-    assert found.friction == pytest.approx(slider.friction + tips.friction * contact, rel=1e-4)
-    assert found.balance <= TOLERANCE
+    result = equilibrium(at_speed(tips.scene(LINEAR), speed), pressure, resolution=512)
+    assert result.separation == pytest.approx(film, rel=3e-5)
+    assert result.least_gap == result.separation
+    assert result.contact_load == pytest.approx(contact, rel=3e-4, abs=1e-9)
+    assert result.friction == pytest.approx(slider.friction + tips.friction * contact, rel=1e-4)
+    assert result.balance <= TOLERANCE
 
 
 @pytest.mark.parametrize(
     ("geometry", "more", "pressure"),
     [(PAD, {}, 5e6), (JOURNAL, {}, 2e6), (WASHER, FED, 1e6), (JOURNAL | {"width": "4 mm"}, {}, 20e6)],
 )
-def test_the_rung_at_the_separation_found_carries_the_load(tips, geometry, more, pressure):
+def test_the_model_carries_the_load_at_the_solved_separation(tips, geometry, more, pressure):
     scene = tips.scene(geometry, **more)
-    found = equilibrium(scene, pressure, resolution=32)
-    assert 0 < found.contact_share < 1
-    there = scene.model_copy(update={"geometry": scene.geometry.at_film(found.separation)})
+    point = equilibrium(scene, pressure, resolution=32)
+    assert 0 < point.contact_share < 1
+    there = scene.model_copy(update={"geometry": scene.geometry.at_film(point.separation)})
     result = MIXED.solve(there, Request(resolution=32))
-    area = 2 * 10e-3 * scene.geometry.width if geometry["shape"] == "journal" else found.load / pressure
+    area = 2 * 10e-3 * scene.geometry.width if geometry["shape"] == "journal" else point.load / pressure
     assert result.quantities["load"].value == pytest.approx(pressure * area, rel=1e-5)
     for name in ("contact_load", "friction", "friction_coefficient", "pressure_max", "contact_area", "contact_share"):
-        assert getattr(found, name) == pytest.approx(result.quantities[name].value, rel=1e-4), name
+        assert getattr(point, name) == pytest.approx(result.quantities[name].value, rel=1e-4), name
 
 
 def test_loads_beyond_the_asperities_are_refused_with_the_largest(tips):
@@ -97,13 +97,13 @@ def test_loads_beyond_the_asperities_are_refused_with_the_largest(tips):
         equilibrium(scene, 1.001 * most, resolution=16)
 
 
-def test_walls_that_float_at_any_distance_are_refused(tips):
+def test_a_load_below_that_at_any_separation_is_refused(tips):
     scene = tips.scene(PARALLEL, motion={"speed": "0 m/s"}, boundary={"inlet": {"pressure": "3 MPa"}})
     with pytest.raises(InputError, match="at any separation; raise the load"):
         equilibrium(scene, 1e5, resolution=16)
 
 
-def test_a_journal_without_a_load_line_to_give_way_is_told_its_largest_load(tips):
+def test_a_journal_with_too_large_a_load_reports_the_largest_load(tips):
     with pytest.raises(InputError, match="carry at most"):
         equilibrium(tips.scene(JOURNAL), 1e9, resolution=16)
 
@@ -124,8 +124,8 @@ def test_lift_off_is_where_the_film_just_carries(tips):
     speed, twice = (lift_off_speed(film, pressure, 1e-3, tolerance=1e-9) for pressure in (1e6, 2e6))
     assert speed == pytest.approx(1e6 * 20e-3 / slider.load, rel=1e-5)
     assert twice == pytest.approx(2 * speed, rel=1e-8)
-    found = equilibrium(at_speed(scene, speed), 1e6, resolution=512, tolerance=1e-9)
-    assert found.separation == pytest.approx(tips.touching, rel=1e-6)
+    result = equilibrium(at_speed(scene, speed), 1e6, resolution=512, tolerance=1e-9)
+    assert result.separation == pytest.approx(tips.touching, rel=1e-6)
 
 
 def test_what_floats_at_rest_and_what_never_lifts(tips):
@@ -200,20 +200,20 @@ def test_finished_points_are_not_solved_again(swept):
     assert sum(point.cpu_s == -1.0 for curve in again for point in curve.points) == 7
 
 
-def test_a_point_that_is_found_again_without_its_bars_is_given_them(swept):
+def test_a_stored_point_without_uncertainty_is_completed(swept):
     scene, curves, _ = swept
     old = curves[0].points[0]
     bare, new = dataclasses.replace(old, uncertainty={}), []
     again = stribeck(
         scene, [old.speed], [old.pressure], resolution=32, tolerance=TOLERANCE, known=[bare], keep=new.append
     )
-    found = again[0].points[0]
-    assert new == [found]
-    assert found.separation == old.separation
-    assert found.uncertainty["separation"] == pytest.approx(old.uncertainty["separation"], rel=1e-3)
+    result = again[0].points[0]
+    assert new == [result]
+    assert result.separation == old.separation
+    assert result.uncertainty["separation"] == pytest.approx(old.uncertainty["separation"], rel=1e-3)
 
 
-def test_the_bar_of_friction_holds_what_its_factors_leave_open(tips):
+def test_the_uncertainty_of_friction_covers_that_of_its_factors(tips):
     def bar(unsure):
         table = tips.table()
         points = [
@@ -231,13 +231,13 @@ def test_the_bar_of_friction_holds_what_its_factors_leave_open(tips):
 
 
 @pytest.mark.parametrize("speeds", [[0.0], [1e-7], [50.0]])
-def test_lift_off_is_found_from_whatever_speeds_are_asked_for(tips, speeds):
+def test_lift_off_does_not_depend_on_the_requested_speeds(tips, speeds):
     curve = stribeck(tips.scene(LINEAR), speeds, [2e6], resolution=64)[0]
     slider = linear_slider(film=tips.touching, rise=1.5e-6, length=20e-3, speed=1.0, viscosity=0.1)
     assert curve.lift_off.speed == pytest.approx(2e6 * 20e-3 / slider.load, rel=0.01)
 
 
-def test_error_bars_hold_what_finer_grids_change(tips):
+def test_uncertainties_cover_finer_grids(tips):
     """On a wedge with a closed form."""
     speeds, pressure = [0.3, 1.0], 2e6
     curve = stribeck(tips.scene(LINEAR), speeds, [pressure], resolution=64)[0]
@@ -251,7 +251,7 @@ def test_error_bars_hold_what_finer_grids_change(tips):
             assert abs(getattr(point, name) - getattr(fine, name)) <= unsure + 2e-6 * abs(getattr(fine, name)), name
 
 
-def test_a_film_given_by_points_goes_the_same_way(tips, tmp_path):
+def test_a_film_given_by_points_has_the_same_curve(tips, tmp_path):
     np.save(tmp_path / "wedge.npy", np.linspace(6e-6, 1e-6, 33)[:, None] * np.ones(3))
     given = {"shape": "given", "length": "20 mm", "width": "20 mm", "film": "1 um", "thickness": str(tmp_path / "wedge.npy")}  # fmt: skip  # noqa: E501
     one, other = (equilibrium(tips.scene(shape), 1e6, resolution=32) for shape in (PAD, given))
@@ -270,7 +270,7 @@ def test_a_film_given_by_points_goes_the_same_way(tips, tmp_path):
         ([1.0], [1e6], 8, "resolution: got 8"),
     ],
 )
-def test_sweeps_that_make_no_sense_are_refused(tips, speeds, pressures, resolution, words):
+def test_invalid_speeds_and_loads_are_refused(tips, speeds, pressures, resolution, words):
     with pytest.raises(InputError, match=words):
         stribeck(tips.scene(PAD), speeds, pressures, resolution=resolution)
 
@@ -281,8 +281,8 @@ def test_a_bearing_without_asperities_is_refused(tips):
         stribeck(scene, [1.0], [1e6])
 
 
-def test_crushed_tips_may_lie_behind_the_mean_plane(tips):
-    """A table whose separations go below 0: the walls are found there too."""
+def test_separations_may_be_negative(tips):
+    """A table whose separations go below 0: the walls are in equilibrium there too."""
     table = tips.table()
     points = tuple(
         dataclasses.replace(point, separation=point.separation - 0.5e-6) if point.load else point
@@ -292,6 +292,6 @@ def test_crushed_tips_may_lie_behind_the_mean_plane(tips):
     assert crushed.closest < 0
     film = MixedFilm(scene=tips.scene(PARALLEL), asperities=crushed, cells=16)
     pressure = 0.999 * crushed.largest_pressure
-    found = balanced(FilmsAtSpeed(film=film, speed=0.0), pressure, tolerance=1e-9)
-    assert found.scene.geometry.film == pytest.approx(crushed.separation_at(pressure), rel=1e-6)
-    assert found.scene.geometry.film < 0
+    result = balanced(FilmsAtSpeed(film=film, speed=0.0), pressure, tolerance=1e-9)
+    assert result.scene.geometry.film == pytest.approx(crushed.separation_at(pressure), rel=1e-6)
+    assert result.scene.geometry.film < 0

@@ -1,4 +1,4 @@
-"""A surface in space under a few loads, by pyvista: python -m roughfilm.figures.contact_view VIEWS.npz PICTURE.png."""
+"""A surface in space under loads, by pyvista: python -m roughfilm.figures.pressed_surface VIEWS.npz PICTURE.png."""
 
 import sys
 import tempfile
@@ -9,8 +9,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.mechanics.gap_map import GapMap
-from roughfilm.figures.rendering import draw_apart, embedded
-from roughfilm.rom.ladder.model import Availability
+from roughfilm.figures.rendering import draw_apart, embedded, scalar_bar
 
 PANEL = (760, 560)
 """Pixels."""
@@ -21,11 +20,11 @@ RELIEF = 0.2
 CONTACT = "#d7301f"
 
 
-def draw_views_apart(views: Sequence[GapMap], picture: Path) -> Availability:
-    """Draw one PNG, in a process of its own; says why where it fails."""
+def view_picture(views: Sequence[GapMap]) -> tuple[str | None, str]:
+    """The address of an image that holds the picture, drawn in a process of its own, or None and the reason."""
     first = views[0]
     with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "views.npz"
+        file, picture = Path(folder) / "views.npz", Path(folder) / "contacts.png"
         np.savez(
             file,
             gaps=np.array([view.gap for view in views]),
@@ -33,15 +32,8 @@ def draw_views_apart(views: Sequence[GapMap], picture: Path) -> Availability:
             spacing=np.array(first.spacing),
             relief=first.relief,
         )
-        return draw_apart("roughfilm.figures.contact_view", file, picture)
-
-
-def view_picture(views: Sequence[GapMap]) -> tuple[str | None, str]:
-    """The picture as the text of an image's address, or why there is none."""
-    with tempfile.TemporaryDirectory() as scratch:
-        path = Path(scratch) / "contacts.png"
-        drawn = draw_views_apart(views, path)
-        return (embedded(path), "") if drawn.available else (None, drawn.detail)
+        drawn = draw_apart("roughfilm.figures.pressed_surface", file, picture)
+        return (embedded(picture), "") if drawn.available else (None, drawn.detail)
 
 
 def draw(file: Path, picture: Path) -> None:
@@ -79,17 +71,7 @@ def draw(file: Path, picture: Path) -> None:
             smooth_shading=True,
             specular=0.3,
             show_scalar_bar=number == 0,
-            scalar_bar_args={
-                "title": "",
-                "n_labels": 4,
-                "fmt": "%.2f",
-                "color": "#222222",
-                "label_font_size": 16,
-                "position_x": 0.25,
-                "position_y": 0.01,
-                "width": 0.5,
-                "height": 0.06,
-            },
+            scalar_bar_args=scalar_bar((0.25, 0.01), (0.5, 0.06), labels=4, digits=2, size=16),
         )
         plotter.add_text(title, position=(20, PANEL[1] - 44), font_size=12, color="#222222")
         middle = (length / 2, width / 2, -RELIEF / 2 * away)
