@@ -18,7 +18,7 @@ POINT_OFFSET = (0.37, 0.31, 0.43)
 
 @dataclass(frozen=True, kw_only=True)
 class Box:
-    """One period of space as a box of equal cells, before the solid is cut out of it.
+    """A period of space as a box of equal cells, before the solid is cut out of it.
 
     Attributes
     ----------

@@ -74,7 +74,7 @@ class Omission:
 
 @dataclass(frozen=True, kw_only=True)
 class Kind:
-    """One kind of scene as data; every module ``rom/<kind>/kind.py`` defines one as ``KIND``.
+    """A kind of scene as data; every module ``rom/<kind>/kind.py`` defines one as ``KIND``.
 
     Attributes
     ----------

@@ -28,7 +28,7 @@ class Field:
 
 @dataclass(frozen=True, kw_only=True)
 class SolverRun:
-    """One run of an iterative solver within a result.
+    """A run of an iterative solver that contributed to a result.
 
     Attributes
     ----------

@@ -19,7 +19,7 @@ class Sweeping:
 
     Attributes
     ----------
-    given : columns of a table that identify the cases, with the value of a missing column; None where there is no such value.
+    given : columns of a table that identify the cases, with the value of missing entries, or None.
     quantities : names of the quantities that are read from every result.
     features : features(given), the numbers by which errors are ordered, shape (cases,) each.
     worth : worth(values), the mask of the cases whose reference quantities are large enough to divide by.
