@@ -100,7 +100,10 @@ def _shear(columns: Columns) -> float:
 
 
 def read(solver: Model[RoughGap], scene: RoughGap, directory: Path, run: GapRun) -> Result:
-    """Read the result of a case that was run; errors as in :func:`foamcases.rough_gap.fields.read_gap_flow`."""
+    """Read the result of a case that was run.
+
+    The errors are those of :func:`roughfilm.foamcases.rough_gap.fields.read_gap_flow`.
+    """
     model, keeps = solver.name, solver.keeps
     card = read_card(directory, GapCard)
     walls, columns = mesh_of(scene, card.resolution)

@@ -14,7 +14,10 @@ ITERATIONS = 3000
 """Largest number of iterations."""
 
 STRAIGHT_ITERATIONS = 200
-"""Number of iterations of a creeping straight flow; it settles within 50, and most residuals are round-off."""
+"""Largest number of iterations of a creeping straight flow, which settles within 50.
+
+No residual ends this run, because most of them are round-off.
+"""
 
 CREEPING = 1.0
 """Largest Reynolds number of a flow that counts as creeping; above it, straight flows settle later."""

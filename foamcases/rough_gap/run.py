@@ -99,7 +99,10 @@ def settled_within(tolerance: float, case: Path, judged: Judged) -> Settled:
 
 
 def mean_velocity(case: Path) -> Array:
-    """The mean velocity of all cells in each logged iteration of a case, shape (iterations, 3)."""
+    """The mean velocity of all cells in each logged iteration of a case, in V, shape (iterations, 3).
+
+    After a complete run, the last iteration is the one that verified the fields.
+    """
     folders = sorted((case / "postProcessing" / MEAN_VELOCITY).iterdir(), key=lambda folder: float(folder.name))
     lines = [
         line
