@@ -258,7 +258,7 @@ def ladder(*packages: ModuleType, kind: str | None = None) -> tuple[Model, ...]:
     Parameters
     ----------
     *packages : the packages with the folders of kinds, such as ``rom``.
-    kind : kind of scene whose models alone are imported; None for all kinds.
+    kind : kind of scene to which the list is limited; only its models are imported. None for all kinds.
     """
     modules = model_modules(*packages, kind=kind).values()
     models: list[Model] = [importlib.import_module(module).MODEL for module in modules]

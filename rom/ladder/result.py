@@ -114,7 +114,7 @@ class Result:
     def __getitem__(self, name: str) -> Quantity:
         """The quantity with a name, or with that name and ``_per_area`` or ``_per_width``.
 
-        For example, "load" gives ``load``, ``load_per_area`` or ``load_per_width``, whichever the result has first.
+        For example, "load" gives the first of ``load``, ``load_per_area`` and ``load_per_width`` that the result has.
 
         Raises
         ------

@@ -23,7 +23,7 @@ class _OfNoKind(Scene):
 
 
 def load_entries(path: Path) -> dict[str, Any]:
-    """The nested entries of a TOML file, in which names of files are made relative to the folder of the TOML file.
+    """The nested entries of a TOML file, with its folder put before the relative names of files in it.
 
     Raises
     ------

@@ -38,8 +38,8 @@ def read_settings(table: object, models: Sequence[Model]) -> tuple[Setting, ...]
 
     Parameters
     ----------
-    table : the entries of the table: ``models``, and ``resolution`` and ``scheme`` by model. Without ``models``, all
-        models that are available are meant.
+    table : the entries of the table: ``models``, and ``resolution`` and ``scheme`` by model. Without ``models``, it
+        lists all models that are available.
     models : the models of the kind of scene.
 
     Raises
