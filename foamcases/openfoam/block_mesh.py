@@ -76,13 +76,13 @@ def write_block(
     sides
         The patches at x-, x+, y-, y+, z-, z+, in this order; opposite patches have matching face order, as cyclic
         patches need. A cyclic patch has faces only where the cells on both sides of it are kept.
+    directory
+        The directory of the case; its ``constant/polyMesh`` is made if it is missing.
     kept
         Mask of the cells that the mesh has, shape (nx, ny, nz); all cells by default.
     cut
         The patch of the faces towards cells that are not kept, written as the last patch. It must be given if ``kept``
         leaves cells out.
-    directory
-        The directory of the case; its ``constant/polyMesh`` is made if it is missing.
     """
     from foamlib import FoamFile  # slow to import
 
