@@ -1,1 +1,1 @@
-"""OpenFOAM: gap to mesh to case directory, one checked run, fields read back, and the models that use it."""
+"""OpenFOAM cases: mesh a gap, write the case directory, run and check it, read its fields; models that do so."""

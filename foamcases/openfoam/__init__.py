@@ -1,1 +1,1 @@
-"""OpenFOAM itself: installation, dictionaries, meshes, runs and residuals."""
+"""The parts that all OpenFOAM cases share: installation, dictionaries, meshes, runs and residuals."""

@@ -13,9 +13,10 @@ from roughfilm.rom.pocket.columns import columns
 from roughfilm.rom.pocket.gap import Gap
 
 LAYERS_PER_COLUMN = 1 / 5
-"""Cells across the film for each cell along it."""
+"""Number of cells across the film over the number along it."""
 
 Labels = NDArray[np.int64]
+"""Numbers of cells or points in the mesh, from 0."""
 
 ALONG = (0, 1, 2, 3)
 """Order of the corners of a face whose normal points along its axis."""
@@ -24,12 +25,19 @@ AGAINST = (0, 3, 2, 1)
 """Order of the corners of a face whose normal points against its axis."""
 
 ARCHITECTURE = '"LSB;label=32;scalar=64"'
+"""Layout of binary files in OpenFOAM's words: little-endian, labels of 32 bits, numbers of 64 bits."""
 
 
 def layered(gap: Gap, resolution: int) -> Array:
     """The vertices of the mesh of a gap, shape (columns + 1, layers + 1, 2, 3), in film thicknesses.
 
-    Layers follow the walls: y = 1 - h(x) (1 - Y) with Y uniform from the lower wall (0) to the upper (1).
+    The layers follow the walls: y = 1 - h(x) (1 - Y) with h the gap over the film thickness, and Y uniform from 0 on
+    the lower wall to 1 on the upper one. z is 0 and 1.
+
+    Parameters
+    ----------
+    gap : the gap of a pocket.
+    resolution : number of columns along the film, about; there are a fifth as many layers, and at least 4.
     """
     x = columns(gap, resolution)
     h = gap.thickness(x * gap.film) / gap.film
@@ -44,7 +52,7 @@ def layered(gap: Gap, resolution: int) -> Array:
 
 @dataclass(frozen=True, kw_only=True)
 class Patch:
-    """One side of the block: its name in the case, and its entries in OpenFOAM's boundary file."""
+    """A side of the block as a patch: its name in the case, and its entries in OpenFOAM's boundary file."""
 
     name: str
     entries: dict[str, str]
@@ -63,15 +71,18 @@ def write_block(
     Parameters
     ----------
     vertices
-        Shape (nx + 1, ny + 1, nz + 1, 3). Cell (i, j, k) gets the number i + nx (j + ny k), less the number of cells
-        before it that are not kept.
+        Corners of the cells, shape (nx + 1, ny + 1, nz + 1, 3). Cell (i, j, k) gets the number i + nx (j + ny k),
+        less the number of cells before it that are not kept.
     sides
         The patches at x-, x+, y-, y+, z-, z+, in this order; opposite patches have matching face order, as cyclic
-        patches need. A cyclic one has faces only where the cells on both sides of it are kept.
+        patches need. A cyclic patch has faces only where the cells on both sides of it are kept.
+    directory
+        The directory of the case; its ``constant/polyMesh`` is made if it is missing.
     kept
-        Mask of the cells that the mesh has, shape (nx, ny, nz); all by default.
+        Mask of the cells that the mesh has, shape (nx, ny, nz); all cells by default.
     cut
-        The patch of all other faces, those towards cells that are not kept; the last one. Must be given with ``kept``.
+        The patch of the faces towards cells that are not kept, written as the last patch. It must be given if ``kept``
+        leaves cells out.
     """
     from foamlib import FoamFile  # slow to import
 
@@ -135,7 +146,7 @@ def write_block(
 
 
 def _numbers(there: Mask) -> Labels:
-    """The number of each marked cell among the marked ones, x fastest; the others have no meaning."""
+    """The number of each marked cell among the marked ones, x fastest; the numbers of other cells have no meaning."""
     return np.asarray(np.cumsum(there.ravel(order="F")) - 1).reshape(there.shape, order="F")
 
 
@@ -152,7 +163,7 @@ def _flat(grid: NDArray[Any], axis: int, place: slice) -> NDArray[Any]:
 
 
 def _quads(point: Labels, axis: int) -> list[Labels]:
-    """The four corners of every face normal to ``axis``, turning so that the normal points along it."""
+    """The four corners of every face normal to ``axis``, in the order for which the normal points along the axis."""
     first, second = [(1, 2), (2, 0), (0, 1)][axis]
     corners = []
     for a, b in ((0, 0), (1, 0), (1, 1), (0, 1)):

@@ -1,4 +1,4 @@
-"""The directory of a case, written whole or not at all, with a README, a shell script and a card for reading it."""
+"""Write the directory of a case completely or not at all, with a README, a shell script and a card to read it by."""
 
 import json
 import tempfile
@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from _typeshed import DataclassInstance
 
 CARD = "case.json"
+"""Name of the card: the file of the options with which a case was written."""
+
 SomeCard = TypeVar("SomeCard")
 
 SERIAL = "simpleFoam > log.simpleFoam 2>&1"
@@ -36,24 +38,35 @@ fi
 
 
 TOLERANCES = (1e-10, 1e-2)
-"""Least and greatest residual at which a run may end."""
+"""Least and greatest tolerance allowed: the residual at which a run may end."""
 
 
 def check_tolerance(tolerance: float) -> None:
-    """Raise InputError for a tolerance out of range."""
+    """Raise InputError for a tolerance outside ``TOLERANCES``."""
     least, most = TOLERANCES
     if not least <= tolerance <= most:
         raise InputError(f"tolerance: got {tolerance}; it must be {least:g} to {most:g}")
 
 
 def commands(processes: int) -> str:
-    """The shell commands that run simpleFoam in a case directory."""
+    """The shell commands that run simpleFoam in a case directory, with mpirun for more than one process."""
     settings = " ".join(f"{name}={value}" for name, value in OPEN_MPI.items())
     return SERIAL if processes == 1 else PARALLEL.format(processes=processes, environment=settings)
 
 
 def write_whole(directory: Path, fill: Callable[[Path], None]) -> None:
-    """Make a case directory, whole or not at all; InputError if it cannot be made or is not empty."""
+    """Make a case directory completely or not at all.
+
+    Parameters
+    ----------
+    directory : the directory to make; it may exist if it is empty.
+    fill : fill(place), which writes the files of the case into a temporary directory.
+
+    Raises
+    ------
+    InputError
+        If the path contains a blank, the directory is not empty, or it cannot be written.
+    """
     if any(map(str.isspace, str(directory.absolute()))):
         path = repr(str(directory.absolute()))
         raise InputError(f"{path}: OpenFOAM takes no blanks in a path; name another place, or set TMPDIR to one")
@@ -79,7 +92,7 @@ def write_papers(directory: Path, *, readme: str, allrun: str, card: "DataclassI
 
 
 def read_card(directory: Path, kind: type[SomeCard]) -> SomeCard:
-    """The card of a case; InputError if there is none of this kind."""
+    """The card of a case, an object of the class ``kind``; InputError if the directory holds no such card."""
     try:
         return kind(**json.loads((directory / CARD).read_text(encoding="utf-8")))
     except (OSError, ValueError, TypeError) as error:

@@ -1,4 +1,4 @@
-"""The dictionaries of OpenFOAM cases, with numbers and names from this file alone and no text from a scene.
+"""The dictionaries of OpenFOAM cases, with numbers from a scene but no text from it.
 
 OpenFOAM runs code in a dictionary (``#calc``, ``#codeStream``), so no text of a user is written into one.
 """
@@ -12,26 +12,27 @@ import numpy as np
 from roughfilm.foamcases.openfoam.block_mesh import Patch
 
 Dictionary = tuple[str, Mapping[str, Any]]
-"""A file of OpenFOAM: its class and entries."""
+"""The class and the entries of a file of OpenFOAM."""
 
 ITERATIONS = 5000
+"""Largest number of iterations."""
 
 LINEAR_TOLERANCE = 1e-5
-"""Residual at which a linear solver stops, in units of the tolerance."""
+"""Residual at which a linear solver stops, over the tolerance of the flow."""
 
 ROUND_OFF = 1e-15
 """Least residual that a linear solver can reach."""
 
 VELOCITY_RELAXATION = 0.95
-"""Relaxation of velocity in SIMPLEC; the result depends slightly on it, so that every case has the same."""
+"""Relaxation of velocity in SIMPLEC; every case has the same value, because the result depends slightly on it."""
 
 ADVECTION = {
     "linear_upwind": ("bounded", "Gauss", "linearUpwind", "grad(U)"),
     "upwind": ("bounded", "Gauss", "upwind"),
     "": ("bounded", "Gauss", "linearUpwind", "grad(U)"),
 }
-"""The entry of each advection scheme: ``linear_upwind`` of second order, ``upwind`` of first order as hybrid schemes on
-coarse cells, and "" for flows that do not depend on it."""
+"""The entry of each advection scheme: ``linear_upwind`` is of second order, and ``upwind`` is of first order, as hybrid
+schemes are on coarse cells; "" is for flows that do not depend on the scheme."""
 
 SIDES = (
     Patch(name="inlet", entries={"type": "cyclic", "neighbourPatch": "outlet"}),
@@ -45,14 +46,14 @@ SIDES = (
 
 
 def write_dictionaries(directory: Path, *, viscosity: float, tolerance: float, scheme: str, processes: int) -> None:
-    """Write ``system``, ``constant`` and ``0`` of a channel whose upper wall slides at speed 1.
+    """Write the files in ``system``, ``constant`` and ``0`` of a channel whose upper wall slides at speed 1.
 
     Parameters
     ----------
     viscosity
-        Kinematic viscosity in units of film thickness times sliding speed: 1 / Re.
+        Kinematic viscosity over film thickness times sliding speed: 1 / Re.
     tolerance
-        The initial residuals at which the iteration stops.
+        The initial residual of velocity and pressure at which the iteration stops.
     scheme
         A key of ``ADVECTION``.
     processes
@@ -62,7 +63,13 @@ def write_dictionaries(directory: Path, *, viscosity: float, tolerance: float, s
 
 
 def write_files(directory: Path, files: Mapping[str, Dictionary]) -> None:
-    """Write dictionaries and fields, by their names below ``directory``."""
+    """Write dictionaries and fields as files below ``directory``; files with arrays are binary, the others ASCII.
+
+    Parameters
+    ----------
+    directory : the directory of the case.
+    files : class and entries of each file, by its path below ``directory``.
+    """
     from foamlib import FoamFile  # slow to import
 
     for name, (kind, entries) in files.items():
@@ -77,7 +84,7 @@ def write_files(directory: Path, files: Mapping[str, Dictionary]) -> None:
 
 
 def change_scheme(directory: Path, *, scheme: str, tolerance: float) -> None:
-    """Change the advection scheme and the tolerance of a case."""
+    """Change the advection scheme (a key of ``ADVECTION``) and the tolerance of a case that was written."""
     from foamlib import FoamFile  # slow to import
 
     FoamFile(directory / "system" / "fvSchemes")["divSchemes", "div(phi,U)"] = ADVECTION[scheme]
@@ -88,7 +95,7 @@ def change_scheme(directory: Path, *, scheme: str, tolerance: float) -> None:
 
 
 def strengthen(directory: Path) -> None:
-    """Make a case correct the pressure for skewed cells in each iteration, and solve velocity to round-off."""
+    """Change a case so that each iteration corrects the pressure for skewed cells and solves velocity to round-off."""
     from foamlib import FoamFile  # slow to import
 
     with FoamFile(directory / "system" / "fvSolution") as solution:
@@ -97,7 +104,7 @@ def strengthen(directory: Path) -> None:
 
 
 def control(iterations: int) -> Dictionary:
-    """``system/controlDict`` of a run of simpleFoam that goes on from the latest fields and writes the last."""
+    """The dictionary ``system/controlDict``: simpleFoam starts from the latest fields and writes its last ones."""
     return (
         "dictionary",
         {
@@ -117,7 +124,7 @@ def control(iterations: int) -> Dictionary:
 
 
 def schemes(scheme: str) -> Dictionary:
-    """``system/fvSchemes`` with one of ``ADVECTION``; all else is central."""
+    """The dictionary ``system/fvSchemes`` with a key of ``ADVECTION``; all other schemes are central."""
     linear = ("Gauss", "linear")
     return (
         "dictionary",
@@ -145,15 +152,15 @@ def solution(
     velocity_gain: float,
     controlled: tuple[str, ...] = ("p", "U"),
 ) -> Dictionary:
-    """``system/fvSolution`` for SIMPLEC.
+    """The dictionary ``system/fvSolution`` for SIMPLEC.
 
     Parameters
     ----------
-    tolerance : the initial residuals at which the iteration stops.
-    linear : the residual at which a linear solver stops, in units of the tolerance.
+    tolerance : the initial residual at which the iteration stops.
+    linear : the residual at which a linear solver stops, over the tolerance.
     relaxation : the relaxation of velocity.
-    coarsest : the number of cells of multigrid's coarsest level.
-    velocity_gain : the factor by which the residual of velocity falls in an iteration.
+    coarsest : the number of cells on multigrid's coarsest level.
+    velocity_gain : the linear solver's last residual of velocity over its first one, at which it may stop.
     controlled : the fields whose residuals must meet the tolerance.
     """
     return (
@@ -187,7 +194,7 @@ def solution(
 
 
 def liquid(viscosity: float) -> dict[str, Dictionary]:
-    """The dictionaries in ``constant`` of a laminar flow of this kinematic viscosity."""
+    """The dictionaries in ``constant`` of a laminar flow with the given kinematic viscosity, by their paths."""
     return {
         "constant/transportProperties": ("dictionary", {"transportModel": "Newtonian", "nu": viscosity}),
         "constant/turbulenceProperties": ("dictionary", {"simulationType": "laminar"}),

@@ -11,7 +11,8 @@ from pathlib import Path
 from roughfilm.rom.ladder.model import Availability
 
 PROGRAMS = ("checkMesh", "simpleFoam", "foamDictionary")
-"""The programs that are run; the last, the quickest to start, says the version."""
+"""Names of the programs that are run; the last one starts the fastest, and gives the version."""
+
 OPEN_MPI = {
     "OMPI_ALLOW_RUN_AS_ROOT": "1",
     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
@@ -19,14 +20,14 @@ OPEN_MPI = {
     "OMPI_MCA_hwloc_base_binding_policy": "none",
     "OMPI_MCA_mpi_yield_when_idle": "1",
 }
-"""Open MPI by any user, on any number of cores, several runs not all on the same, waiting without spinning."""
+"""Settings of Open MPI: any user, more processes than cores, processes not bound to cores, and no busy waiting."""
 
 REMEDY = "install it with: sudo apt-get install openfoam"
 
 
 @cache
 def environment() -> Mapping[str, str]:
-    """The environment that OpenFOAM runs in: that of a sourced distribution, else of Debian's package."""
+    """The environment variables that OpenFOAM runs with: those of a sourced distribution, or of Debian's package."""
     environment = {**os.environ, **OPEN_MPI}
     if os.environ.get("WM_PROJECT_DIR"):
         return environment
@@ -36,7 +37,7 @@ def environment() -> Mapping[str, str]:
 
 @cache
 def availability() -> Availability:
-    """The availability of OpenFOAM: its version, or what is missing with the remedy."""
+    """The availability of OpenFOAM, with its version, or with the missing program and the remedy."""
     missing = [program for program in PROGRAMS if shutil.which(program) is None]
     if missing:
         return Availability(available=False, detail=f"no {' or '.join(missing)} on the PATH; {REMEDY}")

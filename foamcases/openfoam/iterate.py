@@ -1,4 +1,4 @@
-"""The iterations of simpleFoam: tried as usual, and once more by a recipe where that is given up."""
+"""The iterations of simpleFoam: a first try, and a second one with stronger settings if the first does not converge."""
 
 import math
 import shutil
@@ -20,13 +20,16 @@ RECIPE = (
     f"started by {START_SCHEME} up to a residual of {START_TOLERANCE:g}, then with one corrector for skewed cells and "
     "velocity solved to round-off"
 )
-"""The second try. The relaxation stays, because the answer depends on it slightly.
+"""Description of the second try. The relaxation stays the same, because the result depends on it slightly.
 
-Of ten runs that were given up though their numbers were no round-off (Re = 160 to 5000, d+ = 1e-6 to 5, 30 to 240
-columns) it rescued eight; none of its parts alone rescued more than three, and less relaxation (0.5 to 0.9) one.
+In ten runs the first try did not converge although the flow was not round-off (Re = 160 to 5000, d+ = 1e-6 to 5, 30 to
+240 columns). The second try converged in eight of them; each of its changes alone converged in three at most, and a
+lower relaxation factor (0.5 to 0.9) in one.
 """
 
 RETRIED = {Outcome.DIVERGED, Outcome.UNSTEADY, Outcome.STALLED}
+"""Outcomes of a first try after which there is a second one."""
+
 FLOATING_POINT = {-signal.SIGFPE, 128 + signal.SIGFPE}
 """Exit codes of a program, and of mpirun, after a floating-point exception."""
 
@@ -35,11 +38,11 @@ STOP = "STOP"
 """Name of a file that makes a running case write its fields and end, if its settings look for it."""
 
 Settled = Callable[[Residuals], bool]
-"""settled(residuals): whether a run may end, beside the residual control of simpleFoam."""
+"""Function settled(residuals): whether a run may end before simpleFoam's residual control ends it."""
 
 
 class Asked(Protocol):
-    """The settings of a run: the residual that ends it, a key of ``ADVECTION``, and the number of processes."""
+    """The settings of a run: the residual at which it ends, a key of ``ADVECTION``, and the number of processes."""
 
     @property
     def tolerance(self) -> float: ...  # noqa: D102
@@ -51,7 +54,17 @@ class Asked(Protocol):
 
 @dataclass(frozen=True, kw_only=True)
 class Try:
-    """One try: its recipe ("" as usual), what became of it, its iterations, last residual, CPU seconds and log."""
+    """A try to converge a flow.
+
+    Attributes
+    ----------
+    recipe : changes of the settings in words; "" for the usual settings.
+    outcome : how the try ended.
+    iterations : number of iterations.
+    residual : greatest initial residual of the last iteration; NaN if there was none.
+    cpu_s : CPU time, s.
+    log : the log of simpleFoam.
+    """
 
     recipe: str
     outcome: Outcome
@@ -68,10 +81,27 @@ class Try:
 def iterate(
     directory: Path, asked: Asked, judged: Judged, progress: Progress, settled: Settled | None = None
 ) -> tuple[Try, ...]:
-    """Run simpleFoam on a new case, a second time by ``RECIPE`` if it diverges or gets no nearer; the last try counts.
+    """Run simpleFoam on a new case, and a second time by ``RECIPE`` if the first try has an outcome in ``RETRIED``.
 
-    It ends by itself where all residuals meet the tolerance, and earlier where the flow is ``settled``.
-    Raises ConvergenceError if a program stops in error.
+    A try ends when all residuals meet the tolerance, or earlier when the flow is ``settled``.
+
+    Parameters
+    ----------
+    directory : the directory of the case.
+    asked : tolerance, advection scheme and number of processes.
+    judged : the criteria of a converged flow.
+    progress : called with the done fraction and a few words.
+    settled : a further test that ends a run; None for none.
+
+    Returns
+    -------
+    tuple[Try, ...]
+        The one or two tries; the fields on disk are those of the last.
+
+    Raises
+    ------
+    ConvergenceError
+        If a program stops in error.
     """
     first = _simple_foam(directory, asked, judged, "log.simpleFoam", progress, settled)
     if first.outcome not in RETRIED:
@@ -100,7 +130,7 @@ def _simple_foam(
     *,
     decomposed: bool = False,
 ) -> Try:
-    """Run simpleFoam from the latest fields until it converges or is given up."""
+    """Run simpleFoam from the latest fields until it converges or is stopped because its residuals stagnate."""
     cpu, command = 0.0, ["simpleFoam"]
     if asked.processes > 1:
         command = ["mpirun", "-np", str(asked.processes), "simpleFoam", "-parallel"]

@@ -1,4 +1,4 @@
-"""An estimate of the memory of a mesh, before it is made."""
+"""Estimate the memory that a mesh needs before the mesh is made."""
 
 from pathlib import Path
 
@@ -8,19 +8,28 @@ RUN_BYTES = 1700.0
 """Peak memory of simpleFoam per cell, bytes, measured at 0.4 and 2 million cells."""
 
 WRITE_BYTES = 900.0
-"""Peak memory of writing the case per cell, bytes, measured at 0.4 and 2 million cells."""
+"""Peak memory per cell while a case is written, bytes, measured at 0.4 and 2 million cells."""
 
 BASE_BYTES = 2.5e8
-"""Memory of a process without cells, bytes."""
+"""Memory of a process whose mesh has no cells, bytes."""
 
 
 def memory_estimate(columns: int, layers: int, *, run: bool = True) -> float:
-    """The peak memory of writing a mesh of so many columns and layers, and of running it if ``run``, bytes."""
+    """The peak memory of writing a case, and of running it if ``run``, bytes.
+
+    The estimate is ``BASE_BYTES`` plus the number of cells, columns times layers, times the larger memory per cell.
+
+    Parameters
+    ----------
+    columns : number of columns of the mesh, all over the plane.
+    layers : number of cells across the gap.
+    run : whether the case is run too.
+    """
     return BASE_BYTES + columns * layers * max(WRITE_BYTES, RUN_BYTES if run else 0.0)
 
 
 def memory_available(table: Path = Path("/proc/meminfo")) -> float:
-    """Bytes that programs can still have on this machine; without bound where it does not say."""
+    """The memory that programs can still use on this machine, bytes; infinite where ``table`` does not state it."""
     try:
         for line in table.read_text(encoding="ascii").splitlines():
             name, _, value = line.partition(":")
@@ -32,7 +41,7 @@ def memory_available(table: Path = Path("/proc/meminfo")) -> float:
 
 
 def check_memory(columns: tuple[int, int], layers: int, *, run: bool) -> None:
-    """InputError, with the estimate, for a mesh that would not fit into the memory that is available."""
+    """Raise InputError, with the estimate, for a mesh that does not fit into the available memory."""
     needed, there = memory_estimate(columns[0] * columns[1], layers, run=run), memory_available()
     if needed > there:
         raise InputError(

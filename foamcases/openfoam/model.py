@@ -1,4 +1,4 @@
-"""Models that run OpenFOAM: a case is written, run and read, together or separately."""
+"""Models that run OpenFOAM: they write, run and read a case, in one call or step by step."""
 
 import tempfile
 import time
@@ -21,12 +21,12 @@ if TYPE_CHECKING:
     from roughfilm.foamcases.openfoam.run import CaseRun
 
 CREEPING = 1e-6
-"""Reynolds number of Stokes flow: advection is then a millionth of viscous stress (there is no scheme "none")."""
+"""Reynolds number for Stokes flow: advection is a millionth of viscous stress, as OpenFOAM has no scheme without it."""
 
 RunT = TypeVar("RunT", bound="CaseRun", default=Any)
 
 CaseWriter = Callable[[SceneT, Path, CheckedRequest, float], None]
-"""write(scene, directory, request, reynolds_number)."""
+"""Function write(scene, directory, request, reynolds_number) that writes the case of a scene."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,10 +35,16 @@ class Cases(Generic[SceneT, RunT]):
 
     Attributes
     ----------
-    write : writes the case of a scene.
-    write_to_run : the same where the case is run at once and on this machine.
-    run : run(directory, progress), which returns how the run ended.
-    read : read(model, scene, directory, run), the result.
+    kind : kind of the scenes.
+    resolutions : allowed and default resolutions, or a function of the scene that returns them.
+    resolution_meaning, residual_meaning : what resolution counts and the residual measures, in words.
+    tolerance : default residual at which a run ends.
+    most_processes : most_processes(scene, resolution), the largest number of processes.
+    cost : cost(scene, resolution), expected CPU seconds.
+    write : write(scene, directory, request, reynolds_number), which writes the case of a scene.
+    write_to_run : the function with the same parameters that writes a case to be run at once on this machine.
+    run : run(directory, progress), which runs a case and returns a ``CaseRun``.
+    read : read(model, scene, directory, run), which returns the result of a case that was run.
     """
 
     kind: str
@@ -56,7 +62,14 @@ class Cases(Generic[SceneT, RunT]):
 
 @dataclass(frozen=True, kw_only=True)
 class CaseModel(Model[SceneT], Generic[SceneT, RunT]):
-    """A model that runs OpenFOAM: ``solve`` does all in a directory that it removes; its three steps stand apart here.
+    """A model that runs OpenFOAM: ``write``, ``run`` and ``read`` are the three steps that ``solve`` does at once.
+
+    ``solve`` uses a temporary directory, which it removes at its end.
+
+    Attributes
+    ----------
+    cases : the functions that write, run and read the cases.
+    reynolds_number : reynolds_number(scene), the Reynolds number at which a case is run.
 
     Examples
     --------
@@ -71,7 +84,7 @@ class CaseModel(Model[SceneT], Generic[SceneT, RunT]):
     reynolds_number: Callable[[SceneT], float]
 
     def write(self, scene: SceneT, directory: Path, request: Request = Request()) -> None:
-        """Write the case of a scene, whole or not at all.
+        """Write the case of a scene completely or not at all.
 
         Raises
         ------
@@ -81,12 +94,12 @@ class CaseModel(Model[SceneT], Generic[SceneT, RunT]):
         self.cases.write(scene, directory, self.checked(scene, request), self.reynolds_number(scene))
 
     def run(self, directory: Path, progress: Progress = silent) -> RunT:
-        """Run a case that this model wrote, and verify the fields that it leaves in the directory.
+        """Run a case that this model wrote, and verify the fields that the run leaves in the directory.
 
         Returns
         -------
         CaseRun
-            Residual, iterations, times and warnings of the run.
+            Times, warnings and OpenFOAM version of the run; its subclasses add residuals and iterations.
 
         Raises
         ------
@@ -98,14 +111,14 @@ class CaseModel(Model[SceneT], Generic[SceneT, RunT]):
         return self.cases.run(directory, progress)
 
     def read(self, scene: SceneT, directory: Path, run: RunT) -> Result:
-        """The result of a case of this scene that was run.
+        """Read the result of a case of this scene that was run.
 
         Raises
         ------
         InputError
             If the directory holds no case of this scene.
         ConvergenceError
-            If it holds no finished fields.
+            If the directory holds no finished fields.
         """
         return self.cases.read(self, scene, directory, run)
 
@@ -118,7 +131,16 @@ def openfoam_model(
     schemes: tuple[str, ...] = (),
     **about: Unpack[About],
 ) -> CaseModel[SceneT, RunT]:
-    """A model that runs OpenFOAM at the Reynolds number that it gives a scene."""
+    """Make a model that runs OpenFOAM.
+
+    Parameters
+    ----------
+    cases : the functions and options of the cases of one kind of scene.
+    applies : applies(scene), whether the model can solve it, and which effects it leaves out.
+    reynolds_number : reynolds_number(scene), the Reynolds number at which a case is run.
+    schemes : advection schemes that the model offers, the default first.
+    **about : name, summary, effects and sources of the model, as in ``About``.
+    """
     return CaseModel(
         **about,
         kind=cases.kind,
@@ -141,7 +163,7 @@ def openfoam_model(
 
 
 def creeping(_scene: Scene) -> float:
-    """The Reynolds number of a model that leaves inertia out."""
+    """The Reynolds number ``CREEPING``, for models that leave inertia out."""
     return CREEPING
 
 
@@ -154,7 +176,7 @@ def solve(
     cases: Cases[SceneT, RunT],
     reynolds_number: Callable[[SceneT], float],
 ) -> Result:
-    """Write, run and read; the run's times include those that this process spends on the case."""
+    """Write, run and read a case in a temporary directory; the times of the run include those of this process."""
     wall, cpu = time.perf_counter(), time.thread_time()
     with tempfile.TemporaryDirectory(prefix="roughfilm-") as place:
         directory = Path(place) / model.name

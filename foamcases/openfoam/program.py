@@ -1,4 +1,4 @@
-"""One program of OpenFOAM run to its end in a case: its log, its own CPU time, and nothing left running."""
+"""Run a program of OpenFOAM in a case to its end: keep its log, measure its CPU time, leave no process running."""
 
 import os
 import re
@@ -16,10 +16,10 @@ from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.foamcases.openfoam.installation import environment
 
 POLL_INTERVAL_S = 0.02
-"""Time between two looks at a running program, s."""
+"""Time between two checks of a running program, s."""
 
 STOP_TIME_S = 5.0
-"""Time that a stopped program has to end, s; mpirun ends its processes in that time."""
+"""Time after which a stopped program that still runs is killed, s; mpirun needs it to end its processes."""
 
 LOG_TAIL_LINES = 12
 """Number of last lines of a log that an error quotes."""
@@ -28,12 +28,12 @@ TRACE = re.compile(r"#\d+ ")
 """Pattern of a line of the stack trace that OpenFOAM prints after a floating-point exception."""
 
 Watch = Callable[[], bool]
-"""Called again and again while a program runs; True stops it."""
+"""Function called every ``POLL_INTERVAL_S`` while a program runs; it returns True to stop the program."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Ended:
-    """The end of a program: its exit code (minus the signal that ended it), its log, and its own CPU seconds."""
+    """The end of a program: its exit code (minus the number of the signal that ended it), log and CPU time, s."""
 
     code: int
     log: str
@@ -41,7 +41,17 @@ class Ended:
 
 
 def execute(directory: Path, command: Sequence[str], log_name: str, watch: Watch = lambda: False) -> Ended:
-    """Run a command in a directory with its output in a log there; it ends with this process, however that ends."""
+    """Run a command in a directory, with its output in the file ``log_name`` there.
+
+    The command is stopped when this process ends, for whatever reason.
+
+    Parameters
+    ----------
+    directory : the directory in which the command runs.
+    command : the program and its arguments.
+    log_name : name of the log.
+    watch : called while the command runs; the command is stopped when it returns True.
+    """
     log = directory / log_name
     process = None
     try:
@@ -72,9 +82,12 @@ def execute(directory: Path, command: Sequence[str], log_name: str, watch: Watch
 
 @contextmanager
 def uninterrupted() -> Iterator[None]:
-    """Let signals to stop wait: one that came while a program is being started would leave it running, in no hand."""
+    """Delay SIGTERM and SIGINT to the end of the block, so that no program is started and left without control.
+
+    Outside of the main thread nothing is delayed.
+    """
     if threading.current_thread() is not threading.main_thread():
-        yield  # signals are the main thread's
+        yield  # only the main thread handles signals
         return
     came: list[int] = []
     before = {number: signal.signal(number, lambda n, _: came.append(n)) for number in (signal.SIGTERM, signal.SIGINT)}
@@ -88,7 +101,7 @@ def uninterrupted() -> Iterator[None]:
 
 
 def succeed(directory: Path, command: Sequence[str], log_name: str) -> Ended:
-    """Run a command that must end well; ConvergenceError if it stops in error."""
+    """Run a command as ``execute`` does; ConvergenceError if its exit code is not 0."""
     ended = execute(directory, command, log_name)
     if ended.code != 0:
         raise failure(f"{command[0]} stopped with code {ended.code}; look into the log below", ended.log)
@@ -98,7 +111,7 @@ def succeed(directory: Path, command: Sequence[str], log_name: str) -> Ended:
 def failure(
     reason: str, log: str, *, outcome: Outcome = Outcome.FAILED, iterations: int | None = None
 ) -> ConvergenceError:
-    """The error for a run of this outcome, with the last lines of its log."""
+    """The error for a run that failed, with its outcome, iterations and the last lines of its log."""
     tail = [line for line in log.splitlines() if line.strip() and not TRACE.match(line)][-LOG_TAIL_LINES:]
     error = ConvergenceError(f"OpenFOAM: {reason}", outcome=outcome, iterations=iterations)
     if tail:

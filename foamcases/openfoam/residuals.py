@@ -1,4 +1,4 @@
-"""The residuals of simpleFoam as its log grows, and what has become of a run that does not converge."""
+"""Read the residuals of simpleFoam from its growing log, and classify a run that does not converge."""
 
 import math
 import re
@@ -8,13 +8,14 @@ from pathlib import Path
 from roughfilm.contact.foundation.errors import Outcome
 
 PATIENCE = 500
-"""Number of iterations without half the residual after which a run is stopped.
+"""Number of iterations in which the residual must halve at least once; otherwise the run is stopped.
 
-One that gets from 1 to 1e-7 within 5000 iterations halves it every 215 on average; the longest pause of any that
-converged, over Re = 1e-6 to 5000 and d+ = 1e-6 to 5, was 225.
+A residual that falls from 1 to 1e-7 within 5000 iterations halves every 215 on average. Among the runs that converged
+at Re = 1e-6 to 5000 and d+ = 1e-6 to 5, the residual never took more than 225 iterations to halve.
 """
 
 FIELDS = ("Ux", "Uy", "Uz", "p")
+"""Names of the fields that simpleFoam solves for."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,8 +25,8 @@ class Judged:
     Attributes
     ----------
     main : the velocity along the flow, one of ``FIELDS``.
-    fields : of ``FIELDS`` those in which there is anything; the others are round-off, in units of itself.
-    slack : allowed residuals over the tolerance where another criterion shows that the flow has settled.
+    fields : the entries of ``FIELDS`` that are not constant; the normalized residuals of the others are round-off.
+    slack : allowed residual over the tolerance where another criterion shows that the flow has settled.
     """
 
     main: str = "Ux"
@@ -37,10 +38,15 @@ _SOLVED = re.compile(rb"Solving for (Ux|Uy|Uz|p), Initial residual = ([^,\s]+),"
 
 
 class Residuals:
-    """The initial residuals of every iteration: ``main`` of the main velocity, and ``greatest`` of all that are judged.
+    """The initial residuals of every iteration, read from a log that grows.
 
-    ``stagnant`` as soon as the greatest has not halved for ``PATIENCE`` iterations.
-    An initial residual is how far the fields that one iteration left are from the equations of the next.
+    An initial residual is the normalized error of the fields of one iteration in the equations of the next.
+
+    Attributes
+    ----------
+    main : initial residual of the main velocity in each iteration.
+    greatest : greatest initial residual of the judged fields in each iteration; NaN where one is not finite.
+    stagnant : whether the greatest residual has not halved for ``PATIENCE`` iterations, now or at an earlier time.
     """
 
     def __init__(self, log: Path, judged: Judged) -> None:
@@ -53,7 +59,7 @@ class Residuals:
         self._mark, self._marked = math.inf, 0
 
     def read(self) -> None:
-        """Take in what was logged since the last call."""
+        """Read the part of the log that was written since the last call."""
         with self._log.open("rb") as file:
             file.seek(self._position)
             text = file.read()
@@ -62,13 +68,13 @@ class Residuals:
             end = match.end()
             name, value = match[1].decode(), float(match[2])
             self._found[name] = value
-            if name == "p" and self._judged.main in self._found:  # and not a second corrector's
+            if name == "p" and self._judged.main in self._found:  # else it is the pressure of a second corrector
                 self._finish(self._found)
                 self._found = {}
         self._position += end
 
     def _finish(self, residuals: dict[str, float]) -> None:
-        """Take in a whole iteration."""
+        """Append the residuals of a complete iteration."""
         values = [value for name, value in residuals.items() if name in self._judged.fields]
         self.main.append(residuals[self._judged.main])
         self.greatest.append(max(values) if all(map(math.isfinite, residuals.values())) else math.nan)
@@ -79,8 +85,9 @@ class Residuals:
     def outcome(self, tolerance: float) -> Outcome:
         """The outcome of a run that did not converge.
 
-        Bounded fields that go on changing without a trend must swing: the run is unsteady. Where the velocity along the
-        film meets the tolerance, only cross flow and pressure do not, mostly because they are round-off: stalled.
+        A residual that is not finite means DIVERGED, and one that still falls means UNFINISHED. A stagnant run is
+        STALLED if the main velocity meets the tolerance: only cross flow and pressure do not, mostly because they are
+        round-off. Otherwise the fields are bounded and keep changing without a trend: the run is UNSTEADY.
         """
         if self.greatest and math.isnan(self.greatest[-1]):
             return Outcome.DIVERGED

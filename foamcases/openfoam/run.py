@@ -1,4 +1,4 @@
-"""One run of a case, believed only after it was checked."""
+"""Run a case: check its mesh, iterate its flow, and verify the fields on disk."""
 
 import math
 import shutil
@@ -22,7 +22,7 @@ REMEDIES = {
 
 @dataclass(frozen=True, kw_only=True)
 class CaseRun:
-    """Times of a successful run, the version of OpenFOAM, and the mesh check's remarks."""
+    """A successful run: its CPU and wall-clock time, s, the version of OpenFOAM, and the warnings of the mesh check."""
 
     cpu_s: float
     wall_s: float
@@ -31,7 +31,7 @@ class CaseRun:
 
 
 def ready(processes: int) -> str:
-    """The version of OpenFOAM that is here; UnavailableError if none is, or no mpirun for several processes."""
+    """The version of OpenFOAM; UnavailableError if it is missing, or if mpirun is and there are several processes."""
     here = availability()
     if not here.available:
         raise UnavailableError(here.detail)
@@ -43,7 +43,19 @@ def ready(processes: int) -> str:
 def check_mesh(
     directory: Path, *, tolerated: tuple[str, ...] = (), remedy: str = "change the resolution or the shape of the walls"
 ) -> Ended:
-    """Run checkMesh; ConvergenceError if it finds faults other than those whose words are tolerated."""
+    """Run checkMesh and return its log.
+
+    Parameters
+    ----------
+    directory : the directory of the case.
+    tolerated : words of faults that are accepted.
+    remedy : the advice in the message of the error.
+
+    Raises
+    ------
+    ConvergenceError
+        If checkMesh reports a fault with none of the words in ``tolerated``.
+    """
     mesh = succeed(directory, ["checkMesh"], "log.checkMesh")
     faults = [line for line in mesh.log.splitlines() if line.lstrip().startswith("***")]
     accepted = bool(faults) and all(any(words in fault for words in tolerated) for fault in faults)
@@ -53,13 +65,13 @@ def check_mesh(
 
 
 def remarks(mesh: Ended) -> tuple[str, ...]:
-    """The warnings of the mesh check that are no faults."""
+    """The lines of the mesh check's log that begin with an asterisk: warnings, and faults that were tolerated."""
     return tuple(line.strip(" *") for line in mesh.log.splitlines() if line.strip().startswith("*"))
 
 
 @dataclass(frozen=True, kw_only=True)
 class Checked:
-    """A converged flow: its residual in the fields on disk as a new process finds it, and how it came about."""
+    """A converged flow: the residual that a new process computes from the fields on disk, CPU time, s, and tries."""
 
     residual: float
     cpu_s: float
@@ -69,7 +81,15 @@ class Checked:
 def converge(
     directory: Path, asked: Asked, judged: Judged, progress: Progress, settled: Settled | None = None
 ) -> Checked:
-    """Iterate a flow and verify the fields it left; ConvergenceError that says how, with the last lines of the log."""
+    """Iterate a flow, and verify the fields on disk by one more iteration in a new process.
+
+    The verified residual may be at most twice ``judged.slack`` times the tolerance.
+
+    Raises
+    ------
+    ConvergenceError
+        If no try converges or the verified residual is too large; with the last lines of the log.
+    """
     from foamlib import FoamFile  # slow to import
 
     tries = iterate(directory, asked, judged, progress, settled)

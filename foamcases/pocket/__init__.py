@@ -1,1 +1,1 @@
-"""Cases of a pocket."""
+"""OpenFOAM cases of a pocket in a sliding film."""

@@ -1,4 +1,4 @@
-"""A case directory for a pocket scene: mesh, dictionaries, and what a person needs to run it by hand."""
+"""Write the case directory of a pocket scene: mesh, dictionaries, and a README and a script to run it by hand."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -31,7 +31,7 @@ The upper wall (patch "upper", y = 1) slides; "inlet" and "outlet" are one perio
 
 @dataclass(frozen=True, kw_only=True)
 class Card:
-    """The options with which a case was written, for reading it back."""
+    """The options with which a case was written, which are needed to run it and read it back."""
 
     columns: int
     layers: int
@@ -43,11 +43,20 @@ class Card:
 
 
 def write_case(scene: Pocket, directory: Path, request: CheckedRequest, reynolds_number: float) -> None:
-    """Write the whole case of a scene at a Reynolds number of the model's choice.
+    """Write the case of a scene completely or not at all.
 
-    The resolution is the number of mesh columns along the film, about (every corner of the gap is a column);
-    a fifth as many layers cross it. The scheme is a key of ``ADVECTION``. The case is there whole or not at all.
-    Raises InputError for a directory that is not empty.
+    Parameters
+    ----------
+    scene : the pocket scene.
+    directory : the directory of the case, which is made; it may exist if it is empty.
+    request : numerical options. The resolution is the number of mesh columns along the film, about, as columns begin
+        and end at every corner of the gap; there are a fifth as many layers. The scheme is a key of ``ADVECTION``.
+    reynolds_number : the Reynolds number ρ u Ly/η at which the case is run; the model chooses it.
+
+    Raises
+    ------
+    InputError
+        If the directory is not empty or cannot be written.
     """
     resolution, scheme, processes = request.resolution, request.scheme, request.processes
     vertices = mesh.layered(scene.gap(), resolution)

@@ -1,4 +1,4 @@
-"""A pocket scene by OpenFOAM: the result of a case that was run."""
+"""Read the result of a pocket's OpenFOAM case that was run."""
 
 from pathlib import Path
 
@@ -15,7 +15,7 @@ from roughfilm.rom.pocket.validity import cautions
 
 
 def read(solver: Model[Pocket], scene: Pocket, directory: Path, run: Run) -> Result:
-    """The result of a case that was run; see :func:`roughfilm.foamcases.pocket.fields.read_channel` for the errors."""
+    """Read the result of a case that was run; errors as in :func:`roughfilm.foamcases.pocket.fields.read_channel`."""
     model, keeps = solver.name, solver.keeps
     card, channel = read_card(directory, Card), read_channel(directory)
     film, pascal = scene.geometry.film, scene.pressure_unit

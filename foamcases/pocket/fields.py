@@ -1,4 +1,4 @@
-"""The fields of a finished case, read back as arrays over columns and layers."""
+"""Read the fields of a finished pocket case as arrays over columns and layers."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,10 +13,16 @@ from roughfilm.foamcases.pocket.case import Card
 
 @dataclass(frozen=True, kw_only=True)
 class Channel:
-    """Velocity and pressure of a channel, in units of film thickness, sliding speed and η u / Ly.
+    """Velocity and pressure of a channel with nx columns and ny layers.
 
-    ``vertices`` has shape (nx + 1, ny + 1, 2), ``velocity`` (nx, ny, 2), ``pressure`` (nx, ny), zero at the periodic
-    boundary on the upper wall. Layers count from the still lower wall to the sliding upper one.
+    Lengths are in film thicknesses Ly, velocities in sliding speeds u, pressures and stresses in η u / Ly. Layers are
+    numbered from the lower wall, which is at rest, to the upper wall, which slides.
+
+    Attributes
+    ----------
+    vertices : corners of the cells, shape (nx + 1, ny + 1, 2).
+    velocity : velocity in each cell, shape (nx, ny, 2).
+    pressure : pressure in each cell, shape (nx, ny); it is zero at the periodic boundary on the upper wall.
     """
 
     vertices: Array
@@ -25,7 +31,7 @@ class Channel:
 
     @property
     def position(self) -> Array:
-        """Position of the middle of each column, shape (nx,)."""
+        """Positions of the middles of the columns along x, shape (nx,)."""
         x = self.vertices[:, -1, 0]
         return np.asarray((x[1:] + x[:-1]) / 2)
 
@@ -37,27 +43,27 @@ class Channel:
 
     @property
     def wall_pressure(self) -> Array:
-        """Pressure on the sliding wall, extrapolated through the two nearest layers; second order; shape (nx,)."""
+        """Pressure on the sliding wall, extrapolated from the two nearest layers to second order, shape (nx,)."""
         return np.asarray(1.5 * self.pressure[:, -1] - 0.5 * self.pressure[:, -2])
 
     @property
     def wall_shear(self) -> Array:
-        """Shear stress on the sliding wall as the scheme itself sees it, in η u / Ly; shape (nx,).
+        """Shear stress on the sliding wall as OpenFOAM's scheme computes it, in η u / Ly, shape (nx,).
 
-        The one-sided difference over half a layer; its mean balances the other wall's drag exactly, and is of
-        second order.
+        It is the one-sided difference 2 (1 - U) / d with U the velocity in the upper layer and d its thickness. Its
+        mean balances the drag on the other wall exactly, and is of second order.
         """
         layer = self.film_thickness / self.velocity.shape[1]
         return np.asarray((1 - self.velocity[:, -1, 0]) / (layer / 2))
 
     def mean(self, values: Array) -> float:
-        """Mean over the sliding wall of one value per column."""
+        """The mean over the sliding wall of values in the columns, shape (nx,), weighted by the columns' width."""
         x = self.vertices[:, -1, 0]
         return float((values * np.diff(x)).sum() / (x[-1] - x[0]))
 
     def pressure_range(self) -> tuple[float, float]:
-        """Least and greatest pressure on the sliding wall, of the cubic spline through the columns."""
-        from scipy.interpolate import CubicSpline  # slow to import, and most commands do without
+        """The least and greatest pressure on the sliding wall, by a cubic spline through the middles of the columns."""
+        from scipy.interpolate import CubicSpline  # slow to import, and most commands do not need it
 
         spline = CubicSpline(self.position, self.wall_pressure)
         turns = spline.derivative().roots(extrapolate=False)
@@ -65,7 +71,7 @@ class Channel:
         return float(values.min()), float(values.max())
 
     def back_flow(self) -> float:
-        """The fastest reverse flow in any cell, as a fraction of the sliding speed; 0 where there is none."""
+        """The greatest speed of reverse flow in any cell, over the sliding speed; 0 if no cell has reverse flow."""
         return float(max(0.0, -self.velocity[..., 0].min()))
 
 
@@ -75,9 +81,9 @@ def read_channel(directory: Path) -> Channel:
     Raises
     ------
     InputError
-        If the directory holds no case of ours.
+        If the directory holds no pocket case of this version.
     ConvergenceError
-        If it holds no finished fields, or fields that are not finite.
+        If the directory holds no finished fields, or fields that are not finite.
     """
     from foamlib import FoamCase, FoamFile  # slow to import
 

@@ -1,4 +1,4 @@
-"""A run of the case of a pocket: its mesh checked, its flow iterated, and its fields verified."""
+"""Run the case of a pocket: check its mesh, iterate its flow, and verify its fields."""
 
 import time
 from dataclasses import dataclass
@@ -16,8 +16,10 @@ from roughfilm.rom.ladder.model import Progress, silent
 class Run(CaseRun):
     """A successful run of one flow.
 
-    ``residual`` is the largest initial residual of velocity and pressure that a new process finds in the fields on
-    disk; the last of the ``tries`` converged.
+    Attributes
+    ----------
+    residual : largest initial residual of velocity and pressure that a new process computes from the fields on disk.
+    tries : the one or two tries of the run, of which the last converged.
     """
 
     residual: float
@@ -25,15 +27,17 @@ class Run(CaseRun):
 
 
 def run_case(directory: Path, progress: Progress = silent) -> Run:
-    """Check the mesh, run simpleFoam as :func:`foamcases.openfoam.iterate.iterate` does, and verify the fields it left.
+    """Check the mesh, run :func:`roughfilm.foamcases.openfoam.iterate.iterate`, and verify the fields on disk.
 
     Raises
     ------
+    InputError
+        If the directory holds no pocket case of this version.
     UnavailableError
-        If OpenFOAM is not here, or mpirun where the case asks for several processes.
+        If OpenFOAM is not on this machine, or mpirun is not and the case needs several processes.
     ConvergenceError
         If the mesh check fails, simpleFoam stops in error or without convergence, or the fields on disk do not
-        satisfy the equations; with its outcome and the last lines of the log.
+        satisfy the equations; with the outcome of the run and the last lines of its log.
     """
     card = read_card(directory, Card)
     version = ready(card.processes)

@@ -1,1 +1,1 @@
-"""Cases of a rough gap."""
+"""OpenFOAM cases of a gap between rough walls."""

@@ -1,4 +1,4 @@
-"""The balance of momentum over a period: the forces on the walls against the drive, from the fields alone."""
+"""Compute the balance of momentum over a period: the forces of the walls on the liquid against the drive."""
 
 import numpy as np
 
@@ -8,16 +8,17 @@ from roughfilm.foamcases.rough_gap.fields import GapFlow
 
 
 def held(flow: GapFlow, speed: float) -> Array:
-    """The force per plan area along x and y of the walls on the liquid, shape (2,), in ηV/h̄.
+    """The force per plan area of the walls on the liquid along x and y, shape (2,), in ηV/h̄.
 
-    The force is the sum of shear and pressure on both walls and on the edges of contact, as the scheme computes them:
-    the velocity at the centroid of the cell at the wall over its distance, and that cell's pressure. In a steady flow
-    it is the mean gradient times the liquid's volume, 12 <h> along it, and 0 under a sliding wall, up to an error that
-    falls with the cells.
+    The force is the sum of shear and pressure on both walls and on the edges of contact, as OpenFOAM's scheme computes
+    them: the shear is the velocity at the centroid of the cell at the wall over its distance from the wall, and the
+    pressure is that of this cell. In a steady flow the force is the mean pressure gradient times the volume of the
+    liquid: 12 <h> along a unit gradient, and 0 under a sliding wall. Its error falls with the size of the cells.
 
     Parameters
     ----------
-    speed : speed of the upper wall.
+    flow : velocity and pressure on the mesh.
+    speed : speed of the upper wall along x, in V.
     """
     columns = flow.columns
     vertices, kept = columns.vertices, columns.kept
@@ -37,18 +38,21 @@ def held(flow: GapFlow, speed: float) -> Array:
 
 
 def imbalance(flow: GapFlow, drive: Drive) -> float:
-    """The difference of the walls' force and the drive over 12 η V/h̄, the drag of a smooth gap."""
+    """The largest component of |F/12 - g <h>|, the imbalance of forces over the drag 12 ηV/h̄ of a smooth gap.
+
+    F is the force of the walls, g the mean pressure gradient of the drive and <h> the mean height of the liquid.
+    """
     volume = np.where(flow.columns.kept, flow.columns.height, 0.0).mean()
     return float(np.abs(held(flow, drive.speed) / 12 - np.array(drive.gradient) * volume).max())
 
 
 def _at_edges(flow: GapFlow, steps: Array) -> Array:
-    """The force on the edges of contact."""
+    """The force of the edges of contact on the liquid, shape (2,)."""
     vertices, kept = flow.columns.vertices, flow.columns.kept
     height = vertices[:, :, -1, 2] - vertices[:, :, 0, 2]
     total = np.zeros(2)
     for axis in range(2):
-        sides = _middle(height, axis)  # of every side of a column normal to the axis
+        sides = _middle(height, axis)  # heights of all sides of columns that are normal to the axis
         for sign, side in ((1, np.take(sides, range(1, sides.shape[axis]), axis=axis)), (-1, _first(sides, axis))):
             bare: Mask = kept & ~np.roll(kept, -sign, axis=axis)
             face = np.where(bare, side / flow.layers / steps[axis], 0.0)[..., None]
@@ -63,7 +67,7 @@ def _first(values: Array, axis: int) -> Array:
 
 
 def _middle(values: Array, axis: int) -> Array:
-    """The means of neighbours along the other axis."""
+    """The means of neighbouring values along the other axis."""
     other = 1 - axis
     n = values.shape[other]
     return (np.take(values, range(1, n), axis=other) + np.take(values, range(n - 1), axis=other)) / 2

@@ -1,4 +1,4 @@
-"""A case directory for a rough gap: one mesh, and a case of simpleFoam for each way to drive the flow."""
+"""Write the case directory of a rough gap: one mesh, and one case of simpleFoam for each drive of the flow."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -30,10 +30,10 @@ from roughfilm.rom.rough_gap.scene import MIN_LAYERS, RoughGap
 from roughfilm.rom.rough_gap.walls import Walls
 
 RESIDUAL_SLACK = 300.0
-"""Allowed residuals over the tolerance once the flow has settled: they belong to waves as short as the cells."""
+"""Allowed residual over the tolerance once the flow has settled; what remains are waves as short as the cells."""
 
 LAYERS_PER_COLUMN = 1 / 4
-"""Cells across the gap for each along its longer side, unless the scene gives the number."""
+"""Number of cells across the gap over the number along its longer side, unless the scene gives the former."""
 
 RUN = """\
 first={first}
@@ -72,10 +72,14 @@ well end after all of its iterations. Times the volume of the mesh over the area
 
 @dataclass(frozen=True, kw_only=True)
 class GapCard:
-    """The options with which a case was written, for running and reading it.
+    """The options with which a case was written, which are needed to run and read it.
 
-    ``judged`` are the fields of each drive that are not constant, its main velocity first; ``relaxation`` is that of
-    its velocity.
+    Attributes
+    ----------
+    layers : number of cells across the gap.
+    cells : number of cells of the mesh.
+    judged : for each drive, the fields that are not constant, the main velocity first.
+    relaxation : for each drive, the relaxation of velocity.
     """
 
     layers: int
@@ -98,23 +102,23 @@ class GapCard:
 
 
 def layers_of(scene: RoughGap, resolution: int) -> int:
-    """The number of cells across the gap: that of the scene, or a quarter of those along its longer side."""
+    """The number of cells across the gap, as the scene gives it or a quarter of the number along the longer side."""
     return scene.layers or max(MIN_LAYERS, round(resolution * LAYERS_PER_COLUMN))
 
 
 def columns_of(scene: RoughGap, resolution: int) -> tuple[int, int]:
-    """The numbers of mesh columns along x and y, ``resolution`` along the longer side."""
+    """The numbers of mesh columns along x and y: ``resolution`` along the longer side, and at least 2."""
     shape = scene.surface().shape
     nx, ny = (max(2, round(points * resolution / max(shape))) for points in shape)
     return nx, ny
 
 
 HEIGHT_ROUND_OFF = 1e-12
-"""Difference of heights over the mean gap that counts as round-off."""
+"""Largest difference of heights, over the mean gap, that counts as round-off."""
 
 
 def mesh_of(scene: RoughGap, resolution: int) -> tuple[Walls, Columns]:
-    """The walls with so many nodes along the longer side, and the mesh between them."""
+    """The walls with ``resolution`` nodes along the longer side, and the mesh between them in units of the mean gap."""
     walls = scene.walls(resolution)
     return walls, columns_between(walls, scene.mean_gap, layers_of(scene, resolution))
 
@@ -122,8 +126,8 @@ def mesh_of(scene: RoughGap, resolution: int) -> tuple[Walls, Columns]:
 def judged_of(drive: Drive, walls: Walls) -> tuple[str, ...]:
     """The fields of a flow that are not constant, the main velocity first.
 
-    Where the walls do not change along the flow, the velocity has one component and the pressure is constant; where
-    they do not change across it, there is no velocity across.
+    If the walls do not change along the flow, the velocity has one component and the pressure is constant. If they do
+    not change across the flow, there is no velocity across it.
     """
     both = np.stack([walls.lower, walls.upper])
     changes = [bool((np.ptp(both, axis=axis) > HEIGHT_ROUND_OFF * walls.mean_gap).any()) for axis in (1, 2)]
@@ -137,16 +141,24 @@ def judged_of(drive: Drive, walls: Walls) -> tuple[str, ...]:
 def write_gap_case(
     scene: RoughGap, directory: Path, request: CheckedRequest, reynolds_number: float, *, run: bool = False
 ) -> None:
-    """Write the cases of a scene at a Reynolds number of the model's choice, one for each drive, in one directory.
+    """Write the cases of a scene, one for each drive, in one directory, completely or not at all.
 
-    The resolution is the number of columns along the longer side; in a direction that contact seals there is no flow,
-    and no case. ``run`` says that they are to be run on this machine. The directory is there whole or not at all.
+    In a direction that contact seals there is no flow and no case.
+
+    Parameters
+    ----------
+    scene : the rough gap.
+    directory : the directory of the cases, which is made; it may exist if it is empty.
+    request : numerical options; the resolution is the number of columns along the longer side.
+    reynolds_number : the Reynolds number at which the cases are run; the model chooses it.
+    run : whether the cases are to be run on this machine. A gap that contact seals both ways is then written as a
+        directory without cases.
 
     Raises
     ------
     InputError
-        For a directory that is not empty, a mesh that does not fit into this machine's memory, or
-        a gap through which nothing flows; if it is to be run here, that is a directory without cases.
+        If the directory is not empty, the mesh does not fit into this machine's memory, or contact seals the gap both
+        ways and ``run`` is False.
     """
     resolution, processes = request.resolution, request.processes
     nx, ny = columns_of(scene, resolution)
@@ -177,7 +189,7 @@ def write_gap_case(
 
 
 def _drives(walls: Walls, columns: Columns) -> list[Drive]:
-    """Those that make anything flow."""
+    """The drives that make liquid flow on the mesh."""
     closed = sealed(columns.kept.astype(float))
     open_to = {"along": not closed[0], "across": not closed[1], "sliding": walls.slides and not all(closed)}
     return [drive for drive in DRIVES if open_to[drive.name]]
@@ -186,7 +198,7 @@ def _drives(walls: Walls, columns: Columns) -> list[Drive]:
 def _filled(
     scene: RoughGap, walls: Walls, columns: Columns, drives: list[Drive], card: GapCard
 ) -> Callable[[Path], None]:
-    """A function that fills a directory with the cases."""
+    """The function that fills a directory with the cases."""
     shape = (*columns.kept.shape, card.layers)
     kept = np.broadcast_to(columns.kept[..., None], shape)
     chosen = kept.ravel(order="F")

@@ -1,4 +1,4 @@
-"""A rough gap by OpenFOAM: the result of a case that was run."""
+"""Read the result of a rough gap's OpenFOAM cases that were run."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -23,28 +23,42 @@ from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.rough_gap.validity import cautions
 
 MAX_IMBALANCE = 0.02
-"""Imbalance of forces over the drag of a smooth gap above which there is a warning."""
+"""Largest imbalance of forces without a warning, over the drag of a smooth gap."""
 
 MAX_LOST_SHEAR = 0.05
-"""Fraction of the shear across a thin film that the columns may miss without a warning."""
+"""Largest fraction of the shear across a thin film that the columns may miss without a warning."""
 
 MAX_CREEPING = 1.0
-"""Re g' above which the error of inertia counts, which one mesh cannot estimate."""
+"""Largest Re g' at which uncertainties are given; one mesh cannot estimate the error of inertia, which counts above."""
 
 MAX_CLOSED_IN = 1e-3
-"""Fraction of the open volume that contact may close in without a warning."""
+"""Largest fraction of the open volume that contact may close in without a warning."""
 
 
 def factors_of(flows: dict[str, GapFlow], *, slides: bool) -> tuple[RoughGapFactors, dict[str, float]]:
-    """The factors of a gap over a smooth one's from its flows, and B once more from how they pull at the upper wall.
+    """The flow factors of a gap over those of a smooth gap, and the factors B_j computed again from wall shear.
 
-    A uniform layering by N makes the flow of a parabola too large by 2/N² of itself in every column: its velocity is
-    exact but for the same g h²/(8 η N²) in all cells, and the midpoint rule adds a third of that. A is divided by
-    1 + 2/N². Pressure under a sliding wall is too small by the same, so that B stays; of friction d + 3e the part 3e,
-    which is what exceeds <1/h>, is multiplied by it. All three are exact in the limit of small slopes.
+    With N uniform layers, the flow of a parabolic velocity is too large by the fraction 2/N² in every column: the
+    velocity of each cell has the error g h²/(8 η N²), and the midpoint rule adds a third of that. Three corrections,
+    which are exact in the limit of small slopes, follow:
 
-    By the reciprocal theorem the flow under a gradient along j pulls the upper wall with h̄ B_j G/2 in Stokes flow. What
-    is sealed lets nothing through, whatever the mean of the cells' velocities is.
+    - A is divided by 1 + 2/N².
+    - B needs no correction, because the pressure under a sliding wall is too small by the same fraction.
+    - In the friction d + 3e, the part 3e, which is the friction less <1/h>, is multiplied by 1 + 2/N².
+
+    In Stokes flow, the reciprocal theorem states that the flow under a gradient G along j pulls the upper wall with the
+    stress h̄ B_j G/2. In a sealed direction the flow is set to zero, whatever the mean velocity of the cells is.
+
+    Parameters
+    ----------
+    flows : the flows, by the names of their drives; a sealed direction has none.
+    slides : whether the upper wall is flat and can slide.
+
+    Returns
+    -------
+    tuple[RoughGapFactors, dict[str, float]]
+        The factors, with NaN for shear and friction if there is no sliding flow; and "B1" and "B2" by the reciprocal
+        theorem, for the drives that have a flow and if the upper wall slides.
     """
     still = RoughGapFactors(mean_gap=1.0, pressure=np.zeros((2, 2)), shear=np.full(2, np.nan), friction=np.nan)
     excess = 0.0
@@ -71,9 +85,9 @@ def factors_of(flows: dict[str, GapFlow], *, slides: bool) -> tuple[RoughGapFact
 
 
 def lost_shear(scene: RoughGap, columns: Columns) -> float:
-    """The part of <1/h> on the surface's own points that the columns of a mesh do not see: shear of thin films.
+    """The fraction of <1/h>, the mean shear of a thin film on the surface's own points, that a mesh misses.
 
-    Friction is at least that shear, whatever else the liquid does.
+    The fraction is 1 - <1/h> of the columns / <1/h> of the points, and at least 0. Friction is at least that shear.
     """
     gap = scene.walls(max(scene.surface().shape)).gap / scene.mean_gap
     whole = float(np.divide(1.0, gap, out=np.zeros(gap.shape), where=gap > 0).mean())
@@ -81,12 +95,15 @@ def lost_shear(scene: RoughGap, columns: Columns) -> float:
 
 
 def _shear(columns: Columns) -> float:
-    """The mean of 1/h over the open columns, h in mean gaps."""
+    """The mean of 1/h over the period, with 0 in closed columns and h in mean gaps."""
     return float(np.divide(1.0, columns.height, out=np.zeros(columns.kept.shape), where=columns.kept).mean())
 
 
 def read(solver: Model[RoughGap], scene: RoughGap, directory: Path, run: GapRun) -> Result:
-    """The result of a case that was run; see :func:`foamcases.rough_gap.fields.read_gap_flow` for the errors."""
+    """Read the result of a case that was run.
+
+    The errors are those of :func:`roughfilm.foamcases.rough_gap.fields.read_gap_flow`.
+    """
     model, keeps = solver.name, solver.keeps
     card = read_card(directory, GapCard)
     walls, columns = mesh_of(scene, card.resolution)

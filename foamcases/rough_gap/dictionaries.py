@@ -1,4 +1,4 @@
-"""The dictionaries of a rough gap, with numbers and names from this file alone and no text from a scene."""
+"""The dictionaries of the cases of a rough gap, with numbers from a scene but no text from it."""
 
 import math
 from dataclasses import dataclass
@@ -14,21 +14,25 @@ ITERATIONS = 3000
 """Largest number of iterations."""
 
 STRAIGHT_ITERATIONS = 200
-"""Iterations of a creeping straight flow, which settles within 50; no residual ends it, as most are round-off."""
+"""Largest number of iterations of a creeping straight flow, which settles within 50.
+
+No residual ends this run, because most of them are round-off.
+"""
 
 CREEPING = 1.0
-"""Reynolds number up to which a flow counts as creeping; above it, straight flows settle later."""
+"""Largest Reynolds number of a flow that counts as creeping; above it, straight flows settle later."""
 
 LINEAR_TOLERANCE = 1e-3
-"""Residual at which a linear solver stops, in units of the tolerance."""
+"""Residual at which a linear solver stops, over the tolerance of the flow."""
 
 COARSEST = 20
-"""Cells of multigrid's coarsest level."""
+"""Number of cells on multigrid's coarsest level."""
 
 VELOCITY_GAIN = 0.1
+"""Last residual of velocity in a linear solver, over its first one, at which the solver may stop."""
 
 SLIDING_SPEED = 2.0
-"""Speed of the upper wall; a smooth gap then has the flow 1, as under the gradient."""
+"""Speed of the upper wall, in V; a smooth gap then has the flow 1, as under the gradient 1."""
 
 SIDES = (
     Patch(name="west", entries={"type": "cyclic", "neighbourPatch": "east"}),
@@ -45,7 +49,7 @@ CONTACT = Patch(name="contact", entries={"type": "wall"})
 
 
 MEAN_VELOCITY = "flow"
-"""The name of the function that logs the mean velocity of all cells, in each iteration."""
+"""Name of the OpenFOAM function that logs the mean velocity of all cells in each iteration."""
 
 FUNCTIONS = {
     MEAN_VELOCITY: {
@@ -69,7 +73,7 @@ FUNCTIONS = {
 
 @dataclass(frozen=True, kw_only=True)
 class Drive:
-    """The drive of a flow: mean pressure gradients along x and y, and the speed of the upper wall."""
+    """The drive of a flow: mean pressure gradients along x and y, in G, and speed of the upper wall along x, in V."""
 
     name: str
     gradient: tuple[float, float] = (0.0, 0.0)
@@ -81,25 +85,34 @@ DRIVES = (
     Drive(name="across", gradient=(0.0, 1.0)),
     Drive(name="sliding", speed=SLIDING_SPEED),
 )
+"""The three drives of a gap, each of which has a case of its own."""
 
 
 def relaxation(layers: int, cells: tuple[float, float], *, straight: bool = False) -> float:
-    """The relaxation of velocity in SIMPLEC, near the fewest iterations for 4 to 32 layers and cells of 0.05 to 3 gaps.
+    """The relaxation of velocity in SIMPLEC: 1 - 0.8 / sqrt(layers² + 1/length² + 1/width²), or 0.999 if ``straight``.
 
-    SIMPLEC corrects the velocity of each cell by its own pressure, in proportion to 1 less the relaxation; the
-    correction should be that of a whole column, so that the relaxation is nearer to 1 the smaller the cells are. The
-    converged flow depends on it by 1e-5, and by 1e-4 beside edges of contact; every case on a mesh has the same value.
-    A straight flow has no pressure.
+    It needs nearly the fewest iterations for 4 to 32 layers and cells of 0.05 to 3 mean gaps. SIMPLEC corrects the
+    velocity of each cell by its own pressure, in proportion to 1 less the relaxation. The correction should be that of
+    a whole column, so the relaxation is nearer to 1 for smaller cells. The converged flow depends on the relaxation by
+    1e-5, and by 1e-4 beside edges of contact.
 
     Parameters
     ----------
+    layers : number of cells across the gap.
     cells : length and width of the cells, in mean gaps.
+    straight : whether the flow is straight, with constant pressure.
     """
     return 0.999 if straight else 1 - 0.8 / math.sqrt(layers**2 + cells[0] ** -2 + cells[1] ** -2)
 
 
 def parts_of(processes: int, size: tuple[float, float]) -> tuple[int, int]:
-    """The numbers of parts along x and y of a period for so many processes, as square as possible."""
+    """The numbers of parts along x and y into which a period is divided, so that the parts are as square as possible.
+
+    Parameters
+    ----------
+    processes : number of parts.
+    size : length and width of the period, in any one unit.
+    """
     pairs = [(n, processes // n) for n in range(1, processes + 1) if processes % n == 0]
     return min(pairs, key=lambda pair: abs(math.log(size[0] / pair[0] * pair[1] / size[1])))
 
@@ -117,17 +130,21 @@ def gap_dictionaries(
     patches: tuple[Patch, ...],
     moving: tuple[str, ...] = FIELDS,
 ) -> dict[str, Dictionary]:
-    """``system``, ``constant`` and ``0`` of a gap.
+    """The files in ``system``, ``constant`` and ``0`` of a gap, by their paths in the case.
 
-    Lengths are in mean gaps, velocities in the mean velocity V of a smooth one, kinematic pressures in V².
+    Lengths are in mean gaps, velocities in the mean velocity V of a smooth gap, and kinematic pressures in V².
 
     Parameters
     ----------
-    parts : into how many parts along x and y a parallel run is to cut the mesh.
-    relaxation : of velocity.
-    velocity, pressure : those of the start, shapes (cells, 3) and (cells,).
-    patches : of the mesh.
-    moving : the fields in which there is anything, as :class:`roughfilm.foamcases.openfoam.residuals.Judged` has them.
+    drive : the mean pressure gradient and the speed of the upper wall.
+    reynolds_number : ρ q/η of a smooth gap with the thickness of the mean gap.
+    tolerance : the initial residual at which the iteration stops.
+    scheme : a key of ``ADVECTION``.
+    parts : the numbers of parts along x and y into which a parallel run divides the mesh.
+    relaxation : the relaxation of velocity.
+    velocity, pressure : the initial fields, shapes (cells, 3) and (cells,), or their value in all cells.
+    patches : the patches of the mesh.
+    moving : the fields that are not constant, as ``fields`` of :class:`roughfilm.foamcases.openfoam.residuals.Judged`.
     """
     from foamlib import DimensionSet  # slow to import
 

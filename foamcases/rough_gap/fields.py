@@ -1,4 +1,4 @@
-"""The flow through a rough gap, read back from its cases as arrays over columns and layers, and what it adds up to."""
+"""Read the flow through a rough gap from its cases as arrays over columns and layers, and compute its means."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,15 +13,15 @@ from roughfilm.foamcases.rough_gap.mesh import Columns
 
 @dataclass(frozen=True, kw_only=True)
 class GapFlow:
-    """A flow through the mesh of a gap; 0 in columns that are not there.
+    """A flow through the mesh of a gap, with velocity and pressure 0 in columns that the mesh does not have.
 
-    In units of the mean gap h̄, of V = h̄²G/(12η) and of ηV/h̄.
+    Lengths are in mean gaps h̄, velocities in V = h̄²G/(12η), and pressures and stresses in ηV/h̄.
 
     Attributes
     ----------
     columns : the mesh.
-    velocity : shape (nx, ny, layers, 3).
-    pressure : shape (nx, ny, layers), of mean 0, without the part of the mean gradient.
+    velocity : velocity in each cell, shape (nx, ny, layers, 3).
+    pressure : pressure in each cell with mean 0, without the part of the mean gradient, shape (nx, ny, layers).
     """
 
     columns: Columns
@@ -30,23 +30,24 @@ class GapFlow:
 
     @property
     def layers(self) -> int:
-        """Cells across the gap."""
+        """The number of cells across the gap."""
         return int(self.velocity.shape[2])
 
     @property
     def flow_per_width(self) -> Array:
-        """∫u dz over the gap, mean over each column, shape (nx, ny, 2)."""
+        """The flow per width ∫u dz along x and y, as the mean over each column, in V h̄, shape (nx, ny, 2)."""
         return np.asarray(self.velocity[..., :2].mean(axis=2) * self.columns.height[..., None])
 
     @property
     def flow(self) -> Array:
-        """Its mean over the period, contact included, shape (2,)."""
+        """The mean of the flow per width over the period, contact included, in V h̄, shape (2,)."""
         return np.asarray(self.flow_per_width.mean(axis=(0, 1)))
 
     def pull(self, speed: float) -> float:
-        """Mean over the period of η ∂u/∂z on a flat upper wall that slides along x, as the scheme itself sees it.
+        """The mean over the period of η ∂u/∂z on a flat upper wall that slides along x at ``speed``, in ηV/h̄.
 
-        A one-sided difference between the wall and the centre of mass of the highest cells: against the wall's motion.
+        The shear is the one-sided difference between the wall and the centroid of the highest cells, as OpenFOAM's
+        scheme computes it. It is positive if the liquid resists the motion of the wall.
         """
         kept = self.columns.kept
         distance = np.divide(self.columns.squared_height, self.columns.height, out=np.ones(kept.shape), where=kept)
@@ -60,9 +61,9 @@ def read_gap_flow(case: Path, card: GapCard, columns: Columns) -> GapFlow:
     Raises
     ------
     InputError
-        If the case has another mesh.
+        If the case has another number of cells than the mesh.
     ConvergenceError
-        If it holds no finished fields, or fields that are not finite.
+        If the case holds no finished fields, or fields that are not finite.
     """
     from foamlib import FoamCase  # slow to import
 

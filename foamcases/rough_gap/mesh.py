@@ -1,4 +1,4 @@
-"""Walls of a rough gap → columns of hexahedra between them, contact cut out."""
+"""Mesh a rough gap with columns of hexahedra between its walls, without the regions of contact."""
 
 from dataclasses import dataclass
 
@@ -15,9 +15,10 @@ class Columns:
 
     Attributes
     ----------
-    vertices : shape (nx + 1, ny + 1, layers + 1, 3), in units of length; the last of a row is the first, a period on.
+    vertices : corners of the cells, shape (nx + 1, ny + 1, layers + 1, 3), in the unit of the mesh; the last corners
+        along x and y are the first ones, moved by a period.
     kept : mask of the columns that the mesh has, shape (nx, ny).
-    closed_in : volume of the columns that contact closes in, over that of all open ones; the mesh leaves them out.
+    closed_in : volume of the columns that contact closes in, which the mesh leaves out, over that of all open columns.
     """
 
     vertices: Array
@@ -26,12 +27,12 @@ class Columns:
 
     @property
     def height(self) -> Array:
-        """Mean height of each column, shape (nx, ny)."""
+        """The mean height of each column, shape (nx, ny)."""
         return column_heights(self.vertices)
 
     @property
     def squared_height(self) -> Array:
-        """Mean over each column of the height squared, shape (nx, ny); exact, the height being bilinear."""
+        """The mean of the squared height over each column, exact for a bilinear height, shape (nx, ny)."""
         h = _heights(self.vertices)
         a, b, c, d = h[:-1, :-1], h[1:, :-1], h[:-1, 1:], h[1:, 1:]
         squares = a * a + b * b + c * c + d * d + a * b + a * c + b * d + c * d + (a * d + b * c) / 2
@@ -39,15 +40,16 @@ class Columns:
 
 
 def columns_between(walls: Walls, unit: float, layers: int) -> Columns:
-    """The mesh of a gap with its nodes as the corners of the columns, cells across each being equally thick.
+    """The mesh of a gap, whose columns have the nodes of the walls as corners and cells of equal thickness.
 
-    A column with a corner in contact is left out, and so is one from which liquid cannot flow on and on: it would stand
-    still under any gradient, at a pressure that nothing fixes.
+    The mesh leaves out columns with a corner in contact, and columns that are not connected to an open path around the
+    period: the liquid in them would be at rest under any gradient, and its pressure would not be determined.
 
     Parameters
     ----------
-    unit : of length, m.
-    layers : cells across the gap.
+    walls : heights of the walls on the nodes.
+    unit : unit of length of the mesh, m.
+    layers : number of cells across the gap.
     """
     lower, upper = (_with_first_again(heights) / unit for heights in (walls.lower, walls.upper))
     (nx, ny), (dx, dy) = walls.lower.shape, walls.spacing
@@ -65,7 +67,7 @@ def columns_between(walls: Walls, unit: float, layers: int) -> Columns:
 
 
 def column_heights(vertices: Array) -> Array:
-    """Mean height of each column of a mesh, shape (nx, ny)."""
+    """The mean height of each column of a mesh with the given vertices, shape (nx, ny)."""
     height = _heights(vertices)
     return np.asarray((height[1:, 1:] + height[1:, :-1] + height[:-1, 1:] + height[:-1, :-1]) / 4)
 

@@ -13,18 +13,21 @@ RESOLUTIONS = (16, 32, 64)
 """Numbers of columns along the longer side; the last is the default."""
 
 TOLERANCE = 1e-5
-"""Remaining relative change of a flow, or residual, at which a run ends."""
+"""Default tolerance: the remaining relative change of a flow, or the residual, at which a run ends."""
 
 
 def resolutions(scene: RoughGap) -> Resolutions:
-    """Those of ``RESOLUTIONS`` for which the surface has points enough, or all that it has."""
+    """The resolutions of a scene: the entries of ``RESOLUTIONS`` up to the points along the surface's longer side.
+
+    If the surface has fewer points than the least entry, the only resolution of the series is their number.
+    """
     own = max(scene.surface().shape)
     series = tuple(n for n in RESOLUTIONS if n <= own) or (own,)
     return Resolutions(least=min(own, MIN_SIDE_POINTS), most=own, default=min(own, RESOLUTIONS[-1]), series=series)
 
 
 def most_processes(scene: RoughGap, resolution: int) -> int:
-    """One for every two columns."""
+    """The largest number of processes: one for every two columns of the mesh, and at least 1."""
     from roughfilm.foamcases.rough_gap.case import columns_of  # slow to import
 
     nx, ny = columns_of(scene, resolution)
@@ -32,9 +35,10 @@ def most_processes(scene: RoughGap, resolution: int) -> int:
 
 
 def cost(scene: RoughGap, resolution: int) -> float:
-    """CPU seconds of all drives, measured over 8 to 128 columns: start-up, then cells times iterations.
+    """Expected CPU seconds of all three drives, 2 + 3 · 6e-6 s · cells · layers, measured with 8 to 128 columns.
 
-    Of the latter there are some four for each layer, up to twice as many between walls as short as the gap is high.
+    The number of iterations is about four times the number of layers, and up to twice as large between walls whose
+    period is as short as the gap is high.
     """
     from roughfilm.foamcases.rough_gap.case import layers_of  # slow to import
 

@@ -1,4 +1,4 @@
-"""The cases of a rough gap, run one after the other on one checked mesh, each believed only after it was checked."""
+"""Run the cases of a rough gap one after the other on one checked mesh, and verify the fields of each."""
 
 import time
 from dataclasses import dataclass
@@ -16,21 +16,23 @@ from roughfilm.foamcases.rough_gap.dictionaries import MEAN_VELOCITY
 from roughfilm.rom.ladder.model import Progress, silent
 
 MAIN = {"Ux": 0, "Uy": 1}
+"""Component of the mean velocity that belongs to each main velocity."""
 
 TOLERATED = ("High aspect ratio cells", "highly skew faces")
-"""Faults of flat cells and of cells beside steep walls, which become warnings: their error falls with the mesh."""
+"""Faults of flat cells and of cells beside steep walls, which are warnings: their error falls with cell size."""
 
 WINDOW = 10
 """Number of iterations over which the change of the flow is measured."""
 
 MIN_VELOCITY = 1e-6
-"""Mean velocity, over that of a smooth gap, below which a flow counts as none."""
+"""Least mean velocity, over that of a smooth gap, to which the change of a flow is compared."""
 
 MAX_STEP_RATIO = 0.98
-"""Largest assumed ratio of successive steps; steps of round-off do not shrink."""
+"""Largest ratio of successive steps in the extrapolation, which stays finite where steps of round-off do not shrink."""
 
 
 SEALED = "contact seals the gap both ways on this mesh: nothing flows, and nothing was run"
+"""The warning for a gap without cases."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,7 +42,7 @@ class GapRun(CaseRun):
     Attributes
     ----------
     flows : the run of each drive, by its name.
-    unsettled : remaining relative change of the mean velocity of each drive, extrapolated.
+    unsettled : extrapolated remaining change of the mean velocity of each drive, over that velocity.
     """
 
     flows: dict[str, Checked]
@@ -48,7 +50,10 @@ class GapRun(CaseRun):
 
 
 def run_gap(directory: Path, progress: Progress = silent) -> GapRun:
-    """Check the mesh and run each drive; errors as :func:`roughfilm.foamcases.pocket.run.run_case` raises them."""
+    """Check the mesh and run each drive; errors as in :func:`roughfilm.foamcases.pocket.run.run_case`.
+
+    A directory without cases gives a run without flows and the warning ``SEALED``.
+    """
     card = read_card(directory, GapCard)
     version = ready(card.processes)
     wall = time.perf_counter()
@@ -79,7 +84,11 @@ def run_gap(directory: Path, progress: Progress = silent) -> GapRun:
 
 
 def settled_within(tolerance: float, case: Path, judged: Judged) -> Settled:
-    """A test of a running case: residuals within the slack and remaining change of the mean velocity in tolerance."""
+    """A function that tests whether a running case has settled.
+
+    A case has settled if it has done at least 2 ``WINDOW`` iterations, its greatest residual is ``judged.slack`` times
+    the tolerance or less, and the remaining relative change of the mean velocity is at most the tolerance.
+    """
 
     def settled(residuals: Residuals) -> bool:
         if len(residuals.greatest) < 2 * WINDOW or not residuals.greatest[-1] <= judged.slack * tolerance:
@@ -90,7 +99,10 @@ def settled_within(tolerance: float, case: Path, judged: Judged) -> Settled:
 
 
 def mean_velocity(case: Path) -> Array:
-    """The mean velocity of all cells in each iteration, shape (iterations, 3); the last verified the run."""
+    """The mean velocity of all cells in each logged iteration of a case, in V, shape (iterations, 3).
+
+    After a complete run, the last iteration is the one that verified the fields.
+    """
     folders = sorted((case / "postProcessing" / MEAN_VELOCITY).iterdir(), key=lambda folder: float(folder.name))
     lines = [
         line
@@ -102,10 +114,11 @@ def mean_velocity(case: Path) -> Array:
 
 
 def unsettled(values: Array) -> float:
-    """The remaining change of a series over its last value, if its steps go on shrinking at their present rate.
+    """The remaining change of a series over its last value, if its steps keep shrinking at their present rate.
 
-    With d the largest of the last ``WINDOW`` steps and d' that of those before, the remainder is d r/(1 - r) with
-    r = (d/d')^(1/``WINDOW``), at most ``MAX_STEP_RATIO``. A shorter series is split in half.
+    The remaining change is d r/(1 - r), where d is the largest of the last ``WINDOW`` steps, d' the largest of as many
+    steps before, and r = (d/d')^(1/``WINDOW``), at most ``MAX_STEP_RATIO``. The steps of a shorter series are split in
+    half. The last value counts as at least ``MIN_VELOCITY``.
     """
     steps = np.abs(np.diff(values))
     window = min(WINDOW, steps.size // 2)

@@ -1,4 +1,4 @@
-"""The fields from which a rough gap's flow is iterated: those of the Reynolds equation."""
+"""The initial fields of a rough gap's flow, from the Reynolds equation."""
 
 import numpy as np
 
@@ -9,16 +9,23 @@ from roughfilm.rom.homogenization.cell import solve_cell
 from roughfilm.rom.rough_gap.walls import Walls
 
 TOLERANCE = 1e-6
-"""Tolerance of the initial flow."""
+"""Tolerance of the cell problems of the initial flow."""
 
 
 class Start:
-    """Velocity and pressure of thin-film flow in the cells of a gap's mesh, any drive.
+    """Velocity and pressure of thin-film flow in the cells of a gap's mesh, for any drive.
 
-    In units of the mean gap h̄, of V = h̄²G/(12η) and of ηV/h̄: with the correctors χ of the cell problems, p = -12 χ_i
-    under a mean gradient along i and p = 6 U χ₃ under an upper wall that slides at U; v = -h²∇p/12 less the mean
-    gradient's part; velocity v 6 s (1 - s) + U s at the part s of the way from the lower wall to the upper one. (Its
-    component from wall to wall, which is smaller by the slope, is left to the first iteration: it saves none.)
+    Lengths are in mean gaps h̄, velocities in V = h̄²G/(12η), pressures in ηV/h̄. χ are the correctors of the cell
+    problems. The pressure is p = -12 χ_i under a mean gradient along i, and p = 6 U χ₃ under an upper wall that slides
+    at U; it leaves out the part of the mean gradient g. The mean velocity across the gap by pressure is
+    v = h² (g - ∇p/12), and the velocity is 6 v s (1 - s) + U s, where s is 0 on the lower and 1 on the upper wall. The
+    component from wall to wall, which is smaller by the slope, is 0; its value would save no iteration.
+
+    Parameters
+    ----------
+    walls : heights of the walls on the nodes of the mesh.
+    unit : unit of length of the mesh, m; the mean gap.
+    columns : the mesh.
     """
 
     def __init__(self, walls: Walls, unit: float, columns: Columns) -> None:
@@ -27,7 +34,7 @@ class Start:
         self._spacing, self._columns = spacing, columns
 
     def fields(self, drive: Drive) -> tuple[Array, Array]:
-        """Velocity (nx, ny, layers, 3) and pressure (nx, ny, layers)."""
+        """The velocity, shape (nx, ny, layers, 3), and the pressure, shape (nx, ny, layers), of a drive."""
         gx, gy = drive.gradient
         chi = np.pad(
             gx * self._correctors[0] + gy * self._correctors[1] - drive.speed / 2 * self._correctors[2],
@@ -47,6 +54,6 @@ class Start:
 
 
 def _slope(values: Array, axis: int) -> Array:
-    """Differences along an axis between nodes, in the middle of the columns."""
+    """Differences between neighbouring nodes along an axis, in the middles of the columns."""
     steps = np.moveaxis(np.diff(values, axis=axis), axis, 0)
     return np.moveaxis((steps[:, 1:] + steps[:, :-1]) / 2, 0, axis)

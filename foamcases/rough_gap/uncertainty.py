@@ -12,13 +12,13 @@ from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.rough_gap.walls import Walls
 
 COLUMN_FACTOR = 1.25
-"""Uncertainty over the change of the thin-film factors if columns have the mean height of their corners."""
+"""Uncertainty over the change of the thin-film factors when columns get the mean height of their corners."""
 
 LAYER_FACTOR = 3.0
 """Uncertainty over the change by slope, times N²; N is the number of layers.
 
-With this and the other factors, 41 sinusoids of amplitude 0.05 to 0.95 and 0.5 to 20 mean gaps long, on 16, 32 and 64
-columns with 4 to 32 layers, have errors of at most three quarters of their uncertainty.
+With this and the other factors, the errors of 41 sinusoids are at most three quarters of their uncertainties. Their
+amplitudes are 0.05 to 0.95 and their lengths 0.5 to 20 mean gaps, on 16, 32 and 64 columns with 4 to 32 layers.
 """
 
 WAVE_FACTOR = 0.5
@@ -28,23 +28,30 @@ SLOPE_FACTOR = 0.5
 """Uncertainty over the change by slope, over (1 + g'²)(k dx)²; dx is the longer side of a column over the mean gap."""
 
 MAX_RIDGE_NODES = 2
-"""Largest number of nodes of a side along which the walls do not change; its columns' length does not count."""
+"""Largest number of nodes of a side along which the walls do not change; ``SLOPE_FACTOR`` leaves this side out."""
 
 
 def uncertainties(
     factors: RoughGapFactors, scene: RoughGap, walls: Walls, layers: int
 ) -> tuple[RoughGapFactors, RoughGapFactors]:
-    """The uncertainties of the factors on one mesh, and thin-film theory's factors on its nodes, over the mean gap's.
+    """The uncertainties of the factors on one mesh, and the factors of thin-film theory on its nodes.
 
-    Four parts are added: those of ``COLUMN_FACTOR``, ``LAYER_FACTOR``, ``WAVE_FACTOR`` and ``SLOPE_FACTOR``, and the
-    change by waves too short for the nodes in the theory of small slopes. They are of second order in columns and
-    layers where the walls are smooth and open, and leave out the error of inertia.
+    Both are relative to a smooth gap with the thickness of the mean gap. The uncertainty is a sum: the parts of
+    ``COLUMN_FACTOR``, ``LAYER_FACTOR``, ``WAVE_FACTOR`` and ``SLOPE_FACTOR``, and the change by waves too short for the
+    nodes, by the theory of small slopes. It is of second order in columns and layers where the walls are smooth
+    and open. It leaves out the error of inertia.
 
     Parameters
     ----------
     factors : the factors on the mesh.
+    scene : the rough gap.
     walls : the walls of the scene on the nodes of the mesh.
-    layers : number of cells across.
+    layers : number of cells across the gap.
+
+    Returns
+    -------
+    tuple[RoughGapFactors, RoughGapFactors]
+        The uncertainties, and the factors of thin-film theory; both are the latter if contact closes every column.
 
     Raises
     ------
@@ -86,6 +93,6 @@ def _over(change: Array, value: Array) -> Array:
 
 
 def _column_heights(gap: Array) -> Array:
-    """Mean of the four corners of each column, 0 where one is in contact."""
+    """The mean gap at the four corners of each column, 0 where a corner is in contact, shape (nx, ny)."""
     corners = np.array([np.roll(gap, (-i, -j), axis=(0, 1)) for i in range(2) for j in range(2)])
     return np.asarray(np.where((corners == 0).any(axis=0), 0.0, corners.mean(axis=0)))

@@ -1,1 +1,1 @@
-"""Meshes of rough gaps by snappyHexMesh."""
+"""OpenFOAM cases of rough gaps whose meshes snappyHexMesh makes."""

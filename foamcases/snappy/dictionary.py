@@ -1,4 +1,4 @@
-"""The dictionary of snappyHexMesh, with numbers and names from this file alone."""
+"""The dictionary of snappyHexMesh, without text from a scene."""
 
 from roughfilm.foamcases.openfoam.dictionaries import Dictionary
 from roughfilm.foamcases.rough_gap.dictionaries import CONTACT
@@ -7,16 +7,21 @@ SURFACE = "solid.stl"
 """Name of the file of the solid in ``constant/triSurface``."""
 
 MAX_CELLS = 20_000_000
+"""Number of cells at which snappyHexMesh stops refining."""
 
 MAX_SKEWNESS = 3.9
 """Largest skewness of a face after snapping; the mesh check allows 4."""
 
 
 def snappy_dictionary(inside: tuple[float, float, float], level: int) -> Dictionary:
-    """``system/snappyHexMeshDict``: cut away what the liquid at ``inside`` does not reach, move faces onto the solid.
+    """The dictionary ``system/snappyHexMeshDict``: remove cells without liquid, and move faces to the solid.
 
-    Cells at the solid are halved ``level`` times. No layers are added. The faces of the solid become the patch of what
-    is cut out.
+    The faces of the solid become the patch ``CONTACT``. No boundary layers are added.
+
+    Parameters
+    ----------
+    inside : a point in the liquid, in the unit of the mesh.
+    level : how many times cells at the solid are halved.
     """
     name = CONTACT.name
     return (

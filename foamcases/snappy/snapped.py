@@ -1,4 +1,4 @@
-"""A flow through a periodic box with solids of any shape: a case by snappyHexMesh, run and read."""
+"""Write, run and read a case of the flow through a periodic box with solids of any shape, meshed by snappyHexMesh."""
 
 import shutil
 import time
@@ -34,10 +34,13 @@ from roughfilm.rom.ladder.model import Progress, silent
 
 PROGRAM = "snappyHexMesh"
 STILL: Any = [0.0, 0.0, 0.0]
+"""Initial velocity of every cell."""
+
 LEVEL: Any = 0.0
 """Initial pressure of every cell; the mesh does not exist yet."""
 
 ALL = Judged()
+"""The default criteria of convergence: all fields, with Ux as the main velocity."""
 
 ALLRUN = """\
 snappyHexMesh -overwrite > log.snappyHexMesh 2>&1 &&
@@ -60,7 +63,16 @@ h^2 G / (12 eta) with the mean pressure gradient G, so a smooth gap of height h 
 
 @dataclass(frozen=True, kw_only=True)
 class SnappedCard:
-    """The options for running and reading a case; the liquid must reach the sides ``open``."""
+    """The options with which a case was written, which are needed to run it and read it back.
+
+    Attributes
+    ----------
+    area : area of the box in the plane, in h².
+    tolerance : the residual, or the remaining relative change of the flow, at which the run ends.
+    scheme : a key of ``ADVECTION``.
+    processes : number of processes, 1.
+    open : names of the sides that the liquid must reach.
+    """
 
     area: float
     tolerance: float
@@ -76,12 +88,15 @@ class SnappedFlow:
     Attributes
     ----------
     flow_per_width : ∫ u dV over the area of the box, in units of h and h²G/(12η), shape (3,); a column of A/h³.
-    volume : of the liquid over the area of the box, in h: the mean gap.
-    cells : of the mesh.
-    residual : as of :class:`roughfilm.foamcases.pocket.run.Run`.
-    unsettled : by what part of itself the largest of the flows would still change, by its trend.
-    cpu_s : of mesh, flow and checks; mesh_cpu_s of the mesh alone.
-    warnings : remarks of the mesh check.
+    volume : volume of the liquid over the area of the box, which is the mean gap, in h.
+    cells : number of cells of the mesh.
+    iterations : number of iterations of the last try.
+    residual : largest initial residual of velocity and pressure that a new process computes from the fields on disk.
+    unsettled : extrapolated remaining change of the largest component of the mean velocity, over that component.
+    cpu_s : CPU time of the mesh, the flow and the checks, s.
+    mesh_cpu_s : CPU time of the mesh and its check, s.
+    wall_s : wall-clock time, s.
+    warnings : warnings of the mesh check.
     """
 
     flow_per_width: Array
@@ -107,21 +122,24 @@ def write_snapped(
     level: int = 0,
     sides: tuple[Patch, ...] = SIDES,
 ) -> None:
-    """Write the case of a box and its solid, whole or not at all.
+    """Write the case of a box and its solid completely or not at all.
 
     Parameters
     ----------
+    carved : the box, the solid and a point in the liquid, in the unit h.
+    directory : the directory of the case, which is made; it may exist if it is empty.
+    drive : the mean pressure gradient and the speed of the side at z+.
+    tolerance : the residual, or the remaining relative change of the flow, at which the run ends.
     reynolds_number : ρ q/η of a smooth gap of height h.
     scheme : a key of ``ADVECTION``; "" for a creeping flow.
     level : how many times cells at the solid are halved.
-    sides : patches at x-, x+, y-, y+, z-, z+; those that the solid covers vanish.
-
-    The sides at z- and z+ drive a flow only as far as the solid leaves them bare.
+    sides : patches at x-, x+, y-, y+, z-, z+. The sides at z- and z+ act on the liquid only where the solid leaves
+        them free, and a side that the solid covers has no faces.
 
     Raises
     ------
     InputError
-        For numbers out of range, a place of the liquid outside the box, or a directory that is not empty.
+        If the tolerance is out of range, the point in the liquid is outside of the box, or the directory is not empty.
     """
     check_tolerance(tolerance)
     box, inside = carved.box, np.asarray(carved.inside)
@@ -156,12 +174,12 @@ def write_snapped(
 
 
 def run_snapped(directory: Path, judged: Judged = ALL, *, progress: Progress = silent) -> SnappedFlow:
-    """Mesh a case that :func:`write_snapped` wrote, check the mesh, iterate the flow and read it.
+    """Mesh a case that :func:`write_snapped` wrote, check the mesh, iterate the flow and read its fields.
 
     Raises
     ------
     UnavailableError
-        If OpenFOAM or its snappyHexMesh is not here.
+        If OpenFOAM or its program snappyHexMesh is not on this machine.
     ConvergenceError
         If the liquid does not reach through the box, the mesh has faults, or the flow does not converge.
     """
@@ -201,7 +219,7 @@ def run_snapped(directory: Path, judged: Judged = ALL, *, progress: Progress = s
 
 
 def _check_open(directory: Path, names: list[str]) -> None:
-    """ConvergenceError if no liquid is left at a side that it is to pass, or that is to drive it."""
+    """Raise ConvergenceError if a side through which liquid flows, or which drives it, has no faces in the mesh."""
     from foamlib import FoamFile  # slow to import
 
     patches: Any = FoamFile(directory / "constant" / "polyMesh" / "boundary")[None]

@@ -1,4 +1,4 @@
-"""Solids that snappyHexMesh cuts out of a block, repeated beyond the period; the walls of a gap as such."""
+"""Make the solids that snappyHexMesh cuts out of a block from the walls of a gap, repeated beyond the period."""
 
 from dataclasses import dataclass
 
@@ -10,21 +10,21 @@ from roughfilm.rom.meshes.walls_mesh import GapPart, wall_mesh
 from roughfilm.rom.rough_gap.walls import Walls
 
 MARGIN_FRACTION = 0.25
-"""Length by which the solid continues beyond a period, over the period."""
+"""Length by which the solid extends beyond the period on each side, over the period."""
 
 POINT_OFFSET = (0.37, 0.31, 0.43)
-"""Offset of the point in the liquid from the corner of a cell, over the cell."""
+"""Offset of the point in the liquid from the middle of the widest gap, over the sides of a cell."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Box:
-    """One period of space, cut into equal cells, before the solid is taken out of it.
+    """A period of space as a box of equal cells, before the solid is cut out of it.
 
     Attributes
     ----------
-    size : along x and y, which begin at 0.
-    bottom, top : in z.
-    cells : along x, y and z.
+    size : lengths along x and y, which begin at 0.
+    bottom, top : least and greatest z.
+    cells : numbers of cells along x, y and z.
     """
 
     size: tuple[float, float]
@@ -34,20 +34,20 @@ class Box:
 
     @property
     def vertices(self) -> Array:
-        """Corners of the cells, shape (nx + 1, ny + 1, nz + 1, 3)."""
+        """The corners of the cells, shape (nx + 1, ny + 1, nz + 1, 3)."""
         ends = (0.0, self.size[0]), (0.0, self.size[1]), (self.bottom, self.top)
         axes = [np.linspace(*end, count + 1) for end, count in zip(ends, self.cells, strict=True)]
         return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
 
     @property
     def steps(self) -> Array:
-        """Sides of a cell."""
+        """The lengths of a cell along x, y and z, shape (3,)."""
         return np.asarray([*self.size, self.top - self.bottom]) / self.cells
 
 
 @dataclass(frozen=True, kw_only=True)
 class Carved:
-    """A box, the triangles of the solid in it, and a place in the liquid; all in one unit of length."""
+    """A box, the triangles of the solid in it, and a point in the liquid, all in one unit of length."""
 
     box: Box
     solid: Mesh
@@ -55,7 +55,7 @@ class Carved:
 
 
 def repeated(solid: Mesh, size: tuple[float, float]) -> Mesh:
-    """The triangles of one period, and those of its neighbours within ``MARGIN_FRACTION`` of the period."""
+    """The triangles of one period, and those of neighbouring periods within ``MARGIN_FRACTION`` of the period."""
     surface = in_triangles(solid)
     shifts = [np.array([i * size[0], j * size[1], 0.0]) for i in (-1, 0, 1) for j in (-1, 0, 1)]
     points = np.concatenate([surface.points + shift for shift in shifts])
@@ -69,16 +69,17 @@ def repeated(solid: Mesh, size: tuple[float, float]) -> Mesh:
 
 
 def carved(walls: Walls, unit: float, layers: int) -> Carved:
-    """The gap between walls, in cells of 1/``layers`` of the unit on each side, about.
+    """The box and the solid of the gap between walls, with cells whose sides are about 1/``layers``.
 
-    What is narrower than about half a cell is cut away with the solid; the shape of the rest is met to second order.
-    Where the walls touch, the lower one goes on upward by two cells, so that it cuts the block cleanly. A flat upper
-    wall is the top of the box.
+    A gap narrower than about half a cell is cut away with the solid; the shape of the rest is resolved to second order.
+    Where the walls touch, the lower one is raised two cells above the upper one, so that it cuts the block completely.
+    A flat upper wall is the top of the box.
 
     Parameters
     ----------
-    unit : of length, m.
-    layers : cells for each unit of length.
+    walls : heights of the walls.
+    unit : unit of length, m.
+    layers : number of cells per unit of length.
     """
     length, width = (side / unit for side in walls.size)
     step = 1 / layers

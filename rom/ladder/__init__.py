@@ -1,1 +1,1 @@
-"""The ladder of models: kinds of scenes, models, results, and how results are stored."""
+"""The ladder of models: kinds of scenes, models, requests, results, and the files of results."""

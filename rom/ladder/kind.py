@@ -1,4 +1,4 @@
-"""A kind of scene as data: its entries, its compared quantities, and all else that commands need of it."""
+"""A kind of scene as data: the class of its scenes, its compared quantities, and other data that commands use."""
 
 import importlib
 import importlib.util
@@ -22,6 +22,11 @@ from roughfilm.rom.ladder.sweeping import Sweeping
 class Scene(Part):
     """The scene that is solved: geometry, materials, motion and loads, in SI units; each kind adds its own tables.
 
+    Attributes
+    ----------
+    name : name of the scene, 1 to 200 characters.
+    kind : name of the kind of scene.
+
     Examples
     --------
     >>> import roughfilm as rf
@@ -35,7 +40,7 @@ class Scene(Part):
 
 
 def plain_fault(error: ValidationError, _entries: Mapping[str, Any], *, scene: type[Scene]) -> str:
-    """The first fault of a scene whose tables are all pydantic models, in one line."""
+    """The first fault of a scene whose tables are all pydantic models, as a message in one line."""
 
     def unknown(location: Location) -> str:
         *path, key = location
@@ -45,17 +50,23 @@ def plain_fault(error: ValidationError, _entries: Mapping[str, Any], *, scene: t
 
 
 def nothing_omitted(_scene: Any, _quantity: str) -> None:
-    """No omission, for kinds whose most complete model keeps every relevant effect."""
+    """Return no omission, for kinds whose most complete model keeps every relevant effect."""
 
 
 def nothing_composed(_scene: Any) -> tuple[str, ...]:
-    """No lines, for kinds whose scenes are not composed of effects."""
+    """Return no lines, for kinds whose scenes are not composed of effects."""
     return ()
 
 
 @dataclass(frozen=True, kw_only=True)
 class Omission:
-    """An effect that every model of a kind leaves out: its relative change of a quantity, and the reason in words."""
+    """An effect that every model of a kind leaves out.
+
+    Attributes
+    ----------
+    part : relative change of a quantity by the effect.
+    reason : the effect and its size, in words.
+    """
 
     part: float
     reason: str
@@ -63,26 +74,28 @@ class Omission:
 
 @dataclass(frozen=True, kw_only=True)
 class Kind:
-    """One kind of scene; every ``rom/<kind>/kind.py`` ends with ``KIND``.
+    """A kind of scene as data; every module ``rom/<kind>/kind.py`` defines one as ``KIND``.
 
     Attributes
     ----------
-    scene : the model of its scenes, whose ``kind`` is ``name``.
-    summary : its scenes, in words.
-    compared : the quantities by which models are judged, with their names in a sentence, the first one first.
-    scale : scale(values, quantity): the size that an error in a compared quantity is divided by, from the reference's
-        values by quantity, which are numbers or arrays.
-    columns : columns(scene): dimensionless numbers and texts of a scene in a table of many cases.
+    name : name of the kind, as scenes give it in ``kind``.
+    scene : the pydantic model of the scenes of this kind.
+    summary : a description of these scenes, in words.
+    compared : the quantities by which models are compared, with their names in a sentence; the most important is first.
+    scale : scale(values, quantity), the size by which an error in a compared quantity is divided. ``values`` are the
+        values of the reference by quantity, as numbers or arrays.
+    columns : columns(scene), dimensionless numbers and texts of a scene for a table of many cases.
     files : keys whose texts name files, relative to the scene file.
-    no_files : texts of these keys that name no file.
+    no_files : texts of these keys that do not name a file.
     replaces : keys of the same table that an override of a key removes.
-    lists : places of lists that are one value; a study sweeps every other list, and lists of these.
-    numbers : numbers(scene): the dimensionless numbers of the error laws; meaningless ones are left out.
+    lists : places of lists that are one value. A study sweeps every other list, and lists of such values.
+    numbers : numbers(scene), the dimensionless numbers of the error laws, without those that have no meaning.
     symbols : the symbols of these numbers.
-    composed : composed(scene): a line on the model of each effect of a scene, and its reason.
-    omitted : omitted(scene, quantity): the effect that all models leave out, None where it is zero or unknown.
-    message : message(error, entries): the first fault of a scene in one line, from pydantic's error.
-    sweeping : what a report over many cases needs; None if there is none.
+    composed : composed(scene), a line on the model of each effect of a scene, with its reason.
+    omitted : omitted(scene, quantity), the effect that all models leave out; None if it is zero or unknown.
+    message : message(error, entries), the first fault of a scene in one line, from pydantic's error; None for
+        ``plain_fault``.
+    sweeping : the data for a report over many cases; None if the kind has no such report.
     """
 
     name: str
@@ -103,30 +116,30 @@ class Kind:
     sweeping: Sweeping | None = None
 
     def read(self, entries: Mapping[str, Any]) -> Scene:
-        """A scene of this kind; InputError in one line for the first fault."""
+        """Make a scene of this kind from nested entries; InputError in one line for the first fault."""
         try:
             return self.scene.model_validate(entries)
         except ValidationError as error:
             raise InputError((self.message or partial(plain_fault, scene=self.scene))(error, entries)) from None
 
     def scale_of(self, result: Result, quantity: str) -> float:
-        """The size that an error in a quantity is divided by where this result is the reference."""
+        """The size by which an error in a quantity is divided, if this result is the reference."""
         return float(self.scale({name: one.value for name, one in result.quantities.items()}, quantity))
 
     def shared(self, *results: Result) -> tuple[str, ...]:
-        """The compared quantities that all of these results give."""
+        """The names of the compared quantities that all of these results have."""
         return tuple(name for name in self.compared if all(name in result.quantities for result in results))
 
 
 @cache
 def kind_names() -> tuple[str, ...]:
-    """The names of all kinds: the folders of ``rom`` that have models."""
+    """The names of all kinds, which are the folders of ``rom`` with a subfolder ``models``."""
     folders = [folder.name for folder in pkgutil.iter_modules(rom.__path__) if folder.ispkg]
     return tuple(name for name in folders if importlib.util.find_spec(f"{rom.__name__}.{name}.models"))
 
 
 def kind_of_name(name: str) -> Kind:
-    """The ``KIND`` of ``rom/<name>/kind.py``, whose module alone is imported; KeyError if there is none."""
+    """The kind of a name, for which only its module ``rom/<name>/kind.py`` is imported; KeyError if there is none."""
     if name not in kind_names():
         raise KeyError(name)
     kind: Kind = importlib.import_module(f"{rom.__name__}.{name}.kind").KIND
@@ -134,7 +147,7 @@ def kind_of_name(name: str) -> Kind:
 
 
 def kinds() -> Mapping[str, Kind]:
-    """All kinds by their names."""
+    """All kinds, by their names."""
     return {name: kind_of_name(name) for name in kind_names()}
 
 

@@ -1,4 +1,4 @@
-"""The ladder: models as data, listed from their packages, ordered by the effects that they keep."""
+"""The ladder: models as data, which are listed from their packages and ordered by the effects that they keep."""
 
 import importlib
 import importlib.util
@@ -41,7 +41,7 @@ class Effect(StrEnum):
 
 @dataclass(frozen=True, kw_only=True)
 class Applicability:
-    """Whether a model applies to a scene, with the reason or the effects that it leaves out in words."""
+    """Whether a model applies to a scene, with the reason, or the effects that it leaves out, in words."""
 
     applies: bool
     reason: str
@@ -49,7 +49,7 @@ class Applicability:
 
 @dataclass(frozen=True, kw_only=True)
 class Availability:
-    """Whether the programs that a model needs are on this machine: their version, or the remedy."""
+    """Whether the programs that a model needs are on this machine, with their version, or the remedy, in words."""
 
     available: bool
     detail: str = ""
@@ -60,12 +60,12 @@ def _between(least: float, value: Any, most: float, numbers: Any) -> bool:
 
 
 def always() -> Availability:
-    """The availability of models that need nothing but this package."""
+    """The availability of models that need no program other than this package."""
     return Availability(available=True, detail="built in")
 
 
 Progress = Callable[[float, str], None]
-"""Called with the done fraction (0 to 1) and a few words."""
+"""Function that is called with the done fraction (0 to 1) and a few words."""
 
 
 def silent(fraction: float, words: str) -> None:
@@ -77,7 +77,14 @@ SceneT = TypeVar("SceneT", bound=Scene, default=Any)
 
 @dataclass(frozen=True, kw_only=True)
 class Resolutions:
-    """Allowed resolutions, least to most, the default one, and a series from coarse to fine for studies and charts."""
+    """The resolutions of a model.
+
+    Attributes
+    ----------
+    least, most : least and greatest resolution allowed.
+    default : resolution of a request without one.
+    series : resolutions from coarse to fine, for studies and charts.
+    """
 
     least: int
     most: int
@@ -86,7 +93,7 @@ class Resolutions:
 
 
 class About(TypedDict):
-    """The entries by which one model of a family differs from the others, beside what its equations need."""
+    """The entries of a model that a family's function passes on to ``Model``, which explains them."""
 
     name: str
     summary: str
@@ -105,20 +112,22 @@ class Model(Generic[SceneT]):
     kind : kind of the scenes that it solves.
     summary : its description in half a line.
     keeps : the physical effects that it keeps.
-    complete : whether it keeps them in full, not to some order of smallness.
+    complete : whether it keeps these effects in full; False if it keeps them to some order in a small parameter.
     sources : DOIs of its equations and method.
-    resolutions : allowed and default resolutions; a function of the scene where that decides.
-    resolution_meaning, residual_meaning : what resolution counts and the residual measures, in words.
+    resolutions : allowed and default resolutions, or a function of the scene that returns them.
+    resolution_meaning : the things that the resolution counts, in words.
+    residual_meaning : the error that the residual measures, in words.
     order : order of load and friction in the resolution; None for a spectral method.
     tolerance : default residual at which its solver stops.
     tolerances : least and greatest tolerance allowed.
     schemes : advection schemes that it offers, the default first; empty where there is no choice.
-    most_processes : most_processes(scene, resolution); None for a model that runs in this process.
+    most_processes : most_processes(scene, resolution), the largest number of processes; None for a model that runs in
+        this process.
     cost : cost(scene, resolution), expected CPU seconds.
-    applies : applies(scene), whether the model can solve it, and which effects it leaves out.
-    outside : whether another program solves it, in a directory.
+    applies : applies(scene), whether the model can solve the scene, and which effects it leaves out.
+    outside : whether another program solves the scene, in a directory.
     available : whether the programs that it needs are on this machine.
-    compute : compute(model, scene, request, progress), its solver, called with a checked request.
+    compute : compute(model, scene, request, progress), its solver, which is called with a checked request.
     """
 
     name: str
@@ -142,7 +151,7 @@ class Model(Generic[SceneT]):
     compute: "Callable[[Model[SceneT], SceneT, CheckedRequest, Progress], Result]"
 
     def solve(self, scene: SceneT, request: Request = Request(), progress: Progress = silent) -> Result:
-        """Solve a scene with the numerical options of a request, defaults where it has None.
+        """Solve a scene with the numerical options of a request, and the model's defaults where the request has None.
 
         Parameters
         ----------
@@ -153,12 +162,12 @@ class Model(Generic[SceneT]):
         Returns
         -------
         Result
-            Quantities and fields of the scene, with the residual recomputed.
+            Quantities and fields of the scene, with a residual that is recomputed from the solution.
 
         Raises
         ------
         InputError
-            For an option outside the range that the model allows, or a scene that it cannot solve.
+            If an option is outside the range that the model allows, or the model cannot solve the scene.
         ConvergenceError
             If the solver does not reach the tolerance.
         UnavailableError
@@ -191,7 +200,7 @@ class Model(Generic[SceneT]):
         )
 
     def checked_scheme(self, scheme: str | None) -> str:
-        """The advection scheme, the model's first for None; InputError for one that the model does not offer."""
+        """The advection scheme, or the model's first one for None; InputError for a scheme that it does not offer."""
         if scheme is None:
             return self.schemes[0] if self.schemes else ""
         if scheme not in self.schemes:
@@ -209,23 +218,27 @@ class Model(Generic[SceneT]):
         return processes
 
     def offered(self, scene: SceneT) -> Resolutions:
-        """The allowed and default resolutions on a scene."""
+        """The allowed and default resolutions for a scene."""
         return self.resolutions if isinstance(self.resolutions, Resolutions) else self.resolutions(scene)
 
     def resolutions_of(self, scene: SceneT) -> tuple[int, ...]:
-        """Resolutions for charts and studies of a scene, from coarse to fine."""
+        """The resolutions for charts and studies of a scene, from coarse to fine."""
         return self.offered(scene).series
 
     def resolution_of(self, scene: SceneT) -> int:
-        """The default resolution on a scene."""
+        """The default resolution for a scene."""
         return self.offered(scene).default
 
 
 def model_modules(*packages: ModuleType, kind: str | None = None) -> Mapping[tuple[str, str], str]:
-    """Names of the modules ``<package>/<kind>/models/*.py``, by kind and model name, from the listing of the folders.
+    """The names of the modules ``<package>/<kind>/models/*.py``, by kind and model name, as the folders list them.
 
-    With ``kind`` given, only those of that kind of scene. Nothing is imported but the packages ``models`` themselves,
-    whose ``__path__`` may name more folders.
+    Only the packages ``models`` are imported, whose ``__path__`` may name more folders; the modules in them are not.
+
+    Parameters
+    ----------
+    *packages : the packages with the folders of kinds, such as ``rom``.
+    kind : kind of scene to which the list is limited; None for all kinds.
     """
     modules = {}
     for package in packages:
@@ -238,9 +251,14 @@ def model_modules(*packages: ModuleType, kind: str | None = None) -> Mapping[tup
 
 
 def ladder(*packages: ModuleType, kind: str | None = None) -> tuple[Model, ...]:
-    """The ``MODEL`` of every ``<package>/<kind>/models/*.py``, by kind from what keeps least to what keeps most.
+    """The models of packages: the ``MODEL`` of every module ``<package>/<kind>/models/*.py``.
 
-    With ``kind`` given, only the models of that kind of scene are imported.
+    They are ordered by kind, and within a kind from the fewest to the most effects kept.
+
+    Parameters
+    ----------
+    *packages : the packages with the folders of kinds, such as ``rom``.
+    kind : kind of scene to which the list is limited; only its models are imported. None for all kinds.
     """
     modules = model_modules(*packages, kind=kind).values()
     models: list[Model] = [importlib.import_module(module).MODEL for module in modules]
@@ -252,12 +270,12 @@ def ladder(*packages: ModuleType, kind: str | None = None) -> tuple[Model, ...]:
 
 
 def of_kind(models: Sequence[Model], kind: str) -> tuple[Model, ...]:
-    """The models that solve scenes of that kind, in their order."""
+    """The models that solve scenes of a kind, in the order of ``models``."""
     return tuple(model for model in models if model.kind == kind)
 
 
 def find(models: Sequence[Model], kind: str, name: str) -> Model:
-    """The model of that kind of scene and name; InputError if there is none."""
+    """The model with a name among those for a kind of scene; InputError if there is none."""
     named = {model.name: model for model in of_kind(models, kind)}
     if name not in named:
         raise InputError(f"model: got {name!r}; it must be one of {', '.join(named)}")
@@ -265,12 +283,12 @@ def find(models: Sequence[Model], kind: str, name: str) -> Model:
 
 
 def best(models: Sequence[Model]) -> Model:
-    """The model that keeps the most effects, and in full; the errors of the others are measured against it."""
+    """The model that keeps the most effects, in full if there is one: the reference for errors of the others."""
     return max(models, key=lambda model: (len(model.keeps), model.complete))
 
 
 def one_effect_away(model: Model, models: Sequence[Model]) -> tuple[tuple[Model, Effect], ...]:
-    """The models that keep exactly one effect more than ``model``, both in full, each with that effect."""
+    """The models that keep all effects of ``model`` and one more, each with that effect; all are complete models."""
     pairs = []
     for other in models:
         extra = other.keeps - model.keeps

@@ -1,4 +1,4 @@
-"""The provenance of a number: versions, commit, machine, the complete scene, and the models' sources."""
+"""The provenance of a result: versions, commit, machine, the complete scene, and the model's sources."""
 
 import ast
 import hashlib
@@ -18,12 +18,12 @@ LIBRARY = Path(__file__).parents[2]
 """The folder of the package roughfilm, with contact, rom and foamcases in it."""
 
 BLOCKS = (ast.stmt, ast.ExceptHandler, ast.match_case)
-"""Nodes of a syntax tree that are, or hold, statements."""
+"""Classes of the nodes of a syntax tree that are statements or contain statements."""
 
 
 @cache
 def versions() -> dict[str, str]:
-    """Versions of roughfilm, of Python and of the libraries that compute."""
+    """The versions of Python, of roughfilm and of the libraries with which it computes, by name."""
     from importlib import metadata  # slow to import
 
     names = ("roughfilm", "numpy", "scipy", "h5py", "foamlib", "pydantic", "pint", "numba", "pyfftw")
@@ -32,7 +32,7 @@ def versions() -> dict[str, str]:
 
 @cache
 def commit() -> str:
-    """The commit of the source tree, with "+changes" if it was edited since; "unknown" outside a checkout."""
+    """The commit of the source tree, with "+changes" if files were edited since; "unknown" outside of a checkout."""
     tree = Path(__file__).resolve().parents[2]
     if not (tree / ".git").exists():
         return "unknown"
@@ -51,17 +51,17 @@ def commit() -> str:
 
 @cache
 def code() -> str:
-    """A digest of all source files of the packages that compute: equal digests give equal numbers."""
+    """A digest of all source files of contact, rom and foamcases: equal digests give equal numbers."""
     files = sorted(path for package in ("contact", "rom", "foamcases") for path in (LIBRARY / package).rglob("*.py"))
     return _digest({path.relative_to(LIBRARY).as_posix(): path.read_bytes() for path in files})
 
 
 @cache
 def model_code(kind: str, model: str) -> str:
-    """A digest of the code that a model runs: equal digests give equal numbers.
+    """A digest of the code that a model runs, 16 hexadecimal digits: equal digests give equal numbers.
 
     It covers the model's module and all modules of this library that it imports, directly or through others, without
-    docstrings and comments. A model without a module of its own has the digest of everything, :func:`code`.
+    docstrings and comments. The digest of a model without a module of its own is :func:`code`.
     """
     statements: dict[str, bytes] = {}
     pending = [f"roughfilm.{package}.{kind}.models.{model}" for package in ("rom", "foamcases")]
@@ -84,7 +84,7 @@ def _digest(contents: Mapping[str, bytes]) -> str:
 def _statements(path: Path) -> tuple[bytes, frozenset[str]]:
     """The statements of a module without docstrings, and all names in this library that it imports.
 
-    Both are empty where there is no such file, as for the name of an imported function.
+    Both are empty if the file does not exist, as for the name of an imported function.
     """
     if not path.is_file():
         return b"", frozenset()
@@ -110,7 +110,7 @@ def _is_text(node: ast.AST) -> bool:
 
 @cache
 def machine() -> dict[str, str]:
-    """The machine that times were measured on: system, processor and cores."""
+    """The machine on which times are measured: system, processor and number of cores."""
     processor = platform.processor() or platform.machine()
     try:
         lines = Path("/proc/cpuinfo").read_text().splitlines()
@@ -123,7 +123,16 @@ def machine() -> dict[str, str]:
 def provenance(
     scene: Scene, *, model: str = "", keeps: Sequence[str], sources: Sequence[str], **more: Any
 ) -> dict[str, Any]:
-    """Everything needed to compute a result again, as entries that JSON can hold; its code is that of the model."""
+    """The data needed to compute a result again, as entries for JSON.
+
+    Parameters
+    ----------
+    scene : the scene that was solved.
+    model : name of the model, whose code has the digest ``code``.
+    keeps : the effects that the model keeps.
+    sources : DOIs of the equations and the method.
+    **more : further entries.
+    """
     return {
         "scene": scene_entries(scene),
         "keeps": sorted(keeps),
@@ -135,7 +144,7 @@ def provenance(
 
 
 def circumstances() -> dict[str, Any]:
-    """The versions, machine and time of a computation, as entries that JSON can hold."""
+    """The versions, machine, load and time of a computation, as entries for JSON."""
     return {
         "versions": versions(),
         "commit": commit(),

@@ -1,4 +1,4 @@
-"""The numerical options of one solve: as requested, and as checked by a model."""
+"""The numerical options of one solve, as requested and as checked by a model."""
 
 from dataclasses import dataclass
 
@@ -12,7 +12,7 @@ class Request:
     resolution : number of cells, points or nodes that the model's ``resolution_meaning`` names; None for its default.
     tolerance : residual at which the solver stops, in the model's ``residual_meaning``; None for its default.
     scheme : advection scheme, one of the model's ``schemes``; None for the first of them.
-    processes : number of MPI processes of an OpenFOAM run; the other models run in one.
+    processes : number of MPI processes of an OpenFOAM run; all other models run in one process.
 
     Examples
     --------
@@ -28,9 +28,15 @@ class Request:
 
 @dataclass(frozen=True, kw_only=True)
 class CheckedRequest:
-    """Numerical options that a model offers, defaults filled in; ``scheme`` is "" where there is no choice.
+    """Numerical options in the ranges that a model allows, with its defaults filled in.
 
-    ``asked`` is the request before the defaults.
+    Attributes
+    ----------
+    resolution : number of cells, points or nodes that the model's ``resolution_meaning`` names.
+    tolerance : residual at which the solver stops.
+    scheme : advection scheme; "" for a model that offers no choice.
+    processes : number of processes.
+    asked : the request before the defaults were filled in.
     """
 
     resolution: int

@@ -28,15 +28,16 @@ class Field:
 
 @dataclass(frozen=True, kw_only=True)
 class SolverRun:
-    """One run of an iterative solver within a result.
+    """A run of an iterative solver that contributed to a result.
 
     Attributes
     ----------
     name : the flow or the grid that it solved; "" where there is only one.
-    outcome, iterations : how it ended, and after how many iterations.
-    recipe : how the solver was set up differently after a run that failed; "" for the usual setup.
-    residual : recomputed after the run; None if it was not.
-    imbalance : mismatch of the forces on the liquid, relative to the force that drives it; None if it was not computed.
+    outcome : how the run ended, in words.
+    iterations : number of iterations.
+    recipe : changes of the setup after a run that failed, in words; "" for the usual setup.
+    residual : residual recomputed after the run; None if it was not recomputed.
+    imbalance : imbalance of the forces on the liquid over the force that drives it; None if it was not computed.
     """
 
     name: str = ""
@@ -49,12 +50,21 @@ class SolverRun:
 
 @dataclass(frozen=True, kw_only=True)
 class Numerics:
-    """The numerics of a result.
+    """The numerics of a result: accuracy, cost and options of the computation.
 
-    ``residual`` is recomputed after the solver claims success; what it measures is the model's ``residual_meaning``.
-    ``cpu_s`` counts this process and its children; ``scheme`` is the advection scheme, "" where there is no choice.
-    ``runs`` are the runs of the solver in their order, where it reports them; ``details`` are further numbers that
-    describe the computation, by name.
+    Attributes
+    ----------
+    residual : residual recomputed after the solver has converged, in the sense of the model's ``residual_meaning``.
+    iterations : number of iterations.
+    cpu_s : CPU time of this process and its children, s.
+    wall_s : wall-clock time, s.
+    degrees_of_freedom : number of unknowns.
+    resolution : number of cells, points or nodes that the model's ``resolution_meaning`` names.
+    tolerance : residual at which the solver stops.
+    scheme : advection scheme; "" for a model that offers no choice.
+    processes : number of processes.
+    runs : the runs of the solver in their order; empty if the model does not report them.
+    details : further numbers that describe the computation, by name.
     """
 
     residual: float
@@ -76,9 +86,13 @@ class Result:
 
     Attributes
     ----------
-    provenance : where the result comes from: scene, versions, commit, machine, sources, times.
-    warnings : where the model leaves its range or the computation is coarse, one sentence each.
-    expected_error : relative error of the model in a quantity by a fitted law; empty where there is no law.
+    model : name of the model.
+    quantities : numbers with units, by name.
+    fields : arrays with units, by name.
+    numerics : accuracy, cost and options of the computation.
+    provenance : scene, versions, commit, machine, sources and time, from which the result can be computed again.
+    warnings : one sentence for each way in which the model leaves its range or the computation is coarse.
+    expected_error : relative error of the model in a quantity by a fitted law, by quantity; empty without a law.
 
     Examples
     --------
@@ -98,9 +112,14 @@ class Result:
     expected_error: Mapping[str, float] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> Quantity:
-        """The quantity of that name, or per area or width where it is given so; KeyError with the names that there are.
+        """The quantity with a name, or with that name and ``_per_area`` or ``_per_width``.
 
-        "load" is ``load``, ``load_per_area`` or ``load_per_width``, whichever the result has.
+        For example, "load" gives the first of ``load``, ``load_per_area`` and ``load_per_width`` that the result has.
+
+        Raises
+        ------
+        KeyError
+            If the result has none of these; the message lists the names that it has.
         """
         for known in (name, f"{name}_per_area", f"{name}_per_width"):
             if known in self.quantities:
@@ -109,7 +128,7 @@ class Result:
 
 
 def with_uncertainties(quantities: Mapping[str, Quantity], uncertainties: Mapping[str, float]) -> dict[str, Quantity]:
-    """The quantities with their uncertainties, in their units; one that is missing or not finite is unknown."""
+    """The quantities with uncertainties in their units; uncertainties that are not finite are left out."""
     return {
         name: replace(quantity, uncertainty=uncertainties[name])
         if math.isfinite(uncertainties.get(name, math.inf))

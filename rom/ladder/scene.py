@@ -1,4 +1,4 @@
-"""Scenes from TOML files: read into the frozen model of their kind, with every fault named in one line."""
+"""Read scenes from TOML files into the class of their kind, and report a fault in one line."""
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -12,7 +12,7 @@ from roughfilm.rom.ladder.kind import Kind, Scene, kind_names, kind_of_name, kin
 
 
 class _OfNoKind(Scene):
-    """Entries that say no kind that is known: what is wrong with their beginning."""
+    """A scene whose entries name no known kind; its validation reports the faults of name and kind."""
 
     model_config = ConfigDict(extra="ignore")
 
@@ -23,9 +23,12 @@ class _OfNoKind(Scene):
 
 
 def load_entries(path: Path) -> dict[str, Any]:
-    """The nested entries of a TOML file, the files that it names sought beside it.
+    """The nested entries of a TOML file, with its folder put before the relative names of files in it.
 
-    Raises InputError in one line if the file cannot be read or is not TOML.
+    Raises
+    ------
+    InputError
+        In one line, if the file cannot be read, is not TOML, or is nested too deeply.
     """
     entries = read_toml(path, 'film = "30 um"')
     try:
@@ -41,13 +44,18 @@ def load_entries(path: Path) -> dict[str, Any]:
 def load_scene(path: Path, overrides: Iterable[str] = ()) -> Scene:
     """Read a scene file and apply overrides such as ``geometry.depth=22.5um``.
 
-    A key may replace others of its table: setting the speed of a pocket takes its Reynolds number away. A file that the
-    scene names is sought beside it, one that an override names in the current directory.
+    An override of a key may remove other keys of its table: the speed of a pocket replaces its Reynolds number. Names
+    of files in the scene file are relative to its folder, and those in an override to the current directory.
+
+    Parameters
+    ----------
+    path : the TOML file of the scene.
+    overrides : texts of the form ``key=value``.
 
     Raises
     ------
     InputError
-        One line that names the key, what was got there and what to write instead.
+        One line with the key, its value and the allowed values.
     """
     entries = load_entries(path)
     kind = kind_named(entries)
@@ -65,13 +73,13 @@ def load_scene(path: Path, overrides: Iterable[str] = ()) -> Scene:
 
 
 def kind_named(entries: Mapping[str, Any]) -> Kind | None:
-    """The kind that the entries of a scene name; None if there is none, or none such."""
+    """The kind that the entries of a scene name; None if they name none, or one that does not exist."""
     name = entries.get("kind")
     return kind_of_name(name) if isinstance(name, str) and name in kind_names() else None
 
 
 def read_scene(entries: Mapping[str, Any]) -> Scene:
-    """A scene from nested entries as a TOML file holds them; raises InputError as ``load_scene`` does."""
+    """Make a scene from nested entries as in a TOML file; InputError as in ``load_scene``."""
     kind = kind_named(entries)
     if kind is not None:
         return kind.read(entries)
@@ -82,12 +90,12 @@ def read_scene(entries: Mapping[str, Any]) -> Scene:
 
 
 def scene_entries(scene: Scene) -> dict[str, Any]:
-    """The complete scene, defaults written out, units as text; ``read_scene`` reads it back unchanged."""
+    """The complete entries of a scene, with its defaults, for JSON; ``read_scene`` makes an equal scene from them."""
     return scene.model_dump(mode="json", exclude_none=True)
 
 
 def _seek_files(entry: Any, directory: Path, keys: frozenset[str], kept: frozenset[str]) -> None:
-    """Put the directory before every name of a file that does not begin at a root or a home."""
+    """Put the directory before every name of a file that is neither absolute nor begins with "~"."""
 
     def sought(name: object) -> object:
         if not isinstance(name, str) or name in kept or name.startswith("~"):

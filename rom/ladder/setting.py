@@ -1,4 +1,4 @@
-"""A setting: a model with its resolution and advection scheme; and those that a study asks for."""
+"""Settings: models with a resolution and an advection scheme, as a study lists them."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from roughfilm.rom.ladder.result import Result
 
 @dataclass(frozen=True, kw_only=True)
 class Setting:
-    """One way to solve a scene: a model, at a resolution and with a scheme, None for the model's own default."""
+    """A model with a resolution and an advection scheme; None for the model's default of either."""
 
     model: Model
     resolution: int | None = None
@@ -21,20 +21,34 @@ class Setting:
 
     @property
     def name(self) -> str:
-        """The model's name and what was chosen, fit for a file: navier_stokes-240-upwind."""
+        """The names of model, resolution and scheme as given, for a file name, such as navier_stokes-240-upwind."""
         return "-".join(str(part) for part in (self.model.name, self.resolution, self.scheme) if part is not None)
 
     def cost(self, scene: Scene) -> float:
-        """Expected CPU seconds."""
+        """The expected CPU time for a scene, s."""
         return self.model.cost(scene, self.resolution or self.model.resolution_of(scene))
 
     def solve(self, scene: Scene, progress: Progress = silent) -> Result:
-        """Solve a scene; raises what the model's ``solve`` raises."""
+        """Solve a scene with this setting; errors as in the model's ``solve``."""
         return self.model.solve(scene, Request(resolution=self.resolution, scheme=self.scheme), progress)
 
 
 def read_settings(table: object, models: Sequence[Model]) -> tuple[Setting, ...]:
-    """The settings of a study's table ``[study]``, plainest model first; errors as ``load_study`` raises them."""
+    """The settings of a study's table ``[study]``, in the order of ``models``.
+
+    Parameters
+    ----------
+    table : the entries of the table: ``models``, and ``resolution`` and ``scheme`` by model. Without ``models``, it
+        lists all models that are available.
+    models : the models of the kind of scene.
+
+    Raises
+    ------
+    InputError
+        If an entry is unknown or has a value that is not allowed.
+    UnavailableError
+        If a program that a listed model needs is not on this machine.
+    """
     if not isinstance(table, dict):
         raise InputError("study: is not a table; write [study]")
     for key in table:
@@ -71,7 +85,7 @@ def read_settings(table: object, models: Sequence[Model]) -> tuple[Setting, ...]
 
 
 def _by_model(table: Mapping[str, Any], key: str, names: Sequence[str]) -> dict[str, list[Any]]:
-    """One value or a list of different ones for each model of ``[study]``'s ``resolution`` or ``scheme``."""
+    """The values of ``resolution`` or ``scheme`` in a table ``[study]``, as a list for each model that has an entry."""
     entries = table.get(key, {})
     if not isinstance(entries, dict):
         raise InputError(f"study.{key}: got {entries!r}; write {{ MODEL = VALUE }}")

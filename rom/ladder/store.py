@@ -1,4 +1,4 @@
-"""Results in HDF5: written whole or not at all, read back as they were."""
+"""Write results to HDF5 files, completely or not at all, and read them back unchanged."""
 
 import io
 import json
@@ -15,12 +15,14 @@ from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun, with_uncertainties
 
 SCHEMA = 3
+"""Version of the file format that is written."""
+
 ENTRIES = ("numerics", "warnings", "expected_error", "provenance")
 """Parts of a result that are attributes of the file, as JSON."""
 
 
 def save(result: Result, path: Path) -> None:
-    """Write :func:`as_bytes` to a file; InputError if ``path`` cannot be written or holds anything but a result."""
+    """Write a result to an HDF5 file; InputError if it cannot be written or another kind of file is in its place."""
     refuse_other_file(path)
     with replacing(path) as scratch:
         scratch.write_bytes(as_bytes(result))
@@ -41,10 +43,10 @@ def refuse_other_file(path: Path) -> None:
 
 
 def as_bytes(result: Result) -> bytes:
-    """An HDF5 file of a result.
+    """The bytes of an HDF5 file of a result.
 
-    ``quantities`` have ``unit`` and, where it is known, ``uncertainty`` as attributes, ``fields`` have ``unit``.
-    The ``ENTRIES`` are attributes of the file, as JSON.
+    The datasets in ``quantities`` have the attributes ``unit`` and, if it is known, ``uncertainty``. The datasets in
+    ``fields`` have the attribute ``unit``. The ``ENTRIES`` are attributes of the file, as JSON.
     """
     memory, entries = io.BytesIO(), as_entries(result)
     with h5py.File(memory, "w") as file:
@@ -63,7 +65,18 @@ def as_bytes(result: Result) -> bytes:
 
 
 def load(path: Path, *, with_fields: bool = True) -> Result:
-    """Read a result, or all of it but its fields; raises InputError if the file is missing or is not one."""
+    """Read a result from an HDF5 file.
+
+    Parameters
+    ----------
+    path : the file.
+    with_fields : whether to read the fields too; without them, the result has none.
+
+    Raises
+    ------
+    InputError
+        If the file is missing, is not a result, or has a schema that this version does not read.
+    """
     if not path.is_file():
         raise InputError(f"{path}: no such file; name an .h5 file that roughfilm wrote")
     try:
@@ -101,7 +114,7 @@ def load(path: Path, *, with_fields: bool = True) -> Result:
 
 
 def _of_schema_2(file: h5py.File) -> dict[str, Any]:
-    """The entries of a file of schema 2, where uncertainties, warnings and the solver's runs are in the provenance."""
+    """The entries of a file of schema 2, which has uncertainties, warnings and runs of the solver in its provenance."""
     old = json.loads(file.attrs["provenance"])
     attributes = file["numerics"].attrs.items()
     numerics = {name: value if isinstance(value, str) else value.item() for name, value in attributes}
@@ -120,7 +133,7 @@ def _of_schema_2(file: h5py.File) -> dict[str, Any]:
 
 
 def as_entries(result: Result) -> dict[str, Any]:
-    """The result without its fields, as ``--json`` prints it."""
+    """The result without its fields, as the option ``--json`` prints it."""
     return {
         "model": result.model,
         "quantities": {name: asdict(quantity) for name, quantity in result.quantities.items()},

@@ -1,4 +1,4 @@
-"""The properties of a kind of scene that a report over many cases needs."""
+"""The data of a kind of scene for a report over many cases."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ Columns = Mapping[str, NDArray[Any]]
 """Arrays of shape (cases,) by name."""
 
 Powers = Mapping[str, float]
-"""A product of powers of features."""
+"""A product of powers of features, as the exponents by the names of the features."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -19,13 +19,13 @@ class Sweeping:
 
     Attributes
     ----------
-    given : columns of a table that identify the cases, with the value of a missing one or None.
-    quantities : the quantities that are read from every result.
-    features : features(given): the numbers by which errors are ordered.
-    worth : worth(values): the cases whose reference quantities are large enough to divide by.
+    given : columns of a table that identify the cases, with the value of missing entries, or None.
+    quantities : names of the quantities that are read from every result.
+    features : features(given), the numbers by which errors are ordered, shape (cases,) each.
+    worth : worth(values), the mask of the cases whose reference quantities are large enough to divide by.
     candidates : products of powers that are tried first, by name.
-    fitted : the features whose powers are fitted where no candidate orders the errors.
-    words : words(powers): a product as text.
+    fitted : names of the features whose powers are fitted if no candidate orders the errors.
+    words : words(powers), the text of a product of powers.
     """
 
     given: Mapping[str, float | None]

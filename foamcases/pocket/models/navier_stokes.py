@@ -1,4 +1,4 @@
-"""The steady Navier-Stokes equations in OpenFOAM: slope and inertia in full."""
+"""The steady Navier-Stokes equations in OpenFOAM, which keep slope and inertia in full."""
 
 from roughfilm.foamcases.openfoam.model import openfoam_model
 from roughfilm.foamcases.pocket.model import CASES, SOURCES
@@ -7,7 +7,7 @@ from roughfilm.rom.pocket.scene import Pocket
 
 
 def applies(scene: Pocket) -> Applicability:
-    """Always; says that the flow is taken as laminar and steady."""
+    """The model applies to every scene; the reason states that the flow is taken as laminar and steady."""
     return Applicability(
         applies=True, reason=f"leaves nothing out of a steady laminar flow (Re = {scene.reynolds_number:.3g})"
     )

@@ -1,4 +1,4 @@
-"""The Stokes equations in OpenFOAM: all of the shape, no inertia."""
+"""The Stokes equations in OpenFOAM, which keep slope in full and leave inertia out."""
 
 from roughfilm.foamcases.openfoam.model import creeping, openfoam_model
 from roughfilm.foamcases.pocket.model import CASES, SOURCES
@@ -7,7 +7,7 @@ from roughfilm.rom.pocket.scene import Pocket
 
 
 def applies(scene: Pocket) -> Applicability:
-    """Always; says how much inertia it leaves out."""
+    """The model applies to every scene; the reason states the reduced Reynolds number, a measure of inertia."""
     return Applicability(applies=True, reason=f"leaves out inertia (Re Ly/w = {scene.reduced_reynolds_number:.3g})")
 
 

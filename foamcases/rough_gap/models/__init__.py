@@ -1,1 +1,1 @@
-"""The models of a rough gap that run OpenFOAM, one a file."""
+"""The models of a rough gap that run OpenFOAM, one in each file."""

@@ -1,4 +1,4 @@
-"""The steady Navier-Stokes equations between rough walls in OpenFOAM: slope and inertia in full."""
+"""The steady Navier-Stokes equations between rough walls in OpenFOAM, which keep slope and inertia in full."""
 
 from roughfilm.foamcases.openfoam.model import openfoam_model
 from roughfilm.foamcases.rough_gap.model import CASES, SOURCES
@@ -7,7 +7,7 @@ from roughfilm.rom.rough_gap.scene import RoughGap
 
 
 def applies(scene: RoughGap) -> Applicability:
-    """Always; says that the flow is taken as laminar and steady."""
+    """The model applies to every scene; the reason states that the flow is taken as laminar and steady."""
     return Applicability(
         applies=True, reason=f"leaves nothing out of a steady laminar flow (Re = {scene.reynolds_number:.3g})"
     )

@@ -1,4 +1,4 @@
-"""The Stokes equations between rough walls in OpenFOAM: all of their shape, no inertia."""
+"""The Stokes equations between rough walls in OpenFOAM, which keep slope in full and leave inertia out."""
 
 from roughfilm.foamcases.openfoam.model import creeping, openfoam_model
 from roughfilm.foamcases.rough_gap.model import CASES, SOURCES
@@ -7,7 +7,7 @@ from roughfilm.rom.rough_gap.scene import RoughGap
 
 
 def applies(scene: RoughGap) -> Applicability:
-    """Always; says how much inertia it leaves out."""
+    """The model applies to every scene; the reason states Re g', a measure of the inertia that it leaves out."""
     measure = scene.reynolds_number * scene.rms_slope
     return Applicability(applies=True, reason=f"leaves out inertia (Re g' = {measure:.3g})")
 
