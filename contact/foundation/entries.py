@@ -23,7 +23,7 @@ def _positive(value: float) -> float:
 
 
 def any_number(value: float) -> float:
-    """The value itself: the check of a number that may have any sign."""
+    """The value, unchanged; this is the check of a number that may have any sign."""
     return value
 
 
@@ -44,7 +44,8 @@ class InUnit:
     Attributes
     ----------
     base : SI unit, such as "m".
-    check : returns an admissible number, raises ValueError for others; by default it accepts finite positive numbers.
+    check : function that returns an admissible number and raises ValueError for others; the default accepts positive
+        finite numbers.
     """
 
     base: str
