@@ -1,6 +1,5 @@
 """Building blocks of tables in TOML files: numbers with units, and tables that refuse unknown keys."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Annotated, Any
 
@@ -22,11 +21,6 @@ def _positive(value: float) -> float:
     return value
 
 
-def any_number(value: float) -> float:
-    """The value, unchanged; this is the check of a number that may have any sign."""
-    return value
-
-
 def plain_number(value: object) -> float:
     """The number as a float; raises ValueError for anything that is not a plain number without unit."""
     if isinstance(value, bool) or not isinstance(value, int | float):
@@ -44,22 +38,36 @@ class InUnit:
     Attributes
     ----------
     base : SI unit, such as "m".
-    check : function that returns an admissible number and raises ValueError for others; the default accepts positive
-        finite numbers.
+    any_sign : whether zero and negative numbers are accepted; by default only positive ones are.
     """
 
     base: str
-    check: Callable[[float], float] = _positive
+    any_sign: bool = False
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
         return core_schema.no_info_before_validator_function(
-            lambda value: self.check(to_si(value, self.base)),
+            self._number,
             handler(source),
             serialization=core_schema.plain_serializer_function_ser_schema(lambda value: with_unit(value, self.base)),
         )
 
+    def _number(self, text: object) -> float:
+        number = to_si(text, self.base)
+        if number <= 0 and not self.any_sign:
+            raise ValueError(f"got {text!r}; it must be above zero")
+        return number
+
+
+def _pair(given: object) -> object:
+    """The values along x and y: one stands for both."""
+    values = given.split(",") if isinstance(given, str) else given if isinstance(given, list | tuple) else [given]
+    if not 1 <= len(values) <= 2:
+        raise ValueError(f"got {given!r:.60}; write one length or two, such as '1 um' or ['1 um', '2 um']")
+    return values[0], values[-1]
+
 
 Length = Annotated[float, InUnit("m")]
-Coordinate = Annotated[float, InUnit("m", any_number)]
-Angle = Annotated[float, InUnit("rad", any_number)]
+LengthPair = Annotated[tuple[Length, Length], BeforeValidator(_pair)]
+Coordinate = Annotated[float, InUnit("m", any_sign=True)]
+Angle = Annotated[float, InUnit("rad", any_sign=True)]
 PositiveNumber = Annotated[float, BeforeValidator(plain_number), AfterValidator(_positive)]

@@ -134,6 +134,8 @@ def in_one_line(
             text = f"{place}.{key}: got {fault['ctx']['tag']!r}; it must be one of {fault['ctx']['expected_tags']}"
         case "union_tag_not_found":
             text = f"{place}.{str(fault['ctx']['discriminator']).strip(chr(39))}: missing; add it"
+        case "tuple_type":
+            text = f"{place}: got {got}; write a list in brackets"
         case "value_error":
             reason = str(fault["ctx"]["error"])
             inner, colon, rest = reason.partition(": ")
@@ -141,7 +143,8 @@ def in_one_line(
             text = f"{place}.{inner}: {rest}" if inside else f"{place}: {reason}"
         case _:
             text = f"{place}: got {got}; {fault['msg'][0].lower()}{fault['msg'][1:]}"
-    return " ".join(text.split()) + (f" (and {len(faults) - 1} more)" if len(faults) > 1 else "")
+    others = len(faults) - 1
+    return " ".join(text.split()) + (f" (and {others} more error{'s' if others > 1 else ''})" if others else "")
 
 
 def known_keys(model: type[BaseModel], path: Location) -> list[str]:

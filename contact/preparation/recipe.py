@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, ValidationError
 
-from roughfilm.contact.foundation.entries import Coordinate, Length, Part
+from roughfilm.contact.foundation.entries import Coordinate, Length, LengthPair, Part
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.toml import Location, in_one_line, known_keys, read_toml, set_entry, unknown_key
 from roughfilm.contact.preparation.edges import Direction
@@ -24,7 +24,7 @@ class Reading(Part):
     """Channel, pixel spacing (m) and unit of heights, where the file of the surface lacks them or is wrong."""
 
     channel: str | None = None
-    spacing: tuple[Length, Length] | None = None
+    spacing: LengthPair | None = None
     height_unit: Annotated[str, Field(min_length=1, max_length=20)] | None = None
 
 
@@ -38,7 +38,7 @@ class Outliers(Part):
 class Sampling(Part):
     """Size and start of the window (m); without a start, the window of at least this size whose edges match best."""
 
-    size: tuple[Length, Length]
+    size: LengthPair
     start: tuple[Coordinate, Coordinate] | None = None
 
 

@@ -113,7 +113,7 @@ def shortfall(advice: Advice, title: str) -> str:
         return message
     if advice.nearest.sure:
         return f"{message}; {advice.nearest.model} comes nearest, {near(advice.nearest.error)}"
-    return f"{message}, as the scene lies beyond those that were swept; {advice.nearest.model} may come nearest"
+    return f"{message}, as the scene is outside the fitted range; {advice.nearest.model} may come nearest"
 
 
 def advise(

@@ -215,9 +215,9 @@ def _range_note(task: AdviceTask, beyond: str | None, law: Law | None) -> str:
         return ""
     least, most = law.reach[beyond]
     if beyond in RESOLVING:
-        return f" (and none coarser than {least:.2g} {beyond.replace('_', ' ')} was swept)"
+        return f" (and the fitted range begins at {least:.2g} {beyond.replace('_', ' ')})"
     symbol, value = task.kind.symbols[beyond], task.numbers[beyond]
-    return f" (and {symbol} = {value:.2g} lies beyond the {least:.2g} to {most:.2g} that were swept)"
+    return f" (and {symbol} = {value:.2g} is outside the fitted range of {least:.2g} to {most:.2g})"
 
 
 def a_posteriori(task: AdviceTask, model: Model, above: int = 1) -> Estimate | None:
@@ -243,7 +243,7 @@ def self_estimate(task: AdviceTask, model: Model, resolution: int) -> Estimate |
     error = None if own is None or task.quantity not in own.quantities else task.uncertainty(own)
     if error is None:
         return None
-    return Estimate(error=error, reasons=(f"by its own uncertainty on {resolution} it is {near(error)}",))
+    return Estimate(error=error, reasons=(f"at resolution {resolution} its own uncertainty is {percent(error)}",))
 
 
 def affordable(task: AdviceTask, other: Model, model: Model) -> bool:

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from pydantic import BeforeValidator, Field, field_validator, model_validator
 
-from roughfilm.contact.foundation.entries import InUnit, Part, PositiveNumber, any_number
+from roughfilm.contact.foundation.entries import InUnit, Part, PositiveNumber
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.rom.bearing.asperity_contact import AsperityContact
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from roughfilm.rom.cavitation.discretise import Ends
     from roughfilm.rom.cavitation.problem import Problem
 
-GaugePressure = Annotated[float, InUnit("Pa", any_number)]
-Speed = Annotated[float, InUnit("m/s", any_number)]
+GaugePressure = Annotated[float, InUnit("Pa", any_sign=True)]
+Speed = Annotated[float, InUnit("m/s", any_sign=True)]
 Viscosity = Annotated[float, InUnit("Pa*s")]
 Density = Annotated[float, InUnit("kg/m^3")]
 

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Self
 
 from pydantic import BeforeValidator, PlainSerializer, model_validator
 
-from roughfilm.contact.foundation.entries import Length, Part
+from roughfilm.contact.foundation.entries import LengthPair, Part
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.contact.mechanics.moments import WavePower, wave_power
@@ -39,10 +39,6 @@ def _described(value: object) -> object:
     raise ValueError(f"got {value!r:.60}; name a file of heights, or write a table that describes a surface")
 
 
-def _pair(value: object) -> object:
-    return value if isinstance(value, list | tuple) else (value, value)
-
-
 class SurfaceGeometry(Part):
     """One period of a rough surface.
 
@@ -53,8 +49,7 @@ class SurfaceGeometry(Part):
 
     surface: Annotated[str | dict[str, Any], BeforeValidator(_described)]
     spacing: Annotated[
-        tuple[Length, Length] | None,
-        BeforeValidator(_pair),
+        LengthPair | None,
         PlainSerializer(lambda pair: None if pair is None else [with_unit(length, "m") for length in pair]),
     ] = None
     digest: str | None = None

@@ -109,7 +109,7 @@ def _shown(scene: Scene, advice: Advice) -> Iterator[Table | str]:
 def _short(estimate: Estimate | None) -> str:
     if estimate is None:
         return ""
-    return percent(estimate.error) + ("" if estimate.sure else ", beyond the sweeps")
+    return percent(estimate.error) + ("" if estimate.sure else ", outside the fitted range")
 
 
 def entries_of(advice: Advice) -> dict[str, Any]:

@@ -113,7 +113,8 @@ def _show_outcome(study: Study, progress: BatchProgress, out: Path, as_json: boo
     else:
         print_all((_state_table(progress), f"table: {out / 'table.csv'} (.h5)"))
     if progress.warned:
-        messages.print(f"[yellow]warning:[/] {progress.warned} results carry one; see the table", soft_wrap=True)
+        results = "1 result has" if progress.warned == 1 else f"{progress.warned} results have"
+        messages.print(f"[yellow]warning:[/] {results} warnings; see the column warnings of the table", soft_wrap=True)
     for job, failure in progress.failures[:LISTED]:
         message = f"{job.path.parent.name} by {job.setting.name}: {failure.kind}: {failure.message}"
         messages.print(f"[yellow]failed:[/] {escape(message)}", soft_wrap=True)

@@ -46,7 +46,7 @@ def write_page(analysis: EffectAnalysis, entries: Mapping[str, Any], out: Path) 
 
 def _of_load(added: Amount, study: EffectStudy) -> str:
     name = next(iter(shown_quantities(study, ("load",))))
-    fraction = percent(added.value / study.full[name].value).replace("-", "−")
+    fraction = percent(added.value / study.full[name].value)
     return f"{cell(added, SHOWN[name], sign=True)} {SHOWN[name].unit} ({fraction} of the load)"
 
 

@@ -72,7 +72,7 @@ def _quantity(quantity: Quantity) -> str:
     """A quantity with its unit, in µm and MPa where these fit."""
     known = {"1": _number, "m": _micro, "Pa": _si}
     value, unit = quantity.value, quantity.unit
-    return known[unit](value) if unit in known else f"{value:.4g} {_typeset(unit)}"
+    return (known[unit](value) if unit in known else f"{value:.4g} {_typeset(unit)}").replace("-", "−")
 
 
 def _typeset(unit: str) -> str:
@@ -80,9 +80,8 @@ def _typeset(unit: str) -> str:
 
 
 def _difference(value: float, unit: str) -> str:
-    if unit == "1":
-        return f"{value:+.4f}"
-    return ("+" if value >= 0 else "−") + _quantity(Quantity(value=abs(value), unit=unit))
+    size = f"{abs(value):.4f}" if unit == "1" else _quantity(Quantity(value=abs(value), unit=unit))
+    return ("+" if value >= 0 else "−") + size
 
 
 def _micro(value: float) -> str:

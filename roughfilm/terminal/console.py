@@ -69,10 +69,12 @@ def print_notes(error: BaseException, style: str | None = None) -> None:
 
 
 def in_one_line(command: Callable[..., None]) -> Callable[..., None]:
-    """A command that ends an error in one line with exit code 2, 3 or 4, and prints the notes of an interruption."""
+    """A command that ends an error in one line with exit code 2, 3 or 4, and says in one line what a stop leaves."""
 
     @functools.wraps(command)
     def wrapped(*arguments: Any, **options: Any) -> None:
+        out = options.get("out")
+        makes_out = out is not None and not out.exists()
         try:
             command(*arguments, **options)
         except (InputError, ConvergenceError, UnavailableError) as error:
@@ -80,6 +82,8 @@ def in_one_line(command: Callable[..., None]) -> Callable[..., None]:
             code = next(code for kind, code in codes.items() if isinstance(error, kind))
             raise fail(error, code, command) from None
         except (KeyboardInterrupt, SystemExit) as stop:
+            if not hasattr(stop, "__notes__"):
+                stop.add_note(_what_is_left(out, makes_out))
             print_notes(stop)
             raise
         except BrokenPipeError:
@@ -90,6 +94,15 @@ def in_one_line(command: Callable[..., None]) -> Callable[..., None]:
             raise fail(InputError(message), BAD_INPUT) from None
 
     return wrapped
+
+
+def _what_is_left(out: Path | None, makes_out: bool) -> str:
+    """The line on an interruption; a directory that the command made is removed if it is empty."""
+    if out is not None and (out.is_file() or (out.is_dir() and any(out.iterdir()))):
+        return f"stopped; what {out} holds is kept; give the same command to go on"
+    if makes_out and out is not None and out.is_dir():
+        out.rmdir()
+    return "stopped; nothing is kept; give the same command to start again"
 
 
 def launch(app: typer.Typer, arguments: list[str]) -> None:

@@ -67,5 +67,5 @@ def sentences(study: EffectStudy, name: str, inertia: Amount | None) -> list[str
 
 
 def _adds(amount: Amount, how: Shown, full: float) -> str:
-    fraction = f" ({percent(amount.value / abs(full))})".replace("-", "−") if full else ""
+    fraction = f" ({percent(amount.value / abs(full))})" if full else ""
     return f"{cell(amount, how, sign=True)} {how.unit}{fraction}"

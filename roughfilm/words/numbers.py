@@ -57,11 +57,12 @@ def finite(value: float) -> float | None:
 
 
 def percent(fraction: float) -> str:
-    """A fraction with its sign, in per cent."""
+    """A fraction with its sign ("−" for minus), in per cent."""
     percent = 100 * fraction
     if abs(percent) < 1e-3:
         return "0 %"
-    return f"{percent:+.0f} %" if abs(percent) >= 99.5 else f"{percent:+.2g} %"
+    text = f"{percent:+.0f} %" if abs(percent) >= 99.5 else f"{percent:+.2g} %"
+    return text.replace("-", "−")
 
 
 def in_unit(quantity: Quantity) -> tuple[str, str]:

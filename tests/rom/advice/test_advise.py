@@ -229,7 +229,7 @@ def test_a_grid_beyond_those_that_were_swept_is_not_trusted(scene):
     fakes.table = replace(fakes.table, grids=[Grid(kind="pocket", model="navier_stokes", laws=laws)])
     found = fakes.advise(scene, 0.05)
     assert found.chosen is None
-    assert "Re = 20 lies beyond the 0.5 to 9 that were swept" in found.considered[-1].reason
+    assert "Re = 20 is outside the fitted range of 0.5 to 9" in found.considered[-1].reason
 
 
 @pytest.mark.parametrize(("part", "told"), [(0.05, "within 5 %"), (4.0, "off by more than 300 %")])

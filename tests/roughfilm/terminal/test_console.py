@@ -1,5 +1,7 @@
 """What the terminal makes of exceptions that end a command."""
 
+from pathlib import Path
+
 import pytest
 import typer
 
@@ -20,13 +22,32 @@ def test_the_note_of_what_stops_a_command_is_printed_and_the_command_stops(kind,
     assert capsys.readouterr().err == "stopped: 3 of 5 loads; the same command goes on\n"
 
 
-def test_a_stop_without_a_note_prints_nothing(capsys):
-    def command() -> None:
+@pytest.mark.parametrize("finished", [False, True])
+def test_a_stop_without_a_note_says_what_is_kept_and_leaves_no_empty_directory(finished, tmp_path, capsys):
+    place = tmp_path / "out"
+
+    def command(out: Path) -> None:
+        out.mkdir()
+        if finished:
+            (out / "result.h5").touch()
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        in_one_line(command)()
-    assert capsys.readouterr().err == ""
+        in_one_line(command)(out=place)
+    kept = f"what {place} holds is kept; give the same command to go on"
+    lost = "nothing is kept; give the same command to start again"
+    assert capsys.readouterr().err == f"stopped; {kept if finished else lost}\n"
+    assert place.exists() == finished
+
+
+def test_a_stop_leaves_an_empty_directory_that_was_there_before(tmp_path, capsys):
+    def command(out: Path) -> None:  # noqa: ARG001
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        in_one_line(command)(out=tmp_path)
+    assert capsys.readouterr().err.startswith("stopped; nothing is kept")
+    assert tmp_path.exists()
 
 
 @pytest.mark.parametrize(
