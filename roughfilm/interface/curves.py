@@ -35,7 +35,7 @@ def stribeck(
     resolution: int = mixed.RESOLUTION,
     progress: Progress = silent,
 ) -> tuple[mixed.StribeckCurve, ...]:
-    """Compute Stribeck curves of a bearing with rough walls that may touch: friction and film over speed by load.
+    """Compute Stribeck curves, friction and film over speed at given loads, of a bearing with rough walls.
 
     At each speed u the separation of the walls is computed at which the film and the asperities together carry the
     load, W = W_film + W_contact. The friction coefficient is (F_film + μ W_contact)/W.
