@@ -1,4 +1,4 @@
-"""Reading the heights of any surface: an instrument's file, a stored one, a synthetic one, or an array of heights."""
+"""Readers of the heights of a surface from a measured, stored or synthetic surface or from an array of heights."""
 
 import hashlib
 from collections.abc import Mapping
@@ -20,14 +20,14 @@ from roughfilm.contact.synthetic.description import make, read_description
 
 @dataclass(frozen=True, kw_only=True)
 class HeightMap:
-    """The heights of a surface or a profile as a computation takes them.
+    """The heights of a surface or a profile, in the form that computations use.
 
     Attributes
     ----------
     heights : shape (nx, ny), m; ny = 1 for a profile.
     spacing : (dx, dy) of the points, m.
-    source : where the heights come from, as entries that JSON can hold.
-    warnings : sentences on what a computation with them leaves open.
+    source : origin of the heights, as entries that JSON can hold.
+    warnings : sentences on the limits of a computation with these heights.
     """
 
     heights: Array
@@ -37,12 +37,12 @@ class HeightMap:
 
 
 def parse_spacing(text: str | None) -> tuple[float, float] | None:
-    """The spacing (dx, dy), m, that a text such as "1um" or "1um,2um" stands for; None for None.
+    """Convert a text such as "1um" or "1um,2um" to the spacing (dx, dy), m; None gives None.
 
     Raises
     ------
     InputError
-        If the text is not one length above 0, or two.
+        If the text is not one or two lengths above 0.
     """
     if text is None:
         return None
@@ -59,19 +59,19 @@ def parse_spacing(text: str | None) -> tuple[float, float] | None:
 def read_height_map(
     file: Path, spacing: tuple[float, float] | None, *, periodic: bool, otherwise: str = ""
 ) -> HeightMap:
-    """The heights in a file, without any preparation.
+    """Read the heights in a file, without any preparation.
 
     Parameters
     ----------
     file : an instrument's file, a stored surface (HDF5), a description of a synthetic one (TOML), or heights (NPY).
-    spacing : (dx, dy) of the points of an array of heights, m; None for files that say it themselves.
-    periodic : whether the computation repeats the surface; then there are warnings if its edges do not meet.
-    otherwise : a remedy other than preparing the surface, added to these warnings.
+    spacing : (dx, dy) of the points of an array of heights, m; None for files that contain the spacing.
+    periodic : whether the computation repeats the surface; if so, a surface whose opposite edges differ gets a warning.
+    otherwise : a remedy other than the preparation of the surface, which is added to the warnings.
 
     Raises
     ------
     InputError
-        If the file holds no surface, if its spacing is missing or given twice, or if it has invalid points.
+        If the file holds no surface, its spacing is missing or given twice, or it has invalid points.
     """
     suffix = file.suffix.lower()
     try:
@@ -111,7 +111,7 @@ def read_height_map(
 
 
 def _read_profile(file: Path) -> Array | None:
-    """The array of heights along a line, of shape (n,), (n, 1) or (1, n); None if the file holds something else."""
+    """The heights of a profile, shape (n,), (n, 1) or (1, n); None if the file holds something else."""
     if not file.is_file():
         return None
     try:
@@ -124,7 +124,7 @@ def _read_profile(file: Path) -> Array | None:
 
 
 def _as_column(heights: Array, spacing: tuple[float, float]) -> tuple[Array, tuple[float, float]]:
-    """The heights of a profile as shape (n, 1), and (dx, dy) with dx between its points."""
+    """The heights of a profile in shape (n, 1), and (dx, dy), m, with dx between neighbouring points."""
     dx, dy = spacing
     return heights.reshape(-1, 1), (dy, dx) if heights.ndim == 2 and heights.shape[0] == 1 else (dx, dy)
 
@@ -145,12 +145,13 @@ def _profile_map(file: Path, heights: Array, spacing: tuple[float, float], perio
 
 
 def periodicity_warnings(file: Path, surface: Surface, otherwise: str = "", *, measured: bool) -> tuple[str, ...]:
-    """Warnings on a surface that will be repeated although it is not periodic by itself.
+    """The warnings about a surface that a computation repeats although it is not periodic; empty if it is periodic.
 
     Parameters
     ----------
-    file : the surface's file, for the messages.
-    otherwise : a remedy other than preparing the surface.
+    file : the file of the surface, for the messages.
+    surface : the surface.
+    otherwise : a remedy other than the preparation of the surface.
     measured : whether the surface is a measured one, which has form and noise.
     """
     if surface.periodic:

@@ -1,4 +1,4 @@
-"""Types of the arrays that every package uses."""
+"""Type names of the NumPy arrays that every package uses."""
 
 import numpy as np
 from numpy.typing import NDArray

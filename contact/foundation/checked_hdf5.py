@@ -25,12 +25,12 @@ CHUNK_BYTES = 1 << 22
 
 
 def header_block(mark: bytes, digest: str) -> bytes:
-    """The header of a file, as bytes: the mark, the digest of the content, zeros."""
+    """The header of a file, 512 bytes: the mark, the digest of the content in hexadecimal, a line feed, and zeros."""
     return (mark + digest.encode() + b"\n").ljust(HEADER_BYTES, b"\0")
 
 
 def content_digest(path: Path) -> str:
-    """SHA-256 digest, in hexadecimal, of all bytes after the header."""
+    """The SHA-256 digest, in hexadecimal, of all bytes after the header of a file."""
     digest = hashlib.sha256()
     with path.open("rb") as file:
         file.seek(HEADER_BYTES)
@@ -57,7 +57,9 @@ def write_checked(path: Path, mark: bytes, fill: "Callable[[h5py.File], None]") 
 
     Parameters
     ----------
-    fill : writes attributes and datasets into the open file.
+    path : the file; an existing one is replaced.
+    mark : the first bytes of the file, which identify its content.
+    fill : function that writes attributes and datasets into the open file.
 
     Raises
     ------
@@ -76,12 +78,21 @@ def write_checked(path: Path, mark: bytes, fill: "Callable[[h5py.File], None]") 
 
 @contextmanager
 def open_checked(path: Path, mark: bytes, schema: int, remedy: str) -> "Iterator[h5py.File]":
-    """Open a file after checking its digest and that its attribute ``schema`` has the given value.
+    """Open a file for reading after a check of its mark, its digest and its attribute ``schema``.
+
+    Parameters
+    ----------
+    path : the file, which `write_checked` wrote.
+    mark : the first bytes that the file must have.
+    schema : the version of the file format that the attribute ``schema`` must hold.
+    remedy : the end of the error message.
 
     Raises
     ------
     InputError
-        If it was damaged or changed, or has another schema; the message ends with ``remedy``.
+        If the file was damaged or changed, or has another schema.
+    OSError
+        If the file cannot be read.
     """
     import h5py  # slow to import
 

@@ -1,4 +1,4 @@
-"""Programs that end with the process that started them, even if that is killed."""
+"""Programs that end with the process that started them, even if that process is killed."""
 
 import shutil
 import subprocess
@@ -7,7 +7,9 @@ from functools import cache
 
 @cache
 def terminate_with_parent() -> tuple[str, ...]:
-    """Words to put before a command so that Linux terminates it with the thread that started it; empty elsewhere.
+    """The words before a command that make Linux terminate it with the thread that started it.
+
+    The result is empty where the program ``setpriv`` is missing or does not work.
 
     The thread waits for its child, so it ends before the child only if this process is killed. Python's ``preexec_fn``
     is no alternative: it is unsafe in a program with threads.

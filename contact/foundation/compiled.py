@@ -1,4 +1,9 @@
-"""Loops compiled by numba at their first call and cached on disk where the cache can be written."""
+"""Decorators of numerical loops that numba compiles at their first call and caches on disk where that is possible.
+
+All loops run without the lock of the interpreter, so that threads run them at the same time. A division by zero gives
+an infinity or NaN, as in NumPy, and no exception. Sums may be reordered and products contracted; infinities and NaN
+keep their meaning.
+"""
 
 import logging
 from collections.abc import Callable
@@ -7,7 +12,15 @@ from typing import Any
 
 
 class Loop:
-    """A loop that numba compiles, or reads from its cache, at its first call; numba is slow to import."""
+    """A function that numba compiles, or reads from its cache, at its first call.
+
+    Numba is slow to import, so that it is imported at that call and not with the module of the loop.
+
+    Parameters
+    ----------
+    loop : function in the part of Python that numba compiles.
+    options : options of ``numba.njit`` in addition to those of all loops.
+    """
 
     def __init__(self, loop: Callable[..., Any], **options: Any) -> None:
         self._loop = loop
@@ -15,34 +28,34 @@ class Loop:
         update_wrapper(self, loop)
 
     def __call__(self, *arguments: Any) -> Any:
-        """Run the loop."""
+        """Run the compiled loop with positional arguments and return its result."""
         return self._dispatcher(*arguments)
 
     @cached_property
     def _dispatcher(self) -> Any:
-        """The function of numba; the loops that this one calls are replaced by theirs, as numba wants to see them."""
+        """The compiled function; in the module of this loop the loops that it calls are replaced by compiled ones."""
         names = self._loop.__globals__
         for name in self._loop.__code__.co_names:
             if isinstance(called := names.get(name), Loop):
                 names[name] = called._dispatcher
         try:
             return _njit()(**self._options)(self._loop)
-        except RuntimeError:  # there is no place for a cache
+        except RuntimeError:  # no directory for the cache can be written
             return _njit()(**{**self._options, "cache": False})(self._loop)
 
 
 compiled: Any = partial(Loop, cache=True, _nrt=False)
-"""Decorator of a loop: numba may reorder sums to vectorise them, and keeps infinities and NaN.
+"""Decorator of a loop that neither makes nor returns an array.
 
-The loop makes and returns no array: ``_nrt=False`` leaves out the counting of references to arrays, which would cost
-more than a short row takes. The option is private to numba.
+The option ``_nrt=False``, which is private to numba, omits the counting of references to arrays: for short rows the
+counting would take longer than the loop.
 """
 
 called: Any = partial(compiled, no_cpython_wrapper=True)
-"""Decorator of a loop that only compiled loops call: it compiles faster without an interface to Python."""
+"""Decorator of a loop that only compiled loops call; without an interface to Python it compiles faster."""
 
 inlined: Any = partial(Loop, inline="always")
-"""Decorator of a small loop, or of one with a single caller: numba copies it into the loop that calls it."""
+"""Decorator of a loop that is small or has a single caller; numba copies it into the loop that calls it."""
 
 allocating: Any = partial(Loop, cache=True)
 """Decorator of a loop that makes or returns arrays."""
@@ -50,7 +63,10 @@ allocating: Any = partial(Loop, cache=True)
 
 @cache
 def _njit() -> Any:
-    """Numba's decorator; when it first compiles a loop of this package, a warning in the log says so."""
+    """The decorator of numba with the options of all loops.
+
+    When numba compiles a loop of this package for the first time in a process, a warning is logged.
+    """
     from numba import njit
     from numba.core import event
 

@@ -1,4 +1,4 @@
-"""Functions whose modules are imported when they are called, for data that name what is slow to import."""
+"""Functions whose modules are imported at the first call, for tables that name functions of slow modules."""
 
 from collections.abc import Callable
 from importlib import import_module
@@ -6,7 +6,12 @@ from typing import Any
 
 
 def deferred(module: str, name: str) -> Callable[..., Any]:
-    """The function of that name, whose module in ``roughfilm`` is imported at its first call.
+    """The function of a module whose import waits until the first call.
+
+    Parameters
+    ----------
+    module : dotted name of the module within ``roughfilm``.
+    name : name of the function in that module.
 
     Examples
     --------

@@ -59,7 +59,7 @@ class InUnit:
 
 
 def _pair(given: object) -> object:
-    """The values along x and y: one stands for both."""
+    """The values along x and y; a single value is used for both."""
     values = given.split(",") if isinstance(given, str) else given if isinstance(given, list | tuple) else [given]
     if not 1 <= len(values) <= 2:
         raise ValueError(f"got {given!r:.60}; write one length or two, such as '1 um' or ['1 um', '2 um']")

@@ -7,7 +7,7 @@ from enum import StrEnum
 
 
 class Outcome(StrEnum):
-    """How a solver ended."""
+    """The way in which a solver ended."""
 
     CONVERGED = "converged"
     DIVERGED = "diverged"
@@ -19,7 +19,7 @@ class Outcome(StrEnum):
     UNFINISHED = "unfinished"
     """The residual was falling when the maximum number of iterations was reached."""
     FAILED = "failed"
-    """The solver failed in another way."""
+    """The solver failed for another reason."""
 
 
 class InputError(ValueError):

@@ -14,7 +14,9 @@ from roughfilm.contact.foundation.errors import InputError
 
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
-    """Yield a temporary path beside ``path``; rename it to ``path`` on success, remove it on failure; follow links.
+    """Yield a temporary path beside ``path``, which is renamed to ``path`` on success and removed on failure.
+
+    If ``path`` is a symbolic link, the file that it points to is replaced.
 
     A reader sees the old file or the complete new one, even if the writer is killed.
 
@@ -54,7 +56,7 @@ def replacing(path: Path) -> Iterator[Path]:
 
 
 def write_json(entries: Mapping[str, Any], path: Path) -> None:
-    """Write entries as a JSON file, whole or not at all.
+    """Write entries as a JSON file, completely or not at all.
 
     Raises
     ------
@@ -73,12 +75,13 @@ def locked(lock: Path, message: str) -> Iterator[None]:
 
     Parameters
     ----------
-    message : of the error raised if another process holds the lock; "{process}" in it becomes the id of that process.
+    lock : the lock file.
+    message : message of the error if another process holds the lock; "{process}" in it becomes the id of that process.
 
     Raises
     ------
     InputError
-        If another process holds the lock, or it cannot be written.
+        If another process holds the lock, or the lock file cannot be written.
     """
     while True:
         try:

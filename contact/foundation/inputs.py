@@ -13,7 +13,7 @@ from roughfilm.contact.foundation.arrays import Array
 
 @dataclass(frozen=True, kw_only=True)
 class Inputs:
-    """Heights, spacing and settings that determine a result; files of results are identified by their digest.
+    """The heights, spacing and settings that determine a result; their digest identifies a file of results.
 
     Attributes
     ----------
@@ -28,12 +28,17 @@ class Inputs:
 
     @property
     def digest(self) -> str:
-        """SHA-256 digest of all inputs, in hexadecimal; equal digests mean equal results."""
+        """The SHA-256 digest of all inputs, in hexadecimal; equal digests mean equal results."""
         text = json.dumps([self.heights.shape, self.spacing, self.settings], sort_keys=True, allow_nan=False)
         return hashlib.sha256(text.encode() + np.ascontiguousarray(self.heights).tobytes()).hexdigest()
 
     def difference(self, settings: str) -> str:
-        """The first difference from the inputs of a file, in words; ``settings`` are those of the file, as JSON."""
+        """The first difference from the inputs of a file, in words that end a sentence.
+
+        Parameters
+        ----------
+        settings : the settings in the file, as JSON text.
+        """
         stored = json.loads(settings)
         for name in sorted(stored.keys() | self.settings.keys()):
             own, other = self.settings.get(name), stored.get(name)

@@ -1,4 +1,4 @@
-"""Threads that share work; loops compiled by numba and transforms leave the interpreter, so that they run at once."""
+"""Threads that share work; compiled loops and transforms release the interpreter's lock and so run in parallel."""
 
 import os
 from collections.abc import Callable, Iterator
@@ -12,7 +12,10 @@ DEFAULT_THREADS, MOST_THREADS = 2, 256
 
 
 def checked_threads(threads: int | None) -> int:
-    """The number of threads asked for, or two where there are two cores; InputError if it is out of range."""
+    """The requested number of threads, 1 to 256; None means two threads, or one on a machine with one core.
+
+    Raises InputError if the number is out of range.
+    """
     if threads is None:
         return min(DEFAULT_THREADS, os.cpu_count() or 1)
     if not 1 <= threads <= MOST_THREADS:
@@ -22,7 +25,7 @@ def checked_threads(threads: int | None) -> int:
 
 @contextmanager
 def workers(threads: int) -> Iterator[ThreadPoolExecutor]:
-    """Threads for independent tasks; those that still wait are dropped when something goes wrong."""
+    """A pool of threads for independent tasks; at the end of the block, tasks that have not started are cancelled."""
     pool = ThreadPoolExecutor(threads)
     try:
         yield pool
@@ -31,19 +34,22 @@ def workers(threads: int) -> Iterator[ThreadPoolExecutor]:
 
 
 class Team:
-    """Threads that share a loop by ranges; the calling thread is one of them."""
+    """A group of threads that share a loop by ranges of its index; the calling thread is a member."""
 
     def __init__(self, members: int) -> None:
         self.members = members
         self._others = ThreadPoolExecutor(members - 1) if members > 1 else None
 
     def ranges(self, count: int, unit: int = 1) -> list[tuple[int, int]]:
-        """``count`` things cut into a range [low, high) for each member, at whole units."""
+        """The range [low, high) of indices below ``count`` for each member; each low is a multiple of ``unit``."""
         bounds = [count * member // (self.members * unit) * unit for member in range(self.members)]
         return list(pairwise([*bounds, count]))
 
     def share(self, work: Callable[[int], None]) -> None:
-        """Let every member, 0 and on, do its work; over when all have."""
+        """Call ``work(member)`` for members 0 to ``members`` - 1 at the same time; return when all have finished.
+
+        An exception of a member is raised again in the calling thread.
+        """
         if self._others is None:
             work(0)
             return

@@ -1,4 +1,4 @@
-"""CPU and wall time of a piece of work."""
+"""The measurement of CPU time and wall time."""
 
 import os
 import time
@@ -11,8 +11,8 @@ def stopwatch() -> Callable[[], dict[str, float]]:
     Returns
     -------
     function without arguments
-        It gives ``cpu_s``, the CPU seconds since the start of this process and of its children that have ended, and
-        ``wall_s``, the seconds since the start.
+        It returns a dict with ``cpu_s``, the CPU time of this process and of its ended children since the start, s, and
+        ``wall_s``, the wall time since the start, s.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""TOML files: reading, overriding single keys, and one-line messages for every fault."""
+"""TOML files: reading, replacing single entries, and one-line messages for every error."""
 
 import difflib
 import json
@@ -12,14 +12,14 @@ from pydantic import BaseModel, ValidationError
 from roughfilm.contact.foundation.errors import InputError
 
 MAX_BYTES = 1_000_000
-"""Size of a file, bytes, above which it is refused unread."""
+"""Largest size of a file that is read, bytes."""
 
 Location = Sequence[int | str]
-"""The keys that lead to a place in a file."""
+"""The location of an entry: the keys and list indices that lead to it, from the outermost."""
 
 
 def toml_value(value: Any) -> str:
-    """A number, a text, a list or a table as text of a TOML file, on one line."""
+    """The text in a TOML file, on one line, of a number, a text, a list or a table."""
     if isinstance(value, Mapping):
         return (
             "{ " + ", ".join(f"{key} = {toml_value(entry)}" for key, entry in value.items()) + " }" if value else "{}"
@@ -64,8 +64,10 @@ def set_entry(
 
     Parameters
     ----------
+    entries : the nested entries, which are changed.
+    override : the assignment, ``dotted.key=value``.
     example : a correct assignment, for messages.
-    replaces : for a key, the keys of the same table that are removed when it is set.
+    replaces : by dotted key, the keys of the same table that are removed when it is set.
 
     Raises
     ------
@@ -105,13 +107,14 @@ def in_one_line(
     unknown: Callable[[Location], str],
     locate: Callable[[Location], Location] = tuple,
 ) -> str:
-    """The first fault in a pydantic error as ``root.key: got value; remedy``; unknown keys come first.
+    """The first error of a pydantic validation as ``root.key: got value; remedy``; unknown keys come first.
 
     Parameters
     ----------
+    error : the error of the validation.
     root : name of the outermost table, for the message.
-    unknown : remedy for an unknown key at a location.
-    locate : location in the file of a location in the model.
+    unknown : unknown(location), the remedy for an unknown key at a location.
+    locate : locate(location), the location in the file that belongs to a location in the model.
     """
     faults = sorted(error.errors(include_url=False), key=lambda fault: fault["type"] != "extra_forbidden")
     fault = faults[0]
@@ -145,7 +148,7 @@ def in_one_line(
 
 
 def known_keys(model: type[BaseModel], path: Location) -> list[str]:
-    """The keys of the table at ``path`` in a model whose fields are models, optional or not."""
+    """The keys of the table at ``path`` in a pydantic model; the fields on the path are models, optional or not."""
     table: Any = model
     for name in path:
         annotation = table.model_fields[name].annotation

@@ -41,7 +41,10 @@ _UNITS: Mapping[str, tuple[float, Mapping[str, int]]] = {
     "inch": (1 / 36, {"yd": 1}),
     "psi": (1.0, {"lbf": 1, "inch": -2}),
 }
-"""Each unit as a number of products of others, none for a base unit; as pint has them, to the bit."""
+"""Each unit as a factor times a product of powers of other units, which is empty for a base unit.
+
+The factors agree with those of the library pint to the last bit.
+"""
 
 _PREFIXES = {
     "f": 1e-15,
@@ -60,10 +63,14 @@ _PREFIXES = {
 
 @dataclass(frozen=True, kw_only=True)
 class Quantity:
-    """A number with its unit ("1" for none).
+    """A number with its unit.
 
-    ``uncertainty`` is the half width of the interval that covers the truth in 95 of 100 cases, in the same unit; None
-    where it is unknown.
+    Attributes
+    ----------
+    value : number, in the unit.
+    unit : text such as "Pa*s"; "1" for a dimensionless number.
+    uncertainty : half width of the interval that covers the true value in 95 of 100 cases, in the same unit; None if
+        it is unknown.
 
     Examples
     --------
@@ -86,14 +93,14 @@ def _registry() -> "pint.UnitRegistry[float]":
 
 @cache
 def _factor(unit: str, base: str) -> float | None:
-    """How many ``base`` make one ``unit``; None if the dimensions differ; ValueError if it is no unit."""
+    """The number of ``base`` units in one ``unit``; None if the dimensions differ; ValueError for an unknown unit."""
     unit = unit.replace("·", "*")
     asked, wanted = _powers(unit), _powers(base)
     return _by_pint(unit, base) if asked is None or wanted is None else _by_table(asked, wanted)
 
 
 def _powers(text: str) -> dict[str, int] | None:
-    """The powers of the units in a product such as "N*s/m^2"; None if one of them is not in the table."""
+    """The power of each unit in a product such as "N*s/m^2"; None if a unit is not in the table."""
     powers: dict[str, int] = {}
     end = 0
     while end < len(text):
@@ -112,7 +119,7 @@ def _powers(text: str) -> dict[str, int] | None:
 
 
 def _by_table(asked: Mapping[str, int], wanted: Mapping[str, int]) -> float | None:
-    """The factor as pint computes it: the powers of all scales, those above the line first."""
+    """The factor as pint computes it: the powers of all scales, those of the numerator first."""
     above, below, dimensions = Counter[float](), Counter[float](), Counter[str]()
 
     def add(units: Mapping[str, int], times: int) -> None:
@@ -155,14 +162,15 @@ def _by_pint(unit: str, base: str) -> float | None:
 
 
 def to_si(text: object, base: str) -> float:
-    """The number of ``base`` units (SI, for example "Pa*s") in a text such as "10 mPa*s".
+    """Convert a text such as "10 mPa*s" to a number in the SI unit ``base``, for example "Pa*s".
 
-    Only a decimal number followed by a unit is read; nothing is evaluated.
+    The text must be a decimal number followed by a unit; expressions are not evaluated.
 
     Raises
     ------
     ValueError
-        For anything else, with what was got and what to write instead.
+        If the text has another form, the unit is unknown or has another dimension, or the number is not finite. The
+        message gives the input and a correct example.
 
     Examples
     --------
@@ -203,8 +211,10 @@ def to_si(text: object, base: str) -> float:
 
 
 def is_unit(word: str) -> bool:
-    """Whether a word is a unit of anything.
+    """Whether a word is a known unit of any dimension.
 
+    Examples
+    --------
     >>> is_unit("um"), is_unit("width")
     (True, False)
     """
@@ -216,8 +226,10 @@ def is_unit(word: str) -> bool:
 
 
 def with_unit(value: float, base: str) -> str:
-    """Text that ``to_si`` reads back to the same bits.
+    """The text of a number in the SI unit ``base``, which ``to_si`` reads back without rounding.
 
+    Examples
+    --------
     >>> with_unit(3e-05, "m")
     '3e-05 m'
     """

@@ -1,4 +1,4 @@
-"""The models of a dry contact: solved on the grid, or estimated from statistics of the heights."""
+"""Models of a dry contact, which solve it on the grid or estimate it from statistics of the heights."""
 
 import math
 import time
@@ -23,7 +23,7 @@ from roughfilm.contact.mechanics.store import Row
 
 
 class ContactModel(StrEnum):
-    """A model of a dry contact, from the plainest to the best; the last one is for comparison."""
+    """The models of a dry contact, from the simplest to the most accurate; the last one serves for comparison."""
 
     BEARING_AREA = "bearing_area"
     GREENWOOD_WILLIAMSON = "greenwood_williamson"
@@ -34,10 +34,10 @@ class ContactModel(StrEnum):
 
 
 GRID_MODELS = (ContactModel.ELASTIC, ContactModel.ELASTIC_PLASTIC, ContactModel.STANLEY_KATO)
-"""Models that solve on the grid; the others estimate from statistics."""
+"""Models that solve the contact on the grid; the others estimate it from statistics of the heights."""
 
 MODELS_WITHOUT_HARDNESS = (ContactModel.ELASTIC, ContactModel.GREENWOOD_WILLIAMSON)
-"""Models in which pressures have no limit."""
+"""Models in which the pressure has no upper limit."""
 
 SOURCES = {
     ContactModel.BEARING_AREA: "E. J. Abbott, F. A. Firestone, Mech. Eng. 55 (1933) 569",
@@ -50,7 +50,18 @@ SOURCES = {
 
 
 def chosen_model(model: ContactModel | None, hardness: float) -> ContactModel:
-    """The model asked for, or the best one that the hardness, Pa, allows; InputError if the model needs one."""
+    """The requested model, or for None the most accurate one: elastic-plastic with a hardness, elastic without.
+
+    Parameters
+    ----------
+    model : the requested model, or None.
+    hardness : Pa; infinite if there is none.
+
+    Raises
+    ------
+    InputError
+        If the requested model needs a hardness and the hardness is infinite.
+    """
     found = model or (ContactModel.ELASTIC if math.isinf(hardness) else ContactModel.ELASTIC_PLASTIC)
     if math.isinf(hardness) and found in (ContactModel.ELASTIC_PLASTIC, ContactModel.BEARING_AREA):
         raise InputError(f"hardness: {found} needs one; give it, such as 4GPa, or choose the model elastic")
@@ -68,7 +79,25 @@ def solver(
     tolerance: float,
     threads: int,
 ) -> Solver:
-    """The contact of a model on the grid as a function of the load, Pa, and of a contact to start from."""
+    """The function solve(load, start) that returns the contact of a grid model at a mean pressure ``load``, Pa.
+
+    Parameters
+    ----------
+    model : a model in ``GRID_MODELS``.
+    heights : shape (nx, ny), m.
+    spacing : (dx, dy), m.
+    composite_modulus : E*, Pa.
+    hardness : largest pressure, Pa; infinite for an elastic contact.
+    boundary : "periodic", or "free" for a surface that stands alone on the half-space.
+    tolerance : largest violation of the contact conditions over the rms height.
+    threads : number of threads.
+
+    Returns
+    -------
+    Solver
+        ``start`` is a contact at another load, or None; the model of Stanley and Kato does not use it. That model is
+        always periodic and uses one thread.
+    """
     body = (heights, spacing, composite_modulus)
     if model is ContactModel.STANLEY_KATO:
         return lambda load, _: stanley_kato(*body, load, hardness=hardness, tolerance=tolerance)
@@ -79,7 +108,16 @@ def solver(
 def estimator(
     model: ContactModel, heights: Array, spacing: tuple[float, float], composite_modulus: float, hardness: float
 ) -> Callable[[float], tuple[Row, Estimate]]:
-    """The numbers and the estimate of a statistical model as a function of the load, Pa."""
+    """The function row(load) that returns the numbers and the estimate of a statistical model at a load, Pa.
+
+    Parameters
+    ----------
+    model : a model that is not in ``GRID_MODELS``.
+    heights : shape (nx, ny), m.
+    spacing : (dx, dy), m.
+    composite_modulus : E*, Pa.
+    hardness : largest pressure, Pa; infinite if there is none.
+    """
     if model is ContactModel.BEARING_AREA:
         estimate = partial(bearing_area, heights, hardness=hardness, **_stiffness(heights, spacing, composite_modulus))
     else:
@@ -112,7 +150,7 @@ def estimator(
 
 
 def _stiffness(heights: Array, spacing: tuple[float, float], composite_modulus: float) -> dict[str, float]:
-    """The stiffness that limits the range of a bearing curve; nothing for a flat surface, where it is exact."""
+    """The modulus and rms slope that limit the range of the bearing-area model; empty for a flat surface."""
     if np.ptp(heights) == 0:
         return {}
     return {"composite_modulus": composite_modulus, "rms_slope": wave_power(heights, spacing).moments.rms_slope}

@@ -1,4 +1,4 @@
-"""Series of contacts in HDF5 files, to which completed loads are added one by one.
+"""Series of contacts over the load in HDF5 files; each completed load is added to the file.
 
 The files have a header with a digest, see `roughfilm.contact.foundation.checked_hdf5`. A load is added to a copy, which
 then replaces the file.
@@ -37,12 +37,15 @@ REMEDY = "remove it or choose another place"
 
 @dataclass(frozen=True, kw_only=True)
 class Row:
-    """Numbers of one load, named as in `Contact`; None where the model does not give them.
+    """The numbers of a contact at one load; None where the model does not give a number.
 
     Attributes
     ----------
+    load : mean pressure over the nominal area, Pa.
+    area_fraction, area_fraction_pixel, plastic_fraction, approach, complementarity, iterations : as in `Contact`.
+    mean_gap : mean distance between the deformed surface and the plane, m.
     pressure_max : largest pressure, Pa.
-    cpu_s : processor time, s.
+    cpu_s : CPU time, s.
     """
 
     load: float
@@ -64,7 +67,7 @@ UNITS = {"load": "Pa", "mean_gap": "m", "approach": "m", "pressure_max": "Pa", "
 
 
 def row_of(contact: Contact, cpu_s: float) -> Row:
-    """The row of a contact that took ``cpu_s`` seconds of processor time."""
+    """The numbers of a contact whose solution took the CPU time ``cpu_s``, s."""
     return Row(
         load=contact.load,
         area_fraction=contact.area_fraction,
@@ -80,16 +83,18 @@ def row_of(contact: Contact, cpu_s: float) -> Row:
 
 
 def add(path: Path, inputs: Inputs, contacts: Sequence[tuple[Row, Contact | None]]) -> None:
-    """Add loads to the file of a series, all or none; loads stored for the same inputs stay.
+    """Add loads to the file of a series, all or none; loads that the file holds already are kept.
 
     Parameters
     ----------
-    contacts : for each load its row and, if the model has fields, its contact.
+    path : the HDF5 file; it is made if it does not exist.
+    inputs : inputs of the series; the file must belong to the same ones.
+    contacts : for each load its numbers, and its contact if the model gives fields, otherwise None.
 
     Raises
     ------
     InputError
-        If ``path`` cannot be written, was damaged, or holds other data.
+        If the file cannot be written, was damaged, or holds a series of other inputs or other data.
     """
     before = finished(path, inputs)
     with replacing(path) as scratch:
@@ -124,7 +129,7 @@ def _put(file: h5py.File, row: Row, contact: Contact | None) -> None:
 
 
 def finished(path: Path, inputs: Inputs) -> dict[float, Row]:
-    """Rows stored in a file for these inputs, by load, Pa; empty if the file is absent or empty.
+    """The rows stored in a file for these inputs, by load, Pa; empty if the file does not exist or is empty.
 
     Raises
     ------
@@ -159,7 +164,7 @@ def is_series(path: Path) -> bool:
 
 
 def load_series(path: Path) -> tuple[Inputs, tuple[float, ...]]:
-    """Inputs of the series in a file, and the loads at which it holds fields, increasing, Pa.
+    """The inputs of the series in a file, and the loads at which it holds fields, Pa, in increasing order.
 
     Raises
     ------
@@ -180,7 +185,10 @@ def load_series(path: Path) -> tuple[Inputs, tuple[float, ...]]:
 
 
 def load_contact(path: Path, load: float) -> Contact:
-    """The stored contact at a load, Pa; the elastic displacement is recomputed as u_e = g00 − h1 − u_p + gap.
+    """The stored contact at a load, Pa.
+
+    The file does not hold the elastic displacement, which is computed as u_e = a − (max z − z) − u_p + g, with the
+    approach a, the heights z, the plastic displacement u_p and the gap g, all in m.
 
     Raises
     ------

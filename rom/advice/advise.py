@@ -1,4 +1,4 @@
-"""The cheapest model that is accurate enough, judged by the numbers of a scene and by the next models."""
+"""Choice of the cheapest model that is accurate enough, by fitted error laws and by comparison with other models."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 
 MAX_ERROR_RATIO = 5.0
-"""Error by the laws over the tolerance above which a model is not run as a check."""
+"""Ratio of the error by the laws to the tolerance above which a model is not run as a check."""
 
 
 class Verdict(StrEnum):
@@ -39,7 +39,17 @@ class Verdict(StrEnum):
 
 @dataclass(frozen=True, kw_only=True)
 class ModelVerdict:
-    """A model at its resolution: expected CPU seconds, both estimates of its error, the verdict and its reason."""
+    """The verdict on a model at a resolution.
+
+    Attributes
+    ----------
+    model : name of the model.
+    resolution : number of cells, points or nodes; None if the model does not apply.
+    cpu_s : expected CPU time, s.
+    verdict, reason : the verdict and the reason for it.
+    a_priori : estimate of the error by the laws; None if unknown.
+    a_posteriori : estimate of the error from runs; None if the models were not run.
+    """
 
     model: str
     resolution: int | None
@@ -51,13 +61,16 @@ class ModelVerdict:
 
     @property
     def error(self) -> float | None:
-        """The largest expected error: by the next models if they were run, else by the laws; None if unknown."""
+        """The largest expected error over the size of the quantity; None if unknown.
+
+        It is the estimate from runs if there is one, otherwise that by the laws.
+        """
         estimate = self.a_posteriori or self.a_priori
         return None if estimate is None else estimate.error
 
     @property
     def sure(self) -> bool:
-        """Whether the scene is within the sweeps that the estimate rests on."""
+        """Whether the scene is within the range of the sweeps to which the laws of the estimate were fitted."""
         estimate = self.a_posteriori or self.a_priori
         return estimate is not None and estimate.sure
 
@@ -68,14 +81,16 @@ class Advice:
 
     Attributes
     ----------
-    quantity, within : the quantity, and its tolerated error over its size.
-    chosen : the cheapest model within the tolerance; None where none is known.
-    nearest : the most accurate model where none is within the tolerance; None where nothing is known.
+    quantity : name of the quantity.
+    within : tolerated error over the size of the quantity.
+    chosen : the cheapest model within the tolerance; None if none is known.
+    nearest : the most accurate model if none is within the tolerance, otherwise None; also None if no error is known.
     considered : the verdict on every model of the kind, cheapest first.
     numbers : the dimensionless numbers of the scene.
-    result : the result of the chosen model, if it was run.
-    spent_cpu_s : CPU seconds of all runs.
-    omitted : the effect that every model of the kind leaves out; it uses up its part of the tolerance.
+    result : the result of the chosen model; None if the model was not run.
+    spent_cpu_s : CPU time of all runs, s.
+    omitted : the effect that every model of the kind omits, whose part is subtracted from the tolerance; None if there
+        is no such effect.
     """
 
     quantity: str
@@ -90,7 +105,7 @@ class Advice:
 
 
 def wanted(scene: Scene, name: str | None) -> str:
-    """The compared quantity of this name or title, by default the first of the kind.
+    """The name of the compared quantity with a given name or title; None means the first of the kind.
 
     Raises InputError for a name that the kind does not have.
     """
@@ -105,7 +120,10 @@ def wanted(scene: Scene, name: str | None) -> str:
 
 
 def shortfall(advice: Advice, title: str) -> str:
-    """The message that no model is accurate enough, and which is the most accurate."""
+    """The message that no model is accurate enough, with the name of the most accurate one if it is known.
+
+    ``title`` is the title of the quantity.
+    """
     message = f"no model here is known to give the {title} within {percent(advice.within)}"
     if advice.omitted is not None and advice.omitted.part > advice.within / 2:
         return f"{message}: {advice.omitted.reason}"
@@ -128,25 +146,28 @@ def advise(
 ) -> Advice:
     """Choose the cheapest model, at the coarsest resolution, whose quantity is within a tolerance of the best model's.
 
-    Models are judged from the cheapest up by two estimates: error laws fitted to sweeps, at the numbers of the scene,
-    and the difference to the next model, if that is cheap. A model is not run if the laws expect more than
-    ``MAX_ERROR_RATIO`` tolerances, or more than the tolerance where the check costs more than the cheapest model that
-    is accurate enough. Where both estimates disagree, the model after the next decides, if it is cheap; otherwise the
-    model is not chosen. The effect that all models leave out is subtracted from the tolerance. Errors are those that
-    95 of 100 scenes do not exceed.
+    Models are judged in order of cost by two estimates: error laws fitted to sweeps, evaluated for the numbers of the
+    scene, and the difference from the next model, if that model is cheap. A model is not run if the laws expect more
+    than ``MAX_ERROR_RATIO`` tolerances, or more than the tolerance where the check costs more than the cheapest model
+    that is accurate enough. If the estimates disagree, the model after the next decides, if it is cheap; otherwise the
+    model is not chosen. The effect that all models omit is subtracted from the tolerance. An error is a bound that 95
+    of 100 scenes do not exceed.
 
     Parameters
     ----------
-    models : the models of the scene's kind.
-    quantity : one of the quantities that the kind compares.
+    scene : the scene.
+    models : the models for this kind of scene.
+    quantity : name of a quantity that the kind compares.
     within : tolerated error over the quantity's size, above 0 and below 1.
-    laws : the laws, by default those of the project.
-    run : run(model, resolution), by default the model's ``solve``; a caller may return stored results.
+    laws : the error laws, by default the table of this package.
+    run : run(model, resolution), which returns a result; by default ``solve`` of the model. A caller may return stored
+        results.
+    progress : called with the done fraction and a few words.
 
     Raises
     ------
     InputError
-        For a tolerance out of range, or a scene to which no model applies.
+        If the tolerance is out of range, or no model applies to the scene.
     """
     if not 0 < within < 1:
         raise InputError(f"within: got {within!r}; it must be above 0 and below 1, for example 5%")
@@ -215,7 +236,7 @@ def advise(
 
 
 def _after(task: AdviceTask, model: Model) -> ModelVerdict:
-    """The verdict on a model that is not run: a cheaper one is chosen, or nothing of the tolerance is left."""
+    """The verdict on a model that is not run, since a cheaper one is chosen or the tolerance is used up."""
     before = a_priori(task, model)
     lost = "the effect that all models leave out exceeds the tolerance" if task.within <= 0 else None
     short = lost is not None or (before is not None and not before.error <= task.within)
@@ -235,7 +256,7 @@ def _within(before: Estimate | None, within: float) -> bool:
 
 
 def _verdict(task: AdviceTask, model: Model, secure: float) -> ModelVerdict:
-    """The verdict on a model; ``secure`` is the cost of the cheapest one that the laws accept, CPU seconds."""
+    """The verdict on a model; ``secure`` is the cost of the cheapest model that the laws accept, CPU seconds."""
     resolution = task.resolution(model)
     here, before = model.available(), a_priori(task, model)
 
@@ -283,7 +304,7 @@ def _verdict(task: AdviceTask, model: Model, secure: float) -> ModelVerdict:
 
 
 def _top(task: AdviceTask, model: Model, judged: Callable[..., ModelVerdict]) -> ModelVerdict:
-    """The verdict on the most complete model, by its own uncertainty on finer and finer grids."""
+    """The verdict on the most complete model, by its numerical uncertainty on successively finer grids."""
     before = a_priori(task, model)
     last: tuple[Estimate, int] | None = None
     for resolution in (one for one in model.resolutions_of(task.scene) if one >= task.resolution(model)):

@@ -1,4 +1,4 @@
-"""Estimates of a model's error: from the numbers of the scene alone, and from the next models."""
+"""Estimates of the error of a model, by laws from the numbers of a scene alone or from runs of other models."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -12,21 +12,28 @@ from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 
 GRID_FRACTION = 1 / 3
-"""Fraction of the tolerance that the resolution may use up."""
+"""Largest fraction of the tolerance that the error by the resolution may take."""
 
 MAX_COST_OF_BEST = 0.01
-"""Cost of a check over that of the best model at its default resolution, up to which the check is run."""
+"""Largest ratio of the cost of a check to that of the best model at its default resolution."""
 
 MAX_COST_OF_MODEL = 3.0
-"""Cost of a check over that of the checked model, up to which the check is run."""
+"""Largest ratio of the cost of a check to that of the checked model; one of the two limits must be met."""
 
 MAX_STATED_ERROR = 3.0
-"""Largest error that is stated; a larger one is stated as more than this."""
+"""Largest relative error that is printed as a number; a larger error is printed as more than this value."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Estimate:
-    """The largest expected error over the size of the quantity, and why; ``sure`` within the sweeps."""
+    """An estimate of the error of a model.
+
+    Attributes
+    ----------
+    error : largest expected error over the size of the quantity.
+    reasons : reasons for the error as text, the most important first.
+    sure : whether the scene is within the range of the sweeps to which the laws were fitted.
+    """
 
     error: float
     reasons: tuple[str, ...]
@@ -35,9 +42,18 @@ class Estimate:
 
 @dataclass(frozen=True, kw_only=True)
 class AdviceTask:
-    """The task of an advice: a scene, the models that apply to it, the quantity and its tolerated error.
+    """The task of choosing a model for a scene.
 
-    ``failed`` holds the error of every run that failed, by name and resolution.
+    Attributes
+    ----------
+    scene, kind : the scene and its kind.
+    models : the models that apply to the scene.
+    quantity : name of the quantity.
+    within : tolerated error over the size of the quantity.
+    table : the error laws.
+    numbers : dimensionless numbers of the scene.
+    run : run(model, resolution), which returns a result.
+    failed : error of every run that failed, by name of the model and resolution.
     """
 
     scene: Scene
@@ -51,25 +67,26 @@ class AdviceTask:
     failed: Mapping[tuple[str, int], Exception] = field(default_factory=dict)
 
     def step(self, model: Model) -> Step | None:
-        """The step from a model to the next one that applies; None at the top."""
+        """The step from a model to the next one that applies; None for the most complete model."""
         return self.table.step(self.kind.name, model.name, {other.name for other in self.models})
 
     def next(self, model: Model) -> Model | None:
-        """The next model up; None at the top."""
+        """The next more complete model; None for the most complete one."""
         step = self.step(model)
         return None if step is None else find(self.models, self.kind.name, step.towards)
 
     def chain(self, model: Model) -> list[Model]:
-        """The models from this one to the most complete."""
+        """The chain of models from a given one to the most complete."""
         chain = [model]
         while (above := self.next(chain[-1])) is not None:
             chain.append(above)
         return chain
 
     def grid(self, model: Model, resolution: int) -> float | None:
-        """The error that a resolution causes, by the laws; None where there is no law.
+        """The error by a resolution over the size of the quantity, by the laws; None without a law.
 
-        It is 0 for a model without an order at the surface's own resolution, which loses no waves.
+        It is 0 for a model without an order of convergence at the full resolution of the surface, which resolves all
+        waves.
         """
         if model.order is None and resolution >= max(model.resolutions_of(self.scene)):
             return 0.0
@@ -77,16 +94,19 @@ class AdviceTask:
         return law.error(numbers, RESOLVING) if law is not None and law.knows(numbers) else None
 
     def grid_law(self, model: Model) -> Law | None:
-        """The law of a model's resolution; None where there is none."""
+        """The law of the error by the resolution of a model; None if there is none."""
         return self.table.grid(self.kind.name, model.name, self.quantity)
 
     def beyond_grids(self, model: Model, resolution: int) -> str | None:
-        """The number that lies beyond the sweep of a model's resolutions; None if there is none."""
+        """The name of a number outside the range of the sweep over resolutions of a model; None if there is none."""
         law, numbers = self.grid_law(model), on_grid(self.numbers, resolution)
         return law.beyond(numbers, RESOLVING) if law is not None and law.knows(numbers) else None
 
     def resolution(self, model: Model) -> int:
-        """The coarsest resolution within its fraction of the tolerance, or the finest; without a law the default."""
+        """The coarsest resolution whose error is at most ``GRID_FRACTION`` of the tolerance.
+
+        The result is the finest resolution if no other meets this, and the default of the model without a law.
+        """
         offered = model.resolutions_of(self.scene)
         law = self.grid_law(model)
         if law is None or not law.knows(on_grid(self.numbers, offered[0])):
@@ -95,23 +115,23 @@ class AdviceTask:
         return min((one for one in fine if self.beyond_grids(model, one) is None), default=max(offered))
 
     def cost(self, model: Model, resolution: int | None = None) -> float:
-        """The expected CPU seconds, by default at the chosen resolution."""
+        """The expected CPU time of a model, s, by default at the chosen resolution."""
         return model.cost(self.scene, self.resolution(model) if resolution is None else resolution)
 
     def difference(self, one: Result, other: Result) -> float:
-        """The difference of the quantity in two results, over the smaller of their sizes."""
+        """The difference of the quantity between two results over the smaller of its sizes in them."""
         values = (one.quantities[self.quantity].value, other.quantities[self.quantity].value)
         size = min(self.kind.scale_of(result, self.quantity) for result in (one, other))
         return over(abs(values[0] - values[1]), size)
 
     def uncertainty(self, result: Result) -> float | None:
-        """The uncertainty of the quantity in a result over its size; None if it is unknown."""
+        """The numerical uncertainty of the quantity in a result over its size; None if it is unknown."""
         uncertainty = result[self.quantity].uncertainty
         return None if uncertainty is None else over(uncertainty, self.kind.scale_of(result, self.quantity))
 
 
 def over(error: float, size: float) -> float:
-    """An error over a size; infinite where the size is 0 and the error is not, and where one of them is no number."""
+    """The ratio of an error to a size; 0 for an error of 0, infinite for a size of 0 or if one of them is NaN."""
     if error == 0:
         return 0.0
     fraction = error / size if size > 0 else math.inf
@@ -119,33 +139,36 @@ def over(error: float, size: float) -> float:
 
 
 def percent(fraction: float) -> str:
-    """A fraction in per cent, as text."""
+    """The text of a fraction in per cent."""
     if not fraction <= MAX_STATED_ERROR:
         return f"more than {100 * MAX_STATED_ERROR:.0f} %"
     return f"{100 * fraction:.2g} %" if fraction < 0.1 else f"{100 * fraction:.0f} %"
 
 
 def bounded(fraction: float) -> str:
-    """The largest expected error, as the end of a sentence."""
+    """The text of the largest expected error for the end of a sentence, such as "up to 5 %"."""
     return percent(fraction) if fraction > MAX_STATED_ERROR else f"up to {percent(fraction)}"
 
 
 def near(fraction: float) -> str:
-    """The error of a model, as the end of a sentence."""
+    """The text of the error of a model for the end of a sentence, such as "within 5 %"."""
     return f"within {percent(fraction)}" if fraction <= MAX_STATED_ERROR else f"off by {percent(fraction)}"
 
 
 def expected_errors(scene: Scene, model: Model, resolution: int, models: Sequence[Model]) -> dict[str, float]:
-    """The bounds of a model's error over the size of the quantity, by the fitted laws alone; nothing is solved.
+    """The bounds by the fitted laws of the error of a model over the size of each quantity, without a solution.
 
     Parameters
     ----------
-    resolution : at which the model solves the scene.
-    models : all models of the scene's kind.
+    scene : the scene.
+    model : the model.
+    resolution : resolution at which the model solves the scene.
+    models : all models for this kind of scene.
 
     Returns
     -------
-    The compared quantities for which the laws reach the scene, each with the error that 95 of 100 scenes do not exceed.
+    dict
+        The error that 95 of 100 scenes do not exceed, for each compared quantity whose laws hold for the scene.
     """
     kind = kind_of_name(scene.kind)
     applying = [other for other in models if other.applies(scene).applies]
@@ -168,10 +191,10 @@ def expected_errors(scene: Scene, model: Model, resolution: int, models: Sequenc
 
 
 def a_priori(task: AdviceTask, model: Model, resolution: int | None = None) -> Estimate | None:
-    """The estimate by the laws, from the effects that a model and those above it leave out, and its resolution.
+    """The estimate by the laws, from the effects that a model and the more complete ones omit, and the resolution.
 
-    The parts are independent bounds and add up as squares. None where a step, or its grid, is not in the table. The
-    default resolution is the one that the advice would choose.
+    The parts are independent bounds e_i, which add up to √(Σ e_i²). The result is None if a step, or the resolution,
+    has no law. By default the resolution is the one that the advice chooses.
     """
     left = left_out(task, task.chain(model))
     resolution = task.resolution(model) if resolution is None else resolution
@@ -189,7 +212,7 @@ def a_priori(task: AdviceTask, model: Model, resolution: int | None = None) -> E
 
 
 def left_out(task: AdviceTask, chain: Sequence[Model]) -> tuple[list[float], list[tuple[float, str]], bool] | None:
-    """The errors of all steps up a chain, the same with reasons, and whether all are sure; None if one is unknown."""
+    """The errors of all steps in a chain, the errors with reasons, and whether all are sure; None if one is unknown."""
     parts, reasons, sure = [], [], True
     for model in chain[:-1]:
         step = task.step(model)
@@ -221,10 +244,11 @@ def _range_note(task: AdviceTask, beyond: str | None, law: Law | None) -> str:
 
 
 def a_posteriori(task: AdviceTask, model: Model, above: int = 1) -> Estimate | None:
-    """The estimate from runs of a model and of one ``above`` it, or below it where that costs too much; else None.
+    """The estimate of the error of a model from runs; None if there is no cheap model to compare with.
 
-    The difference to the model above, plus that model's own error, bounds the error. From the model below, a law
-    estimates the error from the size of the last step.
+    The model is compared with the one that is ``above`` steps more complete: the difference plus the error of that
+    model bounds the error. If that model costs too much and ``above`` is 1, the comparison is with a simpler model, and
+    a law gives the error from the difference.
     """
     chain = task.chain(model)
     other = chain[above] if len(chain) > above and affordable(task, chain[above], model) else None
@@ -238,7 +262,10 @@ def a_posteriori(task: AdviceTask, model: Model, above: int = 1) -> Estimate | N
 
 
 def self_estimate(task: AdviceTask, model: Model, resolution: int) -> Estimate | None:
-    """The uncertainty of the most complete model, once it is run; None where that costs too much, or is unknown."""
+    """The estimate from the numerical uncertainty of a run of the most complete model.
+
+    The result is None if the model runs outside of this process, fails, or does not give its uncertainty.
+    """
     own = None if model.outside else run(task, model, resolution)
     error = None if own is None or task.quantity not in own.quantities else task.uncertainty(own)
     if error is None:
@@ -247,14 +274,14 @@ def self_estimate(task: AdviceTask, model: Model, resolution: int) -> Estimate |
 
 
 def affordable(task: AdviceTask, other: Model, model: Model) -> bool:
-    """Whether a model is available and cheap enough to check another."""
+    """Whether the model ``other`` is available and cheap enough to check ``model``."""
     top = best(task.models)
     limit = max(MAX_COST_OF_BEST * task.cost(top, top.resolution_of(task.scene)), MAX_COST_OF_MODEL * task.cost(model))
     return other.available().available and task.cost(other) <= limit
 
 
 def run(task: AdviceTask, model: Model, resolution: int | None = None) -> Result | None:
-    """The result of a model, by default at the chosen resolution; None where it fails."""
+    """The result of a model, by default at the chosen resolution; None if it fails."""
     try:
         return task.run(model, task.resolution(model) if resolution is None else resolution)
     except (InputError, ConvergenceError, UnavailableError):

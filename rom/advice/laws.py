@@ -1,4 +1,4 @@
-"""Error laws of the models: products of powers of a scene's numbers, fitted to sweeps and read from a table."""
+"""Error laws of the models: products of powers of dimensionless numbers, fitted to sweeps and read from a table."""
 
 import math
 import tomllib
@@ -22,8 +22,8 @@ class Law:
     ----------
     coefficient : C.
     powers : power of each number.
-    reach : least and greatest value of each number in the sweep.
-    scenes : number of scenes of the fit.
+    reach : smallest and largest value of each number in the sweep.
+    scenes : number of scenes in the fit.
     spread : ratio of the bound to the median error.
     """
 
@@ -38,10 +38,10 @@ class Law:
         return self.powers.keys() <= numbers.keys()
 
     def error(self, numbers: Numbers, follows: Container[str] = ()) -> float:
-        """The largest expected error; infinite where it divides by 0, and for a number that is negative or NaN.
+        """The largest expected error over the size of the quantity; infinite for a number that is negative or NaN.
 
-        Below the sweep the error shrinks only with the numbers that it ``follows``, those of the effect itself; other
-        numbers keep their least value in the sweep.
+        Below the range of the sweep the error decreases only with the numbers in ``follows``, which measure the effect
+        itself; for other numbers the smallest value of the sweep is used. A division by 0 gives infinity.
         """
         parts = []
         for name, power in self.powers.items():
@@ -57,9 +57,10 @@ class Law:
         return math.inf if math.isnan(error) else error
 
     def beyond(self, numbers: Numbers, follows: Container[str] = ()) -> str | None:
-        """The number that lies beyond the sweep on a side where the error may be larger; None if there is none.
+        """The name of a number outside the range of the sweep on a side where the error may be larger, or None.
 
-        As effects vanish with a scene's numbers, this is above the sweep, and below it where the power is negative.
+        Effects vanish as the numbers of a scene go to 0, so that this side is above the range, and below it if the
+        power is negative.
         """
         for name, power in self.powers.items():
             least, greatest = self.reach.get(name, (0.0, math.inf))
@@ -70,11 +71,11 @@ class Law:
 
 
 RESOLVING = ("resolution", "points_per_wave")
-"""Numbers of the grid."""
+"""Names of the numbers that depend on the grid."""
 
 
 def on_grid(numbers: Numbers, resolution: int) -> Numbers:
-    """The numbers of a scene with those of a grid: resolution, and points per wave if the surface has ``waves``."""
+    """The numbers of a scene with the resolution, and the points per wave if the numbers contain ``waves``."""
     extended = {**numbers, "resolution": float(resolution)}
     if "waves" in numbers:
         extended["points_per_wave"] = resolution / numbers["waves"] if numbers["waves"] > 0 else math.inf
@@ -82,21 +83,22 @@ def on_grid(numbers: Numbers, resolution: int) -> Numbers:
 
 
 RANGE_FACTOR = 1.2
-"""Factor by which a number may exceed the range of a sweep."""
+"""Factor by which a number may lie outside the range of a sweep."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Step:
-    """The step from a model to the next one that keeps more effects.
+    """The step from a model to the next one, which includes more effects.
 
     Attributes
     ----------
     kind, model, towards : the kind of scene, the model and the next one.
     adds : the effect that the next one adds, in words.
     tells : the number that measures the effect.
-    left_out : law of the difference to the next model, by quantity.
-    seen_from : the model below, for models whose next one costs much.
-    seen : law of the difference to the next model from that to the model below, ``correction``, by quantity.
+    left_out : by quantity, the law of the difference from the next model.
+    seen_from : a simpler model, used if the next model is expensive.
+    seen : by quantity, the law of the difference from the next model as a function of the difference from the simpler
+        model, ``correction``.
     """
 
     kind: str
@@ -111,7 +113,7 @@ class Step:
 
 @dataclass(frozen=True, kw_only=True)
 class Grid:
-    """The laws of the error that the ``resolution`` of a model causes, by quantity."""
+    """The laws, by quantity, of the error by the resolution of a model."""
 
     kind: str
     model: str
@@ -127,12 +129,12 @@ class Table:
     provenance: Mapping[str, Any]
 
     def step(self, kind: str, model: str, applying: Container[str]) -> Step | None:
-        """The step of a model where these apply; None at the top, and for an unknown model."""
+        """The step of a model to the next one in ``applying``; None for the most complete and for an unknown model."""
         own = (step for step in self.steps if (step.kind, step.model) == (kind, model) and step.towards in applying)
         return next(own, None)
 
     def grid(self, kind: str, model: str, quantity: str) -> Law | None:
-        """The law of a model's resolution; None where it is unknown."""
+        """The law of the error by the resolution of a model; None if it is unknown."""
         own = (grid.laws.get(quantity) for grid in self.grids if (grid.kind, grid.model) == (kind, model))
         return next(own, None)
 
@@ -146,7 +148,7 @@ def _laws(entries: Mapping[str, Any]) -> dict[str, Law]:
 
 
 def read_table(text: str) -> Table:
-    """The table in a TOML text."""
+    """Read the table of laws from TOML text."""
     entries = tomllib.loads(text)
     return Table(
         steps=tuple(
@@ -160,5 +162,5 @@ def read_table(text: str) -> Table:
 
 @cache
 def table() -> Table:
-    """The table that comes with the project."""
+    """The table of laws that is part of this package."""
     return read_table(files(__package__).joinpath(TABLE).read_text(encoding="utf-8"))

@@ -1,1 +1,1 @@
-"""Many cases of one scene: sweeps, tables, comparison, convergence, and what orders errors."""
+"""Studies of many cases of one scene: sweeps, tables, comparison, grid convergence, and the ordering of errors."""

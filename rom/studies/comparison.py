@@ -1,4 +1,4 @@
-"""Comparison of models: differences to the most complete one, effects between neighbours, error against cost."""
+"""Comparison of models: differences from the most complete one, effects of single terms, error over cost."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -10,7 +10,16 @@ from roughfilm.rom.ladder.result import Result
 
 @dataclass(frozen=True, kw_only=True)
 class Difference:
-    """The difference of two models in one quantity: absolute, and relative to the best model's ``scale``."""
+    """The difference between two models in one quantity.
+
+    Attributes
+    ----------
+    model, other : names of the models; the difference is the value of ``model`` minus that of ``other``.
+    effect : effect that ``model`` includes and ``other`` omits; None for a difference from the best model.
+    quantity : name of the quantity.
+    absolute : difference, in the unit of the quantity.
+    relative : difference over the ``scale`` of the quantity in the result of the best model.
+    """
 
     model: str
     other: str
@@ -22,7 +31,15 @@ class Difference:
 
 @dataclass(frozen=True, kw_only=True)
 class Point:
-    """One run on the chart of CPU time against error, with its errors in the quantities that the best model gives."""
+    """One run in the chart of error over CPU time.
+
+    Attributes
+    ----------
+    model : name of the model.
+    resolution : number of cells, points or nodes.
+    cpu_s : CPU time, s.
+    error : by quantity, |difference from the reference run| over the ``scale`` of the quantity.
+    """
 
     model: str
     resolution: int
@@ -31,7 +48,7 @@ class Point:
 
 
 def scale(result: Result, quantity: str) -> float:
-    """The size that an error in a quantity is divided by, from the kind of scene."""
+    """The size by which the kind of scene divides an error in a quantity, in the unit of the quantity."""
     return kind_of(result).scale_of(result, quantity)
 
 
@@ -48,7 +65,13 @@ def _difference(result: Result, other: Result, quantity: str, effect: Effect | N
 
 
 def to_best(models: Sequence[Model], results: Mapping[str, Result]) -> tuple[Difference, ...]:
-    """The difference of every solved model to the best solved one."""
+    """The difference of every solved model from the best solved one, in each quantity that both give.
+
+    Parameters
+    ----------
+    models : models of one kind of scene.
+    results : results by the name of the model; at least one.
+    """
     solved = [model for model in models if model.name in results]
     top = results[best(solved).name]
     return tuple(
@@ -60,7 +83,13 @@ def to_best(models: Sequence[Model], results: Mapping[str, Result]) -> tuple[Dif
 
 
 def effects(models: Sequence[Model], results: Mapping[str, Result]) -> tuple[Difference, ...]:
-    """The effect between each pair of solved models that differ by one: with it minus without it."""
+    """The change by each effect: for each pair of solved models that differ by one effect, with it minus without it.
+
+    Parameters
+    ----------
+    models : models of one kind of scene.
+    results : results by the name of the model; at least one.
+    """
     solved = [model for model in models if model.name in results]
     top = results[best(solved).name]
     return tuple(
@@ -72,7 +101,7 @@ def effects(models: Sequence[Model], results: Mapping[str, Result]) -> tuple[Dif
 
 
 def points(reference: Result, runs: Sequence[Result]) -> tuple[Point, ...]:
-    """The error of each run against a reference run, which is left out."""
+    """The error of each run against a reference run; the reference run itself is omitted."""
     return tuple(
         Point(
             model=run.model,
@@ -90,7 +119,7 @@ def points(reference: Result, runs: Sequence[Result]) -> tuple[Point, ...]:
 
 
 def pareto_front(chart: Sequence[Point], quantity: str) -> tuple[Point, ...]:
-    """The points that no other point beats in both cost and error, cheapest first."""
+    """The points for which no other point has both less cost and less error in a quantity, cheapest first."""
     front: list[Point] = []
     known = [point for point in chart if quantity in point.error]
     for point in sorted(known, key=lambda point: (point.cpu_s, point.error[quantity])):

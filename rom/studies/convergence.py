@@ -1,4 +1,4 @@
-"""Grid convergence: the observed order, the extrapolated value, and its uncertainty."""
+"""Grid convergence of quantities: observed order, extrapolated value and uncertainty."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -14,10 +14,10 @@ from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.studies.comparison import scale
 
 GRIDS = 3
-"""Number of finest grids that are used, that of the unknowns f0, C and p."""
+"""Largest number of grids that are used, the finest ones; it equals the number of the unknowns f0, C and p."""
 
 ORDER_TOLERANCE = 0.1
-"""Relative difference of an observed order from the formal one up to which it is trusted."""
+"""Largest relative difference between an observed order and the formal one at which the order is trusted."""
 
 TRUSTED_SAFETY = 1.25
 """Roache's safety factor for three grids whose observed order is near the formal one."""
@@ -26,14 +26,14 @@ SAFETY = 3.0
 """Roache's safety factor for all other grids."""
 
 MIN_ORDER = 0.5
-"""Observed order below which nothing is extrapolated."""
+"""Smallest observed order at which values are extrapolated."""
 
 MAX_ORDER = 20.0
-"""Largest observed order; a higher one is set to it."""
+"""Upper limit of the observed order; a higher order is set to this value."""
 
 
 class ConvergenceKind(StrEnum):
-    """The behaviour of the values as the cells shrink."""
+    """The behaviour of a quantity as the grid is refined."""
 
     MONOTONE = "monotone"
     OSCILLATORY = "oscillatory"
@@ -45,11 +45,17 @@ class ConvergenceKind(StrEnum):
 
 @dataclass(frozen=True, kw_only=True)
 class Convergence:
-    """One quantity on up to three grids, from coarse to fine.
+    """The grid convergence of one quantity.
 
-    ``order`` is the observed one, ``order_used`` what was extrapolated with: the observed one, at most the formal one;
-    None where there is none. ``value`` is the extrapolated one, or the finest where nothing can be extrapolated;
-    ``uncertainty`` is absolute, in the unit of the values, and holds for ``value`` and for the finest of the values.
+    Attributes
+    ----------
+    kind : behaviour of the values.
+    grids : cells along one direction, up to three grids from coarse to fine.
+    values : quantity on each of these grids.
+    order : observed order; None if it cannot be computed.
+    order_used : order of the extrapolation, which is at most the formal order; None without extrapolation.
+    value : extrapolated value, or the value on the finest grid without extrapolation.
+    uncertainty : uncertainty of ``value`` and of the value on the finest grid, in the unit of the values.
     """
 
     kind: ConvergenceKind
@@ -62,7 +68,7 @@ class Convergence:
 
     @property
     def order_text(self) -> str:
-        """The observed order in short, with the one it was limited to; empty if none was observed."""
+        """The observed order as text, followed by the order used if it differs; empty without an observed order."""
         if self.order is None:
             return ""
         order, used = f"{self.order:.2f}", f"{self.order_used:.2f}"
@@ -74,12 +80,13 @@ def converge(
 ) -> Convergence:
     """Fit f = f0 + C h^p to the finest three grids and judge the fit.
 
-    The observed order p solves (f3 - f2) / (f2 - f1) = (h3^p - h2^p) / (h2^p - h1^p), with h1 the finest cells, of any
-    ratio. The uncertainty is the grid convergence index Fs C h1^p = Fs |f1 - f0|, with Fs = 1.25 where p is within a
-    tenth of the formal order and Fs = 3 elsewhere. A p above the formal order comes of errors that cancel: it is
-    limited to the formal one, and C is the larger of those of the two pairs. Two grids take the formal order and
-    Fs = 3. Values that oscillate, or whose steps shrink slower than at order 1/2, are not extrapolated, and 3 times
-    their range is uncertain; without a formal order (spectral methods) the last step is.
+    The observed order p solves (f3 - f2) / (f2 - f1) = (h3^p - h2^p) / (h2^p - h1^p), with h1 the finest cells; the
+    ratios of the cell sizes are arbitrary. The uncertainty is the grid convergence index Fs C h1^p = Fs |f1 - f0|, with
+    Fs = 1.25 where p differs from the formal order by at most a tenth of it, and Fs = 3 elsewhere. An order p above the
+    formal one results from errors that cancel: p is limited to the formal order, and C is the larger of the values from
+    the two pairs of grids. Two grids use the formal order and Fs = 3. Values that oscillate, or whose differences
+    decrease more slowly than with order 1/2, are not extrapolated; the uncertainty is then 3 times their range. Without
+    a formal order (spectral methods) nothing is extrapolated, and the uncertainty is the last difference |f1 - f2|.
 
     Parameters
     ----------
@@ -88,17 +95,17 @@ def converge(
     values
         The quantity on each grid, in any unit.
     formal_order
-        That of the method; None if it has no fixed one.
+        Order of the method; None if the method has no fixed order.
     noise
-        What the iteration leaves unresolved, in the unit of the values; no uncertainty is below it.
+        Error of the iterative solution, in the unit of the values; the uncertainty is at least this.
 
     Raises
     ------
     InputError
         For fewer than two grids, grids that do not get finer, or values that are not finite.
 
-    Sources: Roache 1994, doi:10.1115/1.2910291; Celik et al. 2008, doi:10.1115/1.2960953; the range for what does not
-    converge: Eça and Hoekstra 2014, doi:10.1016/j.jcp.2014.01.006.
+    Sources: Roache 1994, doi:10.1115/1.2910291; Celik et al. 2008, doi:10.1115/1.2960953; the range of values that
+    do not converge: Eça and Hoekstra 2014, doi:10.1016/j.jcp.2014.01.006.
     """
     if not (len(grids) == len(values) >= 2 and min(np.diff(grids)) > 0 < grids[0] and np.isfinite(values).all()):
         raise InputError(f"grids: got {[*grids]} with {[*values]}; give two or more, ever finer, with finite values")
@@ -137,7 +144,7 @@ def _kind_and_order(sizes: Array, steps: Array, formal_order: int | None) -> tup
         return ConvergenceKind.OSCILLATORY, None
 
     def excess(order: float) -> float:
-        """Above zero if the steps shrink slower than at this order."""
+        """A number above zero if the differences of the values decrease more slowly than with this order."""
         powers = np.diff(sizes**order)
         return float(fine * powers[0] / powers[1] / coarse - 1) if coarse else np.inf
 
@@ -153,7 +160,7 @@ def _kind_and_order(sizes: Array, steps: Array, formal_order: int | None) -> tup
 def convergence(model: Model, runs: Sequence[Result]) -> Mapping[str, Convergence]:
     """The convergence of each compared quantity over the runs of a model; empty for fewer than two grids.
 
-    What the iteration leaves unresolved is taken as the finest run's residual times the quantity's scale.
+    The error of the iterative solution is estimated as the residual of the finest run times the scale of the quantity.
     """
     own = sorted((run for run in runs if run.model == model.name), key=lambda run: run.numerics.resolution)
     if len(own) < 2:

@@ -1,4 +1,4 @@
-"""Numbers of a scene that order the errors of a model over a sweep, and the thresholds of each tolerance."""
+"""Products of dimensionless numbers that order the errors of a model in a sweep, with thresholds by tolerance."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -11,16 +11,20 @@ CERTAINTY = 0.95
 """Fraction of the cases below a threshold that are within its tolerance."""
 
 MIN_ERROR = 1e-6
-"""Smallest error that counts; the numerical uncertainty of a reference is larger."""
+"""Lower limit of an error in the fit; the numerical uncertainty of a reference is larger."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Ordering:
-    """The quality of a product of powers as an order of errors.
+    """The quality with which a product of powers orders errors.
 
-    ``rank`` is Spearman's correlation, 1 for a perfect order; ``thresholds`` gives for each tolerance the greatest
-    number up to which ``CERTAINTY`` of the cases are within it, None where there is none; ``coverage`` is the
-    fraction of the cases below their threshold, the mean over the tolerances.
+    Attributes
+    ----------
+    powers : power of each feature.
+    rank : Spearman's rank correlation of product and error; 1 for a perfect order, 0 for a constant product.
+    thresholds : by tolerance, the largest product up to which the fraction ``CERTAINTY`` of the cases is within the
+        tolerance; None if there is none.
+    coverage : fraction of the cases at or below the threshold, averaged over the tolerances.
     """
 
     powers: Mapping[str, float]
@@ -35,9 +39,15 @@ def product(features: Mapping[str, Array], powers: Mapping[str, float]) -> Array
 
 
 def fitted_powers(features: Mapping[str, Array], error: Array, *, step: float) -> dict[str, float]:
-    """The powers of the product that fits the logarithm of the errors best, as multiples of ``step``.
+    """The powers of the product that fits the logarithm of the errors with least squares, as multiples of ``step``.
 
-    They are scaled so that the largest is 1 in size; zeros are left out.
+    The powers are scaled so that the largest magnitude is 1, then rounded; powers of zero are omitted.
+
+    Parameters
+    ----------
+    features : positive numbers by name, shape (cases,).
+    error : errors, shape (cases,); those below ``MIN_ERROR`` are raised to it.
+    step : spacing of the rounded powers.
     """
     matrix = np.column_stack([np.ones(error.size), *(np.log(values) for values in features.values())])
     powers = np.linalg.lstsq(matrix, np.log(np.maximum(error, MIN_ERROR)), rcond=None)[0][1:]
@@ -49,7 +59,15 @@ def fitted_powers(features: Mapping[str, Array], error: Array, *, step: float) -
 def ordering(
     features: Mapping[str, Array], powers: Mapping[str, float], error: Array, tolerances: Sequence[float]
 ) -> Ordering:
-    """The quality of a product of powers as an order of the errors."""
+    """The quality with which a product of powers orders errors.
+
+    Parameters
+    ----------
+    features : positive numbers by name, shape (cases,).
+    powers : power of each feature.
+    error : errors, shape (cases,).
+    tolerances : tolerated errors for which thresholds are computed.
+    """
     from scipy.stats import spearmanr  # slow to import
 
     number = product(features, powers)
@@ -61,7 +79,10 @@ def ordering(
 
 
 def threshold(number: Array, error: Array, tolerance: float) -> float | None:
-    """The greatest number up to which ``CERTAINTY`` of the cases have no larger error; None if there is none."""
+    """The largest number up to which the fraction ``CERTAINTY`` of the cases has an error within a tolerance.
+
+    ``number`` and ``error`` have the shape (cases,). The result is None if there is no such number.
+    """
     order = np.argsort(number, kind="stable")
     ordered = number[order]
     within = np.cumsum(error[order] <= tolerance) / np.arange(1, number.size + 1)

@@ -1,4 +1,4 @@
-"""Lengths given as multiples of other lengths of their table ("0.3 width"), made into lengths with units."""
+"""Conversion of lengths that are multiples of other lengths in their table ("0.3 width") to lengths with units."""
 
 import re
 from collections.abc import Mapping
@@ -14,15 +14,21 @@ _MULTIPLE = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,3})?)\s*([
 def resolve_relative(
     table: Mapping[str, Any], place: str, enclosing: Mapping[str, Any] | None = None
 ) -> dict[str, Any]:
-    """The table with every multiple of one of its keys written out, in the unit of that key.
+    """The table in which every multiple of a key is replaced by a length in the unit of that key.
 
     The multiplication is decimal, so that "0.15 length" of "1 mm" is exactly "0.15 mm". In a list of tables each
-    table may name its own keys and those of the table around it.
+    table may use its own keys and those of the enclosing table.
+
+    Parameters
+    ----------
+    table : the entries of a table.
+    place : dotted name of the table, for messages.
+    enclosing : the entries of the enclosing table.
 
     Raises
     ------
     InputError
-        For a word that is neither a unit nor a key, a key that is no length, and multiples that lead in a circle.
+        If a word is neither a unit nor a key, a key is not a length, or multiples refer to each other in a circle.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""A study: a scene with lists, multiplied into cases that are all read and named before anything is solved."""
+"""A study: a scene with lists of values, whose combinations are all checked and named before the first is solved."""
 
 import hashlib
 import itertools
@@ -22,18 +22,22 @@ from roughfilm.rom.studies.relative import resolve_relative
 MAX_CASES = 1_000_000
 
 MAX_LABEL_LENGTH = 150
-"""Largest number of characters of the varied values in a case's name; the digest follows."""
+"""Largest number of characters of the varied values in the name of a case; the digest follows them."""
 
 Key = tuple[str | int, ...]
-"""The location of an entry: names of tables and places in lists of tables, from the outermost."""
+"""The location of an entry: names of tables and indices in lists of tables, from the outermost."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Case:
     """One scene of a study.
 
-    ``varied`` holds its varied values, as the study spells them, by a short name; ``digest`` is that of the
-    complete scene, and ``name``, made of both, is fit for a directory on any system.
+    Attributes
+    ----------
+    name : varied values and digest, as the name of a directory that is valid on any system.
+    digest : first 16 hexadecimal digits of the SHA-256 digest of the complete scene.
+    scene : the scene.
+    varied : varied values by short name, as the study file contains them.
     """
 
     name: str
@@ -44,7 +48,15 @@ class Case:
 
 @dataclass(frozen=True, kw_only=True)
 class Study:
-    """Every case, each to be solved in every setting; ``keys`` says where in the scene what varies stands."""
+    """The cases of a study, each of which is solved in every setting.
+
+    Attributes
+    ----------
+    name : name of the first scene.
+    keys : location in the scene of each varied entry, by short name.
+    cases : all cases.
+    settings : models, each with a resolution and a scheme.
+    """
 
     name: str
     keys: Mapping[str, Key]
@@ -53,19 +65,25 @@ class Study:
 
 
 def load_study(path: Path, models: Sequence[Model]) -> Study:
-    """Read a study file: a scene in which every list of numbers or texts is swept, and all lists multiply.
+    """Read a study file: a scene in which lists of numbers or texts are swept, in every combination.
 
-    ``[[variants]]`` are tables laid over the scene one by one, to vary keys together. ``[study]`` names ``models``
-    (by default all that are available) and, by model, ``resolution`` and ``scheme``, one or a list. In geometry a
-    length may be a multiple of another one: "0.3 width". Lists of lists and lists of tables are values themselves,
-    and so are lists where the kind of scene has a list; the lists inside such tables are swept.
+    ``[[variants]]`` are tables that replace entries of the scene, one table at a time, to vary several keys together.
+    ``[study]`` names ``models`` (by default all that are available) and, by model, ``resolution`` and ``scheme``, one
+    or a list. In geometry a length may be a multiple of another one: "0.3 width". Lists of lists and lists of tables
+    are values themselves, and so are lists for keys whose value is a list in this kind of scene; the lists inside such
+    tables are swept.
+
+    Parameters
+    ----------
+    path : the study file (TOML).
+    models : all models; those of the kind of scene are used.
 
     Raises
     ------
     InputError
-        One line that names the key, or the case, and what to write instead.
+        If a key, a value or a case is wrong; the one-line message names it and gives the remedy.
     UnavailableError
-        If a model that the study names cannot run here.
+        If a model that the study names cannot run on this machine.
     """
     entries = load_entries(path)
     kind = kind_named(entries)
@@ -101,7 +119,7 @@ def _multiplied(bases: Sequence[Mapping[str, Any]], lists: frozenset[Key]) -> tu
 
 
 def as_toml(scene: Scene) -> str:
-    """The complete scene as a scene file; ``load_scene`` reads it back unchanged."""
+    """The text of a scene file with all entries of a scene; ``load_scene`` reads it back unchanged."""
     lines = []
     for key, value in scene_entries(scene).items():
         if isinstance(value, dict):
@@ -121,7 +139,7 @@ def _tables(*values: object) -> bool:
 
 
 def _axes(entry: Any, lists: frozenset[Key], key: Key = ()) -> Iterator[tuple[Key, list[Any]]]:
-    """Every entry that is no table, with the values it takes."""
+    """Every entry that is not a table, with its location and the list of its values."""
     if isinstance(entry, dict):
         for name, value in entry.items():
             yield from _axes(value, lists, (*key, name))
@@ -156,7 +174,7 @@ def _dotted(key: Key) -> str:
 
 
 def _labels(axes: Sequence[Mapping[Key, list[Any]]]) -> dict[Key, str]:
-    """The keys that vary over a study, each with its short name, or its whole one where two end alike."""
+    """The keys that vary in a study, each with its last part as name, or its dotted name where last parts coincide."""
     keys = dict.fromkeys(key for options in axes for key in options)
     varied = [key for key in keys if len({repr(options.get(key)) for options in axes}) > 1 or len(axes[0][key]) > 1]
     ends = [key[-1] for key in varied]

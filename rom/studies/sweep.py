@@ -1,4 +1,4 @@
-"""A finished sweep: what every model says of every case, side by side."""
+"""The results of a finished sweep: the quantities of every case by every model."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -18,10 +18,19 @@ SOLVED = "solved"
 
 @dataclass(frozen=True, kw_only=True)
 class Sweep:
-    """Cases, what they were given, shape (cases,), and what was found by setting and quantity, NaN for nothing.
+    """The cases of a sweep with their inputs and results.
 
-    ``kind`` names the kind of their scenes, which says what ``given`` holds. A setting is a model's name and what the
-    study chose for it: navier_stokes-240-upwind.
+    A setting is the name of a model with the resolution and the scheme that the study chooses, such as
+    navier_stokes-240-upwind.
+
+    Attributes
+    ----------
+    kind : name of the kind of the scenes.
+    names : names of the cases.
+    given : inputs of the cases by name, shape (cases,).
+    found : computed quantities by setting and name, shape (cases,); NaN without a result.
+    cpu_s : CPU time by setting, s, shape (cases,); NaN without a result.
+    failures : case, setting and reason of each missing result.
     """
 
     kind: str
@@ -32,7 +41,7 @@ class Sweep:
     failures: tuple[tuple[str, str, str], ...]
 
     def features(self) -> dict[str, Array]:
-        """The numbers by which errors are ordered, shape (cases,)."""
+        """The numbers by name that order the errors, shape (cases,)."""
         return {
             name: np.asarray(values, dtype=float)
             for name, values in sweeping(kind_of_name(self.kind)).features(self.given).items()
@@ -40,14 +49,25 @@ class Sweep:
 
 
 def sweeping(kind: Kind) -> Sweeping:
-    """The properties of a kind of scene for sweeps; InputError if it has none."""
+    """The properties of a kind of scene that sweeps need; InputError if it has none."""
     if kind.sweeping is None:
         raise InputError(f"the table holds {kind.name} scenes; there is no report over many of them yet")
     return kind.sweeping
 
 
 def read_sweep(table: Mapping[str, NDArray[Any]], kind: str) -> Sweep:
-    """The sweep in a table of ``roughfilm batch``; InputError if columns are missing."""
+    """The sweep in a table that ``roughfilm batch`` wrote.
+
+    Parameters
+    ----------
+    table : columns by name, as ``read_table`` returns them.
+    kind : name of the kind of the scenes.
+
+    Raises
+    ------
+    InputError
+        If a column is missing, or the kind of scene has no properties for sweeps.
+    """
     judged = sweeping(kind_of_name(kind))
     try:
         cases, first, index = np.unique(table["case"], return_index=True, return_inverse=True)
@@ -78,7 +98,11 @@ def loaded(sweep: Sweep, reference: str) -> NDArray[np.bool_]:
 
 
 def relative_error(sweep: Sweep, setting: str, reference: str, quantity: str) -> Array:
-    """|difference to the reference| / what the kind of scene says to divide by, mostly its size; shape (cases,)."""
+    """The relative error |q - q_ref| / s of a setting in a quantity, shape (cases,).
+
+    The kind of scene gives the scale s, which is mostly the size of the reference value q_ref. The result is NaN where
+    one of the values is missing.
+    """
     best = sweep.found[reference]
     scale = kind_of_name(sweep.kind).scale(best, quantity)
     return np.asarray(np.abs(sweep.found[setting][quantity] - best[quantity]) / scale)

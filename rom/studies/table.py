@@ -1,4 +1,4 @@
-"""Columns with units, as CSV for people and as HDF5 for figures and reports."""
+"""Tables of columns with units, as CSV files for reading and as HDF5 files for figures and reports."""
 
 import csv
 from collections.abc import Mapping, Sequence
@@ -16,14 +16,23 @@ from roughfilm.contact.foundation.files import replacing
 
 @dataclass(frozen=True, kw_only=True)
 class Column:
-    """One column: numbers (NaN where there is none) with their unit ("1" for none), or texts with unit ""."""
+    """A column of a table.
+
+    Attributes
+    ----------
+    values : numbers, NaN where a number is missing, or texts.
+    unit : unit of the numbers, "1" for dimensionless ones; "" for texts.
+    """
 
     values: Sequence[float] | Sequence[str]
     unit: str
 
 
 def write_csv(table: Mapping[str, Column], path: Path) -> None:
-    """Write one line of names, "load_per_area (Pa)" where there is a unit, and one line a row; NaN is left empty."""
+    """Write a table as a CSV file: a line of names, such as "load_per_area (Pa)", and a line for each row.
+
+    A NaN is written as an empty entry. Raises InputError if the file cannot be written.
+    """
     header = [name if column.unit in ("", "1") else f"{name} ({column.unit})" for name, column in table.items()]
     with replacing(path) as scratch, scratch.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
@@ -32,7 +41,10 @@ def write_csv(table: Mapping[str, Column], path: Path) -> None:
 
 
 def write_hdf5(table: Mapping[str, Column], path: Path) -> None:
-    """Write one dataset a column, in order, each with its ``unit`` as attribute."""
+    """Write a table as an HDF5 file: a dataset for each column, in order, with the attribute ``unit``.
+
+    Raises InputError if the file cannot be written.
+    """
     with replacing(path) as scratch, h5py.File(scratch, "w", track_order=True) as file:
         for name, column in table.items():
             texts = column.unit == ""
@@ -41,7 +53,7 @@ def write_hdf5(table: Mapping[str, Column], path: Path) -> None:
 
 
 def read_table(path: Path) -> dict[str, NDArray[Any]]:
-    """The columns of a table.h5 by name: floats in SI units (NaN where there is none) or texts, all of one length.
+    """Read the columns of a table.h5 by name: floats in SI units, NaN where missing, or texts; all have one length.
 
     Raises
     ------
@@ -50,7 +62,7 @@ def read_table(path: Path) -> dict[str, NDArray[Any]]:
 
     Examples
     --------
-    Load against depth of the cylindrical grooves by one model::
+    This plots the load over the depth of the cylindrical grooves, computed by one model::
 
         table = read_table(Path("study/table.h5"))
         chosen = (table["model"] == "navier_stokes") & (table["profile"] == "cylindrical")

@@ -1,1 +1,1 @@
-"""The functions of the public interface, by subject; ``roughfilm`` loads each when it is first used."""
+"""The functions of the public interface by subject; the package ``roughfilm`` imports each one at its first use."""

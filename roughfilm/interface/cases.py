@@ -1,4 +1,4 @@
-"""OpenFOAM cases of a scene: written, run, read and meshed in a directory that stays."""
+"""OpenFOAM cases of a scene, which are written, run and read in a directory that is kept."""
 
 import os
 from pathlib import Path
@@ -26,8 +26,8 @@ class OpenFOAMCase:
     Attributes
     ----------
     scene : the scene.
-    model : the model, whose equations the case solves.
-    directory : the case directory, which ``./Allrun`` there runs as well.
+    model : the model whose equations the case solves.
+    directory : the case directory; its script ``./Allrun`` also runs the case.
     """
 
     def __init__(self, scene: Scene, model: CaseModel[Any, Any], directory: Path) -> None:
@@ -37,27 +37,32 @@ class OpenFOAMCase:
     def run(self, progress: Progress = silent) -> Result:
         """Run the case, check that it converged, and return its result.
 
+        Parameters
+        ----------
+        progress : called with the done fraction and a few words.
+
         Raises
         ------
         ConvergenceError
             If the mesh has faults, or the flow does not converge.
         UnavailableError
-            If OpenFOAM is not on this machine.
+            If OpenFOAM is not installed on this machine.
         """
         run = self.model.run(self.directory, progress)
         self._result = self.model.read(self.scene, self.directory, run)
         return self._result
 
     def result(self) -> Result:
-        """Return the result of the run; InputError if it was not run."""
+        """Return the result of the last run; raises InputError if the case has not been run."""
         if self._result is None:
             raise InputError(f"{self.directory}: this case has not been run; call run() first")
         return self._result
 
     def mesh(self) -> "pyvista.UnstructuredGrid":
-        """Return the cells of the case with its fields as data, lengths in m; InputError before run().
+        """Return the cells of the case, with lengths in m, and its fields as data of the cells.
 
-        The data are "cell_velocity (m/s)" and "cell_pressure (Pa)", a value for each cell.
+        The data are "cell_velocity (m/s)" and "cell_pressure (Pa)", with one value for each cell. Raises InputError if
+        the case has not been run.
         """
         import pyvista  # takes seconds to import
 
@@ -83,18 +88,19 @@ def write_case(
 
     Parameters
     ----------
-    scene : of kind "pocket" or "rough_gap".
-    directory : where the case goes; it must not exist, or be empty.
+    scene : a scene of kind "pocket" or "rough_gap".
+    directory : the case directory, which must be empty or not exist.
     model : "navier_stokes" or "stokes".
-    resolution : mesh columns, in the model's ``resolution_meaning``; its default if left out.
-    tolerance : residual at which the solver stops; its default if left out.
-    scheme : advection scheme, one of the model's ``schemes``; the first if left out.
-    processes : MPI processes of the run.
+    resolution : number of mesh columns, as ``resolution_meaning`` of the model explains; the model has a default.
+    tolerance : residual at which the solver stops; the model has a default.
+    scheme : advection scheme, one of ``schemes`` of the model; the default is the first.
+    processes : number of MPI processes of the run.
 
     Returns
     -------
     OpenFOAMCase
-        ``run()`` runs it and returns the Result, which ``result()`` returns again; ``mesh()`` gives a pyvista mesh.
+        ``run()`` runs the case and returns the Result, ``result()`` returns it again, and ``mesh()`` returns a pyvista
+        mesh.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Curves over speed and load: Stribeck curves, leakage of a seal; and the effects of a bearing one by one."""
+"""Stribeck curves of a bearing, leakage of a seal over the load, and the effects in a bearing one by one."""
 
 import os
 import tempfile
@@ -35,31 +35,32 @@ def stribeck(
     resolution: int = mixed.RESOLUTION,
     progress: Progress = silent,
 ) -> tuple[mixed.StribeckCurve, ...]:
-    """Compute Stribeck curves of a bearing whose rough walls may touch: friction and film over speed at each load.
+    """Compute Stribeck curves, friction and film over speed at given loads, of a bearing with rough walls.
 
-    At each speed u the separation is found at which film and asperities carry the load, W = W_film + W_contact; the
-    friction coefficient is (F_film + μ W_contact)/W.
+    At each speed u the separation of the walls is computed at which the film and the asperities together carry the
+    load, W = W_film + W_contact. The friction coefficient is (F_film + μ W_contact)/W.
 
     Parameters
     ----------
-    scene : a bearing with roughness and asperities; its own speed, film and load do not count.
-    speeds : of the sliding wall, m/s, 0 or more.
+    scene : a bearing with roughness and asperities; its own speed, film and load are ignored.
+    speeds : speeds u of the sliding wall, m/s, 0 or more.
     loads : mean pressures over the nominal area, Pa.
-    resolution : cells along and across, 16 to 1024.
+    resolution : number of cells along and across the bearing, 16 to 1024.
     progress : called with the done fraction and a few words.
 
     Returns
     -------
     tuple of StribeckCurve
-        One for each load: its ``points`` with ``speed``, ``friction_coefficient``, ``separation``, ``contact_share``
-        and their ``uncertainty`` where it was estimated, and the ``lift_off`` speed.
+        One curve for each load. Its ``points`` hold ``speed``, ``friction_coefficient``, ``separation``,
+        ``contact_share`` (contact load over load) and ``uncertainty`` where it was estimated; ``lift_off`` is the
+        speed, m/s, above which the film alone carries the load.
 
     Raises
     ------
     InputError
         For a scene without asperities, or speeds and loads out of range.
     ConvergenceError
-        If a film does not come into balance.
+        If no separation balances the load.
 
     References
     ----------
@@ -93,8 +94,8 @@ class LeakageCurve:
 
     Attributes
     ----------
-    rows : one for each load: a dict from column to number, ready for pandas.DataFrame; ``rows.units`` has the units.
-    sealing : by direction and method, the load, Pa, and contact area at which the seal closes.
+    rows : one dict from column to number for each load, as pandas.DataFrame accepts them; ``rows.units`` has the units.
+    sealing : by method and direction, the load, Pa, and the contact area fraction at which the seal closes.
     """
 
     rows: Rows
@@ -109,34 +110,36 @@ def leakage_curve(
     threads: int | None = None,
     progress: Progress = silent,
 ) -> LeakageCurve:
-    """Press a seal at a series of loads and compute its leakage along x and y, directly and homogenized.
+    """Compute the leakage of a seal in x and y over the load, with the flow solved directly and homogenized.
 
-    The mass flow per width is q = ρ K Δp/(η L) with the permeability K, m³, of the deformed gap.
+    The mass flow per width is q = ρ K Δp/(12 η L), kg/(s m), with the density ρ, the viscosity η, the pressure drop Δp
+    over the length L, and the permeability K, m³, of the gap under load; a smooth gap h has K = h³.
 
     Parameters
     ----------
-    scene : of kind "seal".
-    loads : mean pressures over the nominal area, Pa; by default from light contact until it is sealed.
-    directory : where contacts and rows are kept, so that a stopped series goes on; nothing is kept by default.
-    threads : gaps whose flow is solved at once; two by default where there are two cores.
+    scene : a scene of kind "seal".
+    loads : mean pressures over the nominal area, Pa; the default is a series from light contact to the sealed gap.
+    directory : directory of the contacts and rows, from which a stopped series continues; by default nothing is kept.
+    threads : number of gaps whose flow is solved at the same time; by default 2, or 1 on a machine with one core.
     progress : called with the done fraction and a few words.
 
     Returns
     -------
     LeakageCurve
         ``rows`` with "load" (Pa), "area_fraction", "mean_gap" (m), permeabilities "direct_x", ... (m³) with
-        "direct_x_uncertainty", and "leakage_direct_x", ... (kg/(m s)); and where it is ``sealing``.
+        "direct_x_uncertainty", and "leakage_direct_x", ... (kg/(m s)); ``sealing`` with the
+        loads at which the gap seals.
 
     Raises
     ------
     InputError
         For another kind of scene, a load out of range, or a directory that cannot be used.
     ConvergenceError
-        If a contact does not converge; loads below it stay in the directory.
+        If the contact at a load does not converge; the directory keeps the loads below it.
 
     References
     ----------
-    F. Sahlin, Luleå 2008, paper F.
+    F. Sahlin, Lubrication, contact mechanics and leakage between rough surfaces, Luleå 2008, paper F.
 
     Examples
     --------
@@ -172,26 +175,27 @@ def leakage_curve(
 
 
 def effects(scene: Scene, *, resolution: int | None = None, progress: Progress = silent) -> EffectAnalysis:
-    """Switch the effects of a bearing on one at a time: what each adds to load, friction, flow and film.
+    """Compute the contribution of each effect in a bearing to load, friction, flow and film.
 
     Parameters
     ----------
-    scene : a bearing; with a load its effects under that load are analysed too.
-    resolution : cells along and across; 128 by default, 1024 of an infinitely wide bearing.
+    scene : a bearing; if it has a load, the effects under this load are analysed too.
+    resolution : number of cells along and across; by default 128, or 1024 for an infinitely wide bearing.
     progress : called with the done fraction and a few words.
 
     Returns
     -------
     EffectAnalysis
-        ``at_film.contributions``: for each effect, by quantity, what it adds when switched on after the ones before it
-        (``on``) and to all the others (``alone``), each with uncertainty; ``under_load`` likewise, None without a load.
+        ``at_film.contributions`` holds for each effect, by quantity, the change when it is added after the effects
+        before it (``on``) and when it is added to all others (``alone``), each with its uncertainty. ``under_load``
+        holds the same at the load; it is None without a load.
 
     Raises
     ------
     InputError
         For another kind of scene, or a resolution out of range.
     ConvergenceError
-        If a film does not come into balance.
+        If no film carries the load.
 
     Examples
     --------
@@ -206,7 +210,7 @@ def effects(scene: Scene, *, resolution: int | None = None, progress: Progress =
 
 
 def checked_cells(scene: Bearing, resolution: int | None) -> int:
-    """Cells along a side for an analysis of effects; InputError if they are out of range."""
+    """The number of cells along a side for an analysis of effects; InputError if it is out of range."""
     most = MOST_WIDE_CELLS if scene.wide else MOST_CELLS
     cells = (WIDE_CELLS if scene.wide else CELLS) if resolution is None else resolution
     if isinstance(cells, bool) or not isinstance(cells, int) or not FEWEST_CELLS <= cells <= most:

@@ -1,4 +1,4 @@
-"""Results in files."""
+"""Writing and reading of result files."""
 
 import os
 from pathlib import Path
@@ -9,12 +9,12 @@ from roughfilm.rom.ladder.result import Result
 
 
 def save(result: Result, path: str | os.PathLike[str]) -> None:
-    """Write a result with its fields and provenance to an HDF5 file, whole or not at all.
+    """Write a result with its fields and provenance to an HDF5 file, completely or not at all.
 
     Parameters
     ----------
     result : the result.
-    path : the file, by custom ``*.h5``; a result of that name is replaced, and no other file.
+    path : the file, usually ``*.h5``; an existing result file is replaced, any other existing file is not.
 
     Raises
     ------
@@ -38,7 +38,7 @@ def save(result: Result, path: str | os.PathLike[str]) -> None:
 
 
 def load_result(path: str | os.PathLike[str]) -> Result:
-    """Read a result that was stored by :func:`roughfilm.save` or by the option ``--out`` of a command.
+    """Read a result that :func:`roughfilm.save` or the option ``--out`` of a command wrote.
 
     Parameters
     ----------

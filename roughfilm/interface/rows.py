@@ -1,10 +1,10 @@
-"""Tables as lists of rows."""
+"""A table as a list of rows."""
 
 from typing import Any
 
 
 class Rows(list[dict[str, Any]]):
-    """Rows of a table, each a dict from column to number or text, and the SI ``units`` of the columns by name."""
+    """The rows of a table, each a dict from column to number or text; ``units`` holds the SI unit of each column."""
 
     def __init__(self) -> None:
         super().__init__()

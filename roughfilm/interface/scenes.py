@@ -1,4 +1,4 @@
-"""Scenes from TOML files and from nested entries."""
+"""Reading of scenes from TOML files and from nested entries."""
 
 import json
 import os
@@ -19,9 +19,9 @@ def load_scene(path: str | os.PathLike[str], *, set: Mapping[str, object] | None
 
     Parameters
     ----------
-    path : the scene file; a file that the scene names is sought beside it.
-    set : new values by dotted key, such as ``{"geometry.depth": "22.5 um"}``; lengths and the like are texts with a
-        unit, pure numbers are numbers. A file named here is sought in the current directory.
+    path : the scene file; paths in it are relative to its directory.
+    set : new values by dotted key, such as ``{"geometry.depth": "22.5 um"}``; quantities are texts with a unit,
+        dimensionless values are numbers. Paths given here are relative to the current directory.
 
     Returns
     -------
@@ -83,7 +83,7 @@ def read_scene(entries: Mapping[str, Any]) -> Scene:
 
 
 def with_entries(scene: Scene, values: Mapping[str, object]) -> Scene:
-    """The scene with other values at some dotted keys."""
+    """The scene with new values at dotted keys; InputError if a key is unknown or a value is out of range."""
     kind = scenes.kind_named({"kind": scene.kind})
     entries = scenes.scene_entries(scene)
     for key, value in values.items():
@@ -92,14 +92,14 @@ def with_entries(scene: Scene, values: Mapping[str, object]) -> Scene:
 
 
 def checked_scene(scene: object) -> Scene:
-    """The scene; InputError for anything else."""
+    """The argument, if it is a scene; InputError otherwise."""
     if not isinstance(scene, Scene):
         raise InputError(f"scene: got {type(scene).__name__}; give a scene, which load_scene and read_scene return")
     return scene
 
 
 def _text(value: object) -> str:
-    """A value as an override holds it."""
+    """The text of a value in an assignment ``key=value``."""
     if isinstance(value, str):
         return value
     try:

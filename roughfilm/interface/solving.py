@@ -1,4 +1,4 @@
-"""One scene by one model, by the cheapest that is accurate enough, or by all that apply."""
+"""Solution of a scene by one model, by the cheapest model that is accurate enough, or by all that apply."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -16,17 +16,17 @@ from roughfilm.rom.studies.comparison import to_best
 
 
 def models(kind: str | None = None) -> tuple[Model, ...]:
-    """List the models of one kind of scene, or of all, from the plainest to the one that keeps most effects.
+    """List the models of one kind of scene, or of all kinds, from the simplest to the one with the most effects.
 
     Parameters
     ----------
-    kind : "pocket", "bearing", "dry_contact", "seal" or "rough_gap"; all of them by default.
+    kind : "pocket", "bearing", "dry_contact", "seal" or "rough_gap"; by default all kinds.
 
     Returns
     -------
     tuple of Model
-        Each with ``name``, ``summary``, the effects that it ``keeps``, ``sources``, ``available()`` on this machine,
-        ``applies(scene)`` and ``cost(scene, resolution)`` in CPU seconds.
+        Each model has ``name``, ``summary``, ``keeps`` (the effects that it includes), ``sources``, ``available()`` on
+        this machine, ``applies(scene)`` and ``cost(scene, resolution)`` in CPU seconds.
 
     Raises
     ------
@@ -47,21 +47,22 @@ def models(kind: str | None = None) -> tuple[Model, ...]:
 def advise(scene: Scene, *, within: float, quantity: str | None = None, progress: Progress = silent) -> advice.Advice:
     """Choose the cheapest model, at the coarsest resolution, whose error in a quantity stays within a tolerance.
 
-    Error laws C Π number^power, fitted to random scenes, judge every model by the scene's dimensionless numbers; cheap
-    models are also run and compared with the next one up. Errors are those that 95 of 100 scenes do not exceed.
+    The error of each model is estimated by laws C Π number^power in the dimensionless numbers of the scene, which were
+    fitted to random scenes. Cheap models are also run and compared with the next model. An error is a bound that 95 of
+    100 scenes do not exceed.
 
     Parameters
     ----------
-    scene : what is solved.
+    scene : the scene.
     within : tolerated error over the size of the quantity, above 0 and below 1.
-    quantity : such as "load" or "load_plus"; the first that the kind of scene compares by default.
+    quantity : name such as "load" or "load_plus"; by default the first quantity that the kind of scene compares.
     progress : called with the done fraction and a few words.
 
     Returns
     -------
     Advice
-        ``chosen`` with ``model``, ``resolution``, ``error`` and ``reason``, None if no model is known to be accurate
-        enough; ``considered`` has the verdict on every model.
+        ``chosen`` holds ``model``, ``resolution``, ``error`` and ``reason``; it is None if no model is known to be
+        accurate enough. ``considered`` holds the verdict on every model.
 
     Raises
     ------
@@ -98,22 +99,22 @@ def solve(
 
     Parameters
     ----------
-    scene : what is solved.
-    model : name of a model of the scene's kind, see :func:`roughfilm.models`; give it or ``within``.
+    scene : the scene.
+    model : name of a model for this kind of scene, see :func:`roughfilm.models`; give either this or ``within``.
     within : tolerated error over the size of the quantity, above 0 and below 1, as :func:`roughfilm.advise` takes it.
-    quantity : the quantity that ``within`` counts for, such as "load".
-    resolution : cells, points or nodes, in the model's ``resolution_meaning``; its default if left out.
-    tolerance : residual at which the solver stops, in the model's ``residual_meaning``; its default if left out.
-    scheme : advection scheme, one of the model's ``schemes``.
-    processes : MPI processes of an OpenFOAM run.
+    quantity : the quantity to which ``within`` applies, such as "load".
+    resolution : number of cells, points or nodes, see ``resolution_meaning`` of the model; the model has a default.
+    tolerance : residual at which the solver stops, see ``residual_meaning`` of the model; the model has a default.
+    scheme : advection scheme, one of ``schemes`` of the model.
+    processes : number of MPI processes of an OpenFOAM run.
     progress : called with the done fraction and a few words.
 
     Returns
     -------
     Result
-        ``result["load"].value``, ``.unit`` and ``.uncertainty`` (of the numerics, None where unknown);
-        ``expected_error`` of the model itself, over the size of the quantity, where a fitted law reaches the scene;
-        ``fields["pressure"].values``; ``warnings``.
+        ``result["load"]`` has ``value``, ``unit`` and ``uncertainty`` (numerical, None if unknown). ``expected_error``
+        holds the error of the model over the size of the quantity, if the scene is in the range of a fitted law.
+        ``fields["pressure"].values`` is an array; ``warnings`` holds sentences.
 
     Raises
     ------
@@ -122,7 +123,7 @@ def solve(
     ConvergenceError
         If the solver stops above its tolerance, or no model is known to be accurate enough.
     UnavailableError
-        If a program that the model needs is not on this machine.
+        If a program that the model needs is not installed.
 
     Examples
     --------
@@ -156,7 +157,7 @@ def solve(
 
 
 def with_expected_error(result: Result, scene: Scene, model: Model) -> Result:
-    """The result of a model on a scene with the errors that the fitted laws expect of it."""
+    """The result of a model with the errors that the fitted laws predict for this scene and resolution."""
     errors = expected_errors(scene, model, result.numerics.resolution, ladder.models(scene.kind))
     return replace(result, expected_error=errors)
 
@@ -167,10 +168,10 @@ class Comparison:
 
     Attributes
     ----------
-    results : by the model's name, from the plainest to the one that keeps most.
-    best : name of the model that keeps most.
-    errors : by model and quantity, the difference to the best model over the size of the quantity, with its sign.
-    left_out : by model, why it has no result.
+    results : results by the name of the model, from the simplest model to the one with the most effects.
+    best : name of the solved model with the most effects.
+    errors : by model and quantity, the signed difference from the best model over the size of the quantity.
+    left_out : by model, the reason for a missing result.
     """
 
     results: Mapping[str, Result]
@@ -184,14 +185,15 @@ def compare(scene: Scene, *, models: Sequence[str] | None = None, progress: Prog
 
     Parameters
     ----------
-    scene : what is solved.
+    scene : the scene.
     models : names of the models; by default all that apply and are available on this machine.
     progress : called with the done fraction and a few words.
 
     Returns
     -------
     Comparison
-        ``results`` by model, ``errors`` against the ``best`` of them, and why models were ``left_out``.
+        ``results`` by model, ``errors`` against the ``best`` of them, and the models that were ``left_out`` with the
+        reason.
 
     Raises
     ------
@@ -229,7 +231,7 @@ def compare(scene: Scene, *, models: Sequence[str] | None = None, progress: Prog
 
 
 def chosen_models(kind: str, names: Sequence[str] | None) -> tuple[Model, ...]:
-    """The models of these names, from the plainest up, or all of the kind; InputError for an unknown one."""
+    """The models with the given names, from the simplest up; None means all of the kind; InputError if unknown."""
     known = ladder.models(kind)
     if names is None:
         return known
@@ -241,7 +243,7 @@ def chosen_models(kind: str, names: Sequence[str] | None) -> tuple[Model, ...]:
 
 
 def answer_of(scene: Scene, model: Model, request: Request | None = None) -> Result | str:
-    """The result of a model, or why there is none."""
+    """The result of a model on a scene, or the reason as text why there is none."""
     fits, here = model.applies(scene), model.available()
     if not fits.applies or not here.available:
         return here.detail if fits.applies else fits.reason

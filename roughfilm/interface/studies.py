@@ -1,4 +1,4 @@
-"""Studies: a scene with lists, whose cases are solved in parallel and kept in a directory."""
+"""Studies: scenes with lists of values, whose cases are solved in parallel and stored in a directory."""
 
 import os
 from pathlib import Path
@@ -17,7 +17,7 @@ from roughfilm.rom.studies import study, table
 
 
 def load_study(path: str | os.PathLike[str]) -> study.Study:
-    """Read a study file: a scene in which every list is swept, and all lists multiply.
+    """Read a study file: a scene in which lists of values are swept, in every combination.
 
     Parameters
     ----------
@@ -27,7 +27,7 @@ def load_study(path: str | os.PathLike[str]) -> study.Study:
     Returns
     -------
     Study
-        ``cases`` with ``name``, ``scene`` and what is ``varied``; ``settings`` with model, resolution and scheme.
+        ``cases`` hold ``name``, ``scene`` and the ``varied`` values; ``settings`` hold model, resolution and scheme.
 
     Raises
     ------
@@ -53,13 +53,13 @@ def run_study(
     processes: int | None = None,
     progress: Progress = silent,
 ) -> dict[str, NDArray[Any]]:
-    """Solve every case of a study by every model in parallel; a call that was stopped goes on where it was.
+    """Solve every case of a study by every model in parallel; a new call continues one that was stopped.
 
     Parameters
     ----------
     path : the study file (TOML), as :func:`roughfilm.load_study` reads it.
     out : directory of the cases, results and tables; finished results in it are used again.
-    processes : processes that solve at once; by default one for each core.
+    processes : number of processes; by default one for each core.
     progress : called with the done fraction and a few words.
 
     Returns
@@ -70,8 +70,8 @@ def run_study(
     Raises
     ------
     InputError
-        If the study is wrong, or the directory is in use or cannot be written. A case that fails stops no other: the
-        column "outcome" says why it has no result.
+        If the study is wrong, or the directory is in use or cannot be written. A case that fails does not stop the
+        others: the column "outcome" holds the reason.
 
     Examples
     --------
@@ -105,7 +105,8 @@ def read_table(path: str | os.PathLike[str]) -> dict[str, NDArray[Any]]:
     Returns
     -------
     dict of arrays
-        Texts, and numbers in SI units, NaN where there is none; the file's datasets have the unit as attribute.
+        Texts, or numbers in SI units, NaN where a number is missing; the datasets of the file have the attribute
+        ``unit``.
 
     Raises
     ------

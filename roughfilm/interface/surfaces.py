@@ -1,4 +1,4 @@
-"""Rough surfaces from arrays and files: roughness parameters, dry contact and flow factors."""
+"""Rough surfaces from arrays and files: preparation, roughness parameters, dry contact and flow factors."""
 
 import math
 import os
@@ -32,7 +32,10 @@ Heights = ArrayLike | Surface
 
 
 def surface_of(heights: Heights, spacing: float | Sequence[float] | None) -> Surface:
-    """Checked heights on a uniform grid; InputError for anything but finite real numbers, (nx, ny) of 2 or more."""
+    """The surface with checked heights, m, on a uniform grid.
+
+    Raises InputError unless the heights are finite real numbers of shape (nx, ny) with nx, ny >= 2.
+    """
     if isinstance(heights, Surface):
         if spacing is not None:
             raise InputError(f"spacing: got {spacing!r}; the surface has {heights.spacing} m, leave it out")
@@ -73,14 +76,14 @@ def read_surface(
     channel: str | None = None,
     height_unit: str | None = None,
 ) -> Surface:
-    """Read a measured surface from a file, or make the synthetic one that a TOML file describes.
+    """Read a measured surface from a file, or generate the synthetic surface that a TOML file describes.
 
     Parameters
     ----------
-    path : HDF5 of this package, NPY, CSV, TOML, or an instrument's file (with the extra ``instruments``).
-    spacing : distance of neighbouring points, m, or a pair (dx, dy), where the file does not hold it.
-    channel : name of the channel, where an instrument's file holds several.
-    height_unit : unit of the heights, such as "um", where the file does not hold it; m for NPY.
+    path : HDF5 file of this package, NPY, CSV or TOML file, or file of an instrument (with the extra ``instruments``).
+    spacing : distance of neighbouring points, m, or a pair (dx, dy), if the file does not hold it.
+    channel : name of the channel, if the file of an instrument holds several.
+    height_unit : unit of the heights, such as "um", if the file does not hold it; m for NPY.
 
     Returns
     -------
@@ -90,7 +93,7 @@ def read_surface(
     Raises
     ------
     InputError
-        If the file is missing, damaged or incomplete; one line with the remedy.
+        If the file is missing, damaged or incomplete; the one-line message gives the remedy.
     UnavailableError
         If the file needs a library that is not installed.
 
@@ -119,19 +122,19 @@ def prepare(surface: Surface, recipe: str | Path | Mapping[str, Any] | None = No
     Parameters
     ----------
     surface : the measured surface.
-    recipe : TOML file or nested entries with the numbers of each step; the usual ones by default, and nothing but a
-        check for a surface that is periodic already.
+    recipe : TOML file or nested entries with the parameters of each step. There is a default recipe; without a recipe
+        a surface that is already periodic is only checked.
 
     Returns
     -------
     Prepared
-        The cell is its ``surface``; ``warnings`` has sentences on what may make it a poor picture, ``record`` what each
-        step changed.
+        ``surface`` is the periodic cell, ``warnings`` are sentences on possible deviations of the cell from the
+        measured surface, and ``record`` lists the changes by each step.
 
     Raises
     ------
     InputError
-        If a step cannot be taken; one line that names the step.
+        If a step cannot be done; the one-line message names the step.
     ConvergenceError
         If invalid points cannot be filled to tolerance.
 
@@ -157,7 +160,9 @@ def prepare(surface: Surface, recipe: str | Path | Mapping[str, Any] | None = No
 
 
 def parameters(heights: Heights, *, spacing: float | Sequence[float] | None = None) -> dict[str, Quantity]:
-    """Areal roughness parameters of ISO 25178-2, nothing filtered or levelled; heights count from their mean.
+    """Compute the areal roughness parameters of ISO 25178-2 from heights relative to their mean.
+
+    The heights are neither filtered nor levelled.
 
     Parameters
     ----------
@@ -173,7 +178,7 @@ def parameters(heights: Heights, *, spacing: float | Sequence[float] | None = No
     Raises
     ------
     InputError
-        For heights that are not an array of finite numbers of at least 2 x 2 points, or all the same.
+        If the heights are not finite numbers on at least 2 x 2 points, or are all equal.
 
     References
     ----------
@@ -205,9 +210,9 @@ def press(
 ) -> Contact:
     """Press a rough surface against a rigid plane, elastic or elastic-plastic, without friction or adhesion.
 
-    At the mean pressure W it solves for the pressure p, 0 <= p <= H, whose mean is W, and the deformed gap
-    h + K∗p − g, which is 0 where 0 < p < H and >= 0 where p = 0; K is the elastic half-space of the modulus
-    E* = E/(1 − ν²). For an elastic plane give the Young's modulus E = (1 − ν²) E* of the composite modulus.
+    The unknowns are the pressure p, 0 <= p <= H, with the mean W, and the deformed gap h + K∗p − g, which is 0 where
+    0 < p < H and >= 0 where p = 0. K is the response of an elastic half-space with the modulus E* = E/(1 − ν²). For an
+    elastic plane with the composite modulus E*, set ``modulus`` to E = (1 − ν²) E*.
 
     Parameters
     ----------
@@ -219,15 +224,16 @@ def press(
     hardness : greatest pressure H, Pa; infinite for an elastic surface.
     boundary : "periodic", or "free" for a surface that stands alone on the half-space.
     tolerance : greatest violation of the contact conditions over the rms height, 1e-13 to 1.
-    threads : threads that share the work.
+    threads : number of threads, 1 or more.
 
     Returns
     -------
     Contact
-        Floats ``area_fraction``, ``plastic_fraction``, ``mean_gap`` (m), ``approach`` (m), and arrays of shape (nx, ny)
-        ``pressure`` (Pa), ``gap`` (m), ``in_contact``. ``complementarity`` is the violation of the contact conditions,
-        recomputed from the pressure. The discretisation error is unknown on one grid: compare two. The area converges
-        with the first order of the spacing, gap and approach with the second, once the shortest wave is resolved.
+        It has the floats ``area_fraction``, ``plastic_fraction``, ``mean_gap`` (m), ``approach`` (m), and arrays of
+        shape (nx, ny) ``pressure`` (Pa), ``gap`` (m), ``in_contact``. ``complementarity`` is the violation of the
+        contact conditions, recomputed from the pressure. One grid does not give the discretisation error; compare two
+        grids. If the shortest wave is resolved, the area converges with first order in the spacing, gap and approach
+        with second.
 
     Raises
     ------
@@ -238,7 +244,8 @@ def press(
 
     References
     ----------
-    F. Sahlin, Luleå 2008, section E.2.2; V. A. Yastrebov et al., doi:10.1016/j.triboint.2017.04.023 (area fraction).
+    F. Sahlin, Luleå 2008, section E.2.2; V. A. Yastrebov et al., doi:10.1016/j.triboint.2017.04.023 (area
+    fraction).
 
     Examples
     --------
@@ -274,7 +281,7 @@ def flow_factors(
     offset: float = 0.0,
     progress: Progress = silent,
 ) -> dict[str, Quantity]:
-    """Flow factors of the film between a rough surface and a smooth one at one mean gap.
+    """Compute the flow factors of the film between a rough surface and a smooth one at one mean gap.
 
     With the rough wall at rest and the smooth one sliding along x at u, the averaged flow per width is
     q = (u/2) ĥ B − ĥ³ A∇p/(12η) and the shear stress on the sliding wall τ = (ηu/ĥ)(d + 3e) + ĥ B·∇p/2, with ĥ the mean
@@ -291,8 +298,9 @@ def flow_factors(
     Returns
     -------
     dict of Quantity
-        A11, A12, A21, A22, B1, B2, d, e with their uncertainties (None where unknown), and the ``mean_gap``, the
-        ``separation`` of the mean planes, both in m, and the fraction in ``contact``. A direction with A = 0 is sealed.
+        A11, A12, A21, A22, B1, B2, d, e with their uncertainties (None if unknown), ``mean_gap`` and ``separation``
+        (the distance of the mean planes), both in m, and ``contact``, the area fraction in contact. A direction whose A
+        is 0 is sealed.
 
     Raises
     ------
@@ -303,7 +311,8 @@ def flow_factors(
 
     Notes
     -----
-    Second order in the spacing where the gap is smooth and open, near first order at the edges of contact.
+    The error is of second order in the spacing where the gap is smooth and open, and of nearly first order at the edges
+    of contact.
 
     References
     ----------
@@ -311,7 +320,7 @@ def flow_factors(
 
     Examples
     --------
-    Transverse ridges obey closed forms: A11 = 1/(ĥ³<h⁻³>) and A22 = <h³>/ĥ³.
+    For transverse ridges A11 = 1/(ĥ³<h⁻³>) and A22 = <h³>/ĥ³.
 
     >>> import numpy as np
     >>> import roughfilm as rf

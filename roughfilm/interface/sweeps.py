@@ -1,4 +1,4 @@
-"""A scene with entries that vary, by several models, as rows of a table."""
+"""Sweeps of a scene over values of its entries by several models, as rows of a table."""
 
 import itertools
 from collections.abc import Mapping, Sequence
@@ -22,27 +22,28 @@ def sweep(
     models: Sequence[str] | None = None,
     progress: Progress = silent,
 ) -> Rows:
-    """Solve a scene for every combination of some entries by several models, as rows ready for pandas.DataFrame.
+    """Solve a scene by several models for every combination of values of its entries, and return the rows of a table.
 
     Parameters
     ----------
     scene : the scene in which the entries vary.
-    values : by dotted key, the values that it takes, such as ``{"geometry.depth": ["5 um", "10 um"]}``.
-    models : names of the models; by default every one of the scene's kind.
+    values : list of values by dotted key, such as ``{"geometry.depth": ["5 um", "10 um"]}``.
+    models : names of the models; by default all for this kind of scene.
     progress : called with the done fraction and a few words.
 
     Returns
     -------
     list of dict
-        A row for each combination and model. Columns: the keys of ``values``, "model", "resolution", "outcome"
-        ("solved" or why there is no result), each quantity by its name, its 95 % half width as "<name>_uncertainty"
-        where it is known, its model error over its size as "<name>_expected_error" where a law gives it, "cpu_s" and
-        "warnings". All numbers are in SI units, which ``units`` holds by column.
+        A row for each combination and model, which pandas.DataFrame accepts. The columns are the keys of ``values``,
+        "model", "resolution", "outcome" ("solved" or the reason for a missing result), the quantities by name,
+        "<name>_uncertainty" (95 % half width, if known), "<name>_expected_error" (error of the model over the size of
+        the quantity, if a law gives it), "cpu_s" and "warnings". Numbers are in SI units; ``units`` holds them by
+        column.
 
     Raises
     ------
     InputError
-        For an unknown key or model, or a value out of range; nothing is solved then.
+        If a key or model is unknown or a value is out of range; this is checked before the first solution.
 
     Examples
     --------
@@ -91,7 +92,7 @@ def sweep(
 
 
 def _si(scene: Scene, key: str, value: object) -> tuple[object, str]:
-    """What the scene has at a key as number and unit; the value as it was given where it is kept in another way."""
+    """The value and unit that the scene holds at a key; the given value if the scene has no entry there."""
     entry: Any = scene_entries(scene)
     for part in key.split("."):
         entry = entry.get(part) if isinstance(entry, dict) else None

@@ -1,4 +1,7 @@
-"""Leakage over load: contacts at increasing loads, each started from the one before, and flow through their gaps."""
+"""Leakage of a seal over the load: contacts at increasing loads and the flow through their gaps.
+
+The solution of each contact starts from that at the load before.
+"""
 
 import math
 import time
@@ -32,32 +35,34 @@ DEFAULT_LOADS = 25
 """Default number of loads."""
 
 FIRST_AREA = 0.005
-"""Contact area at the first default load."""
+"""Contact area fraction at the first default load."""
 
 LAST_LOAD_RATIO = 1.02
-"""Ratio of the last default load to that of the last threshold."""
+"""Ratio of the last default load to the largest load at which a gap seals."""
 
 LIGHT_CONTACT_RATIO = 2.1
-"""A E* g'/P in light contact."""
+"""The ratio A E* g'/P in light contact, with the contact area fraction A, the rms slope g' and the mean pressure P."""
 
 START_AREA = 0.3
-"""Contact area by this ratio at which the search for thresholds starts."""
+"""Contact area fraction, computed with ``LIGHT_CONTACT_RATIO``, at which the search for thresholds starts."""
 
 SAVE_INTERVAL_S = 2.0
-"""Time between two writings of the files, s."""
+"""Shortest time between two writings of the files, s."""
 
 Advance = Callable[[float, str], None]
 
 
 @dataclass(frozen=True, kw_only=True)
 class SealSetup:
-    """A surface between its solids, and the files of the results.
+    """A surface with its contact solver and the files of the results.
 
     Attributes
     ----------
-    contacts, series : files of contacts and of leakage.
+    surface : the undeformed surface.
+    press : solver of the contact.
     inputs : inputs of both files.
-    spread : E* g', Pa, or E* for a flat surface.
+    contacts, series : files of the contacts and of the leakage.
+    spread : E* g' with the rms slope g', Pa; E* for a flat surface.
     most : largest load, Pa.
     """
 
@@ -71,7 +76,7 @@ class SealSetup:
 
 
 def setup(surface: Surface, press: Press, inputs: Inputs, directory: Path) -> SealSetup:
-    """The surface with the files of a directory; the largest load is the smaller of hardness and E*."""
+    """The setup of a surface with result files in a directory; the largest load is the smaller of hardness and E*."""
     flat = float(np.ptp(surface.heights)) == 0
     slope = 1.0 if flat else wave_power(surface.heights, surface.spacing).moments.rms_slope
     return SealSetup(
@@ -86,7 +91,7 @@ def setup(surface: Surface, press: Press, inputs: Inputs, directory: Path) -> Se
 
 
 def seal_setup(scene: Seal, directory: Path) -> SealSetup:
-    """The surface of a scene between its solids, with the files of a directory."""
+    """The setup of the surface and the solids of a scene, with result files in a directory."""
     surface = scene.surface()
     settings = {
         "model": "elastic" if scene.solid.hardness is None else "elastic_plastic",
@@ -105,7 +110,7 @@ def seal_setup(scene: Seal, directory: Path) -> SealSetup:
 
 
 def sealing(body: SealSetup, advance: Advance) -> dict[str, Threshold]:
-    """The thresholds by the names of ``SOUGHT``, from the file if it has them."""
+    """The sealing thresholds by the names in ``SOUGHT``, read from the file or computed and written to it."""
     stored = stored_series(body.series, body.inputs)
     if stored.thresholds:
         return dict(stored.thresholds)
@@ -117,7 +122,11 @@ def sealing(body: SealSetup, advance: Advance) -> dict[str, Threshold]:
 
 
 def chosen_loads(body: SealSetup, by_flow: dict[str, Threshold]) -> tuple[float, ...]:
-    """The default loads, from half a per cent of contact to just above all thresholds, with the last open ones."""
+    """The default loads, Pa, in increasing order.
+
+    They reach from a contact area of 0.5 % to just above all thresholds in equal ratios, and include the largest loads
+    at which the direct flows are open. Raises InputError for a flat surface.
+    """
     if float(np.ptp(body.surface.heights)) == 0:
         raise InputError("geometry.surface: is flat and sealed under any load; give loads for its numbers")
     at, load = _pressed(body), FIRST_AREA / LIGHT_CONTACT_RATIO * body.spread
@@ -154,12 +163,21 @@ def _pressed(body: SealSetup) -> Callable[[float, Contact | None], Contact]:
 
 
 def solved(body: SealSetup, loads: tuple[float, ...], threads: int, advance: Advance) -> tuple[dict[float, Row], int]:
-    """The rows of all loads, and how many of them the file had; finished rows are saved even if this is interrupted.
+    """The rows by load, and the number of rows that the file held already.
+
+    Finished rows are saved even if the computation is interrupted.
+
+    Parameters
+    ----------
+    body : the setup.
+    loads : mean pressures, Pa.
+    threads : number of gaps whose flow is solved at the same time.
+    advance : called with the done fraction and a few words.
 
     Raises
     ------
     InputError
-        If a file was damaged, holds something else or cannot be written.
+        If a file was damaged, holds other data or cannot be written.
     ConvergenceError
         If the contact at a load does not converge; the files keep the loads below it.
     """

@@ -1,4 +1,4 @@
-"""Flow through one or several periods of a gap between two reservoirs, without averaging."""
+"""Direct solution of the flow through one or several periods of a gap between two reservoirs."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ from roughfilm.rom.seal.leakage.passage import Leakage, Passage, shut
 
 
 def direct_leakage(gap: ArrayLike, spacing: tuple[float, float], *, periods: int = 1) -> Leakage:
-    """The leakage in both directions by :func:`direct_flow`."""
+    """Compute the leakage in x and in y by :func:`direct_flow`, which explains the parameters and errors."""
     return Leakage(
         along=direct_flow(gap, spacing, 0, periods=periods), across=direct_flow(gap, spacing, 1, periods=periods)
     )
@@ -38,13 +38,14 @@ def direct_flow(
 ) -> Passage:
     """Solve ∇·(h³∇p) = 0 with p given at the two ends of a gap and periodic across, and return the flow.
 
-    The ends are the nodes at x = 0 and their copies ``periods`` periods on. The flow is an energy, whose error is
-    quadratic in that of the pressure. Since the pressure is uniform at the ends, K ≥ A₁₁ of the periodic gap on any
-    grid; the difference decreases as 1/periods.
+    The ends are the nodes at x = 0 and their copies ``periods`` periods on. The flow is a quadratic
+    functional of the pressure, so that its error is quadratic in the error of the pressure. Since the pressure is
+    uniform at the ends, K ≥ A₁₁ of the periodic gap on any grid; the difference decreases as 1/periods.
 
     Parameters
     ----------
-    gap : h >= 0, m, shape (nx, ny); one period. Nodes where h = 0 are contact, whose faces are closed; all may be.
+    gap : h >= 0, m, shape (nx, ny); one period. Nodes with h = 0 are in contact and their faces are closed; h may be 0
+        everywhere.
     spacing : (dx, dy), m.
     direction : 0 for flow in x, 1 in y.
     periods : number of periods in the direction of the flow.
@@ -60,10 +61,11 @@ def direct_flow(
     ConvergenceError
         If none of the solvers meets the tolerance.
 
-    The error is of second order in the spacing where the gap is smooth and open, of nearly first order at the edges of
-    contact; the uncertainty is estimated from every second and fourth node.
+    The error is of second order in the spacing where the gap is smooth and open, and of nearly first order at the edges
+    of contact. The uncertainty is estimated from solutions on every second and every fourth node.
 
-    Source: Sahlin 2008, F.7 and F.11, where contact has a gap of 10 nm, and the leakage of a sealed gap is subtracted.
+    Source: Sahlin 2008, F.7 and F.11, which sets the gap in contact to 10 nm and subtracts the leakage of a sealed
+    gap.
     """
     if tolerance is not None and not 0 < tolerance < 1:
         raise InputError(f"tolerance: got {tolerance!r}; it must be above 0 and below 1")

@@ -1,4 +1,4 @@
-"""Leakage from the spectrum of a surface: gaps by Persson's theory, averaged as an effective medium."""
+"""Leakage from the spectrum of a surface by Persson's contact theory and an effective medium."""
 
 import math
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from roughfilm.contact.mechanics.estimates.persson import elastic_mean_gap
 from roughfilm.contact.mechanics.moments import WavePower
 
 SCALES = 48
-"""Number of scales at which roughness is cut off, from the longest wave to the shortest."""
+"""Number of scales at which the spectrum is cut off, from the longest wave to the shortest."""
 
 WAVE_BINS = 400
 """Largest number of groups of waves."""
@@ -23,10 +23,10 @@ REPORTED_GAPS = 1000
 """Number of gaps of equal probability by which those that appear at a scale are reported."""
 
 SEALING_AREA = 0.415
-"""Contact area at which the medium seals, as large elastic contacts of self-affine surfaces do (Wang and Müser)."""
+"""Contact area fraction at which the medium seals, that of large self-affine elastic contacts (Wang and Müser)."""
 
 SURROUNDING_WEIGHT = SEALING_AREA / (1 - SEALING_AREA)
-"""Weight w of the medium around a piece; 1 in Bruggeman's medium in two dimensions, which seals at half contact."""
+"""Weight w of the medium around an element; w = 1 in Bruggeman's two-dimensional medium, which seals at A = 0.5."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,7 +38,7 @@ class EffectiveMedium:
     permeability : K, m³; 0 if sealed.
     mean_gap : mean gap, m.
     area_fraction : real area of contact over the nominal area.
-    sealed : whether that fraction is ``SEALING_AREA`` or more.
+    sealed : whether ``area_fraction`` is at least ``SEALING_AREA``.
     gaps, fractions : gaps, m, and their fractions of the nominal area, (n,); the rest is contact. Negative gaps of the
         theory are taken by magnitude, so that their mean exceeds ``mean_gap`` by about a tenth.
     residual : residual of the medium's equation over its positive terms.
@@ -58,23 +58,23 @@ def effective_medium(spectrum: WavePower, *, composite_modulus: float, load: flo
 
     With roughness down to a scale, contact covers A = erf(P/√(2V)), with V the variance of full-contact pressures of
     all longer waves. The area that separates between two scales has the mean gap u₁ = (ū A − ū'A')/(A − A'), where ū is
-    the mean gap of the shorter waves under the load P/A, and their rms height about it. The permeability K of the
-    effective medium solves Σ a (u³ − K)/(u³ + w K) = 0 over all areas a including contact; with w = A_c/(1 − A_c) it
-    seals at the contact area A_c = 0.415.
+    the mean gap of the shorter waves under the load P/A; its gaps scatter about u₁ with the rms height of these waves.
+    The permeability K of the effective medium solves Σ a (u³ − K)/(u³ + w K) = 0 over all areas a including contact;
+    with w = A_c/(1 − A_c) it seals at the contact area A_c = 0.415.
 
     Parameters
     ----------
-    spectrum : spectrum of the surface.
+    spectrum : mean square height by wave number of the surface.
     composite_modulus : E*, Pa.
     load : mean pressure P > 0, Pa.
 
     Notes
     -----
-    The theory has neither lay nor size. Compared with cells of three self-affine surfaces (256 x 256 points, Hurst 0.8,
-    four waves of the roll-off on a side) its ratio is 1.1 to 2.3 up to a third of the sealing load and 0.9 to 5 at half
-    of it; near sealing the error is orders of magnitude, since each surface has its own sealing area. For low roughness
-    without contact it is not exact to second order, unlike w = 1. Persson's contact area is 0.7 to 0.85 of the true
-    one.
+    The theory includes neither lay nor finite size. The ratio of its permeability to that of cells of three self-affine
+    surfaces (256 x 256 points, Hurst exponent 0.8, four roll-off waves on a side) is 1.1 to 2.3 up to a third of the
+    sealing load and 0.9 to 5 at half of it; near sealing the error is orders of magnitude, since each surface has its
+    own sealing area. For low roughness without contact it is not exact to second order, unlike w = 1. Persson's contact
+    area is 0.7 to 0.85 of the true one.
 
     Source: Lorenz and Persson, Eur. Phys. J. E 31 (2010) 159, doi:10.1140/epje/i2010-10558-6; Dapp, Lücke, Persson
     and Müser, Phys. Rev. Lett. 108 (2012) 244301, doi:10.1103/PhysRevLett.108.244301; Wang and Müser, Tribol. Lett. 69
@@ -107,7 +107,7 @@ def effective_medium(spectrum: WavePower, *, composite_modulus: float, load: flo
     contact = float(areas[-1])
 
     def distribution(steps: Array, weights: Array) -> tuple[Array, Array]:
-        """The gaps at steps of rms heights from their means, and their area fractions by the weights."""
+        """The gaps at multiples ``steps`` of the rms height from the mean gaps, m, and their area fractions."""
         gaps = np.abs(middle[:, None] + rms[:, None] * steps)
         return gaps.ravel(), (parted[some, None] * (weights / weights.sum())).ravel()
 
@@ -126,7 +126,7 @@ def effective_medium(spectrum: WavePower, *, composite_modulus: float, load: flo
 
 
 def _binned(spectrum: WavePower) -> WavePower:
-    """The spectrum with at most ``WAVE_BINS`` waves of the same rms height and slope."""
+    """The spectrum reduced to at most ``WAVE_BINS`` waves, with unchanged rms height and slope."""
     q, power = spectrum.wave_numbers[spectrum.power > 0], spectrum.power[spectrum.power > 0]
     if q.size <= WAVE_BINS:
         return WavePower(wave_numbers=q, power=power, line=spectrum.line)
@@ -139,7 +139,7 @@ def _binned(spectrum: WavePower) -> WavePower:
 
 
 def _medium(gaps: Array, fractions: Array, contact: float) -> tuple[float, float]:
-    """The permeability K of the medium, and the residual of its equation."""
+    """The permeability K of the medium, m³, and the relative residual of its equation."""
     if contact >= SEALING_AREA or not gaps.size:
         return 0.0, 0.0
     conductance = gaps**3

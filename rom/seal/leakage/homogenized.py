@@ -1,4 +1,4 @@
-"""Flow through a periodic gap in both directions from the cell problem."""
+"""Flow through a periodic gap in x and in y by homogenization."""
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -8,7 +8,7 @@ from roughfilm.rom.seal.leakage.passage import Leakage, Passage, shut
 
 
 def homogenized_leakage(gap: ArrayLike, spacing: tuple[float, float]) -> Leakage:
-    """Compute the leakage A₁₁ and A₂₂ of a periodic gap by flow factors; a gap closed everywhere is sealed.
+    """Compute the permeabilities A₁₁ and A₂₂, m³, of a periodic gap by homogenization; a closed gap is sealed.
 
     Parameters
     ----------

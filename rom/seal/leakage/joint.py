@@ -1,4 +1,4 @@
-"""Sealing at the joint of a periodic gap, the lines where one period meets the next."""
+"""Sealing at the joint of a periodic gap, which is the pair of lines where neighbouring periods meet."""
 
 import numpy as np
 
@@ -10,10 +10,11 @@ SIDE_TO_MARGIN = 16
 
 
 def joint_seals(gap: Array) -> tuple[bool, bool]:
-    """Whether a gap, shape (nx, ny), is sealed in x, and in y, but open without a sixteenth at each end.
+    """Whether a gap seals only near the joint, in x and in y.
 
-    A gap sealed by few contacts may open without a sixteenth of it in any case, so that the result only has a meaning
-    for surfaces that are not periodic.
+    This is the case if the whole gap, shape (nx, ny), is sealed, but open after a sixteenth of its length is removed at
+    each end. A gap that few contacts seal may also open in this way far from a joint, so that the result has a meaning
+    only for surfaces that are not periodic.
     """
     return _seals(gap), _seals(gap.T)
 

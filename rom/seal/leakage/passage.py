@@ -16,7 +16,7 @@ class Passage:
     permeability : K = 12η Q L/Δp, m³, for the flow Q per width at a pressure drop Δp over the length L; h³ for a smooth
         gap, and exactly 0 if sealed.
     uncertainty : uncertainty of K from the grid and the solver, m³.
-    sealed : whether no open path leads through the gap.
+    sealed : whether there is no open path through the gap.
     corrector : deviation ψ of the pressure p = Δp (1 − (x + ψ)/L) from a linear one, m, shape (nx, ny), 0 if sealed;
         an argument of :func:`roughfilm.rom.homogenization.flux.flux`.
     unsolved : relative solver error of K.
@@ -57,7 +57,7 @@ class Leakage:
 
 
 def shut(shape: tuple[int, ...]) -> Passage:
-    """The flow through a gap that is closed everywhere."""
+    """The zero flow through a gap of a given shape that is closed everywhere."""
     return Passage(
         permeability=0.0,
         uncertainty=0.0,
@@ -75,8 +75,10 @@ def mass_flow(permeability: float, *, density: float, viscosity: float, pressure
     Parameters
     ----------
     permeability : K, m³.
-    density, viscosity : ρ, kg/m³, and η, Pa s.
-    pressure_drop, length : Δp, Pa, over L, m, along the flow.
+    density : ρ, kg/m³.
+    viscosity : η, Pa s.
+    pressure_drop : Δp, Pa.
+    length : L along the flow, m.
 
     Source: Sahlin 2008, F.11 and F.12.
     """

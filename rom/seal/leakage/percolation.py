@@ -1,4 +1,4 @@
-"""Load and contact area at which a gap seals, by bisection between an open and a sealed contact."""
+"""Load and contact area at which a gap seals, computed by bisection between open and sealed contacts."""
 
 import math
 from collections.abc import Callable
@@ -13,13 +13,13 @@ from roughfilm.rom.homogenization.paths import sealed, sealed_between_ends
 from roughfilm.rom.ladder.model import Progress, silent
 
 LOAD_RATIO = 1.4
-"""Ratio of successive loads while a bracket is sought."""
+"""Ratio of successive loads in the search for a bracket."""
 
 THRESHOLD_PRECISION = 0.01
 """Default relative width of the bracket of a threshold's load."""
 
 MIN_LOAD = 1e-9
-"""Load over the first load at which a sealed gap counts as sealed under any load."""
+"""Ratio of a load to the first load; a gap that is sealed at this ratio counts as sealed under any load."""
 
 Look = Callable[[Array], tuple[bool, ...]]
 
@@ -38,8 +38,8 @@ class Threshold:
 
     Attributes
     ----------
-    open : largest load below the threshold with an open path; None if there is none at any load.
-    sealed : smallest load without one; None if there is an open path up to the largest load.
+    open : largest load below the threshold with an open path; None if there is no open path at any load.
+    sealed : smallest load without an open path; None if there is an open path up to the largest load.
     """
 
     open: Side | None
@@ -52,12 +52,12 @@ class Threshold:
 
     @property
     def load(self) -> float:
-        """The load in the middle of the bracket, Pa; 0 if sealed at any load, inf if at none."""
+        """The geometric mean of the loads of the bracket, Pa; 0 if sealed at every load, inf if sealed at none."""
         return self._between("load")
 
     @property
     def area_fraction(self) -> float:
-        """The contact area in the middle of the bracket; 0 if sealed at any load, and 1 if at none."""
+        """The geometric mean of the area fractions of the bracket; 0 if sealed at every load, 1 if sealed at none."""
         return min(self._between("area_fraction"), 1.0)
 
     def _between(self, name: str) -> float:
@@ -92,8 +92,15 @@ def thresholds(
     at : at(load, start), the contact at a load from the solution at another, as ``Press.at`` returns it.
     begin : first load, Pa; loads increase from it until the gap is sealed in all cases, and decrease until it is open.
     most : largest load, Pa.
-    look : look(gap), whether the gap is sealed in each case; each has its threshold.
-    precision : relative width of the bracket of the load.
+    look : look(gap), whether the gap is sealed in each case, such as a direction of flow; the default is
+        `ends_and_cell`.
+    precision : relative width of the bracket of the load, between 0 and 1.
+    progress : called with the done fraction and a few words.
+
+    Returns
+    -------
+    tuple of Threshold
+        One threshold for each case of ``look``.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""The parts of a gap that are connected to either end, and the narrowest place of the widest path."""
+"""The parts of a gap that are connected to its inlet and outlet, and the narrowest place of the widest path."""
 
 from dataclasses import dataclass
 from enum import IntEnum
@@ -12,7 +12,7 @@ from roughfilm.rom.homogenization.paths import FACE_NEIGHBOURS, sealed_between_e
 
 
 class Pool(IntEnum):
-    """The connection of a node of a gap between two reservoirs."""
+    """The connection of a node of a gap to the two reservoirs."""
 
     CONTACT = 0
     ISOLATED = 1
@@ -22,7 +22,10 @@ class Pool(IntEnum):
 
 
 def pools(gap: Array) -> NDArray[np.int8]:
-    """The :class:`Pool` of the nodes of a gap, shape (nx, ny): inlet at line 0, outlet at its copy, periodic sides."""
+    """The :class:`Pool` of each node, shape (nx, ny), of a gap h >= 0 of that shape with periodic sides.
+
+    The inlet is at the line i = 0 and the outlet at its copy i = nx.
+    """
     opened = np.concatenate([gap, gap[:1]]) > 0
     labels, count = scipy.ndimage.label(opened, structure=FACE_NEIGHBOURS)
     both = opened[:, 0] & opened[:, -1]
@@ -37,7 +40,7 @@ def pools(gap: Array) -> NDArray[np.int8]:
 
 @dataclass(frozen=True, kw_only=True)
 class Constriction:
-    """The narrowest place of the widest path: its gap, m, and its node."""
+    """The narrowest place of the widest path, with its gap, m, and its node (i, j)."""
 
     gap: float
     node: tuple[int, int]
@@ -46,7 +49,7 @@ class Constriction:
 def constriction(gap: Array) -> Constriction | None:
     """The narrowest place of the widest path between the ends of a gap, shape (nx, ny), periodic sides; None if sealed.
 
-    All leakage passes places that are at most as wide; near sealing it passes this place.
+    Every path through the gap has a place that is at most as wide. Near sealing all leakage passes this place.
     """
     if sealed_between_ends(gap, joined=True):
         return None

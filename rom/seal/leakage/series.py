@@ -1,4 +1,4 @@
-"""Leakage over a series of loads, and sealing loads, in HDF5 files with a digest of their inputs."""
+"""HDF5 files of leakage over the load and of sealing loads, with a digest of their inputs."""
 
 import json
 import math
@@ -19,7 +19,7 @@ MARK = b"roughfilm leakage, HDF5 behind 512 bytes, sha256 "
 REMEDY = "remove it or choose another place"
 
 SOUGHT = ("direct_x", "direct_y", "homogenized_x", "homogenized_y")
-"""Names of the flows: between ends and through a periodic gap, in either direction."""
+"""Names of the flows: direct between the ends of the gap, and homogenized, each in x and in y."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,7 +34,7 @@ class Row:
     valley_depth : Svm of the surface under load, m; NaN if it is flat.
     direct_x, direct_y, homogenized_x, homogenized_y : permeability, m³; exactly 0 if sealed.
     direct_x_uncertainty ... : uncertainty of the permeability, m³.
-    direct_x_sealed ... : 1 if no open path leads through, else 0.
+    direct_x_sealed ... : 1 if there is no open path through the gap, else 0.
     cpu_s : CPU time of the flow, s.
     """
 
@@ -68,14 +68,16 @@ UNITS = {"load": "Pa", "mean_gap": "m", "valley_depth": "m", "cpu_s": "s"} | {
 
 @dataclass(frozen=True, kw_only=True)
 class LeakageSeries:
-    """The rows of a file by load, and the thresholds by the names of ``SOUGHT``, empty before they are computed."""
+    """The rows of a file by load, Pa, and the thresholds by the names in ``SOUGHT``; empty if not yet computed."""
 
     rows: Mapping[float, Row]
     thresholds: Mapping[str, Threshold]
 
 
 def save_series(path: Path, inputs: Inputs, series: LeakageSeries) -> None:
-    """Write a series: ``series/`` has one column per number, by increasing load; ``thresholds/`` has the brackets.
+    """Write a series to an HDF5 file.
+
+    The group ``series`` has a column for each number, by increasing load; ``thresholds`` has the brackets.
 
     Raises
     ------
@@ -101,7 +103,7 @@ def save_series(path: Path, inputs: Inputs, series: LeakageSeries) -> None:
 
 
 def stored_series(path: Path, inputs: Inputs) -> LeakageSeries:
-    """The series in a file for these inputs; an empty one if the file does not exist or is empty.
+    """The series in a file for these inputs; it is empty if the file does not exist or is empty.
 
     Raises
     ------
@@ -124,7 +126,7 @@ def stored_series(path: Path, inputs: Inputs) -> LeakageSeries:
 
 
 def load_series(path: Path) -> LeakageSeries:
-    """The series in a file of any inputs; InputError if the file cannot be read or is not a series."""
+    """The series in a file, whatever its inputs; InputError if the file cannot be read or is not a series."""
     try:
         if not has_mark(path, MARK):
             raise InputError(f"{path}: is no series of leakage; name a leakage.h5 of roughfilm leakage")
