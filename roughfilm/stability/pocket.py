@@ -106,7 +106,7 @@ def spot_of(setting: Setting, reynolds_number: float, depth_plus: float, answer:
 
 
 def summary(spots: Sequence[Spot]) -> list[str]:
-    """Sentences about the map: where each model converges and where not, and how much the loads of its schemes differ."""
+    """Sentences about the map: where each model converges or fails, and how much the loads of its schemes differ."""
     groups = in_groups(spots)
     return [line for name in groups for line in _sentences(name, groups)]
 
