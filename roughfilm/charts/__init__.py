@@ -1,1 +1,1 @@
-"""Charts of speed against accuracy, with the programs of others."""
+"""Charts of speed against accuracy, with solvers of other projects."""

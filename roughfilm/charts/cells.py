@@ -1,4 +1,4 @@
-"""The flow factor of a gap whose factor is known exactly, by every method of this project and by reynoldsflow."""
+"""The chart of the flow factor of a gap with an exact solution, by every method of this project and by reynoldsflow."""
 
 import time
 from collections.abc import Callable
@@ -22,23 +22,25 @@ NODES = (32, 64, 128, 256, 512, 1024)
 """Numbers of nodes along a side of the period."""
 
 MEAN_NODES = 256
-"""Nodes along a side for means of the smooth periodic h that are exact to round-off."""
+"""Number of nodes along a side for which means of the smooth periodic h are exact to round-off."""
 
 WAVES = 12
 """Number of periods of the shortest wave of ln h along an axis."""
 
 HURST = 0.8
+"""Hurst exponent of ln h."""
 
 ROUGHNESS = 0.5
 """Rms of ln h."""
 
 SEED = 20071
+"""Seed of the random ln h."""
 
 SOLVER_ERROR_FRACTION = 0.01
-"""Allowed error of an iterative solver over the discretisation error of its grid."""
+"""Allowed error of an iterative solver, divided by the discretisation error of its grid."""
 
 SQUARE = (1.0, 1.0)
-"""Spacing of the nodes; only its ratio counts."""
+"""Spacing of the nodes in x and y, of which only the ratio matters."""
 
 STYLES = {
     "nearly_smooth": Style(colour="#7f7f7f", marker="s"),
@@ -49,10 +51,10 @@ STYLES = {
 
 
 def rough_gap(nodes: int) -> Array:
-    """The gap of a random self-affine ln h, m, shape (nodes, nodes), with A = exp <ln h³> exactly.
+    """The gap h of a random self-affine ln h, shape (nodes, nodes), for which A = exp <ln h³> is exact.
 
-    ln h = Σ a (cos(mX + nY) + cos(mY - nX)) over odd m + n is unchanged by a rotation of 90°, and is −ln h if
-    shifted by half a period along both axes: the condition of :func:`roughfilm.rom.homogenization.exact.self_dual`.
+    ln h = Σ a (cos(mX + nY) + cos(mY - nX)) over odd m + n is unchanged by a rotation of 90°, and becomes −ln h
+    after a shift by half a period along both axes, as :func:`roughfilm.rom.homogenization.exact.self_dual` requires.
     """
     random = np.random.default_rng(SEED)
     both = np.arange(-WAVES, WAVES + 1)
@@ -67,7 +69,7 @@ def rough_gap(nodes: int) -> Array:
 
 
 def truth() -> ReferenceValue:
-    """The exact φ = A/<h>³."""
+    """The exact flow factor φ = A/<h>³ with its uncertainty and source."""
     h = rough_gap(MEAN_NODES)
     return ReferenceValue(
         value=self_dual(h) / float(h.mean()) ** 3,
@@ -86,7 +88,7 @@ METHODS: dict[str, tuple[Callable[[Array], float], float]] = {
 
 
 def by(method: Callable[[Array], float], nodes: int) -> Measured:
-    """φ₁₁ by one method of this project."""
+    """The flow factor φ₁₁ by one method of this project on ``nodes`` nodes along a side, and its CPU time."""
     h = rough_gap(nodes)
     started = time.process_time()
     pressure = float(method(h))
@@ -94,7 +96,17 @@ def by(method: Callable[[Array], float], nodes: int) -> Measured:
 
 
 def by_reynoldsflow(nodes: int) -> Measured:
-    """φ₁₁ by reynoldsflow at the loosest tolerance that its grid allows."""
+    """The flow factor φ₁₁ by reynoldsflow, and its CPU time, at the loosest sufficient tolerance.
+
+    The tolerance is sufficient if the error of the solver is at most ``SOLVER_ERROR_FRACTION`` of that of the grid.
+
+    Raises
+    ------
+    UnavailableError
+        If reynoldsflow is not available.
+    ConvergenceError
+        If the program fails.
+    """
     h = rough_gap(nodes)
     h /= h.mean()
     right = np.diag(solve_cell(h, SQUARE, rule=FaceRule.HARMONIC, tolerance=1e-11).factors.pressure)
@@ -117,7 +129,7 @@ def by_reynoldsflow(nodes: int) -> Measured:
 
 
 def flow_factors_family() -> ChartFamily:
-    """The family of φ₁₁ of the gap."""
+    """The chart family of the flow factor φ₁₁ of the rough gap."""
     asks = [
         Ask(
             solver=name,

@@ -1,4 +1,4 @@
-"""The families of the charts: scene, quantity, reference and peers of each."""
+"""The chart families, each with its scene, quantity, reference and peers."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeVar
@@ -21,13 +21,17 @@ from roughfilm.rom.seal.scene import Seal
 SomeScene = TypeVar("SomeScene", bound=Scene)
 
 SEED = 20071
+"""Seed of the rough surfaces."""
 
 OIL = {"viscosity": "0.01 Pa*s", "density": "1000 kg/m^3"}
 STEEL = {"modulus": "210 GPa", "poisson": 0.3}
 
 
 def self_affine(size: str, points: int, roll_off: str, cut_off: str, **height: Any) -> dict[str, Any]:
-    """The description of an isotropic rough surface; its shape does not depend on the number of points."""
+    """The scene entries of an isotropic rough surface whose shape does not depend on the number of points.
+
+    ``height`` is its rms height or its rms slope.
+    """
     return {
         "kind": "self_affine",
         "size": [size, size],
@@ -41,7 +45,7 @@ def self_affine(size: str, points: int, roll_off: str, cut_off: str, **height: A
 
 
 def pocket(models: Sequence[Model]) -> ChartFamily:
-    """The groove of Sahlin et al. 2005 at Re = 160."""
+    """The chart family of the groove of Sahlin et al. 2005, doi:10.1115/1.1828067, at Re = 160."""
     scene = _read(
         Pocket,
         kind="pocket",
@@ -69,7 +73,7 @@ def pocket(models: Sequence[Model]) -> ChartFamily:
 
 
 def slider(models: Sequence[Model]) -> ChartFamily:
-    """The parabolic slider of Vijayaraghavan and Keith 1989."""
+    """The chart family of the parabolic slider of Vijayaraghavan and Keith 1989."""
     scene = _read(
         Bearing,
         kind="bearing",
@@ -105,7 +109,7 @@ def slider(models: Sequence[Model]) -> ChartFamily:
 
 
 def rough_gap(models: Sequence[Model]) -> ChartFamily:
-    """Creeping flow across steep ridges."""
+    """The chart family of creeping flow across steep ridges."""
     amplitude, wavelength = 0.3, 5.0
     scene = _read(
         RoughGap,
@@ -138,7 +142,7 @@ def rough_gap(models: Sequence[Model]) -> ChartFamily:
 
 
 def dry_contact(models: Sequence[Model]) -> ChartFamily:
-    """A rough elastic half-space with a tenth of its area in contact."""
+    """The chart family of a rough elastic half-space with a tenth of its area in contact."""
 
     def scene(points: int) -> DryContact:
         return _read(
@@ -173,7 +177,7 @@ def dry_contact(models: Sequence[Model]) -> ChartFamily:
 
 
 def mixed_bearing(models: Sequence[Model]) -> ChartFamily:
-    """A rough pad in mixed lubrication."""
+    """The chart family of a rough pad in mixed lubrication."""
     scene = _read(
         Bearing,
         kind="bearing",
@@ -207,7 +211,7 @@ def mixed_bearing(models: Sequence[Model]) -> ChartFamily:
 
 
 def seal(models: Sequence[Model]) -> ChartFamily:
-    """An elastomer seal on steel."""
+    """The chart family of an elastomer seal on steel."""
 
     def scene(points: int) -> Seal:
         return _read(
@@ -255,4 +259,4 @@ FAMILIES: Mapping[str, Callable[[Sequence[Model]], ChartFamily]] = {
     "mixed bearing": mixed_bearing,
     "seal": seal,
 }
-"""The families by name, in the order of the page."""
+"""Functions that make the families, by name, in the order of the page."""

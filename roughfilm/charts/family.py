@@ -12,15 +12,15 @@ from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.studies.convergence import converge
 
 MAX_RUNS = 7
-"""Largest number of runs of a point, of which the fastest counts."""
+"""Largest number of runs of a point; the fastest run counts."""
 
 MAX_RUNS_S = 2.0
-"""CPU seconds that the runs of a point may take together, but for the first two of a model that compiles."""
+"""Largest CPU time of all runs of a point together, s; a model that compiles has at least two runs."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Measured:
-    """One answer: the value of the quantity, its CPU seconds with those of children, and details by name."""
+    """One answer: the value of the quantity, the CPU time with that of child processes (s), and details by name."""
 
     value: float
     cpu_s: float
@@ -29,7 +29,7 @@ class Measured:
 
 @dataclass(frozen=True, kw_only=True)
 class ReferenceValue:
-    """The value that errors refer to, its relative ``uncertainty``, and its source in words."""
+    """The value that errors refer to, its relative ``uncertainty``, its source in words, and its CPU time, s."""
 
     value: float
     uncertainty: float
@@ -39,9 +39,14 @@ class ReferenceValue:
 
 @dataclass(frozen=True, kw_only=True)
 class Ask:
-    """One point of a chart: the solver, its resolution, and the expected CPU seconds of all its runs.
+    """One point of a chart, to be measured.
 
-    ``measure`` raises InputError, ConvergenceError or UnavailableError where there is no answer.
+    Attributes
+    ----------
+    solver : name of the solver.
+    resolution : resolution of the point.
+    cost : expected CPU time of all runs of the point, s.
+    measure : function that returns the answer; raises InputError, ConvergenceError or UnavailableError.
     """
 
     solver: str
@@ -61,10 +66,11 @@ class Peer:
 
     Attributes
     ----------
-    settings : its options, in words.
-    costs : expected CPU seconds of a point by resolution.
-    measure : measure(resolution), as that of :class:`Ask`.
-    absent : why it is not available here, with the remedy; None where it is.
+    name : name of the solver.
+    settings : options of the solver, in words.
+    costs : expected CPU time of a point by resolution, s.
+    measure : measure(resolution) returns the answer, and raises what that of :class:`Ask` raises.
+    absent : function that returns why the solver is not available, with the remedy; None if it is available.
     """
 
     name: str
@@ -83,16 +89,17 @@ class Peer:
 
 @dataclass(frozen=True, kw_only=True)
 class ChartFamily:
-    """One problem, solved by every model that applies and by peers.
+    """One problem that every applicable model and solvers of other projects (peers) solve.
 
     Attributes
     ----------
     name, work : name of the problem, and a sentence about it.
-    quantity, unit : the quantity whose error is charted.
-    resolution_meaning : what the resolutions count.
-    truth : computes the reference, in ``truth_cost`` CPU seconds.
-    own : the points of this project.
-    left_out : models that do not solve the problem, with the reason.
+    quantity, unit : name and unit of the quantity whose error is charted.
+    resolution_meaning : meaning of the resolutions, in words.
+    truth : function that computes the reference.
+    truth_cost : expected CPU time of the reference, s.
+    own : points of this project.
+    left_out : reason by name for models that do not solve the problem.
     peers : solvers of other projects.
     styles : line styles of this project's models.
     """
@@ -125,7 +132,11 @@ class ChartFamily:
 
 
 def fastest(measure: Callable[[], Measured], *, compiles: bool = True) -> Measured:
-    """The fastest of a few runs; of at least two if the first one compiles."""
+    """The answer of the fastest of several runs.
+
+    There are at most ``MAX_RUNS`` runs, and no further ones after ``MAX_RUNS_S`` seconds, but at least two if the first
+    one ``compiles``.
+    """
     runs = [measure()]
     least = 2 if compiles else 1
     while len(runs) < least or (len(runs) < MAX_RUNS and (len(runs) + 1) * min(run.cpu_s for run in runs) < MAX_RUNS_S):
@@ -134,7 +145,7 @@ def fastest(measure: Callable[[], Measured], *, compiles: bool = True) -> Measur
 
 
 def solved(model: Model, scene: Scene, resolution: int, quantity: str) -> Measured:
-    """The answer of a model; raises what its ``solve`` raises."""
+    """The answer of a model to a scene: the ``quantity`` of its result; raises what ``solve`` raises."""
     result = model.solve(scene, Request(resolution=resolution))
     return Measured(
         value=result[quantity].value,
@@ -148,9 +159,13 @@ def solved(model: Model, scene: Scene, resolution: int, quantity: str) -> Measur
 
 
 def extrapolated(measure: Callable[[int], Measured], resolutions: Sequence[int], words: str) -> ReferenceValue:
-    """The limit of finer grids by :func:`roughfilm.rom.studies.convergence.converge`, at second order at most.
+    """The limit of fine grids by :func:`roughfilm.rom.studies.convergence.converge`, with an order of at most 2.
 
-    ``measure`` solves at a resolution, and its details have the ``residual``; ``words`` name the solver.
+    Parameters
+    ----------
+    measure : measure(resolution) solves the problem; the details of its answer hold the ``residual``.
+    resolutions : resolutions of the grids, coarse to fine.
+    words : name of the solver for the source.
     """
     runs = [measure(resolution) for resolution in resolutions]
     values, residual = [run.value for run in runs], runs[-1].details["residual"]
@@ -178,9 +193,9 @@ def of_scene(
     resolution_meaning: str,
     peers: Sequence[Peer] = (),
 ) -> ChartFamily:
-    """The family of one scene: every model of its kind that applies and is available, at all of its resolutions.
+    """The chart family of one scene: every model of its kind that applies and is available, at all its resolutions.
 
-    ``key`` is the name of the quantity in a result.
+    ``key`` is the name of the quantity in a result; the other arguments are those of :class:`ChartFamily`.
     """
     asks, left_out = [], {}
     for model in of_kind(models, scene.kind):

@@ -1,4 +1,4 @@
-"""Figures of CPU time against error: one for each family, and one of all."""
+"""Figures of error against CPU time: one for each family, and one of all families."""
 
 import math
 import textwrap
@@ -15,10 +15,10 @@ from roughfilm.figures.view import Style
 from roughfilm.rom.studies.comparison import Point
 
 MIN_LABEL_DISTANCE = 0.12
-"""Least distance of two points whose resolutions are both written, decades."""
+"""Least distance of two labelled points, decades."""
 
 LABEL_OFFSETS = ((5, 4), (5, -10), (-14, 4), (-14, -10))
-"""Positions of the resolutions beside their points, for one solver after another, pt."""
+"""Offsets of the labels from their points, pt; the solvers take them in turn."""
 
 MIN_DRAWN_ERROR = 1e-8
 """Smallest relative error that is drawn."""
@@ -28,11 +28,11 @@ PEERS = (
     Style(colour="#8c6bb1", marker="X"),
     Style(colour="#1b7837", marker="P"),
 )
-"""Styles of the solvers of other projects, in their order."""
+"""Styles of the peers, in their order."""
 
 
 def chart_figure(chart: Chart) -> str:
-    """The figure of one family, with a legend beside it, as SVG text."""
+    """The figure of one chart, with a legend beside it, as SVG text."""
     figure = Figure(figsize=(10, 5), layout="constrained")
     axes = figure.subplots()
     _draw(axes, chart, size=7, numbers=True)
@@ -45,7 +45,7 @@ def chart_figure(chart: Chart) -> str:
 
 
 def overview(charts: Sequence[Chart], path: Path) -> None:
-    """Small multiples of all families as a PNG file; InputError if it cannot be written."""
+    """Draw small figures of all charts into one PNG file; InputError if it cannot be written."""
     columns = min(len(charts), 3)
     rows = -(-len(charts) // columns)
     figure = Figure(figsize=(4.6 * columns, 4.4 * rows), layout="constrained")

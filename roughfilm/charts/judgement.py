@@ -10,26 +10,27 @@ from roughfilm.rom.studies.comparison import Point, pareto_front
 from roughfilm.rom.studies.table import Column
 
 UNITS = {"cpu_s": "s", "error": "1", "error_that_counts": "1", "truth_uncertainty": "1"}
-"""Units of the columns of numbers; the column unit has that of the values."""
+"""Units of the columns of numbers; the unit of the values is in the column ``unit``."""
 
 MAX_ERROR_RATIO = 0.95
-"""Largest error of a point on the front over that of the cheaper point before it."""
+"""Largest error of a point on the front, divided by the error of the cheaper point before it."""
 
 WITHIN = (0.1, 0.01, 0.001)
-"""Relative errors for which the cheapest point is named."""
+"""Relative tolerances for which the cheapest point is named."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Chart:
-    """One family with all its points.
+    """One family with all its points, their errors, and the Pareto front.
 
     Attributes
     ----------
-    points : in the order of the family, with their errors.
-    counted : the same with the errors of :func:`counting`.
-    front : the counted points that no other beats in both CPU time and error.
-    cheapest : the cheapest counted point by tolerance, None where no point is within it.
-    absent : peers that are not available, with the reason.
+    family, answers : family and its measured answers.
+    points : points with their errors, in the order of the family.
+    counted : the same points with the errors of :func:`counting`.
+    front : Pareto front of the counted points: no other point has both a smaller CPU time and a smaller error.
+    cheapest : cheapest counted point by tolerance, None if no point is within the tolerance.
+    absent : reason by name for peers that are not available.
     """
 
     family: ChartFamily
@@ -85,9 +86,10 @@ def judged(family: ChartFamily, answers: Answers, absent: Mapping[str, str]) -> 
 
 
 def counting(points: Sequence[Point], quantity: str, uncertainty: float) -> tuple[Point, ...]:
-    """The points with the larger of their own error, that of the next finer grid, and the reference's ``uncertainty``.
+    """The points with errors that do not benefit from a coincidence.
 
-    A coarse grid whose errors happen to cancel gains nothing by this.
+    The error is the largest of the point's own error, that of the next finer grid, and the relative ``uncertainty`` of
+    the reference. A coarse grid whose errors happen to cancel thus has no advantage.
     """
     counted = []
     for point in points:
@@ -99,7 +101,7 @@ def counting(points: Sequence[Point], quantity: str, uncertainty: float) -> tupl
 
 
 def _worthwhile(front: Sequence[Point], quantity: str) -> tuple[Point, ...]:
-    """The front without points whose error is hardly smaller than that of the cheaper point before them."""
+    """The front without points whose error is above ``MAX_ERROR_RATIO`` times that of the cheaper point before them."""
     chosen: list[Point] = []
     for point in front:
         if not chosen or point.error[quantity] <= MAX_ERROR_RATIO * chosen[-1].error[quantity]:
@@ -113,7 +115,7 @@ def _cheapest(counted: Sequence[Point], quantity: str, part: float) -> Point | N
 
 
 def entries_of(chart: Chart) -> dict[str, Any]:
-    """The chart of a family as JSON holds it."""
+    """The entries of a chart for JSON."""
     family, answers = chart.family, chart.answers
     front = {(point.model, point.resolution) for point in chart.front}
 
@@ -151,7 +153,7 @@ def entries_of(chart: Chart) -> dict[str, Any]:
 
 
 def columns_of(charts: Sequence[Chart]) -> dict[str, Column]:
-    """All families as one table with a row for each point."""
+    """The columns of a table of all charts with a row for each point."""
     rows = []
     for chart in charts:
         entries = entries_of(chart)

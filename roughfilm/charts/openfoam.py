@@ -1,4 +1,4 @@
-"""simpleFoam with the schemes, solvers, relaxation and stopping criteria of its tutorial ``pitzDaily``."""
+"""Runs of simpleFoam with the schemes, solvers, relaxation and stopping criteria of its tutorial ``pitzDaily``."""
 
 import json
 import re
@@ -73,18 +73,26 @@ _CONVERGED = re.compile(r"SIMPLE solution converged in (\d+) iterations")
 
 
 def absent() -> str | None:
-    """Why OpenFOAM is not available here; None where it is."""
+    """The reason why OpenFOAM is not available on this machine; None if it is available."""
     here = availability()
     return None if here.available else here.detail
 
 
 def run(directory: Path) -> tuple[Ended, int]:
-    """Run simpleFoam with the tutorial's settings in a case directory, and return its end and the iterations.
+    """Run simpleFoam with the tutorial's settings in a case directory.
 
-    Raises ConvergenceError if it stops in error, or misses the tolerances of the tutorial.
+    Returns
+    -------
+    Ended, int
+        The ended program, and the number of iterations.
+
+    Raises
+    ------
+    ConvergenceError
+        If simpleFoam stops in error, or does not reach the tolerances of the tutorial.
     """
     for name in SETTINGS:
-        (directory / name).unlink()  # or its entries would stay
+        (directory / name).unlink()  # entries of the existing file would remain otherwise
     write_files(directory, SETTINGS)
     ended = succeed(directory, ["simpleFoam"], "log.simpleFoam")
     converged = _CONVERGED.search(ended.log)
@@ -95,7 +103,7 @@ def run(directory: Path) -> tuple[Ended, int]:
 
 
 def uniform(scene: Pocket, columns: int, layers: int) -> Array:
-    """The vertices of uniform columns in film thicknesses, shape (columns + 1, layers + 1, 2, 3)."""
+    """The vertices of a mesh with uniform columns, over the film thickness, shape (columns + 1, layers + 1, 2, 3)."""
     gap = scene.gap()
     x = np.linspace(gap.breaks[0], gap.breaks[-1], columns + 1)
     h = gap.thickness(x) / gap.film
@@ -107,7 +115,7 @@ def uniform(scene: Pocket, columns: int, layers: int) -> Array:
 
 
 def pocket_load(scene: Pocket, resolution: int) -> Measured:
-    """The load of a pocket on uniform columns with as many layers as this project's own mesh has."""
+    """The load+ of a pocket on uniform columns, with as many layers as this project's own mesh; raises as ``run``."""
     started = time.thread_time()
     with TemporaryDirectory(prefix="roughfilm-") as place:
         directory = Path(place) / "case"
@@ -135,7 +143,7 @@ def pocket_load(scene: Pocket, resolution: int) -> Measured:
 
 
 def on_pocket(scene: Pocket, costs: Mapping[int, float]) -> Peer:
-    """The peer that solves a pocket with the tutorial's settings."""
+    """The peer that solves a pocket with the tutorial's settings; ``costs`` are CPU seconds by mesh columns."""
     settings = (
         f"uniform columns, as blockMesh makes them; schemes, linear solvers, relaxation (0.9, SIMPLEC) and stopping "
         f"(residuals 1e-2 of p, 1e-3 of U) of the tutorial {TUTORIAL}"

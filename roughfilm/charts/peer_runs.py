@@ -23,26 +23,28 @@ from roughfilm.rom.parts.restriction import restricted
 
 PROGRAMS = Path(__file__).parent / "peers"
 
+"""Directory of the programs that run the peers."""
+
 VIOLATION = 1e-8
-"""Allowed violation of the conditions of contact over the rms height, the tolerance of this project's own solver."""
+"""Allowed violation of the conditions of contact over the rms height; equal to the tolerance of this project."""
 
 TOLERANCES = {
     "run_aspher": (1e-9, 3e-10, 1e-10, 3e-11, 1e-11, 1e-12),
     "run_tamaas": (1e-8, 3e-9, 1e-9, 1e-10, 1e-11, 1e-12),
     "run_contact_mechanics": (1e-8, 5e-9, 2e-9, 1e-9, 1e-10),
 }
-"""Tolerances of each contact solver, the loosest first; the first that meets ``VIOLATION`` is timed."""
+"""Tolerances of each contact solver, the loosest first; the first one that satisfies ``VIOLATION`` is timed."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Environment:
-    """A Python environment of peers: the variable that names its directory, and the program that makes it."""
+    """A Python environment of peers: the environment variable with its directory, and the program that makes it."""
 
     variable: str
     setup: str
 
     def absent(self) -> str | None:
-        """Why the environment cannot be used, with the remedy; None where it can."""
+        """The reason why the environment cannot be used, with the remedy; None if it can be used."""
         directory = os.environ.get(self.variable)
         make = f"roughfilm/charts/peers/{self.setup} DIR makes it, {self.variable}=DIR names it"
         if directory is None:
@@ -52,14 +54,14 @@ class Environment:
         return None
 
     def run(self, program: str, *arguments: str | Path, problem: Mapping[str, Any]) -> dict[str, Any]:
-        """Run PROGRAM ARGUMENTS... PROBLEM.json RESULT.json in one thread and read the result.
+        """Run PROGRAM ARGUMENTS... PROBLEM.json RESULT.json in one thread, and return the entries of RESULT.json.
 
         Raises
         ------
         UnavailableError
-            If the environment is not here.
+            If the environment is absent.
         ConvergenceError
-            If the program stops in error, or says that it failed.
+            If the program stops in error or reports a failure.
         """
         if (why := self.absent()) is not None:
             raise UnavailableError(why)
@@ -89,13 +91,13 @@ CELLS = Environment(variable="ROUGHFILM_CELL_PEERS", setup="setup_homogenization
 
 
 def one_thread() -> dict[str, str]:
-    """Environment variables that limit every numerical library to one thread."""
+    """The environment variables that limit every numerical library to one thread, by name."""
     names = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
     return dict.fromkeys(names, "1") | {"XLA_FLAGS": "--xla_cpu_multi_thread_eigen=false"}
 
 
 def contact_peers(scene: DryContact, costs: Mapping[str, Mapping[int, float]]) -> tuple[Peer, ...]:
-    """The peers that press the heights of an elastic contact; ``costs`` by solver."""
+    """The peers that solve an elastic contact; ``costs`` are CPU seconds by solver and points along a side."""
     names = {"run_aspher": "ASPHER", "run_tamaas": "Tamaas", "run_contact_mechanics": "ContactMechanics"}
     settings = (
         f"one thread, the loosest of its tolerances that breaks the conditions of contact by {VIOLATION:g} of the rms "
@@ -141,7 +143,10 @@ def _mean_gap(scene: DryContact, solver: str, resolution: int) -> Measured:
 
 
 def gapflow(scene: Bearing, costs: Mapping[int, float]) -> Peer:
-    """GaPFlow on a flooded parabolic slider in a liquid of constant bulk modulus."""
+    """The peer GaPFlow, which solves a flooded parabolic slider in a liquid of constant bulk modulus.
+
+    ``costs`` are CPU seconds by the number of cells.
+    """
     settings = (
         "explicit steps until the load stays to 1e-4, its equation of state replaced by the slider's (it has no such "
         "liquid), 3400 kg/m³ for fewer and longer steps to the same steady state"

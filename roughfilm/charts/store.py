@@ -1,4 +1,4 @@
-"""The measured answers of the charts, one file a family: each is written as it comes, and used again."""
+"""The measured answers of the charts: each is written to the file of its family at once, and is used again later."""
 
 import hashlib
 import json
@@ -17,16 +17,22 @@ from roughfilm.foamcases.openfoam.installation import availability
 from roughfilm.rom.ladder.provenance import code, commit, machine, versions
 
 MEASURING = ("cells.py", "families.py", "family.py", "openfoam.py", "peer_runs.py")
-"""The files of this folder that decide on the numbers."""
+"""The files of this folder on which the answers depend."""
 
 TRUTH = "truth"
+"""Name of the reference among the stored answers."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Answers:
-    """The reference and the answers of one family by name, and why the other points failed.
+    """The reference and the measured answers of one family.
 
-    ``taken`` has the time and the load of the machine of each answer.
+    Attributes
+    ----------
+    truth : reference.
+    points : answers by the name of the point.
+    failed : messages by the name of the point without an answer.
+    taken : time, load of the machine and commit of each answer by name.
     """
 
     truth: ReferenceValue
@@ -37,7 +43,7 @@ class Answers:
 
 @cache
 def identity() -> dict[str, Any]:
-    """What the answers of one chart have in common: code, versions, machine."""
+    """The code, versions and machine, on which stored answers depend."""
     here = Path(__file__).parent
     digest = hashlib.sha256()
     for path in [*(here / name for name in MEASURING), *sorted((here / "peers").glob("*.py"))]:
@@ -53,9 +59,15 @@ def identity() -> dict[str, Any]:
 
 
 def answers(family: ChartFamily, path: Path, step: Callable[[float, str], None]) -> Answers:
-    """All answers of a family, from its file where that has the same code, versions and machine.
+    """All answers of a family; stored answers of the same code, versions and machine are used again.
 
-    ``step(done, words)`` is called with the expected CPU seconds done. A failed point is measured again next time.
+    A failed point is measured again at the next call.
+
+    Parameters
+    ----------
+    family : family to measure.
+    path : file of its answers.
+    step : step(done, words) reports the expected CPU seconds of the finished points, and the next point.
 
     Raises
     ------

@@ -40,20 +40,21 @@ NODES = (100, 1000, 10_000, 100_000)
 """Numbers of nodes of the slider."""
 
 MAX_NODE_STEPS = 30_000_000
-"""Largest number of iterations times nodes of the switch algorithm, which also takes at most 3000 iterations."""
+"""Largest product of iterations and nodes of the switch algorithm, whose iterations are also limited to 3000."""
 
 DEFAULT = "default"
+"""Name of the default method."""
 
 METHODS = {
     "switch": "the switch algorithm of the thesis, from a full film without pressure",
     "fbns": "Fischer–Burmeister–Newton–Schur, from a full film without pressure",
     DEFAULT: "the default: Newton's method on an active set, from coarse grids to fine",
 }
-"""The methods in words."""
+"""The methods by name, in words."""
 
 
 def methods(most: int) -> Iterator[Probe]:
-    """The parabolic slider by all three methods, on 100 to ``most`` nodes, judged by its exact load."""
+    """The probes of the parabolic slider by all three methods, on 100 to ``most`` nodes, judged by its exact load."""
     from roughfilm.rom.cavitation.exact import exact  # numba is slow to import
 
     loads = {(theta, beta): exact(slider(theta, liquid(beta))).load for theta in THETAS for beta in MODULI}
@@ -106,7 +107,7 @@ def _default(theta: float, beta: float, nodes: int) -> tuple[int, float]:
 
 
 def summary(spots: Sequence[Spot]) -> list[str]:
-    """Sentences about the map: how each method does, and the other probes of the default solver."""
+    """Sentences about the map: the results of each method, and of the other probes of the default solver."""
     lines = []
     for method, words in METHODS.items():
         own = [spot for spot in spots if spot.group == method]

@@ -25,26 +25,26 @@ from roughfilm.stability.form import (
 from roughfilm.stability.questions.cell import CellGap, gaps
 
 DEFAULT = "default"
-"""The flow factors that users get: all solvers in their order, on nested grids."""
+"""Name of the column of the flow factors that users get: all solvers in their order, on nested grids."""
 
 REFERENCES = (("elimination", 1e-8), ("multigrid_double", 1e-12))
-"""The solvers that give the reference where no formula does, each with its tolerance; the second where the first fails.
+"""Solvers that give the reference where no formula does, with their tolerances; the second is used if the first fails.
 """
 
 TOLERANCE = 1e-8
-"""Tolerance in A of a single solver."""
+"""Relative tolerance of a single solver in A."""
 
 ALLOWED_ERROR = 1e-6
 """Allowed relative error of A, and of B over the mean gap."""
 
 UNCERTAINTY_FRACTION = 0.1
-"""Fraction of the default's uncertainty that the error of its linear systems may take up."""
+"""Largest error of the default's linear systems over its uncertainty."""
 
 ROUND_OFF = 1e-9
-"""Error below which the solver's estimate of the remaining gain is not compared with it."""
+"""Smallest error that is compared with the solver's own estimate, the remaining gain."""
 
 CLOSED_FRACTION = 1e-13
-"""Allowed error of A over the largest h³, as conductances below 1e-14 of it are closed."""
+"""Allowed error of A over the largest h³, because conductances below 1e-14 of the largest h³ are closed."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,9 +54,10 @@ class CellAnswer:
     Attributes
     ----------
     pressure : A, m³, shape (2, 2).
-    shear : B over the mean gap.
+    shear : B over the mean gap, shape (2,).
     unsolved : estimate of the remaining gain in A over A, the larger of both directions.
     uncertainty : uncertainty of A over √(A_ii A_jj), shape (2, 2); 0 for a single solver.
+    iterations : number of iterations of all problems.
     closed : error of A that closed conductances may cause, m³.
     """
 
@@ -70,7 +71,14 @@ class CellAnswer:
 
 @dataclass(frozen=True, kw_only=True)
 class Reference:
-    """A (m³, shape (2, 2)) and B over the mean gap (None from a formula) that are taken for right, and their source."""
+    """The values that answers are judged by.
+
+    Attributes
+    ----------
+    pressure : A, m³, shape (2, 2).
+    shear : B over the mean gap; None if the source is a formula or if there is no reference.
+    source : name of the solver or "a formula"; "nothing" if there is no reference, and A is then NaN.
+    """
 
     pressure: Array
     shear: Array | None
@@ -78,7 +86,7 @@ class Reference:
 
 
 def answer_of(gap: CellGap, solver: str, tolerance: float = TOLERANCE) -> CellAnswer:
-    """The answer of one solver, or of the default."""
+    """The answer of one solver at a tolerance, or of the default, to the cell problems of a gap."""
     from roughfilm.rom.homogenization.cell import solve_cell  # numba is slow to import
     from roughfilm.rom.homogenization.flow_factors import flow_factors
 
@@ -102,14 +110,14 @@ def answer_of(gap: CellGap, solver: str, tolerance: float = TOLERANCE) -> CellAn
 
 
 def _over_diagonal(values: Array, pressure: Array, closed: float) -> Array:
-    """The values above ``closed`` over √(A_ii A_jj); infinite where A is 0 and they are not."""
+    """The excess of the values over ``closed``, over √(A_ii A_jj); infinite where A is 0 and the excess is not."""
     size = np.sqrt(np.outer(np.diag(pressure), np.diag(pressure)))
     more = np.maximum(np.abs(values) - closed, 0.0)
     return np.divide(more, size, out=np.where(more == 0, 0.0, np.inf), where=size > 0)
 
 
 def reference(gap: CellGap) -> Reference:
-    """The reference of a gap: by a formula, by elimination, or where that fails by multigrid."""
+    """The reference of a gap: by a formula, else by elimination, else by multigrid."""
     if gap.exact is not None:
         along, cross, across = gap.exact
         return Reference(pressure=np.array([[along, cross], [cross, across]]), shear=None, source="a formula")
@@ -123,7 +131,7 @@ def reference(gap: CellGap) -> Reference:
 
 
 def judged(solver: str, right: Callable[[], Reference], answer: CellAnswer) -> Judgement:
-    """The judgement of an answer by the reference that ``right`` gives."""
+    """The judgement of the answer of a solver by the reference that ``right`` returns."""
     truth = right()
     errors = _over_diagonal(answer.pressure - truth.pressure, truth.pressure, answer.closed)
     shear_error = 0.0 if truth.shear is None else float(np.abs(answer.shear - truth.shear).max())
@@ -140,7 +148,7 @@ def judged(solver: str, right: Callable[[], Reference], answer: CellAnswer) -> J
 
 
 def probe(gap: CellGap, solver: str, right: Callable[[], Reference]) -> Probe:
-    """The probe of a solver by a gap."""
+    """The probe that solves a gap by one solver; ``right`` returns the reference."""
     return Probe(
         group=gap.group,
         row=gap.name,
@@ -152,7 +160,10 @@ def probe(gap: CellGap, solver: str, right: Callable[[], Reference]) -> Probe:
 
 
 def probes(nodes: int) -> Iterator[Probe]:
-    """Every gap by the default and, unless it must be refused, by every solver; its reference is computed once."""
+    """The probes of every gap by the default and, unless the gap must be refused, by every single solver.
+
+    The reference of a gap is computed once.
+    """
     for gap in gaps(nodes):
         right = cache(partial(reference, gap))
         for solver in [DEFAULT] if gap.refused else solvers():
@@ -160,14 +171,14 @@ def probes(nodes: int) -> Iterator[Probe]:
 
 
 def solvers() -> list[str]:
-    """The default, and the name of each single solver."""
+    """The name of the default, followed by the names of the single solvers."""
     from roughfilm.rom.homogenization.solvers import SOLVERS  # numba is slow to import
 
     return [DEFAULT, *SOLVERS]
 
 
 def summary(spots: Sequence[Spot]) -> list[str]:
-    """Sentences about the map: how each solver does, and where its own estimate is too small."""
+    """Sentences about the map: the results of each solver, and where its own estimate of the error is too small."""
     lines = []
     for name in solvers():
         own = [spot for spot in spots if spot.column == name and spot.group != "limits"]

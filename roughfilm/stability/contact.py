@@ -22,11 +22,11 @@ from roughfilm.stability.form import (
 from roughfilm.stability.questions.contact import MODULUS, Pressing, pressings
 
 ALLOWED_VIOLATION = 1.01e-8
-"""Allowed violation of the conditions of contact over the rms height: the solver's tolerance, and 1 % for round-off."""
+"""Allowed violation of the conditions of contact over the rms height: the solver's tolerance plus 1 % for round-off."""
 
 
 def contact_of(pressing: Pressing) -> Contact:
-    """The contact that the solver computes."""
+    """The contact of a surface at its load, as the solver computes it; raises what ``Press`` raises."""
     from roughfilm.contact.mechanics.press import Press  # numba is slow to import
 
     press = Press(np.asarray(pressing.heights), pressing.spacing, MODULUS, hardness=pressing.hardness)
@@ -34,7 +34,7 @@ def contact_of(pressing: Pressing) -> Contact:
 
 
 def judged(pressing: Pressing, contact: Contact) -> Judgement:
-    """The judgement of a contact by the conditions of contact, recomputed."""
+    """The judgement of a contact by the conditions of contact, which are recomputed without the solver."""
     violation = broken_conditions(
         contact.pressure,
         np.asarray(pressing.heights, dtype=float),
@@ -77,7 +77,7 @@ def probes(points: int) -> Iterator[Probe]:
 
 
 def summary(spots: Sequence[Spot]) -> list[str]:
-    """Sentences about the map: how many answers are right, the most iterations, the largest violation."""
+    """Sentences about the map: the number of right answers, the most iterations, and the largest violation."""
     answered = [spot for spot in spots if spot.iterations is not None]
     good = [spot for spot in answered if spot.outcome in GOOD]
     refused = count(spots, MapOutcome.REFUSED)

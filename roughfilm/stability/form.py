@@ -21,10 +21,10 @@ SLOW_ITERATIONS = 100
 """Number of iterations above which a probe is slow."""
 
 SECOND_TRY = "second try"
-"""Why a run that converged is slow."""
+"""The reason (``why``) of a run that is slow because it converged only at its second try."""
 
 NO_MESH = "no mesh"
-"""Why a run stalled whose mesh OpenFOAM rejects."""
+"""The reason (``why``) of a run that stalled because OpenFOAM rejects its mesh."""
 
 
 class MapOutcome(StrEnum):
@@ -58,8 +58,13 @@ class Spot:
 
     Attributes
     ----------
-    why : a finer word for the outcome, such as unsteady, diverged or second try; "" where there is none.
+    group, row, column : names of the place on the map.
+    outcome : outcome of the probe.
+    why : finer word for the outcome, such as unsteady, diverged or second try; "" where there is none.
+    iterations : number of iterations of the solver, None where it is unknown.
+    cpu_s : CPU time, s.
     error : error of the answer as its judge measures it, None where there is no answer or no judge.
+    message : message of the judge, the solver or the error; "" where there is none.
     numbers : other numbers of the map, by name.
     """
 
@@ -76,18 +81,18 @@ class Spot:
 
     @property
     def entries(self) -> dict[str, Any]:
-        """All attributes as JSON holds them."""
+        """The attributes by name, as JSON holds them."""
         return {**vars(self), "outcome": self.outcome.value, "numbers": dict(self.numbers)}
 
     @property
     def place(self) -> str:
-        """Group, row and column in one phrase."""
+        """The group, row and column in one phrase."""
         return f"{self.group}: {self.row}, {self.column}"
 
 
 @dataclass(frozen=True, kw_only=True)
 class Judgement:
-    """A judged answer: whether it is right, its error, and a message if it is wrong."""
+    """The judgement of an answer: iterations, whether it is right, its error, other numbers, and a message."""
 
     iterations: int
     right: bool
@@ -102,8 +107,9 @@ class Probe:
 
     Attributes
     ----------
-    ask : asks the solver; its CPU time is measured.
-    judge : judges the answer.
+    group, row, column : names of the place on the map.
+    ask : function that runs the solver and returns its answer; its CPU time is measured.
+    judge : function that judges the answer.
     refused : whether the solver must refuse the question.
     """
 
@@ -115,7 +121,11 @@ class Probe:
     refused: bool = False
 
     def spot(self) -> Spot:
-        """Ask and judge; an exception that is not one of the project's error classes is a fault, and wrong."""
+        """Run the solver and judge its answer.
+
+        An exception that is not one of the project's error classes, or whose message has several lines, is a fault, and
+        the outcome is wrong.
+        """
         place: dict[str, Any] = {"group": self.group, "row": self.row, "column": self.column}
         cpu = time.process_time()
         try:
@@ -152,7 +162,11 @@ class Probe:
 
 
 def failed(failure: Failure, **place: Any) -> Spot:
-    """The spot of a run without an answer: refused, stalled in one of the ways of a solver, or a fault."""
+    """The spot of a run without an answer.
+
+    The outcome is refused for an InputError, stalled for a ConvergenceError or UnavailableError, and otherwise wrong, a
+    fault. ``place`` holds the other attributes of the spot: group, row, column and numbers.
+    """
     if failure.kind == InputError.__name__:
         outcome, why = MapOutcome.REFUSED, ""
     elif failure.kind in (ConvergenceError.__name__, UnavailableError.__name__):
@@ -170,22 +184,23 @@ def failed(failure: Failure, **place: Any) -> Spot:
 
 
 Spots = tuple[Sequence[Spot], Mapping[str, str]]
-"""The spots of a map, and by name what was left out with the reason."""
+"""The spots of a map, and the models that were left out: the reason by name."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class StabilityMap:
-    """What a map shows, and the function that makes it.
+    """The description of a stability map, and the function that makes it.
 
     Attributes
     ----------
-    axes : the quantities that are varied, in words; {resolution} stands for the resolution.
+    name, title : name of the map in commands and files, and its title on the page.
+    axes : quantities that are varied, in words; {resolution} stands for the resolution.
     judge : how answers are judged and how the error is measured, in words.
-    resolution, resolution_meaning : the default, and what it counts.
-    least, most, allowed : range of the resolution, and the same in words.
-    solve : solve(resolution, out, processes, scratch) gives the spots; runs that ``out`` already holds are used again.
-    summary : sentences about the spots.
-    draw : figures beside the tables as SVG, by name.
+    resolution, resolution_meaning : default resolution, and what the resolution counts, in words.
+    solve : solve(resolution, out, processes, scratch) returns the spots; runs that ``out`` already holds are reused.
+    summary : function that returns sentences about the spots.
+    least, most, allowed : smallest and largest resolution, and this range in words.
+    draw : function that returns the figures beside the tables as SVG, by name.
     """
 
     name: str
@@ -206,10 +221,17 @@ class StabilityMap:
     ) -> tuple[dict[str, Any], Mapping[str, str]]:
         """Make the map.
 
+        Parameters
+        ----------
+        resolution : resolution of the map, None for the default.
+        out : directory of the stored runs.
+        processes : number of processes.
+        scratch : directory for temporary files.
+
         Returns
         -------
         dict, mapping
-            The map as JSON and the page hold it, and its figures as SVG by name.
+            The entries of the map for JSON and for the page, and its figures as SVG by name.
 
         Raises
         ------
@@ -237,7 +259,7 @@ class StabilityMap:
 
 
 def in_turn(probes: Callable[[int], Iterable[Probe]]) -> Callable[[int, Path, int, Path], Spots]:
-    """A ``solve`` that asks all probes of a resolution one after the other, so that CPU times can be compared."""
+    """The ``solve`` function that runs all probes of a resolution one after the other, so that CPU times compare."""
 
     def solve(resolution: int, _out: Path, _processes: int, _scratch: Path) -> Spots:
         asked = list(probes(resolution))
@@ -280,7 +302,7 @@ def in_numbers(spots: Sequence[Spot]) -> str:
 
 
 def listed(spots: Iterable[Spot], *outcomes: MapOutcome) -> list[str]:
-    """The spots with one of these outcomes, one a line."""
+    """The lines that describe the spots with one of these outcomes, one line for each spot."""
     return [
         f"{(spot.why or spot.outcome).capitalize()}: {spot.place}"
         + (f" ({spot.iterations} iterations)" if spot.iterations else "")
@@ -291,7 +313,7 @@ def listed(spots: Iterable[Spot], *outcomes: MapOutcome) -> list[str]:
 
 
 def columns_of(maps: Sequence[Mapping[str, Any]]) -> dict[str, Column]:
-    """All spots of some maps, one a row, with the numbers that all of these maps have."""
+    """The columns of a table with a row for each spot, and with the numbers that all of these maps have."""
     rows = [(one["family"], run) for one in maps for run in one["runs"]]
     shared = [{name for run in one["runs"] for name in run["numbers"]} for one in maps]
     own = sorted(set.intersection(*shared)) if shared else []

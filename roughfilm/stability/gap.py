@@ -33,21 +33,22 @@ from roughfilm.stability.pocket import available_models
 from roughfilm.stability.questions.gap import CUT, CUTS, GapProbe, gap_runs
 
 MIN_COLUMNS, MAX_COLUMNS = 32, 64
+"""Smallest and largest resolution of the map."""
 
 ALLOWED_ERROR = 0.05
 """Relative error of a coefficient above which it is inaccurate."""
 
 MIN_COEFFICIENT = 1e-3
-"""Smaller coefficients, over those of a smooth gap, are judged as if they were this large."""
+"""Least coefficient, over that of a smooth gap, that relative errors refer to; smaller ones are replaced by it."""
 
 SLOW_ITERATIONS = {"homogenized": 100, "slope_corrected": 100, "stokes": 600, "navier_stokes": 600}
-"""Iterations of all drives together above which a run is slow, by model."""
+"""Number of iterations of all drives together above which a run is slow, by model."""
 
 ROUND_OFF = 1e-9
 """Allowed excess of an error over the uncertainty."""
 
 UNJUDGED = "no reference"
-"""Why a run that converged has no error."""
+"""The reason (``why``) of a run that converged and has no error, because nothing is known to judge it by."""
 
 TOO_SMALL = "uncertainty too small"
 SLOPE_LEFT_OUT = "slope left out"
@@ -63,9 +64,10 @@ def spot_of(
 
     Parameters
     ----------
-    truth : what the error is measured by: Stokes flow, or the best that is known; None if nothing is.
-    thin : thin-film theory, which the uncertainties of ``homogenized`` refer to, and which has the largest flow and the
-        least friction of all flows; None for a pressed wall.
+    run, answer : the run and its result or failure.
+    truth : coefficients that errors refer to: Stokes flow, or the best that is known; None if nothing is known.
+    thin : coefficients of thin-film theory, which the uncertainties of ``homogenized`` refer to, and which has the
+        largest flow and the least friction of all flows; None for a pressed wall.
     """
     place: dict[str, Any] = {"group": run.group, "row": run.row, "column": run.column}
     cells = _cell_shape(run)
@@ -112,7 +114,7 @@ def spot_of(
 
 
 def _too_small(values: Mapping[str, float], uncertainties: Mapping[str, float], truth: Coefficients | None) -> str:
-    """The uncertainties that do not cover the error, in words."""
+    """The uncertainties that do not cover the error, in words; "" if all cover it."""
     if truth is None:
         return ""
     judged = [name for name in truth.values if name in uncertainties and name in values]
@@ -125,7 +127,7 @@ def _too_small(values: Mapping[str, float], uncertainties: Mapping[str, float], 
 
 
 def _impossible(values: Mapping[str, float], uncertainties: Mapping[str, float], thin: Coefficients) -> str:
-    """More flow, or less friction, than in thin films, in words."""
+    """A flow larger, or a friction smaller, than that of thin films, in words; "" if there is none."""
     for name, sign in (("A11", 1), ("A22", 1), ("friction", -1)):
         if name not in values:
             continue
@@ -138,7 +140,7 @@ def _impossible(values: Mapping[str, float], uncertainties: Mapping[str, float],
 
 
 def _cell_shape(run: GapProbe) -> str:
-    """The length of the cells over their thickness, in words."""
+    """The ratio of the length of the cells to their thickness, in words; "" for a run without a mesh over a wave."""
     if run.wave is None or run.setting.resolution is None or run.scene.layers is None:
         return ""
     return f"(cells {run.wave.wavelength / run.setting.resolution * run.scene.layers:.3g} times as long as thick)"
@@ -148,7 +150,10 @@ GapAnswer = tuple[GapProbe, Result | Failure]
 
 
 def solve(resolution: int, out: Path, processes: int, scratch: Path) -> Spots:
-    """Solve and judge all runs."""
+    """The judged spots of all runs, and the absent models; InputError if the resolution is odd.
+
+    The arguments are those of ``StabilityMap.solve``.
+    """
     if resolution % 2:
         raise InputError(f"--resolution: got {resolution}; {GAP.allowed}")
     here, absent = available_models("rough_gap")
@@ -163,7 +168,7 @@ def solve(resolution: int, out: Path, processes: int, scratch: Path) -> Spots:
 
 
 def judged(answers: Sequence[GapAnswer], executor: Executor) -> list[Spot]:
-    """The judged answers: by theory for their wave, by two meshes, or by the smallest cut."""
+    """The spots of answers, judged by the theory for their wave, by two meshes, or by the smallest cut."""
     waves = list(dict.fromkeys(run.wave for run, _ in answers if run.wave))
     thin = dict(zip(waves, executor.map(exact_thin, waves), strict=True))
     stokes = dict(zip(waves, executor.map(exact_stokes, waves), strict=True))
@@ -193,9 +198,9 @@ def _two_meshes(answers: Sequence[GapAnswer]) -> dict[tuple[str, str], Coefficie
 
 
 def _at_least_cut(run: GapProbe, answers: Sequence[GapAnswer]) -> Coefficients | None:
-    """A of the same setting at the smallest cut, so that the error is that of cutting out more.
+    """The coefficients A of the same setting at the smallest cut; errors against them are those of cutting out more.
 
-    Uncertainties of the model do not count here, as they are common to both answers.
+    The uncertainties are infinite, because those of the model are common to both answers and do not count.
     """
     place = (run.group, run.row, f"{min(CUTS):g}")
     least = next(answer for other, answer in answers if (other.group, other.row, other.column) == place)
@@ -207,7 +212,7 @@ def _at_least_cut(run: GapProbe, answers: Sequence[GapAnswer]) -> Coefficients |
 
 
 def summary(spots: Sequence[Spot]) -> list[str]:
-    """Sentences about the map: where each group is not good, and the balance of the forces on the walls."""
+    """Sentences about the map: where each group is inaccurate, stalled or wrong, and the balance of the wall forces."""
     lines = []
     for group, own in in_groups(spots).items():
         words = dict.fromkeys(spot.why or spot.outcome for spot in own if spot.outcome not in GOOD)
@@ -230,7 +235,7 @@ def _places(spots: Sequence[Spot]) -> str:
 
 
 def against_cut(spots: Sequence[Spot]) -> str:
-    """A and friction against the smallest gap, for every pressed wall and setting, as SVG."""
+    """The figure of A11 and friction against the smallest gap, for every pressed wall and setting, as SVG text."""
     groups = {name: own for name, own in in_groups(spots).items() if name.startswith(f"{CUT}:")}
     figure = Figure(figsize=(10, 5.6), layout="constrained")
     panels = figure.subplots(2, len(groups), sharex=True, squeeze=False)

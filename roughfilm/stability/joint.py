@@ -1,4 +1,4 @@
-"""Surfaces whose valleys end at a periodic joint, and the usual joining of their edges."""
+"""Surfaces whose valleys end at a periodic joint, and the joining of their edges."""
 
 import numpy as np
 
@@ -7,20 +7,21 @@ from roughfilm.contact.preparation.recipe import read_recipe
 from roughfilm.contact.surfaces.surface import Surface
 
 EDGES_ONLY = {"form": "none", "outliers": {"points": 0}, "grid": {"points": "kept"}, "smoothing": 1}
-"""A recipe that does nothing but join the edges, as it is usually done."""
+"""Recipe that joins the edges and changes nothing else."""
 
 
 def cut_grooves(
     shift: float, nodes: int = 192, *, grooves: int = 4, side: float = 1e-3, roughness: float = 1e-6
 ) -> Surface:
-    """Sinusoidal grooves along x that meet their neighbours at the joint: z = √2 Sq cos 2π(n y/L − s x/L).
+    """A surface of sinusoidal grooves whose ends are shifted at the periodic joint: z = √2 Sq cos 2π(n y/L − s x/L).
 
     Parameters
     ----------
-    shift : s, by how much of their distance the grooves end beside where they begin; 0 and 1 make them periodic.
-    nodes : along each side.
-    grooves : n, across the surface.
-    side, roughness : L and Sq, m.
+    shift : s, distance in y between the end and the start of a groove, over the distance of grooves; the surface is
+        periodic for 0 and 1.
+    nodes : number of nodes along each side.
+    grooves : n, number of grooves across the surface.
+    side, roughness : side L of the surface and rms height Sq, m.
     """
     x, y = np.meshgrid(*(np.arange(nodes) / nodes,) * 2, indexing="ij")
     heights = np.sqrt(2) * roughness * np.cos(2 * np.pi * (grooves * y - shift * x))
@@ -28,5 +29,5 @@ def cut_grooves(
 
 
 def joined(surface: Surface) -> Surface:
-    """A surface with its edges joined as a preparation does, and nothing else done."""
+    """The surface after a preparation that joins its edges and changes nothing else."""
     return prepare(surface, read_recipe(EDGES_ONLY)).joined

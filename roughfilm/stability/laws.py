@@ -35,9 +35,10 @@ ROUGHNESS = 1e-6
 """Rms height of the surfaces, m."""
 
 SEED = 20071
+"""Seed of the random surfaces."""
 
 MONOTONE_TOLERANCE = 1e-6
-"""Relative growth that is allowed where a quantity must fall, besides the uncertainties."""
+"""Allowed relative growth of a quantity that must fall, in addition to the uncertainties."""
 
 LOADS = (1e-3, 3e-3, 0.01, 0.03, 0.1, 0.2, 0.3, 0.5, 1.0)
 """Loads P/(E* g'), from first contact to past sealing."""
@@ -64,11 +65,11 @@ SHAPES: Mapping[str, Mapping[str, Any]] = {
 }
 
 SHOWN = ("permeability", "area_fraction", "load_per_width", "contact_share", "least_gap", "friction_coefficient")
-"""Quantities that a spot shows."""
+"""Names of the quantities of a result that a spot shows."""
 
 
 def surfaces(points: int) -> dict[str, dict[str, Any]]:
-    """Descriptions of rough surfaces by name."""
+    """The descriptions of rough surfaces by name, with ``points`` along each side."""
     shared = {"size": [f"{SIDE!r} m"] * 2, "points": [points, points], "seed": SEED, "rms_height": f"{ROUGHNESS!r} m"}
     waves = {"kind": "self_affine", "roll_off": f"{SIDE / 4!r} m", "cut_off": f"{6 * SIDE / points!r} m", **shared}
     ridges = {"kind": "gaussian", "correlation_length": f"{3 * SIDE / points!r} m", "anisotropy": 4, **shared}
@@ -81,7 +82,7 @@ def surfaces(points: int) -> dict[str, dict[str, Any]]:
 
 
 def seals(points: int) -> Iterator[Probe]:
-    """Surfaces pressed by growing loads, elastic and with a hardness, by every model."""
+    """The probes of seals: surfaces pressed by growing loads, elastic and with a hardness, by every model."""
     for (name, surface), hardness in product(surfaces(points).items(), (None, 0.5)):
         group = name + ("" if hardness is None else f", H = {hardness:g} E* g'")
         unit = _seal(surface, 1.0, None).pressure_unit
@@ -116,7 +117,7 @@ def _seal(surface: Mapping[str, Any], pressure: float, hardness: float | None) -
 
 
 def films(points: int) -> Iterator[Probe]:
-    """Bearings whose walls approach, at rest, at speed and backwards."""
+    """The probes of mixed films: bearings whose walls approach, at rest, at speed and backwards."""
     model = find("bearing", "mixed")
     rough = list(surfaces(points).items())[::2]
     for (shape, geometry), (name, surface), speed in product(SHAPES.items(), rough, SPEEDS):
@@ -160,7 +161,8 @@ def judged(falling: str, before: list[Result], answer: tuple[Scene, Result]) -> 
     Parameters
     ----------
     falling : the quantity that must not grow along a row.
-    before : the last result of the row, if there is one; this one takes its place.
+    before : list of the last result of the row, empty at its start; the new result replaces it.
+    answer : scene and result.
     """
     scene, result = answer
     value = result[falling].value

@@ -22,6 +22,8 @@ from roughfilm.stability.form import SECOND_TRY, MapOutcome, Spot, Spots, Stabil
 
 RE, DEPTH = "Re", "d+"
 
+"""Names of the columns (Reynolds number) and rows (depth over the film thickness) of the map."""
+
 FILM = 30e-6
 """Film thickness, m."""
 
@@ -31,11 +33,11 @@ GROOVE = {
     "lubricant": {"viscosity": "0.01 Pa*s", "density": "1000 kg/m^3"},
     "geometry": {"length": "1 mm", "film": with_unit(FILM, "m"), "profile": "cylindrical", "width": "0.3 mm"},
 }
-"""The groove of Sahlin et al. 2005, doi:10.1115/1.1828067, without a depth."""
+"""Entries of the scene of the groove of Sahlin et al. 2005, doi:10.1115/1.1828067, without a depth."""
 
 
 def available_models(kind: str) -> tuple[list[Model], dict[str, str]]:
-    """The models of a kind that this machine has, and by name why the others are absent."""
+    """The models of a kind that are available on this machine, and by name the reason why the others are absent."""
     absent = {model.name: here.detail for model in models(kind) if not (here := model.available()).available}
     return [model for model in models(kind) if model.name not in absent], absent
 
@@ -50,13 +52,16 @@ def scene_at(reynolds_number: float, depth_plus: float) -> Pocket:
 
 @dataclass(frozen=True, kw_only=True)
 class Places:
-    """The Reynolds numbers and depths (over the film thickness) that are solved."""
+    """The Reynolds numbers and the depths over the film thickness at which the groove is solved."""
 
     reynolds_numbers: tuple[float, ...] = (40.0, 160.0, 500.0, 1000.0, 2000.0, 5000.0)
     depths_plus: tuple[float, ...] = (0.25, 0.5, 0.75, 1.25, 2.0, 3.0)
 
     def solve(self, resolution: int, out: Path, processes: int, scratch: Path) -> Spots:
-        """Solve every place by every model with every scheme; the deepest grooves come first."""
+        """The spots of all places by every model with every scheme, deepest grooves first, and the absent models.
+
+        The arguments are those of ``StabilityMap.solve``; ``resolution`` counts mesh columns of the OpenFOAM models.
+        """
         here, absent = available_models("pocket")
         settings = [
             Setting(model=model, resolution=resolution if model.outside else None, scheme=scheme)
@@ -101,7 +106,7 @@ def spot_of(setting: Setting, reynolds_number: float, depth_plus: float, answer:
 
 
 def summary(spots: Sequence[Spot]) -> list[str]:
-    """Sentences about the map: where each model converges and where not, and how far its schemes are apart."""
+    """Sentences about the map: where each model converges or fails, and how much the loads of its schemes differ."""
     groups = in_groups(spots)
     return [line for name in groups for line in _sentences(name, groups)]
 
@@ -132,7 +137,7 @@ def _differences(own: Sequence[Spot], first: Sequence[Spot]) -> list[float]:
 
 
 def _places(spots: Iterable[Spot]) -> str:
-    """The places of spots, gathered by Reynolds number or by depth, whichever is shorter."""
+    """The places of spots in words, grouped by Reynolds number or by depth, whichever gives fewer groups."""
     at = [(spot.column.removeprefix(f"{RE} "), spot.row.removeprefix(f"{DEPTH} ")) for spot in spots]
     numbers = {n: ", ".join(d for m, d in at if m == n) for n, _ in at}
     depths = {d: ", ".join(n for n, e in at if e == d) for _, d in at}

@@ -7,7 +7,14 @@ import numpy as np
 
 @dataclass(frozen=True, kw_only=True)
 class Wave:
-    """Heights a cos(2πx/L) h̄ under a flat wall, or a cos(2πx/L) cos(2πy/L) h̄ if ``bumps``; L in mean gaps h̄."""
+    """A sinusoidal wall under a flat wall, at the mean gap h̄: z = a h̄ cos(2πx/L), or a h̄ cos(2πx/L) cos(2πy/L).
+
+    Attributes
+    ----------
+    amplitude : a, amplitude over the mean gap.
+    wavelength : L/h̄, wavelength over the mean gap.
+    bumps : whether the wall has bumps (second formula) and not ridges (first formula).
+    """
 
     amplitude: float
     wavelength: float
@@ -15,7 +22,7 @@ class Wave:
 
     @property
     def slope(self) -> float:
-        """The rms slope, which is the same for bumps and ridges."""
+        """The rms slope √2 π a h̄/L, which is the same for bumps and ridges."""
         return float(np.sqrt(2) * np.pi * self.amplitude / self.wavelength)
 
     @property

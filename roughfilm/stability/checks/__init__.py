@@ -1,1 +1,1 @@
-"""How an answer is judged: exact solutions, conservation, invariants."""
+"""Checks of answers by exact solutions, conservation laws and other physical laws."""

@@ -13,10 +13,10 @@ GAUSS = (0.5 - 0.5 / math.sqrt(3), 0.5 + 0.5 / math.sqrt(3))
 
 
 def broken_balance(solution: Solution) -> float:
-    """The largest net flow into a node whose state is free, over the largest flow; infinite for an impossible state.
+    """The largest net flow into a node of free state, over the largest flow; infinite if the state is impossible.
 
-    A state is possible if p >= 0, 0 <= ξ <= 1, the gap is full where p > 0, and ends and sides have their given
-    pressures. At a full inlet node the net flow may be less than the supply, never more.
+    A state is possible if p >= 0, 0 <= ξ <= 1, ξ = 1 where p > 0, and ends and sides have their given pressures. The
+    net flow into a full inlet node may be smaller than the supply, but not larger.
     """
     problem, x, y = solution.problem, solution.grid.x, solution.grid.y
     pressure, fill = solution.state.pressure, solution.state.fill
@@ -49,7 +49,7 @@ def broken_balance(solution: Solution) -> float:
 
 
 def _flows(problem: Problem, x: Array, y: Array, pressure: Array, fill: Array) -> tuple[Array, Array]:
-    """Flows through the faces towards the next node in x and in y, zero where there is none, m³/s at p = 0."""
+    """The flows from each node to the next one in x and in y, m³/s at p = 0; zero where there is no next node."""
     shape = problem.shape
     radius, widths = _radius(problem, y), _widths(problem, y)
     excess = problem.compression(pressure)[0]
@@ -95,7 +95,7 @@ def _flows(problem: Problem, x: Array, y: Array, pressure: Array, fill: Array) -
 
 
 def _between(first: Array, second: Array) -> Array:
-    """The mean of φ over p where φ is exponential in p: the integral of a^(1-s) b^s over s from 0 to 1."""
+    """The mean of φ between two pressures if φ is exponential in p: the integral of a^(1-s) b^s over s from 0 to 1."""
     nodes, weights = np.polynomial.legendre.leggauss(12)
     s = (1 + nodes)[:, None, None] / 2
     return np.asarray((weights[:, None, None] / 2 * first ** (1 - s) * second**s).sum(axis=0))
@@ -106,13 +106,19 @@ def _radius(problem: Problem, y: Array) -> Array:
 
 
 def _widths(problem: Problem, y: Array) -> Array:
-    """Widths of the control volumes, m; 1 for an infinitely wide film."""
+    """The widths of the control volumes, m; 1 for an infinitely wide film."""
     shape = problem.shape
     return np.ones(1) if shape.wide else control_lengths(y, shape.across[1] - y[0] if shape.joined[1] else None)
 
 
 def control_lengths(places: Array, period: float | None) -> Array:
-    """Lengths of the control volumes of nodes on a line; with a ``period`` the last node is followed by the first."""
+    """The lengths of the control volumes of nodes on a line, shape (n,).
+
+    Parameters
+    ----------
+    places : coordinates of the nodes, shape (n,).
+    period : period of the line in the unit of ``places``, None for a line with two ends.
+    """
     before = np.diff(places, prepend=places[0] if period is None else places[-1] - period)
     after = np.diff(places, append=places[-1] if period is None else places[0] + period)
     return np.asarray((before + after) / 2)

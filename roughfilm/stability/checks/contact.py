@@ -8,17 +8,17 @@ from roughfilm.contact.foundation.arrays import Array
 
 
 def _wave_numbers(shape: tuple[int, ...], spacing: tuple[float, float]) -> Array:
-    """|q| of every wave of a periodic grid, 1/m."""
+    """The wave number |q| of every wave of a periodic grid, 1/m, with the given ``shape``."""
     waves = [2 * math.pi * np.fft.fftfreq(n, step) for n, step in zip(shape, spacing, strict=True)]
     return np.asarray(np.hypot(*np.meshgrid(*waves, indexing="ij")))
 
 
 def displacement(pressure: Array, spacing: tuple[float, float], composite_modulus: float) -> Array:
-    """The displacement of the periodic half-space without its mean, 2/(E* |q|) times every wave of the pressure, m.
+    """The displacement of the periodic half-space without its mean, m, shape (nx, ny): û(q) = 2 p̂(q)/(E* |q|).
 
     Parameters
     ----------
-    pressure : Pa, shape (nx, ny).
+    pressure : pressure at the nodes, Pa, shape (nx, ny).
     spacing : dx and dy, m.
     composite_modulus : E*, Pa.
     """
@@ -28,7 +28,7 @@ def displacement(pressure: Array, spacing: tuple[float, float], composite_modulu
 
 
 def rms_slope(heights: Array, spacing: tuple[float, float]) -> float:
-    """The rms slope of the periodic surface through the heights (m), by the sum over all its waves."""
+    """The rms slope √(Σ |q|² |ẑ(q)|²) of the periodic surface through the heights (m, shape (nx, ny))."""
     number = _wave_numbers(heights.shape, spacing)
     return float(np.sqrt(np.sum(number**2 * np.abs(np.fft.fft2(heights, norm="forward")) ** 2)))
 
@@ -42,15 +42,15 @@ def broken_conditions(
     hardness: float,
     load: float,
 ) -> float:
-    """The largest violation of the conditions of contact at a node, over the rms height; infinite for a bad pressure.
+    """The largest violation of the conditions of contact at a node, over the rms height; infinite if p is impossible.
 
     The gap under the plane, h1 + u − g00, must be 0 where 0 < p < H, at least 0 where p = 0, at most 0 where p = H. The
-    plane is placed where the largest violation is smallest. For a flat surface the violation is over P L/E*. A pressure
-    is bad if it is not finite, outside of 0 to H, or does not carry the load.
+    plane is placed where the largest violation is smallest. For a flat surface the violation is divided by P L/E*, with
+    the longer side L. A pressure is impossible if it is not finite, is outside of 0 to H, or does not carry the load.
 
     Parameters
     ----------
-    pressure, heights : Pa and m, shape (nx, ny).
+    pressure, heights : pressures (Pa) and heights (m) at the nodes, shape (nx, ny).
     spacing : dx and dy, m.
     composite_modulus, hardness : E* and H, Pa.
     load : mean pressure P, Pa.

@@ -16,17 +16,18 @@ ROUND_OFF = 1e-9
 """Allowed relative difference of values that are equal but for round-off."""
 
 COARSE_MESH_TOLERANCE = 0.05
-"""Relative amount by which friction may be below its bound on a coarse mesh."""
+"""Allowed relative deficit of friction below its bound on a coarse mesh."""
 
 SAMPLES = 20_000
-"""Number of midpoints along a period."""
+"""Approximate number of midpoints along a period in the mean of 1/h."""
 
 
 def pocket(scene: Pocket, result: Result) -> Iterator[str]:
-    """The violations of a pocket's result.
+    """The laws that a pocket's result violates, in words.
 
-    The load lies between the extremes of pressure. The wall's work equals the dissipation, which is at least
-    ∫ η u²/h dx; a model that warns may miss some of it.
+    The load is within the range of the pressure. The wall's work equals the dissipation, which is at least
+    ∫ η u²/h dx; this bound is not checked for a result with warnings. The backflow is not negative, and the film is not
+    thinner than outside of the grooves.
     """
     value = {name: quantity.value for name, quantity in result.quantities.items()}
     low, high = value["pressure_min_plus"], value["pressure_max_plus"]
@@ -59,10 +60,11 @@ def _mean_inverse(scene: Pocket) -> float:
 
 
 def bearing(scene: Bearing, result: Result) -> Iterator[str]:
-    """The violations of a bearing's result.
+    """The laws that a bearing's result violates, in words.
 
-    The pressure is not below that of cavitation, the filling fraction not below 0, and the load is the sum of the
-    pressures. At ambient pressure all around, the wall's work is dissipated or pumps against cavities, and not below 0.
+    The pressure is not below the cavitation pressure, the filling fraction is not negative, and the load is the sum of
+    the pressures. If the pressure is ambient on all sides, the wall's work is dissipated or pumps liquid against
+    cavities, and is not negative.
     """
     value = {name: quantity.value for name, quantity in result.quantities.items()}
     field = {name: one.values for name, one in result.fields.items()}
@@ -89,7 +91,7 @@ def bearing(scene: Bearing, result: Result) -> Iterator[str]:
 
 
 def _loads(scene: Bearing, value: dict[str, float], field: dict[str, Array]) -> Iterator[str]:
-    """The loads that are not the sum of the pressures on the control volumes, of a journal as a vector."""
+    """The loads that are not the sum of the pressures on the control volumes, in words; vectors add up in a journal."""
     x, y = field["x"][:, 0], field["y"][0]
     across = (np.ones(1) if y.size == 1 else control_lengths(y, None)) * (y if isinstance(scene.geometry, Ring) else 1)
     turn = scene.geometry.turn if isinstance(scene.geometry, Ring) and scene.geometry.endless else None
@@ -109,7 +111,7 @@ def _loads(scene: Bearing, value: dict[str, float], field: dict[str, Array]) -> 
 
 
 def _touching(scene: Bearing, value: dict[str, float], field: dict[str, Array]) -> Iterator[str]:
-    """The violations of the contact in a mixed film: film and asperities share the load and the friction."""
+    """The laws of contact that a mixed film violates, in words: film and asperities share the load and the friction."""
     assert scene.asperities is not None
     load, film, contact = (value[f"{part}load_per_width"] for part in ("", "film_", "contact_"))
     if abs(film + contact - load) > ROUND_OFF * (abs(film) + contact):

@@ -12,7 +12,7 @@ from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors, of_thin_film
 from roughfilm.stability.wave import Wave
 
 JUDGED = ("A11", "A22", "B1", "friction")
-"""The coefficients that are judged."""
+"""Names of the coefficients that are judged."""
 
 MAX_EXACT_SLOPE = 2.7
 """Largest rms slope of ridges for the exact Stokes solver."""
@@ -21,10 +21,10 @@ MIN_EXACT_DISTANCE = 0.009
 """Least distance of the walls over the mean gap for the exact Stokes solver."""
 
 EXACT_TOLERANCES = (1e-5, 1e-3)
-"""Tolerances of the exact Stokes solver; the second where the first fails."""
+"""Relative tolerances of the exact Stokes solver; the second is used if the first fails."""
 
 AGREEMENT = 0.1
-"""Relative difference of two meshes up to which a coefficient judges the cheap models."""
+"""Largest relative difference of two meshes whose limit judges models without a mesh."""
 
 THIN_NODES = 256
 """Nodes along a side of the cell problems of bumps."""
@@ -32,7 +32,7 @@ THIN_NODES = 256
 
 @dataclass(frozen=True, kw_only=True)
 class Coefficients:
-    """Coefficients that are taken for right, by name, with their uncertainties and their source."""
+    """Reference coefficients over those of a smooth gap, by name, with their uncertainties and their source."""
 
     values: Mapping[str, float]
     uncertainties: Mapping[str, float]
@@ -40,7 +40,11 @@ class Coefficients:
 
 
 def exact_thin(wave: Wave) -> Coefficients:
-    """Thin-film theory: a closed form for ridges, cell problems on ``THIN_NODES``² nodes for bumps."""
+    """The coefficients of a wave by thin-film theory: a closed form for ridges, cell problems for bumps.
+
+    The ridges of amplitude a (over the mean gap) have A11 = (1 − a²)^(5/2)/c, A22 = 1 + 3a²/2, B1 = (1 − a²)/c and
+    friction (4 − 3/c)/√(1 − a²), with c = 1 + a²/2. The cell problems have ``THIN_NODES`` nodes along each side.
+    """
     a = wave.amplitude
     if not wave.bumps:
         cubes = 1 + a * a / 2
@@ -65,7 +69,7 @@ def exact_thin(wave: Wave) -> Coefficients:
 
 
 def exact_stokes(wave: Wave) -> Coefficients | None:
-    """Exact Stokes flow between ridges; None for bumps, and beyond the range of the exact solver."""
+    """The coefficients of exact Stokes flow over ridges; None for bumps, beyond the solver's range, or if it fails."""
     if wave.bumps or wave.slope > MAX_EXACT_SLOPE or 1 - wave.amplitude < MIN_EXACT_DISTANCE:
         return None
     for tolerance in EXACT_TOLERANCES:
@@ -80,7 +84,7 @@ def exact_stokes(wave: Wave) -> Coefficients | None:
 
 
 def extrapolated(coarse: Result, fine: Result) -> Coefficients:
-    """The limit of two meshes of second order, one twice as fine; its uncertainty is their whole difference."""
+    """The limit f₂ + (f₂ − f₁)/3 of two meshes of second order, the second twice as fine; uncertainty |f₂ − f₁|."""
     pairs = {
         name: (coarse[name].value, fine[name].value)
         for name in JUDGED
@@ -94,7 +98,7 @@ def extrapolated(coarse: Result, fine: Result) -> Coefficients:
 
 
 def agreeing(truth: Coefficients | None) -> Coefficients | None:
-    """The coefficients whose uncertainty is at most ``AGREEMENT``; None if there are none."""
+    """The coefficients whose relative uncertainty is at most ``AGREEMENT``; None if there are none."""
     if truth is None:
         return None
     limits = {name: AGREEMENT * abs(value) for name, value in truth.values.items()}

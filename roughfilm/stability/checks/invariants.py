@@ -1,4 +1,4 @@
-"""Physical laws that every result must keep, whatever its model; each kind of scene has its own."""
+"""Physical laws that the results of every model must satisfy; each kind of scene has its own laws."""
 
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
@@ -10,7 +10,7 @@ from roughfilm.stability.checks.film_invariants import bearing, pocket
 from roughfilm.stability.checks.roughness_invariants import dry_contact, rough_gap, seal
 
 Law = Callable[[Any, Result], Iterator[str]]
-"""law(scene, result): every violation in words."""
+"""Type of a function law(scene, result) that yields every violation in words."""
 
 LAWS: Mapping[str, Law] = {
     "pocket": pocket,
@@ -26,7 +26,10 @@ MAX_RESIDUAL_RATIO = 2.0
 
 
 def broken(scene: Any, result: Result) -> list[str]:
-    """The violations of a result in words; empty for a good one."""
+    """The violations of a result in words; empty if there are none.
+
+    The laws of the kind are checked only if the result is finite, solved, and without a warning about its range.
+    """
     faults = [*_not_finite(result), *_not_solved(result)]
     return faults if faults or _out_of_range(result) else list(LAWS[scene.kind](scene, result))
 

@@ -20,20 +20,20 @@ ALLOWED_VIOLATION = 2e-8
 """Allowed violation of the conditions of contact, over the rms height."""
 
 BOUND_TOLERANCE = 1e-6
-"""Relative amount by which bounds may be exceeded, for solver tolerances and conductances that count as closed."""
+"""Allowed relative excess over bounds, due to solver tolerances and to conductances that count as closed."""
 
 COARSE_MESH_TOLERANCE = 0.1
-"""Relative amount by which flow in three dimensions on a coarse mesh may exceed bounds."""
+"""Allowed relative excess over bounds of flow in three dimensions on a coarse mesh."""
 
 COPIES = (2, 3, 5)
-"""Numbers of copies of a period; a path around the period connects different copies in one of them."""
+"""Numbers of copies of a period that are tried; a path around the period connects different copies for one of them."""
 
 ROUND_OFF = 1e-9
 """Allowed excess of an area fraction over 1."""
 
 
 def dry_contact(scene: DryContact, result: Result) -> Iterator[str]:
-    """The violations of a dry contact: fractions, load on the area, and the conditions of contact."""
+    """The laws that a dry contact's result violates, in words: ranges, load on the area, and conditions of contact."""
     value = {name: quantity.value for name, quantity in result.quantities.items()}
     plastic, load = "plasticity" in result.provenance["keeps"], scene.load.pressure
     area = value["area_fraction"]
@@ -70,7 +70,10 @@ def _broken(scene: RoughContact, pressure: Array, hardness: float) -> float:
 
 
 def seal(scene: Seal, result: Result) -> Iterator[str]:
-    """The violations of a seal: flow where no open path exists, no flow where one does, flow outside of its bounds."""
+    """The laws that a seal's result violates, in words.
+
+    The permeability is positive exactly if an open path exists, and it is within its bounds. Fractions are 0 to 1.
+    """
     value = {name: quantity.value for name, quantity in result.quantities.items()}
     permeability, area = value["permeability"], value["area_fraction"]
     if not 0 <= area <= 1 + ROUND_OFF:
@@ -94,7 +97,11 @@ def seal(scene: Seal, result: Result) -> Iterator[str]:
 
 
 def leads_through(gap: Array) -> bool:
-    """Whether an open path leads around the period in x, from the connected components of several copies of it."""
+    """Whether an open path leads around the period in x.
+
+    The answer follows from the connected components of several copies of the period. ``gap`` has shape (nx, ny), and is
+    open where it is greater than 0.
+    """
     nx, ny = gap.shape
     nodes = np.arange(nx * ny).reshape(nx, ny)
     for copies in COPIES:
@@ -118,7 +125,11 @@ def leads_through(gap: Array) -> bool:
 
 
 def bounds(gap: Array) -> tuple[float, float]:
-    """The bounds of the permeability along x for faces of 2 h₁² h₂²/(h₁ + h₂), m³: separate lines, uniform sections."""
+    """The lower and the upper bound of the permeability along x, for conductances 2 h₁² h₂²/(h₁ + h₂) of the faces.
+
+    Every line leaks separately at the lower bound; the pressure is uniform over every section at the upper bound. The
+    bounds have the unit of ``gap`` (shape (nx, ny)) cubed.
+    """
     ahead = np.roll(gap, -1, axis=0)
     both = gap + ahead
     faces = np.divide(2 * gap**2 * ahead**2, both, out=np.zeros_like(gap), where=both > 0)
@@ -129,10 +140,11 @@ def bounds(gap: Array) -> tuple[float, float]:
 
 
 def rough_gap(scene: RoughGap, result: Result) -> Iterator[str]:
-    """The violations of a rough gap's result.
+    """The laws that a rough gap's result violates, in words.
 
-    A is symmetric, not negative, and at most that of a thin film with uniform pressure over every section, as Stokes
-    flow dissipates more than a thin film and inertia more than Stokes flow. Friction is at least a smooth gap's.
+    A is symmetric (without inertia), not negative, and not larger than that of a thin film with uniform pressure over
+    every section, because Stokes flow dissipates more than a thin film, and flow with inertia more than Stokes flow.
+    Friction is at least that of a smooth gap, times the square of the open fraction.
     """
     value = {name: quantity.value for name, quantity in result.quantities.items()}
     gap, mean = result.fields["gap"].values, scene.mean_gap

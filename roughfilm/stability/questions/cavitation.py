@@ -1,4 +1,4 @@
-"""Films that the default cavitation solver is asked for, each with a judge of its own."""
+"""Films that test the default cavitation solver, each with its own judge."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -49,11 +49,11 @@ PLANE = (32, 24)
 """Number of cells along and across the films of finite width."""
 
 MAXIMUM_MISS_FACTOR = 10
-"""Relative error of the greatest nodal pressure over (cell/length)², approximately."""
+"""Approximate relative error of the greatest nodal pressure, divided by (cell/length)²."""
 
 
 def probes(plane: tuple[int, int] = PLANE) -> Iterator[Probe]:
-    """All probes; films of finite width have ``plane`` cells."""
+    """All probes; films of finite width have ``plane`` cells along and across."""
     yield from _reversed()
     yield from _at_rest()
     yield from _starved()
@@ -66,7 +66,7 @@ def probes(plane: tuple[int, int] = PLANE) -> Iterator[Probe]:
 
 
 def _reversed() -> Iterator[Probe]:
-    """Films mirrored together with the sliding: the answer must be the same."""
+    """Films that are mirrored together with the sliding; the answer must be the same."""
     texture = Texture(length=metres(6e-3), depth=metres(1e-5), start=metres(8e-3), pitch=metres(2e-2), columns=3)
     shapes = {"linear": linear(), "textured": pocketed(linear(), texture)}
     conditions = {"flooded": Ends(), "starved": Ends(theta=0.52), "pressurised": Ends(inlet=PRESSURE_UNIT)}
@@ -83,7 +83,7 @@ def _mirror_error(shape: Shape, ends: Ends) -> Answer:
 
 
 def _at_rest() -> Iterator[Probe]:
-    """Films without sliding: with a bulk modulus θ falls as ∫h⁻³ dx does, at constant density p does."""
+    """Films without sliding: θ (constant bulk modulus) or p (constant density) varies linearly with ∫ h⁻³ dx."""
     pressures = {"no pressure": 0.0, "inlet 0.01 MPa": 1e4, "inlet 10 MPa": 1e7}
     liquids = {"incompressible": None, "β = 0.05 GPa": 0.05}
     for (name, pressure), (column, modulus) in product(pressures.items(), liquids.items()):
@@ -107,17 +107,17 @@ def _rest_error(pressure: float, modulus: float | None) -> Answer:
 
 
 def _starved() -> Iterator[Probe]:
-    """Parabolic sliders near θ = 1/2, where their film appears, and far below."""
+    """Parabolic sliders at θ near 1/2, from which on they have a film, and at much smaller θ."""
     for theta, modulus in product((1e-12, 1e-6, 1e-3, 0.3, 0.4999, 0.5, 0.5001, 0.501, 0.51), (0.05, 100.0)):
         ask = partial(against_exact, slider(theta, liquid(modulus)), 10 * CELLS)
-        # without a film errors are over the unit, a hundred times the load of the flooded slider; a film that is a few
-        # cells long has an error of 1 to 10 %
+        # without a film, errors are relative to the unit of load, a hundred times the load of the flooded slider; a
+        # film that is a few cells long has an error of 1 to 10 %
         allowed = bound(10 * CELLS) / 100 if theta < 0.5001 else 0.1 if theta < 0.501 else 0.01
         yield film_probe("very starved", f"β = {modulus:g} GPa", f"θ = {theta:g}", ask, allowed)
 
 
 def _restarted() -> Iterator[Probe]:
-    """Sliders from initial states that are far from the solution; no coarser grid helps."""
+    """Sliders solved from initial states far from the solution, without coarser grids."""
     random = np.random.default_rng(SEED)
     for cells in (200, 10 * CELLS):
         shape = (cells + 1, 1)
@@ -156,7 +156,7 @@ def _laws() -> Iterator[Probe]:
 
 
 def _steps() -> Iterator[Probe]:
-    """Steps of the film thickness: towards the narrow side Rayleigh's load, towards the wide side no load."""
+    """Steps of the film thickness: Rayleigh's load if the film narrows, no load if it widens."""
     group = "jumps of the film"
     for jump in (2.0, 10.0, 100.0, 1000.0):
         rise, place = metres((jump - 1) * FILM), metres(0.7 * LENGTH)
@@ -177,7 +177,7 @@ def _steps() -> Iterator[Probe]:
 
 
 def _pockets() -> Iterator[Probe]:
-    """Lines with many cavities, judged by their balance."""
+    """Infinitely wide films with many cavities, judged by their balance of flows."""
     random = np.random.default_rng(SEED + 1)
     parallel = Parallel(shape="parallel", length=metres(LENGTH), film=metres(FILM)).film_shape()
     shapes: dict[str, Shape] = {}
@@ -208,7 +208,7 @@ def _pockets() -> Iterator[Probe]:
 
 
 def _in_the_plane(cells: tuple[int, int]) -> Iterator[Probe]:
-    """Films of finite width on small grids: sliders, pockets, and sectors with and without a groove between them."""
+    """Films of finite width on small grids: sliders, pockets, and sectors that are separate or joined."""
     group, open_sides = "in the plane", (0.0, 0.0)
     ratios = (0.1, 1.0, 10.0)
     shapes = {f"parabola, width/length {ratio:g}": parabola(width=metres(ratio * LENGTH)) for ratio in ratios}
@@ -240,7 +240,7 @@ def _in_the_plane(cells: tuple[int, int]) -> Iterator[Probe]:
 
 
 def _stiffening() -> Iterator[Probe]:
-    """Barus' law on the linear slider: with p0 the greatest reduced pressure, no solution exists from α p0 = 1 on."""
+    """Linear sliders with Barus' law: no solution exists for α p0 >= 1, where p0 is the greatest reduced pressure."""
     reduced = linear_slider(film=FILM, rise=FILM, length=LENGTH, speed=SPEED, viscosity=VISCOSITY).pressure_max
     for alpha_p0, cells in product((0.5, 0.9, 0.99, 0.999, 1.001, 1.01, 1.1, 2.0, 10.0), (16, 200, 2 * CELLS)):
         if 0 < alpha_p0 - 1 < MAXIMUM_MISS_FACTOR / cells**2:

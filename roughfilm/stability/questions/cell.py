@@ -1,4 +1,4 @@
-"""Gaps that the cell solvers are asked for: contrast, contact, lays, odd grids, and invalid input."""
+"""Gaps that test the cell solvers: contrasts, contact, lays, odd grids, and invalid input."""
 
 import math
 from collections.abc import Iterator
@@ -21,6 +21,7 @@ ROUGHNESS = 1e-6
 """Rms height of the surfaces, m."""
 
 SEED = 20071
+"""Seed of the random surfaces."""
 
 CONTRASTS = tuple(10.0**power for power in range(0, 17, 2))
 """Contrasts of h³: the largest over the smallest."""
@@ -40,14 +41,15 @@ OFFSETS = (1e-8, 1e-9, 1e-10)
 
 @dataclass(frozen=True, kw_only=True)
 class CellGap:
-    """A gap of one period.
+    """A periodic gap, and the exact flow through it if it is known.
 
     Attributes
     ----------
-    thickness : m, shape (nx, ny).
+    group, name : group of gaps, and name of the gap.
+    thickness : film thickness at the nodes, m, shape (nx, ny).
     spacing : dx and dy, m.
-    offset : added to the thickness, m.
-    exact : A₁₁, A₁₂ and A₂₂ of the network where a formula has them, m³.
+    offset : constant added to the thickness, m.
+    exact : A₁₁, A₁₂ and A₂₂ of the network, m³, None if no formula gives them.
     refused : whether the solver must refuse the gap.
     """
 
@@ -72,7 +74,7 @@ def gaps(points: int) -> Iterator[CellGap]:
 
 
 def rough(points: int, hurst: float = 0.8, shortest: int = 4, seed: int = SEED) -> Array:
-    """Heights of a self-affine surface whose longest wave is 1/8 of the side and whose shortest has ``shortest`` nodes.
+    """The heights of a self-affine surface with waves from 1/8 of the side (roll-off) to ``shortest`` nodes (cut-off).
 
     Returns
     -------
@@ -91,7 +93,10 @@ def rough(points: int, hurst: float = 0.8, shortest: int = 4, seed: int = SEED) 
 
 
 def truncated(heights: Array, contact: float) -> Array:
-    """The gap over heights cut off so that a fraction is in contact; without contact its least is 0.01 rms heights."""
+    """The gap between heights and a plane that cuts off the fraction ``contact``, in the unit of the heights.
+
+    Without contact, the least gap is 0.01 times the rms height.
+    """
     if contact == 0:
         return np.asarray(heights.max() - heights + 0.01 * heights.std())
     return np.maximum(np.quantile(heights, 1 - contact) - heights, 0.0)

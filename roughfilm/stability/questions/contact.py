@@ -1,4 +1,4 @@
-"""Surfaces, loads and hardnesses that the contact solver is asked for, and invalid input that it must refuse."""
+"""Surfaces, loads and hardnesses that test the contact solver, and invalid input that it must refuse."""
 
 import math
 from collections.abc import Iterator
@@ -21,15 +21,16 @@ MODULUS = 1e11
 """Composite modulus E*, Pa."""
 
 SEED = 20071
+"""Seed of the random surfaces."""
 
 AREA_FRACTIONS = (1e-6, 1e-5, 1e-4, 1e-3, 0.01, 0.1, 0.3, 0.6, 0.9, 0.99, 1.0)
 """Approximate fractions of the nominal area in contact, from A = 2 P/(E* g'); 1 is full contact."""
 
 FINE_POINTS = 1024
-"""Points along a side for the lightest loads, and for lines."""
+"""Number of points along a side for the lightest loads, and along a line."""
 
 MIN_CONTACT_POINTS = 2
-"""Number of points in contact below which a load is put on the fine grid."""
+"""Expected number of points in contact below which a load is solved on the fine grid."""
 
 LOADS = (0.01, 0.03, 0.1, 0.3, 0.6, 0.9, 0.99, 0.999)
 """Loads P/H."""
@@ -44,7 +45,7 @@ TRIALS = (
     ("P/H = 0.6", 0.3, 0.18),
     ("P/H = 0.99", 0.3, 0.297),
 )
-"""Name, H/(E* g') and P/(E* g') that every difficult surface is pressed with."""
+"""Name, H/(E* g') and P/(E* g') of the loads on every difficult surface."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,7 +67,7 @@ class Pressing:
 
 
 def pressings(points: int) -> Iterator[Pressing]:
-    """All questions, on grids of about ``points`` along a side."""
+    """All questions, on grids of about ``points`` points along a side."""
     yield from _over_loads(points)
     for group, row, heights, spacing in _surfaces(points):
         unit = MODULUS * (rms_slope(np.asarray(heights, dtype=float), spacing) or 1e-3)
@@ -86,7 +87,16 @@ def pressings(points: int) -> Iterator[Pressing]:
 def rough(
     points: int, slope: float = 0.1, side: float = SIDE, ratio: float = 1.0, hurst: float = 0.8
 ) -> tuple[Heights, tuple[float, float]]:
-    """Self-affine heights and their spacing, m; the period is ``ratio`` times as long as wide."""
+    """The heights of a self-affine surface, shape (points, points), and their spacing, m.
+
+    Parameters
+    ----------
+    points : number of points along each side.
+    slope : rms slope.
+    side : period in y, m.
+    ratio : period in x over that in y.
+    hurst : Hurst exponent.
+    """
     cut_off = 8 * side * max(ratio, 1.0) / points
     surface = self_affine(
         size=(side * ratio, side),

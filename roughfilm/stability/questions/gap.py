@@ -1,4 +1,4 @@
-"""Rough gaps that the models are asked for: near walls, contact, steep walls, shapes of cells, and inertia."""
+"""Rough gaps that test the models: near walls, contact, steep walls, shapes of mesh cells, and inertia."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ DISTANCES = (0.5, 0.2, 0.1, 0.05, 0.02, 1e-2, 1e-3, 1e-4)
 """Least distances of a wave from the flat wall, over the mean gap."""
 
 CUTS = (0.2, 0.1, 0.05, 0.02, 1e-2, 3e-3, 1e-3)
-"""Smallest open gaps of a pressed wall, over the mean gap; nearer walls touch."""
+"""Smallest open gaps of a pressed wall, over the mean gap; smaller gaps count as contact."""
 
 RIDGE_AMPLITUDES = (0.05, 0.2, 0.5, 0.8)
 """Amplitudes of steep ridges, over the mean gap."""
@@ -36,25 +36,25 @@ BUMP_WAVELENGTHS = (10.0, 5.0, 2.5, 1.25)
 """Wavelengths of steep bumps, over the mean gap."""
 
 CELL_WAVELENGTHS = (0.5, 1.0, 5.0, 20.0, 100.0, 1000.0)
-"""Wavelengths for the shapes of cells, over the mean gap."""
+"""Wavelengths of the probes of the shape of mesh cells, over the mean gap."""
 
 LAYERS = (4, 8, 16, 32, 64)
-"""Layers of cells for the shapes of cells."""
+"""Numbers of layers in the probes of the shape of mesh cells."""
 
 REYNOLDS_NUMBERS = (1.0, 10.0, 100.0, 300.0, 1000.0, 5000.0, 20000.0)
 """Reynolds numbers of probes with inertia."""
 
 MAX_STEADY_REYNOLDS = 300.0
-"""Largest Reynolds number of bumps on the finer mesh: above it no mesh has a steady flow, at a great cost."""
+"""Largest Reynolds number of bumps on the finer mesh; no mesh has a steady flow above it, and runs are costly."""
 
 PRESSED = (("bumps", "0.3 GPa"), ("bumps", "2 GPa"), ("a rough surface", "2 GPa"))
-"""Pressed surfaces and their loads."""
+"""Names of the pressed surfaces and their loads."""
 
 THIN_LAYERS = (8, 16, 32)
-"""Layers on the coarser mesh between pressed rough walls."""
+"""Numbers of layers on the coarser mesh between pressed rough walls."""
 
 THIN_CUTS = (0.1, 1e-2, 1e-3)
-"""Smallest open gaps that ``THIN_LAYERS`` are tried on, over the mean gap."""
+"""Smallest open gaps, over the mean gap, that are solved with ``THIN_LAYERS``."""
 
 NEAR, CUT, THIN, STEEP = "near walls", "contact", "thin cells at contact", "slope"
 CELLS, INERTIA = "shape of cells", "inertia"
@@ -62,7 +62,15 @@ CELLS, INERTIA = "shape of cells", "inertia"
 
 @dataclass(frozen=True, kw_only=True)
 class GapProbe:
-    """One run: its place on the map, the directory and the scene, the setting, and the wave if there is one."""
+    """One run of a model and its place on the map.
+
+    Attributes
+    ----------
+    group, row, column : names of the place on the map.
+    place : name of the directory of the run.
+    scene, setting : scene, and model with its numerical options.
+    wave : wall of the gap, None for a pressed wall.
+    """
 
     group: str
     row: str
@@ -132,7 +140,7 @@ def _over_wave(
 
 
 def wave_scene(wave: Wave, *, layers: int | None = None, reynolds_number: float = CREEPING) -> RoughGap:
-    """The scene of a gap of mean height ``MEAN_GAP`` over a wave, open everywhere."""
+    """The scene of a gap with the mean height ``MEAN_GAP`` over a wave, which is open everywhere."""
     size, height = f"{wave.wavelength * MEAN_GAP!r} m", f"{wave.amplitude * MEAN_GAP!r} m"
     geometry: dict[str, Any] = {"surface": "sinusoid", "amplitude": height, "wavelength": size}
     if wave.bumps:
@@ -162,7 +170,7 @@ def _bumps(size: str, amplitude: str) -> dict[str, Any]:
 
 
 def _pressed(settings: Sequence[Setting]) -> Iterator[GapProbe]:
-    """Pressed walls, which touch where they are nearer than a fraction of the mean gap."""
+    """The runs of pressed walls, which count as touching where the gap is below a fraction of the mean gap."""
     size = "100 um"
     surfaces = {
         "bumps": _bumps(size, "1 um"),

@@ -1,1 +1,1 @@
-"""Paper B of the source: its figures regenerated, its claims judged."""
+"""Regeneration of the figures of Paper B of the source, and judgement of its claims."""

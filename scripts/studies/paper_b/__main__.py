@@ -16,7 +16,7 @@ from scripts.studies.paper_b.data import COARSE, CONSTANT, HALF, ORIGINAL, ROUND
 from scripts.studies.study import Out, counted, publish
 
 FRONTS = {"starved": ORIGINAL, "starved, moduli": HALF}
-"""Films that begin a little downstream of the reference."""
+"""Lubricant by case for the films that begin slightly downstream of the reference."""
 
 
 @in_one_line

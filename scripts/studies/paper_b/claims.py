@@ -1,4 +1,4 @@
-"""The numbers that Paper B prints beside ours, and its claims judged."""
+"""Comparison of the numbers that Paper B prints with computed ones, and judgement of its claims."""
 
 from dataclasses import dataclass
 
@@ -41,7 +41,7 @@ MAXIMA_APART = 1.6e3
 
 @dataclass(frozen=True, kw_only=True)
 class PrintedDifference:
-    """A number of the paper beside both readings of Eq. B.11, and the difference between both grids."""
+    """A number of the paper, its computed value by both readings of Eq. B.11, and the difference between both grids."""
 
     printed: PrintedNumber
     reference: str
@@ -50,7 +50,7 @@ class PrintedDifference:
 
     @property
     def agrees(self) -> tuple[bool, bool]:
-        """Whether the paper's number is ours to its last digit, rounded or truncated: by integrals, and between."""
+        """Whether the printed number is the computed one to its last digit (rounded or cut off), by both readings."""
         digit = self.printed.digit
         return self._to_a_digit(self.found.integrals, digit), self._to_a_digit(self.found.between, digit)
 
@@ -59,7 +59,7 @@ class PrintedDifference:
 
 
 def rows(paper: PaperB) -> list[PrintedDifference]:
-    """Return every number of the paper beside ours."""
+    """Return every printed number with the computed one."""
     made = []
     for printed in PRINTED:
         fine, coarse = paper.found[printed.case, printed.law, printed.quantity]
@@ -81,7 +81,7 @@ def judge(paper: PaperB) -> list[Claim]:
 
 
 def laws_differ(paper: PaperB) -> Judgement:
-    """Judge claim 8."""
+    """Judge claim 8, on the loads with two lubricants."""
     said = {"flooded": 0.017, "starved": 0.074, "gap": 0.22}
     found = {case: paper.found[case, ORIGINAL, "p"][0] for case in said}
     near = [abs(found[case].integrals / value - 1) <= 0.1 for case, value in said.items()]
@@ -98,7 +98,7 @@ def laws_differ(paper: PaperB) -> Judgement:
 
 
 def constant_modulus(paper: PaperB) -> Judgement:
-    """Judge claim 9."""
+    """Judge claim 9, on the load with a constant bulk modulus."""
     summary, at_fifty = [], []
     for name, sweep in paper.sweeps.items():
         reach = []
@@ -119,7 +119,7 @@ def constant_modulus(paper: PaperB) -> Judgement:
 
 
 def inlet_matters(paper: PaperB) -> Judgement:
-    """Judge claim 10."""
+    """Judge claim 10, on the effect of the inlet pressure and of the pattern."""
     full = {name: film.load for (name, inlet), film in paper.patterns.items() if inlet == "pc"}
     pressed = {name: film.load for (name, inlet), film in paper.patterns.items() if inlet == "2 pc"}
     raised = {name: pressed[name] / load - 1 for name, load in full.items()}

@@ -31,7 +31,7 @@ MODULUS = C1 / (C2 - 1)
 
 
 def constant(modulus: float) -> dict[str, Any]:
-    """P = β ln θ, with β in GPa."""
+    """Return the entries of the law p = β ln θ, with β in GPa."""
     return {"law": "constant_bulk_modulus", "bulk_modulus": f"{modulus!r} GPa"}
 
 
@@ -80,7 +80,7 @@ READINGS: dict[str, Inlet] = {
     "p = 336 kPa for both": {"pressure": "336 kPa"},
     "θ = 1, flooded": FLOODED,
 }
-"""Possible meanings of the inlet of Figs. B.3 and B.5: θ = 1.0001 is 6.9 kPa in one law and 336 kPa in the other."""
+"""Possible inlets of Figs. B.3 and B.5, as θ = 1.0001 means 6.9 kPa with one law and 336 kPa with the other."""
 
 PATTERNS = {
     "sinusoidal, 10 mm": "sinusoidal_long",
@@ -96,14 +96,20 @@ RANGES = {
     "thin parabola, θ = 0.55": ("thin_parabola", STARVED, (0.005, 5.0)),
     "converging gap, θ = 0.85": ("converging_gap", GAP_STARVED, (0.005, 5.0)),
 }
-"""Sliding speeds, m/s, that take the greatest pressure from about 1 MPa to several hundred."""
+"""Scene, inlet and range of the sliding speed (m/s); the greatest pressure is about 1 MPa to several hundred MPa."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class CavitatingFilm:
-    """A film in balance at the nodes: m, Pa above pc; ``weights`` integrate over the length.
+    """The solution of a film at its n nodes; arrays have the shape (n,).
 
-    ``start`` and ``rupture`` are where the first film begins and the last one ends, x/L.
+    Attributes
+    ----------
+    x, thickness : position and film thickness, m.
+    pressure : pressure above pc, Pa.
+    theta : density ratio θ.
+    weights : weights of the integral over the length, m.
+    start, rupture : start of the first full film, and end of the last one, x/L.
     """
 
     x: Array
@@ -116,7 +122,7 @@ class CavitatingFilm:
 
     @property
     def load(self) -> float:
-        """∫p dx, N/m."""
+        """The load ∫ p dx per width, N/m."""
         return float(self.weights @ self.pressure)
 
     @property
@@ -127,14 +133,14 @@ class CavitatingFilm:
 
 @dataclass(frozen=True, kw_only=True)
 class FilmDifference:
-    """Relative difference to a reference ψ: between the integrals, and the integral of |ψ - ψ_reference|."""
+    """Relative difference of ψ to a reference: that of the integrals, and the integral of |ψ - ψ_reference|."""
 
     integrals: float
     between: float
 
 
 def difference(values: Array, reference: Array, weights: Array) -> FilmDifference:
-    """Return Eq. B.11 in its two readings."""
+    """Return the difference of Eq. B.11 in its two readings: |∫(ψ − ψr) dx|/∫ψr dx and ∫|ψ − ψr| dx/∫ψr dx."""
     whole = float(weights @ reference)
     apart = values - reference
     return FilmDifference(integrals=abs(float(weights @ apart)) / whole, between=float(weights @ np.abs(apart)) / whole)
@@ -142,14 +148,17 @@ def difference(values: Array, reference: Array, weights: Array) -> FilmDifferenc
 
 @dataclass(frozen=True, kw_only=True)
 class SpeedSweep:
-    """One film at rising speed: greatest pressure with D&H-MNL, and relative load differences of the other laws."""
+    """One film at rising speeds (m/s): greatest pressures with D&H-MNL (Pa), and relative load differences by law."""
 
     speeds: Array
     peaks: Array
     differences: dict[str, Array]
 
     def reach(self, law: str, part: float) -> float | None:
-        """Return the greatest pressure up to which the load differs by less than a fraction; None if at all."""
+        """Return the greatest pressure, Pa, up to which the load differs by less than the fraction ``part``.
+
+        It is None if the load differs by less at all speeds, and 0 if it differs by more at the first speed.
+        """
         values = self.differences[law]
         above = np.flatnonzero(values >= part)
         if not above.size:
@@ -161,13 +170,13 @@ class SpeedSweep:
         return float(np.exp(np.interp(np.log(part), np.log(values[pair]), np.log(self.peaks[pair]))))
 
     def at(self, law: str, peak: float) -> float:
-        """Return the difference where the greatest pressure is ``peak``."""
+        """Return the relative load difference at the greatest pressure ``peak``, Pa."""
         return float(np.interp(peak, self.peaks, self.differences[law]))
 
 
 @dataclass(frozen=True, kw_only=True)
 class PaperB:
-    """Everything the page shows; ``coarser`` is ``films`` on half as many cells."""
+    """All data of the page; ``coarser`` and ``coarser_patterns`` are solutions on half as many cells."""
 
     cells: int
     films: dict[str, dict[str, CavitatingFilm]]
@@ -179,7 +188,7 @@ class PaperB:
 
     @cached_property
     def found(self) -> dict[tuple[str, str, str], tuple[FilmDifference, FilmDifference]]:
-        """Differences to the first law of each case on both grids, by case, law and "p" or "θ"."""
+        """The differences to the first law of each case on the fine and coarse grid, by case, law and "p" or "θ"."""
         return {
             (case, law, quantity): (
                 _apart(self.films[case], law, quantity),
@@ -198,7 +207,7 @@ def _apart(films: dict[str, CavitatingFilm], law: str, quantity: str) -> FilmDif
 
 
 def bearing(scene: str, law: str, inlet: Inlet, speed: float | None = None) -> Bearing:
-    """Return a scene of the paper with another lubricant, inlet or speed, m/s."""
+    """Return a scene of the paper with another lubricant, another inlet and, if given, another speed, m/s."""
     entries = load_entries(SCENES / f"{scene}.toml")
     entries["lubricant"]["compressibility"] = LAWS[law]
     entries["boundary"]["inlet"] = dict(inlet)
@@ -210,7 +219,7 @@ def bearing(scene: str, law: str, inlet: Inlet, speed: float | None = None) -> B
 
 
 def film(scene: Bearing, cells: int) -> CavitatingFilm:
-    """Return the film of a scene."""
+    """Return the solution of the film of a scene on ``cells`` cells along the sliding."""
     found = solve(scene.problem(), (cells, 1))
     start, rupture = film_ends(found, 0)
     return CavitatingFilm(
@@ -225,7 +234,7 @@ def film(scene: Bearing, cells: int) -> CavitatingFilm:
 
 
 def sweep(scene: str, inlet: Inlet, speeds: Array, cells: int) -> SpeedSweep:
-    """Solve one film at rising speeds."""
+    """Solve one film at rising speeds (m/s) with D&H-MNL and with two other laws."""
     peaks, differences = np.empty(speeds.size), {law: np.empty(speeds.size) for law in (CONSTANT, ORIGINAL)}
     for i, speed in enumerate(speeds):
         reference = film(bearing(scene, MNL, inlet, float(speed)), cells)

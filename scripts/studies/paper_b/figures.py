@@ -1,4 +1,4 @@
-"""Figures B.1 to B.17 of Paper B, and one of claim 9; pressures count from ambient, where liquid also cavitates."""
+"""Figures B.1 to B.17 of Paper B, and one for claim 9; pressures are relative to ambient, the cavitation pressure."""
 
 from collections.abc import Callable
 from functools import partial
@@ -101,7 +101,7 @@ def _compressibility(paper: PaperB) -> Figure:  # noqa: ARG001
 
 
 def _waves(kind: str, inlet: str, paper: PaperB) -> list[tuple[str, str, CavitatingFilm]]:
-    """Return number, colour and film of each wavelength."""
+    """Return the number, the colour and the film of each wavelength."""
     return [(number, colour, paper.patterns[f"{kind}, {length}", inlet]) for length, number, colour in WAVELENGTHS]
 
 

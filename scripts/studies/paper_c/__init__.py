@@ -1,1 +1,1 @@
-"""Paper C of the source: its figures regenerated, its claims judged."""
+"""Regeneration of the figures of Paper C of the source, and judgement of its claims."""

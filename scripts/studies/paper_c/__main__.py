@@ -106,7 +106,7 @@ def numbers(paper: PaperC) -> dict[str, Any]:
 
 
 def _a_flows_best(paper: PaperC, factor: int) -> NDArray[np.bool_]:
-    """Return where a factor of profile A exceeds those of all others of the same seed, shape (seeds, α)."""
+    """Return whether a factor of profile A exceeds those of all other profiles of the same seed, shape (seeds, α)."""
     others = [values[:, :, factor] for name, values in paper.factors.items() if name != "A"]
     return np.asarray(paper.factors["A"][:, :, factor] > np.max(others, axis=0))
 

@@ -1,4 +1,4 @@
-"""The claims of Paper C on flow factors and films, judged by profiles made to its table."""
+"""Judgement of the claims of Paper C on flow factors and films, by synthetic profiles with the numbers of its table."""
 
 from itertools import pairwise
 
@@ -14,13 +14,13 @@ EQUAL_FACTORS = 1e-10
 """Relative difference below which factors count as equal."""
 
 FACTOR_ERROR = 1e-3
-"""Relative error of the factors for which nodes are counted."""
+"""Relative error of the factors to which the required nodes are counted."""
 
 JUDGED_LOADS = (1e5, 1e6)
-"""Loads of Fig. C.13 between which films are put in order, N/m."""
+"""Least and greatest load of Fig. C.13 at which the order of the films is judged, N/m."""
 
 ORDERED_FRACTION = 0.95
-"""Fraction of all pairs of profiles from which on a number counts as ordering their films."""
+"""Least fraction of the pairs of profiles that a roughness parameter must order to count as ordering their films."""
 
 
 def judge(paper: PaperC) -> list[Claim]:
@@ -29,12 +29,12 @@ def judge(paper: PaperC) -> list[Claim]:
 
 
 def apart(values: Array) -> Array:
-    """Return the largest relative difference between rearrangements, shape (α, 2)."""
+    """Return the largest relative difference between rearrangements of a profile, shape (α, 2)."""
     return np.asarray(np.ptp(values, axis=0) / values[0])
 
 
 def same_bearing_curve(paper: PaperC) -> Judgement:
-    """Judge claim 11."""
+    """Judge claim 11, on profiles with the same bearing curve."""
     near = int(np.argmin(np.abs(RANGE - ALPHAS[0])))
     worst = {way: max(float(apart(paper.shuffled[name, way]).max()) for name in TABLE) for way in WAYS}
     thick = {way: max(float(apart(paper.shuffled[name, way])[near].max()) for name in TABLE) for way in WAYS}
@@ -50,7 +50,7 @@ def same_bearing_curve(paper: PaperC) -> Judgement:
 
 
 def fewer_nodes(paper: PaperC) -> Judgement:
-    """Judge claim 12."""
+    """Judge claim 12, on the number of nodes that each rule needs."""
     near = ALPHAS[-1]
 
     def needed(name: str, rule: Rule, left_out: int) -> float:
@@ -90,7 +90,7 @@ def _worst_at_first(paper: PaperC) -> float:
 
 
 def ordered_by_roughness(paper: PaperC) -> Judgement:
-    """Judge claim 14."""
+    """Judge claim 14, on the order of films by roughness."""
     loads = [k for k, load in enumerate(LOADS) if JUDGED_LOADS[0] <= load <= JUDGED_LOADS[1]]
     until = order_holds_to(paper.curves)
     random, alike = paper.orderings["random"], paper.orderings["of one Ra"]
@@ -127,6 +127,9 @@ def order_holds_to(curves: dict[str, list[Curve]]) -> float:
 
 
 def against(rough: Array, clearance: Array) -> float:
-    """Return the greatest ratio of roughness in a pair whose rougher profile has the thicker film; 1 if none has."""
+    """Return the greatest ratio of the roughness of two profiles of which the rougher one has the thicker film.
+
+    It is 1 if there are no such profiles. Both arrays have the shape (profiles,).
+    """
     ratio = rough[:, None] / rough
     return float(ratio[clearance[:, None] > clearance].max(initial=1.0))

@@ -1,4 +1,4 @@
-"""Profiles made to Table C.2 of Paper C, their flow factors by every rule, and films between them and a flat slider."""
+"""Synthetic profiles with the numbers of Table C.2, their flow factors by every rule, and films under a flat slider."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -31,7 +31,7 @@ TABLE = {
     "C": FourMoments(average=0.13e-6, rms=0.17e-6, skewness=-0.010, kurtosis=3.6, peak=0.57e-6),
     "D": FourMoments(average=0.37e-6, rms=0.47e-6, skewness=0.032, kurtosis=3.0, peak=1.4e-6),
 }
-"""Table C.2; its rmax is the height of the highest point over the mean, as α = 1 is contact."""
+"""Numbers of Table C.2; rmax is the height of the highest point above the mean, because contact begins at α = 1."""
 
 LENGTH = 0.42e-3
 POINTS = 512
@@ -40,7 +40,7 @@ SEEDS = tuple(range(201, 209))
 ALPHAS = (0.49, 0.98)
 POWERS = tuple(range(10, 18))
 BESIDE = 4
-"""Nodes fewer than a power of two, so that hardly any falls on a point of the profile."""
+"""Number of nodes left out of a power of two, so that few nodes coincide with points of the profile."""
 
 RANGE = np.sort(np.concatenate([np.linspace(0.02, 0.9, 45), 1 - np.geomspace(0.09, 1e-3, 25), ALPHAS]))
 SHUFFLES = tuple(range(301, 307))
@@ -49,14 +49,18 @@ WAYS = ("sums over the 512 heights", "lines between the 512 points", f"lines, re
 
 
 PARTS = 7
-"""Steps of the work: four profiles, loads by nodes, films, random profiles."""
+"""Number of steps of the work: four profiles, loads by nodes, films, random profiles."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class RuleConvergence:
-    """φx and φs of profiles on N nodes: ``found`` by rule and number of nodes left out, shape (seeds, N, 2).
+    """The flow factors φx and φs of profiles on rising numbers of nodes.
 
-    ``exact`` is that of the same straight lines, shape (seeds, 2).
+    Attributes
+    ----------
+    nodes : numbers of nodes N, shape (N,).
+    exact : exact factors of the straight lines between the points, shape (seeds, 2).
+    found : factors by rule and number of nodes left out, shape (seeds, N, 2).
     """
 
     nodes: Array
@@ -64,16 +68,19 @@ class RuleConvergence:
     found: dict[tuple[Rule, int], Array]
 
     def errors(self, rule: Rule, left_out: int) -> Array:
-        """Over the exact ones, shape (seeds, N, 2)."""
+        """Return the relative errors of the factors, shape (seeds, N, 2)."""
         return np.abs(self.found[rule, left_out] / self.exact[:, None] - 1)
 
     def changes(self, rule: Rule, left_out: int) -> Array:
-        """Eq. C.21: from N/2 to N nodes, over their mean; shape (seeds, N - 1, 2)."""
+        """Return the change of the factors from N/2 to N nodes over their mean (Eq. C.21), shape (seeds, N - 1, 2)."""
         values = self.found[rule, left_out]
         return np.abs(2 * np.diff(values, axis=1) / (values[:, 1:] + values[:, :-1]))
 
     def needed(self, rule: Rule, left_out: int, error: float) -> Array:
-        """Nodes from which on the error stays below, both of φx and φs, interpolated; shape (seeds,); NaN: too few."""
+        """Return the least number of nodes from which on the errors of φx and φs stay within ``error``, shape (seeds,).
+
+        The number is interpolated; it is NaN where the error on the most nodes is larger.
+        """
         worst = self.errors(rule, left_out).max(axis=2)
         found = np.full(worst.shape[0], np.nan)
         for i, errors in enumerate(worst):
@@ -97,10 +104,12 @@ class RuleConvergence:
 
 @dataclass(frozen=True, kw_only=True)
 class PaperC:
-    """Everything the page shows.
+    """All data of the page.
 
-    ``factors``: φx and φs over ``RANGE``, shape (seeds, α, 2). ``shuffled``: the same of the first seed and of its six
-    rearrangements, by profile and way, shape (7, α, 2).
+    Attributes
+    ----------
+    factors : φx and φs over ``RANGE`` by profile, shape (seeds, α, 2).
+    shuffled : φx and φs of the first seed and of its six rearrangements, by profile and way, shape (7, α, 2).
     """
 
     profiles: dict[str, list[Array]]
@@ -116,23 +125,23 @@ class PaperC:
 
 
 def make(name: str, seed: int) -> Array:
-    """Heights of a profile, m."""
+    """Return the heights of a profile of Table C.2, m, shape (``POINTS``,)."""
     return ground_profile(TABLE[name], length=LENGTH, points=POINTS, seed=seed, roll_off=ROLL_OFF)
 
 
 def gap(heights: Array, alpha: float) -> Array:
-    """Eq. C.12: H = 1 - α r/rmax; ``heights`` have a mean of 0."""
+    """Return the gap H = 1 - α r/rmax over its mean (Eq. C.12); the heights r must have a mean of 0."""
     return np.asarray(1 - alpha * heights / heights.max())
 
 
 def both(factors: FlowFactors) -> tuple[float, float]:
-    """φx and φs."""
+    """Return φx and φs."""
     relative = factors.relative
     return float(relative.pressure[0, 0]), float(relative.shear[0])
 
 
 def convergence(profiles: Sequence[Array], alpha: float, powers: Sequence[int]) -> RuleConvergence:
-    """Apply every rule on 2ᵏ nodes and on ``BESIDE`` fewer."""
+    """Compute the factors by every rule on 2ᵏ nodes and on 2ᵏ − ``BESIDE`` nodes, for k in ``powers``."""
     gaps = [gap(heights, alpha) for heights in profiles]
     return RuleConvergence(
         nodes=2.0 ** np.array(powers),
@@ -148,20 +157,20 @@ def convergence(profiles: Sequence[Array], alpha: float, powers: Sequence[int]) 
 
 
 def by_lines(heights: Array) -> Array:
-    """φx and φs over ``RANGE`` of straight lines, shape (α, 2)."""
+    """Return φx and φs over ``RANGE`` for straight lines between the heights, shape (α, 2)."""
     mean_gap = heights.max() / RANGE
     found = profile_over_gap(heights)(mean_gap)
     return np.stack([found.along / mean_gap**3, found.drag / mean_gap], axis=1)
 
 
 def by_heights(heights: Array) -> Array:
-    """φx and φs over ``RANGE`` of sums over the heights, shape (α, 2)."""
+    """Return φx and φs over ``RANGE`` by sums over the heights, shape (α, 2)."""
     found = [line_factors_on(gap(heights, alpha), heights.size, rule=Rule.TRAPEZOID) for alpha in RANGE]
     return np.array([both(one.factors) for one in found])
 
 
 def shuffled(heights: Array, seeds: Sequence[int], refined: int) -> dict[str, Array]:
-    """φx and φs of a profile and of its rearrangements: heights summed, lines between them, lines of finer heights."""
+    """Return φx and φs of a profile and of its rearrangements by each of ``WAYS``, shape (1 + seeds, α, 2)."""
     orders = [heights, *(rearranged(heights, seed=seed) for seed in seeds)]
     fine = sampled(heights[:, None], refined, 0)[:, 0]
     finer = [fine, *(rearranged(fine, seed=seed, folds=0) for seed in seeds)]
@@ -177,7 +186,7 @@ def compute(
     refined: int = REFINED,
     random: int = 100,
 ) -> PaperC:
-    """Compute everything the page shows; ``advance`` is called ``PARTS`` times."""
+    """Compute all data of the page; ``advance`` is called ``PARTS`` times."""
     profiles = {name: [make(name, seed) for seed in seeds] for name in TABLE}
     study, factors, orders = {}, {}, {}
     for name, made in profiles.items():

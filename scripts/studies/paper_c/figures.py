@@ -1,4 +1,4 @@
-"""Figures C.4 to C.13 of Paper C; A to D are profiles made to its table, S is smooth."""
+"""Figures C.4 to C.13 of Paper C; A to D are synthetic profiles with the numbers of its table, S is smooth."""
 
 import math
 from collections.abc import Callable

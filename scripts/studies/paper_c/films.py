@@ -1,4 +1,4 @@
-"""Films between a rough wall and a flat slider, as Paper C has them: homogenized, compressible, on a line."""
+"""Homogenized compressible films between a rough wall and an infinitely wide flat slider, as in Paper C."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -20,10 +20,10 @@ from roughfilm.rom.homogenization.node_sums import Rule, line_factors_on
 from roughfilm.rom.lubricants.compressibility import ConstantBulkModulus
 
 SPAN, SPEED, VISCOSITY = 0.1, 1.0, 0.14
-"""Lx, m; u, m/s; η, Pa s."""
+"""Length Lx, m, sliding speed u, m/s, and viscosity η, Pa s."""
 
 MODULUS = 1e9
-"""β, Pa. The text prints 10⁹ GPa; peaks of ``MODULI`` tell which it was."""
+"""Bulk modulus β, Pa. The paper prints 10⁹ GPa; the greatest pressures for ``MODULI`` show which value it used."""
 
 MODULI = (1e9, 1e10)
 
@@ -34,18 +34,18 @@ DROP = {"C.9": 1e-6, "C.10": 0.4e-6, "C.11": 0.4e-6, "C.12": 0.4e-6, "C.13": 1e-
 SMOOTH = "S"
 LAMBDA = 10.0
 CLEARANCES = np.geomspace(0.02e-6, 30e-6, 34)
-"""min h0 of the films of C.13, m."""
+"""Clearances min h0 of the films of Fig. C.13, m."""
 
 LOADS = (5e4, 1e5, 2e5, 5e5, 1e6, 2e6, 5e6, 1e7)
-"""At which films are put in order, N/m; C.13 of the paper shows up to 10⁶."""
+"""Loads at which films are compared, N/m; Fig. C.13 of the paper shows loads up to 10⁶ N/m."""
 
 DEGREE, LOW = 24, 8
-"""Degrees of the polynomials: from near contact to thick films, and over the one micrometre of C.9."""
+"""Degrees of the polynomials from near contact to thick films, and over the one micrometre of Fig. C.9."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class HomogenizedFilm:
-    """A film in balance at the nodes: m, Pa above pc."""
+    """The solution of a film at its nodes: x and mean gap, m, pressure above pc, Pa, shape (nodes,); load, N/m."""
 
     x: Array
     mean_gap: Array
@@ -55,27 +55,27 @@ class HomogenizedFilm:
 
 @dataclass(frozen=True, kw_only=True)
 class Curve:
-    """The load, N/m, that a film bears, falling, over its clearance min h0, m; ``rms`` of its profile, m."""
+    """The falling load of a film, N/m, over its clearance min h0, m, and the rms height ``rms`` of its profile, m."""
 
     clearance: Array
     load: Array
     rms: float
 
     def at(self, loads: ArrayLike) -> Array:
-        """The clearance, m, at loads, N/m; NaN beyond the curve."""
+        """Return the clearances, m, at loads, N/m; NaN beyond the curve."""
         through = PchipInterpolator(np.log(self.load[::-1]), np.log(self.clearance[::-1]), extrapolate=False)
         return np.asarray(np.exp(through(np.log(loads))))
 
 
 @dataclass(frozen=True, kw_only=True)
 class FilmOrdering:
-    """Random profiles: numbers of each, m, shape (profiles,), and min h0 at ``LOADS``, shape (profiles, loads)."""
+    """Roughness parameters of profiles (m, shape (profiles,)), and min h0 at ``LOADS`` (m, shape (profiles, loads))."""
 
     numbers: dict[str, Array]
     clearance: Array
 
     def concordance(self, number: str, load: int) -> float:
-        """Part of the pairs in which the rougher one, by this number, has the thinner film."""
+        """Return the fraction of the pairs of profiles in which the one of larger ``number`` has the thinner film."""
         rough, thin = self.numbers[number], -self.clearance[:, load]
         one, other = np.triu_indices(rough.size, 1)
         return float(((rough[one] - rough[other]) * (thin[one] - thin[other]) > 0).mean())
@@ -88,7 +88,7 @@ def solved(
     cells: int = CELLS,
     modulus: float = MODULUS,
 ) -> HomogenizedFilm:
-    """Eq. C.19 with p = pc at both ends, by the solver of films that may cavitate: here none does."""
+    """Solve Eq. C.19 with p = pc at both ends, by the solver for cavitating films; these films do not cavitate."""
     law = ConstantBulkModulus.model_validate({"law": "constant_bulk_modulus", "bulk_modulus": f"{modulus!r} Pa"})
     shape = Shape(thickness=lambda x, y: thickness(x) + 0 * y, breaks=(0.0, SPAN), roughness=roughness)
     problem = Problem(shape=shape, ends=Ends(inlet=0.0), speed=SPEED, viscosity=VISCOSITY, compressibility=law)
@@ -102,12 +102,12 @@ def solved(
 
 
 def wedge(outlet: float, drop: float) -> Callable[[Array], Array]:
-    """A film that narrows by ``drop``, m, to ``outlet``."""
+    """Return the film thickness over x, m, which falls by ``drop``, m, to ``outlet``, m."""
     return lambda x: outlet + drop * (1 - x / SPAN)
 
 
 def over_gap(factors: Sequence[FlowFactors], mean_gap: Array, highest: float) -> GapFactors:
-    """Return the factors over many mean gaps, m, from those at each; ``highest`` is the highest point, m."""
+    """Return the factors over the mean gap, m, from those at each mean gap; ``highest`` is the highest point, m."""
     return GapFactors(
         along=np.array([one.pressure[0, 0] for one in factors]),
         across=np.array([one.pressure[1, 1] for one in factors]),
@@ -124,9 +124,9 @@ def over_gap(factors: Sequence[FlowFactors], mean_gap: Array, highest: float) ->
 def tabled(
     factors: FactorsOverGap, highest: float, clearances: tuple[float, float], degree: int = DEGREE
 ) -> FactorsOverGap:
-    """Factors at ``degree`` + 1 mean gaps, by a polynomial between: of their logarithms over that of ĥ - rmax.
+    """Return factors interpolated between ``degree`` + 1 mean gaps ĥ, by polynomials in ln(ĥ - rmax).
 
-    ``clearances``: the least and the greatest ĥ - rmax, m.
+    ``highest`` is rmax, m, and ``clearances`` are the least and the greatest ĥ - rmax, m.
     """
     low, high = np.log(clearances)
     places = (low + high) / 2 - (high - low) / 2 * np.cos(np.pi * np.arange(degree + 1) / degree)
@@ -160,7 +160,7 @@ def tabled(
 
 
 def by_rule(heights: Array, nodes: int, rule: Rule) -> FactorsOverGap:
-    """Factors of a profile on some nodes, by a rule."""
+    """Return the factors of a profile over the mean gap, by a rule on ``nodes`` nodes."""
     highest = float(heights.max())
 
     def factors(mean_gap: Array) -> GapFactors:
@@ -171,7 +171,7 @@ def by_rule(heights: Array, nodes: int, rule: Rule) -> FactorsOverGap:
 
 
 def loads_by_nodes(heights: Array, nodes: Sequence[int], rule: Rule) -> Array:
-    """Loads of the film of C.9, ĥ = 6 to 5 µm, N/m."""
+    """Return the loads, N/m, of the film of Fig. C.9 (ĥ = 6 to 5 µm) for each number of nodes."""
     top = float(heights.max())
     clearances = (5e-6 - top, 6e-6 - top)
     return np.array(
@@ -183,7 +183,7 @@ def loads_by_nodes(heights: Array, nodes: Sequence[int], rule: Rule) -> Array:
 
 
 def films(profiles: Mapping[str, Array]) -> dict[str, dict[str, HomogenizedFilm]]:
-    """Films of C.10 (equal h0), C.11 (equal mean) and C.12 (equal Λ), by profile; "S" is smooth."""
+    """Return the films of Figs. C.10 (equal h0), C.11 (equal mean gap), C.12 (equal Λ) by profile; "S" is smooth."""
     found: dict[str, dict[str, HomogenizedFilm]] = {
         "C.10": {SMOOTH: solved(wedge(3e-6, DROP["C.10"]), None)},
         "C.11": {SMOOTH: solved(wedge(4e-6, DROP["C.11"]), None)},
@@ -197,7 +197,7 @@ def films(profiles: Mapping[str, Array]) -> dict[str, dict[str, HomogenizedFilm]
 
 
 def peaks(profiles: Mapping[str, Array]) -> dict[float, tuple[float, float]]:
-    """The greatest pressures of S in C.10 and of profile C in C.12 for each modulus, Pa."""
+    """Return the greatest pressures of S in Fig. C.10 and of profile C in Fig. C.12 for each modulus, Pa."""
     heights = profiles["C"]
     outlet = LAMBDA * float(heights.std()) + float(heights.max())
     found = {}
@@ -209,7 +209,7 @@ def peaks(profiles: Mapping[str, Array]) -> dict[float, tuple[float, float]]:
 
 
 def curve(heights: Array | None, *, cells: int = CELLS // 2) -> Curve:
-    """The loads of C.13 over min h0; of a smooth film without heights."""
+    """Return the loads of Fig. C.13 over min h0; the wall is smooth if ``heights`` is None."""
     drop = DROP["C.13"]
     top, factors = 0.0, None
     if heights is not None:
@@ -225,7 +225,7 @@ def load_curves(profiles: Mapping[str, Sequence[Array]]) -> dict[str, list[Curve
 
 
 def random_profile(seed: int, *, points: int = 512, roll_off: int = 4) -> Array:
-    """Heights of a self-affine profile (H = 0.8) with Ra = 0.1 to 1 µm, bent so that peaks or valleys prevail."""
+    """Return the heights of a self-affine profile (H = 0.8, Ra = 0.1 to 1 µm), m, skewed towards peaks or valleys."""
     random = np.random.default_rng(seed)
     wave = np.arange(points // 2 + 1)
     waves = np.maximum(wave / roll_off, 1.0) ** -1.3 * (
@@ -240,7 +240,7 @@ def random_profile(seed: int, *, points: int = 512, roll_off: int = 4) -> Array:
 
 
 def random_ordering(count: int) -> dict[str, FilmOrdering]:
-    """Films of random profiles: of all Ra, and all scaled to Ra = 0.4 µm."""
+    """Return the films of random profiles with different Ra, and of profiles that are scaled to Ra = 0.4 µm."""
     made = [random_profile(seed) for seed in range(1001, 1001 + count)]
     alike = [0.4e-6 * heights / np.abs(heights).mean() for heights in made[: count // 2]]
     return {"random": _ordered(made), "of one Ra": _ordered(alike)}

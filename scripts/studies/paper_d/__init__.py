@@ -1,1 +1,1 @@
-"""Paper D of the source: its figures regenerated, its claims judged."""
+"""Regeneration of the figures of Paper D of the source, and judgement of its claims."""

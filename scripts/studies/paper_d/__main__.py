@@ -44,7 +44,7 @@ def command(out: Out, as_json: AsJson = False) -> None:
 
 
 def numbers(paper: PaperD, model: list[Contact], again: list[Reloading]) -> dict[str, Any]:
-    """Return the numbers of the page: means and standard deviations over seeds."""
+    """Return the numbers of the page, with means and standard deviations over seeds."""
 
     def spread(state: State) -> dict[str, Any]:
         return {name: {"mean": values.mean(axis=0), "deviation": values.std(axis=0)} for name, values in state.items()}

@@ -1,4 +1,4 @@
-"""The claims of Paper D on dry contact, judged by pressed profiles."""
+"""Judgement of the claims of Paper D on dry contact, by pressed profiles."""
 
 import numpy as np
 
@@ -8,7 +8,7 @@ from scripts.studies.paper_d.data import LENGTH, SPECTRA, STEEL, PaperD
 from scripts.studies.study import Claim, Judgement, claims_of, verdict
 
 MIN_CONTACT_NODES = 4
-"""Least number of nodes in contact, on average, at the loads that are fitted."""
+"""Least mean number of nodes in contact at the loads that are fitted."""
 
 
 def judge(paper: PaperD) -> list[Claim]:
@@ -23,13 +23,13 @@ def power_of(x: Array, y: Array) -> float:
 
 
 def straightness(x: Array, y: Array) -> float:
-    """Return R² of the line through the origin."""
+    """Return R² of the line through the origin that fits the points by least squares."""
     line = x * float(x @ y) / float(x @ x)
     return 1 - float(((y - line) ** 2).sum() / ((y - y.mean()) ** 2).sum())
 
 
 def settled(waves: Array, area: Array, part: float) -> int:
-    """Return the least n from which on the area stays within a fraction of its last value."""
+    """Return the least number of waves from which on the area stays within the fraction ``part`` of its last value."""
     outside = np.flatnonzero(np.abs(area / area[-1] - 1) > part)
     return int(waves[outside[-1] + 1]) if outside.size else int(waves[0])
 

@@ -23,13 +23,13 @@ LOADS = tuple(1e3 * load for load in (2, 5, 10, 20, 30, 40, 50, 60, 70, 80, 90, 
 WAVES = (*range(1, 21), *range(22, 41, 2), 45, 50, 60, 70, 80, 90, 100, 120, 150, 180, 220, 255)
 SEEDS = tuple(range(101, 109))
 SPECTRA = {"self-affine": 256, "smooth": 32}
-"""The highest wave of each: all that the nodes hold, or the same profiles without the shorter ones."""
+"""Highest wave number of each spectrum: the highest on the nodes, or a lower one for smoother profiles."""
 
 ROLL_OFF = LENGTH / 4
-"""Longer waves are as high as this one; the plasticity indices are then about as high as those of Fig. D.4."""
+"""Roll-off wavelength, m; longer waves have constant height. The plasticity indices are close to those of Fig. D.4."""
 
 REFINEMENT = 8
-"""Factor by which the number of nodes is raised on the finer grid."""
+"""Number of nodes of the finer grid over that of the coarser grid."""
 
 CONTACT_TOLERANCE = 1e-7
 
@@ -47,34 +47,34 @@ MACHINING = {
 
 @dataclass(frozen=True, kw_only=True)
 class PaperD:
-    """Everything that is drawn and judged, by spectrum and profile."""
+    """All data that are drawn and judged, by spectrum and profile."""
 
     loads: Sequence[float]
     waves: Sequence[int]
     profiles: dict[tuple[str, str], list[Array]]
     pressed: dict[tuple[str, str], State]
     cut: dict[str, State]
-    """Area of profile D at the highest load, "elastic" and "elastic-plastic", by spectrum."""
+    """Area of profile D at the highest load with waves 1 to n, "elastic" and "elastic-plastic", by spectrum."""
     shown: Contact
-    """Self-affine profile D of the first seed at the highest load."""
+    """Contact of the self-affine profile D of the first seed at the highest load."""
     finer: dict[tuple[str, str], State]
-    """The same as ``pressed`` on ``REFINEMENT`` times as many nodes, at the least and the greatest load."""
+    """Quantities of ``pressed`` on ``REFINEMENT`` times as many nodes, at the least and the greatest load."""
 
 
 def low_pass(heights: Array, waves: int) -> Array:
-    """The profile without the waves above the n-th."""
+    """Return the profile without the waves of wave number above ``waves``."""
     modes = np.fft.rfft(heights)
     modes[waves + 1 :] = 0
     return np.fft.irfft(modes, heights.size)
 
 
 def refined(heights: Array, times: int) -> Array:
-    """The same waves on more nodes."""
+    """Return the profile with the same waves on ``times`` as many nodes."""
     return np.fft.irfft(np.fft.rfft(heights), times * heights.size) * times
 
 
 def line_contacts(heights: Array, loads: Sequence[float], *, hardness: float = STEEL.hardness) -> list[Contact]:
-    """A profile of ``LENGTH`` under loads in N/m."""
+    """Return the contacts of a profile of length ``LENGTH`` under loads in N/m."""
     spacing = LENGTH / heights.size
     press = Press(heights[:, None], (spacing, spacing), composite_modulus(STEEL), hardness=hardness)
     return [press.at(load / LENGTH, tolerance=CONTACT_TOLERANCE) for load in loads]
@@ -102,7 +102,7 @@ def press_all(profiles: Sequence[Array], loads: Sequence[float]) -> State:
 
 
 def area_by_waves(profiles: Sequence[Array], waves: Sequence[int], load: float) -> State:
-    """The area under a load with waves 1 to n only, elastic and elastic-plastic."""
+    """Return the area fraction under a load, N/m, with waves 1 to n only, elastic and elastic-plastic."""
     state = {name: np.empty((len(profiles), len(waves))) for name in ("elastic", "elastic-plastic")}
     for (i, heights), (j, n) in product(enumerate(profiles), enumerate(waves)):
         for name, hardness in (("elastic", np.inf), ("elastic-plastic", STEEL.hardness)):
@@ -117,7 +117,7 @@ def compute(
     loads: Sequence[float] = LOADS,
     waves: Sequence[int] = WAVES,
 ) -> PaperD:
-    """Compute everything the page shows; ``advance`` is called 5 times for each spectrum."""
+    """Compute all data of the page; ``advance`` is called 5 times for each spectrum."""
     profiles, pressed, cut, finer = {}, {}, {}, {}
     for spectrum, highest in SPECTRA.items():
         for name, moments in STEEL_PROFILES.items():

@@ -96,7 +96,7 @@ DRAWINGS: dict[str, Callable[[PaperD], Figure]] = {
 
 
 def e4(contacts: Sequence[Contact]) -> Figure:
-    """The model surface loaded, and its elastic and plastic parts; dots: nodes of purely elastic contact."""
+    """Draw the loaded model surface and its elastic and plastic parts; dots are nodes of purely elastic contact."""
     figure, panels = new_figure((10, 9), 3, 2, sharex=True)
     corner, *shown = panels.ravel()
     loaded, elastic, plastic, elastic_move, plastic_move = shown

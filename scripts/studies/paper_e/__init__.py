@@ -1,1 +1,1 @@
-"""Paper E of the source: its figures regenerated, its claims judged."""
+"""Regeneration of the figures of Paper E of the source, and judgement of its claims."""

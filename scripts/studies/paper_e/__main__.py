@@ -1,4 +1,4 @@
-"""Regenerate the figures of Paper E for made and measured surfaces: a thrust washer and a leak, with claims judged.
+"""Regenerate the figures of Paper E for synthetic and measured surfaces, and judge its claims on washer and leak.
 
 python -m scripts.studies.paper_e --out OUT. Measured surfaces with --surfaces DIR (or ROUGHFILM_SURFACES).
 Source: F. Sahlin, Luleå 2008, Paper E: E.4.1 and E.4.3.
@@ -28,7 +28,7 @@ from scripts.studies.paper_e.windows import LOAD, MILLED, STEEL, Leak, sensitivi
 from scripts.studies.study import Out, Surfaces, kept, publish
 
 PICTURED_LOADS, PICTURED_POINTS = (2e6, 50e6, 500e6), 128
-"""Loads of the pictures of the contact, Pa, and their points along a side."""
+"""Loads, Pa, and points along a side of the pictures of the contact."""
 
 
 @in_one_line
@@ -62,7 +62,7 @@ def compute(
     cells: int = data.CELLS,
     speeds: Sequence[float] = data.SPEEDS,
 ) -> PaperE:
-    """Compute everything the page shows; tables, curves and leaks are kept in ``out`` for the next run."""
+    """Compute all data of the page; tables, curves and leaks are stored in ``out`` for the next run."""
     jobs = [(name, body, True, speeds) for name, body in data.surfaces(surfaces, points).items()]
     jobs += [(f"lays/{name}", body, False, data.FEW_SPEEDS) for name, body in data.lays(points).items()]
     milled = None if surfaces is None else surfaces / MILLED
@@ -86,7 +86,7 @@ def compute(
 def _leaks(
     path: Path, milled: Path, advance: Callable[[str], None]
 ) -> tuple[tuple[Leak, ...], tuple[tuple[int, float], ...]]:
-    """Return the leaks of the windows, and those of windows in a row, kept in a file."""
+    """Return the leaks of the windows and of windows in a row; they are stored in a file."""
 
     def make() -> dict[str, Any]:
         found = windows.study(milled.parent, advance=advance)
@@ -109,7 +109,7 @@ def pressed() -> list[Contact]:
 
 
 def studies(leaks: Sequence[Leak]) -> list[tuple[str, str]]:
-    """Return in words how the leakage along y changes with load, nodes and window."""
+    """Return sentences on the change of the leakage along y with load, number of nodes and window."""
 
     def at(window: str, resolution: float, load: float) -> list[float]:
         return [
@@ -149,7 +149,7 @@ def _row(name: str, one: Washer) -> dict[str, Any]:
 
 
 def numbers(paper: PaperE) -> dict[str, Any]:
-    """Return the numbers of the page; speeds in revolutions per minute."""
+    """Return the numbers of the page; speeds are in revolutions per minute."""
 
     def lifts(one: Washer, *, boxed: bool = False) -> list[dict[str, float]]:
         return [

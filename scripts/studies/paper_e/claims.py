@@ -1,4 +1,4 @@
-"""Claims 19, 21 and 22 of the source judged on windows of a milled surface and on a thrust washer."""
+"""Judgement of claims 19, 21 and 22 of the source by windows of a milled surface and by a thrust washer."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ FEW_PER_CENT = 0.05
 """Relative difference below which two leakages count as equal."""
 
 EQUAL_LIFT_OFF, DIFFERENT_LIFT_OFF = 0.02, 0.1
-"""Relative differences of the lift-off speed up to which two methods agree, and from which they differ."""
+"""Largest relative difference of lift-off speeds that are equal, and least one of those that differ."""
 
 STRAIGHT_LAYS, CROSSED_LAY = ("surface 1", "surface 3"), "surface 2"
 MEASURED = ("milled", "ground")
@@ -24,13 +24,14 @@ AXES = "xy"
 
 @dataclass(frozen=True, kw_only=True)
 class PaperE:
-    """Everything that is judged and drawn; ``windows`` is empty where the instrument files are absent.
+    """All data that are judged and drawn; ``windows`` is empty if the instrument files are absent.
 
     Attributes
     ----------
-    washers : by surface, with both methods.
-    lays : by lay and seed, as :func:`scripts.studies.paper_e.data.lays` names them.
-    rows : of the window whose ends count most, how many of it follow one another, and what more passes directly.
+    windows : leaks through the windows.
+    rows : number of periods in a row of the window with the largest end effect, and relative excess of the direct flow.
+    washers : washers by surface, with both methods.
+    lays : washers by lay and seed, with the names of :func:`scripts.studies.paper_e.data.lays`.
     """
 
     windows: Sequence[Leak]
@@ -40,13 +41,13 @@ class PaperE:
 
 
 def judge(paper: PaperE) -> list[Claim]:
-    """Judge claims 21 and 22, and 19 where the milled surface is there."""
+    """Judge claims 21 and 22, and claim 19 if the milled surface is available."""
     direct = {19: direct_is_homogenized(paper.windows, paper.rows)} if paper.windows else {}
     return claims_of(__file__, direct | {21: methods_agree(paper.washers), 22: lift_off(paper)})
 
 
 def direct_is_homogenized(windows: Sequence[Leak], rows: Sequence[tuple[int, float]]) -> Judgement:
-    """Judge claim 19."""
+    """Judge claim 19, on direct and homogenized leakage."""
     usual = [one for one in windows if one.resolution == 1.0]
     parts = {
         window: np.array([[one.apart(axis) for axis in (0, 1)] for one in usual if _is(one, window, LOAD)])
@@ -85,7 +86,7 @@ def _is(one: Leak, window: str, load: float) -> bool:
 
 
 def parted(washer: Washer) -> Array:
-    """Patir and Cheng's lift-off speed over the homogenized one, less 1, by load."""
+    """Return the relative excess of Patir and Cheng's lift-off speed over the homogenized one, shape (loads,)."""
     return np.asarray(washer.lift(boxed=True)[:, 0] / washer.lift()[:, 0] - 1)
 
 
@@ -114,12 +115,12 @@ def methods_agree(washers: Mapping[str, Washer]) -> Judgement:
 
 
 def lay_lifts(lays: Mapping[str, Washer], lay: str) -> Array:
-    """Lift-off speeds of surface 3 under a lay, turns a minute, shape (seeds, loads)."""
+    """Return the lift-off speeds of surface 3 with a lay, revolutions per minute, shape (seeds, loads)."""
     return np.array([lays[f"{lay}, {seed}"].lift()[:, 0] for seed in SEEDS])
 
 
 def lift_off(paper: PaperE) -> Judgement:
-    """Judge claim 22."""
+    """Judge claim 22, on lift-off by load and lay."""
     found = {name: one.lift() for name, one in (*paper.washers.items(), *paper.lays.items())}
     rises = all((np.diff(lift[:, 0]) > lift[:-1, 1] + lift[1:, 1]).all() for lift in found.values())
     along, across = lay_lifts(paper.lays, "along"), lay_lifts(paper.lays, "across")

@@ -1,4 +1,4 @@
-"""The thrust washer of Paper E over speed and load, by homogenized factors and by Patir and Cheng's."""
+"""Solutions of the thrust washer of Paper E over speed and load, by homogenized and by Patir and Cheng's factors."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -30,24 +30,25 @@ from scripts.studies.paper_e.windows import MILLED, STEEL
 SCENE = Path(__file__).parents[2] / "examples" / "scenes" / "washer.toml"
 
 LOADS = (0.5e6, 1e6, 2e6)
-"""Pa over the nominal area, as in Fig. E.29."""
+"""Loads over the nominal area, as in Fig. E.29, Pa."""
 
 SPEEDS = (0.0, *(float(speed) for speed in np.geomspace(3, 800, 26)))
-"""Turns a minute; 30 and 300, of Figs. E.25 to E.27, are added."""
+"""Speeds, revolutions per minute; the speeds ``SHOWN`` are added."""
 
 SHOWN = (30.0, 300.0)
+"""Speeds of Figs. E.25 to E.27, revolutions per minute."""
 
 GROUND, GROUND_WINDOW = "ground_striated.x3p", ("50 um", "120 um")
-"""The window is the one of at least this size that repeats best."""
+"""File of the ground surface, and least size of its window, whose place is the one with the best periodicity."""
 
 SCALED = TABLE["surface 3"].rms
-"""Sq, m, to which the ground surface is scaled, in the plane as well, so that its slopes stay."""
+"""Sq to which the ground surface is scaled, m; its lengths are scaled as well, so that the slopes do not change."""
 
 SEEDS = (0, 11)
-"""Added to those of surface 3, for how much one sample of a texture differs from the next."""
+"""Numbers added to the seeds of surface 3, to show the differences between samples of one texture."""
 
 FEW_SPEEDS = (0.0, 10.0, 50.0, 200.0)
-"""Turns a minute, of curves of which only lift-off is asked."""
+"""Speeds of curves that give only the lift-off speed, revolutions per minute."""
 
 CELLS = 48
 FRICTION = 0.1
@@ -55,9 +56,15 @@ FRICTION = 0.1
 
 @dataclass(frozen=True, kw_only=True)
 class Washer:
-    """Curves on one surface, by load; ``boxed`` are those with Patir and Cheng's factors, () where not asked.
+    """The Stribeck curves of a washer on one surface.
 
-    ``wall`` and ``boxes`` are what the asperities do, and what the other method makes of it.
+    Attributes
+    ----------
+    scene : scene of the washer.
+    wall : asperities and flow factors of the surface.
+    boxes : asperities by Patir and Cheng's method, None if it is not computed.
+    curves : curves by homogenized factors, one for each load.
+    boxed : curves by Patir and Cheng's factors, one for each load; () if they are not computed.
     """
 
     scene: Bearing
@@ -67,17 +74,17 @@ class Washer:
     boxed: tuple[StribeckCurve, ...]
 
     def lift(self, *, boxed: bool = False) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
-        """Lift-off in turns a minute and its uncertainty, shape (loads, 2)."""
+        """Return the lift-off speed and its uncertainty, revolutions per minute, shape (loads, 2)."""
         curves = self.boxed if boxed else self.curves
         return np.array([(curve.lift_off.speed, curve.lift_off.uncertainty) for curve in curves]) * self.turns
 
     @property
     def turns(self) -> float:
-        """Turns a minute at 1 m/s."""
+        """The revolutions per minute at a sliding speed of 1 m/s."""
         return 1 / speed_of(self.scene, 1.0)
 
     def apart(self) -> float:
-        """The largest part by which the film of the one method is above or below that of the other."""
+        """Return the largest relative difference of the separations by both methods."""
         return max(
             abs(box.separation / cell.separation - 1)
             for one, other in zip(self.curves, self.boxed, strict=True)
@@ -86,14 +93,14 @@ class Washer:
 
 
 def speed_of(scene: Bearing, turns: float) -> float:
-    """m/s at the mean radius."""
+    """Return the sliding speed at the mean radius, m/s, for a speed in revolutions per minute."""
     radius = scene.turning_radius
     assert radius is not None
     return turns * 2 * np.pi / 60 * radius
 
 
 def surfaces(folder: Path | None, points: int = POINTS) -> dict[str, Surface]:
-    """The three of Table E.2 as they were made, and those measured ones that are in a folder."""
+    """Return the three synthetic surfaces of Table E.2, and the measured ones that are in a folder."""
     found = {name: made(name, points) for name in TABLE}
     recipe = {"grid": {"points": [points, points]}}
     if folder is not None and (folder / MILLED).is_file():
@@ -110,9 +117,9 @@ def surfaces(folder: Path | None, points: int = POINTS) -> dict[str, Surface]:
 
 
 def lays(points: int = POINTS) -> dict[str, Surface]:
-    """Surface 3 with its ridges along the sliding, across it (along the leakage) and oblique; surface 1 across.
+    """Return surface 3 with ridges along the sliding, across it (along the leakage) and oblique; surface 1 across.
 
-    Names end with the seed. At +45° ridges that go along with the sliding wall lead outwards, at -45° inwards.
+    The names of surface 3 end with the seed. Ridges lead outwards in the sliding direction at +45°, inwards at -45°.
     """
     found = {"surface 1, across": turned(made("surface 1", points))}
     for seed in SEEDS:
@@ -135,7 +142,7 @@ def washer(
     cells: int = CELLS,
     advance: Callable[[str], None] = lambda _words: None,
 ) -> Washer:
-    """Curves on a surface; table and points stay in the folder and are found again."""
+    """Compute the curves on a surface; table and points are stored in the folder and used again."""
     make_directory(folder)
     save_surface(surface, folder / "surface.h5")
     scene = load_scene(

@@ -1,4 +1,4 @@
-"""The figures of Paper E: leakage by window, resolution and load, and the thrust washer over speed."""
+"""Figures of Paper E: leakage by window, resolution and load, and the thrust washer over speed."""
 
 from collections.abc import Mapping, Sequence
 from itertools import product
@@ -26,7 +26,7 @@ LAYS = {"along": COLOURS[0], "across": COLOURS[2], "+45°": COLOURS[1], "-45°":
 
 
 def leakages(windows: Sequence[Leak]) -> Figure:
-    """Figs. E.19 to E.21: volumes by window and place; by resolution; over the load."""
+    """Draw Figs. E.19 to E.21: leaked volumes by window and place, by resolution, and over the load."""
     figure, (places, grids, loads) = new_figure((11.4, 4.0), 1, 3)
     for number, (window, colour) in enumerate(WINDOWS.items()):
         rows = [one for one in windows if one.window == window and one.resolution == 1.0]
@@ -67,7 +67,7 @@ def leakages(windows: Sequence[Leak]) -> Figure:
 
 
 def pressures(washers: Mapping[str, Washer]) -> Figure:
-    """Figs. E.25 to E.27: the film's pressure at 30 and 300 turns a minute under 1 MPa."""
+    """Draw Figs. E.25 to E.27: the pressure of the film at 30 and 300 revolutions per minute under 1 MPa."""
     names = [name for name in WITH_PRESSURES if name in washers]
     figure, panels = new_figure((11.4, 2.7 * len(SHOWN)), len(SHOWN), len(names), squeeze=False)
     views = {}
@@ -88,12 +88,12 @@ def pressures(washers: Mapping[str, Washer]) -> Figure:
 
 
 def point_at(one: Washer, number: int, turns: float) -> StribeckPoint:
-    """The point of the ``number``-th load nearest to a speed."""
+    """Return the point under the load of index ``number`` that is nearest to a speed, revolutions per minute."""
     return min(one.curves[number].points, key=lambda point: abs(point.speed * one.turns - turns))
 
 
 def films(washers: Mapping[str, Washer]) -> Figure:
-    """Fig. E.28: the least separation over the first touch, by both methods, under 1 and 2 MPa."""
+    """Draw Fig. E.28: the least separation above that of first contact, by both methods, under 1 and 2 MPa."""
     figure, panels = new_figure((11.4, 4.2), 1, 2, sharey=True)
     for axes, number, end in zip(panels, (1, 2), (300, 600), strict=True):
         for (name, one), colour in zip(washers.items(), COLOURS, strict=False):
@@ -113,7 +113,7 @@ def films(washers: Mapping[str, Washer]) -> Figure:
 
 
 def friction(washers: Mapping[str, Washer]) -> Figure:
-    """Fig. E.29: the coefficient of friction over speed."""
+    """Draw Fig. E.29: the coefficient of friction over speed."""
     figure, axes = new_figure((11.4, 4.4))
     for (name, one), colour in zip(washers.items(), COLOURS, strict=False):
         for curve, line in zip(one.curves, LINES, strict=True):
@@ -128,7 +128,7 @@ def friction(washers: Mapping[str, Washer]) -> Figure:
 
 
 def lays(paper: PaperE) -> Figure:
-    """Lift-off over the load for every lay of surface 3, and of surface 1 along and across."""
+    """Draw the lift-off speed over the load for every lay of surface 3, and for surface 1 along and across."""
     figure, (turned, first) = new_figure((11.4, 3.8), 1, 2)
     loads = np.array(LOADS) / 1e6
     lines = [(turned, lay, lay if seed == SEEDS[0] else None, f"{lay}, {seed}") for lay in LAYS for seed in SEEDS]
@@ -150,7 +150,7 @@ def lays(paper: PaperE) -> Figure:
 
 
 def textures(washers: Mapping[str, Washer]) -> Figure:
-    """The surfaces themselves."""
+    """Draw the heights of the surfaces."""
     figure, panels = new_figure((11.4, 2.9), 1, len(washers))
     for axes, (name, one) in zip(panels, washers.items(), strict=True):
         roughness = one.scene.roughness

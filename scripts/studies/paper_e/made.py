@@ -1,4 +1,4 @@
-"""Surfaces that stand in for the three of Paper E, whose data are not published: made to its Table E.2."""
+"""Synthetic surfaces with the numbers of Table E.2 of Paper E, whose measured surfaces are not published."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,14 +12,14 @@ from roughfilm.contact.synthetic.four_moments import heights_within
 from roughfilm.contact.synthetic.gaussian import gaussian
 
 SIDE = 3e-3
-"""m, of the period; the source's windows are about as large."""
+"""Side of the period, m; the windows of the source are about as large."""
 
 POINTS = 256
 
 
 @dataclass(frozen=True, kw_only=True)
 class Heights:
-    """A row of Table E.2, m: Sp, Sv, Sa and Sq of the measurement as it was."""
+    """A row of Table E.2: Sp, Sv, Sa and Sq of the measurement before preparation, m."""
 
     peak: float
     valley: float
@@ -34,10 +34,10 @@ TABLE = {
 }
 
 FEEDS = 12
-"""Marks across the period of surface 1."""
+"""Number of feed marks across the period of surface 1."""
 
 LAYS = (35.0, -65.0)
-"""Directions of the two lays of surface 2, degrees from the sliding."""
+"""Directions of the two lays of surface 2 relative to the sliding, degrees."""
 
 LIFT = 0.5
 """Height of the second cut of surface 2 above the first, in rms heights."""
@@ -49,15 +49,16 @@ SEEDS = {"surface 1": (501,), "surface 2": (502, 503), "surface 3": (504,)}
 
 
 def made(name: str, points: int = POINTS, seed: int = 0) -> Surface:
-    """A periodic surface with lay along x (the sliding), of mean 0; ``seed`` is added to that of its first sample.
+    """Return a periodic surface of Table E.2 with a mean of 0; the sliding is along x.
 
-    Its heights have Sa, Sq, Sp and Sv of Table E.2 to 1e-8; the texture is ours: what the source says of it in words.
+    The heights have Sa, Sq, Sp and Sv of Table E.2 to 1e-8; the texture follows the description in the source. ``seed``
+    is added to the seeds of the first sample.
     """
     return _with_heights(_RAW[name]((points, points), tuple(each + seed for each in SEEDS[name])), name)
 
 
 def oblique(points: int = POINTS, seed: int = 0, degrees: float = 45.0) -> Surface:
-    """Surface 3 ground under an angle to the sliding: its heights, and ridges of its length and width."""
+    """Return surface 3 with its ridges at an angle to the sliding, in degrees, and with the same heights."""
     return _with_heights(_surface(_lay((points, points), SEEDS["surface 3"][0] + seed, degrees, *RIDGES)), "surface 3")
 
 
@@ -69,7 +70,7 @@ def _with_heights(raw: Surface, name: str) -> Surface:
 
 
 def turned(surface: Surface) -> Surface:
-    """The same surface with x and y exchanged: a lay along the sliding comes to lie across it."""
+    """Return the surface with x and y exchanged; a lay along the sliding becomes a lay across it."""
     return Surface(
         heights=np.ascontiguousarray(surface.heights.T),
         spacing=surface.spacing[::-1],
@@ -79,7 +80,7 @@ def turned(surface: Surface) -> Surface:
 
 
 def _lay(points: tuple[int, int], seed: int, degrees: float, across: float, anisotropy: float) -> Array:
-    """Random ridges of rms 1 along a direction."""
+    """Return random ridges of rms height 1 along a direction, shape ``points``."""
     found = gaussian(
         size=(SIDE, SIDE),
         points=points,
@@ -93,13 +94,13 @@ def _lay(points: tuple[int, int], seed: int, degrees: float, across: float, anis
 
 
 def _milled(points: tuple[int, int], seeds: tuple[int, ...]) -> Surface:
-    """Marks of one feed, each cut a little deeper or higher along its length."""
+    """Return feed marks of one period, whose height varies slightly along and across them."""
     y = np.arange(points[1]) / points[1]
     return _surface(np.sqrt(2) * np.cos(2 * np.pi * FEEDS * y) + _lay(points, seeds[0], 0.0, 0.15e-3, 8.0))
 
 
 def _crossed(points: tuple[int, int], seeds: tuple[int, ...]) -> Surface:
-    """Two families of ridges, of which the lower counts at every point."""
+    """Return the minimum of two families of ridges at every point."""
     first, second = (_lay(points, seed, degrees, 0.1e-3, 10.0) for seed, degrees in zip(seeds, LAYS, strict=True))
     return _surface(np.minimum(first, second + LIFT))
 

@@ -1,4 +1,4 @@
-"""A model surface like that of Fig. E.4 of Paper E: loaded, unloaded, and loaded again."""
+"""Model surface similar to that of Fig. E.4 of Paper E, which is loaded, unloaded, and loaded again."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -18,20 +18,21 @@ LOADS = (50e6, 100e6, 400e6, 800e6)
 
 HEIGHT = 80e-6
 WAVES = ((1, 0.3, 0.4), (3, 1.0, 0.1), (7, 0.35, 0.62), (16, 0.07, 0.2))
-"""Waves in a length, amplitude over the largest, and phase in turns."""
+"""Number of waves in the length, amplitude over the largest one, and phase over 2π."""
 
 CONTACT_TOLERANCE = 1e-9
 
 
 @dataclass(frozen=True, kw_only=True)
 class Reloading:
-    """How the surface that a load has flattened answers the same load on an elastic solid.
+    """The comparison of the first loading with the elastic reloading of the flattened surface under the same load.
 
     Attributes
     ----------
-    pressure : the largest difference to the first loading, over H.
-    heights : the largest difference of the loaded surface, over the height of the surface.
-    highest : the largest pressure, over H.
+    load : mean pressure, Pa.
+    pressure : largest difference of the pressures, over H.
+    heights : largest difference of the loaded surfaces, over the total height of the surface.
+    highest : largest pressure of the reloading, over H.
     """
 
     load: float
@@ -41,7 +42,7 @@ class Reloading:
 
 
 def model_heights(points: int = POINTS) -> Array:
-    """Four waves, with 0 at the lowest node, shape (points, 1), m."""
+    """Return the heights of the model surface, m, shape (points, 1); the lowest node is at 0."""
     x = np.arange(points) / points
     z = sum(part * np.cos(2 * np.pi * (waves * x - phase)) for waves, part, phase in WAVES)
     z = np.asarray(z)[:, None]
@@ -49,14 +50,14 @@ def model_heights(points: int = POINTS) -> Array:
 
 
 def load_model(points: int = POINTS, loads: Sequence[float] = LOADS) -> list[Contact]:
-    """The contacts of the model surface."""
+    """Return the contacts of the model surface under mean pressures, Pa."""
     z = model_heights(points)
     press = Press(z, (LENGTH / points, LENGTH / points), composite_modulus(STEEL), hardness=STEEL.hardness)
     return [press.at(load, tolerance=CONTACT_TOLERANCE) for load in loads]
 
 
 def reload(first: Contact) -> Reloading:
-    """Press the unloaded surface again, without a bound on the pressure."""
+    """Press the unloaded surface again under the same load, without a limit of the pressure."""
     press = Press(first.unloaded_heights, first.spacing, composite_modulus(STEEL))
     again = press.at(first.load, tolerance=CONTACT_TOLERANCE)
     return Reloading(

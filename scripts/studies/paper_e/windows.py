@@ -26,19 +26,19 @@ PRESSURE_DROP, LENGTH, WIDTH, DURATION = 1e6, 15e-3, 60e-3, 300.0
 """Pressure, Pa (the rig's is not published), length of the leak and width of the middle part, m, and time, s."""
 
 LOAD = 4e6
-"""Pa: 6 kN, a force in the middle of Fig. E.18, over 15 x 100 mm²; the rig's own is not published."""
+"""Usual load, Pa: 6 kN, a middle force of Fig. E.18, over 15 x 100 mm²; the load of the rig is not published."""
 
 LOADS = tuple(float(load) for load in LOAD * np.array([0.5, 1, 2, 8, 25, 50, 100]))
-"""Half the load, the load, double; and so many times that contact takes part."""
+"""Loads, Pa: half, equal to and twice ``LOAD``, and multiples with a larger contact area."""
 
 PARTS = {"a": 1.0, "b": 2 / 3, "c": 0.45}
 """Sides of the windows over those of the measurement."""
 
 PLACES = {"a": 1, "b": 2, "c": 3}
-"""Windows along each side."""
+"""Number of windows along each side."""
 
 PERIODS = (1, 2, 4, 8, 16)
-"""One after the other, of the cell whose ends count most."""
+"""Numbers of periods in a row, for the cell with the largest end effect."""
 
 CONTACT_TOLERANCE = 1e-6
 
@@ -49,11 +49,13 @@ class Leak:
 
     Attributes
     ----------
-    window : a, b or c; resolution : 0.5, 1 or 2 of the nodes the preparation takes.
-    start : of the window, over the sides of the measurement.
-    mismatch : periodicity mismatch before and after the edges were joined.
-    homogenized, uncertainty : A₁₁ and A₂₂, m³.
-    direct, direct_uncertainty : the same of one cell between two reservoirs, solved directly, m³.
+    window : name of the window: a, b or c.
+    resolution : number of nodes along a side over the usual number: 0.5, 1 or 2.
+    start : corner of the window, over the sides of the measurement.
+    mismatch : periodicity mismatch before and after the joining of the edges.
+    load : mean pressure, Pa.
+    homogenized, uncertainty : A₁₁ and A₂₂, and their uncertainties, m³.
+    direct, direct_uncertainty : permeability of one cell between two reservoirs, solved directly, and uncertainty, m³.
     """
 
     window: str
@@ -103,7 +105,7 @@ def study(
 
 
 def places(window: str) -> list[tuple[float, float]]:
-    """Where windows begin, over the sides of the measurement: the middle one first, then the others."""
+    """Return the corners of the windows over the sides of the measurement; the middle window is the first."""
     steps = np.linspace(0, 1 - PARTS[window], PLACES[window]) if PLACES[window] > 1 else np.zeros(1)
     middle = (1 - PARTS[window]) / 2
     around = [(float(x), float(y)) for x, y in product(steps, steps)]
@@ -119,7 +121,7 @@ def leaks(
     loads: Sequence[float],
     coarser: int = 1,
 ) -> list[Leak]:
-    """Compute the leakage through one window at every load, each contact started from the one before."""
+    """Compute the leakage through one window at every load; each contact starts from the one before."""
     prepared = prepare(measured, read_recipe(recipe(measured, window, start, resolution, coarser)))
     surface = prepared.surface
     press = Press(surface.heights, surface.spacing, composite_modulus(STEEL), hardness=STEEL.hardness)
@@ -187,7 +189,7 @@ def in_a_row(measured: Surface, cell: Leak, direction: int, *, coarser: int = 2)
 
 
 def sensitivity(found: Sequence[Leak], direction: int) -> float:
-    """Slope d ln A/d ln W at the middle of the first three loads of one cell."""
+    """Return the slope d ln A/d ln W over the first three loads of one cell."""
     low, _, high = sorted(found, key=lambda one: one.load)[:3]
     passed = [one.homogenized[direction] for one in (low, high)]
     return float(np.log(passed[1] / passed[0]) / np.log(high.load / low.load))
