@@ -264,7 +264,7 @@ def a_posteriori(task: AdviceTask, model: Model, above: int = 1) -> Estimate | N
 def self_estimate(task: AdviceTask, model: Model, resolution: int) -> Estimate | None:
     """The estimate from the numerical uncertainty of a run of the most complete model.
 
-    The result is None if the model runs outside of this process, fails, or does not give its uncertainty.
+    The result is None if another program solves the model, the run fails, or the uncertainty is unknown.
     """
     own = None if model.outside else run(task, model, resolution)
     error = None if own is None or task.quantity not in own.quantities else task.uncertainty(own)

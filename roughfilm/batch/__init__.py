@@ -1,1 +1,1 @@
-"""Batches of cases: jobs, executors, directories and tables."""
+"""Batches of cases: their jobs, executors, directories and tables."""

@@ -1,4 +1,4 @@
-"""The answers of many runs: each is solved once, stored at once, and used again."""
+"""Answers to many jobs: each is computed once, stored immediately and used again."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -12,7 +12,17 @@ from roughfilm.terminal.console import progress_bar
 
 
 def answers_to(jobs: Sequence[Job], processes: int, scratch: Path) -> dict[Path, Result | Failure]:
-    """The answer of every job by its file, from disk or solved now, without fields; stopped, the next call goes on."""
+    """The answer to every job by the path of its result, without fields.
+
+    Answers that are stored are read, the others are computed and stored. A call after an interruption computes only
+    what is missing.
+
+    Parameters
+    ----------
+    jobs : the jobs.
+    processes : number of processes that solve jobs.
+    scratch : directory for temporary files.
+    """
     answers: dict[Path, Result | Failure] = {}
     for job in jobs:
         fits = job.setting.model.applies(job.scene)

@@ -1,4 +1,4 @@
-"""The directory of a batch: a place for each case, and a lock against other batches."""
+"""The directory of a batch, with a subdirectory for each case and a lock against other batches."""
 
 import shutil
 from collections.abc import Iterator
@@ -14,14 +14,14 @@ CASES = "cases"
 def places(out: Path) -> dict[str, Path]:
     """The existing directories of cases by the digest of their scene.
 
-    A case keeps its directory when more keys of the study vary.
+    A case keeps its directory if more keys of the study are varied later.
     """
     cases = out / CASES
     return {path.name.rpartition("-")[2]: path for path in cases.iterdir()} if cases.is_dir() else {}
 
 
 def put_scene(case: Case, directory: Path) -> None:
-    """Write the complete scene of a case, once."""
+    """Write the complete scene of a case to ``scene.toml`` in its directory, unless the file exists."""
     path = directory / "scene.toml"
     if not path.is_file():
         with replacing(path) as scratch:
@@ -30,7 +30,7 @@ def put_scene(case: Case, directory: Path) -> None:
 
 @contextmanager
 def alone(out: Path) -> Iterator[Path]:
-    """Lock the directory against other batches and yield an empty place for temporary files.
+    """Lock the directory of a batch against other batches and yield an empty directory for temporary files.
 
     The lock ends with this process. Raises InputError if another process holds it.
     """

@@ -1,4 +1,4 @@
-"""Many jobs through any executor: sent in chunks, the most expensive first, and answered one by one."""
+"""Execution of many jobs by any executor: they are sent in chunks, the most expensive first."""
 
 import platform
 import signal
@@ -22,14 +22,17 @@ from roughfilm.rom.ladder.setting import Setting
 from roughfilm.rom.ladder.store import as_bytes
 
 CHUNK_S = 0.25
-"""Expected seconds of a chunk: much longer than sending it takes, and not much to lose if a worker dies."""
+"""Expected CPU time of a chunk of jobs, s.
+
+It is much longer than the time to send a chunk, and short enough to be repeated if a worker dies.
+"""
 
 STORING_S = 3e-3
-"""CPU seconds to write a result to a file, which is most of the cost of the cheapest models."""
+"""CPU time to write a result to a file, s; for the cheapest models this is most of the cost."""
 
 
 Question = tuple[Scene, str, int | None, str | None]
-"""A job as a worker gets it: scene, name of the model, resolution and scheme; only the sender writes files."""
+"""A job in the form that workers receive: scene, name of the model, resolution, scheme; workers write no files."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,14 +47,22 @@ Answer = Solved | Failure
 
 
 def expected_cost(job: Job) -> float:
-    """The expected CPU seconds of a job, with those to write its file."""
+    """The expected CPU time of a job, s, including the time to write its file."""
     return job.setting.cost(job.scene) + STORING_S
 
 
 def run(jobs: Sequence[Job], executor: Executor) -> Iterator[tuple[Job, Answer]]:
-    """Send every job and yield each with its answer as it comes; an error of one job stops no other.
+    """Send every job to an executor and yield each job with its answer, in the order of the answers.
 
-    A chunk that is lost because its worker died is sent again job by job; a job that is lost twice has failed.
+    An error in one job does not stop the others. If a worker dies, the jobs of its chunk are sent again one by one; a
+    job whose worker dies again has failed.
+
+    Raises
+    ------
+    SystemExit
+        If the process receives SIGINT or SIGTERM.
+    UnavailableError
+        If the scheduler of the executor stops.
     """
     pending: dict[Future[list[Answer]], tuple[list[Job], bool]] = {}
     finished: SimpleQueue[Future[list[Answer]] | int] = SimpleQueue()
@@ -88,7 +99,7 @@ def run(jobs: Sequence[Job], executor: Executor) -> Iterator[tuple[Job, Answer]]
 
 @contextmanager
 def _signals_to(queue: SimpleQueue[Any]) -> Iterator[None]:
-    """Put the numbers of the signals that end a program into a queue; an exception raised by them may be lost."""
+    """Put the numbers of SIGINT and SIGTERM into a queue; exceptions from signal handlers could be lost."""
     before = {number: signal.signal(number, lambda got, _: queue.put(got)) for number in (SIGINT, SIGTERM)}
     try:
         yield
@@ -105,7 +116,7 @@ def _lost(error: BaseException) -> Failure:
 
 
 def chunks(jobs: Iterable[Job]) -> Iterator[list[Job]]:
-    """The jobs from the most to the least expensive, cheap ones together until they take ``CHUNK_S``."""
+    """Yield the jobs from the most to the least expensive, in chunks with an expected CPU time of about ``CHUNK_S``."""
     chunk: list[Job] = []
     total = 0.0
     for job in sorted(jobs, key=expected_cost, reverse=True):
@@ -123,7 +134,9 @@ def _question(job: Job) -> Question:
 
 
 def ask(questions: Sequence[Question], origin: tuple[str, dict[str, Any]]) -> list[Answer]:
-    """Answer questions in turn, in a worker, for at most twice the time of a chunk; later ones stay unanswered.
+    """Compute the answers to questions in order, in a worker.
+
+    After twice the time ``CHUNK_S`` no further question is started, so that the result may be shorter than the input.
 
     Raises UnavailableError if the worker's code or libraries are not those of ``origin``.
     """
@@ -139,6 +152,6 @@ def ask(questions: Sequence[Question], origin: tuple[str, dict[str, Any]]) -> li
         try:
             result = Setting(model=find(scene.kind, name), resolution=resolution, scheme=scheme).solve(scene)
             answers.append(Solved(result=replace(result, fields={}), file=as_bytes(result)))
-        except Exception as error:  # whatever a model raises is one job's failure
+        except Exception as error:  # any error of a model is a failure of this job alone
             answers.append(replace(failure_of(error), cpu_s=spent()["cpu_s"]))
     return answers

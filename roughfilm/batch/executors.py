@@ -1,4 +1,4 @@
-"""Where jobs run: in processes of this machine, or on a dask cluster; both as ``concurrent.futures`` executors."""
+"""Executors of ``concurrent.futures`` that run jobs in processes of this machine or on a dask cluster."""
 
 import asyncio
 import logging
@@ -22,21 +22,22 @@ from roughfilm.terminal.console import messages
 
 SCHEDULER_TIMEOUT_S = 5
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
-"""Variables that are set to 1 by default, because the jobs share the cores."""
+"""Environment variables that are set to 1 unless they are set, because the jobs share the cores."""
 
 
 class Processes(ThreadPoolExecutor):
-    """An executor whose threads keep a process each, so that a process that dies loses its own call alone.
+    """An executor with one process for each thread; if a process dies, only its current call is lost.
 
-    A ``ProcessPoolExecutor`` would fail every pending call, and wait forever for one that died while it answered.
-    The processes end with this one or at its shutdown; the user removes what they leave in ``scratch``.
+    A ``ProcessPoolExecutor`` would then fail every pending call, and would wait forever if the process died while it
+    sent an answer. The processes end with the current process or at the shutdown. The caller removes the files that
+    they leave in ``scratch``.
     """
 
     def __init__(self, count: int, scratch: Path) -> None:
         super().__init__(count)
         self._context = multiprocessing.get_context("forkserver")
         self._context.set_forkserver_preload(["roughfilm.batch.execute"])
-        handler = signal.signal(signal.SIGINT, signal.SIG_IGN)  # is inherited: a Ctrl-C is for this process alone
+        handler = signal.signal(signal.SIGINT, signal.SIG_IGN)  # children inherit this and ignore Ctrl-C
         forkserver.ensure_running()
         signal.signal(signal.SIGINT, handler)
         self._scratch = scratch
@@ -45,7 +46,7 @@ class Processes(ThreadPoolExecutor):
         self._started: list[ForkServerProcess] = []
 
     def submit(self, call: Callable[..., Any], /, *arguments: Any, **options: Any) -> Future[Any]:
-        """Call in one of the processes; the future raises BrokenExecutor if the process dies."""
+        """Call a function in one of the processes; the future raises BrokenExecutor if the process dies."""
         return super().submit(self._in_process, partial(call, *arguments, **options))
 
     def _in_process(self, call: Callable[[], Any]) -> Any:
@@ -66,12 +67,12 @@ class Processes(ThreadPoolExecutor):
         pipe, far_end = self._context.Pipe()
         process = self._context.Process(target=_work, args=(far_end, self._alive, self._scratch), daemon=True)
         process.start()
-        far_end.close()  # or the end of the process would not be the end of the pipe
+        far_end.close()  # otherwise the pipe would stay open after the end of the process
         self._own.pipe, self._own.process = pipe, process
         self._started.append(process)
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = True) -> None:
-        """End the processes at once; calls that are not finished are lost."""
+        """End the processes immediately; calls that are not finished are lost."""
         super().shutdown(wait=False, cancel_futures=cancel_futures)
         self._writer.close()
         for process in self._started:
@@ -82,7 +83,7 @@ class Processes(ThreadPoolExecutor):
 
 
 def _kill(process: ForkServerProcess) -> None:
-    """Kill a process and its children, even if only the children are left."""
+    """Kill a process and its children, even if the process itself has ended."""
     assert process.pid is not None
     with suppress(ProcessLookupError):
         os.killpg(process.pid, signal.SIGKILL)
@@ -90,7 +91,7 @@ def _kill(process: ForkServerProcess) -> None:
 
 @contextmanager
 def local(count: int, scratch: Path) -> Iterator[Executor]:
-    """An executor of that many processes here; their temporary files go to ``scratch``."""
+    """Yield an executor with ``count`` processes on this machine; their temporary files are in ``scratch``."""
     for name in THREADS:
         os.environ.setdefault(name, "1")
     with Processes(count, scratch) as executor:
@@ -99,7 +100,9 @@ def local(count: int, scratch: Path) -> Iterator[Executor]:
 
 @contextmanager
 def dask(address: str) -> Iterator[Executor]:
-    """The executor of a running dask cluster, whose workers have roughfilm installed.
+    """Yield the executor of a running dask cluster with roughfilm installed on its workers.
+
+    ``address`` is that of the scheduler, such as "tcp://host:8786".
 
     Raises UnavailableError if dask is not installed or the scheduler does not answer.
     """
@@ -108,11 +111,11 @@ def dask(address: str) -> Iterator[Executor]:
     except ImportError:
         message = "executor dask: needs the library distributed; install it with: pip install 'roughfilm[cluster]'"
         raise UnavailableError(message) from None
-    logging.disable()  # dask and tornado would print many lines beside the error
+    logging.disable()  # dask and tornado would print many lines in addition to the error
     try:
         asyncio.run(asyncio.wait_for(_greet(address), SCHEDULER_TIMEOUT_S))
         client = distributed.Client(address, set_as_default=False)
-    except Exception as error:  # whatever answers there may send anything
+    except Exception as error:  # another program at this address may send anything
         reason = " ".join(str(error).split()) or f"silent for {SCHEDULER_TIMEOUT_S} s"
         message = f"scheduler {address}: no dask scheduler answers there ({reason}); start one with: dask scheduler"
         raise UnavailableError(message) from None
@@ -132,12 +135,12 @@ async def _greet(address: str) -> None:
 
 
 def _work(pipe: Connection, alive: Connection, scratch: Path) -> None:
-    """Answer calls until the sender ends, in a process group that a Ctrl-C does not reach."""
+    """Execute calls until the sender ends, in a process group of its own that Ctrl-C does not interrupt."""
     os.setpgrp()
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     tempfile.tempdir = str(scratch)
     threading.Thread(target=_end_with, args=(alive,), daemon=True).start()
-    with suppress(EOFError, OSError):  # the sender is gone
+    with suppress(EOFError, OSError):  # the sender has ended
         while True:
             pipe.send(_answer(pipe.recv()))
 

@@ -1,4 +1,4 @@
-"""Jobs: each is solved once, stored at once, and used again while nothing changes."""
+"""Jobs, which are solved once, stored immediately, and used again while scene, code and versions stay the same."""
 
 import json
 import traceback
@@ -22,14 +22,14 @@ from roughfilm.rom.studies.convergence import GRIDS
 from roughfilm.terminal.console import messages, progress_bar
 
 QUICK_S = 0.1
-"""Models that cost less are timed as the fastest of ``REPEATS`` runs, without the time to start."""
+"""CPU time, s, of a model below which its time is the shortest of ``REPEATS`` runs, without the start-up."""
 
 REPEATS = 7
 
 
 @dataclass(frozen=True, kw_only=True)
 class Job:
-    """One scene in one setting, and the file of its result."""
+    """A scene with a setting (model, resolution and scheme) and the file of the result, ``path``."""
 
     scene: Scene
     setting: Setting
@@ -37,13 +37,13 @@ class Job:
 
     @property
     def failure_path(self) -> Path:
-        """The file of the reason why there is no result."""
+        """The file with the reason if there is no result."""
         return self.path.with_suffix(".failed.json")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Failure:
-    """Why a job has no result.
+    """The reason why a job has no result.
 
     A solver that diverges, stalls or runs out of iterations is an answer: the job runs again only if scene, code or
     versions change. Any other failure (a worker that died, a full disk) does not depend on the scene: the job runs
@@ -51,9 +51,12 @@ class Failure:
 
     Attributes
     ----------
-    kind, message : name of the error class, and its message.
+    kind : name of the error class.
+    message : message of the error.
     notes : the last lines of the log or of the traceback.
-    outcome, iterations, cpu_s : how a solver failed to converge, after how many iterations and CPU seconds.
+    outcome : way in which a solver failed to converge; empty for other errors.
+    iterations : number of iterations done; None if unknown.
+    cpu_s : CPU time, s; None if unknown.
     """
 
     kind: str
@@ -70,7 +73,7 @@ class Failure:
 
 
 def failure_of(error: Exception) -> Failure:
-    """An error as a record; one that is not an error of this package has its traceback."""
+    """The record of an error; for an error of another package its notes are the traceback."""
     meant = isinstance(error, InputError | ConvergenceError | UnavailableError)
     return Failure(
         kind=type(error).__name__,
@@ -82,7 +85,7 @@ def failure_of(error: Exception) -> Failure:
 
 
 def stored(job: Job, *, with_fields: bool = True) -> Result | Failure | None:
-    """The stored answer, if it belongs to the same scene, code and versions."""
+    """The stored answer to a job; None if there is none for the same scene, code and versions."""
     if job.path.is_file():
         try:
             result = load(job.path, with_fields=with_fields)
@@ -99,7 +102,7 @@ def stored(job: Job, *, with_fields: bool = True) -> Result | Failure | None:
 
 
 def store(job: Job, answer: bytes | Failure) -> None:
-    """Write a result's file or a failure's record; InputError if it cannot be written."""
+    """Write the bytes of a result or the record of a failure to its file; InputError if it cannot be written."""
     if isinstance(answer, bytes):
         with replacing(job.path) as scratch:
             scratch.write_bytes(answer)
@@ -130,7 +133,7 @@ def _same(result: Result, job: Job) -> bool:
 
 
 def solved_once(job: Job, step: Progress) -> Result:
-    """The stored answer, or else a new one, which is stored; raises the errors of the model."""
+    """The stored result of a job, or a new one, which is stored; raises the errors of the model."""
     answer = stored(job)
     if answer is None:
         repeats = REPEATS if job.setting.cost(job.scene) < QUICK_S else 1
@@ -148,9 +151,10 @@ def solved_once(job: Job, step: Progress) -> Result:
 
 
 def jobs_of(scene: Scene, models: Sequence[Model], directory: Path, grids: int = GRIDS) -> list[Job]:
-    """The default job of every model, then its other resolutions for the chart and the convergence study.
+    """The jobs of every model at its default resolution and at others, for the chart and the convergence study.
 
-    With more ``grids`` than ``GRIDS``, a model with an order of convergence gets grids that are each twice as fine.
+    If ``grids`` exceeds ``GRIDS``, a model with an order of convergence gets additional grids, each with twice as many
+    cells along a direction as the one before.
     """
     settings = []
     for model in models:
@@ -162,7 +166,10 @@ def jobs_of(scene: Scene, models: Sequence[Model], directory: Path, grids: int =
 
 
 def run_all(jobs: Sequence[Job], failed: dict[str, str]) -> list[tuple[Job, Result]]:
-    """Solve all jobs that are not stored; a model that fails at its default resolution is added to ``failed``."""
+    """The jobs that have a result, with the result; jobs without a stored result are solved.
+
+    The message of a model that fails at its default resolution is added to ``failed``.
+    """
     done: list[tuple[Job, Result]] = []
     costs = [job.setting.cost(job.scene) for job in jobs]
     with progress_bar(sum(costs)) as advance:

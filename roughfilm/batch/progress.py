@@ -1,4 +1,4 @@
-"""The progress of a batch: the jobs by state, and the cost of those to come."""
+"""The progress of a batch: the number of jobs by state, and the cost of the remaining jobs."""
 
 from collections import defaultdict
 from dataclasses import dataclass, field
@@ -10,7 +10,7 @@ from roughfilm.rom.ladder.result import Result
 
 
 class State(StrEnum):
-    """The state of a job: ``FINISHED`` by an earlier run, ``SOLVED`` by this one."""
+    """The state of a job; ``FINISHED`` means solved by an earlier run, ``SOLVED`` by this one."""
 
     FINISHED = "finished"
     SOLVED = "solved"
@@ -21,7 +21,16 @@ class State(StrEnum):
 
 @dataclass(kw_only=True)
 class Account:
-    """The jobs of one setting by state, and CPU seconds: to come, of the most expensive, expected and measured."""
+    """The jobs of one setting and their CPU time.
+
+    Attributes
+    ----------
+    jobs : number of jobs by state.
+    to_come : expected CPU time of the remaining jobs, s.
+    largest : expected CPU time of the most expensive job of this run, s.
+    expected : expected CPU time of the solved jobs, s.
+    measured : measured CPU time of the solved jobs, s.
+    """
 
     jobs: dict[State, int] = field(default_factory=lambda: dict.fromkeys(State, 0))
     to_come: float = 0.0
@@ -31,18 +40,26 @@ class Account:
 
     @property
     def ratio(self) -> float:
-        """Measured over expected cost, which corrects that of the jobs to come."""
+        """The ratio of measured to expected CPU time, which corrects the expected time of the remaining jobs."""
         return self.measured / self.expected if self.expected else 1.0
 
     @property
     def remaining(self) -> float:
-        """CPU seconds still to come."""
+        """The corrected CPU time of the remaining jobs, s."""
         return self.to_come * self.ratio if self.jobs[State.TO_DO] else 0.0
 
 
 @dataclass(kw_only=True)
 class BatchProgress:
-    """The accounts by setting, the jobs that failed with the reason, and the number of results with a warning."""
+    """The progress of all settings of a batch.
+
+    Attributes
+    ----------
+    accounts : account by name of the setting.
+    failures : jobs that failed, with the reason.
+    warned : number of results with a warning.
+    spent : corrected expected CPU time of the jobs that this run finished, s.
+    """
 
     accounts: dict[str, Account] = field(default_factory=lambda: defaultdict(Account))
     failures: list[tuple[Job, Failure]] = field(default_factory=list)
@@ -84,27 +101,27 @@ class BatchProgress:
         self.warned += bool(answer.warnings)
 
     def total(self, *states: State) -> int:
-        """The number of jobs in these states, by default in any."""
+        """The number of jobs in the given states, by default in all states."""
         return sum(account.jobs[state] for account in self.accounts.values() for state in states or State)
 
     @property
     def cpu_s(self) -> float:
-        """CPU seconds still to come."""
+        """The corrected CPU time of the remaining jobs of all settings, s."""
         return sum(account.remaining for account in self.accounts.values())
 
     def wall_s(self, processes: int) -> float:
-        """The shortest wall time of the jobs to come in a number of processes, s."""
+        """The shortest possible wall time of the remaining jobs with a number of processes, s."""
         largest = max((a.largest * a.ratio for a in self.accounts.values() if a.jobs[State.TO_DO]), default=0.0)
         return max(self.cpu_s / processes, largest)
 
     @property
     def done(self) -> float:
-        """The spent fraction of this run's CPU time, 0 to 1."""
+        """The done fraction of the CPU time of this run, 0 to 1."""
         whole = self.spent + self.cpu_s
         return self.spent / whole if whole else 1.0
 
     @property
     def words(self) -> str:
-        """The number of jobs with an answer, and of those that failed, as text."""
+        """The text with the number of jobs that have an answer and of those that failed."""
         failed = f", {len(self.failures)} failed" if self.failures else ""
         return f"{self.total() - self.total(State.TO_DO)} of {self.total()} jobs{failed}"

@@ -1,4 +1,4 @@
-"""Every case of a study by every model: what is finished, what is missing, and the table of all."""
+"""Solution of every case of a study by every model, and the table of all results."""
 
 from collections.abc import Mapping
 from concurrent.futures import Executor
@@ -15,11 +15,11 @@ from roughfilm.rom.studies.study import Case, Study
 from roughfilm.rom.studies.table import write_csv, write_hdf5
 
 Tasks = Mapping[Path, tuple[Case, Job]]
-"""Cases and jobs by the file of the result."""
+"""The cases and jobs by the file of the result."""
 
 
 def tasks_of(study: Study, out: Path) -> Tasks:
-    """The jobs of a study, each case in its directory below ``out``."""
+    """The jobs of a study, with the results of each case in its own directory below ``out``."""
     known, tasks = places(out), {}
     for case in study.cases:
         place = known.get(case.digest, out / CASES / case.name)
@@ -30,7 +30,7 @@ def tasks_of(study: Study, out: Path) -> Tasks:
 
 
 def finished(study: Study, tasks: Tasks, counts: BatchProgress) -> tuple[dict[Path, TableRow], list[Job]]:
-    """The rows that need no solving, and the jobs that do; both are counted."""
+    """The rows that need no solution, by file, and the jobs that need one; both are counted in ``counts``."""
     rows, missing = {}, []
     for path, (case, job) in tasks.items():
         fits = job.setting.model.applies(job.scene)
@@ -50,14 +50,22 @@ def finished(study: Study, tasks: Tasks, counts: BatchProgress) -> tuple[dict[Pa
 def solved_table(
     study: Study, out: Path, counts: BatchProgress, place: AbstractContextManager[Executor], progress: Progress
 ) -> None:
-    """Solve what is missing, store each answer as it comes, and write ``table.csv`` and ``table.h5``.
+    """Solve the missing jobs of a study, store each answer immediately, and write ``table.csv`` and ``table.h5``.
+
+    Parameters
+    ----------
+    study : the study.
+    out : directory of the results and tables.
+    counts : progress of the batch, which is updated.
+    place : context manager of the executor; it is entered only if jobs are missing.
+    progress : called with the done fraction and a few words.
 
     Raises
     ------
     InputError
-        If a file cannot be written; what is stored stays, and the same call goes on from there.
+        If a file cannot be written; stored answers are kept, and the same call continues with the missing ones.
     UnavailableError
-        If the scheduler of the executor is gone.
+        If the scheduler of the executor stops.
     """
     tasks = tasks_of(study, out)
     progress(0.0, "looking for finished results")

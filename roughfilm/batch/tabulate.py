@@ -1,4 +1,4 @@
-"""The table of a batch: a row for each case and setting, with what varies and what was computed."""
+"""The table of a batch, with a row of inputs and results for each case and setting."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -16,11 +16,11 @@ Cell = Quantity | str
 
 
 TableRow = tuple[Mapping[str, Cell], Mapping[str, Cell]]
-"""What was requested, and the answer, by the name of the column."""
+"""The inputs and the answer of a job, each by the name of the column."""
 
 
 def row_of(keys: Mapping[str, Key], case: Case, job: Job, answer: Result | Failure) -> TableRow:
-    """The row of a job: one case of a study in which ``keys`` vary."""
+    """The row of a job in a case of a study; ``keys`` are the locations of the varied entries by name."""
     setting = job.setting
     entries = scene_entries(case.scene)
     if isinstance(answer, Result):
@@ -51,7 +51,7 @@ def row_of(keys: Mapping[str, Key], case: Case, job: Job, answer: Result | Failu
 
 
 def columns(rows: Sequence[TableRow]) -> dict[str, Column]:
-    """The rows as columns, in the order in which their names first appear."""
+    """The columns of a table from its rows, in the order in which their names first appear."""
     table: dict[str, Column] = {}
     for parts in zip(*rows, strict=True):
         names = dict.fromkeys(name for part in parts for name in part)
@@ -82,7 +82,7 @@ def _at(entries: Any, key: Key, written: Any) -> Any:
 
 
 def _cell(value: Any) -> Cell:
-    """A number, a text such as "3e-05 m" as a quantity, anything else as text."""
+    """The cell of a value: a quantity for a number or a text such as "3e-05 m", otherwise a text."""
     if isinstance(value, int | float) and not isinstance(value, bool):
         return _number(value)
     if isinstance(value, str):
