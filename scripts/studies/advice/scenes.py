@@ -37,7 +37,7 @@ def length(metres: float) -> str:
 
 
 def pocket(rng: Generator) -> Entries:
-    """Return a pocket: w/L = 0.1 to 0.6, d/h = 0.1 to 1.5, h/L = 0.01 to 0.06, Re = 0.5 to 250; 40 % are arcs."""
+    """Return a pocket: w/L = 0.1 to 0.6, d/h = 0.1 to 1.5, h/L = 0.01 to 0.06, Re = 0.5 to 250; 40 % symmetric arcs."""
     period, film = 1e-3, 1e-3 * between(rng, 0.01, 0.06)
     width, depth = period * rng.uniform(0.1, 0.6), film * between(rng, 0.1, 1.5)
     splined: Entries = {"profile": "splined", "shift": length(width * rng.uniform(-0.3, 0.3))}
