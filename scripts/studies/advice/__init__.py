@@ -1,1 +1,1 @@
-"""The error laws behind the advice: fitted to random scenes, checked on others."""
+"""Error laws of the advice, which are fitted to random scenes and checked on others."""

@@ -39,7 +39,7 @@ from scripts.studies.study import Out, counted, write
 TOLERANCES = (0.02, 0.05, 0.10)
 
 REQUIRED_FRACTION = 0.95
-"""Fraction of the scenes whose true error must be within the tolerance."""
+"""Least fraction of the scenes whose true error is within the tolerance."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -153,7 +153,7 @@ def tried(case: SolvedScene, within: float, quantity: str) -> Trial:
 
 @dataclass(frozen=True, kw_only=True)
 class Score:
-    """How often the advice was right in some trials, and its cost."""
+    """The numbers of right advice in some trials, and its cost."""
 
     scenes: int
     answered: int

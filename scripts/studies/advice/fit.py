@@ -35,13 +35,13 @@ Rows = list[tuple[Numbers, float]]
 """The numbers of scenes, each with an error."""
 
 ROUND_OFF = 1e-7
-"""Differences below it are round-off."""
+"""Relative difference below which answers differ by round-off alone."""
 
 LEAST_SCENES = 12
-"""Number of scenes from which on powers are fitted; with fewer, a bound alone."""
+"""Least number of scenes for a fit of powers; fewer scenes give a bound alone."""
 
 POWER_STEP = 0.05
-"""Powers are multiples of it."""
+"""Step of the powers, which are its multiples."""
 
 RIDGE = 0.02
 """Ridge parameter per scene: keeps the powers of correlated numbers from growing against each other."""
@@ -62,7 +62,7 @@ class SolvedScene:
     bar: Mapping[str, float]
 
     def finest(self, model: str) -> Run | None:
-        """Return the run of a model at its finest resolution; None where it has none."""
+        """Return the run of a model at its finest resolution; None if there is none."""
         return next(reversed(self.grids(model)), None)
 
     def grids(self, model: str) -> list[Run]:

@@ -1,4 +1,4 @@
-"""The answers of every model to random scenes at every resolution, solved once, in parallel, and kept in a table."""
+"""Answers of every model to random scenes at every resolution, solved once, in parallel, and stored in a table."""
 
 import json
 from collections.abc import Mapping, Sequence

@@ -22,22 +22,22 @@ SIDE = 1e-3
 
 
 def between(rng: Generator, low: float, high: float) -> float:
-    """Log-uniform."""
+    """Return a random number with a log-uniform distribution from ``low`` to ``high``."""
     return float(np.exp(rng.uniform(np.log(low), np.log(high))))
 
 
 def chance(rng: Generator, part: float) -> bool:
-    """True so often."""
+    """Return True with the probability ``part``."""
     return bool(rng.random() < part)
 
 
 def length(metres: float) -> str:
-    """Return a length as a scene file has it."""
+    """Return the text of a length in m with its unit, as in a scene file."""
     return with_unit(metres, "m")
 
 
 def pocket(rng: Generator) -> Entries:
-    """w/L = 0.1 to 0.6, d/h = 0.1 to 1.5, h/L = 0.01 to 0.06, Re = 0.5 to 250; two in five are symmetric arcs."""
+    """Return a pocket: w/L = 0.1 to 0.6, d/h = 0.1 to 1.5, h/L = 0.01 to 0.06, Re = 0.5 to 250; 40 % symmetric arcs."""
     period, film = 1e-3, 1e-3 * between(rng, 0.01, 0.06)
     width, depth = period * rng.uniform(0.1, 0.6), film * between(rng, 0.1, 1.5)
     splined: Entries = {"profile": "splined", "shift": length(width * rng.uniform(-0.3, 0.3))}
@@ -55,7 +55,7 @@ def pocket(rng: Generator) -> Entries:
 
 
 def rough_gap(rng: Generator) -> Entries:
-    """Waves of 0.05 to 0.7 of the gap and 1.5 to 30 gaps long, or random roughness; Re = 0.1 to 100."""
+    """Return a gap with random roughness, or waves of amplitude 0.05 to 0.7, length 1.5 to 30 gaps; Re = 0.1 to 100."""
     gap = 10e-6
     if chance(rng, 0.5):
         amplitude, wavelength = gap * between(rng, 0.05, 0.7), gap * between(rng, 1.5, 30)
@@ -131,7 +131,7 @@ def bearing(rng: Generator) -> Entries:
 
 
 def shaped(rng: Generator, film: float, side: float) -> Entries:
-    """The shape of a bearing, in three of ten with pockets or waves."""
+    """Return the shape of a bearing."""
     rise = length(film * between(rng, 0.2, 4.0))
     shape = str(rng.choice(SHAPES, p=CHANCES))
     if shape in ("sector", "washer"):
@@ -166,7 +166,7 @@ def shaped(rng: Generator, film: float, side: float) -> Entries:
 
 
 def textured(rng: Generator, film: float, side: float, pad: Entries) -> Entries:
-    """Pockets from side to side, or in rows."""
+    """Return pockets that extend from side to side, or are in rows."""
     columns = int(rng.integers(1, 6))
     pitch = side * rng.uniform(0.5, 1.0) / columns
     pockets: Entries = {
@@ -184,7 +184,7 @@ def textured(rng: Generator, film: float, side: float, pad: Entries) -> Entries:
 
 
 def sloping_surface(rng: Generator, side: float, points: int, slope: float, finest: int) -> Entries:
-    """The same of an rms slope, of Gaussian surfaces about: 2.54 Sq/Sal across the lay."""
+    """Return a random surface with an rms slope, which is approximate for Gaussian ones: 2.54 Sq/Sal across the lay."""
     surface = random_surface(rng, side, points, side, finest)
     if surface["kind"] == "gaussian":
         surface["rms_height"] = length(slope * side * finest / points / 1.5 / 2.54)
@@ -236,7 +236,7 @@ DRAWN: Mapping[str, Callable[[Generator], Entries]] = {
 
 
 def random_scene(kind: str, seed: int) -> Scene:
-    """The scene of a kind that belongs to a seed, named by both: the first one drawn that is valid."""
+    """Return the scene of a kind and a seed, named by both: the first valid one of the random scenes."""
     rng = np.random.default_rng([seed, *kind.encode()])
     while True:
         try:

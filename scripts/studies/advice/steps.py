@@ -34,4 +34,4 @@ KINDS = tuple(dict.fromkeys(step.kind for step in STEPS))
 GRIDS: Mapping[tuple[str, str], tuple[str, ...]] = {
     (grid["kind"], grid.get("model", "")): tuple(grid["features"]) for grid in _TABLE["grid"]
 }
-"""The numbers that order the error of a resolution, by kind and model; without a model, those of all others."""
+"""Names of the numbers on which the error of a resolution depends, by kind and model; "" is for all other models."""

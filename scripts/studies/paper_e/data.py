@@ -61,7 +61,7 @@ class Washer:
     Attributes
     ----------
     scene : scene of the washer.
-    wall : asperities and flow factors of the surface.
+    wall : flow factors and contact pressures of the surface over the separation.
     boxes : asperities by Patir and Cheng's method, None if it is not computed.
     curves : curves by homogenized factors, one for each load.
     boxed : curves by Patir and Cheng's factors, one for each load; () if they are not computed.

@@ -1,1 +1,1 @@
-"""Paper F of the source: its figures regenerated, its claims judged."""
+"""Regeneration of the figures of Paper F of the source, and judgement of its claims."""

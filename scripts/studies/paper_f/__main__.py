@@ -1,7 +1,7 @@
-"""Regenerate Figures F.5 to F.12 of Paper F for families of made surfaces, fit its laws and judge its claims.
+"""Regenerate Figures F.5 to F.12 of Paper F for families of synthetic surfaces, fit its laws and judge its claims.
 
 python -m scripts.studies.paper_f --out OUT. The ten elastomer surfaces of the paper are not public; measured ones of
-other makers are added with --surfaces DIR (or ROUGHFILM_SURFACES). Every finished surface is kept in OUT/found and used
+other makers are added with --surfaces DIR (or ROUGHFILM_SURFACES). Finished surfaces are stored in OUT/found and used
 by the next run. Source: F. Sahlin, Luleå 2008, Paper F.
 """
 
@@ -53,7 +53,7 @@ def compute(
     parts: Sequence[float] = PARTS,
     sizes: dict[int, int] | None = None,
 ) -> SealStudy:
-    """Compute everything the page shows, with finished surfaces kept in ``folder``; smaller sizes serve tests."""
+    """Compute all data of the page; finished surfaces are stored in ``folder``; smaller sizes are for tests."""
     made = made_surfaces(families, seeds, points)
     finer = made_surfaces(families, seeds[:1], 2 * points)
     measured = measured_surfaces(surfaces, points)

@@ -1,4 +1,4 @@
-"""The claims of Paper F judged: 16, 19 and 23 to 26."""
+"""Judgement of claims 16, 19 and 23 to 26 of Paper F."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -51,12 +51,12 @@ def judge(study: SealStudy) -> list[Claim]:
 
 
 def area_at(one: Pressed, load: float) -> float:
-    """Return the area under a load, Pa; nan outside the computed loads."""
+    """Return the area fraction under a load, Pa; nan outside of the computed loads."""
     return float(np.interp(load, one.loads, one.area, left=np.nan, right=np.nan))
 
 
 def areas_differ(study: SealStudy) -> Judgement:
-    """Judge claim 16, its half on surfaces in space."""
+    """Judge the part of claim 16 on surfaces in three dimensions."""
     same_load = np.array([area_at(one, COMPARED_LOAD) for one in study.sample])
     alike = np.array([area_at(one, COMPARED_REDUCED_LOAD * MODULUS * one.numbers.slope) for one in study.sample])
     same_load, alike = same_load[np.isfinite(same_load)], alike[np.isfinite(alike)]
@@ -72,7 +72,7 @@ def areas_differ(study: SealStudy) -> Judgement:
 
 
 def above_the_cell(sample: Sequence[Pressed]) -> tuple[Array, Array]:
-    """Return loads divided by the sealing load of the cell, and K/A − 1, of all open gaps."""
+    """Return the loads over the sealing load of the cell, and K/A − 1, for all open gaps."""
     rows = []
     for one in sample:
         for i in (0, 1):
@@ -84,7 +84,7 @@ def above_the_cell(sample: Sequence[Pressed]) -> tuple[Array, Array]:
 
 
 def cell_equals_direct(sample: Sequence[Pressed]) -> Judgement:
-    """Judge claim 19."""
+    """Judge claim 19, on homogenized and direct leakage."""
     parts, more = above_the_cell(sample)
     said, within = [], []
     for low, high in BINS:
@@ -107,7 +107,7 @@ def cell_equals_direct(sample: Sequence[Pressed]) -> Judgement:
 
 
 def lost_between(study: SealStudy) -> Judgement:
-    """Judge claim 23."""
+    """Judge claim 23, on the contact area at the threshold."""
     area = np.array([one.sealed_area for one in study.sample])
     inside = (area >= RANGE[0]) & (area <= RANGE[1])
     directed = np.array([one.family in DIRECTED for one in study.sample])
@@ -133,7 +133,7 @@ def lost_between(study: SealStudy) -> Judgement:
 
 
 def peaks_rule_sealing(laws: Mapping[str, GroupLaws]) -> Judgement:
-    """Judge claim 24."""
+    """Judge claim 24, on the sealing load and the heights of peaks."""
     every = laws["all"]
     spreads = {name: every.sealing[name].spread for name in HEIGHTS}
     first, last = min(spreads, key=spreads.__getitem__), max(spreads, key=spreads.__getitem__)
@@ -162,7 +162,7 @@ def peaks_rule_sealing(laws: Mapping[str, GroupLaws]) -> Judgement:
 
 
 def valleys_rule_leakage(study: SealStudy) -> Judgement:
-    """Judge claim 25."""
+    """Judge claim 25, on the leakage and the depths of valleys."""
     every = study.laws["all"]
     apart = {one.scale[0]: one.apart for one in every.collapses if one.scale[0] and one.scale[0] == one.scale[1]}
     best = [min((values[k], name) for name, values in apart.items())[1] for k in (0, 1)]
@@ -196,14 +196,14 @@ def valleys_rule_leakage(study: SealStudy) -> Judgement:
 
 @dataclass(frozen=True, kw_only=True)
 class Subtracted:
-    """Leakage as the source computes it: with an offset of 10 nm, and less the leakage at the threshold.
+    """The leakage by the method of the source: with an offset of 10 nm, minus the leakage at the threshold.
 
     Attributes
     ----------
-    part : load over the one that seals the cell.
+    part : load over the sealing load of the cell.
     average : Sa, m.
-    added : by the offset alone, over the leakage with closed contact.
-    error : after the subtraction.
+    added : leakage added by the offset alone, over the leakage with closed contact.
+    error : relative error after the subtraction.
     """
 
     part: Array
@@ -235,7 +235,7 @@ def subtracted(sample: Sequence[Pressed]) -> Subtracted:
 
 
 def offset_is_harmless(sample: Sequence[Pressed]) -> Judgement:
-    """Judge claim 26, of Paper F's surfaces."""
+    """Judge claim 26, on the offset, by the synthetic surfaces."""
     found = subtracted(sample)
     middle = float(np.sqrt(found.average.min() * found.average.max()))
     said, medians = [], []
@@ -276,7 +276,7 @@ def _interval(interval: tuple[float, float], digits: int) -> str:
 
 
 def _digits(value: float, digits: int) -> str:
-    """Return a number with so many figures, without an exponent."""
+    """Return a number with ``digits`` significant digits, without an exponent."""
     return f"{float(f'{value:.{digits}g}'):.10g}"
 
 

@@ -1,4 +1,4 @@
-"""Figures F.5 to F.12 of Paper F, and what they do not show: offset, size, and the cell beside the reservoirs."""
+"""Figures F.5 to F.12 of Paper F, and figures of the offset, the size, and the cell against the direct solution."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -22,20 +22,20 @@ COLOURS = (
     *("#08519c", "#4292c6", "#d94801", "#fdae6b", "#8c6d31", "#238b45", "#74c476"),
     *("#6a51a3", "#9e9ac8", "#c51b8a", "#f768a1"),
 )
-"""Colours of the families: random blue, skewed orange and brown, with a lay green, self-affine violet."""
+"""Colours of the families: blue for random, orange and brown for skewed, green with a lay, violet for self-affine."""
 
 COMPUTED, SOURCE = "#1d2530", "#b42318"
-"""Colours of fitted laws, and of those of the source."""
+"""Colours of fitted laws, and of the laws of the source."""
 
 DENSITY, VISCOSITY, PRESSURE_DROP, LENGTH = 1e3, 1e-3, 1e6, 1e-3
 """Density, kg/m³, viscosity, Pa s, pressure drop, Pa, and length, m, of the source."""
 
 MIN_LEAKAGE = 1e-6
-"""Leakage below which it is not drawn, kg/(h m)."""
+"""Least leakage that is drawn, kg/(h m)."""
 
 
 def kilograms(permeability: Array) -> Array:
-    """Leakage per width over the length of the source, kg/(h m): 3600 ρ K Δp/(12 η L)."""
+    """Return the leakage per width, 3600 ρ K Δp/(12 η L), kg/(h m), for permeabilities K, m³."""
     return 3600 * DENSITY * permeability * PRESSURE_DROP / (12 * VISCOSITY * LENGTH)
 
 
@@ -170,7 +170,7 @@ def _leakage(study: SealStudy) -> Figure:
 
 
 def _bands(axes: Axes, parts: Array, values: Array, colour: str) -> None:
-    """The median and the 90th percentile over bins of equal counts."""
+    """Draw the median and the 90th percentile of the values over bins with equal numbers of values."""
     order = np.argsort(parts)
     bins = [one for one in np.array_split(order, 12) if one.size]
     places = [float(np.median(parts[one])) for one in bins]
@@ -321,4 +321,4 @@ DRAWINGS: dict[str, Callable[[SealStudy], Figure]] = {
     "size": _size,
     "offset": _offset,
 }
-"""Figures in the order of the page."""
+"""Functions that draw the figures, by name, in the order of the page."""

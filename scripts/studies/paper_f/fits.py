@@ -1,4 +1,4 @@
-"""Laws of sealing load and leakage: constants with intervals, and the scatter of surfaces, by groups of families."""
+"""Laws of sealing load and leakage for groups of families: constants with intervals, and the scatter of surfaces."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -12,13 +12,13 @@ from scripts.studies.paper_f.sizes import Sizes
 from scripts.studies.paper_f.surfaces import HEIGHTS
 
 SLOPE = "g′"
-"""The rms slope as a scale of loads: W/(E* g′) is a pure number, and the same for a surface stretched along or up."""
+"""Name of the rms slope as a scale of loads: W/(E* g′) does not change if lengths or heights are scaled."""
 
 RESAMPLES = 1000
-"""Resamples of a bootstrap."""
+"""Number of resamples of a bootstrap."""
 
 CONFIDENCE = (2.5, 97.5)
-"""Per cent."""
+"""Percentiles of the ends of a 95 % interval."""
 
 LOAD_FRACTIONS = (0.003, 0.03, 0.3)
 """Fractions of the median sealing load at which leakages of surfaces are compared."""
@@ -32,12 +32,13 @@ Places = NDArray[np.int64]
 
 @dataclass(frozen=True, kw_only=True)
 class Constant:
-    """A fitted number.
+    """A fitted number with its intervals.
 
     Attributes
     ----------
-    by_surface : 95 % interval, surfaces drawn with replacement, both directions together.
-    by_family : the same with families drawn first: what another choice of families would do.
+    value : fitted number.
+    by_surface : 95 % interval from surfaces drawn with replacement, both directions together.
+    by_family : 95 % interval from families drawn first, then surfaces; it shows the effect of the choice of families.
     """
 
     value: float
@@ -47,15 +48,15 @@ class Constant:
 
 @dataclass(frozen=True, kw_only=True)
 class SealingLaw:
-    """W = c E* s at the threshold, s a height or the rms slope; a straight line of slope 1 in logarithms.
+    """The law W = c E* s of the load at the threshold, where s is a height or the rms slope.
 
     Attributes
     ----------
-    scale : s by name.
-    constant : c, the geometric mean, 1/m or a pure number.
-    spread : the standard deviation of ln(W/(E* s)), as a factor.
-    explained : R² of ln W. It grows with the range of Sa that the surfaces are given.
-    explained_alike : R² of ln W once all surfaces are scaled to the same Sq: what s says beside the height.
+    scale : name of s.
+    constant : c, the geometric mean of W/(E* s), 1/m or dimensionless.
+    spread : standard deviation of ln(W/(E* s)), as a factor.
+    explained : R² of ln W, which grows with the range of Sa of the surfaces.
+    explained_alike : R² of ln W after all surfaces are scaled to the same Sq, which removes the effect of the height.
     """
 
     scale: str
@@ -66,17 +67,17 @@ class SealingLaw:
 
 
 def scale_of(one: Pressed, name: str) -> float:
-    """A height by name, m, or the rms slope."""
+    """Return the height of a given name, m, or the rms slope."""
     return one.numbers.slope if name == SLOPE else one.numbers.heights[name]
 
 
 def ratios(sample: Sample, name: str) -> Array:
-    """W/(E* s) at the thresholds, shape (surfaces, 2)."""
+    """Return W/(E* s) at the thresholds, shape (surfaces, 2)."""
     return np.array([one.threshold / (MODULUS * scale_of(one, name)) for one in sample])
 
 
 def sealing_law(sample: Sample, name: str) -> SealingLaw:
-    """Fitted to the thresholds of both directions of all surfaces."""
+    """Fit the sealing law to the thresholds of both directions of all surfaces."""
     logs, bare = np.log(ratios(sample, name)), np.log([one.threshold / MODULUS for one in sample])
     same = np.log(ratios(sample, "Sq"))
     return SealingLaw(
@@ -89,7 +90,10 @@ def sealing_law(sample: Sample, name: str) -> SealingLaw:
 
 
 def bootstrapped(sample: Sample, statistic: Callable[[Places], Array]) -> list[Constant]:
-    """Numbers that are expected from the surfaces whose places are given, each with its intervals."""
+    """Return the numbers of a statistic with their bootstrap intervals.
+
+    ``statistic`` computes the numbers from the surfaces at the given places of the sample.
+    """
     families = [np.array(rows) for rows in _families(sample)]
     draw = np.random.default_rng(90731)
     everyone = np.arange(len(sample))
@@ -119,12 +123,12 @@ def _families(sample: Sample) -> list[list[int]]:
 
 @dataclass(frozen=True, kw_only=True)
 class SkewedLaw:
-    """W = c E* g′ exp(s Ssk) at the threshold: valleys leave tops that are flatter than the rms slope says.
+    """The law W = c E* g′ exp(s Ssk) at the threshold: surfaces with valleys have flatter tops than g′ suggests.
 
     Attributes
     ----------
     constant, skewness : c and s.
-    spread, explained_alike : as of :class:`SealingLaw`.
+    spread, explained_alike : those of :class:`SealingLaw`.
     """
 
     constant: Constant
@@ -134,7 +138,7 @@ class SkewedLaw:
 
 
 def skewed_law(sample: Sample) -> SkewedLaw:
-    """Least squares of ln W."""
+    """Fit the law with the skewness by least squares of ln W."""
     logs, skewness = np.log(ratios(sample, SLOPE)).mean(axis=1), np.array([one.numbers.skewness for one in sample])
 
     def line(drawn: Places) -> Array:
@@ -153,13 +157,13 @@ def skewed_law(sample: Sample) -> SkewedLaw:
 
 @dataclass(frozen=True, kw_only=True)
 class Collapse:
-    """How far leakages lie apart once heights are scaled to the same s, at loads that are scaled with them.
+    """The scatter of leakages after heights are scaled to the same s, at loads that are scaled accordingly.
 
     Attributes
     ----------
     scale : names of the scales of heights and of loads.
     apart : standard deviation of log10 K over surfaces and directions, for each of ``LOAD_FRACTIONS``.
-    sealed : fraction of them that are sealed there and do not count.
+    sealed : fraction of surfaces and directions that are sealed at these loads and are left out.
     """
 
     scale: tuple[str, str]
@@ -181,7 +185,10 @@ def collapse(sample: Sample, height: str, load: str) -> Collapse:
 
 
 def leakage_at(one: Pressed, load: float, height: str, unit: str) -> Array:
-    """log10 of K over the cube of a height by name, at W/(E* unit), in x and in y; nan where it is sealed."""
+    """Return log10(K/s³) at a reduced load W/(E* r) in x and in y; nan where the gap is sealed.
+
+    ``height`` and ``unit`` are the names of s and r; "" leaves K and W/E* unscaled.
+    """
     place = load * MODULUS * (scale_of(one, unit) if unit else 1.0)
     with np.errstate(divide="ignore"):
         logs = np.log10(one.direct / (scale_of(one, height) if height else 1.0) ** 3)
@@ -191,16 +198,16 @@ def leakage_at(one: Pressed, load: float, height: str, unit: str) -> Array:
 
 @dataclass(frozen=True, kw_only=True)
 class LeakageLaw:
-    """K = s³ (a − b (W/(E* r))^(1/3))⁹, where it is above 0: a straight line in (K/s³)^(1/9), least squares.
+    """The law K = s³ (a − b (W/(E* r))^(1/3))⁹ of positive leakage, fitted as a straight line in (K/s³)^(1/9).
 
-    With s = r = Svm it is F.17 and F.18 of the source, read as Svm_d = (−0.023 (W/E)^(1/3) + 1.1 Svm^(1/3))³.
+    With s = r = Svm this is F.17 and F.18 of the source, read as Svm_d = (−0.023 (W/E)^(1/3) + 1.1 Svm^(1/3))³.
 
     Attributes
     ----------
-    scale : s and r by name.
-    a, b : b in m^(1/3) if r is a height.
-    apart : rms of log10 of K over the law's, of open gaps that the law has open.
-    missed : part of the open gaps that the law has sealed.
+    scale : names of s and r.
+    a, b : constants; b is in m^(1/3) if r is a height.
+    apart : rms of log10(K/K of the law) for open gaps that are open by the law.
+    missed : fraction of the open gaps that are sealed by the law.
     explained : R² of the straight line.
     """
 
@@ -213,7 +220,7 @@ class LeakageLaw:
 
 
 def leakage_law(sample: Sample, height: str, load: str) -> LeakageLaw:
-    """Fitted to the open gaps of all loads, both directions."""
+    """Fit the leakage law to the open gaps at all loads in both directions."""
     points = [_points(one, height, load) for one in sample]
     sums = np.array([[x.size, x.sum(), y.sum(), (x * x).sum(), (x * y).sum()] for x, y in points])
 
@@ -237,14 +244,14 @@ def leakage_law(sample: Sample, height: str, load: str) -> LeakageLaw:
 
 
 def _points(one: Pressed, height: str, load: str) -> Array:
-    """(W/(E* r))^(1/3) and (K/s³)^(1/9) of the open gaps, shape (2, points)."""
+    """Return (W/(E* r))^(1/3) and (K/s³)^(1/9) of the open gaps, shape (2, points)."""
     x = np.cbrt(one.loads / (MODULUS * scale_of(one, load)))
     y = (one.direct / scale_of(one, height) ** 3) ** (1 / 9)
     return np.concatenate([[x[y[:, i] > 0], y[y[:, i] > 0, i]] for i in (0, 1)], axis=1)
 
 
 def misfit(expected: Array, found: Array) -> tuple[float, float]:
-    """The rms of log10(found/expected) where expected is above 0, and the part where it is not."""
+    """Return the rms of log10(found/expected) where ``expected`` is above 0, and the fraction where it is not."""
     known = expected > 0
     logs = np.log10(found[known] / expected[known])
     return float(np.sqrt(np.mean(logs**2))) if known.any() else float("nan"), float(1 - known.mean())
@@ -255,19 +262,20 @@ READINGS: dict[str, Callable[[Array, Array], Array]] = {
     "Svm_d = (−0.023 (W/E)^⅓ + 1.1) Svm": lambda load, valley: (-0.023 * np.cbrt(load) + 1.1) * valley,
     "Svm_d = −0.023 m (W/E)³ + 1.1 Svm": lambda load, valley: -0.023 * load**3 + 1.1 * valley,
 }
-"""F.17 as its extracted text can be read, of W/E* and Svm in m."""
+"""Possible readings of the printed F.17, as functions of W/E* and Svm in m."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class FormulaReading:
-    """One reading of F.17 beside the surfaces.
+    """The comparison of one reading of F.17 with the surfaces.
 
     Attributes
     ----------
-    valley, leakage : rms of log10 of Svm under load, and of K, over what is read and its cube (F.18).
-    light : that of K up to a tenth of the load that seals.
-    missed : part of the open gaps where it says that there is no valley left.
-    scales : whether it is the same for a surface twice as high under twice the load, as elasticity has it.
+    formula : text of the reading.
+    valley, leakage : rms of log10 of Svm under load and of K, over the values of the formula (its cube for K, F.18).
+    light : rms of log10 for K at loads up to a tenth of the sealing load.
+    missed : fraction of the open gaps for which the formula gives no valley.
+    scales : whether the formula scales like linear elasticity: twice the height under twice the load.
     """
 
     formula: str
@@ -311,7 +319,7 @@ GROUPS: Mapping[str, Callable[[Pressed], bool]] = {
     "isotropic": lambda one: one.family not in DIRECTED,
     "isotropic, symmetric heights": lambda one: one.family not in DIRECTED + SKEWED,
 }
-"""Groups of the families."""
+"""Groups of the families: functions that select the surfaces, by name."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -320,11 +328,12 @@ class GroupLaws:
 
     Attributes
     ----------
-    sealing : by scale, the eight heights and the rms slope.
-    skewed : with the skewness beside the slope.
-    collapses : of leakage by the eight heights, as they are (""), and by a height with loads over the slope.
-    leakage : of F.18's form: by Svm, as the source has it, and by Sp and the slope.
-    readings : of F.17.
+    count : number of surfaces.
+    sealing : sealing laws by scale, for the eight heights and the rms slope.
+    skewed : sealing law with the rms slope and the skewness.
+    collapses : scatter of leakages by the eight heights, unscaled (""), and by a height with loads over the slope.
+    leakage : leakage laws of the form of F.18, by Svm as in the source, and by Sp and the slope.
+    readings : comparisons of the readings of F.17.
     """
 
     count: int
@@ -337,13 +346,13 @@ class GroupLaws:
 
 @dataclass(frozen=True, kw_only=True)
 class SealStudy:
-    """Everything that is judged and drawn; ``measured`` is empty where the instrument files are absent.
+    """All data that are judged and drawn; ``measured`` is empty if the instrument files are absent.
 
     Attributes
     ----------
-    sample : independent made surfaces.
-    finer : the first of each family again on twice as many nodes a side.
-    laws : by ``GROUPS``.
+    sample : independent synthetic surfaces.
+    finer : first surface of each family on twice as many nodes along each side.
+    laws : laws by the names of ``GROUPS``.
     """
 
     sample: Sequence[Pressed]
@@ -354,7 +363,7 @@ class SealStudy:
 
 
 def fit(sample: Sequence[Pressed]) -> GroupLaws:
-    """Fit all laws of a group."""
+    """Fit all laws to one group of surfaces."""
     return GroupLaws(
         count=len(sample),
         sealing={name: sealing_law(sample, name) for name in (*HEIGHTS, SLOPE)},
@@ -367,6 +376,6 @@ def fit(sample: Sequence[Pressed]) -> GroupLaws:
 
 
 def fit_groups(sample: Sequence[Pressed]) -> dict[str, GroupLaws]:
-    """The laws of each group that has surfaces."""
+    """Return the laws of each group that has surfaces."""
     groups = {name: [one for one in sample if counts(one)] for name, counts in GROUPS.items()}
     return {name: fit(members) for name, members in groups.items() if members}

@@ -1,4 +1,4 @@
-"""The threshold on larger and larger random surfaces of one kind: how far one small surface is from the large one."""
+"""Sealing thresholds of random surfaces of one kind with growing size, for the scatter of small surfaces."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -15,23 +15,25 @@ from scripts.studies.paper_f.surfaces import SIDE
 from scripts.studies.study import kept
 
 CORRELATION = 4e-6
-"""Sal, m."""
+"""Correlation length Sal, m."""
 
 NODES_PER_SIDE = 128
-"""Nodes along ``SIDE``."""
+"""Number of nodes along ``SIDE``."""
 
 COUNTS: Mapping[int, int] = {64: 32, 128: 24, 256: 12, 512: 6}
-"""Surfaces by nodes a side."""
+"""Number of surfaces by the number of nodes along a side."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Sizes:
-    """At the thresholds of surfaces, by correlation lengths a side: shape (surfaces, 4), ends in x, y, cell in x, y.
+    """Areas and loads at the thresholds of surfaces, by the side over the correlation length, shape (surfaces, 4).
+
+    The four thresholds are those between ends in x and in y, and those of the cell in x and in y.
 
     Attributes
     ----------
-    area : real over nominal.
-    load : W/(E* g′).
+    area : real over nominal contact area.
+    load : reduced load W/(E* g′).
     """
 
     area: Mapping[float, Array]
@@ -39,7 +41,7 @@ class Sizes:
 
 
 def grow(folder: Path | None, advance: Callable[[str], None], counts: Mapping[int, int] = COUNTS) -> Sizes:
-    """Compute all sizes or read them from the folder where they are kept; ``advance`` is called for each."""
+    """Compute all sizes, or read them from the folder where they are stored; ``advance`` is called for each."""
     area, load = {}, {}
     for nodes, count in counts.items():
         advance(f"{nodes} × {nodes} nodes")
@@ -55,7 +57,7 @@ def _all(nodes: int, count: int) -> list[tuple[Array, Array]]:
 
 
 def _one(nodes: int, seed: int) -> tuple[Array, Array]:
-    """Areas and loads at the thresholds of one surface."""
+    """Return the areas and the reduced loads at the thresholds of one surface."""
     side = nodes / NODES_PER_SIDE * SIDE
     surface = gaussian(
         size=(side, side),

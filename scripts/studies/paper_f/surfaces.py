@@ -1,4 +1,4 @@
-"""Families of made surfaces that stand for the ten unpublished ones of Paper F, and their eight heights."""
+"""Families of synthetic surfaces that replace the ten unpublished ones of Paper F, and their eight heights."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -19,31 +19,31 @@ from roughfilm.contact.synthetic.plateau_honed import plateau_honed
 from roughfilm.contact.synthetic.self_affine import self_affine
 
 SIDE = 42e-6
-"""m, of the source."""
+"""Side of the surfaces, as in the source, m."""
 
 POINTS = 128
 SHORTEST_WAVE = SIDE / 16
-"""m; the shortest wave of the self-affine families, 8 nodes long."""
+"""Shortest wavelength of the self-affine families, 8 nodes, m."""
 
 MIN_AVERAGE, MAX_AVERAGE = 0.06e-6, 0.48e-6
-"""Sa of the source's surfaces, m."""
+"""Least and greatest Sa of the surfaces of the source, m."""
 
 SEEDS = tuple(range(501, 509))
 
 HEIGHTS = ("Sa", "Sq", "St", "Sz", "Sp", "Spm", "Sv", "Svm")
-"""Heights of Figs. F.7 and F.10. St is the whole height and Sz = Spm + Svm, as the source has them."""
+"""Names of the heights of Figs. F.7 and F.10; St is the total height and Sz = Spm + Svm, as in the source."""
 
 MEASURED = ("isotropic.al3d", "ground_striated.x3p", "oblique_grooves.x3p", "milled_NT1100.opd")
 MEASURED_AVERAGE = 0.17e-6
-"""Sa, m, that measured surfaces are scaled to: the mean of the source's."""
+"""Sa to which measured surfaces are scaled, the mean of the source, m."""
 
 Family = Callable[[int, int], Surface]
-"""family(seed, points) → a surface of ``SIDE`` whose height does not matter."""
+"""Type of a function family(seed, points) that returns a surface of side ``SIDE`` and any height."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Made:
-    """A surface, its family, and a number that tells it from the others of the family."""
+    """A surface with its family and the seed that distinguishes it within the family."""
 
     family: str
     seed: int
@@ -112,12 +112,12 @@ FAMILIES: Mapping[str, Family] = {
     "H 0.5, 21 µm": partial(_fractal, hurst=0.5, roll_off=SIDE / 2),
     "H 0.3, 42 µm": partial(_fractal, hurst=0.3, roll_off=SIDE),
 }
-"""Random ones of 4 to 8 µm Sal across the lay; self-affine ones by Hurst exponent and roll-off. Sq/g′ is then about
-what the source's loads at the threshold tell of its surfaces, 1.4 to 2.9 µm (W/(E* g′) being 0.28)."""
+"""Families by name: random surfaces with Sal of 4 to 8 µm across the lay, and self-affine ones by Hurst exponent and
+roll-off. Their Sq/g′ is close to the 1.4 to 2.9 µm that follow from the source's loads at W/(E* g′) = 0.28."""
 
 
 def scaled(surface: Surface, average: float) -> Surface:
-    """The surface about its mean, as high as Sa says."""
+    """Return the surface with a mean of 0, scaled to Sa = ``average``, m."""
     heights = surface.heights - surface.heights.mean()
     return surface.with_heights(heights * (average / height_statistics(heights).average))
 
@@ -125,10 +125,10 @@ def scaled(surface: Surface, average: float) -> Surface:
 def made_surfaces(
     families: Sequence[str] = tuple(FAMILIES), seeds: Sequence[int] = SEEDS, points: int = POINTS
 ) -> list[Made]:
-    """Independent surfaces; those of a family have Sa from ``MIN_AVERAGE`` to ``MAX_AVERAGE``, by a constant factor.
+    """Return independent surfaces; Sa in a family is from ``MIN_AVERAGE`` to ``MAX_AVERAGE``, by a constant factor.
 
     Sa only sets the unit of heights and loads: elasticity is linear, and a surface s times as high needs s times the
-    load for the same spots of contact. It is given out in another order in each family.
+    load for the same spots of contact. The order of Sa differs between families.
     """
     averages = np.geomspace(MIN_AVERAGE, MAX_AVERAGE, len(seeds)) if len(seeds) > 1 else np.array([MEASURED_AVERAGE])
     return [
@@ -139,7 +139,7 @@ def made_surfaces(
 
 
 def measured_surfaces(folder: Path | None, points: int = POINTS, names: Sequence[str] = MEASURED) -> list[Made]:
-    """The measured ones that are in a folder, prepared, their longer side shrunk to ``SIDE`` and Sa scaled."""
+    """Return the measured surfaces of a folder, prepared, with the longer side scaled to ``SIDE`` and Sa scaled."""
     if folder is None:
         return []
     recipe = read_recipe({"grid": {"points": [points, points]}})
@@ -159,12 +159,12 @@ class Numbers:
 
     Attributes
     ----------
-    heights : by the names of ``HEIGHTS``, m. A peak of Spm is a node that none within Sal in x and in y exceeds, so
-        that the five are different bumps (`contact.parameters.peaks`); the source does not say how it picks them.
-    slope : g′, rms slope.
-    decay : Sal, m.
-    aspect : Str.
-    skewness : Ssk.
+    heights : heights by the names of ``HEIGHTS``, m. A peak of Spm is a node that no other one within Sal in x and in y
+        exceeds, so that the five peaks are different bumps (`contact.parameters.peaks`); the source does not say how.
+    slope : rms slope g′.
+    decay : autocorrelation length Sal, m.
+    aspect : texture aspect ratio Str.
+    skewness : skewness Ssk.
     """
 
     heights: Mapping[str, float]

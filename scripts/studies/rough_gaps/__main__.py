@@ -26,7 +26,7 @@ from scripts.studies.study import Out, Surfaces, counted, publish
 
 @dataclass(frozen=True, kw_only=True)
 class Plan:
-    """The gaps, surfaces and flows that are solved; a test takes fewer."""
+    """The gaps, surfaces and flows that are solved; tests use fewer."""
 
     amplitudes: Sequence[float] = waves.AMPLITUDES
     lengths: Sequence[float] = waves.LENGTHS
@@ -51,7 +51,7 @@ def command(out: Out, surfaces: Surfaces = None, as_json: AsJson = False) -> Non
 
 
 def compute(folder: Path, instruments: Path | None = None, plan: Plan | None = None) -> RoughGapStudy:
-    """Compute everything the page shows; ``folder`` keeps the results, ``instruments`` has measured surfaces."""
+    """Compute all data of the page; ``folder`` stores the results, ``instruments`` holds measured surfaces."""
     plan = Plan() if plan is None else plan
     make_directory(folder)
     cases = surfaces.cases(milled_window(instruments, folder / "window.h5"), plan.roughnesses, plan.wavelengths)
@@ -112,7 +112,7 @@ def write(out: Path, study: RoughGapStudy, *, as_json: bool = False) -> None:
 
 
 def across(wave: waves.Wave) -> dict[str, Any]:
-    """A line of the table of waves, in the flow across the crests."""
+    """Return a line of the table of waves, for the flow across the crests."""
     theory, mesh = wave.found.theory["A11"], wave.found.resolved.get("A11")
     return {
         "amplitude": wave.amplitude,
@@ -127,7 +127,7 @@ def across(wave: waves.Wave) -> dict[str, Any]:
 
 
 def tables(study: RoughGapStudy) -> dict[str, list[dict[str, Any]]]:
-    """The numbers again as rows, by the name of their file."""
+    """Return the numbers as rows, by the name of their file."""
     return {
         "waves": [
             {"amplitude": wave.amplitude, "length": wave.length, "slope": wave.slope} | _row(wave.found, wave.exact)
@@ -167,7 +167,7 @@ def _row(one: Any, exact: dict[str, float]) -> dict[str, Any]:
 
 
 def as_csv(rows: Sequence[dict[str, Any]]) -> str:
-    """A header and a line for each row; nothing where there is no number."""
+    """Return CSV text with a header and a line for each row; fields without a number are empty."""
     text = io.StringIO()
     if rows:
         writer = csv.DictWriter(text, fieldnames=list(rows[0]), lineterminator="\n")

@@ -1,4 +1,4 @@
-"""The findings of the report on rough gaps in sentences, and the claim of the source that it can judge."""
+"""Results of the report on rough gaps in sentences, and the judgement of claim 19 of the source."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -24,7 +24,7 @@ FEW_PER_CENT = 0.05
 
 
 def judge(study: RoughGapStudy) -> list[Claim]:
-    """Judge claim 19, as far as Stokes flow can judge an equation that both of its sides solve."""
+    """Judge claim 19, as far as Stokes flow permits: both methods of the claim solve Reynolds' equation."""
     measured = [one for one in study.reach if one.measured]
     if not measured:
         return []
@@ -100,7 +100,7 @@ def _waves(study: RoughGapStudy) -> str:
 
 
 def _up_to(errors: Mapping[float, float]) -> float:
-    """The largest slope up to which all errors are within 1 %; 0 if there is none."""
+    """Return the largest slope up to which all errors are within 1 %; 0 if there is none."""
     bad = min((slope for slope, error in errors.items() if abs(error) > 0.01), default=math.inf)
     return max((slope for slope in errors if slope < bad), default=0.0)
 

@@ -1,4 +1,4 @@
-"""One rough gap by every means there is: resolved on ever finer meshes, corrected, perturbed, all over Reynolds'."""
+"""Flow through one rough gap, over that by Reynolds' theory: resolved on finer meshes, corrected, and perturbed."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -21,14 +21,14 @@ ORDER = 2
 
 @dataclass(frozen=True, kw_only=True)
 class Theory:
-    """One coefficient by thin-film theory, over a smooth gap's, and others over that.
+    """One coefficient by thin-film theory over that of a smooth gap, and other theories over thin-film theory.
 
     Attributes
     ----------
-    reynolds : thin-film theory over a smooth gap as thick as the mean one.
-    corrected, bar : with the slope's next order, and its error bar.
-    bound : how far at most from thin-film theory, by the dissipation of its flow.
-    perturbed : what Stokes flow adds to thin-film theory to second order in height, whatever the wavelengths.
+    reynolds : thin-film theory over a smooth gap of the mean thickness.
+    corrected, bar : thin-film theory with the next order in the slope, and its uncertainty.
+    bound : bound by the dissipation of the thin-film flow.
+    perturbed : Stokes flow to second order in the height, for any wavelengths.
     """
 
     reynolds: float
@@ -44,11 +44,11 @@ class GapComparison:
 
     Attributes
     ----------
-    name, group : for people.
+    name, group : names for the reader.
     slope, roughness, wavelength : g', Sq/h̄ and λ/h̄ with λ = 2π Sq/g'.
-    smallest : the least gap, over the mean one.
-    theory : by coefficient.
-    resolved : Stokes flow in OpenFOAM by coefficient; empty where that was not run.
+    smallest : least gap over the mean gap.
+    theory : theories by coefficient.
+    resolved : Stokes flow in OpenFOAM by coefficient; empty if it was not run.
     """
 
     name: str
@@ -67,14 +67,14 @@ class GapComparison:
 
 
 def values_of(factors: RoughGapFactors) -> dict[str, float]:
-    """Coefficients over those of a smooth gap, by the names of the ladder's quantities."""
+    """Return the coefficients over those of a smooth gap, by the names of quantities of a result."""
     one = factors.relative
     a = one.pressure
     return {"A11": float(a[0, 0]), "A22": float(a[1, 1]), "B1": float(one.shear[0]), "friction": float(one.friction)}
 
 
 def theory_of(walls: Walls, found: SlopeCorrected | None = None) -> dict[str, Theory]:
-    """Return all theories of a gap; only those of A where both walls are rough."""
+    """Return all theories of a gap; only those of A if both walls are rough."""
     found = slope_corrected(walls) if found is None else found
     thin, corrected, bar, bound = (
         values_of(one) for one in (found.thin, found.corrected, found.uncertainty, found.bound)
@@ -94,12 +94,12 @@ def theory_of(walls: Walls, found: SlopeCorrected | None = None) -> dict[str, Th
 
 
 def asked_of(scene: RoughGap, grids: Sequence[int]) -> list[ModelRun]:
-    """The runs that :func:`compare` looks for."""
+    """Return the runs that :func:`compare` needs."""
     return [ModelRun(scene=scene, model="stokes", resolution=grid) for grid in grids]
 
 
 def compare(name: str, group: str, scene: RoughGap, grids: Sequence[int], answers: Answers) -> GapComparison:
-    """A gap by theory on its own points, and by its meshes over Reynolds' theory on the nodes of each mesh."""
+    """Compare theory on the points of a gap with its meshes, each over Reynolds' theory on the same nodes."""
     walls = scene.walls(max(scene.surface().shape))
     return GapComparison(
         name=name,
@@ -114,7 +114,7 @@ def compare(name: str, group: str, scene: RoughGap, grids: Sequence[int], answer
 
 
 def resolved(scene: RoughGap, grids: Sequence[int], answers: Answers) -> dict[str, Convergence]:
-    """Each coefficient over Reynolds' on the same nodes, extrapolated; empty with fewer than two meshes."""
+    """Return each coefficient over Reynolds' on the same nodes, extrapolated; empty for fewer than two meshes."""
     found = [(one.resolution, answers[one.key]) for one in asked_of(scene, grids) if one.key in answers]
     if len(found) < 2:
         return {}
@@ -132,7 +132,7 @@ def resolved(scene: RoughGap, grids: Sequence[int], answers: Answers) -> dict[st
 
 
 def best(one: GapComparison, name: str) -> tuple[float, float]:
-    """Stokes over Reynolds and its error bar: resolved where that was run, else corrected."""
+    """Return Stokes over Reynolds and its uncertainty: resolved if it was run, else by the slope correction."""
     if name in one.resolved:
         return one.resolved[name].value, one.resolved[name].uncertainty
     return one.theory[name].corrected, one.theory[name].bar

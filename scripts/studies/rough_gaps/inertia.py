@@ -1,4 +1,4 @@
-"""Loss of flow by inertia: Navier–Stokes over Stokes on the same mesh, over the Reynolds number."""
+"""Loss of flow by inertia over the Reynolds number, from Navier–Stokes and Stokes flow on the same mesh."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ from scripts.studies.rough_gaps.scenes import CREEPING, over_random, over_waves
 
 REYNOLDS = (3.0, 10.0, 30.0, 100.0, 300.0)
 WAVES = ((0.1, 5.0), (0.3, 20.0), (0.3, 5.0), (0.3, 2.5), (0.5, 5.0))
-"""Amplitude and length over the mean gap."""
+"""Amplitudes and lengths of the waves over the mean gap."""
 
 Random = Mapping[tuple[float, float], tuple[float, ...]]
 
@@ -30,7 +30,7 @@ RANDOM: Random = {
 """Reynolds numbers of random surfaces by Sq and λ over the mean gap."""
 
 GRIDS, RANDOM_GRIDS = (48, 64), (32, 48, 64)
-"""Columns of the waves and of random surfaces."""
+"""Numbers of mesh columns for waves and for random surfaces."""
 
 MAX_FITTED_LOSS, MIN_FITTED_FLOWS = 0.1, 4
 """Largest relative loss of flow that is fitted, and least number of flows for a fit."""
@@ -48,14 +48,14 @@ LEVELS = (0.01, 0.05)
 
 @dataclass(frozen=True, kw_only=True)
 class InertialLoss:
-    """One flow along x.
+    """The loss of flow by inertia in one gap along x.
 
     Attributes
     ----------
     reynolds_number : Re of a smooth gap under the same gradient.
     flow_reynolds_number : Re* = ρq/η with the flow q of Stokes.
-    lost, bar : 1 - A₁₁(Navier–Stokes)/A₁₁(Stokes) on the same mesh, extrapolated from two or three, and its error bar.
-    meshes : the same on each mesh.
+    lost, bar : loss 1 - A₁₁(Navier–Stokes)/A₁₁(Stokes), extrapolated from two or three meshes, and its uncertainty.
+    meshes : loss on each mesh.
     """
 
     name: str
@@ -74,14 +74,14 @@ class InertialLoss:
 class InertiaLaw:
     """Loss of flow by inertia, 1 - NS/Stokes = c (Re* g')² / (1 + b Re* h̄/λ), fitted to gaps of one group.
 
-    A square at first, as nothing odd in Re can be, then near linear in Re.
+    The loss is quadratic in Re at small Re, because it is even in Re, and nearly linear in Re at large Re.
 
     Attributes
     ----------
     coefficient, saturation : c and b.
-    spread : the factor by which flows scatter about it, one standard deviation of its logarithm.
-    worst : that of the flow that is farthest from it.
-    count : flows that were fitted.
+    spread : factor by which flows scatter about the law, one standard deviation of its logarithm.
+    worst : factor of the flow that is farthest from the law.
+    count : number of fitted flows.
     """
 
     group: str
@@ -92,7 +92,7 @@ class InertiaLaw:
     count: int
 
     def lost(self, one: InertialLoss) -> float:
-        """Part of the flow that is held back."""
+        """Return the relative loss of flow by the law."""
         square = (one.flow_reynolds_number * one.slope) ** 2
         return self.coefficient * square / (1 + self.saturation * one.flow_reynolds_number / one.wavelength)
 
@@ -105,11 +105,11 @@ class Inertia:
     laws: tuple[InertiaLaw, ...]
 
     def earliest(self, part: float) -> float | None:
-        """The least Re* g' at which a gap loses so much; None where none does."""
+        """Return the least Re* g' at which a gap loses the fraction ``part`` of its flow; None if no gap does."""
         return min((place for _, place in self.crossings(part).values()), default=None)
 
     def crossings(self, part: float) -> dict[str, tuple[float, float]]:
-        """Re and Re* g′ at which so much is held back, by the name of the gap, between the flows; where that is."""
+        """Return Re and Re* g′ at which the fraction ``part`` is lost, interpolated, by the name of the gap."""
         found = {}
         for name in dict.fromkeys(one.name for one in self.flows):
             own = [one for one in self.flows if one.name == name and one.lost > 0]
@@ -123,7 +123,7 @@ class Inertia:
 
 @dataclass(frozen=True, kw_only=True)
 class _Flow:
-    """A gap at one Reynolds number, and what to ask for it: Stokes and Navier–Stokes on each mesh."""
+    """A gap at one Reynolds number, and its runs: Stokes and Navier–Stokes flow on each mesh."""
 
     group: str
     name: str
@@ -163,7 +163,7 @@ def _flows(shapes: Sequence[tuple[float, float]], reynolds: Sequence[float], ran
 def asked(
     shapes: Sequence[tuple[float, float]] = WAVES, reynolds: Sequence[float] = REYNOLDS, random: Random = RANDOM
 ) -> list[ModelRun]:
-    """The runs of OpenFOAM that :func:`inertia` looks for."""
+    """Return the runs of OpenFOAM that :func:`inertia` needs."""
     return [one for flow in _flows(shapes, reynolds, random) for pair in flow.asked for one in pair]
 
 

@@ -11,17 +11,17 @@ from scripts.studies.rough_gaps.scenes import over_waves
 from scripts.studies.rough_gaps.waves import exact_ratios, thin_ratios
 
 MODELS = ("smooth_gap", "homogenized", "slope_corrected", "stokes")
-"""Models from the cheapest; without inertia the last is always accurate enough."""
+"""Models, the cheapest first; without inertia the last one is always accurate enough."""
 
 SLOPES = tuple(float(slope) for slope in np.geomspace(0.02, 1, 14))
 LENGTHS = tuple(float(length) for length in np.geomspace(2, 60, 12))
-"""g', and λ/h̄."""
+"""Wavelengths λ/h̄; ``SLOPES`` are rms slopes g'."""
 
 MAX_AMPLITUDE = 0.8
-"""Amplitude over the mean gap."""
+"""Largest amplitude over the mean gap."""
 
 NEGLIGIBLE_UNCERTAINTY = 1e-3
-"""Uncertainty of the slope correction below which it replaces the exact flow."""
+"""Largest uncertainty of a slope correction that replaces the exact flow."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,6 +72,6 @@ def _errors(slope: float, length: float, folder: Path) -> ModelErrors | None:
 
 
 def serves(found: Sequence[ModelErrors], name: str, level: float) -> float:
-    """The largest slope up to which a model is within ``level`` for waves of every length; 0 if for none."""
+    """Return the largest slope up to which a model is within ``level`` for waves of all lengths; 0 if there is none."""
     bad = min((one.slope for one in found if getattr(one, name) > level), default=np.inf)
     return max((one.slope for one in found if one.slope < bad), default=0.0)

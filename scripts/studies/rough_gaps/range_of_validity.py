@@ -1,4 +1,4 @@
-"""For which real surfaces Reynolds' theory is near Stokes flow: by slope correction and bounds, at many mean gaps."""
+"""Error of Reynolds' theory for real surfaces at many mean gaps, by slope correction and bounds of Stokes flow."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -25,10 +25,10 @@ from scripts.studies.study import kept
 
 MADE = Path(__file__).parents[2] / "examples" / "surfaces"
 NOT_SURFACES = ("recipe",)
-"""Files there that describe none."""
+"""Names of the files in that folder that describe no surface."""
 
 POINTS = 256
-"""Nodes along each side, and pixels that a window of a measured surface has at least, if there are a third more."""
+"""Number of nodes along each side of synthetic surfaces; largest number of pixels along a side of a window."""
 
 MAX_WINDOW_FRACTION = 0.75
 """Largest side of a window divided by that of the measurement."""
@@ -37,7 +37,7 @@ MIN_GAP_OVER_PEAK = 1.05
 """Smallest mean gap divided by the highest point."""
 
 THICKNESSES = (3.5, 5.0, 7.0, 10.0, 15.0, 20.0, 30.0)
-"""h̄/Sq; those at which the walls would touch are left out."""
+"""Mean gaps h̄/Sq; those at which the walls would touch are left out."""
 
 MIN_GRID_NODES = 8
 """Least number of nodes along a side of a coarser grid by which the error of a finer one is estimated."""
@@ -57,8 +57,8 @@ class ReynoldsError:
     ----------
     thickness : h̄/Sq.
     wavelength : λ/h̄.
-    error, bar : best estimate, by the slope correction.
-    bound : no more than this.
+    error, bar : best estimate by the slope correction, and its uncertainty.
+    bound : upper bound of the error.
     direction : 0 for flow along x, 1 along y.
     """
 
@@ -72,7 +72,7 @@ class ReynoldsError:
 
 @dataclass(frozen=True, kw_only=True)
 class CoarserGrid:
-    """A surface on a coarser grid: pixel, m, rms slope, and the error at ``COMPARED_GAP_OVER_PEAK``."""
+    """A surface on a coarser grid: pixel (m), rms slope, and the error at ``COMPARED_GAP_OVER_PEAK``."""
 
     pixel: float
     slope: float
@@ -81,7 +81,7 @@ class CoarserGrid:
 
 @dataclass(frozen=True, kw_only=True)
 class SurfaceValidity:
-    """One surface over its mean gaps; ``measured`` or made. ``shape`` is that of its nodes, ``spacing`` in m."""
+    """The errors of one measured or synthetic surface at its mean gaps; ``shape`` counts nodes, ``spacing`` is in m."""
 
     name: str
     measured: bool
@@ -95,7 +95,7 @@ class SurfaceValidity:
     coarser: tuple[CoarserGrid, ...]
 
     def within(self, level: float) -> float | None:
-        """h̄/Sq from which on Reynolds is surely within so much at every larger gap looked at; None if nowhere."""
+        """Return the least h̄/Sq from which on error plus uncertainty are within ``level``; None if there is none."""
         good = None
         for one in sorted(self.found, key=lambda off: -off.thickness):
             if one.error + one.bar > level:
@@ -105,7 +105,7 @@ class SurfaceValidity:
 
 
 def made_surfaces(folder: Path = MADE, points: int = POINTS) -> dict[str, Surface]:
-    """The described surfaces of a folder, by name, restricted to ``points`` nodes a side."""
+    """Return the described surfaces of a folder by name, restricted to ``points`` nodes along a side."""
     found = {}
     for file in sorted(folder.glob("*.toml")):
         if file.stem not in NOT_SURFACES:
@@ -114,7 +114,7 @@ def made_surfaces(folder: Path = MADE, points: int = POINTS) -> dict[str, Surfac
 
 
 def measured_surfaces(folder: Path | None, points: int = POINTS) -> dict[str, Surface]:
-    """A window of every instrument file of a folder, about ``points`` pixels a side as measured, prepared."""
+    """Return a prepared window of every instrument file of a folder, with about ``points`` pixels along a side."""
     found: dict[str, Surface] = {}
     for file in [] if folder is None else sorted(folder.iterdir()):
         try:
@@ -128,7 +128,7 @@ def measured_surfaces(folder: Path | None, points: int = POINTS) -> dict[str, Su
 
 
 def coarse(surface: Surface, points: int) -> Surface:
-    """The same surface on at most so many nodes along the longer side, less the waves that these cannot hold."""
+    """Return the surface on at most ``points`` nodes along the longer side, without the waves beyond these nodes."""
     part = points / max(surface.shape)
     if part >= 1:
         return surface
@@ -146,7 +146,7 @@ def reach(
     coarser: Sequence[int] = GRID_DIVISORS,
     advance: Callable[[str], None] = lambda _words: None,
 ) -> tuple[SurfaceValidity, ...]:
-    """Each surface over its mean gaps and pixels; kept in the folder."""
+    """Compute the errors of each surface at its mean gaps and pixels; they are stored in the folder."""
     found = []
     for name, surface in surfaces.items():
         advance(name)
@@ -196,15 +196,15 @@ def _coarse(surface: Surface, part: int, mean_gap: float) -> CoarserGrid:
 
 
 def slope_of(surface: Surface) -> float:
-    """g', by all waves that the grid holds."""
+    """Return the rms slope g' from all waves on the grid."""
     return wave_power(surface.heights, surface.spacing).moments.rms_slope
 
 
 def off(surface: Surface, thickness: float) -> ReynoldsError:
-    """How far Reynolds' theory is off at a mean gap of so many rms heights, under a flat wall.
+    """Return the error of Reynolds' theory at a mean gap of ``thickness`` rms heights, under a flat wall.
 
-    The error bar is of the ratio alone: what slope correction leaves out, and what the ratio changes by on every second
-    and every fourth node.
+    The uncertainty is that of the ratio alone: the effects that the slope correction leaves out, and the change of the
+    ratio on every second and every fourth node.
     """
     heights = surface.heights - surface.heights.mean()
     rms = float(heights.std())

@@ -23,12 +23,12 @@ from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.terminal.console import messages, progress_bar
 
 FOUND = "found"
-"""The folder beside the page where answers are kept."""
+"""Name of the folder of stored results beside the page."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ModelRun:
-    """A gap, a model, and nodes along the longer side."""
+    """A run: a gap, a model, and the number of nodes along the longer side."""
 
     scene: RoughGap
     model: str
@@ -36,13 +36,13 @@ class ModelRun:
 
     @property
     def key(self) -> str:
-        """The same for the same question."""
+        """The name of the stored result, which is equal for equal runs."""
         digest = hashlib.sha256(json.dumps(scene_entries(self.scene), sort_keys=True).encode()).hexdigest()
         return f"{digest[:16]}-{self.model}-{self.resolution}"
 
 
 Answers = Mapping[str, Result]
-"""Results without their fields by :attr:`ModelRun.key`; what failed is not there."""
+"""Results without fields by :attr:`ModelRun.key`; failed runs are left out."""
 
 Place = Callable[[int, Path], AbstractContextManager[Executor]]
 

@@ -1,4 +1,4 @@
-"""The gaps of the report on rough gaps: sinusoids, random surfaces, and windows of measured ones."""
+"""Gaps of the report on rough gaps: sinusoids, random surfaces, and windows of measured surfaces."""
 
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
@@ -16,13 +16,13 @@ from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.rom.rough_gap.scene import RoughGap
 
 MEAN_GAP = 10e-6
-"""m; only ratios to it matter."""
+"""Mean gap, m; only ratios to it matter."""
 
 CREEPING = 1e-3
-"""Reynolds number of the scenes that are asked for Stokes flow alone."""
+"""Reynolds number of scenes for Stokes flow alone."""
 
 OWN = 96
-"""Points of random surfaces and windows; 24, 32 and 48 nodes divide them."""
+"""Number of points along a side of random surfaces and windows; 24, 32 and 48 divide it."""
 
 SEED = 20071
 
@@ -35,7 +35,7 @@ WINDOW = 50e-6
 """Side of the milled window that is resolved in three dimensions, m."""
 
 WAVES = 8
-"""Waves of that window along each side; finer ones are left out, so that every mesh has the same surface."""
+"""Number of waves of that window along each side; finer ones are left out, so that all meshes have the same surface."""
 
 
 def gap(
@@ -44,7 +44,7 @@ def gap(
     reynolds_number: float = CREEPING,
     layers: int | None = None,
 ) -> RoughGap:
-    """A gap over the surface that ``geometry`` tells, filled with oil."""
+    """Return the scene of a gap with the entries ``geometry``, filled with oil."""
     scene = read_scene(
         {
             "name": "rough gap",
@@ -60,7 +60,7 @@ def gap(
 
 
 def over_waves(amplitude: float, wavelength: float, reynolds_number: float = CREEPING) -> RoughGap:
-    """Ridges across x; lengths over the mean gap."""
+    """Return the scene of a gap over ridges across x; amplitude and wavelength are over the mean gap."""
     geometry = {
         "surface": "sinusoid",
         "amplitude": f"{amplitude * MEAN_GAP!r} m",
@@ -72,7 +72,7 @@ def over_waves(amplitude: float, wavelength: float, reynolds_number: float = CRE
 def over_random(
     roughness: float, wavelength: float, *, lay: bool = False, reynolds_number: float = CREEPING, points: int = OWN
 ) -> RoughGap:
-    """A random surface with Sq and λ = 2π Sq/g' over the mean gap; few waves a side, so that 24 nodes hold them all."""
+    """Return a gap over a random surface of Sq and λ = 2π Sq/g' over the mean gap; 24 nodes hold all waves."""
     size = wavelength * MEAN_GAP / _wavelength_of_unit(lay, points)
     return gap(
         {"surface": _random(size, roughness * MEAN_GAP, lay=lay, points=points)}, reynolds_number=reynolds_number
@@ -98,7 +98,7 @@ def _wavelength_of_unit(lay: bool, points: int) -> float:
 
 
 def milled_window(folder: Path | None, target: Path) -> Path | None:
-    """A window of the milled surface, prepared and kept in a file; None where the measurement is absent."""
+    """Return the file of a prepared window of the milled surface; None if the measurement is absent."""
     source = None if folder is None else folder / MILLED
     if source is None or not source.is_file():
         return None
@@ -111,11 +111,11 @@ def milled_window(folder: Path | None, target: Path) -> Path | None:
 
 
 def window_of(measured: Surface, size: Sequence[float], points: Sequence[int]) -> Surface:
-    """The window of at least that size, m, whose edges match best, prepared as ``roughfilm surface`` does."""
+    """Return the window of at least ``size``, m, whose edges match best, prepared as by ``roughfilm surface``."""
     recipe = {"window": {"size": [f"{side} m" for side in size]}, "grid": {"points": [*points]}}
     return prepare(measured, read_recipe(recipe)).surface
 
 
 def peak_over_rms(surface: Surface) -> float:
-    """How far the highest point lies above the mean plane, in rms heights."""
+    """Return the height of the highest point above the mean plane, over the rms height."""
     return float((surface.heights.max() - surface.heights.mean()) / np.std(surface.heights))

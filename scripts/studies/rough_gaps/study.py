@@ -1,4 +1,4 @@
-"""Everything that the report on rough gaps shows, and its summary numbers."""
+"""Data of the report on rough gaps, and its summary numbers."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -12,17 +12,18 @@ from scripts.studies.rough_gaps.range_of_validity import SurfaceValidity
 from scripts.studies.rough_gaps.waves import Wave, Waves
 
 MAX_FITTED_SLOPE = 0.35
-"""g' from which on no law in g'² is fitted."""
+"""Rms slope g' below which a law in g'² is fitted."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Agreement:
-    """How a cheap answer meets a dear one, over some coefficients of some gaps.
+    """The agreement of a cheap answer with a costly one, over some coefficients of some gaps.
 
     Attributes
     ----------
-    worst : the largest difference, over the dear one.
-    within : how many lie within both error bars, of ``count``.
+    worst : largest difference over the costly answer.
+    within : number of differences within both uncertainties.
+    count : number of differences.
     """
 
     worst: float
@@ -32,14 +33,14 @@ class Agreement:
 
 @dataclass(frozen=True, kw_only=True)
 class RoughGapStudy:
-    """Everything that the report shows.
+    """All data of the report.
 
     Attributes
     ----------
-    surfaces : random ones, and the milled window at several mean gaps if it is there.
-    reach : measured and made surfaces by theory alone.
-    runs, cpu_s : of OpenFOAM.
-    failed : why, of what failed.
+    surfaces : random surfaces, and the milled window at several mean gaps if it is available.
+    reach : measured and synthetic surfaces by theory alone.
+    runs, cpu_s : number and CPU time (s) of the runs of OpenFOAM.
+    failed : reason of each failure.
     """
 
     waves: Waves
@@ -53,27 +54,27 @@ class RoughGapStudy:
 
     @property
     def random(self) -> list[GapComparison]:
-        """Made random surfaces."""
+        """The gaps over synthetic random surfaces."""
         return [one for one in self.surfaces if not one.measured]
 
     @property
     def milled(self) -> list[GapComparison]:
-        """The measured window over its mean gaps."""
+        """The gaps over the measured window, at its mean gaps."""
         return [one for one in self.surfaces if one.measured]
 
     def wave(self, amplitude: float, length: float) -> Wave | None:
-        """One of those that were resolved."""
+        """Return the resolved wave of this amplitude and length; None if there is none."""
         found = [one for one in self.waves.resolved if (one.amplitude, one.length) == (amplitude, length)]
         return found[0] if found else None
 
     @property
     def factors(self) -> list[float]:
-        """Relative error of Reynolds' equation divided by g'², for every gentle surface and mean gap."""
+        """The relative error of Reynolds' equation divided by g'², for every gentle surface and mean gap."""
         return [off.error / one.slope**2 for one in self.reach if one.slope < MAX_FITTED_SLOPE for off in one.found]
 
 
 def mesh_meets_exact(waves: Sequence[Wave]) -> Agreement:
-    """OpenFOAM beside exact flow."""
+    """Return the agreement of OpenFOAM with exact flow."""
     pairs = [
         (found.value, exact, found.uncertainty)
         for wave in waves
@@ -84,7 +85,7 @@ def mesh_meets_exact(waves: Sequence[Wave]) -> Agreement:
 
 
 def theory_meets_mesh(gaps: Sequence[GapComparison], names: Sequence[str] = ("A11", "A22")) -> Agreement:
-    """Slope correction beside OpenFOAM."""
+    """Return the agreement of the slope correction with OpenFOAM."""
     pairs = [
         (one.theory[name].corrected, found.value, one.theory[name].bar + found.uncertainty)
         for one in gaps
@@ -95,7 +96,7 @@ def theory_meets_mesh(gaps: Sequence[GapComparison], names: Sequence[str] = ("A1
 
 
 def bounds_hold(gaps: Sequence[GapComparison], names: Sequence[str] = ("A11", "A22")) -> Agreement:
-    """How many resolved factors lie between both bounds, but for their error bars; ``worst``: how far one is beyond."""
+    """Return the number of resolved factors within both bounds and uncertainty; ``worst`` is the largest excess."""
     past, count, within = 0.0, 0, 0
     for one in gaps:
         for name in names:

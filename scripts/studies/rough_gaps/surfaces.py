@@ -1,4 +1,4 @@
-"""Random surfaces and a milled window: Stokes flow in three dimensions beside Reynolds' on the very same heights."""
+"""Stokes flow in three dimensions over random surfaces and a milled window, against Reynolds' on the same heights."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,17 +13,17 @@ GRIDS = (24, 32, 48)
 
 ROUGHNESSES = (0.1, 0.2, 0.3)
 WAVELENGTHS = (10.0, 5.0, 2.5)
-"""Sq and λ over the mean gap."""
+"""Wavelengths λ over the mean gap."""
 
 STRIATED = ((0.2, 5.0),)
 """Sq and λ over the mean gap of the surface with a lay."""
 
 ABOVE_PEAK = (1.5, 2.5, 5.0)
-"""Mean gaps of the milled window, over its highest point."""
+"""Mean gaps of the milled window over the height of its highest point."""
 
 WINDOW_GRIDS = (32, 48, 64)
 LAYERS = 8
-"""Meshes of that window: slopes are low, so that a few layers do on every one."""
+"""Number of layers of the meshes of that window; its low slopes need few layers."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,7 +42,7 @@ def cases(
     wavelengths: Sequence[float] = WAVELENGTHS,
     above: Sequence[float] = ABOVE_PEAK,
 ) -> list[ResolvedGap]:
-    """Random gaps, one with a lay, and those over the milled window if it is there."""
+    """Return random gaps, gaps with a lay, and gaps over the milled window if it is available."""
     found = [
         ResolvedGap(
             name=f"Sq/h̄ {roughness:g}, λ/h̄ {wavelength:g}", group="isotropic", scene=over_random(roughness, wavelength)
@@ -74,7 +74,7 @@ def cases(
 
 
 def asked(all_cases: Sequence[ResolvedGap]) -> list[ModelRun]:
-    """The runs of OpenFOAM that :func:`surfaces` looks for."""
+    """Return the runs of OpenFOAM that :func:`surfaces` needs."""
     return [one for case in all_cases for one in asked_of(case.scene, case.grids)]
 
 

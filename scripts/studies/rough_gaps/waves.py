@@ -1,4 +1,4 @@
-"""Ridges across and along the flow: exact Stokes flow, all that is cheaper, and OpenFOAM, over the length of a wave."""
+"""Flow across and along ridges over the wavelength: exact Stokes flow, cheaper theories, and OpenFOAM."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,21 +15,21 @@ from scripts.studies.study import kept
 
 AMPLITUDES = (0.1, 0.3, 0.5)
 MARKED = (20.0, 5.0, 2.5)
-"""Lengths of a wave, over the mean gap, of which the question was asked."""
+"""Main wavelengths of the report, over the mean gap."""
 
 LENGTHS = (40.0, *MARKED, 1.0)
 DRAWN = tuple(float(length) for length in np.geomspace(1, 40, 15))
 GRIDS = (32, 48, 64)
 
 FLOW_TOLERANCE = 1e-5
-"""Tolerance of the exact flow, far below every error here."""
+"""Relative tolerance of the exact flow, far below all errors of the report."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Wave:
     """One sinusoid of amplitude and length over the mean gap.
 
-    ``exact`` is Stokes over Reynolds by coefficient; empty where the exact flow did not come to an end.
+    ``exact`` is Stokes over Reynolds by coefficient; empty where the exact solver failed.
     """
 
     amplitude: float
@@ -39,20 +39,20 @@ class Wave:
 
     @property
     def slope(self) -> float:
-        """Rms slope g'."""
+        """The rms slope g' = √2 π a/L."""
         return float(2 * np.pi * self.amplitude / self.length / np.sqrt(2))
 
 
 @dataclass(frozen=True, kw_only=True)
 class Waves:
-    """All waves: ``resolved`` in OpenFOAM too, ``drawn`` by theory alone."""
+    """All waves: ``resolved`` by theory and OpenFOAM, ``drawn`` by theory alone."""
 
     resolved: tuple[Wave, ...]
     drawn: tuple[Wave, ...]
 
 
 def bare_coefficient(amplitude: float, *, across: bool = True) -> float:
-    """Factor c of Stokes/Reynolds = 1 - c<h'²> for a gap 1 + a cos kx, k → 0.
+    """Return the factor c of Stokes/Reynolds = 1 - c<h'²> for a gap 1 + a cos kx, k → 0.
 
     Across the crests 1/A = <h⁻³(1 + 4/5 h'²)>, with <h⁻³> = (1 + a²/2)/(1 - a²)^(5/2) and <h⁻³ sin²> =
     1/2 (1 - a²)^(-3/2): c = 4/5 (1 - a²)/(1 + a²/2). Along them A = <h³(1 - h'²)>: c = (1 + 3a²/4)/(1 + 3a²/2).
@@ -62,7 +62,7 @@ def bare_coefficient(amplitude: float, *, across: bool = True) -> float:
 
 
 def exact_ratios(amplitude: float, length: float, folder: Path) -> dict[str, float]:
-    """Exact Stokes flow over Reynolds' closed forms by coefficient; empty if it did not come to an end."""
+    """Return exact Stokes flow over Reynolds' closed forms by coefficient; empty if the exact solver fails."""
 
     def make() -> dict[str, float]:
         try:
@@ -83,9 +83,9 @@ def exact_ratios(amplitude: float, length: float, folder: Path) -> dict[str, flo
 
 
 def thin_ratios(amplitude: float) -> dict[str, float]:
-    """Reynolds' theory over waves that a flat wall slides across, over a smooth gap: with m_n = <h⁻ⁿ>.
+    """Return the coefficients of waves under a sliding flat wall by Reynolds' theory, over those of a smooth gap.
 
-    A₁₁ = 1/m₃, A₂₂ = <h³>, B₁ = m₂/m₃, f = 4 m₁ - 3 m₂²/m₃.
+    A₁₁ = 1/m₃, A₂₂ = <h³>, B₁ = m₂/m₃, f = 4 m₁ - 3 m₂²/m₃, with m_n = <h⁻ⁿ>.
     """
     left = 1 - amplitude**2
     m1, m2, m3 = left**-0.5, left**-1.5, (1 + amplitude**2 / 2) * left**-2.5
@@ -93,7 +93,7 @@ def thin_ratios(amplitude: float) -> dict[str, float]:
 
 
 def asked(amplitudes: Sequence[float] = AMPLITUDES, lengths: Sequence[float] = LENGTHS) -> list[ModelRun]:
-    """The runs of OpenFOAM that :func:`waves` looks for."""
+    """Return the runs of OpenFOAM that :func:`waves` needs."""
     return [one for a in amplitudes for length in lengths for one in asked_of(over_waves(a, length), GRIDS)]
 
 
@@ -104,7 +104,7 @@ def waves(
     lengths: Sequence[float] = LENGTHS,
     drawn: Sequence[float] = DRAWN,
 ) -> Waves:
-    """Everything about sinusoids."""
+    """Return all waves with their results."""
 
     def wave(amplitude: float, length: float, grids: Sequence[int]) -> Wave:
         name = f"a = {amplitude:g}, L = {length:.4g}"

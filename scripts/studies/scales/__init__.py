@@ -1,1 +1,1 @@
-"""Down to which wavelength roughness may be averaged."""
+"""Study of the wavelengths of roughness for which averaging is accurate."""

@@ -31,9 +31,10 @@ from scripts.studies.scales.data import (
 from scripts.studies.study import Claim, Out, Surfaces, counted, publish, verdict
 
 GOOD_LOAD_ERROR, GOOD_PRESSURE_ERROR = 0.01, 0.02
-"""Errors up to which averaging counts as good: of load and friction, and of pressure at its worst place."""
+"""Largest relative errors of good averaging: of load and friction, and of the pressure at its worst place."""
 
 SOURCES_RATIO = 2.0**-8
+"""Wavelength over the length of the bearing in claim 13."""
 
 
 def judge(study: WaveErrors) -> Claim:

@@ -23,10 +23,10 @@ ROUGHNESS = 0.1
 """Rms height of the scaled measured surface over the smallest film thickness."""
 
 MODULUS = "1 GPa"
-"""The source prints 10⁹ GPa; with 1 GPa the pressures are those of its figure, with 10 GPa they are a fifth higher."""
+"""Bulk modulus; the source prints 10⁹ GPa, but its figure agrees with 1 GPa (10 GPa: pressures a fifth higher)."""
 
 NEVER = "-0.2 GPa"
-"""A pressure of cavitation below every pressure here; a constant bulk modulus has no zero of pressure."""
+"""Cavitation pressure below all pressures of the study, so that no film cavitates."""
 
 NARROW_INLET = 270.0
 """Phase of the waves, degrees, at which the gap is narrowest at the inlet."""
@@ -34,13 +34,13 @@ NARROW_INLET = 270.0
 RATIOS = tuple(2.0**-k for k in range(9))
 IN_PLANE = tuple(2.0**-k for k in range(1, 6))
 OF_SURFACE = tuple(2.0**-k for k in range(4))
-"""Lengths of the waves, or of the measured cell, over the bearing."""
+"""Lengths of the waves, or of the measured cell, over the length of the bearing."""
 
 PHASES = (0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0)
-"""Phases of the waves, degrees; that of a real surface at the inlet is unknown."""
+"""Phases of the waves, degrees; the phase of a real surface at the inlet is unknown."""
 
 DRAWN = RATIOS[4:]
-"""Ratios of Fig. C.3."""
+"""Ratios that are drawn in Fig. C.3."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -69,15 +69,15 @@ class WaveErrors:
 
     @property
     def ratios(self) -> list[float]:
-        """From the longest waves to the shortest."""
+        """The ratios, from the longest waves to the shortest."""
         return sorted({pair.ratio for pair in self.pairs}, reverse=True)
 
     def worst(self, name: str) -> Array:
-        """The largest error over all phases, for each length of the waves."""
+        """Return the largest error over all phases, shape (ratios,)."""
         return np.array([max(abs(getattr(p, name)) for p in self.pairs if p.ratio == r) for r in self.ratios])
 
     def mean(self, name: str) -> Array:
-        """The size of the error averaged over all phases."""
+        """Return the absolute value of the mean error over all phases, shape (ratios,)."""
         return np.array([abs(np.mean([getattr(p, name) for p in self.pairs if p.ratio == r])) for r in self.ratios])
 
     def rate(self, name: str, shortest: int = 4) -> float:
@@ -100,7 +100,7 @@ def solve(scene: Any, name: str) -> Result:
 
 
 def slider(ratio: float, phase: float, cavitation: str = NEVER) -> Any:
-    """Return the film of Fig. C.3; in the source it sustains any tension."""
+    """Return the scene of Fig. C.3; in the source the film does not cavitate."""
     waves = [f"roughness.wavelength={0.1 * ratio!r} m", f"roughness.phase={phase!r} deg"]
     oil = [f"lubricant.compressibility.bulk_modulus={MODULUS}", f"lubricant.cavitation_pressure={cavitation}"]
     return load_scene(SCENES / "rough_slider.toml", [*oil, *waves])

@@ -15,7 +15,7 @@ ZOOM = (0.065, 0.075)
 
 
 def curves(averaged: Result, resolved: Mapping[float, Result]) -> Figure:
-    """Fig. C.3: pressure along the film for every length of the waves, and a magnified section."""
+    """Draw Fig. C.3: pressure along the film for every length of the waves, and a magnified section."""
     figure, (whole, part) = new_figure((10, 4.2), 1, 2)
     colours = mpl.colormaps["viridis"](np.linspace(0.85, 0.1, len(resolved)))
     for axes in (whole, part):
@@ -34,7 +34,7 @@ def curves(averaged: Result, resolved: Mapping[float, Result]) -> Figure:
 
 
 def errors(studies: Sequence[WaveErrors]) -> Figure:
-    """Error of the averaged film for waves of many lengths: the worst phase, and all phases."""
+    """Draw the error of the averaged film over the wavelength, for the worst phase and for all phases."""
     figure = Figure(figsize=(10, 3.9), layout="constrained")
     panels = figure.subplots(1, len(studies), sharey=True, squeeze=False)[0]
     looks = {"pressure": ("#762a83", "^"), "load": ("#b2182b", "o"), "friction": ("#2166ac", "s")}
