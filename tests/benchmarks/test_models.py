@@ -16,10 +16,10 @@ REPEATS = 3
 
 
 @pytest.mark.benchmark
-def test_cost_of_every_model(make_scene):
+def test_cost_of_every_model_of_a_pocket(make_scene):
     scene = make_scene(0.3, 0.75, 160)
     rows = []
-    for model in ladder(rom, foamcases):
+    for model in ladder(rom, foamcases, kind="pocket"):
         if not model.available().available:
             continue
         for resolution in model.resolutions_of(scene):
