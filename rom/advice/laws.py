@@ -32,7 +32,9 @@ class Term:
         if any(numbers[name] < 0 for name in self.powers):
             return math.inf
         try:
-            product: float = math.prod((self.coefficient, *(numbers[name] ** power for name, power in self.powers.items())))
+            product: float = math.prod(
+                (self.coefficient, *(numbers[name] ** power for name, power in self.powers.items()))
+            )
         except (ZeroDivisionError, OverflowError):
             return math.inf
         return math.inf if math.isnan(product) else product
