@@ -282,9 +282,9 @@ def a_posteriori(task: AdviceTask, model: Model, resolution: int) -> Estimate | 
     """The estimate of the error of a model from runs; None if there is no cheap model to compare with, or a run fails.
 
     The model is compared with the next one, at a resolution whose error is at most ``CHECK_FRACTION`` of that expected
-    by the laws: the difference plus the error of that model bounds the error. If that model costs too much, the comparison is with a simpler model, and a law
-    gives the error from the difference. The most complete model, if it runs in this process, is judged by the
-    numerical uncertainty of its own run.
+    by the laws: the difference plus the error of that model bounds the error. If that model costs too much, the
+    comparison is with a simpler model, and a law gives the error from the difference. The most complete model, if it
+    runs in this process, is judged by the numerical uncertainty of its own run.
     """
     above = task.next(model)
     if above is None:
