@@ -14,14 +14,11 @@ from roughfilm.rom.ladder.scene import scene_entries
 from roughfilm.rom.ladder.sweeping import Columns, Sweeping
 from roughfilm.rom.pocket.error_law import product_text
 from roughfilm.rom.pocket.geometry import PROFILES, PocketGeometry
-from roughfilm.rom.pocket.models.inertial_reynolds import MODEL as INERTIAL_REYNOLDS
+from roughfilm.rom.pocket.numbers import MIN_LOAD_SCALE, SYMBOLS, numbers
 from roughfilm.rom.pocket.scene import Pocket
 
 MIN_JUDGED_LOAD = 0.05
 """Load over the largest pressure below which load is a difference of larger numbers, and its error has no law."""
-
-MIN_LOAD_SCALE = 1e-3
-"""Load over the largest pressure below which errors are relative to the pressure."""
 
 MIN_PRESSURE_SCALE = 0.1
 """Ratio of the peak or least pressure to the largest magnitude of the pressure below which errors have this scale."""
@@ -82,42 +79,6 @@ def worth(values: Columns) -> NDArray[np.bool_]:
     return np.asarray(np.abs(values["load_plus"]) > MIN_JUDGED_LOAD * largest_pressure(values))
 
 
-NUMBERS = {
-    "reynolds_number": "Re",
-    "reduced_reynolds_number": "Re·h/w",
-    "film": "h/L",
-    "depth": "d/h",
-    "aspect": "2d/w",
-    "slope": "slope",
-    "asymmetry": "2|s|/w",
-    "loaded": "load/p_max",
-}
-"""Symbols of the numbers: h is the film, L its period; w, d and s are width, depth and shift of a groove."""
-
-MIN_ASYMMETRY = 1e-3
-"""The asymmetry of a symmetric groove."""
-
-
-def numbers(scene: Pocket) -> dict[str, float]:
-    """The dimensionless numbers of the deepest, narrowest and steepest grooves, with load to first order in Re."""
-    values = first_order(scene)
-    return {
-        "reynolds_number": scene.reynolds_number,
-        "reduced_reynolds_number": scene.reduced_reynolds_number,
-        "film": scene.geometry.film / scene.geometry.length,
-        "depth": scene.depth,
-        "aspect": scene.aspect,
-        "slope": scene.slope,
-        "asymmetry": max(1 - scene.aspect / scene.slope, MIN_ASYMMETRY),
-        "loaded": max(abs(values["load_plus"]) / largest_pressure(values), MIN_LOAD_SCALE),
-    }
-
-
-def first_order(scene: Pocket) -> dict[str, float]:
-    """The quantities of the Reynolds equation with first-order inertia."""
-    return {name: quantity.value for name, quantity in INERTIAL_REYNOLDS.solve(scene).quantities.items()}
-
-
 def _length(text: str) -> float:
     return float(text.partition(" ")[0])
 
@@ -159,7 +120,7 @@ KIND = Kind(
     scale=scale,
     columns=columns,
     numbers=numbers,
-    symbols=NUMBERS,
+    symbols=SYMBOLS,
     files=frozenset({"points"}),
     replaces={
         "motion.speed": ("reynolds_number",),

@@ -7,6 +7,7 @@ from typing import Unpack
 from roughfilm.contact.foundation.deferred import deferred
 from roughfilm.rom.ladder.model import About, Applicability, Model, Resolutions
 from roughfilm.rom.pocket.error_law import ErrorLaw
+from roughfilm.rom.pocket.pressure import NODES
 from roughfilm.rom.pocket.scene import Pocket
 
 DEFAULT_CELLS = 400
@@ -29,9 +30,6 @@ SCHEMES = ("linear_upwind", "upwind")
 
 FILM_RESOLUTION_MEANING = "cells along the film, each with 10 polynomials across it"
 FILM_RESIDUAL_MEANING = "largest imbalance of momentum in a cell, relative to the largest force in one"
-
-DEFAULT_NODES = 24
-"""Default number of Gauss points on each smooth piece of the gap."""
 
 NODE_SERIES = (2, 3, 4, 6, 8, 12, 16, 24)
 """Numbers of Gauss points of a convergence study."""
@@ -74,7 +72,7 @@ def quadrature_model(
     return Model(
         **about,
         kind="pocket",
-        resolutions=Resolutions(least=MIN_NODES, most=MAX_NODES, default=DEFAULT_NODES, series=NODE_SERIES),
+        resolutions=Resolutions(least=MIN_NODES, most=MAX_NODES, default=NODES, series=NODE_SERIES),
         resolution_meaning=QUADRATURE_RESOLUTION_MEANING,
         residual_meaning=QUADRATURE_RESIDUAL_MEANING,
         order=None,
