@@ -1,12 +1,10 @@
 """The models of a pocket as data: their resolutions, tolerances and cost, and their solvers."""
 
 from collections.abc import Callable
-from functools import partial
 from typing import Unpack
 
 from roughfilm.contact.foundation.deferred import deferred
 from roughfilm.rom.ladder.model import About, Applicability, Model, Resolutions
-from roughfilm.rom.pocket.error_law import ErrorLaw
 from roughfilm.rom.pocket.pressure import NODES
 from roughfilm.rom.pocket.scene import Pocket
 
@@ -47,7 +45,7 @@ QUADRATURE_RESOLUTION_MEANING = "Gauss points on each smooth piece of the gap"
 QUADRATURE_RESIDUAL_MEANING = "mean mismatch of dp/dx between the nodes, relative to its mean size"
 
 
-def film_model(*, applies: Callable[[Pocket], Applicability], law: ErrorLaw, **about: Unpack[About]) -> Model[Pocket]:
+def film_model(*, applies: Callable[[Pocket], Applicability], **about: Unpack[About]) -> Model[Pocket]:
     """A model that solves the thin-film equations; the cost was measured for 50 to 800 cells."""
     return Model(
         **about,
@@ -61,13 +59,11 @@ def film_model(*, applies: Callable[[Pocket], Applicability], law: ErrorLaw, **a
         schemes=SCHEMES,
         cost=lambda _scene, resolution: 3e-3 + 1e-4 * resolution,
         applies=applies,
-        compute=partial(deferred("rom.pocket.solve", "solve"), law=law),
+        compute=deferred("rom.pocket.solve", "solve"),
     )
 
 
-def quadrature_model(
-    *, applies: Callable[[Pocket], Applicability], law: ErrorLaw | None = None, **about: Unpack[About]
-) -> Model[Pocket]:
+def quadrature_model(*, applies: Callable[[Pocket], Applicability], **about: Unpack[About]) -> Model[Pocket]:
     """A model that uses quadrature; the cost is that of the default rule (a half circle takes seconds)."""
     return Model(
         **about,
@@ -80,5 +76,5 @@ def quadrature_model(
         tolerances=(1e-300, 1.0),
         cost=lambda _scene, resolution: 2e-4 + 1e-7 * resolution**2,
         applies=applies,
-        compute=partial(deferred("rom.pocket.quadrature", "solve"), law=law),
+        compute=deferred("rom.pocket.quadrature", "solve"),
     )

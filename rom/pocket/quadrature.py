@@ -8,17 +8,15 @@ from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.ladder.result import Field, Numerics, Result
 from roughfilm.rom.pocket import closed_form as film_flow
-from roughfilm.rom.pocket.error_law import ErrorLaw
 from roughfilm.rom.pocket.model import MAX_NODES
 from roughfilm.rom.pocket.piecewise import gauss_rule
 from roughfilm.rom.pocket.pressure import film_pressure, flow_and_residual, mean, sample
+from roughfilm.rom.pocket.promise import promise_warnings
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
 from roughfilm.rom.pocket.validity import cautions
 
 
-def solve(
-    solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progress: Progress, *, law: ErrorLaw | None
-) -> Result:
+def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progress: Progress) -> Result:
     """Solve dp/dx = 6/h² - 12 q/h³, plus first-order inertia if the model has it, for a periodic gap.
 
     The flow q = ∫h⁻² dx / 2 ∫h⁻³ dx makes the pressure periodic. Without a requested resolution the number of nodes is
@@ -49,7 +47,7 @@ def solve(
             )
         order, tries = 2 * order, tries + 1
 
-    warnings = list(cautions(scene, law))
+    warnings = [*cautions(scene), *promise_warnings(scene, model)]
     if residual > tolerance:
         warnings.append(f"residual {residual:.1e} at {order} nodes on a piece misses the tolerance {tolerance:.1e}")
     flow = film_pressure(gap, film, rule, q, scene.reynolds_number if Effect.INERTIA in keeps else 0.0)
