@@ -345,6 +345,6 @@ def test_full_contact_is_certified_like_any_other():
     wave = np.cos(2 * np.pi * np.arange(32) / 32)
     press = Press(1e-12 * np.add.outer(wave, wave), (SIDE / 32,) * 2, MODULUS)
     assert press.at(1e6, tolerance=1e-10).complementarity <= 1e-10
-    with pytest.raises(ConvergenceError, match="above 1e-10 .* ask for a looser tolerance") as caught:
+    with pytest.raises(ConvergenceError, match="ask for a looser tolerance") as caught:
         press.at(1e12, tolerance=1e-10)
     assert "\n" not in str(caught.value)
