@@ -229,8 +229,9 @@ def press(
     Returns
     -------
     Contact
-        It has the floats ``area_fraction``, ``plastic_fraction``, ``mean_gap`` (m), ``approach`` (m), and arrays of
-        shape (nx, ny) ``pressure`` (Pa), ``gap`` (m), ``in_contact``. ``complementarity`` is the violation of the
+        It has the floats ``area_fraction`` (corrected for the pixels along a smooth perimeter),
+        ``area_fraction_pixel`` (counted), ``plastic_fraction``, ``mean_gap`` (m), ``approach`` (m), and arrays of shape
+        (nx, ny) ``pressure`` (Pa), ``gap`` (m), ``in_contact``. ``complementarity`` is the violation of the
         contact conditions, recomputed from the pressure. One grid does not give the discretisation error; compare two
         grids. If the shortest wave is resolved, the area converges with first order in the spacing, gap and approach
         with second.

@@ -348,3 +348,20 @@ def test_full_contact_is_certified_like_any_other():
     with pytest.raises(ConvergenceError, match="ask for a looser tolerance") as caught:
         press.at(1e12, tolerance=1e-10)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("side", [2, 3, 4, 8, 16])
+@pytest.mark.parametrize("load", [1e-7, 1e-5])
+def test_the_area_of_pillars_is_that_of_their_pixels(side, load):
+    heights = np.zeros((64, 64))
+    heights[8 : 8 + side, 8 : 8 + side] = heights[40 : 40 + side, 30 : 30 + side] = 1e-6
+    contact = Press(heights, (1e-6, 1e-6), MODULUS).at(load * MODULUS)
+    assert contact.area_fraction == contact.area_fraction_pixel == 2 * side**2 / 64**2
+
+
+def test_the_area_of_round_pillars_is_theirs():
+    x = np.arange(128) - 64
+    radius = 20
+    heights = np.where(np.hypot(x[:, None] + 0.3, x[None, :] + 0.2) < radius, 1e-5, 0.0)
+    contact = Press(heights, (1e-6, 1e-6), MODULUS).at(1e-5 * MODULUS)
+    assert contact.area_fraction == pytest.approx(math.pi * radius**2 / 128**2, rel=2e-3)
