@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 import scipy
 
-from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.arrays import Array, unmasked
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.contact.foundation.threads import Team
 from roughfilm.contact.mechanics.contact import Contact
@@ -240,7 +240,7 @@ class Press:
 
 
 def _checked_heights(heights: Array) -> Array:
-    array = np.array(heights, dtype=np.float64)
+    array = np.array(unmasked("contact", heights), dtype=np.float64)
     if array.ndim != 2 or array.size < 2:
         raise InputError(f"contact: got heights of shape {array.shape}; give (nx, ny), one of them 1 in line contact")
     if array.size > MAX_POINTS:
