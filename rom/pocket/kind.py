@@ -23,6 +23,9 @@ MIN_JUDGED_LOAD = 0.05
 MIN_LOAD_SCALE = 1e-3
 """Load over the largest pressure below which errors are relative to the pressure."""
 
+MIN_PRESSURE_SCALE = 0.1
+"""Ratio of the peak or least pressure to the largest magnitude of the pressure below which errors have this scale."""
+
 RATIOS = {
     "film_plus": ("film", "length"),
     "width_plus": ("width", "length"),
@@ -38,8 +41,10 @@ def largest_pressure(values: Mapping[str, Any]) -> Any:
 
 
 def scale(values: Mapping[str, Any], quantity: str) -> Any:
-    """The magnitude of a quantity, or the largest pressure if the load is negligible."""
+    """The magnitude of a quantity; the largest pressure for a negligible load, a tenth of it for a small pressure."""
     size = np.abs(values[quantity])
+    if quantity in ("pressure_max_plus", "pressure_min_plus"):
+        return np.maximum(size, MIN_PRESSURE_SCALE * largest_pressure(values))
     if quantity != "load_plus":
         return size
     pressure = largest_pressure(values)
@@ -150,6 +155,7 @@ KIND = Kind(
     scene=Pocket,
     summary="a groove under a sliding wall",
     compared={"load_plus": "load", "friction_plus": "friction"},
+    others={"pressure_max_plus": "peak pressure", "pressure_min_plus": "least pressure", "backflow": "reverse flow"},
     scale=scale,
     columns=columns,
     numbers=numbers,
