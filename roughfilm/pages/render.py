@@ -8,7 +8,8 @@ import jinja2
 
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.words.numbers import percent
+from roughfilm.rom.studies.comparison import Difference
+from roughfilm.words.numbers import MIN_UNCERTAINTY, percent
 
 TEMPLATES = Path(__file__).parent / "templates"
 
@@ -37,6 +38,7 @@ def render(template: str | Path, path: Path, **entries: Any) -> None:
         micro=_micro,
         quantity=_quantity,
         difference=_difference,
+        interval=_interval,
     )
     page = environment.get_template(template.name).render(**entries)
     with replacing(path) as scratch:
@@ -82,6 +84,14 @@ def _typeset(unit: str) -> str:
 def _difference(value: float, unit: str) -> str:
     size = f"{abs(value):.4f}" if unit == "1" else _quantity(Quantity(value=abs(value), unit=unit))
     return ("+" if value >= 0 else "−") + size
+
+
+def _interval(difference: Difference) -> str:
+    """A relative difference ± its uncertainty, in per cent; a negligible uncertainty is left out."""
+    if difference.uncertainty is None:
+        return f"{percent(difference.relative)} ± ?"
+    bar = f" ± {_share(difference.uncertainty)}" if difference.uncertainty >= MIN_UNCERTAINTY else ""
+    return percent(difference.relative) + bar
 
 
 def _micro(value: float) -> str:
