@@ -9,7 +9,7 @@ import jinja2
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.studies.comparison import Difference
-from roughfilm.words.numbers import MIN_UNCERTAINTY, percent
+from roughfilm.words.numbers import MIN_UNCERTAINTY, percent, share, span
 
 TEMPLATES = Path(__file__).parent / "templates"
 
@@ -30,7 +30,7 @@ def render(template: str | Path, path: Path, **entries: Any) -> None:
     )
     environment.filters.update(
         percent=percent,
-        share=_share,
+        share=share,
         seconds=_seconds,
         number=_number,
         digits=_digits,
@@ -39,6 +39,7 @@ def render(template: str | Path, path: Path, **entries: Any) -> None:
         quantity=_quantity,
         difference=_difference,
         interval=_interval,
+        span=lambda ends: "–" if ends is None else span(*ends),
     )
     page = environment.get_template(template.name).render(**entries)
     with replacing(path) as scratch:
@@ -50,12 +51,6 @@ def write_figures(plots: Mapping[str, str], directory: Path) -> None:
     for name, text in plots.items():
         with replacing(directory / f"{name}.svg") as scratch:
             scratch.write_text('<?xml version="1.0" encoding="utf-8"?>\n' + text, encoding="utf-8")
-
-
-def _share(fraction: float) -> str:
-    """A fraction without sign, in per cent."""
-    percent = 100 * fraction
-    return f"{percent:.0f} %" if percent >= 99.5 else f"{percent:.2g} %"
 
 
 def _seconds(value: float) -> str:
@@ -90,7 +85,7 @@ def _interval(difference: Difference) -> str:
     """A relative difference ± its uncertainty, in per cent; a negligible uncertainty is left out."""
     if difference.uncertainty is None:
         return f"{percent(difference.relative)} ± ?"
-    bar = f" ± {_share(difference.uncertainty)}" if difference.uncertainty >= MIN_UNCERTAINTY else ""
+    bar = f" ± {share(difference.uncertainty)}" if difference.uncertainty >= MIN_UNCERTAINTY else ""
     return percent(difference.relative) + bar
 
 
