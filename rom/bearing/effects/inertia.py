@@ -17,14 +17,7 @@ from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.solve import load_loops
 from roughfilm.rom.bearing.texture import Texture
-from roughfilm.rom.bearing.uncertainty import (
-    GRID_SAFETY_FACTOR,
-    ORDERS,
-    cells_of,
-    grid_sequence,
-    grid_uncertainty,
-    observed_order,
-)
+from roughfilm.rom.bearing.uncertainty import cells_of, grid_sequence, grid_uncertainty
 from roughfilm.rom.cavitation.solve import solve
 from roughfilm.rom.ladder.model import Model, find, of_kind
 from roughfilm.rom.ladder.request import Request
@@ -132,20 +125,8 @@ def inertia_added(variant: Variant, cells: int, models: Sequence[Model]) -> Iner
 def _amount(name: str, changes: Mapping[float, Inertia], higher_orders: float, *, wide: bool) -> Amount:
     """The change on the finest grid, which is the first, with the uncertainty of grids and of higher orders."""
     values = [getattr(change, name) for change in changes.values()]
-    error = scattered_uncertainty([*changes], values) if len(values) > 1 else math.inf
+    error = grid_uncertainty([*changes], values) if len(values) > 1 else math.inf
     return Amount(value=values[0], uncertainty=error + higher_orders * abs(values[0]), unit=UNITS[name][wide])
-
-
-def scattered_uncertainty(cells: Sequence[float], values: Sequence[float]) -> float:
-    """The uncertainty of a value from coarser grids, from fine to coarse, if its error may scatter from grid to grid.
-
-    The forces of inertia jump at the edges of pockets and cavities, which lie anywhere in their cells. The finest
-    values then do not approach each other, and the uncertainty is at least their range times a safety factor.
-    """
-    estimate, finest = grid_uncertainty(cells, values), values[:3]
-    if len(finest) > 2 and observed_order(cells[:3], finest) > ORDERS[0]:
-        return estimate
-    return max(estimate, GRID_SAFETY_FACTOR * (max(finest) - min(finest)))
 
 
 def pocket_inertia(scene: Bearing, models: Sequence[Model]) -> PocketInertia | None:
