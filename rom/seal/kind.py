@@ -43,6 +43,7 @@ KIND = Kind(
     scene=Seal,
     summary="a liquid that leaks between a rough surface and a flat one",
     compared={"leakage_per_width": "leakage", "area_fraction": "contact area"},
+    others={"mean_gap": "mean gap", "permeability": "permeability"},
     scale=scale,
     columns=columns,
     numbers=numbers,
