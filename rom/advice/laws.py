@@ -182,6 +182,10 @@ class Table:
         """The law of the whole error of a model; None if there is none."""
         return _own(self.promises, kind, model, quantity)
 
+    def promises_of(self, kind: str, model: str) -> Mapping[str, Law]:
+        """The laws of the whole error of a model, by quantity; empty if there are none."""
+        return next((one.laws for one in self.promises if (one.kind, one.model) == (kind, model)), {})
+
     def grid(self, kind: str, model: str, quantity: str) -> Law | None:
         """The law of the error by the resolution of a model; None if it is unknown."""
         return _own(self.grids, kind, model, quantity)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.arrays import Array, unmasked
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.rom.homogenization.box import Box
 from roughfilm.rom.homogenization.conductance import CLOSED_CUBE, FaceRule, faces, without_traces
@@ -72,6 +72,7 @@ def direct_flow(
         raise InputError(f"tolerance: got {tolerance!r}; it must be above 0 and below 1")
     if not (isinstance(periods, int) and periods >= 1):
         raise InputError(f"periods: got {periods!r}; give 1 or more")
+    gap = unmasked("gap", gap)
     if np.ndim(gap) == 2 and np.size(gap) and not np.any(gap):
         return shut(np.tile(gap, (periods, 1) if direction == 0 else (1, periods)).shape)
     h = checked_gap(gap, spacing)
