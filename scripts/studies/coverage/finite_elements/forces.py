@@ -24,6 +24,11 @@ class Forces:
     pressure_max: float
     pressure_min: float
 
+    @property
+    def largest_pressure(self) -> float:
+        """The largest magnitude of the pressure."""
+        return max(self.pressure_max, -self.pressure_min)
+
 
 def wall_pressure(flow: Flow) -> tuple[Array, Array]:
     """Return positions and pressures at the nodes of the sliding wall.

@@ -13,8 +13,13 @@ from scripts.studies.coverage.finite_elements.mesh import fitted_mesh
 from scripts.studies.coverage.finite_elements.wall import Groove, Wall
 from scripts.studies.coverage.truth import Truth
 
-LEVELS = (0.7, 1.0)
-"""Levels of the two meshes."""
+LEVELS = (0.7, 1.0, 1.4)
+"""Levels of the meshes; the last one is taken where the first two differ by more than TARGET."""
+
+TARGET = 3e-3
+"""Uncertainty of load over load, but at least over LEAST_LOAD times the largest pressure, that is good enough."""
+
+LEAST_LOAD = 0.05
 
 FRICTION_FLOOR = 2e-5
 """Uncertainty of friction over friction, besides the difference of the two meshes."""
@@ -58,24 +63,30 @@ def forces_on(scene: Pocket, level: float) -> Forces:
 
 
 def truth(scene: Pocket) -> Truth:
-    """Return load, friction and peak pressures of a pocket by two meshes: p+ = 100 p Ly² / (η u Lx), as the models.
+    """Return load, friction and peak pressures of a pocket by two or three meshes: p+ = 100 p Ly² / (η u Lx).
 
-    The uncertainty is the difference of the two meshes, and a floor from comparisons with meshes of level 1.7.
+    The uncertainty is the difference of the two finest meshes, and a floor from comparisons with meshes of level 2.
     """
-    coarse, fine = (forces_on(scene, level) for level in LEVELS)
+    coarse, fine = (forces_on(scene, level) for level in LEVELS[:2])
+    levels = LEVELS[:2]
+    uncertainty = uncertainties(scene, coarse, fine)
+    if uncertainty["load"] > TARGET * max(abs(fine.load), LEAST_LOAD * fine.largest_pressure):
+        coarse, fine, levels = fine, forces_on(scene, LEVELS[2]), LEVELS
+        uncertainty = uncertainties(scene, coarse, fine)
     plus = scene.plus_factor
-    largest = max(fine.pressure_max, -fine.pressure_min)
-    floors = {
-        "load": largest * (LOAD_FLOOR[0] + LOAD_FLOOR[1] * scene.reynolds_number),
-        "friction": FRICTION_FLOOR * fine.friction,
-        "pressure_max": PRESSURE_FLOOR * largest,
-        "pressure_min": PRESSURE_FLOOR * largest,
-    }
     return Truth(
-        values={f"{name}_plus": getattr(fine, name) * plus for name in floors},
-        uncertainty={
-            f"{name}_plus": (abs(getattr(fine, name) - getattr(coarse, name)) + floor) * plus
-            for name, floor in floors.items()
-        },
-        method=f"finite elements, levels {LEVELS[0]:g} and {LEVELS[1]:g}",
+        values={f"{name}_plus": getattr(fine, name) * plus for name in uncertainty},
+        uncertainty={f"{name}_plus": one * plus for name, one in uncertainty.items()},
+        method=f"finite elements, levels {', '.join(f'{level:g}' for level in levels)}",
     )
+
+
+def uncertainties(scene: Pocket, coarse: Forces, fine: Forces) -> dict[str, float]:
+    """Return the uncertainty of each force of the finer of two meshes, in η u / Ly."""
+    floors = {
+        "load": fine.largest_pressure * (LOAD_FLOOR[0] + LOAD_FLOOR[1] * scene.reynolds_number),
+        "friction": FRICTION_FLOOR * fine.friction,
+        "pressure_max": PRESSURE_FLOOR * fine.largest_pressure,
+        "pressure_min": PRESSURE_FLOOR * fine.largest_pressure,
+    }
+    return {name: abs(getattr(fine, name) - getattr(coarse, name)) + floor for name, floor in floors.items()}

@@ -30,7 +30,7 @@ def bump(length, depth):
     return Groove(
         breaks=(-length / 2, length / 2),
         corners=(),
-        depth=lambda x: depth * np.cos(np.pi * np.clip(x / length, -0.5, 0.5)) ** 4,
+        depth=lambda x: depth * np.cos(np.pi * np.clip(x / length, -0.5, 0.5)) ** 2,
     )
 
 
