@@ -17,7 +17,7 @@ SAMPLES = 24
 
 @dataclass(frozen=True, kw_only=True)
 class Forces:
-    """Forces per area on the sliding wall and its extreme pressures, in η u / Ly; p = 0 at the periodic boundary."""
+    """Forces per area on the sliding wall and its extreme pressures, in η u / Ly."""
 
     load: float
     friction: float
@@ -49,17 +49,19 @@ def wall_pressure(flow: Flow) -> tuple[Array, Array]:
     return x, np.append(pressure, pressure[0])
 
 
-def forces(flow: Flow) -> Forces:
-    """Return load, friction and extreme pressures of a flow."""
+def forces(flow: Flow, place: float) -> Forces:
+    """Return load, friction and extreme pressures of a flow, with p = 0 at a place on the sliding wall."""
     spaces = flow.spaces
     x, pressure = wall_pressure(flow)
-    pressure = pressure - pressure[0]
-    by_side = np.lib.stride_tricks.sliding_window_view(pressure, 4)[::3]
     to_polynomial = np.linalg.inv(np.vander(np.linspace(0, 1, 4)))
+    side = min(int(np.searchsorted(x[3::3], place)), len(x) // 3 - 1)
+    along = (place - x[3 * side]) / (x[3 * side + 3] - x[3 * side])
+    pressure = pressure - np.polyval(to_polynomial @ pressure[3 * side : 3 * side + 4], along)
+    by_side = np.lib.stride_tricks.sliding_window_view(pressure, 4)[::3]
     between = by_side @ (np.vander(np.linspace(0, 1, SAMPLES + 1), 4) @ to_polynomial).T
     return Forces(
         load=float(np.diff(x[::3]) @ (by_side @ MASS.sum(axis=1))) / spaces.length,
         friction=float(flow.force_x[spaces.top].sum()) / spaces.length,
-        pressure_max=float(between.max()),
-        pressure_min=float(between.min()),
+        pressure_max=max(float(between.max()), 0.0),
+        pressure_min=min(float(between.min()), 0.0),
     )

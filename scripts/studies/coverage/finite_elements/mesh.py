@@ -131,8 +131,8 @@ def columns_of_film(wall: Wall, blocks: Sequence[Block], level: float) -> tuple[
     for block in (*blocks, None):
         land = (wall.length / 2 if block is None else block.groove.breaks[0]) - x[-1]
         if land > SAME_PLACE * wall.length:
-            after = starts[1] if block is None else start_cell(block.groove, block.groove.breaks[0], land)
-            x = np.append(x, x[-1] + graded(land, (before, after), land, level)[1:])
+            after = starts[1] if block is None else start_cell(block.groove, block.groove.breaks[0], np.inf)
+            x = np.append(x, x[-1] + graded(land, (min(before, land / 4), min(after, land / 4)), land, level)[1:])
         if block is not None:
             columns = columns_of(block, level)
             own.append((len(x) - 1, columns))

@@ -26,6 +26,14 @@ class Groove:
     corners: tuple[float, ...]
     depth: Callable[[Array], Array]
 
+    def moved(self, distance: float) -> "Groove":
+        """Return the groove at another place."""
+        return Groove(
+            breaks=tuple(place + distance for place in self.breaks),
+            corners=tuple(place + distance for place in self.corners),
+            depth=lambda x: self.depth(x - distance),
+        )
+
     def sharp_corners(self) -> list[float]:
         """Return the corners at which the liquid fills more than a half circle: at the edges, and on ridges."""
         edges = (self.breaks[0], self.breaks[-1])
@@ -40,3 +48,15 @@ class Wall:
 
     length: float
     grooves: tuple[Groove, ...]
+
+    def begun_on_land(self) -> tuple["Wall", float]:
+        """Return the wall whose period begins in the middle of the widest land, and the new place of its old ends."""
+        if not self.grooves:
+            return self, self.length / 2
+        ends = [groove.breaks[-1] for groove in self.grooves]
+        starts = [*(groove.breaks[0] for groove in self.grooves[1:]), self.grooves[0].breaks[0] + self.length]
+        widest = max(range(len(ends)), key=lambda number: starts[number] - ends[number])
+        cut = (starts[widest] + ends[widest]) / 2
+        behind = [groove.moved(-cut - self.length / 2) for groove in self.grooves[widest + 1 :]]
+        before = [groove.moved(-cut + self.length / 2) for groove in self.grooves[: widest + 1]]
+        return Wall(length=self.length, grooves=(*behind, *before)), -cut + self.length * round(cut / self.length)

@@ -27,7 +27,7 @@ FRICTION_FLOOR = 2e-5
 LOAD_FLOOR = (1e-5, 6e-7)
 """Uncertainty of load over the largest pressure at Re = 0, and its increase with Re, besides that difference."""
 
-PRESSURE_FLOOR = 5e-4
+PRESSURE_FLOOR = 1e-3
 """Uncertainty of the extreme pressures over the largest one, besides that difference."""
 
 
@@ -58,8 +58,9 @@ def wall_of(scene: Pocket) -> Wall:
 
 
 def forces_on(scene: Pocket, level: float) -> Forces:
-    """Return the forces on the sliding wall of a pocket, by a mesh of this level."""
-    return forces(solve(fitted_mesh(wall_of(scene), level), scene.reynolds_number))
+    """Return the forces on the sliding wall of a pocket, with p = 0 at the ends of its period, by a mesh of a level."""
+    wall, ends = wall_of(scene).begun_on_land()
+    return forces(solve(fitted_mesh(wall, level), scene.reynolds_number), ends)
 
 
 def truth(scene: Pocket) -> Truth:
