@@ -15,7 +15,7 @@ from scripts.studies.coverage.truth import Truth
 SHARE = 0.2
 """Largest uncertainty of a truth over the uncertainty that it judges."""
 
-MAX_CPU_S = 1.2
+MAX_CPU_S = 0.3
 """Largest expected CPU time of one finer solution, s; of the two that are needed at least, ``MAX_NEEDED_S``."""
 
 MAX_NEEDED_S = 3.0
