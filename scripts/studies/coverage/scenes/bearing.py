@@ -1,9 +1,6 @@
 """Random bearings: every shape, films from points, textures, starved and fed under pressure, smooth and rough."""
 
-import hashlib
 import math
-import tempfile
-from pathlib import Path
 
 import numpy as np
 from numpy.random import Generator
@@ -11,6 +8,7 @@ from numpy.random import Generator
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.units import with_unit
 from scripts.studies.advice.scenes import Entries, between, chance, length, random_surface
+from scripts.studies.coverage.surfaces import stored
 
 SHAPES = (
     "parallel",
@@ -176,13 +174,3 @@ def heights(rng: Generator, film: float, rise: float) -> Array:
     points = tuple(int(number) for number in rng.integers(3, 13, 2))
     taper = np.linspace(rise, 0, points[0])[:, None] * np.ones(points[1])
     return np.asarray(film + taper + rise * rng.uniform(0, 0.3) * rng.uniform(0, 1, points))
-
-
-def stored(values: Array) -> Path:
-    """Return the path of a file with these values, which is named after them."""
-    folder = Path(tempfile.gettempdir()) / "roughfilm-coverage"
-    folder.mkdir(exist_ok=True)
-    path = folder / f"{hashlib.sha256(values.tobytes()).hexdigest()[:16]}.npy"
-    if not path.is_file():
-        np.save(path, values)
-    return path
