@@ -37,6 +37,7 @@ def judged(kind: str, seed: int, known: Judged | None) -> Judged:
             seed=seed,
             scene=entries,
             truth={name: (value, truth.uncertainty[name]) for name, value in truth.values.items()},
+            own=truth.own,
             method=truth.method,
             truth_warnings=truth.warnings,
             truth_cpu_s=time.process_time() - begun,
