@@ -27,7 +27,7 @@ from roughfilm.rom.pocket.gap import Gap
 COARSE = ((240, 20), (480, 20), (960, 20))
 """Columns and layers of the grids on which ξ is solved; a finer one is taken if cells of the mesh fold."""
 
-ROUNDS = 15
+ROUNDS = 8
 """Largest number of times that ξ is solved."""
 
 SETTLED = 1e-5
@@ -38,6 +38,9 @@ ARC_STEP = 0.1
 
 TABLE = 6001
 """Number of evenly spaced values of ξ over three periods at which the positions on the walls are tabulated."""
+
+MAX_GROWTH = 20.0
+"""Largest length of lower wall over that of film with the same rise of ξ, up to which columns count by length."""
 
 SAME_PLACE = 1e-6
 """Distance in film thicknesses below which a corner is at the end of the period."""
@@ -95,8 +98,8 @@ def orthogonal(gap: Gap, resolution: int, layers: int) -> Array:
             return vertices
     place = vertices[:-1, 0, 0][folded][0] * gap.film
     raise InputError(
-        f"geometry: got a wall so steep at x = {place:.4g} m that cells of a mesh of {resolution} columns fold there; "
-        "a groove may be about as deep as wide, with land on both sides: change the geometry or the resolution"
+        f"geometry: got a ridge so sharp at x = {place:.4g} m that cells of a mesh of {resolution} columns fold there; "
+        "give the grooves more land between them or less steep walls, or change the resolution"
     )
 
 
@@ -140,10 +143,14 @@ def _places(wall: Wall, found: OnWalls, lower: Array, upper: Array) -> Places:
 
 
 def _columns(wall: Wall, places: Places, resolution: int) -> Columns:
-    """The columns of a mesh, spread over the mean of the positions on both walls, with one at every corner."""
+    """The columns of a mesh, spread over the mean of the positions on both walls, with one at every corner.
+
+    At the bottom of a groove deeper than wide ξ hardly rises, and layers are thick. The lower wall counts there by ξ.
+    """
     gap, film, table = wall.gap, wall.gap.film, places.xi
     lower = places.lower(table)
-    middle = (lower + places.upper(table)) / 2
+    moved = np.minimum(np.diff(lower), MAX_GROWTH * wall.period * np.diff(table))
+    middle = (np.append(0.0, np.cumsum(moved)) + places.upper(table)) / 2
     start, end = np.interp([0.0, 1.0], table, middle).tolist()
 
     def on_wall(breaks: tuple[float, ...]) -> Array:

@@ -118,6 +118,15 @@ def test_flow_rate_is_the_same_through_every_column(make_scene):
     assert np.ptp(psi[:, -1]) < 5e-3 * psi[:, -1].mean()
 
 
+def test_the_film_thickness_is_that_of_the_gap_over_the_place_on_the_sliding_wall(make_scene):
+    scene = steep_scene(make_scene, *STEEP[2][:4])
+    result = STOKES.solve(scene, Request(resolution=30))
+    thickness, position, vertices = (result.fields[name].values for name in ("film_thickness", "position", "vertices"))
+    assert position == pytest.approx((vertices[1:, -1, 0] + vertices[:-1, -1, 0]) / 2)
+    assert thickness == pytest.approx(scene.gap().thickness(position))
+    assert thickness.max() > 2 * thickness.min()
+
+
 def test_walls_drag_each_other_equally(make_scene):
     """Steady and periodic: what the sliding wall loses in friction, the grooved wall takes up as shear and pressure."""
     result = NAVIER_STOKES.solve(make_scene(0.3, 0.75, 160))

@@ -192,7 +192,9 @@ def test_the_place_of_the_period_does_not_change_the_shape_of_the_cells():
 
 def test_a_ridge_without_land_is_refused_in_one_line():
     ridge = channel(length=33.0, film=1.0, grooves=[(at, cylindrical(width=6.0, depth=2.99)) for at in (-3.0, 3.0)])
-    with pytest.raises(InputError, match=r"geometry: got a wall so steep at x = .* fold there; .*change the geometry"):
+    with pytest.raises(
+        InputError, match=r"geometry: got a ridge so sharp at x = .* fold there; give the grooves more land"
+    ):
         orthogonal(ridge, 60, 12)
 
 
