@@ -9,7 +9,7 @@ from pydantic import ValidationError
 
 from roughfilm.contact.foundation.toml import Location, in_one_line, known_keys, unknown_key
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.rom.ladder.kind import Kind
+from roughfilm.rom.ladder.kind import Kind, Omission
 from roughfilm.rom.ladder.scene import scene_entries
 from roughfilm.rom.ladder.sweeping import Columns, Sweeping
 from roughfilm.rom.pocket.error_law import product_text
@@ -113,6 +113,13 @@ def first_order(scene: Pocket) -> dict[str, float]:
     return {name: quantity.value for name, quantity in INERTIAL_REYNOLDS.solve(scene).quantities.items()}
 
 
+def omitted(scene: Pocket, quantity: str) -> Omission | None:
+    """The effect of cavitation; None if the film does not rupture."""
+    from roughfilm.rom.pocket.omission import rupture_omitted  # slow to import
+
+    return rupture_omitted(scene, quantity)
+
+
 def _length(text: str) -> float:
     return float(text.partition(" ")[0])
 
@@ -154,6 +161,7 @@ KIND = Kind(
     columns=columns,
     numbers=numbers,
     symbols=NUMBERS,
+    omitted=omitted,
     files=frozenset({"points"}),
     replaces={
         "motion.speed": ("reynolds_number",),

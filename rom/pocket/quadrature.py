@@ -17,7 +17,7 @@ from roughfilm.rom.pocket.gap import Gap
 from roughfilm.rom.pocket.model import MAX_NODES
 from roughfilm.rom.pocket.piecewise import GaussRule, extrema, gauss_rule
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
-from roughfilm.rom.pocket.validity import cautions
+from roughfilm.rom.pocket.validity import cautions, ruptures
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -101,12 +101,14 @@ def solve(
     length = 2 * film.half.sum()
     weights = film.half * rule.weights
     lowest, highest = extrema(film.x, pressure, gradient)
+    lowest = min(lowest, float(ends.min()))
+    warnings += ruptures(scene, lowest)
     quantities = pocket_quantities(
         scene,
         load=float((weights * pressure).sum() / length),
         friction=float((weights * shear).sum() / length),
         pressure_max=max(highest, float(ends.max())),
-        pressure_min=min(lowest, float(ends.min())),
+        pressure_min=lowest,
         backflow=film_flow.back_flow(film.h, q),
     )
     pascal = scene.pressure_unit

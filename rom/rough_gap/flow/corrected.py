@@ -11,6 +11,7 @@ from roughfilm.rom.homogenization.richardson import off
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors, of_thin_film
 from roughfilm.rom.rough_gap.flow.range_of_validity import MAX_ADDED_DISSIPATION
 from roughfilm.rom.rough_gap.flow.slope import local_fluxes, slope_dissipation
+from roughfilm.rom.rough_gap.flow.suction import suction
 from roughfilm.rom.rough_gap.walls import Walls
 
 SAFETY_FACTOR = 2.5
@@ -37,6 +38,7 @@ class SlopeCorrected:
         (3,); 0 where the gap is sealed. Below 0.1 the error is at most 1.5 %.
     flow : magnitude of the thin-film flow under a gradient of 12η along x, shape (nx, ny), m³.
     contact, unsolved, iterations : those of the thin-film solution.
+    suction : mean pressure of the thin film under sliding less the lowest one, over 6ηu, 1/m.
     """
 
     thin: RoughGapFactors
@@ -48,6 +50,7 @@ class SlopeCorrected:
     contact: float
     unsolved: float
     iterations: int
+    suction: float
 
     @property
     def holds(self) -> bool:
@@ -115,6 +118,7 @@ def slope_corrected(walls: Walls, *, tolerance: float | None = None) -> SlopeCor
         contact=film.contact,
         unsolved=film.unsolved,
         iterations=film.iterations,
+        suction=suction(walls.gap, film.correctors[2]),
     )
 
 

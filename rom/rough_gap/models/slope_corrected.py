@@ -29,6 +29,7 @@ def find(walls: Walls, mean_gap: float) -> GapFlow:
         flow=theory.flow / mean_gap**3,
         residual=theory.unsolved,
         iterations=theory.iterations,
+        suction=theory.suction,
         warnings=() if theory.holds else (_too_steep(float(theory.added.max())),),
     )
 
