@@ -13,7 +13,7 @@ from scripts.studies.coverage.finite_elements.mesh import fitted_mesh
 from scripts.studies.coverage.finite_elements.wall import Groove, Wall
 from scripts.studies.coverage.truth import Truth
 
-LEVELS = (0.7, 1.0, 1.4)
+LEVELS: tuple[float, ...] = (0.7, 1.0, 1.4)
 """Levels of the meshes; the last one is taken where the first two differ by more than TARGET."""
 
 TARGET = 3e-3
