@@ -8,10 +8,17 @@ from functools import cache
 import numpy as np
 
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.bearing.corners import infinite_flows
 from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Fields, Outputs, density_ratio
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.uncertainty import uncertainties
-from roughfilm.rom.bearing.warnings import grid_warnings, load_warnings, pressure_warnings, scene_warnings
+from roughfilm.rom.bearing.warnings import (
+    grid_warnings,
+    load_warnings,
+    pressure_warnings,
+    rupture_warnings,
+    scene_warnings,
+)
 from roughfilm.rom.cavitation.discretise import Ends
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.shape import Shape
@@ -66,12 +73,14 @@ def solve(
     warnings = [
         *grid_warnings(solution),
         *pressure_warnings(solution),
+        *rupture_warnings(solution),
         *scene_warnings(scene, solution),
         *load_warnings(scene, solution, quantities),
     ]
     if not uncertainty:
         warnings.append(NO_COARSER_GRID)
-    if unknown := [name for name, value in uncertainty.items() if not math.isfinite(value)]:
+    infinite = infinite_flows(solution)
+    if unknown := [name for name, value in uncertainty.items() if not math.isfinite(value) and name not in infinite]:
         warnings.append(f"{', '.join(unknown)}: unknown uncertainty, as the roughness has too few points")
     return Result(
         model=solver.name,

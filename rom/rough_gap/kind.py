@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.rom.ladder.kind import Kind
+from roughfilm.rom.ladder.kind import Kind, Omission
 from roughfilm.rom.ladder.sweeping import Columns, Powers, Sweeping
 from roughfilm.rom.rough_gap.geometry import SINUSOID
 from roughfilm.rom.rough_gap.scene import RoughGap
@@ -88,15 +88,30 @@ def numbers(scene: RoughGap) -> dict[str, float]:
     }
 
 
+def omitted(scene: RoughGap, quantity: str) -> Omission | None:
+    """The effect of cavitation; None if the film does not rupture."""
+    from roughfilm.rom.rough_gap.omission import rupture_omitted  # slow to import
+
+    return rupture_omitted(scene, quantity)
+
+
 KIND = Kind(
     name="rough_gap",
     scene=RoughGap,
     summary="a liquid in a narrow gap between two walls, one or both rough",
     compared={"A11": "flow along x", "A22": "flow along y"},
+    others={
+        "B1": "flow by sliding along x",
+        "B2": "flow by sliding along y",
+        "friction": "friction",
+        "mean_gap": "mean gap",
+        "contact_area": "contact area",
+    },
     scale=scale,
     columns=columns,
     numbers=numbers,
     symbols=NUMBERS,
+    omitted=omitted,
     files=frozenset({"surface"}),
     no_files=frozenset({SINUSOID}),
     replaces={

@@ -8,7 +8,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.interface.scenes import checked_scene
 from roughfilm.rom.advice import advise as advice
 from roughfilm.rom.advice.estimates import expected_errors
-from roughfilm.rom.ladder.kind import Scene, kind_names, kind_of_name
+from roughfilm.rom.ladder.kind import Scene, kind_names
 from roughfilm.rom.ladder.model import Model, Progress, best, silent
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
@@ -140,8 +140,7 @@ def solve(
             raise InputError(f"{name}: got {chosen[name]!r}, but within chooses how to solve; leave one of them out")
         advised = advise(scene, within=within, quantity=quantity, progress=progress)
         if advised.chosen is None:
-            title = kind_of_name(kind).compared[advised.quantity]
-            raise ConvergenceError(f"within: {advice.shortfall(advised, title)}")
+            raise ConvergenceError(f"within: {advice.shortfall(advised)}")
         model, resolution, result = advised.chosen.model, advised.chosen.resolution, advised.result
     elif model is None:
         raise InputError("model: missing; name one of models(scene.kind), or give within=0.05")

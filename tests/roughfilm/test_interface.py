@@ -99,7 +99,10 @@ BAD = {
     "heights of ragged rows": (lambda scene, z: rf.parameters([[1.0], [1.0, 2.0]], spacing=1e-6), "heights: got"),
     "heights as text": (lambda scene, z: rf.parameters([["a", "b"]], spacing=1e-6), "give real numbers"),
     "heights not finite": (lambda scene, z: rf.press(z * np.nan, spacing=1, modulus=1, load=1), "are not finite"),
-    "masked heights": (lambda scene, z: rf.flow_factors(np.ma.masked_array(z), spacing=1e-6, gap=3e-6), "masked"),
+    "masked heights": (
+        lambda scene, z: rf.flow_factors(np.ma.masked_less(z, z.mean()), spacing=1e-6, gap=3e-6),
+        "masked",
+    ),
     "no spacing": (lambda scene, z: rf.flow_factors(z, gap=3e-6), "spacing: missing"),
     "a negative spacing": (lambda scene, z: rf.flow_factors(z, spacing=-1e-6, gap=3e-6), "spacing"),
     "three spacings": (lambda scene, z: rf.flow_factors(z, spacing=(1, 2, 3), gap=3e-6), "a pair (dx, dy)"),
