@@ -10,6 +10,10 @@ from roughfilm.contact.foundation.arrays import Array, Mask
 PERIMETER_CORRECTION = (math.pi - 1 + math.log(2)) / 24
 """Mean excess of an area counted in pixels, over the length of its perimeter in pixels."""
 
+STEP_GAP, STEP_PRESSURE = 2.0, 0.9
+"""At a step of the surface, smallest gap beside the last pixel over the difference of the elastic displacements, and
+smallest pressure of that pixel over that of the next one inside."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Contact:
@@ -60,18 +64,28 @@ class Contact:
 
     @property
     def area_fraction(self) -> float:
-        """Real over nominal contact area, corrected for the mean excess of whole pixels along its perimeter.
+        """Real over nominal contact area, corrected for the mean excess of whole pixels along a smooth perimeter.
 
         A = A_pix − (π − 1 + ln 2)/24 S Δx, where S is the length of the pixel edges between contact and open gap; line
-        contact needs no correction. Plastic pixels carry the hardness on their whole area, so that their edges do not
-        count, and A is at least W/H. Source: V. A. Yastrebov, G. Anciaux, J. F. Molinari, Tribol. Int. 114 (2017) 161,
-        doi:10.1016/j.triboint.2017.04.023.
+        contact needs no correction. Edges that pixels meet exactly do not count: those of plastic pixels, which carry
+        the hardness on their whole area, so that A is at least W/H, and steps of the surface such as pillars, beside
+        which the pressure does not fall and the gap does not begin at zero. Source: V. A. Yastrebov, G. Anciaux,
+        J. F. Molinari, Tribol. Int. 114 (2017) 161, doi:10.1016/j.triboint.2017.04.023, for smooth surfaces.
         """
         if 1 in self.pressure.shape:
             return self.area_fraction_pixel
-        off, elastic = self.pressure == 0, self.in_contact & ~self.plastic
-        edges = sum(np.count_nonzero(elastic & np.roll(off, shift, axis)) for axis in (0, 1) for shift in (1, -1))
-        return max(float(self.area_fraction_pixel - PERIMETER_CORRECTION * edges / off.size), self.load / self.hardness)
+        elastic = self.in_contact & ~self.plastic
+        edges = sum(np.count_nonzero(elastic & self._smooth_edge(shift, axis)) for axis in (0, 1) for shift in (1, -1))
+        return max(
+            float(self.area_fraction_pixel - PERIMETER_CORRECTION * edges / elastic.size), self.load / self.hardness
+        )
+
+    def _smooth_edge(self, shift: int, axis: int) -> Mask:
+        """Mask of the pixels beside an open one, except at steps of the surface."""
+        p, u = self.pressure, self.elastic_displacement
+        gap, behind = np.roll(self.gap, shift, axis), np.roll(p, -shift, axis)
+        step = (gap > STEP_GAP * (u - np.roll(u, shift, axis))) & (behind > 0) & (p >= STEP_PRESSURE * behind)
+        return (np.roll(p, shift, axis) == 0) & ~step
 
     @property
     def plastic_fraction(self) -> float:

@@ -19,6 +19,10 @@ LISTED = 4
 """Flag in ``state`` of a free node, whose pressure is in the list; other nodes have theirs in the grid."""
 
 
+ROUNDING = 1e-15
+"""Distance of a pressure from the hardness, over the hardness, that is rounding."""
+
+
 @compiled
 def advance(low, high, fraction, image, gap, plane, state, touched):  # type: ignore[no-untyped-def]
     """Add t K∗s to the gap g, and mark the nodes that may be free: listed ones, p > 0, g < g00."""
@@ -215,6 +219,8 @@ def press_on(low, end, fraction, shift, held, hardness, index, move, residual, m
         p = held[place]
         s = min(max(p + move[place] + shift, 0.0), hardness) - p
         p = min(max(p + fraction * s, 0.0), hardness)
+        if hardness - p < ROUNDING * hardness:
+            p = hardness
         held[place] = p
         inside = 0 < p < hardness
         state[index[place]] = LISTED | (INSIDE if inside else HARD if p > 0 else OFF)

@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 import scipy
 
-from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.arrays import Array, unmasked
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.contact.foundation.threads import Team
 from roughfilm.contact.mechanics.contact import Contact
@@ -21,6 +21,15 @@ COMPLEMENTARITY_TOLERANCE = 1e-8
 
 SEARCH_TOLERANCE_FRACTION = 0.9
 """Tolerance of the minimisation over that of the result, whose pressure is rescaled to the load afterwards."""
+
+LOAD_TOLERANCE = 1e-8
+"""Largest relative error of the load that the pressure carries."""
+
+ROUNDING = 1e-14
+"""Relative error of the load that is left to rounding."""
+
+MAX_RESCALINGS = 50
+"""Largest number of rescalings, each of which may bring further points to the hardness."""
 
 MAX_ITERATIONS = 2000
 """Largest number of iterations on one grid."""
@@ -124,12 +133,26 @@ class Press:
             raise InputError(f"contact: got a tolerance of {tolerance:g}; it must be 1e-13 to 1")
         if start is not None and start.pressure.shape != self.heights.shape:
             raise InputError(f"contact: got a start of shape {start.pressure.shape}; it must be {self.heights.shape}")
+        contact = self.contact_of(load, *self._pressure(load, tolerance, start))
+        excess = abs(contact.pressure.mean() / load - 1)
+        if contact.complementarity > tolerance or excess > LOAD_TOLERANCE:
+            raise ConvergenceError(
+                f"contact: {Outcome.STALLED} with the conditions of contact broken by {contact.complementarity:.2g} "
+                f"of the rms height and the load by {excess:.2g} of it once computed afresh, above {tolerance:.2g} and "
+                f"{LOAD_TOLERANCE:g}; ask for a looser tolerance",
+                outcome=Outcome.STALLED,
+                iterations=contact.iterations,
+            )
+        return contact
+
+    def _pressure(self, load: float, tolerance: float, start: Contact | None) -> tuple[Array, int]:
+        """The pressure, shape (nx, ny), Pa, and the number of iterations."""
         if load == self.hardness:
-            return self.contact_of(load, np.full(self.heights.shape, self.hardness), 0)
+            return np.full(self.heights.shape, self.hardness), 0
         if self.boundary == "periodic":
             least, most = self._full_contact
             if load + least >= 0 and load + most <= self.hardness:
-                return self.contact_of(load, load + self._full_pressure(), 0)
+                return load + self._full_pressure(), 0
         return self._search(load, tolerance, start)
 
     @cached_property
@@ -142,7 +165,7 @@ class Press:
         """Deviation of the pressure from its mean in full contact, shape (nx, ny), Pa."""
         return -self.composite_modulus * self._half_space.pressure(self._down / self._length)
 
-    def _search(self, load: float, tolerance: float, start: Contact | None) -> Contact:
+    def _search(self, load: float, tolerance: float, start: Contact | None) -> tuple[Array, int]:
         unit = self._unit(load)
         pressure_unit = self.composite_modulus * unit / self._length
         hardness = self.hardness / pressure_unit
@@ -161,15 +184,7 @@ class Press:
         )
         pressure = pressure.reshape(self._grid)[self._part]
         pressure = np.where(pressure >= hardness, self.hardness, pressure * pressure_unit)
-        contact = self.contact_of(load, _scaled(pressure, load, self.hardness), iterations)
-        if contact.complementarity > tolerance:
-            raise ConvergenceError(
-                f"contact: {Outcome.STALLED} with the conditions of contact broken by {contact.complementarity:.2g} "
-                f"of the rms height once computed afresh, above {tolerance:.2g}; ask for a looser tolerance",
-                outcome=Outcome.STALLED,
-                iterations=iterations,
-            )
-        return contact
+        return _scaled(pressure, load, self.hardness), iterations
 
     def _initial(self, load: float) -> Array:
         """Start pressure, Pa: that on a grid twice as coarse, at a fourth of the cost, or the load on a small grid."""
@@ -225,7 +240,7 @@ class Press:
 
 
 def _checked_heights(heights: Array) -> Array:
-    array = np.array(heights, dtype=np.float64)
+    array = np.array(unmasked("contact", heights), dtype=np.float64)
     if array.ndim != 2 or array.size < 2:
         raise InputError(f"contact: got heights of shape {array.shape}; give (nx, ny), one of them 1 in line contact")
     if array.size > MAX_POINTS:
@@ -251,14 +266,16 @@ def _doubled(shape: tuple[int, ...]) -> tuple[int, int]:
 
 
 def _scaled(pressure: Array, load: float, hardness: float) -> Array:
-    """Pressure rescaled within its bounds to the mean ``load``; uniform if rescaling is impossible."""
-    for _ in range(50):
+    """The pressure with the mean ``load`` to rounding, rescaled where it is between 0 and the hardness.
+
+    Points at the hardness may carry the whole load; the others then carry nothing.
+    """
+    for _ in range(MAX_RESCALINGS):
         inside = (pressure > 0) & (pressure < hardness)
-        missing = load * pressure.size - pressure.sum()
         carried = pressure[inside].sum()
-        if abs(missing) <= 1e-14 * load * pressure.size:
-            return pressure
-        if not inside.any() or missing <= -carried:
+        missing = load * pressure.size - pressure.sum()
+        if carried == 0 or abs(missing) <= ROUNDING * load * pressure.size:
             break
-        pressure = np.where(inside, np.minimum(pressure * (1 + missing / carried), hardness), pressure)
-    return np.full(pressure.shape, load)
+        factor = max(1 + missing / carried, 0.0)
+        pressure = np.where(inside, np.minimum(pressure * factor, hardness), pressure)
+    return pressure

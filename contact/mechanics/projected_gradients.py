@@ -29,6 +29,9 @@ REFRESH_FACTOR = 1e-4
 WHOLE_STEP_FRACTION = 0.6
 """Fraction of a clipped step beyond which the minimum must lie for the whole step to be taken."""
 
+MAX_FRACTION = 100.0
+"""Largest multiple of a step; a larger one multiplies a step that is rounding, and with it the error of the sum."""
+
 SUM_TOLERANCE = 1e-14
 """Relative tolerance of the sum of pressures in every step."""
 
@@ -162,7 +165,7 @@ class _Search:
             self.fraction = 1.0 if best > WHOLE_STEP_FRACTION else best
             best = min(max(best, 0.5), 1.5)
         else:
-            self.fraction = min(best, self.room)
+            self.fraction = min(best, self.room, MAX_FRACTION)
         self.length = min(max(self.length * best, MIN_TRIAL_LENGTH), MAX_TRIAL_LENGTH)
         numbers = pieces.over_free(
             kernels.press_on,
@@ -179,16 +182,16 @@ class _Search:
     def _shift(self) -> tuple[float, bool]:
         """The shift λ with Σ clip(p + move + λ) = Σp over the free nodes, and whether a node is clipped.
 
-        The sum is increasing and piecewise linear in λ, so that Newton's method ends at the exact root.
+        The sum is increasing and piecewise linear in λ, so that Newton's method within a bracket ends at the exact root
+        or at the number nearest to it. Where every node is clipped, it goes on from the nearest node that is released.
         """
         shift, low, high = 0.0, -math.inf, math.inf
         while True:
             numbers = self.pieces.over_free(kernels.excess, shift, self.held, self.hardness, self.move, out=True)
             excess, within = float(numbers[:, 0].sum()), int(numbers[:, 1].sum())
-            if within == self.free:
-                return shift - excess / within, False
+            cut = within < self.free
             if abs(excess) <= SUM_TOLERANCE * self.sum:
-                return shift, True
+                return (shift if cut else shift - excess / within), cut
             if excess > 0:
                 high = shift
             else:
@@ -198,11 +201,13 @@ class _Search:
             else:
                 nearest = self.pieces.over_free(kernels.beyond, shift, self.held, self.hardness, self.move, out=True)
                 over, under = float(nearest[:, 1].min()) - self.hardness, float(nearest[:, 0].max())
-                new = shift - (over if excess > 0 else under) * (1 + 1e-12)
+                new = shift - (over if excess > 0 else under) - excess
+            if not math.isfinite(new):
+                return shift, cut
             if not low < new < high:
                 new = (low + high) / 2
-            if new in (low, high, shift) or not math.isfinite(new):
-                return shift, True
+            if new in (low, high):
+                return shift, cut
             shift = new
 
 

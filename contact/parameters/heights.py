@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.arrays import Array, unmasked
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.surfaces.surface import MAX_LENGTH, Surface
 
@@ -53,7 +53,7 @@ def checked(heights: ArrayLike) -> Array:
     InputError
         If there are no heights, one is not finite or above 1e6 m, or all are equal to rounding.
     """
-    z = np.asarray(heights, dtype=np.float64)
+    z = np.asarray(unmasked("heights", heights), dtype=np.float64)
     low, high = (z.min(), z.max()) if z.size else (0.0, 0.0)
     largest = max(-low, high)
     if not largest <= MAX_LENGTH:

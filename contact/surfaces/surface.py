@@ -25,7 +25,8 @@ class Surface:
 
     Attributes
     ----------
-    heights : shape (nx, ny), m, upward; finite, and 0 where invalid. Read-only.
+    heights : shape (nx, ny), m, upward; finite, and 0 where invalid. Read-only. Pixels that are masked in a masked
+        array (``numpy.ma``) are invalid.
     spacing : (dx, dy), m, between neighbouring pixels; the surface has the lengths nx dx and ny dy.
     invalid : shape (nx, ny), bool; true where a pixel was not measured. Read-only.
     periodic : whether the surface is periodic in both directions.
@@ -59,6 +60,7 @@ class Surface:
             invalid = np.zeros(heights.shape, dtype=bool)
         if invalid.shape != heights.shape:
             raise InputError(f"surface: got a mask of shape {invalid.shape} over heights of shape {heights.shape}")
+        invalid |= np.ma.getmaskarray(self.heights)
         if invalid.all():
             raise InputError("surface: every pixel is invalid; measure it again")
         heights[invalid] = 0.0

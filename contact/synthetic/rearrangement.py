@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.arrays import Array, unmasked
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.synthetic.checks import whole_between
 from roughfilm.contact.synthetic.waves import MAX_SEED
@@ -44,7 +44,7 @@ def rearranged(profile: Array, *, seed: int, folds: int = 1, levels: int = 1000)
 
     Source: Sahlin, Almqvist, Larsson and Glavatskih, Tribol. Int. 40 (2007) 1025, section 3.2.
     """
-    heights = np.array(profile, dtype=float)
+    heights = np.array(unmasked("profile", profile), dtype=float)
     if heights.ndim != 1 or heights.size < 2:
         raise InputError(f"profile: got an array of shape {heights.shape}; give one dimension of at least 2 points")
     if not np.abs(heights).max() <= MAX_HEIGHT:

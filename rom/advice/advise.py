@@ -3,7 +3,6 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from math import inf
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
 from roughfilm.rom.advice.estimates import (
@@ -11,10 +10,10 @@ from roughfilm.rom.advice.estimates import (
     Estimate,
     a_posteriori,
     a_priori,
-    affordable,
+    combined,
     near,
     percent,
-    self_estimate,
+    with_own_uncertainty,
 )
 from roughfilm.rom.advice.laws import Numbers, Table, table
 from roughfilm.rom.ladder.kind import Omission, Scene, kind_of_name
@@ -60,19 +59,19 @@ class ModelVerdict:
     a_posteriori: Estimate | None = None
 
     @property
-    def error(self) -> float | None:
-        """The largest expected error over the size of the quantity; None if unknown.
+    def estimate(self) -> Estimate | None:
+        """The estimate that decides, see :func:`roughfilm.rom.advice.estimates.combined`; None if there is none."""
+        return combined(self.a_priori, self.a_posteriori)
 
-        It is the estimate from runs if there is one, otherwise that by the laws.
-        """
-        estimate = self.a_posteriori or self.a_priori
-        return None if estimate is None else estimate.error
+    @property
+    def error(self) -> float | None:
+        """The largest expected error over the size of the quantity; None if unknown."""
+        return None if self.estimate is None else self.estimate.error
 
     @property
     def sure(self) -> bool:
-        """Whether the scene is within the range of the sweeps to which the laws of the estimate were fitted."""
-        estimate = self.a_posteriori or self.a_priori
-        return estimate is not None and estimate.sure
+        """Whether the scene is within the range of the scenes to which the laws of the estimate were fitted."""
+        return self.estimate is not None and self.estimate.sure
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,9 +81,12 @@ class Advice:
     Attributes
     ----------
     quantity : name of the quantity.
+    title : name of the quantity in a sentence.
     within : tolerated error over the size of the quantity.
     chosen : the cheapest model within the tolerance; None if none is known.
     nearest : the most accurate model if none is within the tolerance, otherwise None; also None if no error is known.
+    finer : the cheapest model at a resolution beyond its usual ones that the laws expect to be within the tolerance, if
+        none is chosen; None if no resolution is expected to suffice.
     considered : the verdict on every model of the kind, cheapest first.
     numbers : the dimensionless numbers of the scene.
     result : the result of the chosen model; None if the model was not run.
@@ -94,9 +96,11 @@ class Advice:
     """
 
     quantity: str
+    title: str
     within: float
     chosen: ModelVerdict | None
     nearest: ModelVerdict | None
+    finer: ModelVerdict | None
     considered: tuple[ModelVerdict, ...]
     numbers: Numbers
     result: Result | None
@@ -105,28 +109,28 @@ class Advice:
 
 
 def wanted(scene: Scene, name: str | None) -> str:
-    """The name of the compared quantity with a given name or title; None means the first of the kind.
+    """The name of the quantity with a given name or title; None means the first of the kind.
 
-    Raises InputError for a name that the kind does not have.
+    Raises InputError for a name that no quantity of the kind has.
     """
-    compared = kind_of_name(scene.kind).compared
+    kind = kind_of_name(scene.kind)
     if name is None:
-        return next(iter(compared))
-    for quantity, title in compared.items():
+        return next(iter(kind.compared))
+    for quantity, title in kind.titles.items():
         if name in (quantity, title):
             return quantity
-    titles = ", ".join(repr(title) for title in compared.values())
+    titles = ", ".join(repr(title) for title in kind.titles.values())
     raise InputError(f"quantity: got {name!r}; of a {scene.kind} it must be one of {titles}")
 
 
-def shortfall(advice: Advice, title: str) -> str:
-    """The message that no model is accurate enough, with the name of the most accurate one if it is known.
-
-    ``title`` is the title of the quantity.
-    """
-    message = f"no model here is known to give the {title} within {percent(advice.within)}"
+def shortfall(advice: Advice) -> str:
+    """The message that no model is accurate enough, with the remedy or the most accurate model if they are known."""
+    message = f"no model here is known to give the {advice.title} within {percent(advice.within)}"
     if advice.omitted is not None and advice.omitted.part > advice.within / 2:
         return f"{message}: {advice.omitted.reason}"
+    if advice.finer is not None:
+        cost = f"{advice.finer.cpu_s:.2g} CPU s"
+        return f"{message}; {advice.finer.model} at resolution {advice.finer.resolution} is expected to ({cost})"
     if advice.nearest is None or advice.nearest.error is None:
         return message
     if advice.nearest.sure:
@@ -146,18 +150,17 @@ def advise(
 ) -> Advice:
     """Choose the cheapest model, at the coarsest resolution, whose quantity is within a tolerance of the best model's.
 
-    Models are judged in order of cost by two estimates: error laws fitted to sweeps, evaluated for the numbers of the
-    scene, and the difference from the next model, if that model is cheap. A model is not run if the laws expect more
-    than ``MAX_ERROR_RATIO`` tolerances, or more than the tolerance where the check costs more than the cheapest model
-    that is accurate enough. If the estimates disagree, the model after the next decides, if it is cheap; otherwise the
-    model is not chosen. The effect that all models omit is subtracted from the tolerance. An error is a bound that 95
-    of 100 scenes do not exceed.
+    Pairs of a model and a resolution are judged in order of cost, until one is accurate enough. The error of a pair is
+    the smaller of two estimates: by error laws fitted to random scenes, and by the difference from the next model, if
+    that model is cheap. Neither depends on the tolerance, so that a looser tolerance never chooses a dearer pair. A
+    pair is not run if the laws expect more than ``MAX_ERROR_RATIO`` tolerances. The effect that all models omit is
+    subtracted from the tolerance. An error is a bound that 95 of 100 scenes do not exceed.
 
     Parameters
     ----------
     scene : the scene.
     models : the models for this kind of scene.
-    quantity : name of a quantity that the kind compares.
+    quantity : name of a quantity of the kind.
     within : tolerated error over the quantity's size, above 0 and below 1.
     laws : the error laws, by default the table of this package.
     run : run(model, resolution), which returns a result; by default ``solve`` of the model. A caller may return stored
@@ -200,7 +203,7 @@ def advise(
         kind=kind,
         models=[model for model in models if fits[model.name].applies],
         quantity=quantity,
-        within=left,
+        title=kind.titles[quantity],
         table=laws or table(),
         numbers=kind.numbers(scene),
         run=solved,
@@ -208,26 +211,22 @@ def advise(
     )
     if not task.models:
         raise InputError(f"scene: no model applies: {'; '.join(fit.reason for fit in fits.values())}")
-    considered = [
+    does_not_apply = [
         ModelVerdict(model=name, resolution=None, cpu_s=0.0, verdict=Verdict.DOES_NOT_APPLY, reason=fit.reason)
         for name, fit in fits.items()
         if not fit.applies
     ]
-    chosen: ModelVerdict | None = None
-    available = [model for model in task.models if model.available().available]
-    secure = min((task.cost(model) for model in available if _within(a_priori(task, model), left)), default=inf)
-    for model in sorted(task.models, key=lambda model: (task.cost(model), -len(model.keeps))):
-        one = _after(task, model) if chosen or left <= 0 else _verdict(task, model, secure)
-        considered.append(one)
-        if one.verdict is Verdict.CHOSEN:
-            chosen = one
-    short = [one for one in considered if one.error is not None and one.verdict is Verdict.NOT_ENOUGH]
+    judged = _judged(task, left)
+    chosen = next((one for one in judged if one.verdict is Verdict.CHOSEN), None)
+    short = [one for one in judged if one.error is not None and one.verdict is Verdict.NOT_ENOUGH]
     return Advice(
         quantity=quantity,
+        title=task.title,
         within=within,
         chosen=chosen,
-        nearest=None if chosen else min(short, key=lambda one: one.error or 0.0, default=None),
-        considered=tuple(considered),
+        nearest=None if chosen else min(short, key=lambda one: (not one.sure, one.error or 0.0), default=None),
+        finer=None if chosen else _finer(task, left),
+        considered=(*does_not_apply, *judged),
         numbers=task.numbers,
         result=known.get((chosen.model, chosen.resolution or 0)) if chosen else None,
         spent_cpu_s=sum(result.numerics.cpu_s for result in known.values()),
@@ -235,100 +234,114 @@ def advise(
     )
 
 
-def _after(task: AdviceTask, model: Model) -> ModelVerdict:
-    """The verdict on a model that is not run, since a cheaper one is chosen or the tolerance is used up."""
-    before = a_priori(task, model)
-    lost = "the effect that all models leave out exceeds the tolerance" if task.within <= 0 else None
-    short = lost is not None or (before is not None and not before.error <= task.within)
-    expected = "" if before is None else f"expected within {percent(before.error)}, "
+def _judged(task: AdviceTask, within: float) -> list[ModelVerdict]:
+    """The verdict on every model that applies, cheapest first: at the accepted resolution, or at the most accurate."""
+    pairs = [(model, resolution) for model in task.models for resolution in task.resolutions(model)]
+    pairs.sort(key=lambda pair: (task.cost(*pair), -len(pair[0].keeps)))
+    verdicts: dict[str, ModelVerdict] = {}
+    hopeless: set[str] = set()
+    chosen = False
+    for model, resolution in pairs:
+        if model.name in hopeless:
+            continue
+        one = (
+            _after(task, model, resolution, within)
+            if chosen or within <= 0
+            else _verdict(task, model, resolution, within)
+        )
+        before = verdicts.get(model.name)
+        if before is None or _better(one, before):
+            verdicts[model.name] = one
+        chosen = chosen or one.verdict is Verdict.CHOSEN
+        decided = one.verdict in (Verdict.CHOSEN, Verdict.NOT_HERE, Verdict.NOT_NEEDED)
+        if decided or (
+            one.estimate is not None and one.estimate.least - (task.grid(model, resolution) or 0.0) > within
+        ):
+            hopeless.add(model.name)
+    return sorted(verdicts.values(), key=lambda one: one.cpu_s)
+
+
+def _better(one: ModelVerdict, other: ModelVerdict) -> bool:
+    """Whether a verdict at a finer resolution says more than that at a coarser one."""
+    if one.verdict in (Verdict.CHOSEN, Verdict.NOT_NEEDED) or one.error is None or other.error is None:
+        return one.verdict is not Verdict.FAILED
+    return (one.sure, -one.error) > (other.sure, -other.error)
+
+
+def _finer(task: AdviceTask, within: float) -> ModelVerdict | None:
+    """The cheapest model, at a resolution beyond its series, that the laws expect to be within the tolerance."""
+    expected = []
+    for model in task.models:
+        offered = model.offered(task.scene)
+        resolution = 2 * max(offered.series)
+        while resolution <= offered.most and model.available().available and within > 0:
+            before = a_priori(task, model, resolution)
+            if _accepts(before, within):
+                expected.append(_as_verdict(task, model, resolution, Verdict.NOT_NEEDED, _main(before), before))
+                break
+            resolution *= 2
+    return min(expected, key=lambda one: one.cpu_s, default=None)
+
+
+def _as_verdict(
+    task: AdviceTask,
+    model: Model,
+    resolution: int,
+    verdict: Verdict,
+    reason: str,
+    before: Estimate | None,
+    after: Estimate | None = None,
+) -> ModelVerdict:
     return ModelVerdict(
         model=model.name,
-        resolution=task.resolution(model),
-        cpu_s=task.cost(model),
-        verdict=Verdict.NOT_ENOUGH if short else Verdict.NOT_NEEDED,
-        reason=lost or _main(before) if short else f"{expected}for {task.cost(model):.2g} CPU s",
+        resolution=resolution,
+        cpu_s=task.cost(model, resolution),
+        verdict=verdict,
+        reason=reason,
         a_priori=before,
+        a_posteriori=after,
     )
 
 
-def _within(before: Estimate | None, within: float) -> bool:
-    return before is not None and before.sure and before.error <= within
+def _after(task: AdviceTask, model: Model, resolution: int, within: float) -> ModelVerdict:
+    """The verdict on a model that is not run, since a cheaper one is chosen or the tolerance is used up."""
+    before = a_priori(task, model, resolution)
+    if within <= 0:
+        reason = "the effect that all models leave out exceeds the tolerance"
+        return _as_verdict(task, model, resolution, Verdict.NOT_ENOUGH, reason, before)
+    if before is not None and not before.error <= within:
+        return _as_verdict(task, model, resolution, Verdict.NOT_ENOUGH, _main(before), before)
+    if before is None or (before.error == 0 and task.at_full_resolution(model, resolution)):
+        expected = "no law gives its error"
+    else:
+        expected = f"expected within {percent(before.error)}"
+    reason = f"{expected}, {task.cost(model, resolution):.2g} CPU s"
+    return _as_verdict(task, model, resolution, Verdict.NOT_NEEDED, reason, before)
 
 
-def _verdict(task: AdviceTask, model: Model, secure: float) -> ModelVerdict:
-    """The verdict on a model; ``secure`` is the cost of the cheapest model that the laws accept, CPU seconds."""
-    resolution = task.resolution(model)
-    here, before = model.available(), a_priori(task, model)
+def _accepts(estimate: Estimate | None, within: float) -> bool:
+    return estimate is not None and estimate.sure and estimate.error <= within
 
-    def judged(
-        verdict: Verdict, reason: str, after: Estimate | None = None, resolution: int = resolution
-    ) -> ModelVerdict:
-        return ModelVerdict(
-            model=model.name,
-            resolution=resolution,
-            cpu_s=task.cost(model, resolution),
-            verdict=verdict,
-            reason=reason,
-            a_priori=before,
-            a_posteriori=after,
-        )
 
+def _verdict(task: AdviceTask, model: Model, resolution: int, within: float) -> ModelVerdict:
+    """The verdict on a model at a resolution, which is run if a check of it is cheap."""
+    here, before = model.available(), a_priori(task, model, resolution)
     if not here.available:
-        return judged(Verdict.NOT_HERE, here.detail)
-    above = task.next(model)
-    trial = task.cost(model) + (task.cost(above) if above else 0.0)
-    rejected = before is not None and before.sure and before.error > task.within
-    if before is not None and rejected and (before.error > MAX_ERROR_RATIO * task.within or trial > secure):
-        return judged(Verdict.NOT_ENOUGH, _main(before))
-    if above is None:
-        return _top(task, model, judged)
-    after = a_posteriori(task, model)
-    if after is None:
-        if failure := task.failed.get((model.name, resolution)):
-            return judged(Verdict.FAILED, str(failure))
-        if _within(before, task.within):
-            return judged(Verdict.CHOSEN, _main(before))
-        why = "its error is not known here, and no cheap model can estimate it" if before is None else _main(before)
-        return judged(Verdict.NOT_ENOUGH, why)
-    agree = before is None or not before.sure or (before.error <= task.within) == (after.error <= task.within)
-    if not agree:
-        chain = task.chain(model)
-        costly = len(chain) < 3 or not affordable(task, chain[2], model)
-        decided = None if costly else a_posteriori(task, model, above=2)
-        if decided is not None:
-            after = decided
-        elif after.error <= task.within:
-            return judged(Verdict.NOT_ENOUGH, f"{_main(before)}; the two estimates disagree", after)
-    enough = after.sure and after.error <= task.within
-    return judged(Verdict.CHOSEN if enough else Verdict.NOT_ENOUGH, after.reasons[0], after)
-
-
-def _top(task: AdviceTask, model: Model, judged: Callable[..., ModelVerdict]) -> ModelVerdict:
-    """The verdict on the most complete model, by its numerical uncertainty on successively finer grids."""
-    before = a_priori(task, model)
-    last: tuple[Estimate, int] | None = None
-    for resolution in (one for one in model.resolutions_of(task.scene) if one >= task.resolution(model)):
-        after = self_estimate(task, model, resolution)
-        if after is None:
-            break
-        if after.error <= task.within:
-            return judged(Verdict.CHOSEN, after.reasons[0], after, resolution)
-        last = after, resolution
-    if last is not None:
-        return judged(Verdict.NOT_ENOUGH, last[0].reasons[0], *last)
-    if failure := task.failed.get((model.name, task.resolution(model))):
-        return judged(Verdict.FAILED, str(failure))
-    if _within(before, task.within):
-        return judged(Verdict.CHOSEN, _main(before))
-    return judged(
-        Verdict.NOT_ENOUGH,
-        "the discretisation error of this model is not known here" if before is None else _main(before),
-    )
+        return _as_verdict(task, model, resolution, Verdict.NOT_HERE, here.detail, before)
+    if before is not None and before.sure and before.error > MAX_ERROR_RATIO * within:
+        return _as_verdict(task, model, resolution, Verdict.NOT_ENOUGH, _main(before), before)
+    after = a_posteriori(task, model, resolution)
+    if failure := task.failed.get((model.name, resolution)):
+        return _as_verdict(task, model, resolution, Verdict.FAILED, str(failure), before)
+    estimate = combined(before, after)
+    if estimate is not None and _accepts(estimate, within):
+        checked = with_own_uncertainty(task, model, resolution, estimate)
+        estimate, after = checked, after if checked is estimate else checked
+    verdict = Verdict.CHOSEN if _accepts(estimate, within) else Verdict.NOT_ENOUGH
+    return _as_verdict(task, model, resolution, verdict, _main(estimate), before, after)
 
 
 def _main(estimate: Estimate | None) -> str:
-    return (
-        estimate.reasons[0]
-        if estimate is not None and estimate.reasons
-        else "includes every effect available for this kind of scene"
-    )
+    if estimate is None:
+        return "its error is not known here, and no cheap model can estimate it"
+    return estimate.reasons[0] if estimate.reasons else "includes every effect available for this kind of scene"

@@ -11,14 +11,14 @@ from roughfilm.rom.ladder.model import Model, best, find
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 
-GRID_FRACTION = 1 / 3
-"""Largest fraction of the tolerance that the error by the resolution may take."""
-
 MAX_COST_OF_BEST = 0.01
 """Largest ratio of the cost of a check to that of the best model at its default resolution."""
 
 MAX_COST_OF_MODEL = 3.0
 """Largest ratio of the cost of a check to that of the checked model; one of the two limits must be met."""
+
+CHECK_FRACTION = 1 / 3
+"""Largest ratio of the error by the resolution of a check to the error that the laws expect of the checked model."""
 
 MAX_STATED_ERROR = 3.0
 """Largest relative error that is printed as a number; a larger error is printed as more than this value."""
@@ -32,12 +32,14 @@ class Estimate:
     ----------
     error : largest expected error over the size of the quantity.
     reasons : reasons for the error as text, the most important first.
-    sure : whether the scene is within the range of the sweeps to which the laws were fitted.
+    sure : whether the scene is within the range of the scenes to which the laws were fitted.
+    least : the error that the model has at least, as runs show; 0 if they do not show any.
     """
 
     error: float
     reasons: tuple[str, ...]
     sure: bool = True
+    least: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,7 +51,7 @@ class AdviceTask:
     scene, kind : the scene and its kind.
     models : the models that apply to the scene.
     quantity : name of the quantity.
-    within : tolerated error over the size of the quantity.
+    title : its name in a sentence.
     table : the error laws.
     numbers : dimensionless numbers of the scene.
     run : run(model, resolution), which returns a result.
@@ -60,7 +62,7 @@ class AdviceTask:
     kind: Kind
     models: Sequence[Model]
     quantity: str
-    within: float
+    title: str
     table: Table
     numbers: Numbers
     run: Callable[[Model, int], Result]
@@ -85,38 +87,51 @@ class AdviceTask:
     def grid(self, model: Model, resolution: int) -> float | None:
         """The error by a resolution over the size of the quantity, by the laws; None without a law.
 
-        It is 0 for a model without an order of convergence at the full resolution of the surface, which resolves all
-        waves.
+        It is 0 at the full resolution of a surface, which resolves all waves; :func:`with_own_uncertainty` adds the
+        rest.
         """
-        if model.order is None and resolution >= max(model.resolutions_of(self.scene)):
+        if self.at_full_resolution(model, resolution):
             return 0.0
         law, numbers = self.grid_law(model), on_grid(self.numbers, resolution)
         return law.error(numbers, RESOLVING) if law is not None and law.knows(numbers) else None
+
+    def at_full_resolution(self, model: Model, resolution: int) -> bool:
+        """Whether a model without an order of convergence resolves all waves of the scene's surface."""
+        return model.order is None and resolution >= max(model.resolutions_of(self.scene))
 
     def grid_law(self, model: Model) -> Law | None:
         """The law of the error by the resolution of a model; None if there is none."""
         return self.table.grid(self.kind.name, model.name, self.quantity)
 
     def beyond_grids(self, model: Model, resolution: int) -> str | None:
-        """The name of a number outside the range of the sweep over resolutions of a model; None if there is none."""
+        """The name of a number outside the range of the law over resolutions of a model; None if there is none."""
         law, numbers = self.grid_law(model), on_grid(self.numbers, resolution)
         return law.beyond(numbers, RESOLVING) if law is not None and law.knows(numbers) else None
 
-    def resolution(self, model: Model) -> int:
-        """The coarsest resolution whose error is at most ``GRID_FRACTION`` of the tolerance.
+    def resolutions(self, model: Model) -> tuple[int, ...]:
+        """The resolutions at which a model is considered, from coarse to fine: those whose error has a law.
 
-        The result is the finest resolution if no other meets this, and the default of the model without a law.
+        Without a law this is the default resolution. The most complete model, if it runs in this process, is considered
+        at all resolutions, as it estimates its own error.
         """
         offered = model.resolutions_of(self.scene)
-        law = self.grid_law(model)
-        if law is None or not law.knows(on_grid(self.numbers, offered[0])):
-            return model.resolution_of(self.scene)
-        fine = [one for one in offered if (self.grid(model, one) or 0.0) <= GRID_FRACTION * self.within]
-        return min((one for one in fine if self.beyond_grids(model, one) is None), default=max(offered))
+        if self.next(model) is None and not model.outside:
+            return offered
+        known = tuple(one for one in offered if self.grid(model, one) is not None)
+        return known or (model.resolution_of(self.scene),)
 
-    def cost(self, model: Model, resolution: int | None = None) -> float:
-        """The expected CPU time of a model, s, by default at the chosen resolution."""
-        return model.cost(self.scene, self.resolution(model) if resolution is None else resolution)
+    def as_fine(self, model: Model, error: float) -> int:
+        """The coarsest resolution of a model whose error by the laws is at most ``error``.
+
+        The result is the finest one if no resolution meets this, and the default of the model without a law.
+        """
+        known = [one for one in model.resolutions_of(self.scene) if self.grid(model, one) is not None]
+        fine = (one for one in known if (self.grid(model, one) or 0.0) <= error)
+        return next(fine, max(known, default=model.resolution_of(self.scene)))
+
+    def cost(self, model: Model, resolution: int) -> float:
+        """The expected CPU time of a model at a resolution, s."""
+        return model.cost(self.scene, resolution)
 
     def difference(self, one: Result, other: Result) -> float:
         """The difference of the quantity between two results over the smaller of its sizes in them."""
@@ -168,18 +183,18 @@ def expected_errors(scene: Scene, model: Model, resolution: int, models: Sequenc
     Returns
     -------
     dict
-        The error that 95 of 100 scenes do not exceed, for each compared quantity whose laws hold for the scene.
+        The error that 95 of 100 scenes do not exceed, for each quantity whose laws hold for the scene.
     """
     kind = kind_of_name(scene.kind)
     applying = [other for other in models if other.applies(scene).applies]
     errors = {}
-    for quantity in kind.compared if any(other.name == model.name for other in applying) else ():
+    for quantity, title in kind.titles.items() if any(other.name == model.name for other in applying) else ():
         task = AdviceTask(
             scene=scene,
             kind=kind,
             models=applying,
             quantity=quantity,
-            within=1.0,
+            title=title,
             table=table(),
             numbers=kind.numbers(scene),
             run=lambda other, grid: other.solve(scene, Request(resolution=grid)),
@@ -190,15 +205,23 @@ def expected_errors(scene: Scene, model: Model, resolution: int, models: Sequenc
     return errors
 
 
-def a_priori(task: AdviceTask, model: Model, resolution: int | None = None) -> Estimate | None:
-    """The estimate by the laws, from the effects that a model and the more complete ones omit, and the resolution.
+def combined(before: Estimate | None, after: Estimate | None) -> Estimate | None:
+    """The smaller of two estimates, by the laws and from runs; that from runs if the laws do not hold for the scene.
 
-    The parts are independent bounds e_i, which add up to √(Σ e_i²). The result is None if a step, or the resolution,
-    has no law. By default the resolution is the one that the advice chooses.
+    They do not hold outside of the range of their fit, or if runs show that the error is larger than the laws expect.
     """
-    left = left_out(task, task.chain(model))
-    resolution = task.resolution(model) if resolution is None else resolution
-    grid = task.grid(model, resolution)
+    if before is None or after is None:
+        return before if after is None else after
+    wrong = not before.sure or after.least > before.error
+    return after if wrong or (after.sure and after.error <= before.error) else before
+
+
+def a_priori(task: AdviceTask, model: Model, resolution: int) -> Estimate | None:
+    """The estimate by the laws: the promise of a model, or the sum of the steps above it, and the resolution.
+
+    The parts are independent bounds e_i, which add up to √(Σ e_i²). The result is None if a part has no law.
+    """
+    left, grid = left_out(task, task.chain(model)), task.grid(model, resolution)
     if left is None or grid is None:
         return None
     parts, reasons, sure = left
@@ -212,12 +235,24 @@ def a_priori(task: AdviceTask, model: Model, resolution: int | None = None) -> E
 
 
 def left_out(task: AdviceTask, chain: Sequence[Model]) -> tuple[list[float], list[tuple[float, str]], bool] | None:
-    """The errors of all steps in a chain, the errors with reasons, and whether all are sure; None if one is unknown."""
-    parts, reasons, sure = [], [], True
-    for model in chain[:-1]:
+    """The errors by the effects that a model leaves out, the errors with reasons, and whether all are sure.
+
+    ``chain`` is the chain from the model to the most complete one. The result is None if a law is missing.
+    """
+    parts: list[float] = []
+    reasons: list[tuple[float, str]] = []
+    sure = True
+    for place, model in enumerate(chain):
+        promise = task.table.promise(task.kind.name, model.name, task.quantity)
         step = task.step(model)
-        law = None if step is None else step.left_out.get(task.quantity)
-        if step is None or law is None or not law.knows(task.numbers):
+        if promise is not None and promise.knows(task.numbers):
+            error, beyond = promise.error(task.numbers), promise.beyond(task.numbers)
+            reason = _promise_reason(task, chain[place:], error) + _range_note(task, beyond, promise)
+            return [*parts, error], [*reasons, (error, reason)], sure and beyond is None
+        if step is None:
+            break
+        law = step.left_out.get(task.quantity)
+        if law is None or not law.knows(task.numbers):
             return None
         error, beyond = law.error(task.numbers, (step.tells,)), law.beyond(task.numbers, (step.tells,))
         parts.append(error)
@@ -226,11 +261,15 @@ def left_out(task: AdviceTask, chain: Sequence[Model]) -> tuple[list[float], lis
     return parts, reasons, sure
 
 
+def _promise_reason(task: AdviceTask, chain: Sequence[Model], error: float) -> str:
+    adds = [step.adds for model in chain if (step := task.step(model)) is not None]
+    return f"{chain[0].name} leaves out {' and '.join(adds)}: its {task.title} is {near(error)}"
+
+
 def _reason(task: AdviceTask, model: Model, step: Step, error: float) -> str:
     value = task.numbers.get(step.tells)
     number = "" if value is None else f"{task.kind.symbols[step.tells]} = {value:.2g}: "
-    title = task.kind.compared[task.quantity]
-    return f"{number}{step.adds} may change the {title} by {bounded(error)}; {model.name} would miss it"
+    return f"{number}{step.adds} may change the {task.title} by {bounded(error)}; {model.name} would miss it"
 
 
 def _range_note(task: AdviceTask, beyond: str | None, law: Law | None) -> str:
@@ -243,74 +282,96 @@ def _range_note(task: AdviceTask, beyond: str | None, law: Law | None) -> str:
     return f" (and {symbol} = {value:.2g} is outside the fitted range of {least:.2g} to {most:.2g})"
 
 
-def a_posteriori(task: AdviceTask, model: Model, above: int = 1) -> Estimate | None:
-    """The estimate of the error of a model from runs; None if there is no cheap model to compare with.
+def a_posteriori(task: AdviceTask, model: Model, resolution: int) -> Estimate | None:
+    """The estimate of the error of a model from runs; None if there is no cheap model to compare with, or a run fails.
 
-    The model is compared with the one that is ``above`` steps more complete: the difference plus the error of that
-    model bounds the error. If that model costs too much and ``above`` is 1, the comparison is with a simpler model, and
-    a law gives the error from the difference.
+    The model is compared with the next one, at a resolution whose error is at most ``CHECK_FRACTION`` of that expected
+    by the laws: the difference plus the error of that model bounds the error. If that model costs too much, the
+    comparison is with a simpler model, and a law gives the error from the difference. The most complete model, if it
+    runs in this process, is judged by the numerical uncertainty of its own run.
     """
-    chain = task.chain(model)
-    other = chain[above] if len(chain) > above and affordable(task, chain[above], model) else None
-    left = None if other is None else a_priori(task, other)
-    if (other is not None and left is None) or (other is None and above > 1):
-        return None
-    own = run(task, model)
-    if own is None or task.quantity not in own.quantities:
-        return None
-    return _from_below(task, model, own) if other is None or left is None else _from_above(task, own, other, left)
+    above = task.next(model)
+    if above is None:
+        return None if model.outside else _from_itself(task, model, resolution)
+    before = a_priori(task, model, resolution)
+    finer = task.as_fine(above, 0.0 if before is None else CHECK_FRACTION * before.error)
+    if above.available().available and _cheap(task, task.cost(above, finer), task.cost(model, resolution)):
+        return _from_above(task, model, resolution, above, finer)
+    return _from_below(task, model, resolution)
 
 
-def self_estimate(task: AdviceTask, model: Model, resolution: int) -> Estimate | None:
-    """The estimate from the numerical uncertainty of a run of the most complete model.
+def with_own_uncertainty(task: AdviceTask, model: Model, resolution: int, estimate: Estimate) -> Estimate:
+    """The estimate with the uncertainty that the model states of its own run, where no law gives the grid's error.
 
-    The result is None if another program solves the model, the run fails, or the uncertainty is unknown.
+    This is so at the full resolution of a rough surface, for models that run in this process. The estimate does not
+    change if the run fails or does not state an uncertainty.
     """
-    own = None if model.outside else run(task, model, resolution)
-    error = None if own is None or task.quantity not in own.quantities else task.uncertainty(own)
+    if model.outside or "waves" not in task.numbers or not task.at_full_resolution(model, resolution):
+        return estimate
+    own = _from_itself(task, model, resolution)
+    if own is None or own.error == 0:
+        return estimate
+    error = math.hypot(estimate.error, own.error)
+    first = own.reasons if own.error > estimate.error else ()
+    return Estimate(error=error, reasons=(*first, *estimate.reasons), sure=estimate.sure, least=error)
+
+
+def _cheap(task: AdviceTask, check: float, cost: float) -> bool:
+    """Whether a check of this cost is cheap compared with the best model, or with the checked model of this cost."""
+    top = best(task.models)
+    return check <= max(MAX_COST_OF_BEST * task.cost(top, top.resolution_of(task.scene)), MAX_COST_OF_MODEL * cost)
+
+
+def _run(task: AdviceTask, model: Model, resolution: int) -> Result | None:
+    """The result of a model; None if the run fails or has not the quantity."""
+    try:
+        result = task.run(model, resolution)
+    except (InputError, ConvergenceError, UnavailableError):
+        return None
+    return result if task.quantity in result.quantities else None
+
+
+def _from_itself(task: AdviceTask, model: Model, resolution: int) -> Estimate | None:
+    own = _run(task, model, resolution)
+    error = None if own is None else task.uncertainty(own)
     if error is None:
         return None
     return Estimate(error=error, reasons=(f"at resolution {resolution} its own uncertainty is {percent(error)}",))
 
 
-def affordable(task: AdviceTask, other: Model, model: Model) -> bool:
-    """Whether the model ``other`` is available and cheap enough to check ``model``."""
-    top = best(task.models)
-    limit = max(MAX_COST_OF_BEST * task.cost(top, top.resolution_of(task.scene)), MAX_COST_OF_MODEL * task.cost(model))
-    return other.available().available and task.cost(other) <= limit
-
-
-def run(task: AdviceTask, model: Model, resolution: int | None = None) -> Result | None:
-    """The result of a model, by default at the chosen resolution; None if it fails."""
-    try:
-        return task.run(model, task.resolution(model) if resolution is None else resolution)
-    except (InputError, ConvergenceError, UnavailableError):
+def _from_above(task: AdviceTask, model: Model, resolution: int, above: Model, finer: int) -> Estimate | None:
+    own, result = _run(task, model, resolution), _run(task, above, finer)
+    if own is None or result is None:
         return None
-
-
-def _from_above(task: AdviceTask, own: Result, other: Model, left: Estimate) -> Estimate | None:
-    result = run(task, other)
-    if result is None or task.quantity not in result.quantities:
+    left = combined(a_priori(task, above, finer), None if task.next(above) else _from_itself(task, above, finer))
+    if left is None:
         return None
     difference = task.difference(own, result)
-    reason = f"{other.name} was run too and differs by {percent(difference)}"
+    reason = f"{above.name} was run too and differs by {percent(difference)}"
     more = f", being itself {near(left.error)}" if left.error > 0 else ""
-    return Estimate(error=difference + left.error, reasons=(reason + more,), sure=left.sure)
+    return Estimate(
+        error=difference + left.error,
+        reasons=(reason + more,),
+        sure=left.sure,
+        least=max(difference - left.error, 0.0) if left.sure else 0.0,
+    )
 
 
-def _from_below(task: AdviceTask, model: Model, own: Result) -> Estimate | None:
+def _from_below(task: AdviceTask, model: Model, resolution: int) -> Estimate | None:
     step = task.step(model)
     law = None if step is None else step.seen.get(task.quantity)
     if step is None or law is None:
         return None
     below, higher = find(task.models, task.kind.name, step.seen_from), left_out(task, task.chain(model)[1:])
-    result = run(task, below)
-    if result is None or higher is None or task.quantity not in result.quantities:
+    if higher is None:
+        return None
+    own, result = _run(task, model, resolution), _run(task, below, task.as_fine(below, 0.0))
+    if own is None or result is None:
         return None
     difference = task.difference(result, own)
     numbers = {**task.numbers, "correction": difference}
     grid = task.uncertainty(own)
-    grid = task.grid(model, task.resolution(model)) if grid is None else grid
+    grid = task.grid(model, resolution) if grid is None else grid
     if grid is None or not law.knows(numbers):
         return None
     left, (parts, reasons, sure) = law.error(numbers), higher

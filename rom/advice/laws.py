@@ -1,4 +1,4 @@
-"""Error laws of the models: products of powers of dimensionless numbers, fitted to sweeps and read from a table."""
+"""Error laws of the models: sums of powers of dimensionless numbers, fitted to random scenes and read from a table."""
 
 import math
 import tomllib
@@ -15,57 +15,86 @@ TABLE = "laws.toml"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Law:
-    """The law C Π number^power of an error over the quantity's size that 95 of 100 scenes of a sweep did not exceed.
+class Term:
+    """The product C Π number^power of dimensionless numbers.
 
     Attributes
     ----------
-    coefficient : C.
+    coefficient : C, above 0.
     powers : power of each number.
-    reach : smallest and largest value of each number in the sweep.
+    """
+
+    coefficient: float
+    powers: Mapping[str, float] = field(default_factory=dict)
+
+    def value(self, numbers: Numbers) -> float:
+        """The product; infinite for a negative number, for one that is NaN, or if it overflows."""
+        if any(numbers[name] < 0 for name in self.powers):
+            return math.inf
+        try:
+            product: float = math.prod(
+                (self.coefficient, *(numbers[name] ** power for name, power in self.powers.items()))
+            )
+        except (ZeroDivisionError, OverflowError):
+            return math.inf
+        return math.inf if math.isnan(product) else product
+
+
+@dataclass(frozen=True, kw_only=True)
+class Law:
+    """The law Σ C Π number^power of an error over the quantity's size that 95 of 100 random scenes did not exceed.
+
+    Attributes
+    ----------
+    terms : the terms of the sum, one for each cause of the error.
+    reach : smallest and largest value of each number in the scenes of the fit.
     scenes : number of scenes in the fit.
     spread : ratio of the bound to the median error.
     """
 
-    coefficient: float
-    powers: Mapping[str, float]
+    terms: Sequence[Term]
     reach: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     scenes: int = 0
     spread: float = 1.0
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of the numbers in the terms."""
+        return tuple(dict.fromkeys(name for term in self.terms for name in term.powers))
+
     def knows(self, numbers: Numbers) -> bool:
         """Whether a scene has all numbers of the law."""
-        return self.powers.keys() <= numbers.keys()
+        return set(self.names) <= numbers.keys()
 
     def error(self, numbers: Numbers, follows: Container[str] = ()) -> float:
         """The largest expected error over the size of the quantity; infinite for a number that is negative or NaN.
 
-        Below the range of the sweep the error decreases only with the numbers in ``follows``, which measure the effect
-        itself; for other numbers the smallest value of the sweep is used. A division by 0 gives infinity.
+        Outside the range of the fit on the side of smaller errors, the value at the end of the range is used, except
+        for the numbers in ``follows``, which measure the effect itself. A division by 0 gives infinity.
         """
-        parts = []
-        for name, power in self.powers.items():
-            least, greatest = (0.0, math.inf) if name in follows else self.reach.get(name, (0.0, math.inf))
-            number = max(numbers[name], least) if power > 0 else min(numbers[name], greatest)
-            if numbers[name] < 0:
-                return math.inf
-            try:
-                parts.append(number**power)
-            except (ZeroDivisionError, OverflowError):
-                return math.inf
-        error = self.coefficient * math.prod(parts)
-        return math.inf if math.isnan(error) else error
+
+        def inside(term: Term) -> Numbers:
+            numbers_inside = {}
+            for name, power in term.powers.items():
+                least, greatest = (0.0, math.inf) if name in follows else self.reach.get(name, (0.0, math.inf))
+                number = numbers[name]
+                bounded = max(number, least) if power > 0 else min(number, greatest)
+                numbers_inside[name] = number if number < 0 or math.isnan(number) else bounded
+            return numbers_inside
+
+        return math.fsum(term.value(inside(term)) for term in self.terms)
 
     def beyond(self, numbers: Numbers, follows: Container[str] = ()) -> str | None:
-        """The name of a number outside the range of the sweep on a side where the error may be larger, or None.
+        """The name of a number outside the range of the fit on a side where the error may be larger, or None.
 
-        Effects vanish as the numbers of a scene go to 0, so that this side is above the range, and below it if the
+        Effects vanish as the numbers of a scene go to 0, so that this side is above the range, and below it if a
         power is negative.
         """
-        for name, power in self.powers.items():
+        for name in self.names:
+            powers = [term.powers[name] for term in self.terms if name in term.powers]
             least, greatest = self.reach.get(name, (0.0, math.inf))
             above, below = numbers[name] > RANGE_FACTOR * greatest, numbers[name] < least / RANGE_FACTOR
-            if (above and (power > 0 or name not in follows)) or (below and power < 0):
+            if (above and (max(powers) > 0 or name not in follows)) or (below and min(powers) < 0):
                 return name
         return None
 
@@ -112,6 +141,18 @@ class Step:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Promise:
+    """The laws, by quantity, of the whole error of a model at a fine resolution, compared with independent solutions.
+
+    A promise replaces the sum of the laws of all steps from the model to the most complete one.
+    """
+
+    kind: str
+    model: str
+    laws: Mapping[str, Law]
+
+
+@dataclass(frozen=True, kw_only=True)
 class Grid:
     """The laws, by quantity, of the error by the resolution of a model."""
 
@@ -122,25 +163,45 @@ class Grid:
 
 @dataclass(frozen=True, kw_only=True)
 class Table:
-    """The steps between models and the laws of their grids; a model takes its first step whose next model applies."""
+    """The steps between models, their promises and the laws of their grids.
+
+    A model takes its first step whose next model applies.
+    """
 
     steps: Sequence[Step]
     grids: Sequence[Grid]
     provenance: Mapping[str, Any]
+    promises: Sequence[Promise] = ()
 
     def step(self, kind: str, model: str, applying: Container[str]) -> Step | None:
         """The step of a model to the next one in ``applying``; None for the most complete and for an unknown model."""
         own = (step for step in self.steps if (step.kind, step.model) == (kind, model) and step.towards in applying)
         return next(own, None)
 
+    def promise(self, kind: str, model: str, quantity: str) -> Law | None:
+        """The law of the whole error of a model; None if there is none."""
+        return _own(self.promises, kind, model, quantity)
+
+    def promises_of(self, kind: str, model: str) -> Mapping[str, Law]:
+        """The laws of the whole error of a model, by quantity; empty if there are none."""
+        return next((one.laws for one in self.promises if (one.kind, one.model) == (kind, model)), {})
+
     def grid(self, kind: str, model: str, quantity: str) -> Law | None:
         """The law of the error by the resolution of a model; None if it is unknown."""
-        own = (grid.laws.get(quantity) for grid in self.grids if (grid.kind, grid.model) == (kind, model))
-        return next(own, None)
+        return _own(self.grids, kind, model, quantity)
+
+
+def _own(entries: Sequence[Promise] | Sequence[Grid], kind: str, model: str, quantity: str) -> Law | None:
+    return next((one.laws.get(quantity) for one in entries if (one.kind, one.model) == (kind, model)), None)
 
 
 def _law(entries: Mapping[str, Any]) -> Law:
-    return Law(**{**entries, "reach": {name: (least, most) for name, (least, most) in entries["reach"].items()}})
+    return Law(
+        terms=tuple(Term(**term) for term in entries["terms"]),
+        reach={name: (least, most) for name, (least, most) in entries["reach"].items()},
+        scenes=entries.get("scenes", 0),
+        spread=entries.get("spread", 1.0),
+    )
 
 
 def _laws(entries: Mapping[str, Any]) -> dict[str, Law]:
@@ -155,6 +216,7 @@ def read_table(text: str) -> Table:
             Step(**{**step, "left_out": _laws(step.get("left_out", {})), "seen": _laws(step.get("seen", {}))})
             for step in entries["step"]
         ),
+        promises=tuple(Promise(**{**one, "laws": _laws(one["laws"])}) for one in entries.get("promise", ())),
         grids=tuple(Grid(**{**grid, "laws": _laws(grid["laws"])}) for grid in entries["grid"]),
         provenance=entries["provenance"],
     )

@@ -24,8 +24,9 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
     """The load, friction on the sliding wall, maximum pressure, flows and extent of a converged film.
 
     Pressures are above ambient. ``film_start`` and ``rupture`` are the positions x/L from the inlet, on the line of the
-    maximum pressure, where the first film begins and the last one ends; both are 1 without a film. The friction of the
-    liquid is F = ∫(η ξ u/h + h/2 ∂p/∂x) dA, where a cavity has streamers from wall to wall over its filled fraction ξ;
+    maximum pressure, where the first film begins and the last one ruptures; both are 1 without a film. Of joined pieces
+    without an inlet, ``side_leakage`` is what passes from one side to the other. The friction of the liquid is
+    F = ∫(η ξ u/h + h/2 ∂p/∂x) dA, where a cavity has streamers from wall to wall over its filled fraction ξ;
     with averaged roughness it is F = ∫(ηu (g (d + 3e) + (ξ - g) B₁ <h⁻²>) + B·∇p/2) dA with the wetness g of the tips
     after :mod:`roughfilm.rom.cavitation.oblique`, which is 1 in a film.
 
@@ -42,13 +43,13 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
         resistance += scene.asperities.friction * float(pressed.sum())
     row = int(np.argmax(np.where(solution.kind == FILM, solution.state.pressure, -1.0).max(axis=0)))
     start, end = film_ends(solution, row)
+    flows = boundary_flows(solution)
     values: dict[str, tuple[float, str]] = {
         "load_per_width": (load / width, "N/m"),
         "friction_per_width": (resistance / width, "N/m"),
         "pressure_max": (float(pressure.max()), "Pa"),
         "film_start": (start, "1"),
         "rupture": (end, "1"),
-        "inlet_flow_per_width": (inlet_flow(solution) / width, "m^2/s"),
         "cavitated_fraction": (
             float(grid.areas[solution.kind == CAVITY].sum() / grid.areas.sum()),
             "1",
@@ -67,7 +68,14 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
     if not solution.problem.shape.wide:
         values["load"] = (load, "N")
         values["friction"] = (resistance, "N")
-        values["side_leakage"] = (side_leakage(solution), "m^3/s")
+        values["side_leakage"] = (flows.side_leakage, "m^3/s")
+        values["side_leakage_low"] = (flows.low, "m^3/s")
+        values["side_leakage_high"] = (flows.high, "m^3/s")
+    for end, flow in (("inlet", flows.inlet), ("outlet", flows.outlet)):
+        if flow is not None:
+            values[f"{end}_flow_per_width"] = (flow / width, "m^2/s")
+        if flow is not None and not solution.problem.shape.wide:
+            values[f"{end}_flow"] = (flow, "m^3/s")
     if load > MIN_MEAN_PRESSURE_RATIO * float(grid.areas.sum()) * float(np.abs(force / grid.areas).max()):
         values["friction_coefficient"] = (resistance / load, "1")
     return {name: Quantity(value=value, unit=unit) for name, (value, unit) in values.items()}
@@ -137,38 +145,76 @@ def _oblique_flows(solution: Solution) -> tuple[Array, Array]:
     return solution.network.oblique.flows(mobility, state.pressure, state.fill, excess)
 
 
-def inlet_flow(solution: Solution) -> float:
-    """The flow through the inlet at cavitation density, m³/s (m²/s if infinitely wide).
-
-    The rows on open sides, which belong to the bath, have the flow per width of the rows next to them.
-    """
-    entering = flow_along(solution)[0]
-    if solution.problem.ends.sides is not None:
-        widths = solution.grid.volume_y * solution.grid.radius
-        entering[[0, -1]] = entering[[1, -2]] * widths[[0, -1]] / widths[[1, -2]]
-    return float(entering.sum())
-
-
-def side_leakage(solution: Solution) -> float:
-    """The flow out through both sides between inlet and outlet at cavitation density, m³/s."""
+def flow_across(solution: Solution) -> Array:
+    """The flow through the faces towards j + 1 at cavitation density, m³/s, shape (nx, ny); zero for the last j."""
     net, state = solution.network, solution.state
     north = net.conductance(solution.problem.mobility(state.pressure)[0])[1]
-    flow = -north[:, :-1] * np.diff(state.pressure, axis=1)
-    if net.oblique is not None:
-        flow = flow + _oblique_flows(solution)[1][:, :-1]
-    if not net.periodic[0]:
-        flow = flow[1:-1]
-    return float((flow[:, -1] - flow[:, 0]).sum()) if not net.periodic[1] else 0.0
+    flow = -north * (np.roll(state.pressure, -1, axis=1) - state.pressure)
+    return np.asarray(flow if net.oblique is None else flow + _oblique_flows(solution)[1])
+
+
+@dataclass(frozen=True, kw_only=True)
+class Flows:
+    """Flows at cavitation density, m³/s (m²/s if infinitely wide): inlet = outlet + low + high.
+
+    Attributes
+    ----------
+    inlet, outlet : flow in through the inlet and flow out through the outlet; None of joined pieces.
+    low, high : flows out through the sides at the lowest and at the highest y; zero without open sides.
+    """
+
+    inlet: float | None
+    outlet: float | None
+    low: float
+    high: float
+
+    @property
+    def side_leakage(self) -> float:
+        """The net flow out through both sides; without an inlet what passes from one side to the other."""
+        return max(self.low, self.high) if self.inlet is None else self.low + self.high
+
+
+def boundary_flows(solution: Solution) -> Flows:
+    """The flows through the edges of a film, from the balances of its control volumes; second-order accurate.
+
+    The control volumes of the outermost rows are half as wide as the others, and the nodes on open sides belong to the
+    bath. What flows along such a row enters with it at the inlet, leaves with it at the outlet, and the difference
+    passes the side. The flow along it is three quarters that at the side, with the filling of the row next to it, and
+    one quarter that of the row next to it, as the middle of the half row lies a quarter of a cell from the side.
+    """
+    along, grid, open_sides = flow_along(solution), solution.grid, solution.problem.ends.sides is not None
+    across = flow_across(solution) if open_sides else np.zeros((grid.x.size, 2))
+    low, high = -float(across[:, 0].sum()), float(across[:, -2].sum())
+    if solution.network.periodic[0]:
+        return Flows(inlet=None, outlet=None, low=low, high=high)
+    if not open_sides:
+        return Flows(inlet=float(along[0].sum()), outlet=float(along[-2].sum()), low=low, high=high)
+    fill, couette, widths = solution.state.fill, solution.network.couette, grid.volume_y * grid.radius
+    for row, inner in ((0, 1), (-1, -2)):
+        filled = along[:, row] + couette[:, row] * (fill[:, inner] - fill[:, row])
+        along[:, row] = 0.75 * filled + 0.25 * along[:, inner] * widths[row] / widths[inner]
+    through_columns = across[[0, -1], -2] - across[[0, -1], 0]
+    passed = along[0] - along[-2]
+    return Flows(
+        inlet=float(along[0].sum() + through_columns[0]),
+        outlet=float(along[-2].sum() - through_columns[1]),
+        low=low + float(passed[0]),
+        high=high + float(passed[-1]),
+    )
 
 
 def film_ends(solution: Solution, row: int) -> tuple[float, float]:
-    """The positions x/L, interpolated within cells, where the first film of a row begins and the last one ends."""
+    """The positions x/L, interpolated within cells, where the first film of a row begins and the last one ruptures.
+
+    A film that forms again before the outlet does not rupture. Without a film both are 1.
+    """
     x, length = solution.grid.x - solution.problem.shape.breaks[0], solution.problem.shape.length
     film = solution.kind[:, row] == FILM
     if not film.any():
         return 1.0, 1.0
-    first, last = int(np.argmax(film)), film.size - 1 - int(np.argmax(film[::-1]))
-    return _begins(solution, row, first, x) / length, _ends(solution, row, last, x) / length
+    torn = np.flatnonzero(film[:-1] & (solution.kind[1:, row] == CAVITY))
+    end = _ends(solution, row, int(torn[-1]), x) / length if torn.size else 1.0
+    return _begins(solution, row, int(np.argmax(film)), x) / length, end
 
 
 def _begins(solution: Solution, row: int, first: int, x: Array) -> float:

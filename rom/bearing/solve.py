@@ -8,6 +8,7 @@ from functools import cache
 import numpy as np
 
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.bearing.corners import infinite_flows
 from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Fields, Outputs, density_ratio
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.uncertainty import uncertainties
@@ -71,7 +72,8 @@ def solve(
     ]
     if not uncertainty:
         warnings.append(NO_COARSER_GRID)
-    if unknown := [name for name, value in uncertainty.items() if not math.isfinite(value)]:
+    infinite = infinite_flows(solution)
+    if unknown := [name for name, value in uncertainty.items() if not math.isfinite(value) and name not in infinite]:
         warnings.append(f"{', '.join(unknown)}: unknown uncertainty, as the roughness has too few points")
     return Result(
         model=solver.name,

@@ -1,49 +1,109 @@
-"""The uncertainty of the quantities of a film, from coarser grids, the residual and the flow factors."""
+"""The uncertainty of the quantities of a film, from coarser grids, the balance of its flows and the flow factors."""
 
-from collections.abc import Mapping
-from itertools import pairwise
+import math
+from collections.abc import Mapping, Sequence
+
+from scipy.optimize import brentq
 
 from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.bearing.corners import infinite_flows
 from roughfilm.rom.bearing.quantities import Outputs
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.solve import Solution
 
-POSITIONS = ("film_start", "rupture", "cavitated_fraction")
-"""Quantities that follow the nodes, with an uncertainty of at least a cell."""
+ORDERS = (1.0, 2.0)
+"""Smallest and largest order at which an error is taken to decrease with the size of the cells."""
 
-GRID_SAFETY_FACTOR = 3.0
-"""Safety factor of an error estimated from two grids (Roache 1994, doi:10.1115/1.2910291)."""
+GRID_SAFETY_FACTOR = 1.5
+"""Uncertainty over the largest of the errors that differences to coarser grids give."""
+
+MAX_GRID_RATIO = 0.75
+"""Cells of a grid over those of the next finer one, up to which their difference is used."""
+
+IMBALANCE_FACTOR = 10.0
+"""Relative error of a quantity over the relative error of the flow along the film."""
+
+FLOW_UNIT = "m^3/s"
+"""Unit of the flows through the edges of a film with a width."""
 
 
 def uncertainties(
     scene: Bearing, solution: Solution, quantities: Mapping[str, Quantity], outputs: Outputs
 ) -> dict[str, float]:
-    """The uncertainty of each quantity in its unit; empty without a coarser grid.
+    """The uncertainty of each quantity in its unit, infinite if unknown; empty without a coarser grid.
 
-    It is the sum of ``GRID_SAFETY_FACTOR``/3 times the larger of the last change between grids and a quarter of the
-    change before (second order), the residual accumulated over the cells, and the contribution of the flow factors.
+    It is the sum of that of the grid, ``IMBALANCE_FACTOR`` times the relative error of the flow along the film (of a
+    flow, relative to the largest flow), and the contribution of the flow factors.
     """
     grids = grid_sequence(solution)
     if len(grids) == 1:
         return {}
-    cells = solution.grid.x.size
+    cells = [cells_of(grid) for grid in grids]
     values = [quantities, *(outputs.quantities(scene, grid) for grid in grids[1:])]
     averaged = solution.problem.shape.roughness is not None
     of_factors = outputs.factor_uncertainties(scene, solution, quantities) if averaged else {}
+    unknown = infinite_flows(solution)
+    largest_flow = max((abs(one.value) for one in quantities.values() if one.unit == FLOW_UNIT), default=0.0)
     result = {}
     for name, quantity in quantities.items():
-        known = [level[name].value for level in values if name in level]
-        if name in values[1]:
-            change = max(abs(fine - coarse) / 4**n for n, (fine, coarse) in enumerate(pairwise(known)))
-            least = 1 / cells if name in POSITIONS else 0.0
-            result[name] = max(GRID_SAFETY_FACTOR * change / 3, least) + abs(quantity.value) * solution.residual * cells
-            result[name] += of_factors.get(name, 0.0)
+        known = {count: level[name].value for count, level in zip(cells, values, strict=True) if name in level}
+        size = largest_flow if quantity.unit == FLOW_UNIT else abs(quantity.value)
+        if name in unknown:
+            result[name] = math.inf
+        elif len(known) > 1:
+            of_grid = grid_uncertainty([*known], [*known.values()])
+            result[name] = of_grid + IMBALANCE_FACTOR * size * solution.imbalance + of_factors.get(name, 0.0)
     return result
 
 
+def grid_uncertainty(cells: Sequence[float], values: Sequence[float]) -> float:
+    """The uncertainty of a value on a grid from those on coarser grids, in the unit of the values.
+
+    With an error C h^p, the difference to a grid with the cells n_k instead of n is the error times (n/n_k)^p - 1. The
+    uncertainty is ``GRID_SAFETY_FACTOR`` times the largest error that any of the differences gives. The order p is the
+    smallest observed on three successive grids, within ``ORDERS``; values that oscillate have the lowest order.
+
+    Parameters
+    ----------
+    cells : numbers of cells along a side, from fine to coarse; at least two.
+    values : the value on each grid.
+
+    Source: Roache 1994, doi:10.1115/1.2910291, for the order and the safety factor.
+    """
+    triples = range(len(values) - 2)
+    order = min((observed_order(cells[n : n + 3], values[n : n + 3]) for n in triples), default=ORDERS[0])
+    errors = (abs(values[0] - values[n]) / ((cells[0] / cells[n]) ** order - 1) for n in range(1, len(values)))
+    return GRID_SAFETY_FACTOR * max(errors)
+
+
+def observed_order(cells: Sequence[float], values: Sequence[float]) -> float:
+    """The order p, within ``ORDERS``, for which (f₂ - f₁)/(f₁ - f₀) = (h₂^p - h₁^p)/(h₁^p - h₀^p) of three grids."""
+    last, before = values[1] - values[0], values[2] - values[1]
+    if last == before == 0:
+        return ORDERS[1]
+
+    def excess(order: float) -> float:
+        """A number below zero if the differences decrease with a higher order than this."""
+        h0, h1, h2 = (n**-order for n in cells)
+        return last * (h2 - h1) - before * (h1 - h0)
+
+    sign = math.copysign(1.0, before)
+    if last * before <= 0 or sign * excess(ORDERS[0]) >= 0:
+        return ORDERS[0]
+    if sign * excess(ORDERS[1]) <= 0:
+        return ORDERS[1]
+    return float(brentq(excess, *ORDERS))
+
+
 def grid_sequence(solution: Solution) -> tuple[Solution, ...]:
-    """A solution and those on grids about half and a quarter as fine, as far as they exist."""
+    """A solution and those on coarser grids, as far as they exist."""
     grids = [solution]
-    while (coarser := grids[-1].coarser) is not None and coarser.grid.x.size <= 0.75 * grids[-1].grid.x.size:
+    while (coarser := grids[-1].coarser) is not None and cells_of(coarser) <= MAX_GRID_RATIO * cells_of(grids[-1]):
         grids.append(coarser)
     return tuple(grids)
+
+
+def cells_of(solution: Solution) -> float:
+    """The number of cells along a side, in the plane the geometric mean of both sides."""
+    sides = [count for count in solution.grid.shape if count > 1]
+    return math.prod(sides) ** (1 / len(sides))

@@ -4,6 +4,7 @@ import math
 from collections.abc import Mapping
 
 from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.bearing.corners import jumps
 from roughfilm.rom.bearing.pad import CELLS_PER_FEATURE
 from roughfilm.rom.bearing.quantities import nominal_area
 from roughfilm.rom.bearing.scene import Bearing
@@ -39,18 +40,23 @@ def pressure_warnings(solution: Solution) -> list[str]:
 
 
 def scene_warnings(scene: Bearing, solution: Solution) -> list[str]:
-    """Warnings about boundary conditions: no film, a starved inlet without sliding, pressure jumps at corners."""
-    warnings, ends = [], solution.problem.ends
+    """Warnings about boundary conditions: no film, starved inlets without sliding or below ambient, pressure jumps."""
+    warnings, ends, lowest = [], solution.problem.ends, scene.lubricant.cavitation_pressure
     if (solution.kind == CAVITY).any() and not (solution.kind == FILM).any():
         warnings.append("no film forms: the inlet flow is smaller than the flow that the narrowest place can carry")
     if scene.motion.speed == 0 and ends.theta < 1:
         warnings.append("the sliding speed is zero; the starved inlet is treated as flooded")
-    if ends.sides is not None and not solution.problem.shape.joined[0]:
-        jumps = {ends.inlet or 0.0, ends.outlet} - set(ends.sides)
-        if jumps:
-            warnings.append(
-                "the pressure jumps at the corners: flows through the ends grow with the logarithm of the cells"
-            )
+    elif ends.inlet is None and lowest < 0:
+        warnings.append(
+            f"the inlet with a theta is at the cavitation pressure, {-lowest:.3g} Pa below ambient; if it is open to "
+            "ambient air, set lubricant.cavitation_pressure to 0 Pa"
+        )
+    warnings += [
+        f"the pressure at the {jump.end} is {jump.difference:.3g} Pa above that at the {jump.side} side: the flows "
+        f"through both edges are infinite; {jump.end}_flow, side_leakage_{jump.side} and side_leakage grow with the "
+        "logarithm of the cells; give both edges the same pressure"
+        for jump in jumps(solution)
+    ]
     return warnings
 
 

@@ -44,13 +44,15 @@ class Linear:
 class Settled:
     """A converged state; ``residual`` is the largest net flow into a node over the largest flow through a face.
 
-    The residual exceeds the tolerance where round-off of the pressures prevents a better balance, for example at rest
-    over deep pockets.
+    ``imbalance`` is the net flow into all nodes before a position along x, the largest over the positions of its mean
+    over the rows, over the same flow: the relative error of the flow along the film. Both exceed the tolerance where
+    round-off of the pressures prevents a better balance, for example at rest over deep pockets.
     """
 
     state: State
     kind: NDArray[np.int8]
     residual: float
+    imbalance: float
     iterations: int
 
 
@@ -122,7 +124,8 @@ def newton(
             break
         if residual <= tolerance or _rounded(balance, parts[1] * pressure, tolerance * largest):
             state = State(pressure=pressure, fill=fill)
-            return Settled(state=state, kind=kind, residual=residual, iterations=iteration)
+            imbalance = float(np.abs(np.cumsum(balance, axis=0)).mean(axis=1).max()) / (largest or 1.0)
+            return Settled(state=state, kind=kind, residual=residual, imbalance=imbalance, iterations=iteration)
         change = step(network, Linear(kind, mobility[0], *parts), tolerance * largest)
         if ruptures:
             changed = advance(kind.reshape(-1), pressure.reshape(-1), fill.reshape(-1), change.reshape(-1))

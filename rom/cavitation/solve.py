@@ -1,5 +1,6 @@
 """Steady films, solved on successively finer grids, each of which starts the next."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -19,6 +20,19 @@ from roughfilm.rom.homogenization.gap_factors import mirrored_factors
 
 COARSEST_CELLS = 16
 """Largest number of cells along a side of the coarsest grid, which starts from a full film at cavitation pressure."""
+
+LEAST_CELLS = 8
+"""Number of cells along a side below which that side is not coarsened."""
+
+FIRST_COARSENING = 0.62
+"""Cells of the second finest grid over those of the finest; those of the grids below it are halved.
+
+Halved cells keep their nodes: a front or a peak then lies at the same place between the same nodes, so that the
+difference of the two grids does not show its error.
+"""
+
+COARSER_KEPT = 3
+"""Number of coarser solutions that are kept."""
 
 COLD_SWEEPS = 400
 """Relaxation sweeps before Newton's method without a start."""
@@ -46,8 +60,9 @@ class Solution:
     """A converged film on its grid; pressures are above cavitation pressure, x increases with sliding.
 
     ``turned`` is true if the wall slides towards decreasing x; ``problem`` is then the mirrored one.
-    ``residual`` is the largest net flow into a node over the largest flow through a face, recomputed at the end.
-    ``coarser`` is the solution on the next coarser grid; at most two coarser solutions are kept.
+    ``residual`` is the largest net flow into a node over the largest flow through a face, recomputed at the end, and
+    ``imbalance`` the relative error of the flow along the film (:class:`roughfilm.rom.cavitation.newton.Settled`).
+    ``coarser`` is the solution on the next coarser grid; at most ``COARSER_KEPT`` coarser solutions are kept.
     """
 
     problem: Problem
@@ -58,6 +73,7 @@ class Solution:
     state: State
     kind: NDArray[np.int8]
     residual: float
+    imbalance: float
     levels: tuple[Level, ...]
     coarser: "Solution | None"
 
@@ -101,7 +117,7 @@ def solve(
         problem = replace(problem, ends=replace(problem.ends, inlet=problem.ends.inlet or 0.0))
     wide = problem.shape.wide
     given = start is not None
-    sizes = [cells] if given else _coarsening(cells, wide=wide)
+    sizes = [cells] if given else coarsening(cells, wide=wide)
     work = [float(nx * (1 if wide else ny)) for nx, ny in sizes]
     finest = grid(problem.shape, cells)
     found: Solution | None = None
@@ -135,13 +151,18 @@ def solve(
             found,
             turned=turned,
             levels=(*(before.levels if before else ()), *found.levels),
-            coarser=before and replace(before, coarser=before.coarser and replace(before.coarser, coarser=None)),
+            coarser=_kept(before, COARSER_KEPT),
         )
         if nodes is not finest:
             start = carried(found.state, nodes, grid(problem.shape, sizes[number + 1]), problem.shape.joined)
     assert found is not None
     _check_fill(found)
     return found
+
+
+def _kept(solution: Solution | None, count: int) -> Solution | None:
+    """The solution with at most ``count`` - 1 coarser ones; None for none."""
+    return replace(solution, coarser=_kept(solution.coarser, count - 1)) if solution and count else None
 
 
 def _check_fill(solution: Solution) -> None:
@@ -198,17 +219,19 @@ def on_grid(
         state=settled.state,
         kind=settled.kind,
         residual=settled.residual,
+        imbalance=settled.imbalance,
         levels=(Level(shape=nodes.shape, iterations=settled.iterations, load=load),),
         coarser=None,
     )
 
 
-def _coarsening(cells: tuple[int, int], *, wide: bool) -> list[tuple[int, int]]:
-    """Cells of the grids from the coarsest to the finest, each side about doubled at a time."""
-    sizes = [cells]
+def coarsening(cells: tuple[int, int], *, wide: bool) -> list[tuple[int, int]]:
+    """Cells of the grids from the coarsest to the finest."""
+    sizes, ratio = [cells], FIRST_COARSENING
     while max(sizes[-1][:1] if wide else sizes[-1]) > COARSEST_CELLS:
-        nx, ny = sizes[-1]
-        sizes.append((max(-(-nx // 2), min(nx, COARSEST_CELLS)), max(-(-ny // 2), min(ny, COARSEST_CELLS))))
+        nx, ny = (max(math.ceil(ratio * count), min(count, LEAST_CELLS)) for count in sizes[-1])
+        sizes.append((nx, ny))
+        ratio = 0.5
     return sizes[::-1]
 
 

@@ -97,6 +97,7 @@ KIND = Kind(
     scene=DryContact,
     summary="a rough surface pressed on a flat one",
     compared={"area_fraction": "contact area", "mean_gap": "mean gap"},
+    others={"mean_contact_pressure": "mean contact pressure", "pressure_max": "peak pressure", "approach": "approach"},
     scale=scale,
     columns=columns,
     numbers=numbers,

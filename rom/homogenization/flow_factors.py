@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.arrays import Array, unmasked
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.surfaces.surface import MAX_LENGTH, MIN_SPACING
 from roughfilm.rom.homogenization.cell import Cell, solve_cell
@@ -111,9 +111,7 @@ def flow_factors(
 
 def checked_gap(gap: ArrayLike, spacing: tuple[float, float]) -> Array:
     """The gap as numbers; InputError as in :func:`flow_factors`."""
-    if isinstance(gap, np.ma.MaskedArray):
-        raise InputError("gap: is masked; fill what is masked first")
-    h = np.asarray(gap)
+    h = unmasked("gap", gap)
     if h.ndim != 2 or min(h.shape, default=0) < 2:
         raise InputError(f"gap: got shape {h.shape}; give at least 2 x 2 nodes (for a profile call line_factors)")
     if h.dtype.kind not in "fiu":

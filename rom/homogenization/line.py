@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.arrays import Array, unmasked
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.homogenization.conductance import faces, straight_inverse
 from roughfilm.rom.homogenization.factors import FlowFactors
@@ -98,7 +98,7 @@ def checked_profile(gap: ArrayLike) -> Array:
 
 
 def _numbers(values: ArrayLike, place: str) -> Array:
-    found = np.asarray(values)
+    found = unmasked(place, values)
     if found.ndim != 1 or found.size < 2:
         raise InputError(f"{place}: got shape {found.shape}; give a profile of at least 2 points")
     if found.dtype.kind not in "fiu":

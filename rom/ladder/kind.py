@@ -82,6 +82,7 @@ class Kind:
     scene : the pydantic model of the scenes of this kind.
     summary : a description of these scenes, in words.
     compared : the quantities by which models are compared, with their names in a sentence; the most important is first.
+    others : the other quantities that models of the kind report, with their names in a sentence.
     scale : scale(values, quantity), the size by which an error in a compared quantity is divided. ``values`` are the
         values of the reference by quantity, as numbers or arrays.
     columns : columns(scene), dimensionless numbers and texts of a scene for a table of many cases.
@@ -106,6 +107,7 @@ class Kind:
     columns: Callable[[Any], Mapping[str, Quantity | str]]
     numbers: Callable[[Any], Mapping[str, float]]
     symbols: Mapping[str, str]
+    others: Mapping[str, str] = field(default_factory=dict)
     composed: Callable[[Any], Sequence[str]] = nothing_composed
     omitted: Callable[[Any, str], Omission | None] = nothing_omitted
     files: frozenset[str] = frozenset()
@@ -114,6 +116,11 @@ class Kind:
     lists: frozenset[tuple[str | int, ...]] = frozenset()
     message: Callable[[ValidationError, Mapping[str, Any]], str] | None = None
     sweeping: Sweeping | None = None
+
+    @property
+    def titles(self) -> Mapping[str, str]:
+        """The names in a sentence of all quantities, the compared ones first."""
+        return {**self.compared, **self.others}
 
     def read(self, entries: Mapping[str, Any]) -> Scene:
         """Make a scene of this kind from nested entries; InputError in one line for the first fault."""

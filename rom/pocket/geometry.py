@@ -89,9 +89,10 @@ class Splined(_Drawn):
 
 
 class Through(_Placed):
-    """A groove through points (distance from ``position``, depth), m."""
+    """A groove through points (distance from ``position``, depth), m, joined by straight lines or monotone cubics."""
 
     profile: Literal["points"]
+    interpolation: Literal["linear", "monotone"] = "linear"
     points: Annotated[Points, BeforeValidator(checked), PlainSerializer(lambda points: [list(row) for row in points])]
 
     @property
@@ -113,12 +114,13 @@ class Through(_Placed):
     def slope(self) -> float:
         """Mean slope of the wall between the lowest point and the nearer edge."""
         (first, _), *_, (last, _) = self.points
-        lowest = next(place for place, depth in self.points if depth == self.depth)
-        return self.depth / min(lowest - first, last - lowest)
+        lowest = [place for place, depth in self.points if depth == self.depth]
+        return self.depth / min(lowest[0] - first, last - lowest[-1])
 
     def shape(self) -> groove.Groove:
         """The depth along the wall."""
-        return groove.through(points=self.points)
+        join = groove.monotone if self.interpolation == "monotone" else groove.polygonal
+        return join(points=self.points)
 
 
 AnyGroove = Cylindrical | Splined | Through

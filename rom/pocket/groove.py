@@ -11,6 +11,12 @@ from roughfilm.rom.pocket.gap import Gap
 SAME_PLACE = 1e-9
 """Distance over the period below which two positions are equal."""
 
+STRAIGHT = 1e-9
+"""Jump of slope over the largest slope up to which two lines are one."""
+
+CORNER_SHARE = 0.1
+"""Jump of slope over the largest one above which a point of a polygon is a corner."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Groove:
@@ -75,10 +81,35 @@ def splined(*, width: float, depth: float, shift: float) -> Groove:
     return Groove(breaks=(-width / 2, shift, width / 2), corners=(), depth=rise)
 
 
-def through(*, points: Sequence[tuple[float, float]]) -> Groove:
-    """A groove through three or more points (s, depth) in m, with s increasing, and depth 0 first and last.
+def polygonal(*, points: Sequence[tuple[float, float]]) -> Groove:
+    """A groove of straight lines between three or more points (s, depth) in m, s increasing, depth 0 first and last.
 
-    Monotone cubics with continuous slope connect the points, so no depth exceeds those of the neighbouring points.
+    Every point at which the slope changes is a break. It is a corner if its jump of slope is above ``CORNER_SHARE`` of
+    the largest one: the many small jumps of a finely sampled curve are none.
+
+    Examples
+    --------
+    >>> groove = polygonal(points=[(-0.1e-3, 0.0), (0.0, 2e-5), (0.1e-3, 0.0)])
+    >>> [float(round(d, 9)) for d in groove.depth(np.array([-0.05e-3, 0.0, 0.2e-3]))], len(groove.corners)
+    ([1e-05, 2e-05, 0.0], 3)
+    """
+    places, depths = (np.array(column, dtype=float) for column in zip(*points, strict=True))
+    slopes = np.concatenate([[0.0], np.diff(depths) / np.diff(places), [0.0]])
+    jumps = np.abs(np.diff(slopes))
+    bent = jumps > STRAIGHT * np.abs(slopes).max()
+    bent[[0, -1]] = True
+    return Groove(
+        breaks=tuple(map(float, places[bent])),
+        corners=tuple(map(float, places[jumps > CORNER_SHARE * jumps.max()])),
+        depth=lambda s: np.interp(s, places, depths, left=0.0, right=0.0),
+    )
+
+
+def monotone(*, points: Sequence[tuple[float, float]]) -> Groove:
+    """A groove of monotone cubics through three or more points (s, depth) in m, s increasing, depth 0 first and last.
+
+    The slope is continuous between the edges, and no depth exceeds those of the neighbouring points. Corners between
+    the edges are lost: three points of a V make a parabola, which is up to a quarter of its depth below the V.
     Source: Fritsch and Butland 1984, doi:10.1137/0905021.
     """
     from scipy.interpolate import PchipInterpolator  # slow to import

@@ -12,16 +12,21 @@ from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.ladder.kind import Kind
 from roughfilm.rom.ladder.scene import scene_entries
 from roughfilm.rom.ladder.sweeping import Columns, Sweeping
-from roughfilm.rom.pocket.error_law import product_text
 from roughfilm.rom.pocket.geometry import PROFILES, PocketGeometry
-from roughfilm.rom.pocket.models.inertial_reynolds import MODEL as INERTIAL_REYNOLDS
-from roughfilm.rom.pocket.scene import Pocket
+from roughfilm.rom.pocket.numbers import MIN_LOAD_SCALE, SYMBOLS, numbers
+from roughfilm.rom.pocket.scene import TITLES, Pocket
+
+COMPARED = ("load_plus", "friction_plus")
+"""The quantities by which models are compared."""
 
 MIN_JUDGED_LOAD = 0.05
 """Load over the largest pressure below which load is a difference of larger numbers, and its error has no law."""
 
-MIN_LOAD_SCALE = 1e-3
-"""Load over the largest pressure below which errors are relative to the pressure."""
+MIN_PRESSURE_SCALE = 0.1
+"""Ratio of the peak or least pressure to the largest magnitude of the pressure below which errors have this scale."""
+
+FEATURE_SYMBOLS = {"reynolds_number": "Re", "depth": "d/Ly", "aspect": "2d/w", "slope": "slope"}
+"""Symbols of the numbers of a sweep; ``slope`` is that of the steeper side of a groove, 2d/w for a symmetric one."""
 
 RATIOS = {
     "film_plus": ("film", "length"),
@@ -38,8 +43,10 @@ def largest_pressure(values: Mapping[str, Any]) -> Any:
 
 
 def scale(values: Mapping[str, Any], quantity: str) -> Any:
-    """The magnitude of a quantity, or the largest pressure if the load is negligible."""
+    """The magnitude of a quantity; the largest pressure for a negligible load, a tenth of it for a small pressure."""
     size = np.abs(values[quantity])
+    if quantity in ("pressure_max_plus", "pressure_min_plus"):
+        return np.maximum(size, MIN_PRESSURE_SCALE * largest_pressure(values))
     if quantity != "load_plus":
         return size
     pressure = largest_pressure(values)
@@ -72,45 +79,23 @@ def features(given: Columns) -> dict[str, NDArray[Any]]:
     }
 
 
+def product_text(powers: Mapping[str, float]) -> str:
+    """A product of powers as text, such as ``Re · 2d/w``."""
+
+    def factor(symbol: str, power: float) -> str:
+        return symbol if power == 1 else f"{symbol if symbol.isalpha() else f'({symbol})'}^{power:g}"
+
+    left = dict(powers)
+    ratio = []
+    if left.get("aspect") and left.get("aspect") == -left.get("depth", 0):
+        ratio = [factor("2Ly/w", left.pop("aspect"))]
+        del left["depth"]
+    return " · ".join([*(factor(FEATURE_SYMBOLS[name], power) for name, power in left.items()), *ratio])
+
+
 def worth(values: Columns) -> NDArray[np.bool_]:
     """Whether each case has a load above ``MIN_JUDGED_LOAD`` times the largest pressure."""
     return np.asarray(np.abs(values["load_plus"]) > MIN_JUDGED_LOAD * largest_pressure(values))
-
-
-NUMBERS = {
-    "reynolds_number": "Re",
-    "reduced_reynolds_number": "Re·h/w",
-    "film": "h/L",
-    "depth": "d/h",
-    "aspect": "2d/w",
-    "slope": "slope",
-    "asymmetry": "2|s|/w",
-    "loaded": "load/p_max",
-}
-"""Symbols of the numbers: h is the film, L its period; w, d and s are width, depth and shift of a groove."""
-
-MIN_ASYMMETRY = 1e-3
-"""The asymmetry of a symmetric groove."""
-
-
-def numbers(scene: Pocket) -> dict[str, float]:
-    """The dimensionless numbers of the deepest, narrowest and steepest grooves, with load to first order in Re."""
-    values = first_order(scene)
-    return {
-        "reynolds_number": scene.reynolds_number,
-        "reduced_reynolds_number": scene.reduced_reynolds_number,
-        "film": scene.geometry.film / scene.geometry.length,
-        "depth": scene.depth,
-        "aspect": scene.aspect,
-        "slope": scene.slope,
-        "asymmetry": max(1 - scene.aspect / scene.slope, MIN_ASYMMETRY),
-        "loaded": max(abs(values["load_plus"]) / largest_pressure(values), MIN_LOAD_SCALE),
-    }
-
-
-def first_order(scene: Pocket) -> dict[str, float]:
-    """The quantities of the Reynolds equation with first-order inertia."""
-    return {name: quantity.value for name, quantity in INERTIAL_REYNOLDS.solve(scene).quantities.items()}
 
 
 def _length(text: str) -> float:
@@ -149,11 +134,12 @@ KIND = Kind(
     name="pocket",
     scene=Pocket,
     summary="a groove under a sliding wall",
-    compared={"load_plus": "load", "friction_plus": "friction"},
+    compared={name: TITLES[name] for name in COMPARED},
+    others={name: title for name, title in TITLES.items() if name not in COMPARED},
     scale=scale,
     columns=columns,
     numbers=numbers,
-    symbols=NUMBERS,
+    symbols=SYMBOLS,
     files=frozenset({"points"}),
     replaces={
         "motion.speed": ("reynolds_number",),

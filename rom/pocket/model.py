@@ -1,12 +1,11 @@
 """The models of a pocket as data: their resolutions, tolerances and cost, and their solvers."""
 
 from collections.abc import Callable
-from functools import partial
 from typing import Unpack
 
 from roughfilm.contact.foundation.deferred import deferred
 from roughfilm.rom.ladder.model import About, Applicability, Model, Resolutions
-from roughfilm.rom.pocket.error_law import ErrorLaw
+from roughfilm.rom.pocket.pressure import NODES
 from roughfilm.rom.pocket.scene import Pocket
 
 DEFAULT_CELLS = 400
@@ -30,9 +29,6 @@ SCHEMES = ("linear_upwind", "upwind")
 FILM_RESOLUTION_MEANING = "cells along the film, each with 10 polynomials across it"
 FILM_RESIDUAL_MEANING = "largest imbalance of momentum in a cell, relative to the largest force in one"
 
-DEFAULT_NODES = 24
-"""Default number of Gauss points on each smooth piece of the gap."""
-
 NODE_SERIES = (2, 3, 4, 6, 8, 12, 16, 24)
 """Numbers of Gauss points of a convergence study."""
 
@@ -49,7 +45,7 @@ QUADRATURE_RESOLUTION_MEANING = "Gauss points on each smooth piece of the gap"
 QUADRATURE_RESIDUAL_MEANING = "mean mismatch of dp/dx between the nodes, relative to its mean size"
 
 
-def film_model(*, applies: Callable[[Pocket], Applicability], law: ErrorLaw, **about: Unpack[About]) -> Model[Pocket]:
+def film_model(*, applies: Callable[[Pocket], Applicability], **about: Unpack[About]) -> Model[Pocket]:
     """A model that solves the thin-film equations; the cost was measured for 50 to 800 cells."""
     return Model(
         **about,
@@ -63,18 +59,16 @@ def film_model(*, applies: Callable[[Pocket], Applicability], law: ErrorLaw, **a
         schemes=SCHEMES,
         cost=lambda _scene, resolution: 3e-3 + 1e-4 * resolution,
         applies=applies,
-        compute=partial(deferred("rom.pocket.solve", "solve"), law=law),
+        compute=deferred("rom.pocket.solve", "solve"),
     )
 
 
-def quadrature_model(
-    *, applies: Callable[[Pocket], Applicability], law: ErrorLaw | None = None, **about: Unpack[About]
-) -> Model[Pocket]:
+def quadrature_model(*, applies: Callable[[Pocket], Applicability], **about: Unpack[About]) -> Model[Pocket]:
     """A model that uses quadrature; the cost is that of the default rule (a half circle takes seconds)."""
     return Model(
         **about,
         kind="pocket",
-        resolutions=Resolutions(least=MIN_NODES, most=MAX_NODES, default=DEFAULT_NODES, series=NODE_SERIES),
+        resolutions=Resolutions(least=MIN_NODES, most=MAX_NODES, default=NODES, series=NODE_SERIES),
         resolution_meaning=QUADRATURE_RESOLUTION_MEANING,
         residual_meaning=QUADRATURE_RESIDUAL_MEANING,
         order=None,
@@ -82,5 +76,5 @@ def quadrature_model(
         tolerances=(1e-300, 1.0),
         cost=lambda _scene, resolution: 2e-4 + 1e-7 * resolution**2,
         applies=applies,
-        compute=partial(deferred("rom.pocket.quadrature", "solve"), law=law),
+        compute=deferred("rom.pocket.quadrature", "solve"),
     )

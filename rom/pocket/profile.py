@@ -34,6 +34,11 @@ def checked(points: object) -> Points:
         raise ValueError(f"got {len(points)} points; a groove needs {MIN_POINTS} to {MAX_ROWS} of them")
     rows = number_pairs(points, name="point", columns="position and depth in m")
     for number, ((before, _), (place, depth)) in enumerate(pairwise(rows), 2):
+        if place == before:
+            raise ValueError(
+                f"got two points at {place!r} m, numbers {number - 1} and {number}; films need walls of finite slope, "
+                "move one of the two"
+            )
         if not place > before:
             raise ValueError(f"got position {place!r} m at point {number} after {before!r} m; positions must increase")
         if depth < 0:

@@ -112,6 +112,16 @@ class Pocket(Scene):
         return self.geometry.gap()
 
 
+TITLES = {
+    "load_plus": "load",
+    "friction_plus": "friction",
+    "pressure_max_plus": "peak pressure",
+    "pressure_min_plus": "least pressure",
+    "backflow": "reverse flow",
+}
+"""The names of the dimensionless quantities in a sentence."""
+
+
 def pocket_quantities(
     scene: Pocket, *, load: float, friction: float, pressure_max: float, pressure_min: float, backflow: float
 ) -> dict[str, Quantity]:

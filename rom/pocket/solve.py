@@ -12,8 +12,8 @@ from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.ladder.result import Field, Numerics, Result
 from roughfilm.rom.pocket import slope, thin_film
 from roughfilm.rom.pocket.basis import Basis, even_basis, gauss_basis, sliding_wall_slope
-from roughfilm.rom.pocket.error_law import ErrorLaw
 from roughfilm.rom.pocket.model import SCHEMES
+from roughfilm.rom.pocket.promise import promise_warnings
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
 from roughfilm.rom.pocket.thin_film import Strip, StripFlow
 from roughfilm.rom.pocket.validity import cautions
@@ -104,9 +104,7 @@ def _with_slope(
     return StripFlow(amplitudes=state.amplitudes + change.amplitudes, flow=state.flow + change.flow), rise + more
 
 
-def solve(
-    solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progress: Progress, *, law: ErrorLaw
-) -> Result:
+def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progress: Progress) -> Result:
     """Solve the thin-film Navier-Stokes equations (``thin_film``), with slope to second order if the model has it.
 
     The correction for slope (:mod:`rom.pocket.slope`) is the linear response of the film to the neglected forces. The
@@ -130,7 +128,7 @@ def solve(
         if Effect.SLOPE in keeps:
             state, rise = _with_slope(film, across, reynolds_number, state, linear, rise)
 
-    warnings = list(cautions(scene, law))
+    warnings = [*cautions(scene), *promise_warnings(scene, model)]
     size = np.abs(state.amplitudes).max(axis=0)
     if size[-1] > MAX_LAST_MODE * size.max():
         warnings.append(

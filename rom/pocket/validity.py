@@ -1,6 +1,5 @@
 """Warnings where a pocket leaves the range of validity of a model."""
 
-from roughfilm.rom.pocket.error_law import ErrorLaw
 from roughfilm.rom.pocket.scene import Pocket
 
 TURBULENT = 1440.0
@@ -10,16 +9,14 @@ Source: Tillmark and Alfredsson 1992, doi:10.1017/S0022112092001046.
 """
 
 
-def cautions(scene: Pocket, law: ErrorLaw | None = None) -> tuple[str, ...]:
-    """The warnings for a model whose error follows this law, if one is known."""
+def cautions(scene: Pocket) -> tuple[str, ...]:
+    """The warnings for every model."""
     warnings = []
     if scene.reynolds_number > TURBULENT:
         warnings.append(
             f"Re = {scene.reynolds_number:.4g} is above {TURBULENT:.0f}, where shear flow becomes turbulent; "
             "all models assume laminar, steady flow"
         )
-    if law is not None and law.within(scene) is None:
-        warnings.append(law.described(scene))
     return tuple(warnings)
 
 

@@ -93,6 +93,13 @@ KIND = Kind(
     scene=RoughGap,
     summary="a liquid in a narrow gap between two walls, one or both rough",
     compared={"A11": "flow along x", "A22": "flow along y"},
+    others={
+        "B1": "flow by sliding along x",
+        "B2": "flow by sliding along y",
+        "friction": "friction",
+        "mean_gap": "mean gap",
+        "contact_area": "contact area",
+    },
     scale=scale,
     columns=columns,
     numbers=numbers,

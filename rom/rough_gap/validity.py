@@ -1,6 +1,14 @@
 """Warnings where a rough gap leaves the range of validity of the models."""
 
+import numpy as np
+
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
+from roughfilm.rom.rough_gap.flow.range_of_validity import (
+    MAX_ADDED_DISSIPATION,
+    MAX_ROUGHNESS,
+    change_by_roughness,
+)
 from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.rough_gap.walls import Walls
 
@@ -9,6 +17,36 @@ TURBULENT = 1300.0
 
 Source: Carlson, Widnall and Peeters 1982, doi:10.1017/S0022112082002006.
 """
+
+
+MAX_OMITTED = 0.01
+"""Largest relative change of the flow by an omitted effect of the walls without a warning."""
+
+
+def too_steep(added: Array, limit: float) -> tuple[str, ...]:
+    """The warning that slope adds more than ``limit`` of the thin-film dissipation; empty if it does not.
+
+    ``added`` is that of :attr:`roughfilm.rom.rough_gap.flow.corrected.SlopeCorrected.added`.
+    """
+    most = float(added.max())
+    if most <= limit:
+        return ()
+    remedy = "slope_corrected" if most <= MAX_ADDED_DISSIPATION else "stokes"
+    return (f"slope adds {most:.2g} of the thin-film dissipation, above {limit:g}: out of its range, take {remedy}",)
+
+
+def too_rough(walls: Walls) -> tuple[str, ...]:
+    """The warning that roughness changes a coefficient of a smooth gap by above ``MAX_OMITTED``; empty if not."""
+    ratio = float(np.hypot(walls.lower.std(), walls.upper.std())) / walls.mean_gap
+    if ratio > MAX_ROUGHNESS:
+        return (f"Sq/h̄ = {ratio:.2g} is above {MAX_ROUGHNESS:g}: out of its range, take homogenized",)
+    change = change_by_roughness(walls)
+    if change <= MAX_OMITTED:
+        return ()
+    return (
+        f"roughness changes flow or friction by about {change:.2g}, above {MAX_OMITTED:g}: out of its range, "
+        "take homogenized",
+    )
 
 
 def cautions(scene: RoughGap, walls: Walls) -> tuple[str, ...]:

@@ -1,7 +1,9 @@
 """Comparison of models: differences from the most complete one, effects of single terms, error over cost."""
 
+import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import combinations
 
 from roughfilm.rom.ladder.kind import kind_of
 from roughfilm.rom.ladder.model import Effect, Model, best, one_effect_away
@@ -19,6 +21,8 @@ class Difference:
     quantity : name of the quantity.
     absolute : difference, in the unit of the quantity.
     relative : difference over the ``scale`` of the quantity in the result of the best model.
+    uncertainty : uncertainty of ``relative``: for a difference from the best model that of the best model, for an
+        effect that of both models, √(u₁² + u₂²); None if one is unknown.
     """
 
     model: str
@@ -27,6 +31,7 @@ class Difference:
     quantity: str
     absolute: float
     relative: float
+    uncertainty: float | None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,15 +57,45 @@ def scale(result: Result, quantity: str) -> float:
     return kind_of(result).scale_of(result, quantity)
 
 
+def relative_uncertainty(result: Result, quantity: str) -> float | None:
+    """The numerical uncertainty of a quantity over its ``scale`` in the same result; None if it is unknown."""
+    uncertainty = result.quantities[quantity].uncertainty
+    return None if uncertainty is None else uncertainty / scale(result, quantity)
+
+
+def told_apart(error: float, other: float, uncertainty: float | None) -> bool:
+    """Whether a reference of a relative uncertainty u shows which of two models has the smaller error.
+
+    The true errors lie within |error| ± u. The models can be told apart if these intervals do not overlap, that is, if
+    ||error| - |other|| > 2u; never if u is unknown (None).
+    """
+    return uncertainty is not None and abs(abs(error) - abs(other)) > 2 * uncertainty
+
+
+def with_uncertainty(result: Result, uncertainties: Mapping[str, float]) -> Result:
+    """The result whose quantities carry the larger of their own uncertainty and the given one, in their units."""
+    quantities = {
+        name: replace(quantity, uncertainty=max(quantity.uncertainty or 0.0, uncertainties[name]))
+        if name in uncertainties
+        else quantity
+        for name, quantity in result.quantities.items()
+    }
+    return replace(result, quantities=quantities)
+
+
 def _difference(result: Result, other: Result, quantity: str, effect: Effect | None, top: Result) -> Difference:
     absolute = result.quantities[quantity].value - other.quantities[quantity].value
+    size = scale(top, quantity)
+    bars = [one.quantities[quantity].uncertainty for one in ([other] if effect is None else [result, other])]
+    known = [bar for bar in bars if bar is not None]
     return Difference(
         model=result.model,
         other=other.model,
         effect=effect,
         quantity=quantity,
         absolute=absolute,
-        relative=absolute / scale(top, quantity),
+        relative=absolute / size,
+        uncertainty=math.hypot(*known) / size if len(known) == len(bars) else None,
     )
 
 
@@ -80,6 +115,29 @@ def to_best(models: Sequence[Model], results: Mapping[str, Result]) -> tuple[Dif
         if model.name != top.model
         for quantity in kind_of(top).shared(results[model.name], top)
     )
+
+
+def undecided(models: Sequence[Model], results: Mapping[str, Result]) -> dict[str, tuple[tuple[str, str], ...]]:
+    """The pairs of solved models, by quantity, whose errors the uncertainty of the best solved one does not tell apart.
+
+    Parameters
+    ----------
+    models : models of one kind of scene.
+    results : results by the name of the model; at least one.
+    """
+    top = results[best([model for model in models if model.name in results]).name]
+    errors: dict[str, dict[str, float]] = {}
+    for one in to_best(models, results):
+        errors.setdefault(one.quantity, {top.model: 0.0})[one.model] = one.relative
+    pairs = {
+        quantity: tuple(
+            (one, other)
+            for one, other in combinations([model.name for model in models if model.name in found], 2)
+            if not told_apart(found[one], found[other], relative_uncertainty(top, quantity))
+        )
+        for quantity, found in errors.items()
+    }
+    return {quantity: found for quantity, found in pairs.items() if found}
 
 
 def effects(models: Sequence[Model], results: Mapping[str, Result]) -> tuple[Difference, ...]:
@@ -118,11 +176,18 @@ def points(reference: Result, runs: Sequence[Result]) -> tuple[Point, ...]:
     )
 
 
-def pareto_front(chart: Sequence[Point], quantity: str) -> tuple[Point, ...]:
-    """The points for which no other point has both less cost and less error in a quantity, cheapest first."""
+def pareto_front(chart: Sequence[Point], quantity: str, uncertainty: float | None = 0.0) -> tuple[Point, ...]:
+    """The points for which no other point has both less cost and less error in a quantity, cheapest first.
+
+    A point whose error cannot be told apart from that of a cheaper point on the front, with a reference of this
+    relative uncertainty (None if it is unknown), is left out.
+    """
     front: list[Point] = []
     known = [point for point in chart if quantity in point.error]
     for point in sorted(known, key=lambda point: (point.cpu_s, point.error[quantity])):
-        if not front or point.error[quantity] < front[-1].error[quantity]:
+        error = point.error[quantity]
+        if not front or (
+            error < front[-1].error[quantity] and told_apart(error, front[-1].error[quantity], uncertainty)
+        ):
             front.append(point)
     return tuple(front)

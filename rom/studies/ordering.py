@@ -57,7 +57,11 @@ def fitted_powers(features: Mapping[str, Array], error: Array, *, step: float) -
 
 
 def ordering(
-    features: Mapping[str, Array], powers: Mapping[str, float], error: Array, tolerances: Sequence[float]
+    features: Mapping[str, Array],
+    powers: Mapping[str, float],
+    error: Array,
+    tolerances: Sequence[float],
+    largest: Array | None = None,
 ) -> Ordering:
     """The quality with which a product of powers orders errors.
 
@@ -67,11 +71,15 @@ def ordering(
     powers : power of each feature.
     error : errors, shape (cases,).
     tolerances : tolerated errors for which thresholds are computed.
+    largest : largest possible errors if the reference is uncertain, shape (cases,), from which the thresholds are
+        computed; by default the errors.
     """
     from scipy.stats import spearmanr  # slow to import
 
     number = product(features, powers)
-    thresholds = {tolerance: threshold(number, error, tolerance) for tolerance in tolerances}
+    thresholds = {
+        tolerance: threshold(number, error if largest is None else largest, tolerance) for tolerance in tolerances
+    }
     covered = [0.0 if limit is None else float(np.mean(number <= limit)) for limit in thresholds.values()]
     constant = number.max() <= (1 + 1e-9) * number.min()
     rank = 0.0 if constant else float(spearmanr(number, error).statistic)

@@ -1,7 +1,7 @@
 """The results of a finished sweep: the quantities of every case by every model."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -29,6 +29,9 @@ class Sweep:
     names : names of the cases.
     given : inputs of the cases by name, shape (cases,).
     found : computed quantities by setting and name, shape (cases,); NaN without a result.
+    uncertainty : numerical uncertainties, as ``found``; NaN where unknown.
+    expected_error : relative errors by the fitted laws, as ``found``; NaN where unknown.
+    resolution, residual : resolution and residual by setting, shape (cases,); NaN without a result.
     cpu_s : CPU time by setting, s, shape (cases,); NaN without a result.
     failures : case, setting and reason of each missing result.
     """
@@ -39,6 +42,10 @@ class Sweep:
     found: Mapping[str, Mapping[str, Array]]
     cpu_s: Mapping[str, Array]
     failures: tuple[tuple[str, str, str], ...]
+    uncertainty: Mapping[str, Mapping[str, Array]] = field(default_factory=dict)
+    expected_error: Mapping[str, Mapping[str, Array]] = field(default_factory=dict)
+    resolution: Mapping[str, Array] = field(default_factory=dict)
+    residual: Mapping[str, Array] = field(default_factory=dict)
 
     def features(self) -> dict[str, Array]:
         """The numbers by name that order the errors, shape (cases,)."""
@@ -73,11 +80,26 @@ def read_sweep(table: Mapping[str, NDArray[Any]], kind: str) -> Sweep:
         cases, first, index = np.unique(table["case"], return_index=True, return_inverse=True)
         settings = table["setting"]
         given = {name: _given(table, name, default)[first] for name, default in judged.given.items()}
-        found, cpu_s = {}, {}
-        for setting in dict.fromkeys(str(name) for name in settings):
-            rows = settings == setting
-            found[setting] = {name: _spread(table[name], index, rows, cases.size) for name in judged.quantities}
-            cpu_s[setting] = _spread(table["cpu_s"], index, rows, cases.size)
+        rows = {setting: settings == setting for setting in dict.fromkeys(str(name) for name in settings)}
+
+        def column(name: str) -> dict[str, Array]:
+            return {setting: _spread(table[name], index, own, cases.size) for setting, own in rows.items()}
+
+        def columns(suffix: str = "") -> dict[str, dict[str, Array]]:
+            """The quantities by setting, or their columns with a suffix, which are NaN if the table lacks them."""
+            missing = np.full(settings.size, np.nan)
+            return {
+                setting: {
+                    name: _spread(
+                        table.get(f"{name}{suffix}", missing) if suffix else table[name], index, own, cases.size
+                    )
+                    for name in judged.quantities
+                }
+                for setting, own in rows.items()
+            }
+
+        found, cpu_s, resolution, residual = columns(), column("cpu_s"), column("resolution"), column("residual")
+        uncertainty, expected_error = columns("_uncertainty"), columns("_expected_error")
         failed = np.flatnonzero(table["outcome"] != SOLVED)
         failures = tuple((str(table["case"][i]), str(settings[i]), str(table["outcome"][i])) for i in failed)
     except (KeyError, IndexError) as error:
@@ -89,6 +111,10 @@ def read_sweep(table: Mapping[str, NDArray[Any]], kind: str) -> Sweep:
         found=found,
         cpu_s=cpu_s,
         failures=failures,
+        uncertainty=uncertainty,
+        expected_error=expected_error,
+        resolution=resolution,
+        residual=residual,
     )
 
 

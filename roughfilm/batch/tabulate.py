@@ -5,7 +5,10 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from roughfilm.batch.jobs import Failure, Job
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.units import Quantity
+from roughfilm.ladder import models
+from roughfilm.rom.advice.estimates import expected_errors
 from roughfilm.rom.ladder.kind import kind_of_name
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import scene_entries
@@ -43,11 +46,36 @@ def row_of(keys: Mapping[str, Key], case: Case, job: Job, answer: Result | Failu
     return requested, {
         "outcome": "solved",
         **dict(sorted(answer.quantities.items())),
+        **_uncertainties(answer),
+        **_expected_errors(case, job, answer),
         "residual": _number(numbers.residual),
         "iterations": _number(numbers.iterations),
         "cpu_s": Quantity(value=numbers.cpu_s, unit="s"),
         "warnings": "; ".join(answer.warnings),
     }
+
+
+def _uncertainties(answer: Result) -> dict[str, Cell]:
+    """The known uncertainties, as <quantity>_uncertainty."""
+    return {
+        f"{name}_uncertainty": Quantity(value=one.uncertainty, unit=one.unit)
+        for name, one in sorted(answer.quantities.items())
+        if one.uncertainty is not None
+    }
+
+
+def _expected_errors(case: Case, job: Job, answer: Result) -> dict[str, Cell]:
+    """The errors by the fitted laws of compared quantities of unknown uncertainty, as <quantity>_expected_error."""
+    kind = kind_of_name(case.scene.kind)
+    unknown = [name for name in kind.shared(answer) if answer.quantities[name].uncertainty is None]
+    if not unknown:
+        return {}
+    model = job.setting.model
+    try:
+        errors = expected_errors(case.scene, model, answer.numerics.resolution, models(case.scene.kind))
+    except (InputError, ConvergenceError):
+        return {}
+    return {f"{name}_expected_error": _number(errors[name]) for name in unknown if name in errors}
 
 
 def columns(rows: Sequence[TableRow]) -> dict[str, Column]:

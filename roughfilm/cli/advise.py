@@ -26,7 +26,10 @@ from roughfilm.terminal.results import print_all, table_of
 from roughfilm.words.numbers import finite
 
 Want = Annotated[
-    str | None, typer.Option("--want", help="Quantity of --within, such as load (default: the first of the kind).")
+    str | None,
+    typer.Option(
+        "--want", help="Quantity of --within, any that the kind reports, such as load (default: the first of the kind)."
+    ),
 ]
 
 
@@ -67,12 +70,11 @@ def advice_for(scene: Scene, quantity: str | None, within: str) -> Advice:
 def _shown(scene: Scene, advice: Advice) -> Iterator[Table | str]:
     """The advice for people."""
     kind, chosen = kind_of_name(scene.kind), advice.chosen
-    title = kind.compared[advice.quantity]
     if chosen is None:
-        yield f"{scene.name}: {shortfall(advice, title)}"
+        yield f"{scene.name}: {shortfall(advice)}"
     else:
         yield (
-            f"{scene.name}: {title} within {percent(advice.within)} by {chosen.model}, "
+            f"{scene.name}: {advice.title} within {percent(advice.within)} by {chosen.model}, "
             f"resolution {chosen.resolution}: expected within {percent(chosen.error or 0.0)}, {chosen.cpu_s:.2g} CPU s"
         )
     judged = [one for one in advice.considered if one.resolution is not None]
@@ -124,6 +126,7 @@ def entries_of(advice: Advice) -> dict[str, Any]:
         "want": advice.quantity,
         "within": advice.within,
         "nearest": advice.nearest.model if advice.nearest else None,
+        "finer": {"model": advice.finer.model, "resolution": advice.finer.resolution} if advice.finer else None,
         "reasons": [f"{one.model}: {one.verdict}: {one.reason}" for one in advice.considered],
         "omitted": asdict(advice.omitted) if advice.omitted else None,
         "considered": [_entries(one) for one in advice.considered],

@@ -18,12 +18,19 @@ from roughfilm.figures.view import views
 from roughfilm.ladder import models
 from roughfilm.pages.comparison import Report, cheapest_within, write_comparison
 from roughfilm.pages.render import write_figures
-from roughfilm.rom.ladder.kind import Scene, kind_of_name
+from roughfilm.rom.ladder.kind import Scene, kind_of, kind_of_name
 from roughfilm.rom.ladder.model import Model, best
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.rom.ladder.store import as_entries
-from roughfilm.rom.studies.comparison import effects, points, scale, to_best
+from roughfilm.rom.studies.comparison import (
+    effects,
+    points,
+    relative_uncertainty,
+    to_best,
+    undecided,
+    with_uncertainty,
+)
 from roughfilm.rom.studies.convergence import GRIDS, Convergence, ConvergenceKind, convergence
 from roughfilm.terminal.console import (
     NOT_CONVERGED,
@@ -67,7 +74,13 @@ def command(
         print_json(_entries(report, out))
     else:
         tables = [_convergence_table(name, study) for name, study in report.convergence.items()]
-        print_all((*map(quantity_table, results.values()), *tables, f"report: {out / 'report.html'}"))
+        pairs = [
+            f"{report.kind.compared[quantity]}: {one} and {other} cannot be told apart with this reference"
+            for quantity, found in report.undecided.items()
+            for one, other in found
+        ]
+        tables_of_results = map(quantity_table, report.results.values())
+        print_all((*tables_of_results, *tables, *pairs, f"report: {out / 'report.html'}"))
     print_left_out(absent)
     if failed:
         raise typer.Exit(NOT_CONVERGED)
@@ -112,15 +125,14 @@ def _judge(
     from roughfilm.figures.base import grid_convergence, speed_against_accuracy  # matplotlib is slow to import
 
     view, titles = views()[scene.kind], kind_of_name(scene.kind).compared
-    top = best([model for model in ladder if model.name in results])
+    solved = [model for model in ladder if model.name in results]
+    top = best(solved)
+    grids = {model.name: convergence(model, runs) for model in solved}
+    results = {name: _with_grids(result, grids[name]) for name, result in results.items()}
     chart = points(results[top.name], runs)
-    studies = {
-        model.name: study
-        for model in ladder
-        if model.order and model.name in results and (study := convergence(model, runs))
-    }
+    studies = {model.name: grids[model.name] for model in solved if model.order and grids[model.name]}
     extrapolated = any(one.kind is ConvergenceKind.MONOTONE for study in studies.values() for one in study.values())
-    floor = _uncertainty(results[top.name], convergence(top, runs))
+    floor = _uncertainty(results[top.name], grids[top.name])
     plots = {
         **view.plots(scene, results),
         "chart": speed_against_accuracy(chart, floor, titles, view),
@@ -136,6 +148,7 @@ def _judge(
         best=top.name,
         to_best=to_best(ladder, results),
         effects=effects(ladder, results),
+        undecided=undecided(ladder, results),
         chart=chart,
         uncertainty=floor,
         convergence=studies,
@@ -147,14 +160,18 @@ def _judge(
     return report
 
 
-def _uncertainty(result: Result, study: Mapping[str, Convergence]) -> dict[str, float]:
-    """The uncertainty of each compared quantity over its scale: by the grids, or by the run itself if that is larger.
+def _with_grids(result: Result, study: Mapping[str, Convergence]) -> Result:
+    """The result with the uncertainty by the grids, or by the run itself if that is larger.
 
     Grids that a study refines in some directions only do not show the error of the others.
     """
-    return {
-        name: max(one.uncertainty, result[name].uncertainty or 0.0) / scale(result, name) for name, one in study.items()
-    }
+    return with_uncertainty(result, {name: one.uncertainty for name, one in study.items()})
+
+
+def _uncertainty(result: Result, study: Mapping[str, Convergence]) -> dict[str, float]:
+    """The uncertainty of each compared quantity over its scale, where it is known."""
+    known = {name: relative_uncertainty(_with_grids(result, study), name) for name in kind_of(result).shared(result)}
+    return {name: found for name, found in known.items() if found is not None}
 
 
 def _entries(report: Report, out: Path) -> dict[str, Any]:
@@ -163,6 +180,7 @@ def _entries(report: Report, out: Path) -> dict[str, Any]:
         "models": [as_entries(result) for result in report.results.values()],
         "differences": [asdict(difference) for difference in report.to_best + report.effects],
         "cheapest_within_10_percent": cheapest_within(report, 0.10),
+        "cannot_be_told_apart": {quantity: [*pairs] for quantity, pairs in report.undecided.items()},
         "convergence": {
             model: {quantity: asdict(one) for quantity, one in study.items()}
             for model, study in report.convergence.items()

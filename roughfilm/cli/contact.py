@@ -44,6 +44,7 @@ NUMERICS = ("complementarity", "iterations", "cpu_s")
 COLUMNS = {
     "load, MPa": ("load", 1e-6),
     "area, %": ("area_fraction", 100),
+    "in pixels, %": ("area_fraction_pixel", 100),
     "plastic, %": ("plastic_fraction", 100),
     "mean gap, µm": ("mean_gap", 1e6),
     "p max, MPa": ("pressure_max", 1e-6),

@@ -1,6 +1,7 @@
 """roughfilm report: the errors of every model in a finished sweep, the number that orders them, and the cost."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from itertools import combinations
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -14,13 +15,14 @@ from roughfilm.figures.view import views
 from roughfilm.ladder import models
 from roughfilm.pages.render import render
 from roughfilm.rom.ladder.kind import kind_of_name, kinds
-from roughfilm.rom.ladder.model import best
 from roughfilm.rom.ladder.provenance import machine
 from roughfilm.rom.studies.ordering import Ordering, fitted_powers, ordering
+from roughfilm.rom.studies.reference import Order, Ranking, Reference, interval, ranking, reference_of
 from roughfilm.rom.studies.sweep import Sweep, loaded, read_sweep, relative_error, sweeping
 from roughfilm.rom.studies.table import read_table
 from roughfilm.terminal.console import AsJson, make_directory, print_json
 from roughfilm.terminal.results import print_all, table_of
+from roughfilm.words.numbers import finite, span
 
 TOLERANCES = (0.01, 0.02, 0.05, 0.10)
 
@@ -40,8 +42,8 @@ def command(
     table = read_table(directory / "table.h5")
     sweep = read_sweep(table, _kind(table))
     compared = kind_of_name(sweep.kind).compared
-    reference = _reference(sweep)
-    settings = [name for name in sweep.found if name != reference and np.isfinite(sweep.cpu_s[name]).any()]
+    reference = reference_of(sweep, models(sweep.kind))
+    settings = [name for name in sweep.found if name != reference.setting and np.isfinite(sweep.cpu_s[name]).any()]
     if not settings:
         raise InputError(f"{directory}: holds one model only; a report compares at least two")
     numbers = {
@@ -49,8 +51,22 @@ def command(
         for setting in settings
         for quantity in compared
     }
-    rows = [_row(sweep, setting, reference, numbers) for setting in [*settings, reference]]
-    entries = {"reference": reference, "cases": len(sweep.names), "settings": rows, "failures": list(sweep.failures)}
+    rows = [_row(sweep, setting, reference, numbers) for setting in [*settings, reference.setting]]
+    bars = {quantity: _bars(sweep, reference, quantity) for quantity in compared}
+    ranks = [
+        found
+        for quantity in compared
+        for pair in combinations(settings, 2)
+        if (found := ranking(sweep, pair, reference, quantity)) is not None
+    ]
+    entries = {
+        "reference": reference.setting,
+        "reference_uncertainty": bars,
+        "cases": len(sweep.names),
+        "settings": rows,
+        "ranking": [_rank_entries(one) for one in ranks],
+        "failures": list(sweep.failures),
+    }
     path = out or directory / "report.html"
     make_directory(path.parent)
     from roughfilm.figures.sweep import errors_in_order, sweep_chart  # matplotlib is slow to import
@@ -60,7 +76,9 @@ def command(
         "sweep.html.j2",
         path,
         sweep=sweep,
-        reference=reference,
+        reference=reference.setting,
+        bars=bars,
+        ranks=[(one, _verdict(one)) for one in ranks],
         rows=rows,
         tolerances=[f"{tolerance:g}" for tolerance in TOLERANCES],
         chart=sweep_chart(sweep, reference, settings),
@@ -79,12 +97,17 @@ def command(
         (
             row["setting"],
             f"{row['cpu_s']:.3g}",
-            *(_percent(row["error"][quantity][part]) for quantity in compared for part in ("median", "high")),
+            *(_span(row["error"][quantity]["intervals"][part]) for quantity in compared for part in ("median", "high")),
         )
         for row in rows
     ]
     table_of_errors = table_of(("setting", "CPU, s", *heads), cells, title=f"{len(sweep.names)} cases", left=1)
-    print_all((table_of_errors, f"report: {path}"))
+    undecided = [
+        f"{compared[one.quantity]}: {' and '.join(one.settings)} cannot be told apart with this reference"
+        for one in ranks
+        if one.order is Order.UNDECIDED
+    ]
+    print_all((table_of_errors, *undecided, f"report: {path}"))
 
 
 def _kind(table: Mapping[str, Any]) -> str:
@@ -95,52 +118,50 @@ def _kind(table: Mapping[str, Any]) -> str:
     return names.pop()
 
 
-def _reference(sweep: Sweep) -> str:
-    """The setting of the best model that solved any case, at its best scheme."""
-    ladder = models(sweep.kind)
-    solved = [name for name, values in sweep.found.items() if any(np.isfinite(v).any() for v in values.values())]
-    names = {name.split("-")[0] for name in solved or sweep.found}
-    top = best([model for model in ladder if model.name in names])
-    named = [name for name in sweep.found if name.split("-")[0] == top.name]
-    return next((name for scheme in top.schemes for name in named if scheme in name.split("-")), named[-1])
-
-
-def _known(sweep: Sweep, setting: str, reference: str, quantity: str) -> tuple[dict[str, Array], Array]:
-    error = relative_error(sweep, setting, reference, quantity)
+def _known(
+    sweep: Sweep, setting: str, reference: Reference, quantity: str
+) -> tuple[dict[str, Array], Array, tuple[Array, Array]]:
+    """The features and errors of the cases whose error is known, and the least and largest possible errors."""
+    error = relative_error(sweep, setting, reference.setting, quantity)
     features = sweep.features()
-    known = np.isfinite(error) & np.isfinite(sum(features.values())) & loaded(sweep, reference)
-    return {name: values[known] for name, values in features.items()}, error[known]
+    known = np.isfinite(error) & np.isfinite(sum(features.values())) & loaded(sweep, reference.setting)
+    least, largest = interval(sweep, setting, reference, quantity)
+    return {name: values[known] for name, values in features.items()}, error[known], (least[known], largest[known])
 
 
-def _orderings(sweep: Sweep, setting: str, reference: str, quantity: str) -> dict[str, Ordering]:
+def _orderings(sweep: Sweep, setting: str, reference: Reference, quantity: str) -> dict[str, Ordering]:
     """The ordering by each candidate, by the fitted powers, and the ``chosen`` one of them.
 
     It is empty for a quantity that the setting does not give, and for an error that is the same everywhere.
     """
-    features, error = _known(sweep, setting, reference, quantity)
+    features, error, (_, largest) = _known(sweep, setting, reference, quantity)
     if not np.isfinite(sweep.found[setting][quantity]).any():
         return {}
     if error.size < 8:
-        raise InputError(f"{setting}: has {error.size} cases beside {reference}; a report needs at least 8")
+        raise InputError(f"{setting}: has {error.size} cases beside {reference.setting}; a report needs at least 8")
     if error.max() <= (1 + EQUAL_ERRORS) * error.min():
         return {}
     judged = sweeping(kind_of_name(sweep.kind))
-    orders = {name: ordering(features, powers, error, TOLERANCES) for name, powers in judged.candidates.items()}
+    orders = {
+        name: ordering(features, powers, error, TOLERANCES, largest) for name, powers in judged.candidates.items()
+    }
     fitted = fitted_powers({name: features[name] for name in judged.fitted}, error, step=0.25)
-    orders["fitted"] = ordering(features, fitted or {judged.fitted[0]: 1}, error, TOLERANCES)
+    orders["fitted"] = ordering(features, fitted or {judged.fitted[0]: 1}, error, TOLERANCES, largest)
     simple, powers = orders[max(judged.candidates, key=lambda name: orders[name].rank)], orders["fitted"]
     better = powers.rank > simple.rank + RANK_GAIN and powers.coverage >= simple.coverage
     return {**orders, "chosen": powers if better else simple}
 
 
 def _row(
-    sweep: Sweep, setting: str, reference: str, numbers: Mapping[tuple[str, str], Mapping[str, Ordering]]
+    sweep: Sweep, setting: str, reference: Reference, numbers: Mapping[tuple[str, str], Mapping[str, Ordering]]
 ) -> dict[str, Any]:
     errors: dict[str, Any] = {}
     orders = {}
     for quantity in kind_of_name(sweep.kind).compared:
-        _, error = _known(sweep, setting, reference, quantity)
-        errors[quantity] = _spread(error) if error.size else dict.fromkeys(("median", "high", "worst"))
+        _, error, ends = _known(sweep, setting, reference, quantity)
+        spread, least, largest = (_spread(one) for one in (error, *ends))
+        intervals = {part: None if spread[part] is None else [least[part], largest[part]] for part in spread}
+        errors[quantity] = {**spread, "intervals": intervals}
         if numbers.get((setting, quantity)):
             chosen = numbers[setting, quantity]["chosen"]
             orders[quantity] = {
@@ -161,10 +182,33 @@ def _row(
     }
 
 
-def _spread(error: Array) -> dict[str, float]:
-    median, high, worst = np.median(error), np.percentile(error, 95), error.max()
-    return {"median": float(median), "high": float(high), "worst": float(worst)}
+def _spread(error: Array) -> dict[str, float | None]:
+    """The median, the 95th percentile and the greatest of the errors; None for an infinite one and without cases."""
+    if not error.size:
+        return dict.fromkeys(("median", "high", "worst"))
+    ordered = np.sort(error)
+    median, high = (
+        np.percentile(ordered, part, method="higher" if np.isinf(ordered[-1]) else "linear") for part in (50, 95)
+    )
+    return {"median": finite(median), "high": finite(high), "worst": finite(ordered[-1])}
 
 
-def _percent(fraction: float | None) -> str:
-    return "-" if fraction is None else f"{100 * fraction:.3g} %"
+def _bars(sweep: Sweep, reference: Reference, quantity: str) -> dict[str, float | int | None]:
+    """The uncertainty of the reference over the cases in which its error counts."""
+    bar = reference.uncertainty[quantity][loaded(sweep, reference.setting)]
+    known = bar[np.isfinite(bar)]
+    return {**_spread(known), "known": int(known.size), "cases": int(bar.size)}
+
+
+def _rank_entries(one: Ranking) -> dict[str, Any]:
+    nearer = dict(zip(one.settings, one.nearer, strict=True))
+    return {"quantity": one.quantity, "settings": list(one.settings), "nearer": nearer, "order": _verdict(one)}
+
+
+def _verdict(one: Ranking) -> str:
+    named = {Order.FIRST: one.settings[0], Order.SECOND: one.settings[1]}
+    return f"{named[one.order]} is nearer" if one.order in named else str(one.order)
+
+
+def _span(ends: Sequence[float | None] | None) -> str:
+    return "-" if ends is None else span(ends[0], ends[1])

@@ -64,7 +64,7 @@ def command(
             raise InputError(f"--{given[0]}: --within chooses the model and how it is run; leave one of them out")
         advice = advice_for(read, quantity, within)
         if advice.chosen is None:
-            raise ConvergenceError(f"--within: {shortfall(advice, kind_of_name(read.kind).compared[advice.quantity])}")
+            raise ConvergenceError(f"--within: {shortfall(advice)}")
         model, resolution, result = advice.chosen.model, advice.chosen.resolution, advice.result
         messages.print(f"{model} at resolution {resolution}: {advice.chosen.reason}", soft_wrap=True, markup=False)
     elif quantity is not None:

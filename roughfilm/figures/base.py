@@ -31,6 +31,9 @@ mpl.rcParams.update(
 )
 
 
+MIN_ERROR = 1e-9
+"""Smallest relative error that is drawn."""
+
 MAX_PIXELS = 512
 """Largest number of points of a map along a side."""
 
@@ -40,26 +43,29 @@ def speed_against_accuracy(
 ) -> str:
     """Error over CPU time, a panel for each compared quantity, with the Pareto front.
 
-    ``floor`` is the uncertainty of the reference, below which errors mean nothing, and ``titles`` are those of the
-    compared quantities.
+    ``floor`` is the relative uncertainty of the reference by quantity: a bar at each point spans error ± uncertainty,
+    and points that it does not tell apart are not ranked by the front. ``titles`` are those of the compared quantities.
     """
     figure, panels = new_figure((10, 4.6), 1, len(titles))
     for axes, (quantity, title) in zip(panels, titles.items(), strict=True):
         known = [point for point in chart if quantity in point.error]
         for name in dict.fromkeys(point.model for point in known):
             run = sorted((point for point in known if point.model == name), key=lambda point: point.resolution)
-            times, errors = [p.cpu_s for p in run], [100 * max(p.error[quantity], 1e-9) for p in run]
+            times, errors = [p.cpu_s for p in run], [_drawn(p.error[quantity]) for p in run]
             style = view.style(name)
+            if bar := floor.get(quantity, 0.0):
+                ends = [[_drawn(p.error[quantity] - bar) for p in run], [_drawn(p.error[quantity] + bar) for p in run]]
+                axes.vlines(times, *ends, color=style.colour, alpha=0.4, linewidth=1)
             axes.plot(times, errors, style.marker, color=style.colour, label=name, alpha=0.85, markersize=6)
             axes.annotate(f"{run[-1].resolution}", (times[-1], errors[-1]), (5, 5), textcoords="offset points", size=8)
             if len(run) > 1:
                 axes.annotate(
                     f"{run[0].resolution}", (times[0], errors[0]), (-12, 6), textcoords="offset points", size=8
                 )
-        front = pareto_front(chart, quantity)
+        front = pareto_front(chart, quantity, floor.get(quantity))
         axes.step(
             [p.cpu_s for p in front],
-            [100 * max(p.error[quantity], 1e-9) for p in front],
+            [_drawn(p.error[quantity]) for p in front],
             where="post",
             color="black",
             linewidth=1,
@@ -72,9 +78,17 @@ def speed_against_accuracy(
         axes.set(
             xscale="log", yscale="log", xlabel="CPU time, s", ylabel=f"error in {title} relative to the reference, %"
         )
+        lowest = min((_drawn(p.error[quantity]) for p in known), default=None)
+        if lowest is not None:
+            axes.set_ylim(bottom=lowest / 2)
     handles, labels = panels[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper center", ncols=4, fontsize=8)
     return svg(figure)
+
+
+def _drawn(error: float) -> float:
+    """A relative error in per cent, at least that of ``MIN_ERROR``."""
+    return 100 * max(error, MIN_ERROR)
 
 
 def grid_convergence(studies: Mapping[str, Mapping[str, Convergence]], titles: Mapping[str, str], view: View) -> str:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 import roughfilm.figures.views
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.sweeping import Columns
+from roughfilm.rom.studies.reference import Reference
 from roughfilm.rom.studies.sweep import Sweep
 
 
@@ -51,7 +52,7 @@ class View:
     plots: Callable[[Any, Mapping[str, Result]], Mapping[str, str]]
     groups: Callable[[Columns], Mapping[str, NDArray[Any]]]
     drawing: str = ""
-    maps: Callable[[Sweep, str, str, str], str] | None = None
+    maps: Callable[[Sweep, str, Reference, str], str] | None = None
     errors: str = ""
     ordering: str = ""
     left_out: str = ""

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from roughfilm.contact.foundation.arrays import unmasked
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.mechanics.checks import not_negative, positive
@@ -43,10 +44,10 @@ def surface_of(heights: Heights, spacing: float | Sequence[float] | None) -> Sur
             count = int(heights.invalid.sum())
             raise InputError(f"heights: {count} of {heights.invalid.size} points are invalid; fill them by prepare()")
         return heights
-    if isinstance(heights, np.ma.MaskedArray):
-        raise InputError("heights: got a masked array; give a Surface with its invalid points and prepare() it")
     try:
-        array = np.asarray(heights)
+        array = unmasked("heights", heights)
+    except InputError as error:
+        raise InputError(f"{error}, by prepare() of a Surface with these heights") from None
     except ValueError:
         raise InputError("heights: got rows of different lengths; give an array of shape (nx, ny)") from None
     if array.dtype.kind not in "fiu":
@@ -229,8 +230,9 @@ def press(
     Returns
     -------
     Contact
-        It has the floats ``area_fraction``, ``plastic_fraction``, ``mean_gap`` (m), ``approach`` (m), and arrays of
-        shape (nx, ny) ``pressure`` (Pa), ``gap`` (m), ``in_contact``. ``complementarity`` is the violation of the
+        It has the floats ``area_fraction`` (corrected for the pixels along a smooth perimeter),
+        ``area_fraction_pixel`` (counted), ``plastic_fraction``, ``mean_gap`` (m), ``approach`` (m), and arrays of shape
+        (nx, ny) ``pressure`` (Pa), ``gap`` (m), ``in_contact``. ``complementarity`` is the violation of the
         contact conditions, recomputed from the pressure. One grid does not give the discretisation error; compare two
         grids. If the shortest wave is resolved, the area converges with first order in the spacing, gap and approach
         with second.

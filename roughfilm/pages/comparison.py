@@ -1,5 +1,6 @@
 """The page of a comparison: every model on one scene."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -29,6 +30,7 @@ class Report:
     best: str
     to_best: tuple[Difference, ...]
     effects: tuple[Difference, ...]
+    undecided: Mapping[str, tuple[tuple[str, str], ...]]
     chart: tuple[Point, ...]
     uncertainty: Mapping[str, float]
     convergence: Mapping[str, Mapping[str, Convergence]]
@@ -37,14 +39,20 @@ class Report:
 
 
 def cheapest_within(report: Report, fraction: float) -> str:
-    """The model with the least CPU time whose compared quantities are within a fraction of those of the best model."""
-    compared = report.kind.shared(report.results[report.best])
+    """The model with the least CPU time whose error in all compared quantities is at most a fraction.
+
+    The error is |difference| + uncertainty of the reference, which is the best model. Without such a model it is the
+    reference itself, whatever its uncertainty.
+    """
+    top = report.results[report.best]
+    compared = report.kind.shared(top)
+    floor = {name: report.uncertainty.get(name, math.inf) for name in compared}
     worst = {
-        name: 0.0 if compared == report.kind.shared(report.results[report.best], result) else float("inf")
+        name: 0.0 if compared == report.kind.shared(top, result) else math.inf
         for name, result in report.results.items()
     }
-    for difference in report.to_best:
-        worst[difference.model] = max(worst[difference.model], abs(difference.relative))
+    for one in report.to_best:
+        worst[one.model] = max(worst[one.model], abs(one.relative) + floor[one.quantity])
     enough = [name for name, error in worst.items() if error <= fraction]
     return min(enough, key=lambda name: report.results[name].numerics.cpu_s)
 
@@ -62,7 +70,9 @@ def write_comparison(report: Report, path: Path) -> None:
         best=report.results[report.best],
         entries=scene_entries(report.scene),
         cheapest={fraction: cheapest_within(report, fraction) for fraction in (0.01, 0.10)},
-        known=max(report.uncertainty.values(), default=0.0),
+        known=max(report.uncertainty.get(name, math.inf) for name in report.kind.shared(report.results[report.best])),
+        infinity=math.inf,
+        grouped=_by_quantity(report),
         differences=_by_model(report.to_best),
         sources=[(doi, LINKS + doi) for doi in sorted(sources)],
     )
@@ -73,3 +83,11 @@ def _by_model(differences: tuple[Difference, ...]) -> dict[str, dict[str, Differ
     for difference in differences:
         table.setdefault(difference.model, {})[difference.quantity] = difference
     return table
+
+
+def _by_quantity(report: Report) -> dict[str, list[str]]:
+    """The pairs of models that cannot be told apart, as text, by the name of the quantity in a sentence."""
+    return {
+        report.kind.compared[quantity]: [f"{one} and {other}" for one, other in pairs]
+        for quantity, pairs in report.undecided.items()
+    }

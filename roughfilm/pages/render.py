@@ -8,7 +8,8 @@ import jinja2
 
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.words.numbers import percent
+from roughfilm.rom.studies.comparison import Difference
+from roughfilm.words.numbers import MIN_UNCERTAINTY, percent, share, span
 
 TEMPLATES = Path(__file__).parent / "templates"
 
@@ -29,7 +30,7 @@ def render(template: str | Path, path: Path, **entries: Any) -> None:
     )
     environment.filters.update(
         percent=percent,
-        share=_share,
+        share=share,
         seconds=_seconds,
         number=_number,
         digits=_digits,
@@ -37,6 +38,8 @@ def render(template: str | Path, path: Path, **entries: Any) -> None:
         micro=_micro,
         quantity=_quantity,
         difference=_difference,
+        interval=_interval,
+        span=lambda ends: "–" if ends is None else span(*ends),
     )
     page = environment.get_template(template.name).render(**entries)
     with replacing(path) as scratch:
@@ -48,12 +51,6 @@ def write_figures(plots: Mapping[str, str], directory: Path) -> None:
     for name, text in plots.items():
         with replacing(directory / f"{name}.svg") as scratch:
             scratch.write_text('<?xml version="1.0" encoding="utf-8"?>\n' + text, encoding="utf-8")
-
-
-def _share(fraction: float) -> str:
-    """A fraction without sign, in per cent."""
-    percent = 100 * fraction
-    return f"{percent:.0f} %" if percent >= 99.5 else f"{percent:.2g} %"
 
 
 def _seconds(value: float) -> str:
@@ -82,6 +79,14 @@ def _typeset(unit: str) -> str:
 def _difference(value: float, unit: str) -> str:
     size = f"{abs(value):.4f}" if unit == "1" else _quantity(Quantity(value=abs(value), unit=unit))
     return ("+" if value >= 0 else "−") + size
+
+
+def _interval(difference: Difference) -> str:
+    """A relative difference ± its uncertainty, in per cent; a negligible uncertainty is left out."""
+    if difference.uncertainty is None:
+        return f"{percent(difference.relative)} ± ?"
+    bar = f" ± {share(difference.uncertainty)}" if difference.uncertainty >= MIN_UNCERTAINTY else ""
+    return percent(difference.relative) + bar
 
 
 def _micro(value: float) -> str:

@@ -65,6 +65,26 @@ def percent(fraction: float) -> str:
     return text.replace("-", "−")
 
 
+def share(fraction: float) -> str:
+    """A fraction without sign, in per cent."""
+    percent = 100 * fraction
+    return f"{percent:.0f} %" if percent >= 99.5 else f"{percent:.2g} %"
+
+
+def span(least: float | None, largest: float | None) -> str:
+    """The interval between two fractions in per cent; None stands for an unknown end.
+
+    Examples
+    --------
+    >>> span(0.0042, 0.021), span(0.0123, 0.01231), span(0.0, None)
+    ('0.42 % to 2.1 %', '1.2 %', 'unknown')
+    """
+    if least is None or largest is None:
+        return "unknown"
+    ends = share(least), share(largest)
+    return ends[0] if ends[0] == ends[1] else " to ".join(ends)
+
+
 def in_unit(quantity: Quantity) -> tuple[str, str]:
     """The number and unit of a quantity for people: lengths in µm."""
     if quantity.unit == "m":

@@ -99,7 +99,10 @@ BAD = {
     "heights of ragged rows": (lambda scene, z: rf.parameters([[1.0], [1.0, 2.0]], spacing=1e-6), "heights: got"),
     "heights as text": (lambda scene, z: rf.parameters([["a", "b"]], spacing=1e-6), "give real numbers"),
     "heights not finite": (lambda scene, z: rf.press(z * np.nan, spacing=1, modulus=1, load=1), "are not finite"),
-    "masked heights": (lambda scene, z: rf.flow_factors(np.ma.masked_array(z), spacing=1e-6, gap=3e-6), "masked"),
+    "masked heights": (
+        lambda scene, z: rf.flow_factors(np.ma.masked_less(z, z.mean()), spacing=1e-6, gap=3e-6),
+        "masked",
+    ),
     "no spacing": (lambda scene, z: rf.flow_factors(z, gap=3e-6), "spacing: missing"),
     "a negative spacing": (lambda scene, z: rf.flow_factors(z, spacing=-1e-6, gap=3e-6), "spacing"),
     "three spacings": (lambda scene, z: rf.flow_factors(z, spacing=(1, 2, 3), gap=3e-6), "a pair (dx, dy)"),
@@ -228,6 +231,15 @@ def test_a_comparison_measures_against_the_model_that_keeps_most(pocket):
     assert found.errors.keys() == {"reynolds", "inertial_reynolds"}
     one, best = (found.results[name]["load_plus"].value for name in ("inertial_reynolds", "film_slope"))
     assert found.errors["inertial_reynolds"]["load_plus"] == pytest.approx((one - best) / abs(best))
+
+
+def test_a_comparison_carries_the_uncertainty_of_the_best_model():
+    """Density and viscosity of this oil are constant, so that two models are equal; the third does not cavitate."""
+    journal = rf.load_scene(SCENES / "journal.toml")
+    found = rf.compare(journal, models=["reynolds", "reynolds_incompressible", "reynolds_cavitating"])
+    load = found.results["reynolds_cavitating"]["load_per_width"]
+    assert found.uncertainty["load_per_width"] == pytest.approx(load.uncertainty / load.value)
+    assert found.undecided["load_per_width"] == (("reynolds_incompressible", "reynolds_cavitating"),)
 
 
 def test_a_stored_result_comes_back_as_it_was(pocket, tmp_path):

@@ -1,13 +1,14 @@
 """Variants of a bearing without some of its physical effects, and the differences between variants."""
 
+import math
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
 
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.rom.bearing.corners import infinite_flows
 from roughfilm.rom.bearing.film import averaged_film
 from roughfilm.rom.bearing.mixed.film import FlooredFlowFactors, mixed_problem
 from roughfilm.rom.bearing.mixed.quantities import MIXED_OUTPUTS
@@ -17,7 +18,7 @@ from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Outputs
 from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.solve import load_loops
-from roughfilm.rom.bearing.uncertainty import grid_sequence
+from roughfilm.rom.bearing.uncertainty import IMBALANCE_FACTOR, cells_of, grid_sequence, grid_uncertainty
 from roughfilm.rom.bearing.warnings import grid_warnings, scene_warnings
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.solve import solve as balance
@@ -202,22 +203,26 @@ class VariantSolution:
 
     Attributes
     ----------
-    levels : values by name on the finest grid and on the grids half and a quarter as fine, in the units of ``units``.
+    levels : values by name on the finest grid and on coarser ones, in the units of ``units``.
+    cells : numbers of cells along a side of these grids.
     factor_uncertainties : uncertainties from flow factors and contact pressures, in the same units.
     residual : residual of the film.
-    cells : number of cells along a side.
+    imbalance : relative error of the flow along the film.
+    unknown : quantities without an uncertainty.
     cpu_s : CPU time, s.
     balance : relative error of the load.
     warnings : sentences.
     """
 
     levels: tuple[Mapping[str, float], ...]
+    cells: tuple[float, ...]
     units: Mapping[str, str]
     factor_uncertainties: Mapping[str, float]
     residual: float
-    cells: int
+    imbalance: float
     cpu_s: float
     balance: float = 0.0
+    unknown: frozenset[str] = frozenset()
     warnings: tuple[str, ...] = ()
 
     @property
@@ -250,15 +255,15 @@ def at_film(variant: Variant, cells: int, progress: Progress = silent) -> Varian
     cpu = time.process_time()
     solution = balance(problem, (cells, cells), ruptures=variant.ruptures, progress=progress)
     quantities = outputs.quantities(scene, solution)
-    rough = problem.shape.roughness is not None
+    rough, grids = problem.shape.roughness is not None, grid_sequence(solution)
     return VariantSolution(
-        levels=tuple(
-            {n: q.value for n, q in outputs.quantities(scene, one).items()} for one in grid_sequence(solution)
-        ),
+        levels=tuple({n: q.value for n, q in outputs.quantities(scene, one).items()} for one in grids),
+        cells=tuple(cells_of(one) for one in grids),
         units={name: quantity.unit for name, quantity in quantities.items()},
         factor_uncertainties=outputs.factor_uncertainties(scene, solution, quantities) if rough else {},
         residual=solution.residual,
-        cells=cells,
+        imbalance=solution.imbalance,
+        unknown=infinite_flows(solution),
         cpu_s=time.process_time() - cpu,
         warnings=(*grid_warnings(solution), *scene_warnings(scene, solution)),
     )
@@ -288,11 +293,13 @@ def _amount(
     of_factors: float,
     variants: Sequence[VariantSolution],
 ) -> Amount | None:
-    """The value on the first level, with the larger of its change to the second level and a quarter of the next."""
-    known = [level for level in levels if level is not None]
-    if not known or levels[0] is None:
+    """The value on the first level, with the uncertainty that follows from the others."""
+    pairs = zip(variants[0].cells, levels, strict=False)
+    known = {cells: level for cells, level in pairs if level is not None}
+    if levels[0] is None:
         return None
-    changes = [abs(fine - coarse) / 4**count for count, (fine, coarse) in enumerate(pairwise(known))]
-    of_residual = sum(abs(one.values[name]) * (one.residual * one.cells + one.balance) for one in variants)
-    uncertainty = max(changes, default=float("inf")) + of_factors + of_residual
-    return Amount(value=known[0], uncertainty=uncertainty, unit=units[name])
+    of_grid = grid_uncertainty([*known], [*known.values()]) if len(known) > 1 else math.inf
+    if any(name in one.unknown for one in variants):
+        of_grid = math.inf
+    of_balance = sum(abs(one.values[name]) * (IMBALANCE_FACTOR * one.imbalance + one.balance) for one in variants)
+    return Amount(value=levels[0], uncertainty=of_grid + of_factors + of_balance, unit=units[name])

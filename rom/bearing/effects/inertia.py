@@ -17,12 +17,11 @@ from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.solve import load_loops
 from roughfilm.rom.bearing.texture import Texture
-from roughfilm.rom.bearing.uncertainty import grid_sequence
+from roughfilm.rom.bearing.uncertainty import cells_of, grid_sequence, grid_uncertainty
 from roughfilm.rom.cavitation.solve import solve
 from roughfilm.rom.ladder.model import Model, find, of_kind
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene
-from roughfilm.rom.studies.convergence import converge
 
 FIRST_ORDER = "inertial_reynolds"
 """The model of pockets with the same first-order inertia, to which the cheapest sufficient model is compared."""
@@ -35,9 +34,6 @@ POCKET_TOLERANCE = 0.05
 
 POCKET_PERIOD_RATIO = 2.0
 """Period over the length of a pocket in the scene of one pocket."""
-
-LOAD_ORDER = 2
-"""Order of the load in the cell size without cavitation."""
 
 UNITS: Mapping[str, tuple[str, str]] = {
     "load": ("N", "N/m"),
@@ -110,7 +106,7 @@ def inertia_added(variant: Variant, cells: int, models: Sequence[Model]) -> Iner
     scene = variant.scene
     load_loops(scene.wide)
     grids = grid_sequence(solve(variant.problem(), (cells, cells), ruptures=variant.ruptures))
-    changes = {grid.grid.x.size: inertia(scene, grid) for grid in reversed(grids)}
+    changes = {cells_of(grid): inertia(scene, grid) for grid in grids}
     pocket = pocket_inertia(scene, models)
     number = bearing_numbers(scene)["reduced_reynolds_number"]
     higher_orders = min(1.0, number) if pocket is None else abs(pocket.over_first_order - 1) + pocket.within
@@ -126,11 +122,11 @@ def inertia_added(variant: Variant, cells: int, models: Sequence[Model]) -> Iner
     )
 
 
-def _amount(name: str, changes: Mapping[int, Inertia], higher_orders: float, *, wide: bool) -> Amount:
-    """The change on the finest grid; its uncertainty allows for an order below the formal one at edges of cavities."""
+def _amount(name: str, changes: Mapping[float, Inertia], higher_orders: float, *, wide: bool) -> Amount:
+    """The change on the finest grid, which is the first, with the uncertainty of grids and of higher orders."""
     values = [getattr(change, name) for change in changes.values()]
-    error = converge([*changes], values, formal_order=LOAD_ORDER).uncertainty if len(values) > 1 else math.inf
-    return Amount(value=values[-1], uncertainty=error + higher_orders * abs(values[-1]), unit=UNITS[name][wide])
+    error = grid_uncertainty([*changes], values) if len(values) > 1 else math.inf
+    return Amount(value=values[0], uncertainty=error + higher_orders * abs(values[0]), unit=UNITS[name][wide])
 
 
 def pocket_inertia(scene: Bearing, models: Sequence[Model]) -> PocketInertia | None:

@@ -9,6 +9,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.bearing.corners import infinite_flows
 from roughfilm.rom.bearing.effects.ablation import Variant, VariantSolution
 from roughfilm.rom.bearing.mixed.balance import FilmsAtSpeed, balanced
 from roughfilm.rom.bearing.mixed.contact_load import asperity_load
@@ -18,9 +19,10 @@ from roughfilm.rom.bearing.quantities import load_of, nominal_area, scene_positi
 from roughfilm.rom.bearing.roughness import Sinusoid
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.solve import load_loops
+from roughfilm.rom.bearing.uncertainty import cells_of
 from roughfilm.rom.cavitation.grid import Grid, grid
 from roughfilm.rom.cavitation.network import State
-from roughfilm.rom.cavitation.solve import COARSEST_CELLS, Solution, solve
+from roughfilm.rom.cavitation.solve import COARSEST_CELLS, Solution, coarsening, solve
 from roughfilm.rom.ladder.model import Progress, silent
 
 MAX_THINNING = 30.0
@@ -34,6 +36,9 @@ LOAD_TOLERANCE = 1e-7
 
 FILM_RESIDUAL = 1e-11
 """Residual at which a film solve stops."""
+
+GRIDS = 4
+"""Largest number of grids, the coarser ones for the uncertainty."""
 
 PRESCRIBED = ("load", "load_per_width")
 """Quantities that the load prescribes."""
@@ -142,7 +147,7 @@ class VariantFilm:
 
 
 def under_load(variant: Variant, pressure: float, cells: int, progress: Progress = silent) -> VariantSolution:
-    """Solve for the film thickness at which a variant carries a load, on up to three grids.
+    """Solve for the film thickness at which a variant carries a load, on successively finer grids.
 
     Parameters
     ----------
@@ -161,7 +166,8 @@ def under_load(variant: Variant, pressure: float, cells: int, progress: Progress
     load_loops(variant.scene.wide)
     cpu, guess, speed = time.process_time(), variant.scene.geometry.film, variant.scene.motion.speed
     states: list[VariantState] = []
-    sizes = [size for size in (cells // 4, cells // 2, cells) if size >= COARSEST_CELLS or size == cells]
+    grids = [size for size, _ in coarsening((cells, cells), wide=True)][-GRIDS:]
+    sizes = [size for size in grids if size >= COARSEST_CELLS or size == cells]
     for count, size in enumerate(sizes):
         progress(count / len(sizes), f"{size} cells along a side")
         film = VariantFilm(variant=variant, cells=size)
@@ -172,11 +178,13 @@ def under_load(variant: Variant, pressure: float, cells: int, progress: Progress
     thicker = film.at((1 + FILM_STEP) * guess, speed, here.solution.state)
     return VariantSolution(
         levels=tuple(state.values for state in reversed(states)),
+        cells=tuple(cells_of(state.solution) for state in reversed(states)),
         units={name: quantity.unit for name, quantity in here.quantities.items()},
         factor_uncertainties=_factor_uncertainties(here, thicker),
         residual=here.solution.residual,
+        imbalance=here.solution.imbalance,
+        unknown=infinite_flows(here.solution),
         balance=abs(here.load / (pressure * film.area) - 1),
-        cells=cells,
         cpu_s=time.process_time() - cpu,
     )
 

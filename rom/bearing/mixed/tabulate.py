@@ -7,7 +7,7 @@ from threading import Lock
 
 import numpy as np
 
-from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.arrays import Array, unmasked
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.threads import workers
 from roughfilm.contact.mechanics.contact import Contact
@@ -94,7 +94,7 @@ def tabulate_pressed(
     ConvergenceError
         If a contact or a cell does not converge.
     """
-    body = Separations(heights=np.asarray(heights, dtype=np.float64))
+    body = Separations(heights=np.asarray(unmasked("heights", heights), dtype=np.float64))
     open_table = tabulate(
         body.heights,
         spacing,

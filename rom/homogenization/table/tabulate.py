@@ -6,7 +6,7 @@ from threading import Lock
 
 import numpy as np
 
-from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.arrays import Array, unmasked
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.threads import workers
 from roughfilm.rom.homogenization.conductance import FaceRule
@@ -74,7 +74,7 @@ def tabulate(
     """
     if not 1e-6 <= tolerance < 1:
         raise InputError(f"tolerance: got {tolerance!r}; it must be 1e-6 to 1")
-    body = Separations(heights=np.asarray(heights, dtype=np.float64))
+    body = Separations(heights=np.asarray(unmasked("heights", heights), dtype=np.float64))
     checked_gap(body.heights - np.min(body.heights) + 1.0, spacing)
     if body.rms == 0:
         raise InputError("heights: are all the same; give a rough surface (a smooth wall needs no flow factors)")

@@ -1,16 +1,14 @@
 """The thin-film Navier-Stokes equations: all of inertia, lowest order in slope."""
 
 from roughfilm.rom.ladder.model import Applicability, Effect
-from roughfilm.rom.pocket.error_law import ErrorLaw
 from roughfilm.rom.pocket.model import film_model
+from roughfilm.rom.pocket.promise import applicability
 from roughfilm.rom.pocket.scene import Pocket
-
-LAW = ErrorLaw(powers={"depth": -1, "aspect": 1}, thresholds={0.05: 0.4})
 
 
 def applies(scene: Pocket) -> Applicability:
-    """The expected load error; the model applies to every pocket."""
-    return LAW.applicability(scene, "keeps all of inertia, leaves out slope")
+    """The expected errors; the model applies to every pocket."""
+    return applicability(scene, "film", "keeps all of inertia, leaves out slope")
 
 
 MODEL = film_model(
@@ -19,5 +17,4 @@ MODEL = film_model(
     keeps=frozenset({Effect.INERTIA}),
     sources=("10.1098/rstl.1886.0005", "10.1115/1.1828067"),
     applies=applies,
-    law=LAW,
 )

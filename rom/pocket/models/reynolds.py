@@ -2,15 +2,14 @@
 
 from roughfilm.rom.ladder.model import Applicability
 from roughfilm.rom.pocket.model import quadrature_model
+from roughfilm.rom.pocket.promise import applicability
 from roughfilm.rom.pocket.scene import Pocket
 
 
 def applies(scene: Pocket) -> Applicability:
-    """The neglected inertia and slope; the model applies to every pocket."""
-    return Applicability(
-        applies=True,
-        reason=f"leaves out inertia (Re Ly/w = {scene.reduced_reynolds_number:.3g}) and slope (mean {scene.slope:.3g})",
-    )
+    """The neglected inertia and slope, with the expected errors; the model applies to every pocket."""
+    effects = f"leaves out inertia (Re Ly/w = {scene.reduced_reynolds_number:.3g}) and slope (mean {scene.slope:.3g})"
+    return applicability(scene, "reynolds", effects)
 
 
 MODEL = quadrature_model(

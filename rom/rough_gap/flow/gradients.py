@@ -56,14 +56,14 @@ def set_gradients(lower, gap, velocity, steps, part, out):  # type: ignore[no-un
 
 
 @allocating
-def add_wave_energies(waves, normal, filters, weights, whole, weakened):  # type: ignore[no-untyped-def]
-    """Add sums of ∇u_i:∇u_j + (∇·u_i)(∇·u_j) to ``whole`` from the waves, and to ``weakened`` from the filtered waves.
+def add_wave_energies(waves, normal, filters, weights, sums):  # type: ignore[no-untyped-def]
+    """Add sums of ∇u_i:∇u_j + (∇·u_i)(∇·u_j) of the filtered waves.
 
     ``waves`` are those of ∂_k u_i, shape (drives, k, i, nx, n), ``normal`` their directions, shape (2, nx, n),
     ``filters`` the factors of u along and across a direction, shape (2, nx, n), ``weights`` those of columns, (n,).
     """
     drives, _, _, count, length = waves.shape
-    own, less = np.empty((drives, 5), dtype=np.complex128), np.empty((drives, 5), dtype=np.complex128)
+    less = np.empty((drives, 5), dtype=np.complex128)
     for i in range(count):
         for j in range(length):
             x, y = normal[0, i, j], normal[1, i, j]
@@ -72,18 +72,14 @@ def add_wave_energies(waves, normal, filters, weights, whole, weakened):  # type
                 for k in range(2):
                     one, two = waves[drive, k, 0, i, j], waves[drive, k, 1, i, j]
                     along = (push - keep) * (one * x + two * y)
-                    own[drive, 2 * k], own[drive, 2 * k + 1] = one, two
                     less[drive, 2 * k], less[drive, 2 * k + 1] = keep * one + along * x, keep * two + along * y
-                own[drive, 4] = own[drive, 0] + own[drive, 3]
                 less[drive, 4] = less[drive, 0] + less[drive, 3]
             for first in range(drives):
                 for second in range(drives):
-                    all_of, part = 0.0, 0.0
+                    part = 0.0
                     for c in range(5):
-                        all_of += (own[first, c] * own[second, c].conjugate()).real
                         part += (less[first, c] * less[second, c].conjugate()).real
-                    whole[first, second] += weights[j] * all_of
-                    weakened[first, second] += weights[j] * part
+                    sums[first, second] += weights[j] * part
 
 
 @allocating

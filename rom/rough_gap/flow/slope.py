@@ -15,6 +15,7 @@ that of thin-film theory is, for drives i and j,
 with ∇ along the film at constant height. The thin film plus E is exact to second order; with W it is an upper bound.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -77,18 +78,43 @@ def slope_dissipation(walls: Walls, fluxes: Array) -> SlopeDissipation:
     """
     h, steps, drives = walls.gap, walls.spacing, len(fluxes)
     second, fourth, attenuated = (np.zeros((drives, drives)) for _ in range(3))
-    velocity = np.divide(fluxes, h, out=np.zeros_like(fluxes), where=h > 0)
     normal, filters, weights = _waves(walls)
-    gradients = np.empty((drives, 2, 2, *h.shape))
-    for part, kind in ((EVEN, filters[:, 0]), (CURVED, filters[:, 0]), (ODD, filters[:, 1])):
-        set_gradients(walls.lower, h, velocity, steps, part, gradients)
-        add_wave_energies(scipy.fft.rfft2(gradients, norm="ortho"), normal, kind, weights, second, attenuated)
+    for part, gradients in _gradients(walls, fluxes):
+        kind = filters[:, 1] if part == ODD else filters[:, 0]
+        second += _energies(gradients)
+        add_wave_energies(scipy.fft.rfft2(gradients, norm="ortho"), normal, kind, weights, attenuated)
+    velocity = _velocity(walls, fluxes)
     s, gauss = np.polynomial.legendre.leggauss(GAUSS_POINTS)
     s = (s + 1) / 2
     shapes = np.array([6 * (s - s**2), 6 * (s**2 - s**3), 3 * s**2 - 2 * s, 2 * s**3 - s**2]).T
     steep = np.array([6 - 12 * s, 12 * s - 18 * s**2, 6 * s - 2, 6 * s**2 - 2 * s]).T
     add_rise_energies(walls.lower, h, _rise(walls, velocity), steps, shapes, steep, s, gauss / 2, fourth)
     return SlopeDissipation(second=second / h.size, fourth=fourth / h.size, attenuated=attenuated / h.size)
+
+
+def second_order_dissipation(walls: Walls, fluxes: Array) -> Array:
+    """The dissipation E of :func:`slope_dissipation` alone, shape (drives, drives)."""
+    return np.asarray(sum(_energies(gradients) for _, gradients in _gradients(walls, fluxes))) / walls.gap.size
+
+
+def _velocity(walls: Walls, fluxes: Array) -> Array:
+    return np.divide(fluxes, walls.gap, out=np.zeros_like(fluxes), where=walls.gap > 0)
+
+
+def _gradients(walls: Walls, fluxes: Array) -> Iterator[tuple[int, Array]]:
+    """Each part of ∇u over the gap, by :func:`roughfilm.rom.rough_gap.flow.gradients.set_gradients`."""
+    velocity = _velocity(walls, fluxes)
+    gradients = np.empty((len(fluxes), 2, 2, *walls.gap.shape))
+    for part in (EVEN, CURVED, ODD):
+        set_gradients(walls.lower, walls.gap, velocity, walls.spacing, part, gradients)
+        yield part, gradients
+
+
+def _energies(gradients: Array) -> Array:
+    """The sums of ∇u_i:∇u_j + (∇·u_i)(∇·u_j), shape (drives, drives)."""
+    flat = gradients.reshape(len(gradients), -1)
+    divergence = (gradients[:, 0, 0] + gradients[:, 1, 1]).reshape(len(gradients), -1)
+    return np.asarray(flat @ flat.T + divergence @ divergence.T)
 
 
 def _rise(walls: Walls, velocity: Array) -> Array:

@@ -7,6 +7,7 @@ from roughfilm.rom.ladder.model import Applicability, Effect
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors, of_thin_film
 from roughfilm.rom.rough_gap.model import GapFlow, gap_model
 from roughfilm.rom.rough_gap.scene import RoughGap
+from roughfilm.rom.rough_gap.validity import MAX_OMITTED, too_steep
 from roughfilm.rom.rough_gap.walls import Walls
 
 
@@ -25,6 +26,7 @@ def find(walls: Walls, mean_gap: float) -> GapFlow:
     """The flow factors from the cell problems."""
     from roughfilm.rom.homogenization.flow_factors import flow_factors  # numba is slow to import
     from roughfilm.rom.homogenization.flux import flux
+    from roughfilm.rom.rough_gap.flow.corrected import added_dissipation
 
     film = flow_factors(walls.gap, walls.spacing)
     driven = flux(walls.gap, walls.spacing, film.correctors[0], 0) / mean_gap**3
@@ -38,6 +40,7 @@ def find(walls: Walls, mean_gap: float) -> GapFlow:
         flow=np.hypot(*driven),
         residual=film.unsolved,
         iterations=film.iterations,
+        warnings=too_steep(added_dissipation(walls, film), MAX_OMITTED),
     )
 
 

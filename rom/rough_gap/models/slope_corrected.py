@@ -4,6 +4,7 @@ from roughfilm.rom.ladder.model import Applicability, Effect
 from roughfilm.rom.rough_gap.flow.range_of_validity import MAX_ADDED_DISSIPATION
 from roughfilm.rom.rough_gap.model import GapFlow, gap_model
 from roughfilm.rom.rough_gap.scene import RoughGap
+from roughfilm.rom.rough_gap.validity import too_steep
 from roughfilm.rom.rough_gap.walls import Walls
 
 
@@ -29,14 +30,7 @@ def find(walls: Walls, mean_gap: float) -> GapFlow:
         flow=theory.flow / mean_gap**3,
         residual=theory.unsolved,
         iterations=theory.iterations,
-        warnings=() if theory.holds else (_too_steep(float(theory.added.max())),),
-    )
-
-
-def _too_steep(added: float) -> str:
-    return (
-        f"slope adds {added:.2g} of the thin-film dissipation, above {MAX_ADDED_DISSIPATION:g}: out of its range, "
-        "take stokes"
+        warnings=too_steep(theory.added, MAX_ADDED_DISSIPATION),
     )
 
 

@@ -6,6 +6,7 @@ from roughfilm.rom.ladder.model import Applicability
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors
 from roughfilm.rom.rough_gap.model import GapFlow, gap_model
 from roughfilm.rom.rough_gap.scene import RoughGap
+from roughfilm.rom.rough_gap.validity import too_rough
 from roughfilm.rom.rough_gap.walls import Walls
 
 
@@ -28,6 +29,7 @@ def find(walls: Walls, _mean_gap: float) -> GapFlow:
         flow=np.ones(walls.lower.shape),
         residual=0.0,
         iterations=1,
+        warnings=too_rough(walls),
     )
 
 
@@ -38,5 +40,5 @@ MODEL = gap_model(
     sources=("10.1098/rstl.1886.0005",),
     applies=applies,
     find=find,
-    cost=lambda _nodes: 1e-4,
+    cost=lambda nodes: 1e-4 + 4e-7 * nodes,
 )

@@ -1,8 +1,8 @@
 """Flow through a periodic gap in x and in y by homogenization."""
 
-import numpy as np
 from numpy.typing import ArrayLike
 
+from roughfilm.contact.foundation.arrays import unmasked
 from roughfilm.rom.homogenization.flow_factors import flow_factors
 from roughfilm.rom.seal.leakage.passage import Leakage, Passage, shut
 
@@ -22,7 +22,7 @@ def homogenized_leakage(gap: ArrayLike, spacing: tuple[float, float]) -> Leakage
 
     Source: Sahlin 2008, F.8 to F.10.
     """
-    h = np.asarray(gap)
+    h = unmasked("gap", gap)
     if h.ndim == 2 and h.size and not h.any():
         return Leakage(along=shut(h.shape), across=shut(h.shape))
     cell = flow_factors(h, spacing)
@@ -31,7 +31,7 @@ def homogenized_leakage(gap: ArrayLike, spacing: tuple[float, float]) -> Leakage
         closed = cell.factors.sealed[i]
         return Passage(
             permeability=float(cell.factors.pressure[i, i]),
-            uncertainty=0.0 if closed else float(cell.uncertainty.pressure[i, i]),
+            uncertainty=float(cell.uncertainty.pressure[i, i]),
             sealed=closed,
             corrector=cell.correctors[i],
             unsolved=0.0 if closed else cell.unsolved,

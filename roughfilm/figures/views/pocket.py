@@ -14,6 +14,7 @@ from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.sweeping import Columns
 from roughfilm.rom.pocket.kind import KIND
 from roughfilm.rom.pocket.scene import Pocket
+from roughfilm.rom.studies.reference import Reference, interval
 from roughfilm.rom.studies.sweep import Sweep, relative_error
 
 MIN_PERCENT = 1e-3
@@ -69,10 +70,14 @@ def rows_of(given: Columns, shape: tuple[str, float], reynolds_number: float | N
     return np.asarray(chosen)
 
 
-def error_maps(sweep: Sweep, setting: str, reference: str, quantity: str) -> str:
-    """Error of one setting over (w+, d+), in per cent: a panel for each shape and Reynolds number."""
+def error_maps(sweep: Sweep, setting: str, reference: Reference, quantity: str) -> str:
+    """Error of one setting over (w+, d+), in per cent: a panel for each shape and Reynolds number.
+
+    Errors that may be 0, as they are below the uncertainty of the reference, are in parentheses.
+    """
     numbers, kinds = np.unique(sweep.given["reynolds_number"]), _shapes(sweep.given)
-    error = 100 * relative_error(sweep, setting, reference, quantity)
+    error = 100 * relative_error(sweep, setting, reference.setting, quantity)
+    certain = interval(sweep, setting, reference, quantity)[0] > 0
     figure, panels = new_figure(
         (2.1 + 2.6 * numbers.size, 0.7 + 1.75 * len(kinds)), len(kinds), numbers.size, squeeze=False
     )
@@ -82,18 +87,19 @@ def error_maps(sweep: Sweep, setting: str, reference: str, quantity: str) -> str
         for axes, number in zip(line, numbers, strict=True):
             rows = rows_of(sweep.given, shape, number)
             widths, depths = np.unique(sweep.given["width_plus"][rows]), np.unique(sweep.given["depth_plus"][rows])
-            grid = np.full((depths.size, widths.size), np.nan)
+            grid, sure = np.full((depths.size, widths.size), np.nan), np.zeros((depths.size, widths.size), bool)
             place = (
                 np.searchsorted(depths, sweep.given["depth_plus"][rows]),
                 np.searchsorted(widths, sweep.given["width_plus"][rows]),
             )
-            grid[place] = error[rows]
+            grid[place], sure[place] = error[rows], certain[rows]
             axes.grid(visible=False)
             axes.pcolormesh(np.maximum(grid, MIN_PERCENT), norm=norm, cmap="viridis_r")
             for (i, j), value in np.ndenumerate(grid):
                 if np.isfinite(value):
                     ink = "white" if value > 4 else "black"
-                    axes.text(j + 0.5, i + 0.5, _short(value), ha="center", va="center", fontsize=6, color=ink)
+                    text = _short(value) if sure[i, j] else f"({_short(value)})"
+                    axes.text(j + 0.5, i + 0.5, text, ha="center", va="center", fontsize=6, color=ink)
             axes.set_xticks(np.arange(widths.size) + 0.5, [f"{w:g}" for w in widths], fontsize=7, rotation=60)
             axes.set_yticks(np.arange(depths.size) + 0.5, [f"{d:g}" for d in depths], fontsize=7)
             axes.set_title(f"{shape_name(shape)}, Re = {number:g}", fontsize=8)

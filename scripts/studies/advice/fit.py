@@ -5,7 +5,7 @@ The laws are written to rom/advice/laws.toml.
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -20,7 +20,7 @@ from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.toml import toml_value
 from roughfilm.ladder import models
 from roughfilm.rom.advice import laws
-from roughfilm.rom.advice.laws import Grid, Law, Numbers, Step, on_grid
+from roughfilm.rom.advice.laws import Grid, Law, Numbers, Step, Term, on_grid
 from roughfilm.rom.ladder.kind import Kind, Scene, kinds
 from roughfilm.rom.ladder.model import Model, Resolutions, best
 from roughfilm.rom.studies.convergence import ConvergenceKind as Way
@@ -145,8 +145,7 @@ def fitted(rows: Rows, features: Sequence[str]) -> Law | None:
     ratios = np.maximum(errors, ROUND_OFF) / shapes
     bound, middle = float(np.quantile(ratios, CERTAINTY)), float(np.median(ratios))
     return Law(
-        coefficient=float(f"{bound:.3g}"),
-        powers=powers,
+        terms=(Term(coefficient=float(f"{bound:.3g}"), powers=powers),),
         reach={name: (float(f"{a:.3g}"), float(f"{b:.3g}")) for name, (a, b) in reach.items() if name in powers},
         scenes=len(usable or rows),
         spread=float(f"{bound / middle:.3g}"),
@@ -259,7 +258,7 @@ def written(steps: Sequence[Step], grids: Sequence[Grid], origin: Mapping[str, A
             lines += ["", f"[[{name}]]"]
             for key, value in vars(entry).items():
                 if isinstance(value, Mapping):
-                    lines += [f"{key}.{quantity} = {toml_value(vars(law))}" for quantity, law in value.items()]
+                    lines += [f"{key}.{quantity} = {toml_value(asdict(law))}" for quantity, law in value.items()]
                 elif value:
                     lines.append(f"{key} = {toml_value(value)}")
     return "\n".join(lines) + "\n"
@@ -316,9 +315,16 @@ def table_of(kind: str, steps: Sequence[Step], grids: Sequence[Grid]) -> Table:
     laws += [(grid.model, "grid", grid.laws) for grid in grids]
     for model, name, by_quantity in laws:
         for quantity, law in by_quantity.items():
-            product = " · ".join(f"{number}^{power:g}" for number, power in law.powers.items())
-            shown.add_row(model, name, quantity, f"{law.coefficient:g} {product}", str(law.scenes), f"{law.spread:g}")
+            shown.add_row(model, name, quantity, _text(law), str(law.scenes), f"{law.spread:g}")
     return shown
+
+
+def _text(law: Law) -> str:
+    """Return the sum of a law in words."""
+    return " + ".join(
+        " · ".join([f"{term.coefficient:g}", *(f"{number}^{power:g}" for number, power in term.powers.items())])
+        for term in law.terms
+    )
 
 
 if __name__ == "__main__":

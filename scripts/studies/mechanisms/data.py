@@ -72,7 +72,8 @@ def pocket(gap: str, speed: float) -> Any:
     places = np.linspace(-0.4995 * LENGTH, 0.4995 * LENGTH, 201)
     depths = DEPTH * np.cos(np.pi / 2 * places / places[-1]) ** 2
     depths[[0, -1]] = 0.0
-    waves = {"profile": "points", "points": np.column_stack([places, depths]).tolist()}
+    points = np.column_stack([places, depths]).tolist()
+    waves = {"profile": "points", "interpolation": "monotone", "points": points}
     groove = {"profile": "cylindrical", "width": with_unit(WIDTH, "m"), "depth": with_unit(DEPTH, "m")}
     return read_scene(
         {

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.mechanics.exact.egg_box import EggBox
 from roughfilm.contact.mechanics.exact.hertz import HertzCylinder, HertzSphere
 from roughfilm.contact.mechanics.exact.westergaard import Westergaard
@@ -328,3 +328,40 @@ def test_counting_pixels_less_their_perimeter_finds_the_area_of_hertz():
         corrected.append(contact.area_fraction / area - 1)
         counted.append(contact.area_fraction_pixel / area - 1)
     assert abs(np.mean(corrected)) < 0.4 * abs(np.mean(counted))
+
+
+@pytest.mark.parametrize("points", [1, 2, 409, 2048])
+@pytest.mark.parametrize("change", [0.0, 1e-12, -1e-9, -1e-6])
+@pytest.mark.parametrize("hardness", [2e-6, 3e-4, 0.013])
+def test_a_load_that_whole_pixels_carry_at_the_hardness_is_solved(points, change, hardness):
+    press = Press(rough(64), (SIDE / 64,) * 2, MODULUS, hardness=hardness * MODULUS)
+    load = points / 64**2 * (1 + change) * press.hardness
+    contact = press.at(load)
+    assert violation(contact, MODULUS) <= 1.01e-8
+    assert contact.pressure.mean() == pytest.approx(load, rel=1e-8)
+
+
+def test_full_contact_is_certified_like_any_other():
+    wave = np.cos(2 * np.pi * np.arange(32) / 32)
+    press = Press(1e-12 * np.add.outer(wave, wave), (SIDE / 32,) * 2, MODULUS)
+    assert press.at(1e6, tolerance=1e-10).complementarity <= 1e-10
+    with pytest.raises(ConvergenceError, match="ask for a looser tolerance") as caught:
+        press.at(1e12, tolerance=1e-10)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("side", [2, 3, 4, 8, 16])
+@pytest.mark.parametrize("load", [1e-7, 1e-5])
+def test_the_area_of_pillars_is_that_of_their_pixels(side, load):
+    heights = np.zeros((64, 64))
+    heights[8 : 8 + side, 8 : 8 + side] = heights[40 : 40 + side, 30 : 30 + side] = 1e-6
+    contact = Press(heights, (1e-6, 1e-6), MODULUS).at(load * MODULUS)
+    assert contact.area_fraction == contact.area_fraction_pixel == 2 * side**2 / 64**2
+
+
+def test_the_area_of_round_pillars_is_theirs():
+    x = np.arange(128) - 64
+    radius = 20
+    heights = np.where(np.hypot(x[:, None] + 0.3, x[None, :] + 0.2) < radius, 1e-5, 0.0)
+    contact = Press(heights, (1e-6, 1e-6), MODULUS).at(1e-5 * MODULUS)
+    assert contact.area_fraction == pytest.approx(math.pi * radius**2 / 128**2, rel=2e-3)

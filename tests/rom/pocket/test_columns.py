@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from roughfilm.rom.pocket.columns import columns
-from roughfilm.rom.pocket.groove import channel, cylindrical, splined, through
+from roughfilm.rom.pocket.groove import channel, cylindrical, monotone, polygonal, splined
 
 FILM, LENGTH = 3e-5, 1e-3
 
@@ -15,12 +15,21 @@ def gap_of(*grooves):
 
 ARC = cylindrical(width=3e-4, depth=2.25e-5)
 SMOOTH = splined(width=1.5e-4, depth=1.5e-5, shift=-4e-5)
-MANY = through(points=[(2e-6 * n, 1e-5 * np.sin(np.pi * n / 150) if n % 150 else 0.0) for n in range(151)])
+MANY = monotone(points=[(2e-6 * n, 1e-5 * np.sin(np.pi * n / 150) if n % 150 else 0.0) for n in range(151)])
+
+
+TRAPEZOID = polygonal(points=[(-2e-4, 0.0), (-1.6e-4, 1e-5), (0.1e-4, 1e-5), (2e-4, 0.0)])
 
 
 @pytest.mark.parametrize("resolution", [12, 61, 240])
 @pytest.mark.parametrize(
-    "gap", [gap_of((0.0, ARC)), gap_of((-0.3e-3, ARC), (0.1e-3, SMOOTH), (0.35e-3, ARC)), gap_of((0.1e-3, MANY))]
+    "gap",
+    [
+        gap_of((0.0, ARC)),
+        gap_of((-0.3e-3, ARC), (0.1e-3, SMOOTH), (0.35e-3, ARC)),
+        gap_of((0.1e-3, MANY)),
+        gap_of((0.0, TRAPEZOID)),
+    ],
 )
 def test_every_corner_is_a_column_and_about_as_many_stand_there_as_asked_for(gap, resolution):
     x = columns(gap, resolution)
@@ -51,13 +60,24 @@ def test_columns_stand_closer_at_the_edges_of_a_groove_than_far_from_it(shape, r
 def test_many_points_crowd_no_more_than_few():
     """Bumps of neighbouring points do not add up: four times as many leave the columns where they are."""
     few, many = (
-        through(points=[(3e-4 * n / count, 1e-5 * np.sin(np.pi * n / count)) for n in range(count)] + [(3e-4, 0.0)])
+        monotone(points=[(3e-4 * n / count, 1e-5 * np.sin(np.pi * n / count)) for n in range(count)] + [(3e-4, 0.0)])
         for count in (40, 160)
     )
     x = [columns(gap_of((-0.15e-3, shape)), 240) for shape in (few, many)]
     shared = np.linspace(0, 1, 101)
     one, other = (np.interp(shared, np.linspace(0, 1, places.size), places) for places in x)
     assert np.abs(one - other).max() < 0.1
+
+
+@pytest.mark.parametrize("resolution", [50, 100, 200, 400])
+def test_rows_of_corners_take_no_more_than_twice_the_columns_asked_for(resolution):
+    depths = np.random.default_rng(5).uniform(5e-6, 1.5e-5, 199)
+    rough = polygonal(points=[(0.0, 0.0), *((1.5e-6 * n, depth) for n, depth in enumerate(depths, 1)), (3e-4, 0.0)])
+    gap = gap_of((-0.15e-3, rough))
+    assert len(gap.corners) > 150
+    x = columns(gap, resolution)
+    assert resolution <= x.size - 1 <= 2 * resolution
+    assert np.diff(x).min() > 0.05 / resolution
 
 
 def test_a_groove_across_the_end_of_the_period_gets_the_columns_of_one_in_its_middle():

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from roughfilm.rom.pocket.groove import channel, cylindrical, splined, through
+from roughfilm.rom.pocket.groove import channel, cylindrical, monotone, polygonal, splined
 
 WIDTH, DEPTH = 3e-4, 1.5e-5
 SHIFTS = [-0.45 * WIDTH, -0.3 * WIDTH, 0.0, 0.2 * WIDTH]
@@ -42,11 +42,34 @@ def test_the_spline_lies_downstream_for_a_positive_shift():
     assert s[splined(width=WIDTH, depth=DEPTH, shift=0.2 * WIDTH).depth(s).argmax()] == pytest.approx(0.2 * WIDTH)
 
 
+def test_points_are_joined_by_straight_lines_with_corners_where_the_slope_jumps():
+    places, depths = [-2e-4, -1e-4, 0.0, 1.5e-4, 2e-4], [0.0, 1e-5, 2e-5, 5e-6, 0.0]
+    groove = polygonal(points=list(zip(places, depths, strict=True)))
+    s = np.array([-2.5e-4, -1.25e-4, 0.75e-4, 1.75e-4, 2e-4])
+    assert groove.depth(s) == pytest.approx([0, 7.5e-6, 1.25e-5, 2.5e-6, 0], abs=1e-20)
+    assert groove.breaks == (-2e-4, 0.0, 2e-4)
+    assert groove.corners == groove.breaks
+
+
+def test_the_joints_of_a_finely_sampled_arc_are_no_corners():
+    s = np.linspace(-WIDTH / 2, WIDTH / 2, 101)
+    depths = cylindrical(width=WIDTH, depth=DEPTH).depth(s)
+    groove = polygonal(points=list(zip(s, depths, strict=True)))
+    assert groove.breaks == tuple(s)
+    assert groove.corners == (-WIDTH / 2, WIDTH / 2)
+
+
+def test_monotone_cubics_make_a_parabola_of_a_v():
+    groove = monotone(points=[(-WIDTH / 2, 0.0), (0.0, DEPTH), (WIDTH / 2, 0.0)])
+    s = np.linspace(-WIDTH / 2, WIDTH / 2, 21)
+    assert groove.depth(s) == pytest.approx(DEPTH * (1 - (2 * s / WIDTH) ** 2), abs=1e-18)
+
+
 def test_points_are_met_and_nothing_is_deeper_than_the_points_around_it():
     rng = np.random.default_rng(7)
     places = np.cumsum(rng.uniform(1e-6, 2e-5, 30))
     depths = np.concatenate([[0], rng.uniform(0, DEPTH, 28), [0]])
-    groove = through(points=list(zip(places, depths, strict=True)))
+    groove = monotone(points=list(zip(places, depths, strict=True)))
     assert groove.depth(places) == pytest.approx(depths, abs=1e-20)
     for n in range(29):
         between = groove.depth(np.linspace(places[n], places[n + 1], 50))
@@ -63,16 +86,17 @@ def test_points_are_met_and_nothing_is_deeper_than_the_points_around_it():
 def test_a_level_edge_through_points_is_no_corner():
     s = np.linspace(-WIDTH / 2, WIDTH / 2, 9)
     flat = np.array([0, 0, 1, 2, 3, 2, 1, 1, 0]) * 1e-6
-    assert through(points=list(zip(s, flat, strict=True))).corners == (WIDTH / 2,)
+    assert monotone(points=list(zip(s, flat, strict=True))).corners == (WIDTH / 2,)
 
 
-def test_many_points_of_an_arc_are_the_arc():
+@pytest.mark.parametrize("join", [monotone, polygonal])
+def test_many_points_of_an_arc_are_the_arc(join):
     arc, s = cylindrical(width=WIDTH, depth=DEPTH), np.linspace(-WIDTH / 2, WIDTH / 2, 2001)
     errors = []
     for count in (20, 40, 80):
         places = np.linspace(-WIDTH / 2, WIDTH / 2, count + 1)
         depths = arc.depth(places)
-        errors.append(np.abs(through(points=list(zip(places, depths, strict=True))).depth(s) - arc.depth(s)).max())
+        errors.append(np.abs(join(points=list(zip(places, depths, strict=True))).depth(s) - arc.depth(s)).max())
     assert errors[-1] < 1e-3 * DEPTH
     assert np.log2(errors[0] / errors[-1]) / 2 > 1.8
 

@@ -4,7 +4,17 @@ import pytest
 
 from roughfilm import rom
 from roughfilm.rom.ladder.model import Effect, ladder, of_kind
-from roughfilm.rom.studies.comparison import Point, effects, pareto_front, points, scale, to_best
+from roughfilm.rom.studies.comparison import (
+    Point,
+    effects,
+    pareto_front,
+    points,
+    scale,
+    to_best,
+    told_apart,
+    undecided,
+    with_uncertainty,
+)
 
 MODELS = [model for model in of_kind(ladder(rom), "pocket") if model.name in ("reynolds", "inertial_reynolds", "film")]
 
@@ -52,3 +62,63 @@ def test_pareto_front():
         (3, 0.1),
         (5, 0.01),
     ]
+
+
+def carrying(result, quantity: str, uncertainty: float):
+    return with_uncertainty(result, {quantity: uncertainty})
+
+
+def test_errors_carry_the_uncertainty_of_the_reference(results):
+    """The film is the reference: a bar of 0.0088 is 1 % of its load, 0.880."""
+    known = {**results, "film": carrying(results["film"], "load_plus", 0.0088)}
+    of_load = {d.model: d for d in to_best(MODELS, known) if d.quantity == "load_plus"}
+    assert [d.uncertainty for d in of_load.values()] == pytest.approx([0.01, 0.01], rel=1e-2)
+    (effect,) = (d for d in effects(MODELS, known) if d.quantity == "load_plus")
+    assert effect.uncertainty is None
+    known["reynolds"] = carrying(results["reynolds"], "load_plus", 0.0088)
+    (effect,) = (d for d in effects(MODELS, known) if d.quantity == "load_plus")
+    assert effect.uncertainty == pytest.approx(0.01 * 2**0.5, rel=1e-2)
+
+
+def test_a_larger_uncertainty_of_the_run_itself_is_kept(results):
+    once = carrying(results["film"], "load_plus", 0.2)
+    assert carrying(once, "load_plus", 0.1)["load_plus"].uncertainty == 0.2
+
+
+@pytest.mark.parametrize(
+    ("error", "other", "uncertainty", "apart"),
+    [
+        (0.02, 0.05, 0.01, True),
+        (0.02, -0.05, 0.01, True),
+        (0.02, 0.03, 0.01, False),
+        (0.02, -0.025, 0.01, False),
+        (0.02, 0.03, 0.0, True),
+        (0.02, 0.5, None, False),
+    ],
+)
+def test_errors_are_told_apart_where_their_intervals_do_not_overlap(error, other, uncertainty, apart):
+    assert told_apart(error, other, uncertainty) is apart
+    assert told_apart(other, error, uncertainty) is apart
+
+
+def test_models_within_the_uncertainty_of_the_reference_are_not_ranked(results):
+    """Reynolds has no load (an error of 100 %), inertial_reynolds is off by 1 %."""
+    assert undecided(MODELS, results)["load_plus"] == (
+        ("reynolds", "inertial_reynolds"),
+        ("reynolds", "film"),
+        ("inertial_reynolds", "film"),
+    )
+    coarse = {**results, "film": carrying(results["film"], "load_plus", 0.01 * 0.88)}
+    assert undecided(MODELS, coarse)["load_plus"] == (("inertial_reynolds", "film"),)
+    fine = {**results, "film": carrying(results["film"], "load_plus", 1e-4 * 0.88)}
+    assert "load_plus" not in undecided(MODELS, fine)
+
+
+def test_the_front_leaves_out_what_the_reference_does_not_tell_apart():
+    def at(cpu_s: float, error: float) -> Point:
+        return Point(model="m", resolution=1, cpu_s=cpu_s, error={"load_plus": error})
+
+    chart = (at(1, 0.5), at(2, 0.030), at(3, 0.020), at(4, 0.004))
+    assert [p.cpu_s for p in pareto_front(chart, "load_plus", 0.01)] == [1, 2, 4]
+    assert [p.cpu_s for p in pareto_front(chart, "load_plus", 0.02)] == [1, 2]
+    assert [p.cpu_s for p in pareto_front(chart, "load_plus", None)] == [1]

@@ -210,6 +210,25 @@ def test_a_result_that_tells_more_doubt_than_its_grids_is_believed():
         assert compare._uncertainty(found, study)["A11"] == pytest.approx(expected / value)
 
 
+def test_models_that_the_reference_does_not_tell_apart_are_named(pocket_file, tmp_path, monkeypatch, capsys):
+    """A shallow wide groove at 50 cells: film and film_slope differ by far less than the uncertainty of these grids."""
+    coarse = Resolutions(least=10, most=400, default=50, series=(25, 50))
+    own = find("pocket", "film"), replace(find("pocket", "film_slope"), resolutions=coarse)
+    monkeypatch.setattr(compare, "models", lambda _: own)
+    scene = ["geometry.depth=1 um", "geometry.width=0.5 mm"]
+    compare.command(pocket_file, out=tmp_path / "told", set_=scene)
+    assert "load: film and film_slope cannot be told apart with this reference" in capsys.readouterr().out
+    told = compared(capsys, pocket_file, tmp_path / "told", set_=scene)
+    assert told["cannot_be_told_apart"]["load_plus"] == [["film", "film_slope"]]
+    (difference,) = (d for d in told["differences"] if d["quantity"] == "load_plus" and d["effect"] is None)
+    assert 2 * difference["uncertainty"] > abs(difference["relative"])
+    reference = told["quantities"]["load_plus"]
+    assert difference["uncertainty"] == pytest.approx(reference["uncertainty"] / reference["value"])
+    page = (tmp_path / "told" / "report.html").read_text(encoding="utf-8")
+    assert "Models that cannot be told apart" in page
+    assert "in load film and film_slope" in page
+
+
 def test_a_crash_while_drawing_is_an_answer():
     found = rendering._apart("-c", "import os, signal; os.kill(os.getpid(), signal.SIGSEGV)")
     assert not found.available

@@ -73,6 +73,21 @@ def test_the_report_orders_the_errors_of_every_model(finished):
     assert not re.findall(r"(?:src|href)=\"http", page)
 
 
+def test_a_reference_that_leaves_effects_out_ranks_only_what_it_can_tell_apart(finished):
+    """film_slope is itself off by some per cent by the laws; film differs from it by less in most cases."""
+    told = json.loads(CliRunner().invoke(app, ["report", str(finished), "--json"]).stdout)
+    bar = told["reference_uncertainty"]["load_plus"]
+    assert bar["known"] == bar["cases"]
+    rows = {row["setting"]: row["error"]["load_plus"] for row in told["settings"]}
+    least, largest = rows["film-100"]["intervals"]["median"]
+    assert least <= rows["film-100"]["median"] <= largest
+    assert largest - rows["film-100"]["median"] == pytest.approx(bar["median"], rel=1)
+    orders = {(*one["settings"], one["quantity"]): one for one in told["ranking"]}
+    assert orders["reynolds", "film-100", "load_plus"]["order"] == "film-100 is nearer"
+    page = (finished / "report.html").read_text(encoding="utf-8")
+    assert "Which models can be told apart" in page
+
+
 def test_a_directory_without_a_table_is_one_line(tmp_path):
     run = CliRunner().invoke(app, ["report", str(tmp_path)])
     assert run.exit_code == 2

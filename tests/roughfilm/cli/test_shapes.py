@@ -37,7 +37,7 @@ def reynolds_only(monkeypatch):
         ),
         ("splined", ["geometry.shift=1 um"], "deep, with its lowest point 1 µm downstream of its middle."),
         ("splined", ["geometry.shift=0 m"], "a splined groove 500 µm wide and 7.5 µm deep."),
-        ("pocket", ONE, "in the still wall a groove through 3 points 300 µm wide and 10 µm deep."),
+        ("pocket", ONE, "in the still wall a groove of straight lines through 3 points 300 µm wide and 10 µm deep."),
         ("pocket", ["geometry.position=-20 um"], "a cylindrical groove 300 µm wide and 7.5 µm deep, at -20 µm."),
         (
             "two_grooves",

@@ -1,0 +1,45 @@
+"""Corners between an end and an open side at which the pressure jumps, and the flows that are infinite there."""
+
+from dataclasses import dataclass
+
+from roughfilm.rom.cavitation.balance import FLOODED
+from roughfilm.rom.cavitation.solve import Solution
+
+PRESSURE_TOLERANCE = 1e-9
+"""Relative difference of two pressures up to which they are the same."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Jump:
+    """A jump of the pressure between the ``end`` "inlet" or "outlet" and the ``side`` "low" or "high", Pa."""
+
+    end: str
+    side: str
+    difference: float
+
+
+def jumps(solution: Solution) -> tuple[Jump, ...]:
+    """The jumps of the pressure at the corners of a film with open sides.
+
+    At a distance r from a corner, a jump Δp drives the flow h³Δp/(6π η r) per length past the corner from the one edge
+    to the other, so that the flows through both are infinite. A starved inlet is at the cavitation pressure; where a
+    cavity begins at the inlet, the flow from the side into it is finite.
+    """
+    ends, last = solution.problem.ends, solution.grid.y.size - 1
+    if ends.sides is None or solution.network.periodic[0]:
+        return ()
+    found = []
+    for side, pressure, row in (("low", ends.sides[0], 1), ("high", ends.sides[1], last - 1)):
+        flooded = ends.inlet is not None or solution.kind[0, row] == FLOODED
+        for end, other in ((("inlet", ends.inlet or 0.0),) if flooded else ()) + (("outlet", ends.outlet),):
+            if abs(pressure - other) > PRESSURE_TOLERANCE * max(abs(pressure), abs(other)):
+                found.append(Jump(end=end, side=side, difference=other - pressure))
+    return tuple(found)
+
+
+def infinite_flows(solution: Solution) -> frozenset[str]:
+    """The names of the quantities that are infinite because the pressure jumps at a corner."""
+    names: set[str] = set()
+    for jump in jumps(solution):
+        names |= {f"{jump.end}_flow", f"{jump.end}_flow_per_width", f"side_leakage_{jump.side}", "side_leakage"}
+    return frozenset(names)

@@ -1,0 +1,1 @@
+"""Coverage of the stated uncertainties: answers to random scenes compared with independent solutions."""

@@ -1,0 +1,139 @@
+"""Fit of the bound of an error as a sum of powers of dimensionless numbers, by quantile regression."""
+
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+
+import numpy as np
+from scipy.optimize import minimize
+from scipy.special import expit
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.rom.advice.laws import Law, Numbers, Term
+from roughfilm.rom.studies.ordering import CERTAINTY
+
+MIN_ERROR = 1e-7
+"""Relative error below which an error is round-off; smaller errors are raised to it."""
+
+RIDGE = 1e-3
+"""Weight of the squared powers, scaled by the spread of their numbers, in the function that is minimised."""
+
+SMOOTHING = 0.05
+"""Width in ln(error) over which the corner of the pinball loss is rounded."""
+
+POWER_STEP = 0.05
+"""Step of the powers, which are its multiples."""
+
+MAX_POWER = 4.0
+"""Largest magnitude of a power."""
+
+LEVELS = (0.01, 0.02, 0.05, 0.1, 0.2)
+"""Bounds up to which ``CERTAINTY`` of the scenes with a bound between two neighbours must keep their bound."""
+
+MIN_SCENES_AT_LEVEL = 20
+"""Smallest number of scenes between two levels that raises the coefficients."""
+
+
+def fitted(rows: Sequence[tuple[Numbers, float]], terms: Sequence[Sequence[str]]) -> Law:
+    """Fit the law E = Σ_j C_j Π_k n_k^b_jk, such that 95 of 100 errors are below it.
+
+    The logarithms minimise the mean pinball loss of ln(error) - ln E at the quantile ``CERTAINTY`` (Koenker and Bassett
+    1978, doi:10.2307/1913643) with a ridge on the powers. The powers are rounded to ``POWER_STEP``. All coefficients
+    are then multiplied by the smallest factor with which 95 of 100 errors are below their bound, also among the scenes
+    whose bound lies between two neighbours of ``LEVELS``.
+
+    Parameters
+    ----------
+    rows : numbers of each scene, which are positive, with the relative error of a model.
+    terms : the names of the numbers in each term.
+    """
+    errors = np.maximum([error for _, error in rows], MIN_ERROR)
+    names = tuple(dict.fromkeys(name for term in terms for name in term))
+    x = {name: np.log([numbers[name] for numbers, _ in rows]) for name in names}
+    powers = _powers(x, np.log(errors), terms)
+    shapes = [np.exp(sum((power * x[name] for name, power in own.items()), np.zeros(errors.size))) for own in powers]
+    weights = _weights(np.array(shapes), errors)
+    bound = np.tensordot(weights, np.array(shapes), 1)
+    factor = calibration(errors, bound)
+    return Law(
+        terms=tuple(
+            Term(coefficient=_rounded(factor * weight), powers=own)
+            for weight, own in zip(weights, powers, strict=True)
+            if weight > 0
+        ),
+        reach={name: (_rounded(np.exp(x[name].min())), _rounded(np.exp(x[name].max()))) for name in names},
+        scenes=len(rows),
+        spread=_rounded(float(np.median(factor * bound / errors))),
+    )
+
+
+def calibration(errors: Array, bound: Array) -> float:
+    """The smallest factor of the bounds that ``CERTAINTY`` of the errors keep, in all and between any two levels."""
+    ratios = errors / bound
+    factor = float(np.quantile(ratios, CERTAINTY))
+    for _ in range(8):
+        edges = (0.0, *LEVELS, np.inf)
+        groups = [(low < factor * bound) & (factor * bound <= high) for low, high in pairwise(edges)]
+        needed = [np.quantile(ratios[own], CERTAINTY) for own in groups if own.sum() >= MIN_SCENES_AT_LEVEL]
+        if not needed or max(needed) <= factor:
+            break
+        factor = float(max(needed))
+    return factor
+
+
+def _powers(x: Mapping[str, Array], y: Array, terms: Sequence[Sequence[str]]) -> list[dict[str, float]]:
+    """The rounded powers of each term."""
+    designs = [np.array([x[name] - x[name].mean() for name in term]).reshape(len(term), y.size) for term in terms]
+    spreads = [design.std(axis=1) for design in designs]
+    ends = np.cumsum([0, *(1 + len(term) for term in terms)])
+
+    def loss(parameters: Array) -> tuple[float, Array]:
+        logs, penalty, slope = [], 0.0, np.zeros_like(parameters)
+        for j, (design, spread) in enumerate(zip(designs, spreads, strict=True)):
+            own = parameters[ends[j] : ends[j + 1]]
+            logs.append(own[0] + own[1:] @ design)
+            penalty += RIDGE * float(((own[1:] * spread) ** 2).sum())
+            slope[ends[j] + 1 : ends[j + 1]] = 2 * RIDGE * own[1:] * spread**2
+        total = np.logaddexp.reduce(logs, axis=0)
+        left = y - total
+        value = np.mean(CERTAINTY * left + SMOOTHING * np.logaddexp(0, -left / SMOOTHING))
+        pull = -(CERTAINTY - expit(-left / SMOOTHING)) / y.size
+        for j, design in enumerate(designs):
+            share = pull * np.exp(logs[j] - total)
+            slope[ends[j]] += share.sum()
+            slope[ends[j] + 1 : ends[j + 1]] += design @ share
+        return float(value + penalty), slope
+
+    limits = [bound for term in terms for bound in [(None, None), *[(-MAX_POWER, MAX_POWER)] * len(term)]]
+    starts = []
+    for favoured in range(len(terms)):
+        start = np.zeros(ends[-1])
+        start[ends[:-1]] = y.mean() - 2.0
+        start[ends[favoured]] = y.mean()
+        starts.append(start)
+    best = min((minimize(loss, start, jac=True, bounds=limits) for start in starts), key=lambda one: one.fun).x
+    rounded = np.round(best / POWER_STEP) * POWER_STEP
+    return [
+        {
+            name: round(float(power), 2)
+            for name, power in zip(term, rounded[ends[j] + 1 : ends[j + 1]], strict=True)
+            if power
+        }
+        for j, term in enumerate(terms)
+    ]
+
+
+def _weights(shapes: Array, errors: Array) -> Array:
+    """The coefficients of terms with given powers that minimise the pinball loss, shape (terms,)."""
+    y = np.log(errors)
+
+    def loss(logs: Array) -> float:
+        left = y - np.log(np.exp(logs) @ shapes)
+        return float(np.mean(np.maximum(CERTAINTY * left, (CERTAINTY - 1) * left)))
+
+    start = np.log(np.quantile(errors / shapes, 0.5, axis=1))
+    found = minimize(loss, start, method="Nelder-Mead", options={"maxiter": 2000, "xatol": 1e-3, "fatol": 1e-6})
+    return np.asarray(np.exp(found.x))
+
+
+def _rounded(value: float) -> float:
+    return float(f"{value:.3g}")

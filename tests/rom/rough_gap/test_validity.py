@@ -1,0 +1,70 @@
+"""The uncertainties and warnings of the models of a rough gap against exact Stokes flow over ridges."""
+
+import numpy as np
+import pytest
+
+from roughfilm.ladder import find
+from roughfilm.rom.ladder.scene import read_scene
+from roughfilm.rom.rough_gap.flow.corrected import slope_corrected
+from roughfilm.rom.rough_gap.flow.exact import sinusoidal_ridge_flow
+from roughfilm.rom.rough_gap.walls import Walls
+
+NAMES = ("smooth_gap", "homogenized", "slope_corrected")
+SILENT_ERROR = 0.011
+"""Largest relative error beyond the uncertainty that may have no warning, a little above the threshold of warnings."""
+
+
+def solved(name, amplitude, wavelength):
+    geometry = {"surface": "sinusoid", "amplitude": f"{10 * amplitude} um", "wavelength": f"{10 * wavelength} um"}
+    scene = read_scene(
+        {
+            "name": "wave",
+            "kind": "rough_gap",
+            "geometry": geometry | {"mean_gap": "10 um"},
+            "lubricant": {"viscosity": "10 mPa*s", "density": "870 kg/m^3"},
+            "flow": {"reynolds_number": 0.01},
+        }
+    )
+    return find("rough_gap", name).solve(scene)
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize(
+    ("amplitude", "wavelength"), [(0.04, 40.0), (0.05, 5.0), (0.3, 20.0), (0.3, 2.5), (0.5, 10.0), (0.5, 1.5)]
+)
+def test_an_error_beyond_the_uncertainty_has_a_warning(name, amplitude, wavelength):
+    exact = sinusoidal_ridge_flow(amplitude, wavelength, tolerance=1e-5)
+    told = solved(name, amplitude, wavelength)
+    true = {"A11": exact.across, "A22": exact.along, "B1": exact.drag, "friction": exact.friction}
+    silent = {
+        quantity: (told[quantity].value, value)
+        for quantity, value in true.items()
+        if abs(told[quantity].value - value) > (told[quantity].uncertainty or 0.0) + SILENT_ERROR * value
+    }
+    assert any("out of its range" in warning for warning in told.warnings) or not silent
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_long_and_low_waves_cause_no_warning(name):
+    assert solved(name, 0.04, 40.0).warnings == ()
+
+
+def test_the_warning_names_the_model_that_suffices():
+    steep, mild = (solved("homogenized", 0.3, length).warnings for length in (2.0, 5.0))
+    assert steep[0].endswith("out of its range, take stokes")
+    assert mild[0].endswith("out of its range, take slope_corrected")
+    assert "slope adds" in steep[0]
+    assert solved("slope_corrected", 0.3, 2.0).warnings[0].endswith("out of its range, take stokes")
+
+
+def test_the_uncertainty_of_the_slope_correction_is_a_few_times_its_error():
+    ratios = []
+    for amplitude in (0.2, 0.3, 0.5):
+        for length in (3.0, 5.0, 10.0):
+            exact = sinusoidal_ridge_flow(amplitude, length, tolerance=1e-6)
+            wave = np.tile(-amplitude * np.cos(2 * np.pi * np.arange(256) / 256)[:, None], (1, 2))
+            found = slope_corrected(Walls(lower=wave, upper=np.ones_like(wave), spacing=(length / 256, length / 64)))
+            for i, true in enumerate((exact.across, exact.along)):
+                ratios.append(found.uncertainty.pressure[i, i] / abs(found.corrected.pressure[i, i] - true))
+    assert min(ratios) > 1
+    assert np.median(ratios) < 5
