@@ -172,12 +172,11 @@ def test_faces_are_near_normal_to_the_line_between_centres_where_vertical_column
     assert largest_angle(vertical) > 25
 
 
-@pytest.mark.parametrize(("gap", "tolerance"), [(HARD[0], 1e-6), (SLOT, 1e-3)])
-def test_a_symmetric_gap_gets_a_symmetric_mesh(gap, tolerance):
-    """To less in a slot, where the coarse grid on which the map is solved has one column for two corners of a wall."""
+@pytest.mark.parametrize("gap", [HARD[0], SLOT])
+def test_a_symmetric_gap_gets_a_symmetric_mesh(gap):
     vertices = orthogonal(gap, 60, 12)
-    assert vertices[..., 0] + vertices[::-1, :, 0] == pytest.approx(0, abs=tolerance)
-    assert vertices[..., 1] - vertices[::-1, :, 1] == pytest.approx(0, abs=tolerance)
+    assert vertices[..., 0] + vertices[::-1, :, 0] == pytest.approx(0, abs=1e-6)
+    assert vertices[..., 1] - vertices[::-1, :, 1] == pytest.approx(0, abs=1e-6)
 
 
 def test_the_place_of_the_period_does_not_change_the_shape_of_the_cells():
