@@ -255,7 +255,7 @@ def test_a_second_try_and_a_failure_are_told_from_what_simply_converges(small, t
     }
     assert told["navier_stokes, linear_upwind"] == [("converged", ""), ("slow", SECOND_TRY), ("stalled", "")]
     assert told["stokes"] == [("converged", ""), ("converged", ""), ("stalled", "")]
-    assert all(one["iterations"] > 100 and one["cpu_s"] > 0 for one in runs)
+    assert all(one["iterations"] > 50 and one["cpu_s"] > 0 for one in runs)
     assert (tmp_path / "report.html").read_text().count('td class="stalled"') == 3
 
 
