@@ -72,7 +72,7 @@ def grid_uncertainty(cells: Sequence[float], values: Sequence[float]) -> float:
     """
     triples = range(len(values) - 2)
     order = min((observed_order(cells[n : n + 3], values[n : n + 3]) for n in triples), default=ORDERS[0])
-    errors = (abs(values[0] - values[n]) / ((cells[0] / cells[n]) ** order - 1) for n in range(1, len(values)))
+    errors = [float(abs(values[0] - values[n]) / ((cells[0] / cells[n]) ** order - 1)) for n in range(1, len(values))]
     return GRID_SAFETY_FACTOR * max(errors)
 
 
@@ -85,7 +85,7 @@ def observed_order(cells: Sequence[float], values: Sequence[float]) -> float:
     def excess(order: float) -> float:
         """A number below zero if the differences decrease with a higher order than this."""
         h0, h1, h2 = (n**-order for n in cells)
-        return last * (h2 - h1) - before * (h1 - h0)
+        return float(last * (h2 - h1) - before * (h1 - h0))
 
     sign = math.copysign(1.0, before)
     if last * before <= 0 or sign * excess(ORDERS[0]) >= 0:
@@ -106,4 +106,4 @@ def grid_sequence(solution: Solution) -> tuple[Solution, ...]:
 def cells_of(solution: Solution) -> float:
     """The number of cells along a side, in the plane the geometric mean of both sides."""
     sides = [count for count in solution.grid.shape if count > 1]
-    return math.prod(sides) ** (1 / len(sides))
+    return float(math.prod(sides) ** (1 / len(sides)))
