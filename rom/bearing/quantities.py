@@ -71,11 +71,11 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
         values["side_leakage"] = (flows.side_leakage, "m^3/s")
         values["side_leakage_low"] = (flows.low, "m^3/s")
         values["side_leakage_high"] = (flows.high, "m^3/s")
-    for end, flow in (("inlet", flows.inlet), ("outlet", flows.outlet)):
+    for name, flow in (("inlet_flow", flows.inlet), ("outlet_flow", flows.outlet)):
         if flow is not None:
-            values[f"{end}_flow_per_width"] = (flow / width, "m^2/s")
+            values[f"{name}_per_width"] = (flow / width, "m^2/s")
         if flow is not None and not solution.problem.shape.wide:
-            values[f"{end}_flow"] = (flow, "m^3/s")
+            values[name] = (flow, "m^3/s")
     if load > MIN_MEAN_PRESSURE_RATIO * float(grid.areas.sum()) * float(np.abs(force / grid.areas).max()):
         values["friction_coefficient"] = (resistance / load, "1")
     return {name: Quantity(value=value, unit=unit) for name, (value, unit) in values.items()}
