@@ -7,7 +7,7 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array, Mask
 from roughfilm.contact.mechanics.contact import Contact
 
-AREA_PER_EDGE = 0.044
+AREA_PER_EDGE = 0.046
 """Uncertainty of the area fraction over the fraction of pixels on both sides of the edge of contact."""
 
 RIDGE_AREA_PER_EDGE, RIDGE_GAP_FACTOR = 0.25, 3.0
@@ -17,12 +17,12 @@ uncertainty of the mean gap is larger for them."""
 SAME_HEIGHT = 1e-9
 """Difference along a ridge, over that across, that is rounding."""
 
-PLASTIC_AREA_PER_EDGE = 0.175
+PLASTIC_AREA_PER_EDGE = 0.2
 """Uncertainty of the plastic fraction over the larger fraction of pixels on one side of the edge of plastic contact."""
 
 GAP_PER_RISE = (0.045, 0.13)
-"""Uncertainty of the mean gap over the mean rise of the pixels in contact over their neighbours, without plastic
-contact, and the increase to a contact that is all plastic."""
+"""Uncertainty of the mean gap over sqrt(1 − A) times the rms rise of the pixels in contact over their neighbours,
+without plastic contact, and the increase to a contact that is all plastic."""
 
 APPROACH_PER_RISE = 0.4
 """Uncertainty of the approach over the rise of the highest pixel over its neighbours."""
@@ -35,8 +35,8 @@ def uncertainties(contact: Contact) -> dict[str, float]:
     """The 95 % uncertainty of each number of a contact, against the same surface on ever finer pixels.
 
     Δv is the rise of a value over the mean of its neighbours, S the fraction of pixels beside the edge of contact.
-    The uncertainty of the area fraction is 0.044 S, that of the mean gap 0.045 to 0.175 times the mean of Δz over
-    contact, that of the approach 0.4 Δz at the highest point, and that of the largest pressure 0.46 Δp there.
+    The uncertainty of the area fraction A is 0.046 S, that of the mean gap 0.045 to 0.175 times sqrt(1 − A) times the
+    rms Δz over contact, that of the approach 0.4 Δz at the highest point, and that of the largest pressure 0.46 Δp.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ def uncertainties(contact: Contact) -> dict[str, float]:
     return {
         "area_fraction": (RIDGE_AREA_PER_EDGE if ridges else AREA_PER_EDGE) * sum(_edges(touching)),
         "plastic_fraction": _plastic(contact, plastic, peak),
-        "mean_gap": gap_per_rise * abs(float(rise[touching].mean())),
+        "mean_gap": gap_per_rise * float(np.sqrt(np.mean(rise[touching] ** 2) * np.mean(~touching))),
         "approach": APPROACH_PER_RISE * float(rise[contact.heights == contact.heights.max()].max()),
         "pressure_max": 0.0 if plastic.any() else peak,
     }

@@ -51,6 +51,15 @@ def press(task: Task, *, plastic: bool) -> Answer:
         scene.load.pressure, tolerance=task.tolerance
     )
     edges, mean = bin_edges(scene), scene.load.pressure / contact.area_fraction
+    beyond = np.count_nonzero(contact.pressure > scene.hardness) / contact.pressure.size
+    warnings = (
+        (
+            f"the pressure exceeds the hardness on {beyond:.3g} of the nominal area, up to "
+            f"{contact.pressure.max() / scene.hardness:.3g} times; take elastic_plastic",
+        )
+        if beyond
+        else ()
+    )
     quantities = {
         "area_fraction": one(contact.area_fraction),
         "area_fraction_pixel": one(contact.area_fraction_pixel),
@@ -74,6 +83,7 @@ def press(task: Task, *, plastic: bool) -> Answer:
         },
         residual=contact.complementarity,
         iterations=max(contact.iterations, 1),
+        warnings=warnings,
     )
 
 
