@@ -13,6 +13,7 @@ from roughfilm.rom.advice.estimates import (
     combined,
     near,
     percent,
+    with_own_uncertainty,
 )
 from roughfilm.rom.advice.laws import Numbers, Table, table
 from roughfilm.rom.ladder.kind import Omission, Scene, kind_of_name
@@ -310,7 +311,10 @@ def _after(task: AdviceTask, model: Model, resolution: int, within: float) -> Mo
         return _as_verdict(task, model, resolution, Verdict.NOT_ENOUGH, reason, before)
     if before is not None and not before.error <= within:
         return _as_verdict(task, model, resolution, Verdict.NOT_ENOUGH, _main(before), before)
-    expected = "no law gives its error" if before is None else f"expected within {percent(before.error)}"
+    if before is None or (before.error == 0 and task.at_full_resolution(model, resolution)):
+        expected = "no law gives its error"
+    else:
+        expected = f"expected within {percent(before.error)}"
     reason = f"{expected}, {task.cost(model, resolution):.2g} CPU s"
     return _as_verdict(task, model, resolution, Verdict.NOT_NEEDED, reason, before)
 
@@ -330,6 +334,9 @@ def _verdict(task: AdviceTask, model: Model, resolution: int, within: float) -> 
     if failure := task.failed.get((model.name, resolution)):
         return _as_verdict(task, model, resolution, Verdict.FAILED, str(failure), before)
     estimate = combined(before, after)
+    if estimate is not None and _accepts(estimate, within):
+        checked = with_own_uncertainty(task, model, resolution, estimate)
+        estimate, after = checked, after if checked is estimate else checked
     verdict = Verdict.CHOSEN if _accepts(estimate, within) else Verdict.NOT_ENOUGH
     return _as_verdict(task, model, resolution, verdict, _main(estimate), before, after)
 

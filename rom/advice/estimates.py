@@ -87,13 +87,17 @@ class AdviceTask:
     def grid(self, model: Model, resolution: int) -> float | None:
         """The error by a resolution over the size of the quantity, by the laws; None without a law.
 
-        It is 0 for a model without an order of convergence at the full resolution of the surface, which resolves all
-        waves.
+        It is 0 at the full resolution of a surface, which resolves all waves; :func:`with_own_uncertainty` adds the
+        rest.
         """
-        if model.order is None and resolution >= max(model.resolutions_of(self.scene)):
+        if self.at_full_resolution(model, resolution):
             return 0.0
         law, numbers = self.grid_law(model), on_grid(self.numbers, resolution)
         return law.error(numbers, RESOLVING) if law is not None and law.knows(numbers) else None
+
+    def at_full_resolution(self, model: Model, resolution: int) -> bool:
+        """Whether a model without an order of convergence resolves all waves of the scene's surface."""
+        return model.order is None and resolution >= max(model.resolutions_of(self.scene))
 
     def grid_law(self, model: Model) -> Law | None:
         """The law of the error by the resolution of a model; None if there is none."""
@@ -196,8 +200,9 @@ def expected_errors(scene: Scene, model: Model, resolution: int, models: Sequenc
             run=lambda other, grid: other.solve(scene, Request(resolution=grid)),
         )
         estimate, omitted = a_priori(task, model, resolution), kind.omitted(scene, quantity)
-        if estimate is not None and estimate.sure and estimate.error < math.inf:
-            errors[quantity] = estimate.error + (omitted.part if omitted else 0.0)
+        part = omitted.part if omitted else 0.0
+        if estimate is not None and estimate.sure and estimate.error + part < math.inf:
+            errors[quantity] = estimate.error + part
     return errors
 
 
@@ -294,6 +299,22 @@ def a_posteriori(task: AdviceTask, model: Model, resolution: int) -> Estimate | 
     if above.available().available and _cheap(task, task.cost(above, finer), task.cost(model, resolution)):
         return _from_above(task, model, resolution, above, finer)
     return _from_below(task, model, resolution)
+
+
+def with_own_uncertainty(task: AdviceTask, model: Model, resolution: int, estimate: Estimate) -> Estimate:
+    """The estimate with the uncertainty that the model states of its own run, where no law gives the grid's error.
+
+    This is so at the full resolution of a rough surface, for models that run in this process. The estimate does not
+    change if the run fails or does not state an uncertainty.
+    """
+    if model.outside or "waves" not in task.numbers or not task.at_full_resolution(model, resolution):
+        return estimate
+    own = _from_itself(task, model, resolution)
+    if own is None or own.error == 0:
+        return estimate
+    error = math.hypot(estimate.error, own.error)
+    first = own.reasons if own.error > estimate.error else ()
+    return Estimate(error=error, reasons=(*first, *estimate.reasons), sure=estimate.sure, least=error)
 
 
 def _cheap(task: AdviceTask, check: float, cost: float) -> bool:

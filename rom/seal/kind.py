@@ -13,13 +13,16 @@ from roughfilm.rom.ladder.sweeping import Columns, Sweeping
 from roughfilm.rom.seal.scene import Seal
 
 MIN_LEAKAGE = 1e-4
-"""Leakage over that of a smooth gap of the rms height below which it is negligible."""
+"""Leakage over that of a smooth gap of the rms height below which a case does not count in a report over many cases."""
+
+SEALED = 1e-9
+"""Leakage over that of a smooth gap of the rms height below which the seal counts as sealed."""
 
 
 def scale(values: Mapping[str, Any], quantity: str) -> Any:
-    """The magnitude of a quantity, for leakage at least ``MIN_LEAKAGE`` times that of a smooth gap."""
+    """The magnitude of a quantity, of a leakage at least ``SEALED`` times that of a smooth gap of the rms height."""
     size = np.abs(values[quantity])
-    return np.maximum(size, MIN_LEAKAGE * values["smooth_leakage"]) if quantity == "leakage_per_width" else size
+    return np.maximum(size, SEALED * values["smooth_leakage"]) if quantity == "leakage_per_width" else size
 
 
 def columns(scene: Seal) -> dict[str, Quantity | str]:

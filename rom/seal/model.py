@@ -13,12 +13,17 @@ from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.rom.dry_contact.model import Answer, Task, contact_model, once, one
 from roughfilm.rom.dry_contact.pressed import RESIDUAL_TOLERANCE, prepare
 from roughfilm.rom.ladder.model import About, Applicability, Model
-from roughfilm.rom.ladder.result import Field, with_uncertainties
-from roughfilm.rom.pocket.validity import NO_COARSER_GRID
+from roughfilm.rom.ladder.result import NO_COARSER_GRID, Field, with_uncertainties
 from roughfilm.rom.seal.leakage.passage import Passage, dimensionless, mass_flow
 from roughfilm.rom.seal.scene import Seal
 
 RESIDUAL_MEANING = "relative solver error of the leakage, or residual of the contact conditions, whichever is larger"
+
+LOST_WAVES = (
+    "the uncertainty of the leakage is unknown: waves that this grid lacks may open a gap that is sealed without them; "
+    "raise the resolution"
+)
+"""The warning for a sealed gap on a grid that lacks waves of the surface."""
 
 GAP_BINS = 80
 """Number of bins of gaps."""
@@ -42,6 +47,7 @@ def leak(task: Task, *, flow: FlowSolver) -> Answer:
     passage = flow(contact, scene)
     driven = flux(contact.gap, contact.spacing, passage.corrector, scene.axis) if not passage.sealed else None
     size = np.zeros(contact.gap.shape) if driven is None else np.hypot(*driven)
+    uncertainty = with_lost_waves(passage, scene, task)
     per_permeability = scene.flow.pressure_drop / (12 * scene.liquid.viscosity * scene.flow.length)
     return Answer(
         quantities=with_uncertainties(
@@ -49,8 +55,8 @@ def leak(task: Task, *, flow: FlowSolver) -> Answer:
                 scene, passage.permeability, passage.sealed, contact.area_fraction, contact.mean_gap, task.heights.std()
             ),
             {
-                "permeability": passage.uncertainty,
-                "leakage_per_width": leakage_of(scene, passage.uncertainty),
+                "permeability": uncertainty,
+                "leakage_per_width": leakage_of(scene, uncertainty),
             },
         ),
         fields={
@@ -60,8 +66,36 @@ def leak(task: Task, *, flow: FlowSolver) -> Answer:
         },
         residual=max(contact.complementarity, passage.unsolved),
         iterations=max(contact.iterations + passage.iterations, 1),
-        warnings=(*_warnings(scene, contact), *(() if math.isfinite(passage.uncertainty) else (NO_COARSER_GRID,))),
+        warnings=(
+            *_warnings(scene, contact),
+            *(() if math.isfinite(passage.uncertainty) else (NO_COARSER_GRID,)),
+            *((LOST_WAVES,) if uncertainty == math.inf > passage.uncertainty else ()),
+        ),
     )
+
+
+def with_lost_waves(passage: Passage, scene: Seal, task: Task) -> float:
+    """The uncertainty of the permeability, m³, including the waves of the surface that the task's grid lacks.
+
+    With the permeabilities K of the passage, k of the effective medium with the waves of the grid and k' with all
+    waves, these waves add the larger of K |k'/k - 1| and |k' - k|. They may open a sealed gap: its uncertainty is
+    infinite.
+    """
+    whole = scene.spectrum()
+    if task.heights.shape == scene.surface().shape or whole is None:
+        return passage.uncertainty
+    from roughfilm.contact.mechanics.moments import wave_power  # scipy is slow to import
+    from roughfilm.rom.seal.leakage.effective_medium import effective_medium
+
+    if passage.sealed:
+        return math.inf
+    part = wave_power(task.heights, task.spacing)
+    less, more = (
+        effective_medium(waves, composite_modulus=scene.composite_modulus, load=scene.load.pressure).permeability
+        for waves in (part, whole)
+    )
+    relative = passage.permeability * abs(more / less - 1) if less > 0 else 0.0
+    return passage.uncertainty + max(relative, abs(more - less))
 
 
 def gap_distribution(rms: float, gaps: Array, fractions: Array | None = None) -> dict[str, Field]:

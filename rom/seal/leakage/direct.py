@@ -62,7 +62,8 @@ def direct_flow(
         If none of the solvers meets the tolerance.
 
     The error is of second order in the spacing where the gap is smooth and open, and of nearly first order at the edges
-    of contact. The uncertainty is estimated from solutions on every second and every fourth node.
+    of contact. The uncertainty is estimated from solutions on every second and every fourth node; that of a sealed gap
+    is above 0 if these are open.
 
     Source: Sahlin 2008, F.7 and F.11, which sets the gap in contact to 10 nm and subtracts the leakage of a sealed
     gap.
@@ -91,7 +92,7 @@ def direct_flow(
     corrector = finest.corrector * spacing[0]
     return Passage(
         permeability=finest.permeability * scale**3,
-        uncertainty=0.0 if closed else uncertainty * scale**3 + trace**3,
+        uncertainty=uncertainty * scale**3 + trace**3,
         sealed=closed,
         corrector=np.ascontiguousarray(corrector.T) if direction == 1 else corrector,
         unsolved=finest.left / finest.permeability if finest.permeability > 0 else 0.0,

@@ -31,7 +31,7 @@ def homogenized_leakage(gap: ArrayLike, spacing: tuple[float, float]) -> Leakage
         closed = cell.factors.sealed[i]
         return Passage(
             permeability=float(cell.factors.pressure[i, i]),
-            uncertainty=0.0 if closed else float(cell.uncertainty.pressure[i, i]),
+            uncertainty=float(cell.uncertainty.pressure[i, i]),
             sealed=closed,
             corrector=cell.correctors[i],
             unsolved=0.0 if closed else cell.unsolved,

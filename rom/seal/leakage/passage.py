@@ -15,7 +15,7 @@ class Passage:
     ----------
     permeability : K = 12η Q L/Δp, m³, for the flow Q per width at a pressure drop Δp over the length L; h³ for a smooth
         gap, and exactly 0 if sealed.
-    uncertainty : uncertainty of K from the grid and the solver, m³.
+    uncertainty : uncertainty of K from the grid and the solver, m³; above 0 if a sealed gap is open on coarser grids.
     sealed : whether there is no open path through the gap.
     corrector : deviation ψ of the pressure p = Δp (1 − (x + ψ)/L) from a linear one, m, shape (nx, ny), 0 if sealed;
         an argument of :func:`roughfilm.rom.homogenization.flux.flux`.

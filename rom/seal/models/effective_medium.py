@@ -1,11 +1,26 @@
 """Leakage by Persson's contact theory and an effective medium, from the spectrum alone."""
 
+import math
+
+import numpy as np
+
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.mechanics.moments import wave_power
 from roughfilm.rom.dry_contact.model import Answer, Task, contact_model
 from roughfilm.rom.ladder.model import Applicability, Effect
-from roughfilm.rom.seal.model import gap_distribution, quantities
+from roughfilm.rom.ladder.result import with_uncertainties
+from roughfilm.rom.seal.leakage.scatter import MEAN_SEALING_LOAD, SEALING_LOADS
+from roughfilm.rom.seal.model import gap_distribution, leakage_of, quantities
 from roughfilm.rom.seal.scene import Seal
+
+RELATIVE_UNCERTAINTY = 1.0
+"""Relative uncertainty of the leakage within the range of the model: true values are 0.5 to 2 times it."""
+
+MAX_SLOPE_RATIO = 1.5
+"""Largest ratio of rms slopes across and along a lay of a surface that counts as one without a lay."""
+
+MAX_SKEWNESS = 0.7
+"""Largest skewness of heights that count as Gaussian."""
 
 RESIDUAL_MEANING = "residual of the equation of the effective medium, over its positive terms"
 
@@ -23,13 +38,47 @@ def work(task: Task) -> Answer:
         raise InputError(f"effective_medium: {FLAT_SURFACE}")
     medium = effective_medium(spectrum, composite_modulus=scene.composite_modulus, load=scene.load.pressure)
     rms = float(task.heights.std())
+    doubts = out_of_range(scene, task)
+    uncertainty = math.inf if doubts else RELATIVE_UNCERTAINTY * medium.permeability
     return Answer(
-        quantities=quantities(scene, medium.permeability, medium.sealed, medium.area_fraction, medium.mean_gap, rms),
+        quantities=with_uncertainties(
+            quantities(scene, medium.permeability, medium.sealed, medium.area_fraction, medium.mean_gap, rms),
+            {"permeability": uncertainty, "leakage_per_width": leakage_of(scene, uncertainty)},
+        ),
         fields=gap_distribution(rms, medium.gaps, medium.fractions),
         residual=medium.residual,
         iterations=1,
-        warnings=() if scene.solid.hardness is None else ("the solid is treated as elastic",),
+        warnings=doubts,
     )
+
+
+def out_of_range(scene: Seal, task: Task) -> tuple[str, ...]:
+    """The reasons for which the leakage may be wrong by more than ``RELATIVE_UNCERTAINTY``, one sentence each."""
+    heights = task.heights - task.heights.mean()
+    warnings = [] if scene.solid.hardness is None else ["the solid is treated as elastic"]
+    load = scene.load.pressure / scene.pressure_unit
+    if load > MEAN_SEALING_LOAD / 3:
+        low, high = SEALING_LOADS["without a lay"]
+        warnings.append(
+            f"out of its range: P = {load:.2g} E* g' is above a third of the mean sealing load, {MEAN_SEALING_LOAD} E* g' "
+            f"({low} to {high}, with a lay {SEALING_LOADS['with a lay'][0]} to {SEALING_LOADS['with a lay'][1]}); the "
+            "leakage may be wrong by orders of magnitude, take direct_leakage"
+        )
+    slopes = [np.roll(heights, -1, axis) - heights for axis in (0, 1)]
+    x, y = (slope / step for slope, step in zip(slopes, task.spacing, strict=True))
+    least, most = np.linalg.eigvalsh([[np.mean(x * x), np.mean(x * y)], [np.mean(x * y), np.mean(y * y)]])
+    if most > MAX_SLOPE_RATIO**2 * least:
+        warnings.append(
+            "out of its range: the surface has a lay (ratio of rms slopes across and along it above "
+            f"{MAX_SLOPE_RATIO:g}), which the theory leaves out; take direct_leakage"
+        )
+    skewness = float(np.mean(heights**3) / np.mean(heights**2) ** 1.5)
+    if abs(skewness) > MAX_SKEWNESS:
+        warnings.append(
+            f"out of its range: the skewness of the heights is {skewness:.2g}, beyond ±{MAX_SKEWNESS:g}, and the theory is "
+            "for Gaussian heights; take direct_leakage"
+        )
+    return tuple(warnings)
 
 
 def prepare(_task: Task) -> None:

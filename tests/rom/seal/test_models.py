@@ -12,10 +12,12 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.mechanics.moments import wave_power
 from roughfilm.contact.synthetic.self_affine import self_affine
 from roughfilm.ladder import find
+from roughfilm.rom.advice.advise import advise
 from roughfilm.rom.ladder.model import Effect, best, ladder, of_kind, one_effect_away
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene, scene_entries
 from roughfilm.rom.ladder.store import load, save
+from roughfilm.rom.seal.kind import KIND
 from roughfilm.rom.seal.leakage.effective_medium import SEALING_AREA, effective_medium
 from roughfilm.rom.seal.leakage.passage import dimensionless, mass_flow
 
@@ -158,6 +160,39 @@ def test_a_flat_surface_is_sealed(tmp_path):
     assert not medium.applies(scene).applies
     with pytest.raises(InputError, match="flat"):
         medium.solve(scene)
+
+
+def test_errors_are_relative_to_the_answer_near_sealing():
+    """At 0.18 E* g' the leakage is 1e-5 of a smooth gap's, and eight times less than its uncertainty."""
+    scene = seal(pressure="160.5 kPa")
+    found = find("seal", "direct_leakage").solve(scene)["leakage_per_width"]
+    assert found.uncertainty > found.value > 0
+    assert KIND.scale_of(find("seal", "direct_leakage").solve(scene), "leakage_per_width") == found.value
+    assert advise(scene, RUNGS, quantity="leakage_per_width", within=0.2).chosen is None
+    clear = advise(seal(pressure="10 kPa"), RUNGS, quantity="leakage_per_width", within=0.2)
+    assert clear.chosen is not None
+
+
+def test_a_sealed_gap_that_is_open_on_coarser_grids_has_an_uncertainty():
+    """At 0.19 E* g' the nodes seal, and every second one of them does not; far above, all grids seal."""
+    near, far = (find("seal", "direct_leakage").solve(seal(pressure=load)) for load in ("169.5 kPa", "240 kPa"))
+    for result in (near, far):
+        assert (result["sealed"].value, result["leakage_per_width"].value) == (1, 0)
+    assert near["leakage_per_width"].uncertainty > 0
+    assert far["leakage_per_width"].uncertainty == 0
+
+
+@pytest.mark.parametrize("name", ["homogenized_leakage", "direct_leakage"])
+def test_waves_that_a_grid_lacks_count_in_the_uncertainty(name):
+    """With waves of 2.2 pixels of the coarser grid; the finer grid has all of them."""
+    rough = ROUGH | {"cut_off": "1.4 um", "hurst": 0.5}
+    scene = seal(rough, pressure="60 kPa")
+    coarse, fine = (find("seal", name).solve(scene, Request(resolution=n))["permeability"] for n in (32, 64))
+    assert abs(coarse.value - fine.value) <= coarse.uncertainty
+    sealed = find("seal", name).solve(seal(rough, pressure="400 kPa"), Request(resolution=32))
+    assert sealed["permeability"].value == 0
+    assert sealed["permeability"].uncertainty is None
+    assert any("raise the resolution" in warning for warning in sealed.warnings)
 
 
 def test_a_softer_limit_of_pressure_seals_sooner():
