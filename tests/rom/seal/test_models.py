@@ -195,6 +195,19 @@ def test_waves_that_a_grid_lacks_count_in_the_uncertainty(name):
     assert any("raise the resolution" in warning for warning in sealed.warnings)
 
 
+def test_the_effective_medium_says_where_it_does_not_hold():
+    """It has an uncertainty, which contains the flow through the gap, for light loads without a lay only."""
+    light = seal(pressure="20 kPa")
+    found, true = (find("seal", name).solve(light)["permeability"] for name in ("effective_medium", "direct_leakage"))
+    assert abs(found.value - true.value) < found.uncertainty < found.value
+    lay = {"kind": "gaussian", "correlation_length": "2 um", "anisotropy": 4.0, "rms_height": "0.1 um"}
+    lay |= {key: ROUGH[key] for key in ("size", "points", "seed")}
+    for scene, words in ((seal(pressure="150 kPa"), "mean sealing load"), (seal(lay, pressure="10 kPa"), "has a lay")):
+        told = find("seal", "effective_medium").solve(scene)
+        assert told["permeability"].uncertainty is None
+        assert words in told.warnings[0]
+
+
 def test_a_softer_limit_of_pressure_seals_sooner():
     soft, elastic = (values("direct_leakage", seal(hardness=hardness)) for hardness in ("150 kPa", None))
     assert soft["area_fraction"] > elastic["area_fraction"]
