@@ -79,6 +79,9 @@ def _draw(axes: Axes, chart: Chart, *, size: float, numbers: bool) -> None:
             alpha=0.85,
             label=f"{solver} (peer)" if peer else solver,
         )
+        if (bar := 100 * chart.truth.uncertainty) >= 100 * MIN_DRAWN_ERROR:
+            ends = [max(error - bar, 100 * MIN_DRAWN_ERROR) for error in errors], [error + bar for error in errors]
+            axes.vlines(times, *ends, color=style.colour, alpha=0.3, linewidth=1)
         if numbers:
             texts = [f"{point.resolution}" for point in own]
             _number(

@@ -28,8 +28,10 @@ class Chart:
     family, answers : family and its measured answers.
     points : points with their errors, in the order of the family.
     counted : the same points with the errors of :func:`counting`.
-    front : Pareto front of the counted points: no other point has both a smaller CPU time and a smaller error.
-    cheapest : cheapest counted point by tolerance, None if no point is within the tolerance.
+    front : Pareto front of the counted points: no other point has both a smaller CPU time and a smaller error. A point
+        that the reference does not tell apart from a cheaper one on the front is left out.
+    cheapest : by tolerance, the cheapest counted point whose error plus the uncertainty of the reference is within it;
+        None if there is none.
     absent : reason by name for peers that are not available.
     """
 
@@ -79,8 +81,8 @@ def judged(family: ChartFamily, answers: Answers, absent: Mapping[str, str]) -> 
         answers=answers,
         points=tuple(points.values()),
         counted=counted,
-        front=_worthwhile(pareto_front(counted, family.quantity), family.quantity),
-        cheapest={part: _cheapest(counted, family.quantity, part) for part in WITHIN},
+        front=_worthwhile(pareto_front(counted, family.quantity, answers.truth.uncertainty), family.quantity),
+        cheapest={part: _cheapest(counted, family.quantity, part - answers.truth.uncertainty) for part in WITHIN},
         absent=absent,
     )
 

@@ -12,7 +12,7 @@ from roughfilm.rom.ladder.kind import Scene, kind_names
 from roughfilm.rom.ladder.model import Model, Progress, best, silent
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
-from roughfilm.rom.studies.comparison import to_best
+from roughfilm.rom.studies.comparison import scale, to_best, undecided, with_uncertainty
 
 
 def models(kind: str | None = None) -> tuple[Model, ...]:
@@ -170,12 +170,17 @@ class Comparison:
     results : results by the name of the model, from the simplest model to the one with the most effects.
     best : name of the solved model with the most effects.
     errors : by model and quantity, the signed difference from the best model over the size of the quantity.
+    uncertainty : by quantity, the uncertainty of these differences, which is that of the best model: its numerical one,
+        or its expected error where that is unknown.
+    undecided : by quantity, the pairs of models that this uncertainty does not tell apart; they are not to be ranked.
     left_out : by model, the reason for a missing result.
     """
 
     results: Mapping[str, Result]
     best: str
     errors: Mapping[str, Mapping[str, float]]
+    uncertainty: Mapping[str, float]
+    undecided: Mapping[str, tuple[tuple[str, str], ...]]
     left_out: Mapping[str, str]
 
 
@@ -222,11 +227,32 @@ def compare(scene: Scene, *, models: Sequence[str] | None = None, progress: Prog
     if not results:
         reasons = "; ".join(f"{name}: {reason}" for name, reason in left_out.items())
         raise ConvergenceError(f"models: none of them solves the scene: {reasons}")
-    errors: dict[str, dict[str, float]] = {}
-    for difference in to_best(known, results):
-        errors.setdefault(difference.model, {})[difference.quantity] = difference.relative
     top = best([model for model in known if model.name in results]).name
-    return Comparison(results=results, best=top, errors=errors, left_out=left_out)
+    carried = {**results, top: _with_expected_uncertainty(results[top])}
+    errors: dict[str, dict[str, float]] = {}
+    uncertainty = {}
+    for difference in to_best(known, carried):
+        errors.setdefault(difference.model, {})[difference.quantity] = difference.relative
+        if difference.uncertainty is not None:
+            uncertainty[difference.quantity] = difference.uncertainty
+    return Comparison(
+        results=results,
+        best=top,
+        errors=errors,
+        uncertainty=uncertainty,
+        undecided=undecided(known, carried),
+        left_out=left_out,
+    )
+
+
+def _with_expected_uncertainty(result: Result) -> Result:
+    """The result with its expected errors as uncertainties of the quantities whose numerical uncertainty is unknown."""
+    expected = {
+        name: error * scale(result, name)
+        for name, error in result.expected_error.items()
+        if result.quantities[name].uncertainty is None
+    }
+    return with_uncertainty(result, expected)
 
 
 def chosen_models(kind: str, names: Sequence[str] | None) -> tuple[Model, ...]:

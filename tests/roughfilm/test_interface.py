@@ -233,6 +233,15 @@ def test_a_comparison_measures_against_the_model_that_keeps_most(pocket):
     assert found.errors["inertial_reynolds"]["load_plus"] == pytest.approx((one - best) / abs(best))
 
 
+def test_a_comparison_carries_the_uncertainty_of_the_best_model():
+    """Density and viscosity of this oil are constant, so that two models are equal; the third does not cavitate."""
+    journal = rf.load_scene(SCENES / "journal.toml")
+    found = rf.compare(journal, models=["reynolds", "reynolds_incompressible", "reynolds_cavitating"])
+    load = found.results["reynolds_cavitating"]["load_per_width"]
+    assert found.uncertainty["load_per_width"] == pytest.approx(load.uncertainty / load.value)
+    assert found.undecided["load_per_width"] == (("reynolds_incompressible", "reynolds_cavitating"),)
+
+
 def test_a_stored_result_comes_back_as_it_was(pocket, tmp_path):
     result = rf.solve(pocket, model="film_slope")
     rf.save(result, tmp_path / "result.h5")

@@ -1,10 +1,14 @@
-"""The answers of the models of a scene's kind at their default resolutions."""
+"""The answers of the models of a scene's kind at their default resolutions, of bearings in the plane also at others."""
+
+import json
+import zlib
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.interface.solving import solve
 from roughfilm.ladder import models
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.model import Model
+from roughfilm.rom.ladder.scene import scene_entries
 from scripts.studies.coverage.store import Answer
 
 
@@ -17,7 +21,7 @@ def answers(scene: Scene) -> dict[str, Answer]:
 def answer(model: Model, scene: Scene) -> Answer:
     """Return the answer of one model to a scene."""
     try:
-        found = solve(scene, model=model.name)
+        found = solve(scene, model=model.name, resolution=judged_resolution(model, scene))
     except (ConvergenceError, InputError) as error:
         return Answer(failure=f"{type(error).__name__}: {error}")
     quantities = found.quantities
@@ -26,5 +30,18 @@ def answer(model: Model, scene: Scene) -> Answer:
         uncertainty={name: one.uncertainty for name, one in quantities.items() if one.uncertainty is not None},
         expected_error=dict(found.expected_error),
         cpu_s=found.numerics.cpu_s,
+        resolution=found.numerics.resolution,
         warnings=found.warnings,
     )
+
+
+def judged_resolution(model: Model, scene: Scene) -> int:
+    """Return the resolution at which a model is judged on a scene: the default, or a coarser one for some bearings.
+
+    Of bearings with a width 15 of 16 are judged on a grid four or eight times coarser, whose truth takes less time.
+    """
+    default = model.resolution_of(scene)
+    if scene.kind != "bearing" or model.name == "infinitely_wide" or getattr(scene, "wide", False):
+        return default
+    lot = zlib.crc32(json.dumps(scene_entries(scene), sort_keys=True).encode()) % 16
+    return max(default // (1 if lot == 0 else 4 if lot < 10 else 8), model.offered(scene).least)

@@ -22,12 +22,32 @@ class Answer:
     cpu_s: float = 0.0
     warnings: tuple[str, ...] = ()
     failure: str = ""
+    resolution: int = 0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Advised:
+    """The advice on one quantity at one tolerance, and the answer of the model that it chooses.
+
+    ``model`` is None if no model is known to be accurate enough. ``cpu_s`` is that of all runs for advice and answer.
+    """
+
+    quantity: str
+    within: float
+    model: str | None = None
+    resolution: int | None = None
+    expected: float | None = None
+    value: float | None = None
+    cpu_s: float = 0.0
+    best_cpu_s: float = 0.0
+    failure: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Judged:
     """A random scene with its truth, as (value, uncertainty) by quantity, and the answers of models by name.
 
+    ``own`` is the truth of the own equations of a model, by its name (see ``Truth.own``).
     ``failure`` is the reason why there is no truth. ``code`` is a digest of the code that gave the answers.
     """
 
@@ -35,11 +55,13 @@ class Judged:
     seed: int
     scene: Mapping[str, Any]
     truth: Mapping[str, tuple[float, float]]
+    own: Mapping[str, Mapping[str, tuple[float, float]]] = field(default_factory=dict)
     method: str = ""
     truth_warnings: tuple[str, ...] = ()
     truth_cpu_s: float = 0.0
     failure: str = ""
     models: Mapping[str, Answer] = field(default_factory=dict)
+    advice: tuple[Advised, ...] = ()
     code: str = ""
 
 
@@ -63,8 +85,11 @@ def read(path: Path) -> dict[int, Judged]:
         except ValueError:
             continue
         entries["truth"] = {name: tuple(pair) for name, pair in entries["truth"].items()}
+        own = entries.get("own", {})
+        entries["own"] = {name: {q: tuple(pair) for q, pair in one.items()} for name, one in own.items()}
         answers = {name: {**one, "warnings": tuple(one["warnings"])} for name, one in entries["models"].items()}
         entries["models"] = {name: Answer(**one) for name, one in answers.items()}
+        entries["advice"] = tuple(Advised(**one) for one in entries.get("advice", ()))
         entries["truth_warnings"] = tuple(entries["truth_warnings"])
         found[entries["seed"]] = Judged(**entries)
     return found

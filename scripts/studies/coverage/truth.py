@@ -2,7 +2,7 @@
 
 import importlib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -18,12 +18,15 @@ class Truth:
     values : by name of the quantity, in the unit of the models' results.
     uncertainty : of each of these values, in the same unit; it contains the difference from the exact solution.
     method : the solution method and its resolutions, in words.
+    own : by model and quantity, value and uncertainty of the exact solution of the model's own equations, by which the
+        uncertainty of that model is judged; models without an entry are judged by ``values``.
     warnings : one sentence for each reason to doubt the solution.
     """
 
     values: Mapping[str, float]
     uncertainty: Mapping[str, float]
     method: str
+    own: Mapping[str, Mapping[str, tuple[float, float]]] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
 
 

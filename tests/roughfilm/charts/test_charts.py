@@ -101,6 +101,18 @@ def test_a_grid_whose_errors_cancel_is_not_named_the_cheapest(chart):
     assert named == {0.1: ("fine", 4), 0.01: ("fine", 16), 0.001: ("fine", 32)}
 
 
+def test_an_uncertain_reference_neither_ranks_what_it_does_not_tell_apart_nor_names_it_within_a_tolerance(tmp_path):
+    """With 0.7 %, errors of 2 % and of 0.4 % overlap, and 0.4 % may be 1.1 %."""
+    family = Solvers(KNOWN + FINER, uncertainty=7e-3).family
+    chart = judged(family, answers(family, tmp_path / "test.json", silent), {})
+    assert [(point.model, point.resolution) for point in chart.front] == [("plain", 4), ("fine", 4)]
+    assert {part: point and (point.model, point.resolution) for part, point in chart.cheapest.items()} == {
+        0.1: ("fine", 4),
+        0.01: None,
+        0.001: None,
+    }
+
+
 def test_what_was_measured_is_not_asked_for_again(tmp_path):
     path, solvers = tmp_path / "test.json", Solvers(KNOWN)
     first = answers(solvers.family, path, silent)

@@ -1,9 +1,93 @@
-"""The truth of a pocket."""
+"""The truth of a pocket: finite elements on two meshes (``scripts.studies.coverage.finite_elements``)."""
 
+from collections.abc import Callable
+
+import numpy as np
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.rom.pocket.geometry import AnyGroove, Through
 from roughfilm.rom.pocket.scene import Pocket
+from scripts.studies.coverage.finite_elements.flow import solve
+from scripts.studies.coverage.finite_elements.forces import Forces, forces
+from scripts.studies.coverage.finite_elements.mesh import fitted_mesh
+from scripts.studies.coverage.finite_elements.wall import Groove, Wall
 from scripts.studies.coverage.truth import Truth
+
+LEVELS = (0.7, 1.0, 1.4)
+"""Levels of the meshes; the last one is taken where the first two differ by more than TARGET."""
+
+TARGET = 3e-3
+"""Uncertainty of load over load, but at least over LEAST_LOAD times the largest pressure, that is good enough."""
+
+LEAST_LOAD = 0.05
+
+FRICTION_FLOOR = 2e-5
+"""Uncertainty of friction over friction, besides the difference of the two meshes."""
+
+LOAD_FLOOR = (1e-5, 6e-7)
+"""Uncertainty of load over the largest pressure at Re = 0, and its increase with Re, besides that difference."""
+
+PRESSURE_FLOOR = 1e-3
+"""Uncertainty of the extreme pressures over the largest one, besides that difference."""
+
+
+def groove_of(groove: AnyGroove, film: float) -> Groove:
+    """Return a groove of a scene in film thicknesses; straight lines connect points."""
+    if isinstance(groove, Through):
+        places, depths = np.array(groove.points).T / film
+        places = places + groove.position / film
+        breaks = tuple(map(float, places))
+        return Groove(breaks=breaks, corners=breaks, depth=lambda x: np.interp(x, places, depths))
+    shape = groove.shape()
+
+    def moved(places: tuple[float, ...]) -> tuple[float, ...]:
+        return tuple((place + groove.position) / film for place in places)
+
+    return Groove(breaks=moved(shape.breaks), corners=moved(shape.corners), depth=_depth(shape.depth, groove, film))
+
+
+def _depth(depth: Callable[[Array], Array], groove: AnyGroove, film: float) -> Callable[[Array], Array]:
+    return lambda x: depth(x * film - groove.position) / film
+
+
+def wall_of(scene: Pocket) -> Wall:
+    """Return the fixed wall of a pocket."""
+    film = scene.geometry.film
+    grooves = sorted((groove_of(one, film) for one in scene.grooves), key=lambda groove: groove.breaks[0])
+    return Wall(length=scene.geometry.length / film, grooves=tuple(grooves))
+
+
+def forces_on(scene: Pocket, level: float) -> Forces:
+    """Return the forces on the sliding wall of a pocket, with p = 0 at the ends of its period, by a mesh of a level."""
+    wall, ends = wall_of(scene).begun_on_land()
+    return forces(solve(fitted_mesh(wall, level), scene.reynolds_number), ends)
 
 
 def truth(scene: Pocket) -> Truth:
-    """Return load, friction and peak pressures of a pocket by finite elements on two meshes."""
-    raise NotImplementedError
+    """Return load, friction and peak pressures of a pocket by two or three meshes: p+ = 100 p Ly² / (η u Lx).
+
+    The uncertainty is the difference of the two finest meshes, and a floor from comparisons with meshes of level 2.
+    """
+    coarse, fine = (forces_on(scene, level) for level in LEVELS[:2])
+    levels = LEVELS[:2]
+    uncertainty = uncertainties(scene, coarse, fine)
+    if uncertainty["load"] > TARGET * max(abs(fine.load), LEAST_LOAD * fine.largest_pressure):
+        coarse, fine, levels = fine, forces_on(scene, LEVELS[2]), LEVELS
+        uncertainty = uncertainties(scene, coarse, fine)
+    plus = scene.plus_factor
+    return Truth(
+        values={f"{name}_plus": getattr(fine, name) * plus for name in uncertainty},
+        uncertainty={f"{name}_plus": one * plus for name, one in uncertainty.items()},
+        method=f"finite elements, levels {', '.join(f'{level:g}' for level in levels)}",
+    )
+
+
+def uncertainties(scene: Pocket, coarse: Forces, fine: Forces) -> dict[str, float]:
+    """Return the uncertainty of each force of the finer of two meshes, in η u / Ly."""
+    floors = {
+        "load": fine.largest_pressure * (LOAD_FLOOR[0] + LOAD_FLOOR[1] * scene.reynolds_number),
+        "friction": FRICTION_FLOOR * fine.friction,
+        "pressure_max": PRESSURE_FLOOR * fine.largest_pressure,
+        "pressure_min": PRESSURE_FLOOR * fine.largest_pressure,
+    }
+    return {name: abs(getattr(fine, name) - getattr(coarse, name)) + floor for name, floor in floors.items()}

@@ -1,0 +1,126 @@
+"""Finer solutions of the models of a scene, extrapolated, as the truth of their own equations."""
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache, partial
+
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.ladder import models
+from roughfilm.rom.ladder.kind import Scene
+from roughfilm.rom.ladder.model import Model, best
+from roughfilm.rom.ladder.request import Request
+from roughfilm.rom.ladder.result import Result
+from roughfilm.rom.studies.convergence import converge
+from scripts.studies.coverage.answering import judged_resolution
+from scripts.studies.coverage.surfaces import refined
+from scripts.studies.coverage.truth import Truth
+
+SHARE = 0.2
+"""Largest uncertainty of a truth over the uncertainty that it judges."""
+
+MAX_CPU_S = 0.3
+"""Largest expected CPU time of one finer solution, s; of the two that are needed at least, ``MAX_NEEDED_S``."""
+
+MAX_NEEDED_S = 3.0
+
+MAX_FACTOR = 8
+"""Largest number of cells along a side over that of the judged solution."""
+
+SOUGHT = ("load_per_width", "friction_per_width", "side_leakage", "pressure_max", "leakage_per_width")
+"""Quantities whose truth is to be sharp."""
+
+LEAST = 3
+"""Least number of grids, with the judged one."""
+
+Values = Mapping[str, tuple[float, float]]
+
+
+Solver = Callable[[Model, int], Result]
+"""solve(model, factor): the solution on a grid that is finer by a factor than the judged one; raises what models do."""
+
+
+def finer_truth(scene: Scene) -> Truth:
+    """Return the truth of a scene by models at finer resolutions.
+
+    Raises
+    ------
+    ConvergenceError
+        If no model solves the scene on two grids finer than the judged one.
+    """
+
+    def solve(model: Model, factor: int) -> Result:
+        resolution = judged_resolution(model, scene) * factor
+        if resolution > model.offered(scene).most:
+            raise ConvergenceError(f"{model.name}: has no resolution {resolution}")
+        return model.solve(scene, Request(resolution=resolution))
+
+    return _truth(scene, solve, "grids 2 to 8 times finer, extrapolated")
+
+
+def on_finer_surface(scene: Scene) -> Truth:
+    """Return the truth of a scene by models on its surface at more points; raises what :func:`finer_truth` raises."""
+    fine = cache(partial(refined, scene))
+
+    def solve(model: Model, factor: int) -> Result:
+        return model.solve(fine(factor))
+
+    return _truth(scene, solve, "the surface at 2 and 4 times as many points a side, extrapolated")
+
+
+def _truth(scene: Scene, solve: Solver, method: str) -> Truth:
+    """Return the extrapolated values of every model that runs in this process, those of the best one as the truth."""
+    applying = [model for model in models(scene.kind) if not model.outside and model.applies(scene).applies]
+    own = {model.name: found for model in applying if (found := extrapolated(scene, model, solve))}
+    if not own:
+        raise ConvergenceError("no model solves the scene on finer grids")
+    top = own[best([model for model in applying if model.name in own]).name]
+    return Truth(
+        values={name: value for name, (value, _) in top.items()},
+        uncertainty={name: bar for name, (_, bar) in top.items()},
+        method=method,
+        own=own,
+    )
+
+
+def extrapolated(scene: Scene, model: Model, solve: Solver) -> Values:
+    """Return the limit of fine grids of each quantity with its uncertainty; empty without two finer grids.
+
+    The grid is refined until the uncertainty is ``SHARE`` of the one that the judged solution states for the quantities
+    in ``SOUGHT``, or until ``MAX_CPU_S`` or ``MAX_FACTOR``.
+    """
+    base = judged_resolution(model, scene)
+    factor, runs, found = 1, list[Result](), dict[str, tuple[float, float]]()
+    while factor <= MAX_FACTOR:
+        if factor > 1 and model.cost(scene, base * factor) > (MAX_CPU_S if len(runs) >= LEAST else MAX_NEEDED_S):
+            break
+        try:
+            runs.append(solve(model, factor))
+        except (ConvergenceError, InputError):
+            break
+        factor *= 2
+        if len(runs) >= LEAST:
+            found = _limits(runs)
+            if all(_sharp(runs[0], name, found[name][1]) for name in SOUGHT if name in found):
+                break
+    return found
+
+
+def _sharp(judged: Result, name: str, bar: float) -> bool:
+    stated = judged.quantities[name].uncertainty
+    return stated is None or bar <= SHARE * stated
+
+
+def _limits(runs: Sequence[Result]) -> dict[str, tuple[float, float]]:
+    """Return value and uncertainty of the quantities of all runs."""
+    limits = {}
+    for name in runs[0].quantities:
+        if not all(name in run.quantities for run in runs):
+            continue
+        values = [run.quantities[name].value for run in runs]
+        limit = converge(
+            [run.numerics.resolution for run in runs],
+            values,
+            formal_order=2,
+            noise=runs[-1].numerics.residual * abs(values[-1]),
+        )
+        limits[name] = (limit.value, limit.uncertainty)
+    return limits
