@@ -17,6 +17,9 @@ Amplitudes = Literal["fixed", "random"]
 Spectrum = Callable[[Array, Array], Array]
 """Function C(qx, qy), up to a constant factor, with qx and qy in rad/m."""
 
+TIE = 1e-12
+"""Relative difference of two |q|² that is rounding; such waves are as long as each other."""
+
 MAX_SEED = 2**63 - 1
 """Largest seed of random numbers."""
 
@@ -72,8 +75,9 @@ def random_waves(
 
     Each wave vector gets a complex z of two normal random numbers, drawn in order of increasing |q|, ties by n and then
     m. "fixed" amplitudes are sqrt(C(q)) with the phase of z, so that every seed has the given spectrum; "random" ones
-    are z sqrt(C(q)), the waves of a Gaussian process. The order is independent of the grid: a finer grid has the same
-    waves for the same cut-off, and additional ones, apart from the scaling, for a shorter cut-off.
+    are z sqrt(C(q)), the waves of a Gaussian process. The order is independent of grid and scale: a finer grid has the
+    same waves for the same cut-off, and additional ones, apart from the scaling, for a shorter cut-off; a larger period
+    of the same shape has the same waves, enlarged.
 
     Parameters
     ----------
@@ -110,6 +114,8 @@ def _wave_vectors(grid: Grid, cut_off: float) -> tuple[Index, Index, Array, Arra
     squared: Array = (m / grid.size[0]) ** 2 + (n / grid.size[1]) ** 2
     wanted = np.flatnonzero(((n > 0) | (m > 0)) & (squared * cut_off**2 < 1 - 1e-9))
     wanted = wanted[np.argsort(squared.ravel()[wanted], kind="stable")]
+    lengths = squared.ravel()[wanted]
+    wanted = wanted[np.lexsort((wanted, np.cumsum(np.diff(lengths, prepend=0.0) > TIE * lengths)))]
     rows, columns = np.divmod(wanted, m.size)
     chosen_m, chosen_n = m[0, columns], n[rows, 0]
     return chosen_m, chosen_n, 2 * np.pi * chosen_m / grid.size[0], 2 * np.pi * chosen_n / grid.size[1]

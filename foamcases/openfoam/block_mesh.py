@@ -1,4 +1,4 @@
-"""Structured hexahedral meshes of gaps, written as the files of ``constant/polyMesh``."""
+"""Blocks of hexahedra, written as the files of ``constant/polyMesh``."""
 
 from dataclasses import dataclass
 from itertools import product
@@ -9,11 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array, Mask
-from roughfilm.rom.pocket.columns import columns
-from roughfilm.rom.pocket.gap import Gap
-
-LAYERS_PER_COLUMN = 1 / 5
-"""Number of cells across the film over the number along it."""
 
 Labels = NDArray[np.int64]
 """Numbers of cells or points in the mesh, from 0."""
@@ -26,28 +21,6 @@ AGAINST = (0, 3, 2, 1)
 
 ARCHITECTURE = '"LSB;label=32;scalar=64"'
 """Layout of binary files in OpenFOAM's words: little-endian, labels of 32 bits, numbers of 64 bits."""
-
-
-def layered(gap: Gap, resolution: int) -> Array:
-    """The vertices of the mesh of a gap, shape (columns + 1, layers + 1, 2, 3), in film thicknesses.
-
-    The layers follow the walls: y = 1 - h(x) (1 - Y) with h the gap over the film thickness, and Y uniform from 0 on
-    the lower wall to 1 on the upper one. z is 0 and 1.
-
-    Parameters
-    ----------
-    gap : the gap of a pocket.
-    resolution : number of columns along the film, about; there are a fifth as many layers, and at least 4.
-    """
-    x = columns(gap, resolution)
-    h = gap.thickness(x * gap.film) / gap.film
-    layers = max(4, round(resolution * LAYERS_PER_COLUMN))
-    y = 1 - h[:, None] * (1 - np.linspace(0, 1, layers + 1))
-    vertices = np.empty((x.size, layers + 1, 2, 3))
-    vertices[..., 0] = x[:, None, None]
-    vertices[..., 1] = y[:, :, None]
-    vertices[..., 2] = [0.0, 1.0]
-    return vertices
 
 
 @dataclass(frozen=True, kw_only=True)

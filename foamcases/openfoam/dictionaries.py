@@ -23,9 +23,6 @@ LINEAR_TOLERANCE = 1e-5
 ROUND_OFF = 1e-15
 """Least residual that a linear solver can reach."""
 
-VELOCITY_RELAXATION = 0.95
-"""Relaxation of velocity in SIMPLEC; every case has the same value, because the result depends slightly on it."""
-
 ADVECTION = {
     "linear_upwind": ("bounded", "Gauss", "linearUpwind", "grad(U)"),
     "upwind": ("bounded", "Gauss", "upwind"),
@@ -45,7 +42,9 @@ SIDES = (
 """The patches of a channel at x-, x+, y-, y+, z-, z+."""
 
 
-def write_dictionaries(directory: Path, *, viscosity: float, tolerance: float, scheme: str, processes: int) -> None:
+def write_dictionaries(
+    directory: Path, *, viscosity: float, tolerance: float, scheme: str, processes: int, relaxation: float
+) -> None:
     """Write the files in ``system``, ``constant`` and ``0`` of a channel whose upper wall slides at speed 1.
 
     Parameters
@@ -58,8 +57,10 @@ def write_dictionaries(directory: Path, *, viscosity: float, tolerance: float, s
         A key of ``ADVECTION``.
     processes
         The number of parts along the film into which a parallel run divides the mesh.
+    relaxation
+        The relaxation of velocity in SIMPLEC.
     """
-    write_files(directory, _dictionaries(viscosity, tolerance, scheme, processes))
+    write_files(directory, _dictionaries(viscosity, tolerance, scheme, processes, relaxation))
 
 
 def write_files(directory: Path, files: Mapping[str, Dictionary]) -> None:
@@ -201,7 +202,9 @@ def liquid(viscosity: float) -> dict[str, Dictionary]:
     }
 
 
-def _dictionaries(viscosity: float, tolerance: float, scheme: str, processes: int) -> dict[str, Dictionary]:
+def _dictionaries(
+    viscosity: float, tolerance: float, scheme: str, processes: int, relaxation: float
+) -> dict[str, Dictionary]:
     from foamlib import DimensionSet  # slow to import
 
     return {
@@ -210,7 +213,7 @@ def _dictionaries(viscosity: float, tolerance: float, scheme: str, processes: in
         "system/fvSolution": solution(
             tolerance=tolerance,
             linear=LINEAR_TOLERANCE,
-            relaxation=VELOCITY_RELAXATION,
+            relaxation=relaxation,
             coarsest=20,
             velocity_gain=0.01,
         ),

@@ -3,11 +3,26 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from roughfilm.foamcases.openfoam import block_mesh as mesh
+import numpy as np
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.foamcases.openfoam.block_mesh import write_block
 from roughfilm.foamcases.openfoam.case_directory import SHELL, commands, write_papers, write_whole
 from roughfilm.foamcases.openfoam.dictionaries import SIDES, write_dictionaries
+from roughfilm.foamcases.pocket.mesh.orthogonal import orthogonal
 from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.pocket.scene import Pocket
+
+LAYERS_PER_COLUMN = 1 / 5
+"""Number of cells across the film over the number along it."""
+
+MIN_LAYERS = 4
+
+UNRELAXED_COLUMNS = 12.0
+"""Product of the number of columns and 1 less the relaxation of velocity, at which runs need the fewest iterations."""
+
+MIN_RELAXATION = 0.85
+"""Least relaxation of velocity in SIMPLEC."""
 
 ALLRUN = """\
 checkMesh > log.checkMesh 2>&1 &&
@@ -41,6 +56,24 @@ class Card:
     scheme: str
     processes: int
 
+    @property
+    def relaxation(self) -> float:
+        """The relaxation of velocity in SIMPLEC, which is nearer to 1 for smaller cells."""
+        return max(MIN_RELAXATION, 1 - UNRELAXED_COLUMNS / self.columns)
+
+
+def vertices_of(scene: Pocket, resolution: int) -> Array:
+    """The corners of the cells of a scene's mesh, shape (columns + 1, layers + 1, 2, 3), in film thicknesses.
+
+    Parameters
+    ----------
+    scene : the pocket scene.
+    resolution : number of columns along the film, about; there are a fifth as many layers, and at least 4.
+    """
+    layers = max(MIN_LAYERS, round(resolution * LAYERS_PER_COLUMN))
+    plane = orthogonal(scene.gap(), resolution, layers)
+    return np.stack([np.pad(plane, ((0, 0), (0, 0), (0, 1)), constant_values=z) for z in (0.0, 1.0)], axis=2)
+
 
 def write_case(scene: Pocket, directory: Path, request: CheckedRequest, reynolds_number: float) -> None:
     """Write the case of a scene completely or not at all.
@@ -56,10 +89,10 @@ def write_case(scene: Pocket, directory: Path, request: CheckedRequest, reynolds
     Raises
     ------
     InputError
-        If the directory is not empty or cannot be written.
+        If the directory is not empty or cannot be written, or cells of the mesh fold.
     """
     resolution, scheme, processes = request.resolution, request.scheme, request.processes
-    vertices = mesh.layered(scene.gap(), resolution)
+    vertices = vertices_of(scene, resolution)
     card = Card(
         columns=vertices.shape[0] - 1,
         layers=vertices.shape[1] - 1,
@@ -72,9 +105,14 @@ def write_case(scene: Pocket, directory: Path, request: CheckedRequest, reynolds
     readme = README.format(pressure=scene.pressure_unit * reynolds_number, speed=scene.speed, film=scene.geometry.film)
 
     def fill(place: Path) -> None:
-        mesh.write_block(vertices, SIDES, place)
+        write_block(vertices, SIDES, place)
         write_dictionaries(
-            place, viscosity=1 / reynolds_number, tolerance=request.tolerance, scheme=scheme, processes=processes
+            place,
+            viscosity=1 / reynolds_number,
+            tolerance=request.tolerance,
+            scheme=scheme,
+            processes=processes,
+            relaxation=card.relaxation,
         )
         write_papers(place, readme=readme, allrun=SHELL + ALLRUN.format(commands=commands(processes)), card=card)
 

@@ -3,7 +3,6 @@
 from pathlib import Path
 
 from roughfilm.foamcases.openfoam.case_directory import read_card
-from roughfilm.foamcases.openfoam.dictionaries import VELOCITY_RELAXATION
 from roughfilm.foamcases.pocket.case import Card
 from roughfilm.foamcases.pocket.fields import read_channel
 from roughfilm.foamcases.pocket.run import Run
@@ -11,7 +10,7 @@ from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
-from roughfilm.rom.pocket.validity import cautions
+from roughfilm.rom.pocket.validity.warnings import cautions, ruptures
 
 
 def read(solver: Model[Pocket], scene: Pocket, directory: Path, run: Run) -> Result:
@@ -32,7 +31,7 @@ def read(solver: Model[Pocket], scene: Pocket, directory: Path, run: Run) -> Res
         ),
         fields={
             "position": Field(values=channel.position * film, unit="m"),
-            "film_thickness": Field(values=channel.film_thickness * film, unit="m"),
+            "film_thickness": Field(values=scene.gap().thickness(channel.position * film), unit="m"),
             "pressure": Field(values=channel.wall_pressure * pascal, unit="Pa"),
             "shear_stress": Field(values=channel.wall_shear * pascal, unit="Pa"),
             "vertices": Field(values=channel.vertices * film, unit="m"),
@@ -50,8 +49,8 @@ def read(solver: Model[Pocket], scene: Pocket, directory: Path, run: Run) -> Res
             scheme=card.scheme,
             processes=card.processes,
             runs=tuple(SolverRun(outcome=str(t.outcome), iterations=t.iterations, recipe=t.recipe) for t in run.tries),
-            details={"velocity_relaxation": VELOCITY_RELAXATION, "reynolds_number": card.reynolds_number},
+            details={"velocity_relaxation": card.relaxation, "reynolds_number": card.reynolds_number},
         ),
         provenance=provenance(scene, model=model, keeps=tuple(keeps), sources=solver.sources, openfoam=run.version),
-        warnings=(*cautions(scene), *run.warnings),
+        warnings=(*cautions(scene), *ruptures(scene, lowest), *run.warnings),
     )

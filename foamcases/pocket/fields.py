@@ -9,6 +9,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.foamcases.openfoam.case_directory import read_card
 from roughfilm.foamcases.pocket.case import Card
+from roughfilm.foamcases.pocket.mesh.cells import centres
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,30 +32,29 @@ class Channel:
 
     @property
     def position(self) -> Array:
-        """Positions of the middles of the columns along x, shape (nx,)."""
+        """Positions of the middles of the columns on the sliding wall along x, shape (nx,)."""
         x = self.vertices[:, -1, 0]
         return np.asarray((x[1:] + x[:-1]) / 2)
 
     @property
-    def film_thickness(self) -> Array:
-        """Distance of the walls in the middle of each column, shape (nx,)."""
-        h = self.vertices[:, -1, 1] - self.vertices[:, 0, 1]
-        return np.asarray((h[1:] + h[:-1]) / 2)
+    def wall_distance(self) -> Array:
+        """Distance from the sliding wall of the centres of the two nearest layers, nearest first, shape (2, nx)."""
+        return np.asarray(1 - centres(self.vertices[:, -3:])[:, ::-1, 1].T)
 
     @property
     def wall_pressure(self) -> Array:
         """Pressure on the sliding wall, extrapolated from the two nearest layers to second order, shape (nx,)."""
-        return np.asarray(1.5 * self.pressure[:, -1] - 0.5 * self.pressure[:, -2])
+        near, far = self.wall_distance
+        return np.asarray((self.pressure[:, -1] * far - self.pressure[:, -2] * near) / (far - near))
 
     @property
     def wall_shear(self) -> Array:
         """Shear stress on the sliding wall as OpenFOAM's scheme computes it, in η u / Ly, shape (nx,).
 
-        It is the one-sided difference 2 (1 - U) / d with U the velocity in the upper layer and d its thickness. Its
-        mean balances the drag on the other wall exactly, and is of second order.
+        It is the one-sided difference (1 - U) / d with U the velocity in the upper layer and d the distance of its
+        centres from the wall. Its mean balances the drag on the other wall exactly, and is of second order.
         """
-        layer = self.film_thickness / self.velocity.shape[1]
-        return np.asarray((1 - self.velocity[:, -1, 0]) / (layer / 2))
+        return np.asarray((1 - self.velocity[:, -1, 0]) / self.wall_distance[0])
 
     def mean(self, values: Array) -> float:
         """The mean over the sliding wall of values in the columns, shape (nx,), weighted by the columns' width."""

@@ -68,27 +68,31 @@ def inertia(scene: Bearing, solution: Solution) -> Inertia:
     speed = problem.speed
     mobility = problem.mobility(solution.state.pressure)[0]
     east, north = solution.network.conductance(mobility)
-    a, b = _excess(solution, east, north)
+    wet = solution.kind != CAVITY
+    a, b = _excess(solution, east, north, wet)
     through_x = h * (speed**2 / 20 + speed * a / 5 + 9 * a**2 / 35)
     through_xy = h * b * (speed / 10 + 9 * a / 35)
     through_y = 9 * h * b**2 / 35
-    wet = solution.kind != CAVITY
     dx, dy = grid.spacing_x[:-1, None], grid.spacing_y[:-1]
     rise = speed * np.diff(h, axis=0) / dx
     mean = _means(through_xy, 0)
-    x_force = np.diff(through_x, axis=0) / dx + _slope(mean, 1, grid.y) + rise * _means(speed / 60 + a / 70, 0)
+    x_force = (
+        np.diff(through_x, axis=0) / dx
+        + _wet_slope(mean, 1, grid.y, _both(wet, 0))
+        + rise * _means(speed / 60 + a / 70, 0)
+    )
     drive = -density * _means(h**2 / (2 * viscosity), 0) * x_force * grid.volume_y * _both(wet, 0)
     drive_y = np.zeros((h.shape[0], h.shape[1] - 1))
     if h.shape[1] > 1:
         climb = speed * _slope(h, 0, grid.x)
-        y_force = _slope(_means(through_xy, 1), 0, grid.x) + np.diff(through_y, axis=1) / dy
+        y_force = _wet_slope(_means(through_xy, 1), 0, grid.x, _both(wet, 1)) + np.diff(through_y, axis=1) / dy
         y_force += _means(climb * b / 70, 1)
         drive_y = -density * _means(h**2 / (2 * viscosity), 1) * y_force * grid.volume_x[:, None] * _both(wet, 1)
     pressure = _balanced(solution.kind == FILM, east[:-1], north[:, :-1], drive, drive_y)
 
     flow = drive - east[:-1] * np.diff(pressure, axis=0)
     shear = np.diff(h * (speed**2 / 4 + 3 * speed * a / 5 + 3 * a**2 / 5), axis=0) / dx
-    shear += _slope(_means(h * b * (3 * speed / 10 + 3 * a / 5), 0), 1, grid.y)
+    shear += _wet_slope(_means(h * b * (3 * speed / 10 + 3 * a / 5), 0), 1, grid.y, _both(wet, 0))
     shear -= rise * _means(speed / 20 + a / 10, 0)
     stress = _means(h, 0) / 2 * np.diff(pressure, axis=0) / dx + density * shear * _both(wet, 0)
     x = scene_positions(solution)
@@ -101,16 +105,32 @@ def inertia(scene: Bearing, solution: Solution) -> Inertia:
     )
 
 
-def _excess(solution: Solution, east: Array, north: Array) -> tuple[Array, Array]:
-    """The a and b of the nodes, m/s: mean flow through the adjacent faces over the thickness, minus that of sliding."""
+def _excess(solution: Solution, east: Array, north: Array, wet: NDArray[np.bool_]) -> tuple[Array, Array]:
+    """The a and b of the nodes, m/s: mean flow through the adjacent faces over the thickness, minus that of sliding.
+
+    Only faces between two wet nodes count. An edge of the film lies anywhere in the cell between a wet node and a
+    cavity, so that the pressure difference over that cell is not the gradient in the film.
+    """
     grid, h, pressure = solution.grid, solution.faces.thickness, solution.state.pressure
     along = (solution.network.couette[:-1] - east[:-1] * np.diff(pressure, axis=0)) / grid.volume_y
-    a = np.vstack([along[:1], _means(along, 0), along[-1:]]) / h - solution.problem.speed / 2
+    known = _both(wet, 0)
+    sliding = np.where(_node_means(np.ones_like(along), known, 0) > 0, solution.problem.speed / 2, 0.0)
+    a = _node_means(along, known, 0) / h - sliding
     if h.shape[1] == 1:
         return a, np.zeros_like(a)
     across = -north[:, :-1] * np.diff(pressure, axis=1) / grid.volume_x[:, None]
-    ends = [0 * across[:, :1]] * 2 if solution.problem.ends.sides is None else [across[:, :1], across[:, -1:]]
-    return a, np.hstack([ends[0], _means(across, 1), ends[1]]) / h
+    b = _node_means(across, _both(wet, 1), 1) / h
+    if solution.problem.ends.sides is None:
+        b[:, [0, -1]] = 0.0
+    return a, b
+
+
+def _node_means(values: Array, counted: NDArray[np.bool_], axis: int) -> Array:
+    """The mean over those of the faces before and behind each node that are counted, zero where there is none."""
+    ends = [(1, 1) if axis == number else (0, 0) for number in range(2)]
+    padded, weights = np.pad(np.where(counted, values, 0.0), ends), np.pad(counted.astype(float), ends)
+    number = 2 * _means(weights, axis)
+    return np.asarray(2 * _means(padded, axis) / np.maximum(number, 1.0))
 
 
 def _balanced(free: NDArray[np.bool_], east: Array, north: Array, drive_x: Array, drive_y: Array) -> Array:
@@ -145,6 +165,18 @@ def _slope(values: Array, axis: int, places: Array) -> Array:
     if values.shape[axis] == 1:
         return np.zeros_like(values)
     return np.asarray(np.gradient(values, places, axis=axis))
+
+
+def _wet_slope(values: Array, axis: int, places: Array, wet: NDArray[np.bool_]) -> Array:
+    """The derivative, one-sided next to a place that is not wet, and zero between two of them."""
+    if values.shape[axis] == 1:
+        return np.zeros_like(values)
+    moved, counted = np.moveaxis(values, axis, 0), np.moveaxis(wet, axis, 0)
+    steps, both = np.diff(moved, axis=0) / np.diff(places)[:, None], counted[1:] & counted[:-1]
+    before, behind = np.zeros(counted.shape, dtype=bool), np.zeros(counted.shape, dtype=bool)
+    before[1:], behind[:-1] = both, both
+    one_sided = np.moveaxis(_node_means(steps, both, 0), 0, axis)
+    return np.where(np.moveaxis(before & behind, 0, axis), _slope(values, axis, places), one_sided)
 
 
 def _means(values: Array, axis: int) -> Array:

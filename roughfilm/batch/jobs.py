@@ -168,7 +168,8 @@ def jobs_of(scene: Scene, models: Sequence[Model], directory: Path, grids: int =
 def run_all(jobs: Sequence[Job], failed: dict[str, str]) -> list[tuple[Job, Result]]:
     """The jobs that have a result, with the result; jobs without a stored result are solved.
 
-    The message of a model that fails at its default resolution is added to ``failed``.
+    The message of a model that fails at its default resolution is added to ``failed``. Another grid on which it fails,
+    or on which the scene leaves its range, is left out.
     """
     done: list[tuple[Job, Result]] = []
     costs = [job.setting.cost(job.scene) for job in jobs]
@@ -178,7 +179,7 @@ def run_all(jobs: Sequence[Job], failed: dict[str, str]) -> list[tuple[Job, Resu
                 done.append(
                     (job, solved_once(job, _within(advance, job.setting.name, sum(costs[:number]), costs[number])))
                 )
-            except ConvergenceError as error:
+            except (ConvergenceError, InputError) as error:
                 if job.setting.resolution is None:
                     failed[job.setting.model.name] = str(error)
                 else:

@@ -116,10 +116,10 @@ def uniform(scene: Pocket, columns: int, layers: int) -> Array:
 
 def pocket_load(scene: Pocket, resolution: int) -> Measured:
     """The load+ of a pocket on uniform columns, with as many layers as this project's own mesh; raises as ``run``."""
-    started = time.thread_time()
     with TemporaryDirectory(prefix="roughfilm-") as place:
         directory = Path(place) / "case"
         NAVIER_STOKES.write(scene, directory, Request(resolution=resolution))
+        started = time.thread_time()
         card = replace(read_card(directory, Card), columns=resolution)
         (directory / CARD).write_text(json.dumps(asdict(card)), encoding="utf-8")
         write_block(uniform(scene, resolution, card.layers), SIDES, directory)

@@ -25,13 +25,19 @@ HEIGHT_TO_WIDTH = 0.22
 
 
 def stream_function(vertices: Array, velocity: Array) -> Array:
-    """ψ = ∫ u dy from the still wall, at the vertices; shape (nx + 1, ny + 1), m²/s.
+    """ψ = ∫ (u dy - v dx) along the columns from the still wall, at the vertices; shape (nx + 1, ny + 1), m²/s.
 
     Second order; the mean of the two neighbouring columns at each inner vertex.
+
+    Parameters
+    ----------
+    vertices : corners of the cells, shape (nx + 1, ny + 1, 2), m; the last column is the first one period later.
+    velocity : velocity in the cells, shape (nx, ny, 2), m/s.
     """
-    thickness = np.diff(vertices[:, :, 1], axis=1)
-    layers = (thickness[1:] + thickness[:-1]) / 2
-    columns = np.concatenate([np.zeros((velocity.shape[0], 1)), np.cumsum(velocity[..., 0] * layers, axis=1)], axis=1)
+    across = np.diff(vertices, axis=1)
+    layers = (across[1:] + across[:-1]) / 2
+    rise = velocity[..., 0] * layers[..., 1] - velocity[..., 1] * layers[..., 0]
+    columns = np.pad(np.cumsum(rise, axis=1), ((0, 0), (1, 0)))
     periodic = np.concatenate([columns[-1:], columns, columns[:1]])
     return np.asarray((periodic[1:] + periodic[:-1]) / 2)
 

@@ -51,6 +51,7 @@ def pocket(rng: Generator) -> Entries:
         },
         "lubricant": {"viscosity": "0.01 Pa*s", "density": "1000 kg/m^3"},
         "motion": {"reynolds_number": between(rng, 0.5, 250)},
+        "boundary": {"ambient_pressure": "1 GPa"},  # the laws hold for films that do not cavitate
     }
 
 

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.foamcases.pocket.mesh.cells import centres
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.store import load
 from roughfilm.rom.studies.sweep import Sweep
@@ -83,14 +84,17 @@ def highest(depths: Array, loads: Array) -> float:
 def still_wall_shear(result: Result) -> float:
     """The least shear rate on the still wall, in sliding speeds a film thickness outside the groove.
 
-    Negative where the flow turns back. From the velocity in the layer next to the wall, at first order.
+    Negative where the flow turns back. From the velocity along the wall in the layer next to it, at first order.
     """
     vertices, velocity = result.fields["vertices"].values, result.fields["cell_velocity"].values
-    layer = vertices[:, 1, 1] - vertices[:, 0, 1]
-    height = (layer[1:] + layer[:-1]) / 4
-    film = vertices[0, -1, 1] - vertices[0, 0, 1]
+    wall = vertices[:, 0]
+    along = np.diff(wall, axis=0)
+    along /= np.linalg.norm(along, axis=1, keepdims=True)
+    away = centres(vertices[:, :2])[:, 0] - (wall[1:] + wall[:-1]) / 2
+    height = along[:, 0] * away[:, 1] - along[:, 1] * away[:, 0]
+    film = vertices[0, -1, 1] - wall[0, 1]
     speed = velocity[..., 0].max()
-    return float((velocity[:, 0, 0] / height).min() * film / speed)
+    return float(((velocity[:, 0] * along).sum(axis=1) / height).min() * film / speed)
 
 
 def first_zero(depths: Array, shear: Array) -> float:

@@ -100,3 +100,23 @@ def test_heights_of_many_waves_are_gaussian():
     for moment, expected in ((3, 0.0), (4, 3.0)):
         found = np.mean(scaled**moment, axis=(1, 2))
         assert abs(found.mean() - expected) < 4 * found.std() / np.sqrt(20) + 0.02
+
+
+@pytest.mark.parametrize("ratio", [1.0, 0.75, 1.5, 0.7310585])
+def test_one_seed_is_one_surface_at_any_scale(ratio):
+    """Waves of equal length, such as (5, 0) and (3, 4), are drawn in an order that does not depend on the scale."""
+
+    def made(side):
+        shortest, longest = side * min(ratio, 1.0), side * max(ratio, 1.0)
+        return self_affine(
+            size=(side, side * ratio),
+            points=(64, 64),
+            seed=5,
+            hurst=0.8,
+            roll_off=shortest / 2,
+            cut_off=longest / 8,
+            rms_height=side,
+        ).heights
+
+    for side in (1e-3, 3.7e-4, 2.3e-5, 7e-6, np.pi, 0.1):
+        assert made(side) / side == pytest.approx(made(1.0), abs=1e-13)

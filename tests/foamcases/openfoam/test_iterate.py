@@ -73,7 +73,7 @@ def test_outcomes(read, values, outcome):
 @pytest.mark.parametrize(
     ("model", "scene", "resolution", "outcome"),
     [
-        (navier_stokes.MODEL, (0.3, 0.75, 1e12), 30, Outcome.DIVERGED),
+        (navier_stokes.MODEL, (0.3, 0.75, 1e12), 120, Outcome.DIVERGED),
         (navier_stokes.MODEL, (0.3, 0.75, 5000), 120, Outcome.UNSTEADY),
         (stokes.MODEL, (0.3, 1e-9, 160), 30, Outcome.STALLED),
     ],

@@ -96,6 +96,35 @@ def test_it_is_of_second_order_in_the_cells() -> None:
     assert (loads[1] - loads[0]) / (loads[2] - loads[1]) == pytest.approx(4.0, abs=1.0)
 
 
+def test_a_film_between_two_cavities_has_the_inertia_of_its_closed_form() -> None:
+    """p₁' = -12η/h³ (q₁ + ρh²Cx/(2η)), with p₁ = 0 where the film begins and ruptures; q = θUh(0)/2.
+
+    A parabola with rise = film and θ = 0.55 begins at x/L = 0.100041, where p = 0 by quadrature, and ruptures where
+    h = θh(0). A front lies anywhere in its cell, so that the pressure difference over that cell is no gradient.
+    """
+    speed, length, low, theta, start = 5.0, 10e-3, 20e-6, 0.55, 0.10004089922828287
+    x = np.linspace(start, (1 + np.sqrt(2 * theta - 1)) / 2, 100_001) * length
+    h, rise = low * (1 + (2 * x / length - 1) ** 2), 4 * low / length * (2 * x / length - 1)
+    a = theta * speed * low / h - speed / 2
+    by_h = speed**2 / 20 + speed * a / 5 + 9 * a**2 / 35 - (a + speed / 2) * (speed / 5 + 18 * a / 35)
+    force = by_h * rise + speed * rise * (speed / 60 + a / 70)
+    resistance, drive = 12 * VISCOSITY / h**3, 6 * DENSITY / h * force
+    added = -np.trapezoid(drive, x) / np.trapezoid(resistance, x)
+    slope = -(resistance * added + drive)
+    pressure = np.append(0.0, np.cumsum((slope[1:] + slope[:-1]) / 2 * np.diff(x)))
+    truth = float(np.trapezoid(pressure, x))
+
+    geometry = {"shape": "parabolic", "length": "10 mm", "film": "20 um", "rise": "20 um", "texture": None}
+    scene = bearing(speed, geometry=geometry, lubricant={"cavitation_pressure": "0 Pa"})
+    inlet = scene.boundary.model_copy(update={"inlet": scene.boundary.inlet.model_copy(update={"theta": theta})})
+    starved = scene.model_copy(update={"boundary": inlet})
+    for cells, most in ((128, 0.06), (256, 0.04), (1000, 0.01), (4000, 0.003)):
+        assert inertia(starved, solve(starved.problem(), (cells, cells))).load == pytest.approx(truth, rel=most)
+    load = inertia_added(Variant(scene=starved), 1000, POCKET_MODELS).amounts["load"]
+    number = DENSITY * speed * low**2 / (VISCOSITY * length)
+    assert abs(load.value - truth) <= load.uncertainty - min(1.0, number) * abs(load.value)
+
+
 @pytest.mark.openfoam
 def test_slow_flow_over_a_groove_is_that_of_the_mesh() -> None:
     """Navier–Stokes at Re = 5, less Stokes: 0.7 % below first order, as slope and the rest of inertia have it."""

@@ -9,7 +9,7 @@ import pytest
 from roughfilm.cli import compare
 from roughfilm.figures.streamlines import shown
 from roughfilm.figures.views.pocket import pressure
-from roughfilm.foamcases.openfoam.block_mesh import layered
+from roughfilm.foamcases.pocket.case import vertices_of
 from roughfilm.ladder import find
 from roughfilm.rom.ladder.scene import load_scene
 
@@ -66,14 +66,14 @@ def test_the_pressure_plot_marks_the_edges_of_every_groove_and_nothing_else(pock
 @pytest.mark.parametrize(("name", "left", "right"), [("two_grooves", -0.5, 0.5), ("splined", -0.425, 0.425)])
 def test_a_picture_shows_all_grooves_with_a_margin(pocket_file, name, left, right):
     scene = load_scene(pocket_file.parent / f"{name}.toml")
-    vertices = layered(scene.gap(), 240)[:, :, 0, :2] * scene.geometry.film
+    vertices = vertices_of(scene, 240)[:, :, 0, :2] * scene.geometry.film
     x = vertices[shown(vertices), 0, 0]
     assert (x[0], x[-1]) == pytest.approx((left * 1e-3, right * 1e-3), abs=3e-5)
 
 
 def test_a_picture_of_a_tiny_film_or_groove_shows_it_too(pocket_file):
     scene = load_scene(pocket_file, ["geometry.depth=1 pm"])
-    vertices = layered(scene.gap(), 240)[:, :, 0, :2] * scene.geometry.film
+    vertices = vertices_of(scene, 240)[:, :, 0, :2] * scene.geometry.film
     for scale in (1.0, 1e-4):
         window = shown(vertices * scale)
         assert np.ptp(vertices[window, 0, 0]) == pytest.approx(1.7 * 0.3e-3, rel=0.05)

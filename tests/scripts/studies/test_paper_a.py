@@ -2,6 +2,7 @@
 
 from itertools import product
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ import pytest
 from roughfilm.rom.pocket.kind import KIND
 from roughfilm.rom.studies.sweep import Sweep
 from scripts.studies.paper_a.claims import judge
-from scripts.studies.paper_a.data import DEPTHS, NUMBERS, SHAPES, WIDTHS, PaperA, first_zero, highest
+from scripts.studies.paper_a.data import DEPTHS, NUMBERS, SHAPES, WIDTHS, PaperA, first_zero, highest, still_wall_shear
 
 KEYS = list(product(SHAPES.values(), WIDTHS, DEPTHS, NUMBERS))
 
@@ -75,6 +76,19 @@ def test_the_highest_point_of_a_parabola_and_of_a_slope():
     depths = np.array(DEPTHS)
     assert highest(depths, 1 - (depths - 0.6) ** 2) == pytest.approx(0.6)
     assert highest(depths, depths) == 1.25
+
+
+def test_the_shear_on_an_inclined_wall_counts_along_and_away_from_it():
+    """A flow of shear rate -2 along a wall at 45°, on cells that lean: -2 in sliding speeds a film thickness of 1."""
+    along, lean = np.array([1.0, 1.0]) / np.sqrt(2), np.array([-0.5, 2.0])
+    vertices = np.arange(6)[:, None, None] * along + np.linspace(0, 1, 5)[:, None] * lean
+    vertices[0, -1] = vertices[0, 0] + [0, 1]
+    middle = (vertices[:-1, :-1] + vertices[1:, :-1] + vertices[1:, 1:] + vertices[:-1, 1:]) / 4
+    height = middle @ [-along[1], along[0]]
+    velocity = -2 * height[..., None] * along
+    velocity[-1, -1] = 1.0
+    fields = {"vertices": SimpleNamespace(values=vertices), "cell_velocity": SimpleNamespace(values=velocity)}
+    assert still_wall_shear(SimpleNamespace(fields=fields)) == pytest.approx(-2)
 
 
 def test_the_depth_at_which_shear_turns():

@@ -87,11 +87,62 @@ def test_it_is_not_trusted_where_asperities_crowd():
     assert not crowded.trusted
 
 
+@pytest.mark.parametrize("nayak", [1.5, 1.59, 8.1, 77.0])
+def test_it_is_not_trusted_outside_the_spectra_compared(nayak):
+    moments = SpectralMoments(m0=1e-12, m2=4e-3, m4=nayak * 1.6e7, line=False)
+    assert not greenwood_williamson(moments, composite_modulus=MODULUS, load=5e-3 * STIFFNESS).trusted
+
+
+@pytest.mark.parametrize("nayak", [1.5, 2.0, 6.25, 20.0, 77.0, 99.0])
+def test_within_its_range_the_area_is_small_and_the_plane_above_the_mean_height(nayak):
+    moments = SpectralMoments(m0=1e-12, m2=4e-3, m4=nayak * 1.6e7, line=False)
+    with pytest.raises(InputError) as refused:
+        greenwood_williamson(moments, composite_modulus=MODULUS, load=STIFFNESS)
+    assert "\n" not in str(refused.value)
+    words = str(refused.value).partition("it must be ")[2].split()
+    least, most = float(words[0]) * 1.001, float(words[2]) * 0.999
+    for load in np.geomspace(least, most, 7):
+        found = greenwood_williamson(moments, composite_modulus=MODULUS, load=load)
+        assert 0 < found.area_fraction <= 0.1
+        assert found.mean_gap > 0
+    assert found.area_fraction == pytest.approx(0.1, rel=0.01) or found.mean_gap < 1e-2 * moments.rms_height
+
+
+@pytest.mark.parametrize(("seed", "hurst", "shortest"), [(1, 0.8, 8), (2, 0.5, 6), (3, 1.0, 8), (4, 0.7, 10)])
+def test_where_it_is_trusted_a_solved_contact_is_like_it(seed, hurst, shortest):
+    surface = self_affine(
+        size=(1e-3, 1e-3),
+        points=(128, 128),
+        seed=seed,
+        hurst=hurst,
+        roll_off=1e-3 / 3,
+        cut_off=1e-3 * shortest / 128,
+        rms_slope=0.1,
+    )
+    moments = wave_power(surface.heights, surface.spacing).moments
+    press = Press(surface.heights, surface.spacing, MODULUS)
+    trusted = 0
+    for ratio in (2e-3, 5e-3, 8e-3, 0.03):
+        found = greenwood_williamson(moments, composite_modulus=MODULUS, load=ratio * MODULUS * 0.1)
+        if found.trusted:
+            solved = press.at(ratio * MODULUS * 0.1, tolerance=1e-6)
+            trusted += 1
+            assert found.area_fraction == pytest.approx(solved.area_fraction, rel=0.4)
+            assert found.mean_gap == pytest.approx(solved.mean_gap, rel=0.15)
+    assert trusted == 3
+
+
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
         ({"load": 0.0}, "load"),
-        ({"load": 1e30}, "no separation"),
+        ({"load": 1e30}, "got 1e.30 Pa; it must be"),
+        ({"load": 1e-9}, "got 1e-09 Pa; it must be"),
+        (
+            {"moments": SpectralMoments(m0=1e-12, m2=4e-3, m4=1.7e9, line=False)},
+            "parameter 106.2; it must be 1.5 to 100",
+        ),
+        ({"moments": SpectralMoments(m0=1e-12, m2=4e-3, m4=2e7, line=False)}, "parameter 1.25; it must be 1.5 to 100"),
         ({"composite_modulus": np.nan}, "composite_modulus"),
         ({"moments": SpectralMoments(m0=1e-12, m2=4e-3, m4=1e8, line=True)}, "ridges"),
     ],

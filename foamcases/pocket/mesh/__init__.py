@@ -1,0 +1,1 @@
+"""Near-orthogonal meshes of gaps with grooves, from a conformal map."""
