@@ -64,8 +64,8 @@ def out_of_range(scene: Seal, task: Task) -> tuple[str, ...]:
     if load > MEAN_SEALING_LOAD / 3:
         low, high = SEALING_LOADS["without a lay"]
         warnings.append(
-            f"out of its range: P = {load:.2g} E* g' is above a third of the mean sealing load, {MEAN_SEALING_LOAD} "
-            f"({low} to {high} without a lay) E* g'; the leakage may be wrong by orders of magnitude, take "
+            f"P = {load:.2g} E* g' is above a third of the mean sealing load, {MEAN_SEALING_LOAD} ({low} to {high} "
+            "without a lay) E* g', and the leakage may be wrong by orders of magnitude: out of its range, take "
             "direct_leakage"
         )
     slopes = [np.roll(heights, -1, axis) - heights for axis in (0, 1)]
@@ -73,14 +73,14 @@ def out_of_range(scene: Seal, task: Task) -> tuple[str, ...]:
     least, most = np.linalg.eigvalsh([[np.mean(x * x), np.mean(x * y)], [np.mean(x * y), np.mean(y * y)]])
     if most > MAX_SLOPE_RATIO**2 * least:
         warnings.append(
-            "out of its range: the surface has a lay (ratio of rms slopes across and along it above "
-            f"{MAX_SLOPE_RATIO:g}), which the theory leaves out; take direct_leakage"
+            "the surface has a lay, which the theory leaves out (ratio of rms slopes across and along it above "
+            f"{MAX_SLOPE_RATIO:g}): out of its range, take direct_leakage"
         )
     skewness = float(np.mean(heights**3) / np.mean(heights**2) ** 1.5)
     if abs(skewness) > MAX_SKEWNESS:
         warnings.append(
-            f"out of its range: the skewness of the heights is {skewness:.2g}, beyond ±{MAX_SKEWNESS:g}, and the "
-            "theory is for Gaussian heights; take direct_leakage"
+            f"the skewness of the heights is {skewness:.2g}, beyond ±{MAX_SKEWNESS:g}, and the theory is for Gaussian "
+            "heights: out of its range, take direct_leakage"
         )
     return tuple(warnings)
 
