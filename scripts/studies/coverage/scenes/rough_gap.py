@@ -41,7 +41,8 @@ def _profile(rng: Generator) -> Array:
         heights = np.cos(x)
     elif shape == 1:
         orders = np.arange(1, int(rng.integers(2, 7)))
-        heights = sum(rng.normal() * n ** -rng.uniform(0, 1.5) * np.cos(n * x + rng.uniform(0, 7)) for n in orders)
+        sizes = rng.normal(size=orders.size) * orders ** -rng.uniform(0, 1.5)
+        heights = sizes @ np.cos(orders[:, None] * x + rng.uniform(0, 7, (orders.size, 1)))
     elif shape == 2:
         heights = rng.choice([-1, 1]) * np.exp(rng.uniform(1, 4) * (np.cos(x) - 1))
     else:

@@ -10,13 +10,13 @@ from roughfilm.rom.rough_gap.scene import RoughGap
 from scripts.studies.coverage.finite_elements.spaces import Spaces
 from scripts.studies.coverage.truth import Truth
 
-ROWS = (6, 10)
+ROWS = (5, 8)
 """Numbers of rows of cells across the gap of the two meshes."""
 
 CELL_ASPECT = 2.0
 """Length of a cell over its height at the mean gap, unless ``CELLS_OF_WAVE`` asks for shorter cells."""
 
-CELLS_OF_WAVE = 8
+CELLS_OF_WAVE = 5
 """Number of cells along the shortest wave of the walls, over that of rows divided by four."""
 
 FLATNESS = 1e-9
@@ -45,9 +45,9 @@ def truth(scene: RoughGap) -> Truth:
     ridged = max(float(np.ptp(wall, axis=1).max()) for wall in (walls.lower, walls.upper)) < FLATNESS * mean
     if not ridged or scene.load is not None or not walls.gap.min() > 0:
         raise ConvergenceError("rough gap: finite elements solve only ridges across x that do not touch")
-    profiles = [wall[:, 0] / mean for wall in (walls.lower, walls.upper)]
-    coarse, fine = (ridge_factors(*profiles, walls.size[0] / mean, rows) for rows in ROWS)
-    thin = thin_film_factors(*profiles)
+    lower, upper = walls.lower[:, 0] / mean, walls.upper[:, 0] / mean
+    coarse, fine = (ridge_factors(lower, upper, walls.size[0] / mean, rows) for rows in ROWS)
+    thin = thin_film_factors(lower, upper)
     if not walls.slides:
         del fine["B1"], fine["friction"]
     return Truth(
@@ -129,7 +129,7 @@ def _scalar(spaces: Spaces, numbers: Array, ones: Array) -> tuple[scipy.sparse.c
     count = int(numbers.max()) + 1
     matrix = scipy.sparse.coo_matrix((spaces.stiffness[kept], (rows[kept], columns[kept])), shape=(count, count))
     inside = numbers >= 0
-    return matrix.tocsc(), np.bincount(numbers[inside], ones[inside], count)
+    return matrix.tocsc(), np.bincount(numbers[inside], ones[inside], count).astype(np.float64)
 
 
 def channel(lower: Array, upper: Array, period: float, rows: int) -> MeshTri2:
