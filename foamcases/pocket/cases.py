@@ -10,7 +10,7 @@ from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
-from roughfilm.rom.pocket.validity import cautions, ruptures
+from roughfilm.rom.pocket.validity.warnings import cautions, ruptures
 
 
 def read(solver: Model[Pocket], scene: Pocket, directory: Path, run: Run) -> Result:

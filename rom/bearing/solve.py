@@ -27,8 +27,7 @@ from roughfilm.rom.cavitation.solve import solve as balance
 from roughfilm.rom.ladder.model import Model, Progress
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.request import CheckedRequest
-from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun, with_uncertainties
-from roughfilm.rom.pocket.validity import NO_COARSER_GRID
+from roughfilm.rom.ladder.result import NO_COARSER_GRID, Field, Numerics, Result, SolverRun, with_uncertainties
 
 WARM_UP_CELLS = 40
 """Number of cells of a film on which every compiled loop runs once."""

@@ -13,8 +13,8 @@ from roughfilm.rom.ladder.kind import Kind, Omission
 from roughfilm.rom.ladder.scene import scene_entries
 from roughfilm.rom.ladder.sweeping import Columns, Sweeping
 from roughfilm.rom.pocket.geometry import PROFILES, PocketGeometry
-from roughfilm.rom.pocket.numbers import MIN_LOAD_SCALE, SYMBOLS, numbers
 from roughfilm.rom.pocket.scene import TITLES, Pocket
+from roughfilm.rom.pocket.validity.numbers import MIN_LOAD_SCALE, SYMBOLS, numbers
 
 COMPARED = ("load_plus", "friction_plus")
 """The quantities by which models are compared."""

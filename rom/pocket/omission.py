@@ -8,7 +8,7 @@ from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.pocket.models.film import MODEL as FILM
 from roughfilm.rom.pocket.models.inertial_reynolds import MODEL as INERTIAL_REYNOLDS
 from roughfilm.rom.pocket.scene import Pocket
-from roughfilm.rom.pocket.validity import ruptures
+from roughfilm.rom.pocket.validity.warnings import ruptures
 
 CELLS = 200
 """Number of cells of the film whose pressure is compared with the cavitation pressure."""

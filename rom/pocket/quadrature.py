@@ -11,9 +11,9 @@ from roughfilm.rom.pocket import closed_form as film_flow
 from roughfilm.rom.pocket.model import MAX_NODES
 from roughfilm.rom.pocket.piecewise import gauss_rule
 from roughfilm.rom.pocket.pressure import film_pressure, flow_and_residual, mean, sample
-from roughfilm.rom.pocket.promise import promise_warnings
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
-from roughfilm.rom.pocket.validity import cautions, ruptures
+from roughfilm.rom.pocket.validity.promise import promise_warnings
+from roughfilm.rom.pocket.validity.warnings import cautions, ruptures
 
 
 def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progress: Progress) -> Result:

@@ -13,10 +13,10 @@ from roughfilm.rom.ladder.result import Field, Numerics, Result
 from roughfilm.rom.pocket import slope, thin_film
 from roughfilm.rom.pocket.basis import Basis, even_basis, gauss_basis, sliding_wall_slope
 from roughfilm.rom.pocket.model import SCHEMES
-from roughfilm.rom.pocket.promise import promise_warnings
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
 from roughfilm.rom.pocket.thin_film import Strip, StripFlow
-from roughfilm.rom.pocket.validity import cautions, ruptures
+from roughfilm.rom.pocket.validity.promise import promise_warnings
+from roughfilm.rom.pocket.validity.warnings import cautions, ruptures
 
 MODES = 10
 """Polynomials across the film; with 16 load changes by at most 3e-5 and friction by 3e-4 in 120 published cases."""

@@ -10,8 +10,7 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.dry_contact.model import Answer, Task, contact_model
 from roughfilm.rom.ladder.model import About, Applicability, Effect, Model
-from roughfilm.rom.ladder.result import Field, with_uncertainties
-from roughfilm.rom.pocket.validity import NO_COARSER_GRID
+from roughfilm.rom.ladder.result import NO_COARSER_GRID, Field, with_uncertainties
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors
 from roughfilm.rom.rough_gap.flow.range_of_validity import change_by_lost_waves
 from roughfilm.rom.rough_gap.quantities import coefficients, gap_quantities

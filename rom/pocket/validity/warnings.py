@@ -30,7 +30,3 @@ def ruptures(scene: Pocket, lowest: float) -> tuple[str, ...]:
         kind="pocket",
         remedy="solve it as a bearing by reynolds_cavitating, lower the speed, or raise boundary.ambient_pressure",
     )
-
-
-NO_COARSER_GRID = "there is no coarser grid, so the discretisation error is unknown"
-"""The warning of a result without uncertainty."""

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from roughfilm.rom.advice.estimates import near
 from roughfilm.rom.advice.laws import table
 from roughfilm.rom.ladder.model import Applicability
-from roughfilm.rom.pocket.numbers import SYMBOLS, numbers
 from roughfilm.rom.pocket.scene import TITLES, Pocket
+from roughfilm.rom.pocket.validity.numbers import SYMBOLS, numbers
 
 MAX_ERROR_WITHOUT_WARNING = 0.1
 """Promised relative error above which a result has a warning."""
