@@ -41,7 +41,10 @@ from scripts.studies.study import Out, counted, publish
 
 
 def judged(kind: str, seed: int, known: Judged | None, with_advice: bool) -> Judged:
-    """Return a scene with its truth, which is taken from a known one of the same scene, and the answers of today."""
+    """Return a scene with its truth, which is taken from a known one of the same scene, and the answers of today.
+
+    With advice, models in OpenFOAM answer too.
+    """
     scene = drawn(kind, seed)
     entries = scene_entries(scene)
     if known is None or scene_entries(read_scene(known.scene)) != entries:
@@ -62,7 +65,8 @@ def judged(kind: str, seed: int, known: Judged | None, with_advice: bool) -> Jud
             )
     if known.failure:
         return replace(known, code=code())
-    return replace(known, models=answers(scene), advice=advised(scene) if with_advice else (), code=code())
+    advice = advised(scene) if with_advice else ()
+    return replace(known, models=answers(scene, outside=with_advice), advice=advice, code=code())
 
 
 def missing(out: Path, kind: str, scenes: int, advice: int) -> Iterator[tuple[int, Judged | None, bool]]:
@@ -125,7 +129,7 @@ def command(
     out: Out,
     scenes: Annotated[int, typer.Option(help="Scenes of each kind; every second one is to check.")] = 400,
     kinds: Annotated[str | None, typer.Option(help="Kinds, joined by commas (default: all).")] = None,
-    advice: Annotated[int, typer.Option(help="Scenes of each kind for which advice is asked.")] = 40,
+    advice: Annotated[int, typer.Option(help="Scenes of each kind for which advice is asked and OpenFOAM runs.")] = 40,
     as_json: AsJson = False,
 ) -> None:
     """Solve random scenes by all models and by independent methods, and compare the errors with what is stated."""

@@ -18,10 +18,10 @@ from roughfilm.rom.ladder.kind import Kind, kind_of_name
 from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.terminal.console import in_one_line, make_directory, output, run_alone
+from scripts.studies.advice.laws_file import OWN_FILE, text_of, write_table
 from scripts.studies.coverage import resolutions, store
 from scripts.studies.coverage.drawing import part_of
 from scripts.studies.coverage.fitting import fitted
-from scripts.studies.coverage.laws_file import OWN_FILE, text_of, write_table
 from scripts.studies.coverage.store import Judged
 from scripts.studies.study import Out, counted
 

@@ -16,10 +16,10 @@ TARGET = 3e-3
 
 LEAST_LOAD = 0.05
 
-FRICTION_FLOOR = 2e-5
+FRICTION_FLOOR = 4e-6
 """Uncertainty of friction over friction, besides the difference of the two meshes."""
 
-LOAD_FLOOR = (1e-5, 6e-7)
+LOAD_FLOOR = (3e-6, 6e-7)
 """Uncertainty of load over the largest pressure at Re = 0, and its increase with Re, besides that difference."""
 
 PRESSURE_FLOOR = 1e-3
