@@ -4,9 +4,9 @@ import numpy as np
 from numpy.random import Generator
 
 from roughfilm.contact.foundation.arrays import Array
-from scripts.studies.advice.scenes import Entries, between, chance, length
 from scripts.studies.coverage.scenes.dry_contact import pressed
 from scripts.studies.coverage.surfaces import drawn_surface, in_file, rms_slope
+from scripts.studies.random_entries import Entries, between, chance, length
 
 POINTS = 48
 """Points along a side of a surface."""
