@@ -19,8 +19,14 @@ LEAST_LOAD = 0.05
 FRICTION_FLOOR = 4e-6
 """Uncertainty of friction over friction, besides the difference of the two meshes."""
 
-LOAD_FLOOR = (3e-6, 6e-7)
-"""Uncertainty of load over the largest pressure at Re = 0, and its increase with Re, besides that difference."""
+LOAD_FLOOR = 3e-6
+"""Uncertainty of load over the largest pressure, besides the difference of the two meshes, of a level wall at Re = 0."""
+
+LOAD_FLOOR_BY_INERTIA = 6e-7
+"""Increase of that floor with Re."""
+
+LOAD_FLOOR_BY_SLOPE = 3e-4
+"""Increase of that floor with the squared mean slope of the steepest groove, up to a slope of 1."""
 
 PRESSURE_FLOOR = 1e-3
 """Uncertainty of the extreme pressures over the largest one, besides that difference."""
@@ -74,8 +80,9 @@ def truth(scene: Pocket) -> Truth:
 
 def uncertainties(scene: Pocket, coarse: Forces, fine: Forces) -> dict[str, float]:
     """Return the uncertainty of each force of the finer of two meshes, in η u / Ly."""
+    load = LOAD_FLOOR + LOAD_FLOOR_BY_INERTIA * scene.reynolds_number + LOAD_FLOOR_BY_SLOPE * min(scene.slope, 1.0) ** 2
     floors = {
-        "load": fine.largest_pressure * (LOAD_FLOOR[0] + LOAD_FLOOR[1] * scene.reynolds_number),
+        "load": fine.largest_pressure * load,
         "friction": FRICTION_FLOOR * fine.friction,
         "pressure_max": PRESSURE_FLOOR * fine.largest_pressure,
         "pressure_min": PRESSURE_FLOOR * fine.largest_pressure,
