@@ -102,8 +102,8 @@ class Network:
         ``laws`` are ϑ, dθ/dp, φ and dφ/dp at the pressure. Returns the largest flow through a face, m³/s.
         """
         faces = (self.couette, self.upstream, self.east, self.north, self.part_couette, self.part_east)
-        faces = (*faces, self.storage, self.stored, self.supplied)
-        largest = float(linearise(*faces, *self.periodic, kind, pressure, fill, *laws, *parts))
+        nodes = (self.storage, self.stored, self.supplied)
+        largest = float(linearise(*faces, *nodes, *self.periodic, kind, pressure, fill, *laws, *parts))
         if self.oblique is not None:
             balance, centre, _, _, south, north = parts
             self.oblique.linearise(kind, (pressure, fill), (laws[0], laws[1], laws[2]), (balance, centre, south, north))
