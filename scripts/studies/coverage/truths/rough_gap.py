@@ -1,7 +1,10 @@
 """The truth of a rough gap between ridges across x: plane Stokes flow by finite elements."""
 
+from typing import Any
+
 import numpy as np
 import scipy.sparse.linalg
+from numpy.typing import NDArray
 from skfem import MeshTri1, MeshTri2
 
 from roughfilm.contact.foundation.arrays import Array
@@ -92,12 +95,12 @@ def ridge_factors(lower: Array, upper: Array, period: float, rows: int) -> dict[
     mesh = channel(lower, upper, period, rows)
     spaces = Spaces(mesh)
     blocks = {
-        "uu": spaces.stiffness,
-        "vv": spaces.stiffness,
-        "pu": -spaces.divergence[0],
-        "pv": -spaces.divergence[1],
-        "up": -spaces.divergence[0].transpose(0, 2, 1),
-        "vp": -spaces.divergence[1].transpose(0, 2, 1),
+        ("u", "u"): spaces.stiffness,
+        ("v", "v"): spaces.stiffness,
+        ("p", "u"): -spaces.divergence[0],
+        ("p", "v"): -spaces.divergence[1],
+        ("u", "p"): -spaces.divergence[0].transpose(0, 2, 1),
+        ("v", "p"): -spaces.divergence[1].transpose(0, 2, 1),
     }
     solver = scipy.sparse.linalg.splu(spaces.matrix(blocks))
     ones = np.einsum("eiq,eq->ei", spaces.shapes, spaces.weights)
@@ -122,7 +125,7 @@ def ridge_factors(lower: Array, upper: Array, period: float, rows: int) -> dict[
     }
 
 
-def _scalar(spaces: Spaces, numbers: Array, ones: Array) -> tuple[scipy.sparse.csc_matrix, Array]:
+def _scalar(spaces: Spaces, numbers: NDArray[np.integer[Any]], ones: Array) -> tuple[scipy.sparse.csc_matrix, Array]:
     """Return the matrix and the right-hand side of -∇²w = 1 for the unknowns of u."""
     rows, columns = (np.broadcast_to(one, spaces.stiffness.shape) for one in (numbers[:, :, None], numbers[:, None, :]))
     kept = (rows >= 0) & (columns >= 0)
