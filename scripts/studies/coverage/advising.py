@@ -1,6 +1,7 @@
 """Advice on the model for a scene at several tolerances, and the answers of the models that it chooses."""
 
 import time
+from dataclasses import replace
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
 from roughfilm.ladder import find, models
@@ -24,32 +25,30 @@ def advised(scene: Scene) -> tuple[Advised, ...]:
             solved[key] = model.solve(scene, Request(resolution=resolution))
         return solved[key]
 
+    ladder = models(scene.kind)
+    reference = best([model for model in ladder if model.applies(scene).applies])
+    best_cpu_s = reference.cost(scene, reference.resolution_of(scene))
+
     def one(quantity: str, within: float) -> Advised:
-        begun, saved = time.process_time(), sum(result.numerics.cpu_s for result in solved.values())
-        ladder = models(scene.kind)
-        reference = best([model for model in ladder if model.applies(scene).applies])
-        common = {
-            "quantity": quantity,
-            "within": within,
-            "best_cpu_s": reference.cost(scene, reference.resolution_of(scene)),
-        }
+        begun, known = time.process_time(), sum(result.numerics.cpu_s for result in solved.values())
+        asked = Advised(quantity=quantity, within=within, best_cpu_s=best_cpu_s)
         try:
             advice = advise(scene, ladder, quantity=quantity, within=within, run=run)
             chosen = advice.chosen
             if chosen is None or chosen.resolution is None:
-                return Advised(**common, cpu_s=advice.spent_cpu_s)
+                return replace(asked, cpu_s=advice.spent_cpu_s)
             answer = advice.result or run(find(scene.kind, chosen.model), chosen.resolution)
         except (InputError, ConvergenceError, UnavailableError) as error:
-            return Advised(**common, failure=f"{type(error).__name__}: {error}")
-        runs = sum(result.numerics.cpu_s for result in solved.values()) - saved
-        spent = advice.spent_cpu_s + (0.0 if advice.result else answer.numerics.cpu_s)
-        return Advised(
-            **common,
+            return replace(asked, failure=f"{type(error).__name__}: {error}")
+        new = sum(result.numerics.cpu_s for result in solved.values()) - known
+        runs = advice.spent_cpu_s + (0.0 if advice.result else answer.numerics.cpu_s)
+        return replace(
+            asked,
             model=chosen.model,
             resolution=chosen.resolution,
             expected=chosen.error,
             value=answer.quantities[quantity].value,
-            cpu_s=spent + max(time.process_time() - begun - runs, 0.0),
+            cpu_s=runs + max(time.process_time() - begun - new, 0.0),
         )
 
     return tuple(one(quantity, within) for quantity in kind_of_name(scene.kind).compared for within in TOLERANCES)

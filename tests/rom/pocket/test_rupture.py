@@ -64,7 +64,7 @@ def test_the_default_is_written_into_the_scene():
 def test_a_torn_film_has_no_advice(quantity):
     found = advise(torn(), models("pocket"), quantity=quantity, within=0.1)
     assert found.chosen is None
-    assert "no model of a pocket includes" in shortfall(found, quantity)
+    assert "no model of a pocket includes" in shortfall(found)
 
 
 def test_the_omitted_part_falls_to_nothing_where_the_film_just_stays_whole():

@@ -27,4 +27,8 @@ def pressed(rng: Generator, points: int, pressures: tuple[float, float]) -> Entr
         hardness = unit * between(rng, 0.01, 20)
         solid["hardness"] = with_unit(hardness, "Pa")
         pressure = min(pressure, hardness * rng.uniform(0.005, 0.95))
-    return {"geometry": in_file(heights, SIDE), "solid": solid, "load": {"pressure": with_unit(pressure, "Pa")}}
+    return {
+        "geometry": in_file(heights, (SIDE / points, SIDE / points)),
+        "solid": solid,
+        "load": {"pressure": with_unit(pressure, "Pa")},
+    }

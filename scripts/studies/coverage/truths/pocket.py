@@ -1,11 +1,6 @@
 """The truth of a pocket: finite elements on two meshes (``scripts.studies.coverage.finite_elements``)."""
 
-from collections.abc import Callable
-
-import numpy as np
-
-from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.pocket.geometry import AnyGroove, Through
+from roughfilm.rom.pocket.geometry import AnyGroove
 from roughfilm.rom.pocket.scene import Pocket
 from scripts.studies.coverage.finite_elements.flow import solve
 from scripts.studies.coverage.finite_elements.forces import Forces, forces
@@ -13,7 +8,7 @@ from scripts.studies.coverage.finite_elements.mesh import fitted_mesh
 from scripts.studies.coverage.finite_elements.wall import Groove, Wall
 from scripts.studies.coverage.truth import Truth
 
-LEVELS = (0.7, 1.0, 1.4)
+LEVELS: tuple[float, ...] = (0.7, 1.0, 1.4)
 """Levels of the meshes; the last one is taken where the first two differ by more than TARGET."""
 
 TARGET = 3e-3
@@ -32,22 +27,17 @@ PRESSURE_FLOOR = 1e-3
 
 
 def groove_of(groove: AnyGroove, film: float) -> Groove:
-    """Return a groove of a scene in film thicknesses; straight lines connect points."""
-    if isinstance(groove, Through):
-        places, depths = np.array(groove.points).T / film
-        places = places + groove.position / film
-        breaks = tuple(map(float, places))
-        return Groove(breaks=breaks, corners=breaks, depth=lambda x: np.interp(x, places, depths))
+    """Return a groove of a scene in film thicknesses."""
     shape = groove.shape()
 
     def moved(places: tuple[float, ...]) -> tuple[float, ...]:
         return tuple((place + groove.position) / film for place in places)
 
-    return Groove(breaks=moved(shape.breaks), corners=moved(shape.corners), depth=_depth(shape.depth, groove, film))
-
-
-def _depth(depth: Callable[[Array], Array], groove: AnyGroove, film: float) -> Callable[[Array], Array]:
-    return lambda x: depth(x * film - groove.position) / film
+    return Groove(
+        breaks=moved(shape.breaks),
+        corners=moved(shape.corners),
+        depth=lambda x: shape.depth(x * film - groove.position) / film,
+    )
 
 
 def wall_of(scene: Pocket) -> Wall:
