@@ -25,6 +25,9 @@ CELLS_OF_WAVE = 5
 FLATNESS = 1e-9
 """Largest change of a wall along y, over the mean gap, of walls that count as ridges across x."""
 
+MAX_CREEPING = 0.1
+"""Largest Re g' at which inertia changes the flow by less than 2e-4."""
+
 SAFETY_FACTOR = 2.0
 """Uncertainty over the change from the coarser mesh to the finer one, whose error is several times smaller."""
 
@@ -41,13 +44,14 @@ def truth(scene: RoughGap) -> Truth:
     Raises
     ------
     ConvergenceError
-        If the walls change along y, touch, or are pressed.
+        If the walls change along y, touch, or are pressed, or inertia counts.
     """
     walls = scene.walls(max(scene.surface().shape))
     mean = scene.mean_gap
     ridged = max(float(np.ptp(wall, axis=1).max()) for wall in (walls.lower, walls.upper)) < FLATNESS * mean
-    if not ridged or scene.load is not None or not walls.gap.min() > 0:
-        raise ConvergenceError("rough gap: finite elements solve only ridges across x that do not touch")
+    creeping = scene.reynolds_number * scene.rms_slope <= MAX_CREEPING
+    if not (ridged and creeping) or scene.load is not None or not walls.gap.min() > 0:
+        raise ConvergenceError("rough gap: finite elements solve only creeping flow over ridges that do not touch")
     lower, upper = walls.lower[:, 0] / mean, walls.upper[:, 0] / mean
     coarse, fine = (ridge_factors(lower, upper, walls.size[0] / mean, rows) for rows in ROWS)
     thin = thin_film_factors(lower, upper)
