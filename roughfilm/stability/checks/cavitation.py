@@ -87,8 +87,8 @@ def _flows(problem: Problem, x: Array, y: Array, pressure: Array, fill: Array) -
         for strip in strips:
             places = [x[:faces, None] + (quarter + 0.5) * QUARTER * step for quarter in range(number)]
             h = [shape.thickness(*np.broadcast_arrays(place, strip)) for place in places]
-            cubed = sum(one**-3.0 for one in h)
-            mean += sum(one**-2.0 for one in h) / cubed / len(strips)
+            cubed = np.sum([one**-3.0 for one in h], axis=0)
+            mean += np.sum([one**-2.0 for one in h], axis=0) / cubed / len(strips)
             cube += 1 / (QUARTER * cubed) / len(strips)
         torn = problem.speed / 2 * widths * radius * mean * filled
         torn += cube * widths / (12 * problem.viscosity * radius * step) * begun

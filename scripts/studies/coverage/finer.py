@@ -2,7 +2,7 @@
 
 import signal
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from functools import cache, partial
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
@@ -117,7 +117,7 @@ def extrapolated(scene: Scene, model: Model, solve: Solver) -> Values:
         if factor > 1 and model.cost(scene, base * factor) > (MAX_CPU_S if len(runs) >= LEAST else MAX_NEEDED_S):
             break
         try:
-            with limited(MAX_SOLVE_S):
+            with limited(MAX_SOLVE_S) if factor > 1 else nullcontext():  # the first one may compile
                 runs.append(solve(model, factor))
         except (ConvergenceError, InputError):
             break

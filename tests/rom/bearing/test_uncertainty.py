@@ -1,18 +1,22 @@
 """The uncertainty of the quantities of a film against known errors, finer grids and exact solutions."""
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import pytest
 from places import SCENES
 
 from roughfilm.ladder import find
+from roughfilm.rom.bearing.quantities import film_ends
 from roughfilm.rom.bearing.uncertainty import (
     GRID_SAFETY_FACTOR,
     TWO_GRIDS_SAFETY_FACTOR,
     grid_uncertainty,
     observed_order,
 )
+from roughfilm.rom.cavitation.balance import CAVITY
+from roughfilm.rom.cavitation.solve import solve as balance
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import load_scene, read_scene
@@ -91,3 +95,11 @@ def test_the_error_of_a_wedge_is_within_its_uncertainty_and_not_far_below(length
         load = solve(cells, wedge)["load"]
         assert load.uncertainty is not None
         assert 0.1 * load.uncertainty < abs(load.value - exact) <= load.uncertainty
+
+
+def test_a_film_thinner_than_a_cell_begins_at_an_inlet_above_the_cavitation_pressure() -> None:
+    scene = load_scene(SCENES / "parabolic_slider.toml", ["boundary.inlet.pressure=1 bar"])
+    found = balance(scene.problem(), (64, 64))
+    kind = found.kind.copy()
+    kind[1:5] = CAVITY
+    assert film_ends(replace(found, kind=kind), 0)[0] == 0.0

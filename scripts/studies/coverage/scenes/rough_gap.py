@@ -5,9 +5,9 @@ from numpy.random import Generator
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.units import with_unit
-from scripts.studies.advice.scenes import Entries, between, chance, length
 from scripts.studies.coverage.scenes.dry_contact import pressed
 from scripts.studies.coverage.surfaces import drawn_surface, in_file, rms_slope, stored
+from scripts.studies.random_entries import Entries, between, chance, length
 
 MEAN_GAP = 10e-6
 """Mean gap, m; only ratios of lengths matter."""

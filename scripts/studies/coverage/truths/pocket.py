@@ -20,7 +20,7 @@ FRICTION_FLOOR = 4e-6
 """Uncertainty of friction over friction, besides the difference of the two meshes."""
 
 LOAD_FLOOR = 3e-6
-"""Uncertainty of load over the largest pressure, besides the difference of the two meshes, of a level wall at Re = 0."""
+"""Uncertainty of load over the largest pressure, besides the difference of two meshes, of a level wall at Re = 0."""
 
 LOAD_FLOOR_BY_INERTIA = 6e-7
 """Increase of that floor with Re."""
