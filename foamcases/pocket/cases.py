@@ -10,7 +10,7 @@ from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
-from roughfilm.rom.pocket.validity import cautions
+from roughfilm.rom.pocket.validity.warnings import cautions, ruptures
 
 
 def read(solver: Model[Pocket], scene: Pocket, directory: Path, run: Run) -> Result:
@@ -52,5 +52,5 @@ def read(solver: Model[Pocket], scene: Pocket, directory: Path, run: Run) -> Res
             details={"velocity_relaxation": card.relaxation, "reynolds_number": card.reynolds_number},
         ),
         provenance=provenance(scene, model=model, keeps=tuple(keeps), sources=solver.sources, openfoam=run.version),
-        warnings=(*cautions(scene), *run.warnings),
+        warnings=(*cautions(scene), *ruptures(scene, lowest), *run.warnings),
     )

@@ -20,7 +20,7 @@ from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun, with
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors
 from roughfilm.rom.rough_gap.quantities import coefficients, gap_quantities
 from roughfilm.rom.rough_gap.scene import RoughGap
-from roughfilm.rom.rough_gap.validity import cautions
+from roughfilm.rom.rough_gap.validity import cautions, ruptures
 
 MAX_IMBALANCE = 0.02
 """Largest imbalance of forces without a warning, over the drag of a smooth gap."""
@@ -33,6 +33,14 @@ MAX_CREEPING = 1.0
 
 MAX_CLOSED_IN = 1e-3
 """Largest fraction of the open volume that contact may close in without a warning."""
+
+
+CAUSES = {
+    "along": (0, "under the gradient along x"),
+    "across": (1, "under the gradient along y"),
+    "sliding": (None, "under sliding"),
+}
+"""The axis of the gradient of each drive, None without one, and the drive in words."""
 
 
 def factors_of(flows: dict[str, GapFlow], *, slides: bool) -> tuple[RoughGapFactors, dict[str, float]]:
@@ -119,6 +127,10 @@ def read(solver: Model[RoughGap], scene: RoughGap, directory: Path, run: GapRun)
         if (of := thin.pressure[i - 1, i - 1]) > 0
     }
     warnings = [*cautions(scene, walls), *run.warnings]
+    unit = scene.pressure_gradient * scene.mean_gap / 12
+    for name, flow in flows.items():
+        axis, cause = CAUSES[name]
+        warnings += ruptures(scene, flow.lowest_pressure(axis) * unit, cause)
     missed = {drive.name: imbalance(flows[drive.name], drive) for drive in DRIVES if drive.name in flows}
     if max(missed.values(), default=0.0) > MAX_IMBALANCE:
         warnings.append(
@@ -149,7 +161,7 @@ def read(solver: Model[RoughGap], scene: RoughGap, directory: Path, run: GapRun)
             "vertices": Field(values=columns.vertices * scene.mean_gap, unit="m"),
             "kept": Field(values=columns.kept.astype(float), unit="1"),
             "cell_velocity": Field(values=along.velocity * speed, unit="m/s"),
-            "cell_pressure": Field(values=along.pressure * scene.pressure_gradient * scene.mean_gap / 12, unit="Pa"),
+            "cell_pressure": Field(values=along.pressure * unit, unit="Pa"),
         },
         numerics=Numerics(
             residual=max(run.unsettled.values(), default=0.0),

@@ -43,6 +43,24 @@ class GapFlow:
         """The mean of the flow per width over the period, contact included, in V h̄, shape (2,)."""
         return np.asarray(self.flow_per_width.mean(axis=(0, 1)))
 
+    def lowest_pressure(self, axis: int | None) -> float:
+        """The lowest pressure in a cell above ambient, in ηV/h̄.
+
+        Under a gradient along ``axis``, which is 12 in these units, the lowest pressure at the outlet of the period is
+        ambient; the result is then 0 unless the pressure is lower elsewhere. Without one (None) the mean is.
+        """
+        kept = np.broadcast_to(self.columns.kept[..., None], self.pressure.shape)
+        if axis is None:
+            return float(self.pressure[kept].min())
+        x = self.columns.vertices[..., axis]
+        ends = np.moveaxis(x, axis, 0)[:, 0, 0]
+        fall = 12 * (ends[1:] + ends[:-1]) / 2
+        total = np.moveaxis(self.pressure, axis, 0) - fall[:, None, None]
+        kept = np.moveaxis(kept, axis, 0)
+        last = np.flatnonzero(kept.any(axis=(1, 2)))[-1]
+        outlet = total[last][kept[last]].min()
+        return float(min(0.0, total[kept].min() - outlet))
+
     def pull(self, speed: float) -> float:
         """The mean over the period of η ∂u/∂z on a flat upper wall that slides along x at ``speed``, in ηV/h̄.
 

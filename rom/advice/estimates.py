@@ -200,8 +200,9 @@ def expected_errors(scene: Scene, model: Model, resolution: int, models: Sequenc
             run=lambda other, grid: other.solve(scene, Request(resolution=grid)),
         )
         estimate, omitted = a_priori(task, model, resolution), kind.omitted(scene, quantity)
-        if estimate is not None and estimate.sure and estimate.error < math.inf:
-            errors[quantity] = estimate.error + (omitted.part if omitted else 0.0)
+        part = omitted.part if omitted else 0.0
+        if estimate is not None and estimate.sure and estimate.error + part < math.inf:
+            errors[quantity] = estimate.error + part
     return errors
 
 

@@ -12,7 +12,13 @@ from roughfilm.rom.bearing.corners import infinite_flows
 from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Fields, Outputs, density_ratio
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.uncertainty import uncertainties
-from roughfilm.rom.bearing.warnings import grid_warnings, load_warnings, pressure_warnings, scene_warnings
+from roughfilm.rom.bearing.warnings import (
+    grid_warnings,
+    load_warnings,
+    pressure_warnings,
+    rupture_warnings,
+    scene_warnings,
+)
 from roughfilm.rom.cavitation.discretise import Ends
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.shape import Shape
@@ -21,8 +27,7 @@ from roughfilm.rom.cavitation.solve import solve as balance
 from roughfilm.rom.ladder.model import Model, Progress
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.request import CheckedRequest
-from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun, with_uncertainties
-from roughfilm.rom.pocket.validity import NO_COARSER_GRID
+from roughfilm.rom.ladder.result import NO_COARSER_GRID, Field, Numerics, Result, SolverRun, with_uncertainties
 
 WARM_UP_CELLS = 40
 """Number of cells of a film on which every compiled loop runs once."""
@@ -67,6 +72,7 @@ def solve(
     warnings = [
         *grid_warnings(solution),
         *pressure_warnings(solution),
+        *rupture_warnings(solution),
         *scene_warnings(scene, solution),
         *load_warnings(scene, solution, quantities),
     ]

@@ -3,6 +3,8 @@
 import math
 from collections.abc import Mapping
 
+import numpy as np
+
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.corners import jumps
 from roughfilm.rom.bearing.pad import CELLS_PER_FEATURE
@@ -13,6 +15,10 @@ from roughfilm.rom.cavitation.solve import Solution
 
 LOAD_WARNING_LEVEL = 0.01
 """Relative difference between the load of a given film and that of the scene up to which no warning is given."""
+
+
+ROUNDING = 1e-9
+"""Pressure over the largest one below which it is zero."""
 
 
 def grid_warnings(solution: Solution) -> list[str]:
@@ -36,6 +42,18 @@ def pressure_warnings(solution: Solution) -> list[str]:
         f"pressure: {highest:.3g} Pa above cavitation pressure; the law {law.law} is valid up to {law.valid_to:.3g} Pa"
         for law in (problem.compressibility, problem.piezoviscosity)
         if highest > law.valid_to
+    ]
+
+
+def rupture_warnings(solution: Solution) -> list[str]:
+    """A warning if a film without cavitation falls below the cavitation pressure."""
+    pressure = solution.state.pressure
+    lowest, rounding = float(pressure.min()), ROUNDING * float(np.abs(pressure).max())
+    if lowest >= -rounding:
+        return []
+    return [
+        f"pressure: falls to {-lowest / 1e3:.4g} kPa below the cavitation pressure: the film ruptures, which this "
+        "model leaves out; take reynolds_cavitating"
     ]
 
 

@@ -64,7 +64,7 @@ class Omission:
 
     Attributes
     ----------
-    part : relative change of a quantity by the effect.
+    part : relative change of a quantity by the effect; infinite if it is unknown.
     reason : the effect and its size, in words.
     """
 

@@ -10,6 +10,9 @@ from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.units import Quantity
 
+NO_COARSER_GRID = "there is no coarser grid, so the discretisation error is unknown"
+"""The warning of a result without uncertainty."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Field:

@@ -9,12 +9,12 @@ from pydantic import ValidationError
 
 from roughfilm.contact.foundation.toml import Location, in_one_line, known_keys, unknown_key
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.rom.ladder.kind import Kind
+from roughfilm.rom.ladder.kind import Kind, Omission
 from roughfilm.rom.ladder.scene import scene_entries
 from roughfilm.rom.ladder.sweeping import Columns, Sweeping
 from roughfilm.rom.pocket.geometry import PROFILES, PocketGeometry
-from roughfilm.rom.pocket.numbers import MIN_LOAD_SCALE, SYMBOLS, numbers
 from roughfilm.rom.pocket.scene import TITLES, Pocket
+from roughfilm.rom.pocket.validity.numbers import MIN_LOAD_SCALE, SYMBOLS, numbers
 
 COMPARED = ("load_plus", "friction_plus")
 """The quantities by which models are compared."""
@@ -98,6 +98,13 @@ def worth(values: Columns) -> NDArray[np.bool_]:
     return np.asarray(np.abs(values["load_plus"]) > MIN_JUDGED_LOAD * largest_pressure(values))
 
 
+def omitted(scene: Pocket, quantity: str) -> Omission | None:
+    """The effect of cavitation; None if the film does not rupture."""
+    from roughfilm.rom.pocket.omission import rupture_omitted  # slow to import
+
+    return rupture_omitted(scene, quantity)
+
+
 def _length(text: str) -> float:
     return float(text.partition(" ")[0])
 
@@ -140,6 +147,7 @@ KIND = Kind(
     columns=columns,
     numbers=numbers,
     symbols=SYMBOLS,
+    omitted=omitted,
     files=frozenset({"points"}),
     replaces={
         "motion.speed": ("reynolds_number",),

@@ -11,9 +11,9 @@ from roughfilm.rom.pocket import closed_form as film_flow
 from roughfilm.rom.pocket.model import MAX_NODES
 from roughfilm.rom.pocket.piecewise import gauss_rule
 from roughfilm.rom.pocket.pressure import film_pressure, flow_and_residual, mean, sample
-from roughfilm.rom.pocket.promise import promise_warnings
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
-from roughfilm.rom.pocket.validity import cautions
+from roughfilm.rom.pocket.validity.promise import promise_warnings
+from roughfilm.rom.pocket.validity.warnings import cautions, ruptures
 
 
 def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progress: Progress) -> Result:
@@ -52,6 +52,7 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
         warnings.append(f"residual {residual:.1e} at {order} nodes on a piece misses the tolerance {tolerance:.1e}")
     flow = film_pressure(gap, film, rule, q, scene.reynolds_number if Effect.INERTIA in keeps else 0.0)
     shear = film_flow.sliding_wall_shear(film.h, q)
+    warnings += ruptures(scene, flow.lowest)
     quantities = pocket_quantities(
         scene,
         load=flow.load,

@@ -2,11 +2,12 @@
 
 from typing import Annotated, Literal, Self
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from roughfilm.contact.foundation.entries import InUnit, Part, PositiveNumber
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.ladder.kind import Scene
+from roughfilm.rom.parts.surroundings import GaugePressure, Surroundings
 from roughfilm.rom.pocket.gap import Gap
 from roughfilm.rom.pocket.geometry import AnyGroove, PocketGeometry
 
@@ -16,10 +17,18 @@ Speed = Annotated[float, InUnit("m/s")]
 
 
 class NewtonianLubricant(Part):
-    """An incompressible Newtonian liquid: viscosity in Pa s, density in kg/m³."""
+    """An incompressible Newtonian liquid.
+
+    Attributes
+    ----------
+    viscosity : Pa s.
+    density : kg/m³.
+    cavitation_pressure : cavitation pressure above ambient, Pa, at most 0; by default zero absolute pressure.
+    """
 
     viscosity: Viscosity
     density: Density
+    cavitation_pressure: GaugePressure | None = None
 
 
 class PocketMotion(Part):
@@ -39,6 +48,8 @@ class PocketMotion(Part):
 class Pocket(Scene):
     """Grooves under a sliding wall: steady, isothermal, incompressible, periodic flow without mean pressure drop.
 
+    The pressure at the periodic boundary on the sliding wall is ambient pressure, from which all pressures count.
+
     The fields of a result along the sliding (upper) wall are ``position`` and ``film_thickness``, m, ``pressure`` and
     ``shear_stress``, Pa. Models that resolve the film add ``vertices`` (nx+1, ny+1, 2), ``cell_velocity`` (nx, ny, 2)
     and ``cell_pressure`` (nx, ny).
@@ -48,6 +59,7 @@ class Pocket(Scene):
     geometry: PocketGeometry
     lubricant: NewtonianLubricant
     motion: PocketMotion
+    boundary: Surroundings = Field(default_factory=Surroundings)
 
     @model_validator(mode="after")
     def _reynolds_number_stays_in_range(self) -> Self:
@@ -56,6 +68,16 @@ class Pocket(Scene):
                 f"motion: got Reynolds number {self.reynolds_number:.3g}; it must be 1e-12 to 1e12, check the units"
             )
         return self
+
+    @model_validator(mode="after")
+    def _cavitates_below_ambient(self) -> Self:
+        self.boundary.cavitation_pressure(self.lubricant.cavitation_pressure)
+        return self
+
+    @property
+    def cavitation_pressure(self) -> float:
+        """The cavitation pressure above ambient, Pa."""
+        return self.boundary.cavitation_pressure(self.lubricant.cavitation_pressure)
 
     @property
     def speed(self) -> float:

@@ -13,10 +13,10 @@ from roughfilm.rom.ladder.result import Field, Numerics, Result
 from roughfilm.rom.pocket import slope, thin_film
 from roughfilm.rom.pocket.basis import Basis, even_basis, gauss_basis, sliding_wall_slope
 from roughfilm.rom.pocket.model import SCHEMES
-from roughfilm.rom.pocket.promise import promise_warnings
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
 from roughfilm.rom.pocket.thin_film import Strip, StripFlow
-from roughfilm.rom.pocket.validity import cautions
+from roughfilm.rom.pocket.validity.promise import promise_warnings
+from roughfilm.rom.pocket.validity.warnings import cautions, ruptures
 
 MODES = 10
 """Polynomials across the film; with 16 load changes by at most 3e-5 and friction by 3e-4 in 120 published cases."""
@@ -135,6 +135,7 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
             f"{MODES} polynomials do not resolve the velocity across the film: load errors of some per cent"
         )
     pressure = np.concatenate([[0.0], np.cumsum(rise)])
+    warnings += ruptures(scene, float(pressure.min()))
     middle = (pressure[1:] + pressure[:-1]) / 2
     shear = (1 + thin_film.all_amplitudes(film, across, state) @ sliding_wall_slope(MODES)) / film.thickness
     u, v = slope.velocities(film, even_basis(MODES, LAYERS), state)

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.rom.ladder.kind import Kind
+from roughfilm.rom.ladder.kind import Kind, Omission
 from roughfilm.rom.ladder.sweeping import Columns, Powers, Sweeping
 from roughfilm.rom.rough_gap.geometry import SINUSOID
 from roughfilm.rom.rough_gap.scene import RoughGap
@@ -88,6 +88,13 @@ def numbers(scene: RoughGap) -> dict[str, float]:
     }
 
 
+def omitted(scene: RoughGap, quantity: str) -> Omission | None:
+    """The effect of cavitation; None if the film does not rupture."""
+    from roughfilm.rom.rough_gap.omission import rupture_omitted  # slow to import
+
+    return rupture_omitted(scene, quantity)
+
+
 KIND = Kind(
     name="rough_gap",
     scene=RoughGap,
@@ -104,6 +111,7 @@ KIND = Kind(
     columns=columns,
     numbers=numbers,
     symbols=NUMBERS,
+    omitted=omitted,
     files=frozenset({"surface"}),
     no_files=frozenset({SINUSOID}),
     replaces={

@@ -10,13 +10,12 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.dry_contact.model import Answer, Task, contact_model
 from roughfilm.rom.ladder.model import About, Applicability, Effect, Model
-from roughfilm.rom.ladder.result import Field, with_uncertainties
-from roughfilm.rom.pocket.validity import NO_COARSER_GRID
+from roughfilm.rom.ladder.result import NO_COARSER_GRID, Field, with_uncertainties
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors
 from roughfilm.rom.rough_gap.flow.range_of_validity import change_by_lost_waves
 from roughfilm.rom.rough_gap.quantities import coefficients, gap_quantities
 from roughfilm.rom.rough_gap.scene import RoughGap
-from roughfilm.rom.rough_gap.validity import cautions
+from roughfilm.rom.rough_gap.validity import cautions, lowest_under_sliding, ruptures
 from roughfilm.rom.rough_gap.walls import Walls
 
 RESIDUAL_MEANING = "largest relative solver error of a coefficient"
@@ -29,7 +28,8 @@ RESIDUAL_TOLERANCE = 1e-8
 class GapFlow:
     """The solution of a model: factors over those of a smooth gap, their uncertainty, and the flow under a gradient.
 
-    ``flow`` is the magnitude of the flow under a gradient along x, over the nominal flow, shape (nx, ny).
+    ``flow`` is the magnitude of the flow under a gradient along x, over the nominal flow, shape (nx, ny), and
+    ``suction`` the mean pressure under sliding less the lowest one, over 6ηu, 1/m.
     """
 
     factors: RoughGapFactors
@@ -37,6 +37,7 @@ class GapFlow:
     flow: Array
     residual: float
     iterations: int
+    suction: float = 0.0
     warnings: tuple[str, ...] = ()
 
 
@@ -47,6 +48,8 @@ def work(task: Task, *, find: Callable[[Walls, float], GapFlow], slope: bool) ->
     solution = find(walls, scene.mean_gap)
     uncertainties: Mapping[str, float] = {}
     warnings = [*cautions(scene, walls), *solution.warnings]
+    if walls.slides:
+        warnings += ruptures(scene, lowest_under_sliding(scene, solution.suction), "under sliding")
     if solution.uncertainty is not None:
         uncertainties = coefficients(
             _with_lost_waves(solution.factors, solution.uncertainty, scene, walls, slope=slope)

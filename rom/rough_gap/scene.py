@@ -14,6 +14,7 @@ from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.rom.parts.pressed_surface import Load, RoughScene
 from roughfilm.rom.parts.restriction import restricted
 from roughfilm.rom.parts.solids import Counter, RoughBody, composite_modulus, hardness
+from roughfilm.rom.parts.surroundings import Surroundings
 from roughfilm.rom.pocket.scene import NewtonianLubricant
 from roughfilm.rom.rough_gap.flow.range_of_validity import MAX_ROUGHNESS, expected_excess
 from roughfilm.rom.rough_gap.geometry import GapGeometry
@@ -72,7 +73,8 @@ class RoughGap(RoughScene):
     """One period of a gap between a rough wall at rest and another wall, with steady isothermal incompressible flow.
 
     There are three drives: the mean pressure gradient along x, the same along y, and, if the upper wall is flat, its
-    sliding along x at the speed at which a smooth gap has the same flow as under the gradient.
+    sliding along x at the speed at which a smooth gap has the same flow as under the gradient. Under a gradient the
+    lowest pressure at the outlet of the period is ambient; under sliding the mean pressure of the period is.
 
     The fields of a result are ``gap``, m, and ``flow``, the magnitude of the flow per width under the gradient along x,
     m²/s, of shape (nx, ny). Models that resolve the film add ``vertices`` (nx+1, ny+1, nz+1, 3), ``kept`` (nx, ny), and
@@ -87,6 +89,12 @@ class RoughGap(RoughScene):
     counter: Counter | None = None
     load: Load | None = None
     mesh: GapMesh = Field(default_factory=GapMesh)
+    boundary: Surroundings = Field(default_factory=Surroundings)
+
+    @model_validator(mode="after")
+    def _cavitates_below_ambient(self) -> Self:
+        self.boundary.cavitation_pressure(self.lubricant.cavitation_pressure)
+        return self
 
     @model_validator(mode="after")
     def _is_a_gap(self) -> Self:
@@ -151,6 +159,11 @@ class RoughGap(RoughScene):
     def density(self) -> float:
         """Density ρ, kg/m³."""
         return self.lubricant.density
+
+    @property
+    def cavitation_pressure(self) -> float:
+        """The cavitation pressure above ambient, Pa."""
+        return self.boundary.cavitation_pressure(self.lubricant.cavitation_pressure)
 
     @property
     def pressure_gradient(self) -> float:

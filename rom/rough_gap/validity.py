@@ -4,6 +4,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
+from roughfilm.rom.parts.surroundings import rupture_warnings
 from roughfilm.rom.rough_gap.flow.range_of_validity import (
     MAX_ADDED_DISSIPATION,
     MAX_ROUGHNESS,
@@ -65,3 +66,20 @@ def cautions(scene: RoughGap, walls: Walls) -> tuple[str, ...]:
         if mismatch > MISMATCH_THRESHOLD:
             warnings.append(f"{wall.name} is not periodic (edge mismatch {mismatch:.2g}), which may reduce the flow")
     return tuple(warnings)
+
+
+def ruptures(scene: RoughGap, lowest: float, cause: str) -> tuple[str, ...]:
+    """A warning if the film would cavitate; ``lowest`` is its lowest pressure above ambient, Pa, and ``cause`` why."""
+    return rupture_warnings(
+        lowest,
+        scene.cavitation_pressure,
+        scene.boundary.ambient_pressure,
+        kind="rough gap",
+        cause=cause,
+        remedy="lower the drive, or raise boundary.ambient_pressure",
+    )
+
+
+def lowest_under_sliding(scene: RoughGap, suction: float) -> float:
+    """The lowest pressure above ambient under sliding, Pa; ``suction`` is the mean less the lowest over 6ηu, 1/m."""
+    return -6 * scene.viscosity * scene.sliding_speed * suction

@@ -13,8 +13,7 @@ from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.rom.dry_contact.model import Answer, Task, contact_model, once, one
 from roughfilm.rom.dry_contact.pressed import RESIDUAL_TOLERANCE, prepare
 from roughfilm.rom.ladder.model import About, Applicability, Model
-from roughfilm.rom.ladder.result import Field, with_uncertainties
-from roughfilm.rom.pocket.validity import NO_COARSER_GRID
+from roughfilm.rom.ladder.result import NO_COARSER_GRID, Field, with_uncertainties
 from roughfilm.rom.seal.leakage.passage import Passage, dimensionless, mass_flow
 from roughfilm.rom.seal.scene import Seal
 

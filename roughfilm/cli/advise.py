@@ -128,7 +128,7 @@ def entries_of(advice: Advice) -> dict[str, Any]:
         "nearest": advice.nearest.model if advice.nearest else None,
         "finer": {"model": advice.finer.model, "resolution": advice.finer.resolution} if advice.finer else None,
         "reasons": [f"{one.model}: {one.verdict}: {one.reason}" for one in advice.considered],
-        "omitted": asdict(advice.omitted) if advice.omitted else None,
+        "omitted": {**asdict(advice.omitted), "part": finite(advice.omitted.part)} if advice.omitted else None,
         "considered": [_entries(one) for one in advice.considered],
         "numbers": {name: finite(value) for name, value in advice.numbers.items()},
         "spent_cpu_s": advice.spent_cpu_s,

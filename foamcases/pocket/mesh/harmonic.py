@@ -38,9 +38,9 @@ def fill(lower: Array, upper: Array, height: float, xi: Array, eta: Array) -> Ar
     Array
         The values, shape (columns, layers).
     """
-    decay = np.asarray(2 * np.pi * height * np.arange(lower.size // 2 + 1), dtype=float)
-    from_lower = np.asarray(_decayed(decay, eta) * np.fft.rfft(lower))
-    series = from_lower + np.asarray(_decayed(decay, 1 - eta) * np.fft.rfft(upper))
+    decay: Array = np.asarray(2 * np.pi * height * np.arange(lower.size // 2 + 1))
+    waves = np.fft.rfft([lower, upper])
+    series = _decayed(decay, eta) * waves[0] + _decayed(decay, 1 - eta) * waves[1]
     return _between(np.fft.irfft(series, lower.size), xi).T
 
 

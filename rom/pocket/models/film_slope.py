@@ -2,8 +2,8 @@
 
 from roughfilm.rom.ladder.model import Applicability, Effect
 from roughfilm.rom.pocket.model import film_model
-from roughfilm.rom.pocket.promise import applicability
 from roughfilm.rom.pocket.scene import Pocket
+from roughfilm.rom.pocket.validity.promise import applicability
 
 
 def applies(scene: Pocket) -> Applicability:

@@ -10,6 +10,7 @@ from roughfilm.rom.homogenization.grids import MIN_COARSENED_NODES
 from roughfilm.rom.homogenization.richardson import off
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors, of_thin_film
 from roughfilm.rom.rough_gap.flow.slope import local_fluxes, second_order_dissipation, slope_dissipation
+from roughfilm.rom.rough_gap.flow.suction import suction
 from roughfilm.rom.rough_gap.walls import Walls
 
 SAFETY_FACTOR = 0.25
@@ -37,6 +38,7 @@ class SlopeCorrected:
         (3,); 0 where the gap is sealed.
     flow : magnitude of the thin-film flow under a gradient of 12η along x, shape (nx, ny), m³.
     contact, unsolved, iterations : those of the thin-film solution.
+    suction : mean pressure of the thin film under sliding less the lowest one, over 6ηu, 1/m.
     """
 
     thin: RoughGapFactors
@@ -48,6 +50,7 @@ class SlopeCorrected:
     contact: float
     unsolved: float
     iterations: int
+    suction: float
 
     @property
     def left_out(self) -> Array:
@@ -106,6 +109,7 @@ def slope_corrected(walls: Walls, *, tolerance: float | None = None) -> SlopeCor
         contact=film.contact,
         unsolved=film.unsolved,
         iterations=film.iterations,
+        suction=suction(walls.gap, film.correctors[2]),
     )
 
 
@@ -128,7 +132,7 @@ def _in_mean_gaps(walls: Walls, film: Estimated) -> tuple[Walls, Array]:
 def _relative(thin: RoughGapFactors, added: Array) -> Array:
     """The added dissipation of each drive over that of the thin film, 0 where the gap is sealed, shape (drives,)."""
     own = np.array([*(12 * np.diag(thin.pressure)), thin.friction])[: len(added)]
-    return np.divide(np.diag(added), own, out=np.zeros(len(added)), where=own > 0)
+    return np.asarray(np.divide(np.diag(added), own, out=np.zeros(len(added)), where=own > 0))
 
 
 def with_dissipation(thin: RoughGapFactors, added: Array) -> RoughGapFactors:

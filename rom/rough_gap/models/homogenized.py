@@ -5,6 +5,7 @@ import numpy as np
 from roughfilm.rom.homogenization.factors import FlowFactors
 from roughfilm.rom.ladder.model import Applicability, Effect
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors, of_thin_film
+from roughfilm.rom.rough_gap.flow.suction import suction
 from roughfilm.rom.rough_gap.model import GapFlow, gap_model
 from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.rough_gap.validity import MAX_OMITTED, too_steep
@@ -41,6 +42,7 @@ def find(walls: Walls, mean_gap: float) -> GapFlow:
         residual=film.unsolved,
         iterations=film.iterations,
         warnings=too_steep(added_dissipation(walls, film), MAX_OMITTED),
+        suction=suction(walls.gap, film.correctors[2]),
     )
 
 

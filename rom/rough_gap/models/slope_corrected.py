@@ -30,6 +30,7 @@ def find(walls: Walls, mean_gap: float) -> GapFlow:
         flow=theory.flow / mean_gap**3,
         residual=theory.unsolved,
         iterations=theory.iterations,
+        suction=theory.suction,
         warnings=too_steep(theory.added, MAX_ADDED_DISSIPATION),
     )
 

@@ -5,28 +5,27 @@ The laws are written to rom/advice/laws.toml.
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
 import typer
-from rich.table import Table
+from rich.table import Table as ShownTable
 
 from roughfilm.batch.directory import alone
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.foundation.files import replacing
-from roughfilm.contact.foundation.toml import toml_value
 from roughfilm.ladder import models
-from roughfilm.rom.advice import laws
-from roughfilm.rom.advice.laws import Grid, Law, Numbers, Step, Term, on_grid
+from roughfilm.rom.advice.laws import Grid, Law, Numbers, Step, Table, Term, on_grid
+from roughfilm.rom.advice.laws import table as laws_table
 from roughfilm.rom.ladder.kind import Kind, Scene, kinds
 from roughfilm.rom.ladder.model import Model, Resolutions, best
 from roughfilm.rom.studies.convergence import ConvergenceKind as Way
 from roughfilm.rom.studies.convergence import converge
 from roughfilm.rom.studies.ordering import CERTAINTY
 from roughfilm.terminal.console import in_one_line, make_directory, output, run_alone
+from scripts.studies.advice.laws_file import OWN_FILE, text_of, write_table
 from scripts.studies.advice.runs import PARTS, DrawnScene, Run, draw, read
 from scripts.studies.advice.scenes import random_scene
 from scripts.studies.advice.steps import GRIDS, KINDS, STEPS, PlannedStep
@@ -249,29 +248,11 @@ def fit(kind: Kind, found: Sequence[SolvedScene]) -> tuple[list[Step], list[Grid
     ]
 
 
-def written(steps: Sequence[Step], grids: Sequence[Grid], origin: Mapping[str, Any]) -> str:
-    """Return the table as TOML."""
-    lines = ["# Made by python -m scripts.studies.advice.fit: errors that 95 of 100 random scenes did not exceed"]
-    lines += ["[provenance]", *(f"{key} = {toml_value(value)}" for key, value in origin.items())]
-    for name, entries in (("step", steps), ("grid", grids)):
-        for entry in entries:
-            lines += ["", f"[[{name}]]"]
-            for key, value in vars(entry).items():
-                if isinstance(value, Mapping):
-                    lines += [f"{key}.{quantity} = {toml_value(asdict(law))}" for quantity, law in value.items()]
-                elif value:
-                    lines.append(f"{key} = {toml_value(value)}")
-    return "\n".join(lines) + "\n"
-
-
-OWN_TABLE = Path(laws.__file__).with_name(laws.TABLE)
-
-
 @in_one_line
 def command(
     out: Annotated[Path, typer.Option(help="Runs go here and are used again.")],
     jobs: Annotated[int, typer.Option(help="Processes.")] = 2,
-    table: Annotated[Path, typer.Option(help="Where the laws are written; by default the project's own.")] = OWN_TABLE,
+    table: Annotated[Path, typer.Option(help="Where the laws are written; by default the project's own.")] = OWN_FILE,
     again: Annotated[bool, typer.Option(help="Fit to the runs that are there, without solving any.")] = False,
 ) -> None:
     """Solve random scenes by every model, fit laws, and write their table."""
@@ -303,28 +284,28 @@ def command(
         "code": circumstances["code"],
         "processor": circumstances["machine"]["processor"],
     }
-    with replacing(table) as scratch_file:
-        scratch_file.write_text(written(steps, grids, origin), encoding="utf-8")
+    known = laws_table()
+    write_table(
+        Table(
+            steps=[*(step for step in known.steps if step.kind not in KINDS), *steps],
+            promises=known.promises,
+            grids=[*(grid for grid in known.grids if grid.kind not in KINDS), *grids],
+            provenance={**known.provenance, **origin},
+        ),
+        table,
+    )
 
 
-def table_of(kind: str, steps: Sequence[Step], grids: Sequence[Grid]) -> Table:
+def table_of(kind: str, steps: Sequence[Step], grids: Sequence[Grid]) -> ShownTable:
     """Return the laws of a kind as a printed table."""
-    shown = Table("model", "law", "quantity", "bound", "scenes", "bound over middle", title=kind)
+    shown = ShownTable("model", "law", "quantity", "bound", "scenes", "bound over middle", title=kind)
     laws = [(step.model, f"to {step.towards}", step.left_out) for step in steps]
     laws += [(step.model, f"seen from {step.seen_from}", step.seen) for step in steps if step.seen]
     laws += [(grid.model, "grid", grid.laws) for grid in grids]
     for model, name, by_quantity in laws:
         for quantity, law in by_quantity.items():
-            shown.add_row(model, name, quantity, _text(law), str(law.scenes), f"{law.spread:g}")
+            shown.add_row(model, name, quantity, text_of(law), str(law.scenes), f"{law.spread:g}")
     return shown
-
-
-def _text(law: Law) -> str:
-    """Return the sum of a law in words."""
-    return " + ".join(
-        " · ".join([f"{term.coefficient:g}", *(f"{number}^{power:g}" for number, power in term.powers.items())])
-        for term in law.terms
-    )
 
 
 if __name__ == "__main__":

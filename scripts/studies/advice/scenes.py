@@ -1,7 +1,6 @@
 """Random scenes of every kind, by a seed: to some of them laws are fitted, on others the advice is tested."""
 
 from collections.abc import Callable, Mapping
-from typing import Any
 
 import numpy as np
 from numpy.random import Generator
@@ -10,8 +9,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.scene import read_scene
-
-Entries = dict[str, Any]
+from scripts.studies.random_entries import Entries, between, chance, length, random_surface
 
 SHAPES = ("linear", "parabolic", "step", "journal", "squared_cosine_inlet", "sector", "washer")
 CHANCES = (0.2, 0.2, 0.15, 0.2, 0.1, 0.05, 0.1)
@@ -19,21 +17,6 @@ CHANCES = (0.2, 0.2, 0.15, 0.2, 0.1, 0.05, 0.1)
 
 SIDE = 1e-3
 """Side of the pressed surfaces, m."""
-
-
-def between(rng: Generator, low: float, high: float) -> float:
-    """Return a random number with a log-uniform distribution from ``low`` to ``high``."""
-    return float(np.exp(rng.uniform(np.log(low), np.log(high))))
-
-
-def chance(rng: Generator, part: float) -> bool:
-    """Return True with the probability ``part``."""
-    return bool(rng.random() < part)
-
-
-def length(metres: float) -> str:
-    """Return the text of a length in m with its unit, as in a scene file."""
-    return with_unit(metres, "m")
 
 
 def pocket(rng: Generator) -> Entries:
@@ -51,6 +34,7 @@ def pocket(rng: Generator) -> Entries:
         },
         "lubricant": {"viscosity": "0.01 Pa*s", "density": "1000 kg/m^3"},
         "motion": {"reynolds_number": between(rng, 0.5, 250)},
+        "boundary": {"ambient_pressure": "1 GPa"},  # the laws hold for films that do not cavitate
     }
 
 
@@ -69,27 +53,6 @@ def rough_gap(rng: Generator) -> Entries:
         "geometry": {**geometry, "mean_gap": length(gap)},
         "lubricant": {"viscosity": "0.01 Pa*s", "density": "870 kg/m^3"},
         "flow": {"reynolds_number": between(rng, 0.1, 100)},
-    }
-
-
-def random_surface(rng: Generator, side: float, points: int, rms_height: float, finest: int) -> Entries:
-    """A self-affine surface whose shortest waves have so many points, or a Gaussian one, with or without a lay."""
-    common = {
-        "size": [length(side)] * 2,
-        "points": [points] * 2,
-        "seed": int(rng.integers(1000, 10**6)),
-        "rms_height": length(rms_height),
-    }
-    if chance(rng, 0.6):
-        fractal = {"hurst": float(rng.uniform(0.5, 1.0)), "roll_off": length(side / rng.uniform(1.0, 2.0))}
-        return {"kind": "self_affine", **common, **fractal, "cut_off": length(side * finest / points)}
-    anisotropy = 1.0 if chance(rng, 0.6) else float(rng.uniform(1.5, 6.0))
-    return {
-        "kind": "gaussian",
-        **common,
-        "correlation_length": length(side * finest / points / 1.5),
-        "anisotropy": anisotropy,
-        **({"lay_angle": f"{90 * int(rng.integers(2))} deg"} if anisotropy > 1 else {}),
     }
 
 

@@ -5,52 +5,77 @@ Every finished scene is one line of ``OUT/coverage_KIND.jsonl``. The command goe
 
 import time
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
+from statistics import median
 from typing import Annotated
 
+import numpy as np
 import typer
+from matplotlib.figure import Figure
+from rich.table import Table
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
-from roughfilm.rom.ladder.provenance import code
-from roughfilm.rom.ladder.scene import scene_entries
-from roughfilm.terminal.console import in_one_line, make_directory, output, run_alone
+from roughfilm.figures.base import new_figure
+from roughfilm.rom.ladder.provenance import circumstances, code
+from roughfilm.rom.ladder.scene import read_scene, scene_entries
+from roughfilm.terminal.console import AsJson, in_one_line, make_directory, run_alone
+from scripts.studies.coverage.advising import advised
 from scripts.studies.coverage.answering import answers
-from scripts.studies.coverage.drawing import drawn, seeds
-from scripts.studies.coverage.store import Judged, append, path_of, read
+from scripts.studies.coverage.drawing import FIRST_SEED, drawn, part_of, seeds
+from scripts.studies.coverage.judge import (
+    ADVICE_GOAL,
+    FAR,
+    GOAL,
+    AdviceScore,
+    Coverage,
+    Finding,
+    advice_scores,
+    coverage,
+    findings,
+    silences,
+)
+from scripts.studies.coverage.store import Advised, Judged, append, path_of, read
 from scripts.studies.coverage.truth import kinds_with_truth, truth_of
-from scripts.studies.study import Out, counted
+from scripts.studies.study import Out, counted, publish
 
 
-def judged(kind: str, seed: int, known: Judged | None) -> Judged:
-    """Return a scene with its truth, which is taken from a known one of the same scene, and the answers of today."""
+def judged(kind: str, seed: int, known: Judged | None, with_advice: bool) -> Judged:
+    """Return a scene with its truth, which is taken from a known one of the same scene, and the answers of today.
+
+    With advice, models in OpenFOAM answer too.
+    """
     scene = drawn(kind, seed)
     entries = scene_entries(scene)
-    if known is None or known.scene != entries:
+    if known is None or scene_entries(read_scene(known.scene)) != entries:
         begun = time.process_time()
+        known = Judged(kind=kind, seed=seed, scene=entries, truth={})
         try:
             truth = truth_of(scene)
         except ConvergenceError as error:
-            return Judged(kind=kind, seed=seed, scene=entries, truth={}, failure=str(error), code=code())
-        known = Judged(
-            kind=kind,
-            seed=seed,
-            scene=entries,
-            truth={name: (value, truth.uncertainty[name]) for name, value in truth.values.items()},
-            own=truth.own,
-            method=truth.method,
-            truth_warnings=truth.warnings,
-            truth_cpu_s=time.process_time() - begun,
-        )
-    return replace(known, models={} if known.failure else answers(scene), code=code())
+            known = replace(known, failure=str(error))
+        else:
+            known = replace(
+                known,
+                truth={name: (value, truth.uncertainty[name]) for name, value in truth.values.items()},
+                own=truth.own,
+                method=truth.method,
+                truth_warnings=truth.warnings,
+                truth_cpu_s=time.process_time() - begun,
+            )
+    if known.failure:
+        return replace(known, code=code())
+    advice = advised(scene) if with_advice else ()
+    return replace(known, models=answers(scene, outside=with_advice), advice=advice, code=code())
 
 
-def missing(out: Path, kind: str, scenes: int) -> Iterator[tuple[int, Judged | None]]:
-    """Return the seeds that the file lacks, or whose answers older code gave, with what is known of them."""
+def missing(out: Path, kind: str, scenes: int, advice: int) -> Iterator[tuple[int, Judged | None, bool]]:
+    """Return the seeds that the file lacks, or whose answers older code gave: with what is known, and if to advise."""
     stored = read(path_of(out, kind))
     for seed in seeds(scenes):
-        if seed not in stored or stored[seed].code != code():
-            yield seed, stored.get(seed)
+        known, wanted = stored.get(seed), part_of(seed) == "check" and seed - FIRST_SEED["check"] < advice
+        if known is None or known.code != code() or (wanted and not known.advice and not known.failure):
+            yield seed, known, wanted
 
 
 def chosen(kinds: str | None) -> Sequence[str]:
@@ -62,21 +87,125 @@ def chosen(kinds: str | None) -> Sequence[str]:
     return names
 
 
+def figure(found: Sequence[Finding]) -> Figure:
+    """Draw the share of answers below every multiple of what they state, a panel for each kind."""
+    kinds = list(dict.fromkeys(one.kind for one in found))
+    drawn, panels = new_figure((10, 3.4 * max((len(kinds) + 1) // 2, 1)), max((len(kinds) + 1) // 2, 1), 2)
+    for axes, kind in zip(np.ravel(panels), kinds, strict=False):
+        for model in dict.fromkeys(one.model for one in found if one.kind == kind):
+            ratios = [
+                one.error / one.stated for one in found if (one.kind, one.model) == (kind, model) and one.stated > 0
+            ]
+            axes.plot(np.sort(np.maximum(ratios, 1e-3)), np.linspace(0, 1, len(ratios)), label=model)
+        axes.plot([1e-3, 1, 1], [0.95, 0.95, 0], color="0.4", linestyle=":", linewidth=0.8)
+        axes.set(
+            xscale="log", xlim=(1e-3, 1e2), title=kind, xlabel="error over what is stated", ylabel="share of answers"
+        )
+        axes.legend(fontsize=7)
+    return drawn
+
+
+def table(rows: Sequence[Coverage]) -> Table:
+    """Return the coverage as a printed table."""
+    shown = Table("kind", "model", "quantity", "promise", "kept", "goal", "misleading", "undecided", "stated/error")
+    for one in rows:
+        kept = f"{one.kept} of {one.judged}" + (f" ({one.share:.1%})" if one.judged else "")
+        cells = (one.kind, one.model, one.quantity, one.promise, kept, one.verdict, str(one.misleading))
+        shown.add_row(*cells, str(one.undecided), f"{one.width:.2g}")
+    return shown
+
+
+def advice_table(scores: Sequence[AdviceScore]) -> Table:
+    """Return the scores of the advice as a printed table."""
+    shown = Table("kind", "quantity", "within", "kept", "refused", "cost over the best model's")
+    for one in scores:
+        kept = f"{one.kept} of {one.judged}" + (f" ({one.share:.1%})" if one.judged else "")
+        shown.add_row(one.kind, one.quantity, f"{one.within:.0%}", kept, str(one.refused), f"{one.cost:.2%}")
+    return shown
+
+
 @in_one_line
 def command(
     out: Out,
     scenes: Annotated[int, typer.Option(help="Scenes of each kind; every second one is to check.")] = 400,
     kinds: Annotated[str | None, typer.Option(help="Kinds, joined by commas (default: all).")] = None,
+    advice: Annotated[int, typer.Option(help="Scenes of each kind for which advice is asked and OpenFOAM runs.")] = 40,
+    as_json: AsJson = False,
 ) -> None:
     """Solve random scenes by all models and by independent methods, and compare the errors with what is stated."""
     make_directory(out)
     names = chosen(kinds)
-    work = [(kind, seed, known) for kind in names for seed, known in missing(out, kind, scenes)]
+    work = [(kind, *one) for kind in names for one in missing(out, kind, scenes, advice)]
     with counted(len(work)) as advance:
-        for kind, seed, known in work:
+        for kind, seed, known, wanted in work:
             advance(f"{kind} {seed}")
-            append(path_of(out, kind), judged(kind, seed, known))
-    output.print(f"{len(work)} scenes solved")
+            append(path_of(out, kind), judged(kind, seed, known, wanted))
+    wanted_seeds = {seed for seed in seeds(scenes) if part_of(seed) == "check"}
+    judged_scenes = [
+        one for kind in names for seed, one in sorted(read(path_of(out, kind)).items()) if seed in wanted_seeds
+    ]
+    found = list(findings(judged_scenes))
+    rows = coverage(found)
+    scores, advice_misses = advice_scores(judged_scenes)
+    misses = [one for one in found if one.decided and not one.kept]
+    publish(
+        Path(__file__).parent,
+        out,
+        {"coverage": figure(found)},
+        {
+            "coverage": [{**asdict(one), "share": one.share, "verdict": one.verdict} for one in rows],
+            "advice": [{**asdict(one), "share": one.share} for one in scores],
+            "silent": silences(judged_scenes),
+            "misses": misses,
+            "advice_misses": [
+                {"kind": scene.kind, "seed": scene.seed, **asdict(one)} for scene, one, _ in advice_misses
+            ],
+            "provenance": circumstances(),
+        },
+        tables=[
+            table(rows),
+            advice_table(scores),
+            *(f"missed: {miss(one)}" for one in misses),
+            *(f"missed: {advice_miss(*one)}" for one in advice_misses),
+        ],
+        as_json=as_json,
+        counts=counts_of(judged_scenes),
+        silent=silences(judged_scenes),
+        rows=rows,
+        scores=scores,
+        misses=misses,
+        advice_misses=advice_misses,
+        goal=GOAL,
+        far=FAR,
+        advice_goal=ADVICE_GOAL,
+        provenance=circumstances(),
+    )
+
+
+def counts_of(scenes: Sequence[Judged]) -> dict[str, dict[str, float]]:
+    """Return the number of scenes by kind, those without a truth, and the CPU time of a truth, s."""
+    return {
+        kind: {
+            "scenes": sum(one.kind == kind for one in scenes),
+            "failed": sum(one.kind == kind and bool(one.failure) for one in scenes),
+            "cpu_s": median(one.truth_cpu_s for one in scenes if one.kind == kind),
+        }
+        for kind in dict.fromkeys(one.kind for one in scenes)
+    }
+
+
+def miss(one: Finding) -> str:
+    """Return an answer that does not keep what it states, in words."""
+    return (
+        f"{one.kind} {one.seed}, {one.quantity} by {one.model}: {one.value:.5g}, true {one.true:.5g} ± "
+        f"{one.doubt:.2g}; {one.promise} {one.stated:.2g}" + (" (warned)" if one.warned else "")
+    )
+
+
+def advice_miss(scene: Judged, one: Advised, error: float) -> str:
+    """Return an advised answer beyond its tolerance, in words."""
+    expected = "" if one.expected is None else f", expected {one.expected:.2%}"
+    return f"{scene.kind} {scene.seed}, {one.quantity} within {one.within:.0%}: {one.model}, {error:.2%} off{expected}"
 
 
 if __name__ == "__main__":

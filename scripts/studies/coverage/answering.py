@@ -11,10 +11,18 @@ from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.scene import scene_entries
 from scripts.studies.coverage.store import Answer
 
+MAX_OUTSIDE_CPU_S = 60.0
+"""Largest expected CPU time of a model that another program runs, s."""
 
-def answers(scene: Scene) -> dict[str, Answer]:
-    """Return the answers of every applicable model that runs in this process, by name."""
-    ladder = [model for model in models(scene.kind) if not model.outside and model.applies(scene).applies]
+
+def answers(scene: Scene, outside: bool = False) -> dict[str, Answer]:
+    """Return the answers of every applicable model that runs in this process, by name; also of others if asked."""
+    ladder = [
+        model
+        for model in models(scene.kind)
+        if model.applies(scene).applies
+        and (not model.outside or (outside and model.cost(scene, model.resolution_of(scene)) <= MAX_OUTSIDE_CPU_S))
+    ]
     return {model.name: answer(model, scene) for model in ladder if model.available().available}
 
 

@@ -26,6 +26,24 @@ class Answer:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Advised:
+    """The advice on one quantity at one tolerance, and the answer of the model that it chooses.
+
+    ``model`` is None if no model is known to be accurate enough. ``cpu_s`` is that of all runs for advice and answer.
+    """
+
+    quantity: str
+    within: float
+    model: str | None = None
+    resolution: int | None = None
+    expected: float | None = None
+    value: float | None = None
+    cpu_s: float = 0.0
+    best_cpu_s: float = 0.0
+    failure: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
 class Judged:
     """A random scene with its truth, as (value, uncertainty) by quantity, and the answers of models by name.
 
@@ -43,6 +61,7 @@ class Judged:
     truth_cpu_s: float = 0.0
     failure: str = ""
     models: Mapping[str, Answer] = field(default_factory=dict)
+    advice: tuple[Advised, ...] = ()
     code: str = ""
 
 
@@ -70,6 +89,7 @@ def read(path: Path) -> dict[int, Judged]:
         entries["own"] = {name: {q: tuple(pair) for q, pair in one.items()} for name, one in own.items()}
         answers = {name: {**one, "warnings": tuple(one["warnings"])} for name, one in entries["models"].items()}
         entries["models"] = {name: Answer(**one) for name, one in answers.items()}
+        entries["advice"] = tuple(Advised(**one) for one in entries.get("advice", ()))
         entries["truth_warnings"] = tuple(entries["truth_warnings"])
         found[entries["seed"]] = Judged(**entries)
     return found

@@ -2,6 +2,7 @@
 
 import hashlib
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -9,10 +10,15 @@ import numpy as np
 from numpy.random import Generator
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.units import with_unit
+from roughfilm.contact.surfaces.store import save_surface
+from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.scene import read_scene, scene_entries
-from scripts.studies.advice.scenes import Entries, between, chance
+from roughfilm.rom.parts.surface_geometry import SurfaceGeometry
+from scripts.studies.random_entries import Entries, between, chance
+
+DESCRIBING = ("surface", "spacing", "digest", "amplitude", "wavelength")
+"""Keys of a scene that describe the heights of a wall."""
 
 SIDE = 1e-3
 """Side of the surfaces, m."""
@@ -33,7 +39,7 @@ def drawn_surface(rng: Generator, points: int, finest: float) -> Array:
     if chance(rng, 0.7):
         power = np.maximum(q, between(rng, 1, highest / 2)) ** (-2 * (1 + rng.uniform(0.2, 1.0)))
     else:
-        power = np.exp(-((q / between(rng, 1.5, highest / 2)) ** 2))
+        power = np.exp(-((q / between(rng, min(1.5, highest / 2), highest / 2)) ** 2))
     kept = (np.hypot(x, y) <= highest) & (np.hypot(x, y) > 0)
     random = np.fft.fft2(rng.standard_normal((points, points)))
     heights = np.fft.ifft2(np.where(kept, np.sqrt(power) * random, 0)).real
@@ -55,33 +61,47 @@ def rms_slope(heights: Array) -> float:
 
 def stored(values: Array) -> Path:
     """Return the path of a file with these values, which is named after them."""
+    return _kept(values.tobytes(), ".npy", lambda path: np.save(path, values))
+
+
+def in_file(heights: Array, spacing: tuple[float, float]) -> Entries:
+    """Return the geometry of a scene with these periodic heights and their spacing, m, in a file."""
+    surface = Surface(heights=heights, spacing=spacing, periodic=True)
+    path = _kept(heights.tobytes() + repr(spacing).encode(), ".h5", lambda path: save_surface(surface, path))
+    return {"surface": str(path)}
+
+
+def _kept(content: bytes, suffix: str, write: Callable[[Path], None]) -> Path:
+    """Return the path of a file named after its content, which is written if it is missing."""
     folder = Path(tempfile.gettempdir()) / "roughfilm-coverage"
     folder.mkdir(exist_ok=True)
-    path = folder / f"{hashlib.sha256(values.tobytes()).hexdigest()[:16]}.npy"
+    path = folder / f"{hashlib.sha256(content).hexdigest()[:16]}{suffix}"
     if not path.is_file():
-        np.save(path, values)
+        write(path)
     return path
 
 
-def in_file(heights: Array, side: float) -> Entries:
-    """Return the geometry of a scene with these heights, m, in a file."""
-    return {"surface": str(stored(heights)), "spacing": with_unit(side / heights.shape[0], "m")}
-
-
 def refined(scene: Scene, factor: int) -> Scene:
-    """Return the scene with its surface on a grid finer by a factor, through the same points and without new waves."""
-    entries: dict[str, Any] = {**scene_entries(scene)}
-    surface = scene.surface()  # type: ignore[attr-defined]
-    fine = padded(surface.heights, factor)
-    geometry = {key: value for key, value in entries["geometry"].items() if key not in ("surface", "spacing", "digest")}
-    entries["geometry"] = {**geometry, **in_file(fine, surface.size[0])}
-    return read_scene(entries)
+    """Return the scene with its surfaces on a grid finer by a factor, through the same points and without new waves."""
+    entries: dict[str, Any] = scene_entries(scene)
+    geometry: SurfaceGeometry = scene.geometry  # type: ignore[attr-defined]
+    fine = _finer(geometry, entries["geometry"], factor)
+    upper = getattr(geometry, "upper", None)
+    if upper is not None:
+        fine["upper"] = _finer(upper, entries["geometry"]["upper"], factor)
+    return read_scene({**entries, "geometry": fine})
+
+
+def _finer(wall: SurfaceGeometry, entries: Entries, factor: int) -> Entries:
+    surface = wall.read()
+    dx, dy = surface.spacing
+    kept = {key: value for key, value in entries.items() if key not in DESCRIBING}
+    return {**kept, **in_file(padded(surface.heights, factor), (dx / factor, dy / factor))}
 
 
 def padded(heights: Array, factor: int) -> Array:
-    """Return the trigonometric interpolation of periodic heights, shape (factor n, factor n), n even."""
-    count = heights.shape[0]
-    half, wide = count // 2, count * factor
+    """Return the trigonometric interpolation of periodic heights, shape (factor nx, factor ny), nx and ny even."""
     waves = np.fft.fftshift(np.fft.fft2(heights))
-    waves = np.pad(waves, [(wide // 2 - half, wide - wide // 2 - (count - half))] * 2)
+    added = [(count * factor - count) // 2 for count in heights.shape]
+    waves = np.pad(waves, [(number, number) for number in added])
     return np.asarray(np.fft.ifft2(np.fft.ifftshift(waves)).real * factor**2)

@@ -54,6 +54,19 @@ def test_long_waves_are_those_of_the_reynolds_equation(flow_between):
     assert found.friction == pytest.approx(exact.couette + 3 * exact.shear_couette, rel=4e-3)
 
 
+def test_the_lowest_pressures_are_those_of_the_reynolds_equation(flow_between):
+    """Sliding at 2: dp/dx = 12 (h - c)/h³. Under a gradient the pressure falls everywhere, and is lowest at the end."""
+    flows = flow_between(ridges(0.3, 300.0, 32), 8).flows
+    x = (np.arange(100_000) + 0.5) / 100_000 * 300.0
+    h = 1 - 0.3 * np.cos(2 * np.pi * x / 300.0)
+    pressure = np.cumsum(12 * (h - (h**-2).mean() / (h**-3).mean()) / h**3) * 300.0 / x.size
+    lost = 1 + 2 / 8**2  # of the pressure, as of the flow of any parabola
+    expected = (pressure.min() - pressure.mean()) / lost
+    assert flows["sliding"].lowest_pressure(None) == pytest.approx(expected, rel=0.02)
+    assert flows["along"].lowest_pressure(0) == 0
+    assert flows["across"].lowest_pressure(1) == pytest.approx(0, abs=1e-6)
+
+
 def second_order(wave_number):
     """(A11 - 1)/a² of shallow ridges under a flat wall in Stokes flow, mean gap 1.
 

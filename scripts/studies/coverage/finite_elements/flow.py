@@ -75,16 +75,16 @@ def _convection(spaces: Spaces, reynolds_number: float, flow: Fields) -> Array:
     return reynolds_number * spaces.product(spaces.shapes, u * spaces.slopes[0] + v * spaces.slopes[1])
 
 
-def _jacobian(spaces: Spaces, reynolds_number: float, flow: Fields, convection: Array) -> dict[str, Array]:
+def _jacobian(spaces: Spaces, reynolds_number: float, flow: Fields, convection: Array) -> dict[tuple[str, str], Array]:
     blocks = {}
     for row, own, volume in zip("uv", (flow.u, flow.v), spaces.volume, strict=True):
         for column, slope, part in zip("uv", spaces.slopes, volume, strict=True):
             gradient = reynolds_number * spaces.at_points(own, slope)[:, None]
-            blocks[row + column] = spaces.product(spaces.shapes * gradient, spaces.shapes) + GRAD_DIV * part
-        blocks[row + row] = blocks[row + row] + spaces.stiffness + convection
+            blocks[row, column] = spaces.product(spaces.shapes * gradient, spaces.shapes) + GRAD_DIV * part
+        blocks[row, row] = blocks[row, row] + spaces.stiffness + convection
     for row, part in zip("uv", spaces.divergence, strict=True):
-        blocks["p" + row] = -part
-        blocks[row + "p"] = -part.transpose(0, 2, 1)
+        blocks["p", row] = -part
+        blocks[row, "p"] = -part.transpose(0, 2, 1)
     return blocks
 
 

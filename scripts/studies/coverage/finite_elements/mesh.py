@@ -9,7 +9,7 @@ from scipy.spatial import cKDTree
 from skfem import MeshTri1, MeshTri2
 
 from roughfilm.contact.foundation.arrays import Array
-from scripts.studies.coverage.finite_elements.wall import Groove, Wall
+from scripts.studies.coverage.finite_elements.wall import Groove, Indices, Wall
 
 CORNER_CELL = 0.25
 """Length of a cell at a corner of the wall before it is divided, in film thicknesses."""
@@ -167,11 +167,11 @@ class Placed:
 
     mesh: MeshTri1
     blocks: Sequence[Block]
-    block: Array
+    block: Indices
     along: Array
     down: Array
 
-    def middles(self) -> tuple[Array, Array, Array, Array]:
+    def middles(self) -> tuple[Array, Indices, Array, Array]:
         """Return the middles of all sides, shape (2, m), and their numbers of block, ``along`` and ``down``."""
         ends = self.mesh.facets
         points, number = self.mesh.p[:, ends].mean(axis=1), self.block[ends].max(axis=0)
@@ -227,23 +227,28 @@ def fitted_mesh(wall: Wall, level: float) -> MeshTri2:
     triangles = [halves(film)]
     placed = [(np.full(film.size, -1), np.zeros(film.size), np.zeros(film.size))]
     count = film.size
-    for number, (block, (first, along)) in enumerate(zip(blocks, own, strict=True)):
-        down = np.linspace(0, 1, rows_of(block, level) + 1)
-        here = np.empty((len(along), len(down)), dtype=int)
-        here[:, 0] = film[first : first + len(along), 0]
+    for number, (block, (first, columns)) in enumerate(zip(blocks, own, strict=True)):
+        rows = np.linspace(0, 1, rows_of(block, level) + 1)
+        here = np.empty((len(columns), len(rows)), dtype=int)
+        here[:, 0] = film[first : first + len(columns), 0]
         here[[0, -1], 1:] = here[[0, -1], :1]
-        places = [one[1:-1, 1:].ravel() for one in np.broadcast_arrays(along[:, None], down)]
-        here[1:-1, 1:] = count + np.arange(places[0].size).reshape(len(along) - 2, -1)
-        count += places[0].size
-        points.append(block.at(*places))
+        along, down = (one[1:-1, 1:].ravel() for one in np.broadcast_arrays(columns[:, None], rows))
+        here[1:-1, 1:] = count + np.arange(along.size).reshape(len(columns) - 2, -1)
+        count += along.size
+        points.append(block.at(along, down))
         triangles.append(halves(here[:, ::-1]))
-        placed.append((np.full(places[0].size, number), *places))
-    block, along, down = map(np.concatenate, zip(*placed, strict=True))
-    mesh = MeshTri1(np.hstack(points), np.hstack(triangles))
-    found = Placed(mesh=mesh, blocks=blocks, block=block, along=along, down=down)
-    sharp = [(place, -groove.depth(place)) for groove in wall.grooves for place in groove.sharp_corners()]
+        placed.append((np.full(along.size, number), along, down))
+    found = Placed(
+        mesh=MeshTri1(np.hstack(points), np.hstack(triangles)),
+        blocks=blocks,
+        block=np.concatenate([one[0] for one in placed]),
+        along=np.concatenate([one[1] for one in placed]),
+        down=np.concatenate([one[2] for one in placed]),
+    )
+    places = [(groove, np.array(groove.sharp_corners())) for groove in wall.grooves]
+    sharp = [np.stack([x, -groove.depth(x)]) for groove, x in places if x.size]
     for _ in range(round(CORNER_LEVELS * (1 + np.log2(level))) if sharp else 0):
-        found = found.refined(np.array(sharp).T)
+        found = found.refined(np.hstack(sharp))
     return found.curved()
 
 
@@ -252,7 +257,7 @@ def rows_of(block: Block, level: float) -> int:
     return max(int(np.ceil(level)), int(np.ceil(level * block.groove.depth(block.places).max() / ROW)))
 
 
-def halves(grid: Array) -> Array:
+def halves(grid: Indices) -> Indices:
     """Return the triangles, shape (3, n), of a grid of numbers of points; those with two equal corners are left out."""
     a, b, c, d = (grid[i : len(grid) - 1 + i, j : grid.shape[1] - 1 + j].ravel() for i, j in CORNERS)
     found = np.hstack([np.stack([a, b, c]), np.stack([a, c, d])])

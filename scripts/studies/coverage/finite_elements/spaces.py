@@ -8,7 +8,8 @@ import numpy as np
 from scipy.sparse import coo_matrix, csc_matrix
 from skfem import Basis, ElementTriP2, ElementTriP3, MeshTri2
 
-from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.arrays import Array, Mask
+from scripts.studies.coverage.finite_elements.wall import Indices
 
 QUADRATURE_ORDER = 9
 """Degree of the polynomials that the quadrature integrates exactly: one above that of u grad(u) times u, of cubics."""
@@ -44,15 +45,15 @@ class Spaces:
         self.nodes: Array = velocity.doflocs
         self.pressure_nodes: Array = pressure.doflocs
         self.points: Array = np.asarray(velocity.global_coordinates())
-        self.of_element: Array = velocity.element_dofs.T
-        self.pressure_of_element: Array = pressure.element_dofs.T
+        self.of_element: Indices = velocity.element_dofs.T
+        self.pressure_of_element: Indices = pressure.element_dofs.T
         self.shapes = _values(velocity)
         self.pressure_shapes = _values(pressure)
         self.slopes = np.ascontiguousarray(np.stack([one[0].grad for one in velocity.basis]).transpose(1, 2, 0, 3))
         self.length = float(np.ptp(mesh.p[0]))
         facets = mesh.boundary_facets()
         middles = mesh.p[:, mesh.facets[:, facets]].mean(axis=1)
-        self.top: Array = velocity.get_dofs(facets[np.abs(middles[1] - 1) < SAME_PLACE]).all()
+        self.top: Indices = velocity.get_dofs(facets[np.abs(middles[1] - 1) < SAME_PLACE]).all()
         self.top = self.top[np.argsort(self.nodes[0, self.top])]
         sides = np.abs(np.abs(middles[0]) - self.length / 2) < SAME_PLACE * self.length
         walls = np.zeros(len(self.nodes[0]), dtype=bool)
@@ -67,7 +68,8 @@ class Spaces:
     @cached_property
     def stiffness(self) -> Array:
         """The integrals of grad(shape) · grad(shape) by element, shape (elements, 10, 10)."""
-        return sum(self.product(slope, slope) for slope in self.slopes)
+        x, y = self.slopes
+        return self.product(x, x) + self.product(y, y)
 
     @cached_property
     def divergence(self) -> tuple[Array, Array]:
@@ -93,7 +95,7 @@ class Spaces:
         """Return the sum over the elements of integrals with each shape, shape (elements, 10) or (elements, 6)."""
         nodes = self.pressure_of_element if pressure else self.of_element
         count = (self.pressure_nodes if pressure else self.nodes).shape[1]
-        return np.bincount(nodes.ravel(), by_element.ravel(), count)
+        return np.bincount(nodes.ravel(), by_element.ravel(), count).astype(float)
 
     def reduced(self, u: Array, v: Array, p: Array) -> Array:
         """Return the sums of nodal values that belong to one unknown."""
@@ -107,8 +109,8 @@ class Spaces:
         padded = np.append(unknowns, 0.0)  # number -1 is the given value
         return Fields(u=padded[self.number_u], v=padded[self.number_v], p=padded[self.number_p])
 
-    def matrix(self, blocks: dict[str, Array]) -> csc_matrix:
-        """Return the matrix of the unknowns from integrals by element; "up" couples rows of u with columns of p."""
+    def matrix(self, blocks: dict[tuple[str, str], Array]) -> csc_matrix:
+        """Return the matrix of the unknowns from integrals by element, by the rows and columns "u", "v" or "p"."""
         numbers = {
             "u": self.number_u[self.of_element],
             "v": self.number_v[self.of_element],
@@ -125,7 +127,7 @@ class Spaces:
         place = np.concatenate(rows), np.concatenate(columns)
         return coo_matrix((np.concatenate(values), place), shape=(self.unknowns, self.unknowns)).tocsc()
 
-    def _pairs(self, u: Array, v: Array, p: Array) -> tuple[tuple[Array, Array], ...]:
+    def _pairs(self, u: Array, v: Array, p: Array) -> tuple[tuple[Indices, Array], ...]:
         return (self.number_u, u), (self.number_v, v), (self.number_p, p)
 
 
@@ -133,7 +135,7 @@ def _values(basis: Any) -> Array:
     return np.stack([np.broadcast_to(one[0], basis.dx.shape) for one in basis.basis], axis=1)
 
 
-def _sides(nodes: Array, length: float) -> tuple[Array, Array]:
+def _sides(nodes: Array, length: float) -> tuple[Indices, Indices]:
     """Return the numbers of the nodes on the left and right sides, each from the lowest to the highest."""
     found = []
     for end in (-length / 2, length / 2):
@@ -142,7 +144,7 @@ def _sides(nodes: Array, length: float) -> tuple[Array, Array]:
     return found[0], found[1]
 
 
-def _numbers(nodes: Array, length: float, given: Array, first: int) -> tuple[Array, int]:
+def _numbers(nodes: Array, length: float, given: Mask, first: int) -> tuple[Indices, int]:
     """Return the number of the unknown of every node, from ``first`` on, and the next free one; -1 where given."""
     left, right = _sides(nodes, length)
     given = given.copy()

@@ -4,8 +4,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
+
+Indices = NDArray[np.intp]
+"""An array of numbers of points, nodes or unknowns, of any shape."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,8 +7,8 @@ from numpy.random import Generator
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.units import with_unit
-from scripts.studies.advice.scenes import Entries, between, chance, length, random_surface
 from scripts.studies.coverage.surfaces import stored
+from scripts.studies.random_entries import Entries, between, chance, length, random_surface
 
 SHAPES = (
     "parallel",

@@ -3,8 +3,8 @@
 from numpy.random import Generator
 
 from roughfilm.contact.foundation.units import with_unit
-from scripts.studies.advice.scenes import Entries, between, chance
 from scripts.studies.coverage.surfaces import SIDE, drawn_surface, in_file, rms_slope
+from scripts.studies.random_entries import Entries, between, chance
 
 MODULUS = 210e9
 POISSON = 0.3
@@ -27,4 +27,8 @@ def pressed(rng: Generator, points: int, pressures: tuple[float, float]) -> Entr
         hardness = unit * between(rng, 0.01, 20)
         solid["hardness"] = with_unit(hardness, "Pa")
         pressure = min(pressure, hardness * rng.uniform(0.005, 0.95))
-    return {"geometry": in_file(heights, SIDE), "solid": solid, "load": {"pressure": with_unit(pressure, "Pa")}}
+    return {
+        "geometry": in_file(heights, (SIDE / points, SIDE / points)),
+        "solid": solid,
+        "load": {"pressure": with_unit(pressure, "Pa")},
+    }

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.random import Generator
 
-from scripts.studies.advice.scenes import Entries, between, chance, length
+from scripts.studies.random_entries import Entries, between, chance, length
 
 SHAPES = ("cylindrical", "splined", "points")
 CHANCES = (0.4, 0.35, 0.25)
@@ -17,7 +17,8 @@ def draw(rng: Generator) -> Entries:
     """Return one to three grooves: w/L = 0.1 to 0.9, d/h = 0.05 to 3, 2d/w <= 1, h/L = 0.005 to 0.2, Re = 0 to 300.
 
     A fifth of the scenes has Re = 0.001, which stands for none, and a fifth has several grooves. 40 of 100 grooves are
-    off the middle of the period.
+    off the middle of the period. The lubricant is so thin that no film tears; load and friction as p+ do not depend on
+    it.
     """
     film = PERIOD * between(rng, 0.005, 0.2)
     count = int(rng.integers(2, 4)) if chance(rng, 0.2) else 1
@@ -32,7 +33,7 @@ def draw(rng: Generator) -> Entries:
         grooves.append({"position": length(middle), **groove(rng, width, depth)})
     return {
         "geometry": {"length": length(PERIOD), "film": length(film), "grooves": grooves},
-        "lubricant": {"viscosity": "0.01 Pa*s", "density": "1000 kg/m^3"},
+        "lubricant": {"viscosity": "0.1 mPa*s", "density": "1000 kg/m^3"},
         "motion": {"reynolds_number": 1e-3 if chance(rng, 0.2) else between(rng, 0.3, 300)},
     }
 

@@ -1,11 +1,6 @@
 """The truth of a pocket: finite elements on two meshes (``scripts.studies.coverage.finite_elements``)."""
 
-from collections.abc import Callable
-
-import numpy as np
-
-from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.pocket.geometry import AnyGroove, Through
+from roughfilm.rom.pocket.geometry import AnyGroove
 from roughfilm.rom.pocket.scene import Pocket
 from scripts.studies.coverage.finite_elements.flow import solve
 from scripts.studies.coverage.finite_elements.forces import Forces, forces
@@ -13,7 +8,7 @@ from scripts.studies.coverage.finite_elements.mesh import fitted_mesh
 from scripts.studies.coverage.finite_elements.wall import Groove, Wall
 from scripts.studies.coverage.truth import Truth
 
-LEVELS = (0.7, 1.0, 1.4)
+LEVELS: tuple[float, ...] = (0.7, 1.0, 1.4)
 """Levels of the meshes; the last one is taken where the first two differ by more than TARGET."""
 
 TARGET = 3e-3
@@ -21,33 +16,34 @@ TARGET = 3e-3
 
 LEAST_LOAD = 0.05
 
-FRICTION_FLOOR = 2e-5
+FRICTION_FLOOR = 4e-6
 """Uncertainty of friction over friction, besides the difference of the two meshes."""
 
-LOAD_FLOOR = (1e-5, 6e-7)
-"""Uncertainty of load over the largest pressure at Re = 0, and its increase with Re, besides that difference."""
+LOAD_FLOOR = 3e-6
+"""Uncertainty of load over the largest pressure, besides the difference of two meshes, of a level wall at Re = 0."""
+
+LOAD_FLOOR_BY_INERTIA = 6e-7
+"""Increase of that floor with Re."""
+
+LOAD_FLOOR_BY_SLOPE = 3e-4
+"""Increase of that floor with the squared mean slope of the steepest groove, up to a slope of 1."""
 
 PRESSURE_FLOOR = 1e-3
 """Uncertainty of the extreme pressures over the largest one, besides that difference."""
 
 
 def groove_of(groove: AnyGroove, film: float) -> Groove:
-    """Return a groove of a scene in film thicknesses; straight lines connect points."""
-    if isinstance(groove, Through):
-        places, depths = np.array(groove.points).T / film
-        places = places + groove.position / film
-        breaks = tuple(map(float, places))
-        return Groove(breaks=breaks, corners=breaks, depth=lambda x: np.interp(x, places, depths))
+    """Return a groove of a scene in film thicknesses."""
     shape = groove.shape()
 
     def moved(places: tuple[float, ...]) -> tuple[float, ...]:
         return tuple((place + groove.position) / film for place in places)
 
-    return Groove(breaks=moved(shape.breaks), corners=moved(shape.corners), depth=_depth(shape.depth, groove, film))
-
-
-def _depth(depth: Callable[[Array], Array], groove: AnyGroove, film: float) -> Callable[[Array], Array]:
-    return lambda x: depth(x * film - groove.position) / film
+    return Groove(
+        breaks=moved(shape.breaks),
+        corners=moved(shape.corners),
+        depth=lambda x: shape.depth(x * film - groove.position) / film,
+    )
 
 
 def wall_of(scene: Pocket) -> Wall:
@@ -84,8 +80,9 @@ def truth(scene: Pocket) -> Truth:
 
 def uncertainties(scene: Pocket, coarse: Forces, fine: Forces) -> dict[str, float]:
     """Return the uncertainty of each force of the finer of two meshes, in η u / Ly."""
+    load = LOAD_FLOOR + LOAD_FLOOR_BY_INERTIA * scene.reynolds_number + LOAD_FLOOR_BY_SLOPE * min(scene.slope, 1.0) ** 2
     floors = {
-        "load": fine.largest_pressure * (LOAD_FLOOR[0] + LOAD_FLOOR[1] * scene.reynolds_number),
+        "load": fine.largest_pressure * load,
         "friction": FRICTION_FLOOR * fine.friction,
         "pressure_max": PRESSURE_FLOOR * fine.largest_pressure,
         "pressure_min": PRESSURE_FLOOR * fine.largest_pressure,

@@ -1,5 +1,6 @@
 """Warnings where a pocket leaves the range of validity of a model."""
 
+from roughfilm.rom.parts.surroundings import rupture_warnings
 from roughfilm.rom.pocket.scene import Pocket
 
 TURBULENT = 1440.0
@@ -20,5 +21,12 @@ def cautions(scene: Pocket) -> tuple[str, ...]:
     return tuple(warnings)
 
 
-NO_COARSER_GRID = "there is no coarser grid, so the discretisation error is unknown"
-"""The warning of a result without uncertainty."""
+def ruptures(scene: Pocket, lowest: float) -> tuple[str, ...]:
+    """A warning if the film would cavitate; ``lowest`` is its lowest pressure above ambient over η u / Ly."""
+    return rupture_warnings(
+        lowest * scene.pressure_unit,
+        scene.cavitation_pressure,
+        scene.boundary.ambient_pressure,
+        kind="pocket",
+        remedy="solve it as a bearing by reynolds_cavitating, lower the speed, or raise boundary.ambient_pressure",
+    )

@@ -1,0 +1,1 @@
+"""Where the models of a pocket hold: the numbers of a scene, promised errors, and warnings."""

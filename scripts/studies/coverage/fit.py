@@ -1,0 +1,196 @@
+"""Fit the promises of models to independent solutions: python -m scripts.studies.coverage.fit --out OUT.
+
+The laws are written into rom/advice/laws.toml, where they replace those of the same models; other laws are kept.
+"""
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.table import Table as ShownTable
+
+from roughfilm.ladder import find
+from roughfilm.rom.advice.laws import Grid, Law, Numbers, Promise, Table, on_grid, table
+from roughfilm.rom.ladder.kind import Kind, kind_of_name
+from roughfilm.rom.ladder.provenance import circumstances
+from roughfilm.rom.ladder.scene import read_scene
+from roughfilm.terminal.console import in_one_line, make_directory, output, run_alone
+from scripts.studies.advice.laws_file import OWN_FILE, text_of, write_table
+from scripts.studies.coverage import resolutions, store
+from scripts.studies.coverage.drawing import part_of
+from scripts.studies.coverage.fitting import fitted
+from scripts.studies.coverage.store import Judged
+from scripts.studies.study import Out, counted
+
+Rows = list[tuple[Numbers, float]]
+"""The numbers of scenes, each with an error."""
+
+MAX_TRUTH_UNCERTAINTY = 0.02
+"""Largest relative uncertainty of a truth to which a law is fitted."""
+
+
+MIN_SCENES = 40
+"""Smallest number of scenes for a law."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlannedLaw:
+    """A law of some models without its coefficients: the numbers in each of its terms."""
+
+    kind: str
+    part: str
+    models: tuple[str, ...]
+    terms: tuple[tuple[str, ...], ...]
+
+
+PLANNED: tuple[PlannedLaw, ...] = tuple(
+    PlannedLaw(
+        kind=one["kind"],
+        part=one["part"],
+        models=tuple(one["models"]),
+        terms=tuple(tuple(term) for term in one["terms"]),
+    )
+    for one in tomllib.loads(Path(__file__).with_name("promises.toml").read_text(encoding="utf-8"))["law"]
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class FitScene:
+    """A scene to which laws are fitted, with its numbers, its relative truth and the size of its errors."""
+
+    judged: Judged
+    numbers: Numbers
+    kind: Kind
+
+    def size(self, quantity: str, values: Mapping[str, float]) -> float:
+        """The size by which an error is divided; ``values`` are used for quantities without a truth."""
+        truth = {name: value for name, (value, _) in self.judged.truth.items()}
+        return float(self.kind.scale({**values, **truth}, quantity))
+
+    def error(self, quantity: str, values: Mapping[str, float]) -> float:
+        """The relative difference of values from the truth."""
+        return abs(values[quantity] - self.judged.truth[quantity][0]) / self.size(quantity, values)
+
+
+def fit_scenes(kind: str, out: Path) -> dict[int, FitScene]:
+    """Return the scenes of a kind to which laws are fitted, by seed, without those whose truth is uncertain."""
+    own_kind, found = kind_of_name(kind), {}
+    for seed, one in store.read(store.path_of(out, kind)).items():
+        if part_of(seed) == "fit" and not one.failure:
+            found[seed] = FitScene(judged=one, numbers=own_kind.numbers(read_scene(one.scene)), kind=own_kind)
+    return found
+
+
+def promise_rows(scenes: Mapping[int, FitScene], model: str, quantity: str) -> Rows:
+    """Return the errors of a model against the truth."""
+    return [
+        (one.numbers, one.error(quantity, values))
+        for one in scenes.values()
+        if (values := _values(one, model)) and _certain(one, quantity, values)
+    ]
+
+
+def resolution_rows(scenes: Mapping[int, FitScene], model: str, quantity: str, out: Path) -> Rows:
+    """Return the errors of a model by its resolution: from its finest one, or from the truth if it runs outside."""
+    rows: Rows = []
+    for (seed, name), one in resolutions.read(resolutions.path_of(out, "pocket")).items():
+        scene = scenes.get(seed)
+        known = {resolution: values for resolution, values in one.values.items() if quantity in values}
+        if name != model or scene is None or not known:
+            continue
+        finest = known[max(known)]
+        if find(one.kind, model).outside:
+            errors = {
+                n: scene.error(quantity, values) for n, values in known.items() if _certain(scene, quantity, values)
+            }
+        else:
+            size = float(scene.kind.scale(finest, quantity))
+            errors = {
+                n: abs(values[quantity] - finest[quantity]) / size
+                for n, values in known.items()
+                if values is not finest
+            }
+        rows += [(on_grid(scene.numbers, n), error) for n, error in errors.items()]
+    return rows
+
+
+def _values(one: FitScene, model: str) -> Mapping[str, float]:
+    return one.judged.models[model].values if model in one.judged.models else {}
+
+
+def _certain(one: FitScene, quantity: str, values: Mapping[str, float]) -> bool:
+    """Whether the uncertainty of the truth is small compared with the size, or with the error."""
+    uncertainty = one.judged.truth[quantity][1] / one.size(quantity, values)
+    return uncertainty <= max(MAX_TRUTH_UNCERTAINTY, one.error(quantity, values) / 5)
+
+
+def laws_of(plan: PlannedLaw, model: str, scenes: Mapping[int, FitScene], out: Path) -> dict[str, Law]:
+    """Return the laws of a model by quantity."""
+    laws = {}
+    for quantity in next(iter(scenes.values())).judged.truth:
+        if plan.part == "promise":
+            rows = promise_rows(scenes, model, quantity)
+        else:
+            rows = resolution_rows(scenes, model, quantity, out)
+        if len(rows) >= MIN_SCENES:
+            laws[quantity] = fitted(rows, plan.terms)
+    return laws
+
+
+def with_laws(known: Table, plan: PlannedLaw, model: str, laws: Mapping[str, Law]) -> Table:
+    """Return the table with these laws in place of those of the same part and model; a promise replaces steps."""
+    own = (plan.kind, model)
+    if plan.part == "promise":
+        steps = [
+            replace(one, left_out={}, seen_from="", seen={}) if (one.kind, one.model) == own else one
+            for one in known.steps
+        ]
+        others = [one for one in known.promises if (one.kind, one.model) != own]
+        return replace(known, steps=steps, promises=[*others, Promise(kind=plan.kind, model=model, laws=laws)])
+    grids = [one for one in known.grids if (one.kind, one.model) != own]
+    return replace(known, grids=[*grids, Grid(kind=plan.kind, model=model, laws=laws)])
+
+
+@in_one_line
+def command(
+    out: Out,
+    refined: Annotated[int, typer.Option(help="Scenes that are solved at all resolutions.")] = 100,
+    again: Annotated[bool, typer.Option(help="Fit to the runs that are there, without solving any.")] = False,
+) -> None:
+    """Fit the laws in promises.toml to the scenes in OUT, and write them into the table of the project."""
+    make_directory(out)
+    known = table()
+    shown = ShownTable("model", "law", "quantity", "bound", "scenes", "bound over middle")
+    for kind in dict.fromkeys(plan.kind for plan in PLANNED):
+        scenes = fit_scenes(kind, out)
+        if not again:
+            seeds = sorted(scenes)[:refined]
+            with counted(len(seeds) * len(resolutions.refined(kind))) as advance:
+                resolutions.refine(kind, seeds, out, advance)
+        for plan in (one for one in PLANNED if one.kind == kind):
+            for model in plan.models:
+                laws = laws_of(plan, model, scenes, out)
+                known = with_laws(known, plan, model, laws)
+                for quantity, law in laws.items():
+                    shown.add_row(model, plan.part, quantity, text_of(law), str(law.scenes), f"{law.spread:g}")
+        seeds = sorted(scenes)
+        found = circumstances()
+        origin = {
+            "scenes": len(seeds),
+            "seeds": [seeds[0], seeds[-1]],
+            "commit": found["commit"],
+            "code": found["code"],
+        }
+        fits = {**known.provenance.get("fits", {}), kind: {"command": COMMAND, **origin}}
+        known = replace(known, provenance={**known.provenance, "fits": fits})
+    write_table(known, OWN_FILE)
+    output.print(shown)
+
+
+COMMAND = "python -m scripts.studies.coverage.fit --out OUT"
+
+if __name__ == "__main__":
+    run_alone(command)

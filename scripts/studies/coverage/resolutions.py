@@ -1,0 +1,78 @@
+"""Values of the models of a kind at all their resolutions, over the scenes to which laws are fitted."""
+
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.ladder import models
+from roughfilm.rom.ladder.kind import Scene
+from roughfilm.rom.ladder.model import Model
+from roughfilm.rom.ladder.request import Request
+from scripts.studies.coverage.drawing import drawn
+
+FINEST_FACTOR = 3
+"""Ratio of the resolution whose values stand for the truth of a model in this process to the finest of its series."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Refinement:
+    """The values of a model by resolution and quantity; a resolution at which it failed has none."""
+
+    kind: str
+    seed: int
+    model: str
+    values: Mapping[int, Mapping[str, float]]
+
+
+def path_of(out: Path, kind: str) -> Path:
+    """Return the file of the refinements of a kind."""
+    return out / f"resolutions_{kind}.jsonl"
+
+
+def read(path: Path) -> dict[tuple[int, str], Refinement]:
+    """Return the refinements in a file by seed and model; a line that was cut off is left out."""
+    found = {}
+    for line in path.read_text(encoding="utf-8").splitlines() if path.is_file() else ():
+        try:
+            entries = json.loads(line)
+        except ValueError:
+            continue
+        values = {int(resolution): quantities for resolution, quantities in entries["values"].items()}
+        found[entries["seed"], entries["model"]] = Refinement(**{**entries, "values": values})
+    return found
+
+
+def refined(kind: str) -> tuple[Model, ...]:
+    """Return the models with an order of convergence."""
+    return tuple(model for model in models(kind) if model.order)
+
+
+def resolutions_of(model: Model, scene: Scene) -> tuple[int, ...]:
+    """Return the series of a model, and a finer resolution if it runs in this process."""
+    series = model.resolutions_of(scene)
+    return series if model.outside else (*series, FINEST_FACTOR * max(series))
+
+
+def refine(kind: str, seeds: list[int], out: Path, advance: Callable[[str], None]) -> None:
+    """Solve what the file lacks, and append it."""
+    path = path_of(out, kind)
+    known = read(path)
+    for seed in seeds:
+        scene = drawn(kind, seed)
+        for model in refined(kind):
+            advance(f"{kind} {seed}, {model.name}")
+            if (seed, model.name) in known or not model.available().available:
+                continue
+            values = {resolution: _values(model, scene, resolution) for resolution in resolutions_of(model, scene)}
+            with path.open("a", encoding="utf-8") as file:
+                file.write(json.dumps(asdict(Refinement(kind=kind, seed=seed, model=model.name, values=values))) + "\n")
+
+
+def _values(model: Model, scene: Scene, resolution: int) -> dict[str, float]:
+    try:
+        result = model.solve(scene, Request(resolution=resolution))
+    except (ConvergenceError, InputError):
+        return {}
+    return {name: quantity.value for name, quantity in result.quantities.items()}

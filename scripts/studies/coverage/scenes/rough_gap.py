@@ -1,0 +1,61 @@
+"""Random rough gaps between ridges: sums of waves, valleys and plateaus on one wall or on both, at a negligible Re."""
+
+import numpy as np
+from numpy.random import Generator
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.units import with_unit
+from scripts.studies.coverage.surfaces import stored
+from scripts.studies.random_entries import Entries, between, chance, length
+
+MEAN_GAP = 10e-6
+"""Mean gap, m; only ratios of lengths matter."""
+
+POINTS = 128
+"""Number of points along a period."""
+
+HIGHEST_WAVE = 12
+"""Number of the shortest wave of a period."""
+
+
+def draw(rng: Generator) -> Entries:
+    """Return a gap with ridges across x, 1.5 to 60 mean gaps long, at least 0.12 of the mean gap apart."""
+    period = MEAN_GAP * between(rng, 1.5, 60)
+    lower, upper = _profile(rng), _profile(rng) * rng.uniform(0.2, 1) * (0.0 if chance(rng, 0.6) else 1.0)
+    amplitude = rng.uniform(0.03, 0.88) * MEAN_GAP / float(-(upper - lower).min())
+    geometry = {**_wall(lower * amplitude, period), "mean_gap": length(MEAN_GAP)}
+    if np.ptp(upper) > 0:
+        geometry["upper"] = _wall(upper * amplitude, period)
+    return {
+        "geometry": geometry,
+        "lubricant": {"viscosity": "10 mPa*s", "density": "870 kg/m^3"},
+        "flow": {"reynolds_number": 1e-3},
+    }
+
+
+def _profile(rng: Generator) -> Array:
+    """Return heights of one period with mean 0, of waves up to ``HIGHEST_WAVE`` alone, shape (POINTS,)."""
+    x = 2 * np.pi * np.arange(POINTS) / POINTS
+    shape = rng.integers(4)
+    if shape == 0:
+        heights = np.cos(x)
+    elif shape == 1:
+        orders = np.arange(1, int(rng.integers(2, 7)))
+        sizes = rng.normal(size=orders.size) * orders ** -rng.uniform(0, 1.5)
+        heights = sizes @ np.cos(orders[:, None] * x + rng.uniform(0, 7, (orders.size, 1)))
+    elif shape == 2:
+        heights = rng.choice([-1, 1]) * np.exp(rng.uniform(1, 4) * (np.cos(x) - 1))
+    else:
+        heights = np.tanh(rng.uniform(1, 2.5) * np.cos(x))
+    waves = np.fft.rfft(heights)
+    waves[[0, *range(HIGHEST_WAVE + 1, waves.size)]] = 0
+    kept = np.fft.irfft(waves, POINTS)
+    return np.asarray(kept / np.abs(kept).max())
+
+
+def _wall(heights: Array, period: float) -> Entries:
+    step = period / POINTS
+    return {
+        "surface": str(stored(np.repeat(heights[:, None], 2, axis=1))),
+        "spacing": [with_unit(step, "m"), with_unit(4 * step, "m")],
+    }

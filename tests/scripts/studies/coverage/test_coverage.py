@@ -1,0 +1,124 @@
+"""How answers are judged, on made-up ones; and a sample of the study, whose truths are stored beside this file.
+
+The stored truths are lines of the file that ``python -m scripts.studies.coverage --out OUT --kinds pocket`` writes.
+"""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from roughfilm.rom.ladder.scene import read_scene, scene_entries
+from scripts.studies.coverage.answering import answers
+from scripts.studies.coverage.drawing import drawn, part_of, seeds
+from scripts.studies.coverage.judge import EXPECTED, UNCERTAINTY, Finding, advice_scores, coverage, findings, silences
+from scripts.studies.coverage.store import Advised, Answer, Judged, append, path_of, read
+from scripts.studies.coverage.truth import kinds_with_truth
+from scripts.studies.study import plain
+
+STORED = Path(__file__).parent
+
+
+def finding(error, *, stated=1.0, doubt=0.0, warned=False):
+    return Finding(
+        kind="pocket",
+        seed=20000,
+        model="film",
+        quantity="load_plus",
+        promise=EXPECTED,
+        value=100 + error,
+        true=100.0,
+        doubt=doubt,
+        stated=stated,
+        warned=warned,
+    )
+
+
+def case(**answer):
+    values = {"load_plus": 2.1, "friction_plus": 3.0, "pressure_max_plus": 10.0, "pressure_min_plus": -5.0}
+    truth = {name: (value, 1e-3) for name, value in {**values, "load_plus": 2.0}.items()}
+    return Judged(kind="pocket", seed=20000, scene={}, truth=truth, models={"film": Answer(values=values, **answer)})
+
+
+def test_seeds_to_fit_and_to_check_alternate():
+    assert [part_of(seed) for seed in seeds(4)] == ["fit", "check", "fit", "check"]
+    assert len(set(seeds(1000))) == 1000
+
+
+@pytest.mark.parametrize("kind", kinds_with_truth())
+def test_a_seed_is_one_scene(kind):
+    entries = scene_entries(drawn(kind, 20001))
+    assert entries == scene_entries(drawn(kind, 20001))
+    assert entries != scene_entries(drawn(kind, 20002))
+
+
+def test_answers_are_kept_missed_or_undecided():
+    found = [
+        finding(0.5),
+        finding(2.0),
+        finding(3.5),
+        finding(3.5, warned=True),
+        finding(0.9, doubt=0.5),
+        finding(0.2, doubt=0.5),
+        finding(3.2, doubt=0.5),
+    ]
+    (row,) = coverage(found)
+    assert (row.judged, row.kept, row.undecided, row.misleading) == (6, 2, 1, 1)
+    assert row.verdict == "short"
+    assert row.width == pytest.approx((1 / 2 + 1 / 3.2) / 2)
+
+
+def test_bars_that_are_too_wide_are_named():
+    assert coverage([finding(0.01) for _ in range(50)])[0].verdict == "wide"
+    assert coverage([finding(0.5) for _ in range(50)])[0].verdict == "met"
+    assert coverage([finding(0.5)] * 95 + [finding(1.5)] * 5)[0].verdict == "met"
+
+
+def test_an_expected_error_is_relative_and_added_to_the_uncertainty():
+    (found,) = findings([case(expected_error={"load_plus": 0.04}, uncertainty={"load_plus": 0.01})])
+    assert (found.promise, found.stated, found.kept) == (EXPECTED, pytest.approx(0.09), False)
+
+
+def test_an_uncertainty_is_judged_by_the_exact_solution_of_the_models_own_equations():
+    one = case(expected_error={"load_plus": 0.06}, uncertainty={"load_plus": 0.01})
+    one = replace(one, own={"film": {"load_plus": (2.105, 1e-4)}})
+    found = {each.promise: each for each in findings([one])}
+    assert found[UNCERTAINTY].error == pytest.approx(0.005)
+    assert found[UNCERTAINTY].kept
+    assert found[EXPECTED].stated == pytest.approx(0.13)
+
+
+def test_answers_that_state_nothing_are_counted():
+    assert [(one.quantity, one.silent) for one in silences([case()])] == [("load_plus", 1), ("friction_plus", 1)]
+    assert silences([case(warnings=("beyond the range",))]) == []
+
+
+def test_advice_is_kept_missed_or_refused():
+    common = {"quantity": "load_plus", "within": 0.02, "best_cpu_s": 1.0}
+    advice = (
+        Advised(**common, model="film", value=2.01, cpu_s=0.1),
+        Advised(**common, model="film", value=2.06, cpu_s=0.2),
+        Advised(**common),
+    )
+    (score,), misses = advice_scores([replace(case(), advice=advice)])
+    assert (score.judged, score.kept, score.refused, score.cost) == (2, 1, 1, 0.1)
+    assert [one.value for _, one, _ in misses] == [2.06]
+
+
+def test_the_store_gives_back_what_was_written_and_leaves_out_a_line_that_was_cut(tmp_path):
+    path = path_of(tmp_path, "pocket")
+    one = replace(case(warnings=("a",)), advice=(Advised(quantity="load_plus", within=0.02),))
+    append(path, replace(one, method="old"))
+    append(path, one)
+    with path.open("a", encoding="utf-8") as file:
+        file.write('{"kind": "pocket", "se')
+    assert plain(read(path)[20000]) == plain(one)
+
+
+def test_a_sample_of_pockets_is_covered():
+    found = [replace(one, models=answers(read_scene(one.scene))) for one in read(path_of(STORED, "pocket")).values()]
+    assert len(found) >= 10
+    judged = [one for one in findings(found) if one.decided]
+    assert judged
+    assert not [one for one in judged if one.misleads]
+    assert sum(one.kept for one in judged) >= 0.8 * len(judged)

@@ -1,0 +1,47 @@
+"""Random scenes of the study: what they promise to contain, and that a seed is one scene."""
+
+from collections import Counter
+
+import numpy as np
+import pytest
+
+from roughfilm.rom.ladder.scene import scene_entries
+from scripts.studies.coverage.drawing import drawn
+from scripts.studies.coverage.scenes.bearing import SHAPES
+from scripts.studies.coverage.scenes.rough_gap import RIDGE_POINTS, ridges
+
+COUNT = 60
+
+
+@pytest.fixture(scope="module")
+def bearings():
+    return [drawn("bearing", seed) for seed in range(20000, 20000 + COUNT)]
+
+
+def test_bearings_have_every_shape_texture_and_feed(bearings):
+    assert Counter(one.geometry.shape for one in bearings).keys() == set(SHAPES)
+    textured = [one.geometry.texture for one in bearings if getattr(one.geometry, "texture", None)]
+    assert {one.profile for one in textured} == {"box", "cylindrical", "ellipsoidal"}
+    thetas = [one.boundary.inlet.theta for one in bearings if one.boundary.inlet.theta is not None]
+    assert min(thetas) < 0.5
+    assert max(one.geometry.eccentricity for one in bearings if one.geometry.shape == "journal") > 0.9
+    assert {one.roughness.kind for one in bearings if one.roughness} == {"sinusoid", "surface"}
+    assert any(one.motion.speed < 0 for one in bearings)
+
+
+@pytest.mark.parametrize("kind", ["bearing", "dry_contact", "seal", "rough_gap"])
+def test_a_seed_is_one_scene(kind):
+    first, again, other = (scene_entries(drawn(kind, seed)) for seed in (20003, 20003, 20004))
+    assert first == again
+    assert first != other
+
+
+def test_rough_gaps_are_open_and_pressed_with_one_rough_wall_or_two():
+    gaps = [drawn("rough_gap", seed) for seed in range(20000, 20015)]
+    assert {one.load is None for one in gaps} == {True, False}
+    assert {one.geometry.upper is None for one in gaps} == {True, False}
+
+
+def test_ridges_run_across_the_flow_or_along_it():
+    shapes = {ridges(np.random.default_rng(seed)).shape for seed in range(12)}
+    assert shapes == {RIDGE_POINTS, RIDGE_POINTS[::-1]}
