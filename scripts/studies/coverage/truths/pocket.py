@@ -9,18 +9,19 @@ from scripts.studies.coverage.finite_elements.wall import Groove, Wall
 from scripts.studies.coverage.truth import Truth
 
 LEVELS: tuple[float, ...] = (0.7, 1.0, 1.4)
-"""Levels of the meshes; the last one is taken where the first two differ by more than TARGET."""
+"""Levels of the meshes; the last one is taken where the first two differ by more than ``TARGET``."""
 
 TARGET = 3e-3
-"""Uncertainty of load over load, but at least over LEAST_LOAD times the largest pressure, that is good enough."""
+"""Difference of the loads of two meshes over the load that is good enough."""
 
 LEAST_LOAD = 0.05
+"""Load over the largest pressure below which that difference is taken over this share of the pressure."""
 
 FRICTION_FLOOR = 4e-6
 """Uncertainty of friction over friction, besides the difference of the two meshes."""
 
 LOAD_FLOOR = 3e-6
-"""Uncertainty of load over the largest pressure, besides the difference of two meshes, of a level wall at Re = 0."""
+"""Uncertainty of load over the largest pressure at Re = 0 and a small slope, besides the difference of the meshes."""
 
 LOAD_FLOOR_BY_INERTIA = 6e-7
 """Increase of that floor with Re."""
@@ -66,11 +67,9 @@ def truth(scene: Pocket) -> Truth:
     """
     coarse, fine = (forces_on(scene, level) for level in LEVELS[:2])
     levels = LEVELS[:2]
-    uncertainty = uncertainties(scene, coarse, fine)
-    if uncertainty["load"] > TARGET * max(abs(fine.load), LEAST_LOAD * fine.largest_pressure):
+    if abs(fine.load - coarse.load) > TARGET * max(abs(fine.load), LEAST_LOAD * fine.largest_pressure):
         coarse, fine, levels = fine, forces_on(scene, LEVELS[2]), LEVELS
-        uncertainty = uncertainties(scene, coarse, fine)
-    plus = scene.plus_factor
+    uncertainty, plus = uncertainties(scene, coarse, fine), scene.plus_factor
     return Truth(
         values={f"{name}_plus": getattr(fine, name) * plus for name in uncertainty},
         uncertainty={f"{name}_plus": one * plus for name, one in uncertainty.items()},
