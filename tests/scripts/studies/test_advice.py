@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scripts.studies.coverage.laws_file import write_table
 
 from roughfilm.ladder import find, models
 from roughfilm.rom.advice.advise import advise
@@ -14,7 +15,6 @@ from scripts.studies.advice.check import Trial, score, tried
 from scripts.studies.advice.fit import SolvedScene, cases, fitted
 from scripts.studies.advice.runs import PARTS, DrawnScene, Run
 from scripts.studies.advice.scenes import DRAWN, random_scene
-from scripts.studies.coverage.laws_file import write_table
 
 
 def test_seeds_to_fit_and_to_check_are_apart():
