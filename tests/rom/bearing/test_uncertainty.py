@@ -10,8 +10,8 @@ from places import SCENES
 from roughfilm.ladder import find
 from roughfilm.rom.bearing.quantities import film_ends
 from roughfilm.rom.bearing.uncertainty import (
+    COARSE_SAFETY_FACTOR,
     GRID_SAFETY_FACTOR,
-    TWO_GRIDS_SAFETY_FACTOR,
     grid_uncertainty,
     observed_order,
 )
@@ -41,6 +41,8 @@ def test_the_uncertainty_of_a_known_order_is_the_safety_factor_times_the_error(o
     assert observed_order(CELLS[:3], [7 + error for error in errors[:3]]) == pytest.approx(order, abs=1e-6)
     found = grid_uncertainty(CELLS, [7 + error for error in errors])
     assert found == pytest.approx(GRID_SAFETY_FACTOR * errors[0], rel=1e-6)
+    found = grid_uncertainty([n / 4 for n in CELLS], [7 + error for error in errors])
+    assert found == pytest.approx(COARSE_SAFETY_FACTOR * errors[0], rel=1e-6)
 
 
 def test_values_that_oscillate_or_settle_slowly_have_the_lowest_order() -> None:
@@ -49,7 +51,7 @@ def test_values_that_oscillate_or_settle_slowly_have_the_lowest_order() -> None:
     assert observed_order(CELLS[:3], [1.0, 1.0, 1.3]) == 1.0
     assert observed_order(CELLS[:3], [1.0, 1.01, 1.5]) == 2.0
     assert grid_uncertainty(CELLS, [1.0, 1.0, 1.0, 1.0]) == 0.0
-    assert grid_uncertainty(CELLS[:2], [1.0, 1.3]) == pytest.approx(TWO_GRIDS_SAFETY_FACTOR * 0.3 / 0.6)
+    assert grid_uncertainty(CELLS[:2], [1.0, 1.3]) == pytest.approx(COARSE_SAFETY_FACTOR * 0.3 / 0.6)
 
 
 @pytest.mark.parametrize("cells", [32, 64, 128, 256, 512])
