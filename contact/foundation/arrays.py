@@ -22,6 +22,6 @@ def unmasked(place: str, values: ArrayLike) -> NDArray[Any]:
     InputError
         If values are masked (``numpy.ma``): they are unknown, and the numbers under the mask mean nothing.
     """
-    if isinstance(values, np.ma.MaskedArray) and (count := np.ma.count_masked(values)):
+    if isinstance(values, np.ma.MaskedArray) and (count := np.count_nonzero(np.ma.getmaskarray(values))):
         raise InputError(f"{place}: {count} of {values.size} points are masked; fill them first")
     return np.asarray(values)

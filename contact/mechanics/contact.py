@@ -85,7 +85,7 @@ class Contact:
         p, u = self.pressure, self.elastic_displacement
         gap, behind = np.roll(self.gap, shift, axis), np.roll(p, -shift, axis)
         step = (gap > STEP_GAP * (u - np.roll(u, shift, axis))) & (behind > 0) & (p >= STEP_PRESSURE * behind)
-        return (np.roll(p, shift, axis) == 0) & ~step
+        return np.asarray((np.roll(p, shift, axis) == 0) & ~step)
 
     @property
     def plastic_fraction(self) -> float:

@@ -71,11 +71,11 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
         values["side_leakage"] = (flows.side_leakage, "m^3/s")
         values["side_leakage_low"] = (flows.low, "m^3/s")
         values["side_leakage_high"] = (flows.high, "m^3/s")
-    for end, flow in (("inlet", flows.inlet), ("outlet", flows.outlet)):
+    for name, flow in (("inlet_flow", flows.inlet), ("outlet_flow", flows.outlet)):
         if flow is not None:
-            values[f"{end}_flow_per_width"] = (flow / width, "m^2/s")
+            values[f"{name}_per_width"] = (flow / width, "m^2/s")
         if flow is not None and not solution.problem.shape.wide:
-            values[f"{end}_flow"] = (flow, "m^3/s")
+            values[name] = (flow, "m^3/s")
     if load > MIN_MEAN_PRESSURE_RATIO * float(grid.areas.sum()) * float(np.abs(force / grid.areas).max()):
         values["friction_coefficient"] = (resistance / load, "1")
     return {name: Quantity(value=value, unit=unit) for name, (value, unit) in values.items()}
@@ -91,7 +91,15 @@ def _filled_fraction(solution: Solution) -> Array:
     """The filled fraction of each node according to the flow out of it."""
     mean, rough = solution.faces.mean, solution.faces.averaged
     thickness = solution.faces.thickness if rough is None else rough.drag
-    return np.asarray(solution.state.fill * np.where(mean > 0, mean, thickness) / thickness)
+    return np.asarray(_carried(solution) * np.where(mean > 0, mean, thickness) / thickness)
+
+
+def _carried(solution: Solution) -> Array:
+    """ξ of each node, in cavities the flow out of the node over that through the whole face full of liquid."""
+    mean, fill = solution.faces.mean, solution.state.fill
+    parts = solution.faces.parts[0, : len(solution.network.part_couette)]
+    share = np.divide(np.minimum(mean, parts.min(axis=0, initial=np.inf)), mean, out=np.ones_like(mean), where=mean > 0)
+    return np.where(solution.kind == CAVITY, share * fill, fill)
 
 
 def friction(solution: Solution) -> float:
@@ -100,7 +108,7 @@ def friction(solution: Solution) -> float:
     fluidity = problem.piezoviscosity.fluidity(solution.state.pressure, problem.viscosity)[0]
     stretch = grid.spacing_x[:, None] * grid.radius
     speed = problem.speed * (grid.radius if problem.shape.polar else 1.0)
-    fill = solution.state.fill
+    fill = _carried(solution)
     if problem.ends.sides is not None:  # the outermost lines belong to the bath
         fill = np.pad(fill[:, 1:-1], ((0, 0), (1, 1)), mode="edge")
     rough = solution.faces.averaged
@@ -130,11 +138,13 @@ def flow_along(solution: Solution) -> Array:
     """The flow through the faces towards i + 1 at cavitation density, m³/s (m²/s if wide), shape (nx, ny)."""
     net, state = solution.network, solution.state
     excess = solution.problem.compression(state.pressure)[0]
-    east = net.conductance(solution.problem.mobility(state.pressure)[0])[0]
+    mobility = solution.problem.mobility(state.pressure)[0]
+    east = net.conductance(mobility)[0]
     ahead = np.roll(excess, -1, axis=0)
     drift = net.couette * (state.fill + net.upstream * excess + (1 - net.upstream) * ahead)
     rise = np.roll(state.pressure, -1, axis=0) - state.pressure
-    return np.asarray(drift - east * rise + (0.0 if net.oblique is None else _oblique_flows(solution)[0]))
+    flow = net.least_flow(drift - east * rise, state, excess, mobility)
+    return np.asarray(flow + (0.0 if net.oblique is None else _oblique_flows(solution)[0]))
 
 
 def _oblique_flows(solution: Solution) -> tuple[Array, Array]:

@@ -63,7 +63,9 @@ def _got(value: float | None) -> str:
 
 
 def pocketed(shape: Shape, texture: Texture) -> Shape:
-    """The shape of the film with the depth of the pockets added, and a break at both ends of each column.
+    """The shape of the film with the depth of the pockets added.
+
+    Both ends of each column are breaks, and so are both sides of each row unless the pockets are ellipsoidal.
 
     Raises
     ------
@@ -82,12 +84,23 @@ def pocketed(shape: Shape, texture: Texture) -> Shape:
         rows = (texture.rows - 1) * (texture.pitch_across or 0.0) + texture.width
         if shape.wide or rows > (shape.across[1] - shape.across[0]) * (1 + 1e-9):
             raise ValueError(f"geometry.texture: its rows take {rows:.6g} m; give the film a width of at least that")
+    sides = [] if texture.profile == "ellipsoidal" else [side for row in _rows(texture, shape.across) for side in row]
     return replace(
         shape,
+        steps_across=_distinct(sides, *shape.across, 1e-9 * (shape.across[1] - shape.across[0]))[1:-1],
         breaks=_distinct(breaks, low, high, slack),
         finest=(min(shape.finest[0], texture.length), shape.finest[1] if texture.width is None else texture.width),
         thickness=lambda x, y: shape.thickness(x, y) + _depth(texture, shape.across, x, y),
     )
+
+
+def _rows(texture: Texture, across: tuple[float, float]) -> list[tuple[float, float]]:
+    """The lowest and the highest y of each row, m; no rows of pockets over the whole width."""
+    if texture.width is None:
+        return []
+    pitch = texture.pitch_across or texture.width
+    first = (sum(across) - (texture.rows - 1) * pitch - texture.width) / 2
+    return [(first + number * pitch, first + number * pitch + texture.width) for number in range(texture.rows)]
 
 
 def _distinct(places: list[float], low: float, high: float, slack: float) -> tuple[float, ...]:
@@ -102,8 +115,7 @@ def _depth(texture: Texture, across: tuple[float, float], x: Array, y: Array) ->
         beside = np.zeros_like(along)
     else:
         pitch = texture.pitch_across or texture.width
-        rows = (texture.rows - 1) * pitch + texture.width
-        beside, between = _in_pocket(y - (sum(across) - rows) / 2, texture.width, pitch, texture.rows)
+        beside, between = _in_pocket(y - _rows(texture, across)[0][0], texture.width, pitch, texture.rows)
         inside = inside & between
     if texture.profile == "box":
         floor = np.ones_like(along)

@@ -17,6 +17,9 @@ ORDERS = (1.0, 2.0)
 GRID_SAFETY_FACTOR = 1.5
 """Uncertainty over the largest of the errors that differences to coarser grids give."""
 
+TWO_GRIDS_SAFETY_FACTOR = 3.0
+"""The same with a single difference, which may be small by chance."""
+
 MAX_GRID_RATIO = 0.75
 """Cells of a grid over those of the next finer one, up to which their difference is used."""
 
@@ -60,8 +63,9 @@ def grid_uncertainty(cells: Sequence[float], values: Sequence[float]) -> float:
     """The uncertainty of a value on a grid from those on coarser grids, in the unit of the values.
 
     With an error C h^p, the difference to a grid with the cells n_k instead of n is the error times (n/n_k)^p - 1. The
-    uncertainty is ``GRID_SAFETY_FACTOR`` times the largest error that any of the differences gives. The order p is the
-    smallest observed on three successive grids, within ``ORDERS``; values that oscillate have the lowest order.
+    uncertainty is a safety factor times the largest error that any of the differences gives. The order p is the
+    smallest observed on three successive grids, within ``ORDERS``; values that oscillate, and two grids, have the
+    lowest order.
 
     Parameters
     ----------
@@ -72,8 +76,8 @@ def grid_uncertainty(cells: Sequence[float], values: Sequence[float]) -> float:
     """
     triples = range(len(values) - 2)
     order = min((observed_order(cells[n : n + 3], values[n : n + 3]) for n in triples), default=ORDERS[0])
-    errors = (abs(values[0] - values[n]) / ((cells[0] / cells[n]) ** order - 1) for n in range(1, len(values)))
-    return GRID_SAFETY_FACTOR * max(errors)
+    errors = [float(abs(values[0] - values[n]) / ((cells[0] / cells[n]) ** order - 1)) for n in range(1, len(values))]
+    return (GRID_SAFETY_FACTOR if len(errors) > 1 else TWO_GRIDS_SAFETY_FACTOR) * max(errors)
 
 
 def observed_order(cells: Sequence[float], values: Sequence[float]) -> float:
@@ -85,7 +89,7 @@ def observed_order(cells: Sequence[float], values: Sequence[float]) -> float:
     def excess(order: float) -> float:
         """A number below zero if the differences decrease with a higher order than this."""
         h0, h1, h2 = (n**-order for n in cells)
-        return last * (h2 - h1) - before * (h1 - h0)
+        return float(last * (h2 - h1) - before * (h1 - h0))
 
     sign = math.copysign(1.0, before)
     if last * before <= 0 or sign * excess(ORDERS[0]) >= 0:
@@ -106,4 +110,4 @@ def grid_sequence(solution: Solution) -> tuple[Solution, ...]:
 def cells_of(solution: Solution) -> float:
     """The number of cells along a side, in the plane the geometric mean of both sides."""
     sides = [count for count in solution.grid.shape if count > 1]
-    return math.prod(sides) ** (1 / len(sides))
+    return float(math.prod(sides) ** (1 / len(sides)))

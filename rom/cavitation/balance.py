@@ -28,7 +28,7 @@ def slope_of_mean(first, second, between):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def linearise(couette, upstream, east, north, storage, stored, supply, periodic_x, periodic_y, kind, pressure, fill, excess, excess_slope, mobility, mobility_slope, balance, centre, to_west, to_east, to_south, to_north):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
+def linearise(couette, upstream, east, north, part_couette, part_east, storage, stored, supply, periodic_x, periodic_y, kind, pressure, fill, excess, excess_slope, mobility, mobility_slope, balance, centre, to_west, to_east, to_south, to_north):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
     """Compute outflow minus inflow of every node, and its derivatives by the unknowns of the node and its neighbours.
 
     Rows of nodes without an unknown become 1 · change = 0. Returns the largest flow through a face.
@@ -51,7 +51,6 @@ def linearise(couette, upstream, east, north, storage, stored, supply, periodic_
             a, b = mobility[i, j], mobility[k, j]
             phi = mean(a, b)
             flow = c * (fill[i, j] + w * excess[i, j] + (1.0 - w) * excess[k, j]) - g * phi * rise
-            largest = max(largest, abs(flow))
             by_left = by_right = 0.0
             if kind[i, j] == FILM:
                 by_left = (
@@ -62,6 +61,19 @@ def linearise(couette, upstream, east, north, storage, stored, supply, periodic_
             if kind[k, j] == FILM:
                 by_right = c * (1.0 - w) * excess_slope[k, j] - g * phi
                 by_right -= g * slope_of_mean(b, a, phi) * mobility_slope[k, j] * rise
+            for part in range(part_couette.shape[0]):
+                c, g = part_couette[part, i, j], part_east[part, i, j]
+                phi = mean(a, 1.0)
+                least = c * (fill[i, j] + w * excess[i, j]) + g * phi * pressure[i, j]
+                if least < flow:
+                    flow = least
+                    by_left = by_right = 0.0
+                    if kind[i, j] == FILM:
+                        by_left = c * w * excess_slope[i, j] + g * phi
+                        by_left += g * slope_of_mean(a, 1.0, phi) * mobility_slope[i, j] * pressure[i, j]
+                    elif kind[i, j] == CAVITY:
+                        by_left = c
+            largest = max(largest, abs(flow))
             balance[i, j] += flow
             balance[k, j] -= flow
             centre[i, j] += by_left
@@ -106,6 +118,17 @@ def conduct(east, north, mobility, periodic_x, periodic_y, to_east, to_north):  
             to_east[i, j] = east[i, j] * mean(mobility[i, j], mobility[k, j]) if k or periodic_x else 0.0
             k_north = j + 1 if j + 1 < ny else 0
             to_north[i, j] = north[i, j] * mean(mobility[i, j], mobility[i, k_north]) if k_north or periodic_y else 0.0
+
+
+@compiled
+def rupture(part_couette, part_east, upstream, pressure, fill, excess, mobility, flow):  # type: ignore[no-untyped-def]
+    """Replace the flow of each face towards i + 1 by the least that a film rupturing inside the face carries."""
+    for part in range(part_couette.shape[0]):
+        for i in range(flow.shape[0]):
+            for j in range(flow.shape[1]):
+                least = part_couette[part, i, j] * (fill[i, j] + upstream[i, j] * excess[i, j])
+                least += part_east[part, i, j] * mean(mobility[i, j], 1.0) * pressure[i, j]
+                flow[i, j] = min(flow[i, j], least)
 
 
 @compiled

@@ -20,6 +20,9 @@ GAUSS = (-0.5 / sqrt(3), 0.5 / sqrt(3))
 QUARTERS = (0.25, 0.75)
 """Positions across a control volume at which a face is sampled, so that a step at a node counts on both sides."""
 
+PARTS = (0.25, 0.5, 0.75)
+"""Parts of a face along the flow, from its upstream node, after which a film may rupture; they are evenly spaced."""
+
 AROUND = (-0.25, 0.25)
 """Positions along the flow at which faces across it are sampled, in spacings before and behind a node."""
 
@@ -48,12 +51,14 @@ class Faces:
     ``thickness`` is that of the nodes, m; ``mean`` = <h⁻²>/<h⁻³> between (i, j) and (i+1, j) is the thickness of a
     uniform film with the same Couette flow; ``east`` and ``north`` are <h⁻³>⁻¹, m³, towards i+1 and j+1. With averaged
     roughness 1/A₁₁ and 1/A₂₂ replace h⁻³, B₁/A₁₁ replaces h⁻², and ``averaged`` holds the remaining coefficients.
+    ``parts`` are ``mean`` and ``east`` of the first parts of the faces, ``PARTS`` of them, shape (2, parts, nx, ny).
     """
 
     thickness: Array
     mean: Array
     east: Array
     north: Array
+    parts: Array
     averaged: Averaged | None = None
 
 
@@ -66,6 +71,7 @@ def faces(shape: Shape, grid: Grid) -> Faces:
     strips = [y] if ny == 1 else [begins + part * grid.volume_y for part in QUARTERS]
     for part in BESIDE:
         thickness += shape.thickness(*np.broadcast_arrays(x + _towards(grid, part), y)) / len(BESIDE)
+    parts = np.zeros((2, len(PARTS), nx, ny))
     last = nx if grid.spacing_x[-1] else nx - 1
     dx, x = grid.spacing_x[:last, None], grid.x[:last, None]
     for strip in strips:
@@ -76,6 +82,14 @@ def faces(shape: Shape, grid: Grid) -> Faces:
             cubed += cube
         mean[:last] += squared / cubed / len(strips)
         east[:last] += len(GAUSS) / cubed / len(strips)
+        squared, cubed = np.zeros((last, ny)), np.zeros((last, ny))
+        for number, part in enumerate(PARTS):
+            middle = x + (part - PARTS[0] / 2) * dx
+            square, cube = _resistance(shape, *np.broadcast_arrays(middle, strip))
+            squared += square * PARTS[0]
+            cubed += cube * PARTS[0]
+            parts[0, number, :last] += squared / cubed / len(strips)
+            parts[1, number, :last] += 1 / cubed / len(strips)
     if ny > 1:
         last = ny if grid.spacing_y[-1] else ny - 1
         dy, y = grid.spacing_y[:last], grid.y[:last]
@@ -86,7 +100,7 @@ def faces(shape: Shape, grid: Grid) -> Faces:
                 cubed += _resistance_across(shape, *place)
             north[:, :last] += len(GAUSS) / cubed / len(AROUND)
     rough = None if shape.roughness is None else averaged(shape, shape.roughness, grid)
-    return Faces(thickness=thickness, mean=mean, east=east, north=north, averaged=rough)
+    return Faces(thickness=thickness, mean=mean, east=east, north=north, parts=parts, averaged=rough)
 
 
 def _resistance(shape: Shape, x: Array, y: Array) -> tuple[Array, Array]:
@@ -149,7 +163,11 @@ def network(
         north = faces.north * grid.volume_x[:, None] * towards / (12 * viscosity * grid.spacing_y)
         east[faces.east == 0] = north[faces.north == 0] = 0
         upstream = np.maximum(0.5, 1 - east / (couette * compressibility))
+        part_east = faces.parts[1] * grid.volume_y / (12 * viscosity * grid.radius * grid.spacing_x[:, None])
+        part_east[faces.parts[1] == 0] = 0
     upstream[couette * compressibility == 0] = 0.5
+    count = len(PARTS) if ruptures else 0
+    part_couette, part_east = 0.5 * speed * across * faces.parts[0, :count], part_east[:count]
     fixed, pressure = np.zeros((nx, ny), dtype=bool), np.zeros((nx, ny))
     supply = None
     if grid.spacing_x[-1] == 0:
@@ -181,6 +199,8 @@ def network(
         supply=supply,
         fixed=fixed,
         pressure=pressure,
+        part_couette=part_couette,
+        part_east=part_east,
         storage=grid.areas * faces.thickness / step,
         stored=grid.areas * stored / step,
         periodic=(bool(grid.spacing_x[-1]), bool(grid.spacing_y[-1])),

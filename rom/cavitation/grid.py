@@ -43,7 +43,8 @@ def grid(shape: Shape, cells: tuple[int, int]) -> Grid:
     An infinitely wide film has one node in y.
     """
     x = _along(shape.breaks, cells[0])
-    y = np.array([np.mean(shape.across)]) if shape.wide else np.linspace(*shape.across, cells[1] + 1)
+    low, high = shape.across
+    y = np.array([(low + high) / 2]) if shape.wide else _along((low, *shape.steps_across, high), cells[1])
     x, spacing_x, volume_x = _volumes(x, periodic=shape.joined[0])
     y, spacing_y, volume_y = _volumes(y, periodic=shape.joined[1]) if not shape.wide else (y, np.zeros(1), np.ones(1))
     return Grid(

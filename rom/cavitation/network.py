@@ -1,14 +1,14 @@
 """The discretised film: nodes that hold lubricant, and faces through which it flows."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any, TypeVar
+from dataclasses import dataclass, field, replace
+from typing import Any, Self, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.cavitation.balance import conduct, linearise
+from roughfilm.rom.cavitation.balance import conduct, linearise, rupture
 from roughfilm.rom.cavitation.oblique import Oblique
 
 Values = TypeVar("Values", bound=NDArray[Any])
@@ -24,9 +24,17 @@ class Network:
         F = C (ξ_i + ω ϑ_i + (1 - ω) ϑ_(i+1)) - K φ (p_(i+1) - p_i),
 
     in m³/s at the density of the cavitation pressure, where φ is the logarithmic mean of (1 + ϑ) η0/η of the two nodes.
-    The flow towards (i, j+1) has only the second term. The filling fraction is taken upstream, the compression from
-    both sides: F is continuous where a film begins or ends, and second-order accurate inside it. An oblique lay adds
-    the flows of :class:`roughfilm.rom.cavitation.oblique.Oblique`.
+    A film that ruptures between the nodes, after a part s of the face, carries
+
+        F_s = C_s (ξ_i + ω ϑ_i) + K_s φ p_i
+
+    whatever the pressure behind the rupture is, with C_s and K_s of that part and φ of p_i and the cavitation pressure.
+    It ruptures where it carries least, as p >= 0 and θ <= 1 on both sides of a rupture: the flow is the least of F and
+    all F_s. The flow towards (i, j+1) has only the second term.
+
+    The filling fraction is taken upstream, the compression from both sides: F is continuous where a film begins or
+    ends, and second-order accurate inside it. An oblique lay adds the flows of
+    :class:`roughfilm.rom.cavitation.oblique.Oblique`.
 
     Attributes
     ----------
@@ -35,6 +43,8 @@ class Network:
     east, north : K of the faces towards i+1 and j+1, m³/(Pa s); for the last i or j only if periodic.
     supply : flow from the inlet into the nodes i = 0, m³/s, shape (ny,); None if these are fixed, or x is periodic.
     fixed : nodes whose ``pressure``, Pa, is given.
+    part_couette, part_east : C_s and K_s of each part of the faces towards i+1, shape (parts, nx, ny); no parts where
+        films do not rupture inside a face.
     storage : volume over time step, m³/s; zero in steady flow.
     stored : volume times θ of the step before, over the time step, m³/s.
     periodic : whether i is periodic, and j.
@@ -52,6 +62,8 @@ class Network:
     pressure: Array
     storage: Array
     stored: Array
+    part_couette: Array = field(default_factory=lambda: np.zeros((0, 0, 0)))
+    part_east: Array = field(default_factory=lambda: np.zeros((0, 0, 0)))
     periodic: tuple[bool, bool] = (False, False)
     oblique: Oblique | None = None
     spills: tuple[bool, bool] = (False, False)
@@ -72,6 +84,10 @@ class Network:
         nothing = np.zeros((0, 0))
         return (nothing, nothing) if self.oblique is None else (self.oblique.drift, self.oblique.threshold)
 
+    def with_whole_faces(self) -> Self:
+        """The network whose films rupture at nodes only."""
+        return replace(self, part_couette=self.part_couette[:0], part_east=self.part_east[:0])
+
     def banks(self, values: Values) -> tuple[Values, ...]:
         """Views of the values at the inlet and the spilling sides, whose nodes are never under pressure."""
         views = [] if self.supply is None else [values[0]]
@@ -85,8 +101,9 @@ class Network:
 
         ``laws`` are ϑ, dθ/dp, φ and dφ/dp at the pressure. Returns the largest flow through a face, m³/s.
         """
-        faces = (self.couette, self.upstream, self.east, self.north, self.storage, self.stored, self.supplied)
-        largest = float(linearise(*faces, *self.periodic, kind, pressure, fill, *laws, *parts))
+        faces = (self.couette, self.upstream, self.east, self.north, self.part_couette, self.part_east)
+        nodes = (self.storage, self.stored, self.supplied)
+        largest = float(linearise(*faces, *nodes, *self.periodic, kind, pressure, fill, *laws, *parts))
         if self.oblique is not None:
             balance, centre, _, _, south, north = parts
             self.oblique.linearise(kind, (pressure, fill), (laws[0], laws[1], laws[2]), (balance, centre, south, north))
@@ -97,6 +114,16 @@ class Network:
         east, north = np.empty(self.shape), np.empty(self.shape)
         conduct(self.east, self.north, mobility, *self.periodic, east, north)
         return east, north
+
+    def least_flow(self, flow: Array, state: "State", excess: Array, mobility: Array) -> Array:
+        """The least of the flow F of whole faces towards i+1, m³/s, and of the flows F_s of films that rupture in them.
+
+        ``excess`` and ``mobility`` are ϑ and φ of the state.
+        """
+        flow = flow.copy()
+        faces = (self.part_couette, self.part_east, self.upstream)
+        rupture(*faces, state.pressure, state.fill, excess, mobility, flow)
+        return flow
 
 
 @dataclass(frozen=True, kw_only=True)

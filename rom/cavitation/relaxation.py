@@ -23,7 +23,7 @@ def held(source, out, across, threshold):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def relax(couette, upstream, east, north, storage, stored, supply, periodic_x, periodic_y, drift, threshold, fixed, banks, kind, pressure, fill, excess, excess_slope, sweeps):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
+def relax(couette, upstream, east, north, part_couette, part_east, storage, stored, supply, periodic_x, periodic_y, drift, threshold, fixed, banks, kind, pressure, fill, excess, excess_slope, sweeps):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
     """Relax along the flow, with ``east`` and ``north`` the conductances Kφ, and ϑ (``excess``) linear in p.
 
     Every node takes the pressure that balances it or, if that is negative, the filling fraction: p >= 0, ξ <= 1.
@@ -45,15 +45,34 @@ def relax(couette, upstream, east, north, storage, stored, supply, periodic_x, p
                 if before >= 0:
                     c, w = couette[before, j], upstream[before, j]
                     g = east[before, j]
-                    source += c * (fill[before, j] + w * excess[before, j]) + g * pressure[before, j]
-                    drain += g
-                    weight -= c * (1.0 - w)
+                    inflow = c * (fill[before, j] + w * excess[before, j]) + g * pressure[before, j]
+                    least = inflow + c * (1.0 - w) * excess[i, j] - g * pressure[i, j]
+                    choked = False
+                    for part in range(part_couette.shape[0]):
+                        inner = part_couette[part, before, j] * (fill[before, j] + w * excess[before, j])
+                        inner += part_east[part, before, j] * pressure[before, j]
+                        if inner < least:
+                            least = inner
+                            choked = True
+                    source += least if choked else inflow
+                    if not choked:
+                        drain += g
+                        weight -= c * (1.0 - w)
                 elif supply.size:
                     source += supply[j]
                 if after >= 0:
                     c, w = couette[i, j], upstream[i, j]
                     g = east[i, j]
-                    source += g * pressure[after, j] - c * (1.0 - w) * excess[after, j]
+                    carried = g * pressure[after, j] - c * (1.0 - w) * excess[after, j]
+                    least = c * (fill[i, j] + w * excess[i, j]) + g * pressure[i, j] - carried
+                    for part in range(part_couette.shape[0]):
+                        inner = part_couette[part, i, j] * (fill[i, j] + w * excess[i, j])
+                        inner += part_east[part, i, j] * pressure[i, j]
+                        if inner < least:
+                            least = inner
+                            carried = 0.0
+                            c, g = part_couette[part, i, j], part_east[part, i, j]
+                    source += carried
                     drain += g
                     out += c
                     weight += c * w
@@ -113,6 +132,8 @@ def relaxed(network: Network, fluid: Fluid, state: State, sweeps: int) -> State:
         network.couette,
         network.upstream,
         *network.conductance(mobility),
+        network.part_couette,
+        network.part_east,
         network.storage,
         stored,
         network.supplied,

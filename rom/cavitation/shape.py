@@ -19,6 +19,7 @@ class Shape:
     thickness : thickness(x, y), vectorised; x in m, or rad where ``polar``; y in m.
     breaks : increasing positions x of the two ends and of every jump of h or its slope; each gets a node.
     across : range of y, m; it has no effect on an infinitely wide film.
+    steps_across : increasing positions y inside this range where h jumps; each gets a node.
     wide : whether the film is infinitely wide: h depends on x alone, and flow is per width.
     polar : x is an angle, rad, and y the radius, m.
     joined : whether the film is periodic in x, and in y.
@@ -30,6 +31,7 @@ class Shape:
     thickness: Thickness
     breaks: tuple[float, ...]
     across: tuple[float, float] = (0.0, 1.0)
+    steps_across: tuple[float, ...] = ()
     wide: bool = True
     polar: bool = False
     joined: tuple[bool, bool] = (False, False)

@@ -18,7 +18,7 @@ from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
 from roughfilm.rom.homogenization.gap_factors import mirrored_factors
 
-COARSEST_CELLS = 16
+COARSEST_CELLS = 10
 """Largest number of cells along a side of the coarsest grid, which starts from a full film at cavitation pressure."""
 
 LEAST_CELLS = 8

@@ -12,7 +12,7 @@ from roughfilm.rom.dry_contact.model import Answer, Task, contact_model, one
 from roughfilm.rom.dry_contact.pressures import bin_edges, density_of_contact
 from roughfilm.rom.dry_contact.scene import DryContact
 from roughfilm.rom.ladder.model import About, Applicability, Effect, Model
-from roughfilm.rom.ladder.result import Field
+from roughfilm.rom.ladder.result import Field, with_uncertainties
 
 RESIDUAL_MEANING = "largest recomputed violation of the contact conditions, relative to the rms height"
 
@@ -38,7 +38,11 @@ def _compile() -> None:
 
 
 def press(task: Task, *, plastic: bool) -> Answer:
-    """The contact of a scene, elastic unless ``plastic``."""
+    """The contact of a scene, elastic unless ``plastic``.
+
+    The uncertainty is that by the pixels; it is unknown on a coarser grid than the surface's own, which omits waves.
+    """
+    from roughfilm.contact.mechanics.discretisation import uncertainties
     from roughfilm.contact.mechanics.press import Press
 
     scene: DryContact = task.scene
@@ -46,17 +50,31 @@ def press(task: Task, *, plastic: bool) -> Answer:
     contact = Press(task.heights, task.spacing, scene.composite_modulus, hardness=hardness).at(
         scene.load.pressure, tolerance=task.tolerance
     )
-    edges = bin_edges(scene)
+    edges, mean = bin_edges(scene), scene.load.pressure / contact.area_fraction
+    beyond = np.count_nonzero(contact.pressure > scene.hardness) / contact.pressure.size
+    warnings = (
+        (
+            f"the pressure exceeds the hardness on {beyond:.3g} of the nominal area, up to "
+            f"{contact.pressure.max() / scene.hardness:.3g} times; take elastic_plastic",
+        )
+        if beyond
+        else ()
+    )
+    quantities = {
+        "area_fraction": one(contact.area_fraction),
+        "area_fraction_pixel": one(contact.area_fraction_pixel),
+        "plastic_fraction": one(contact.plastic_fraction),
+        "mean_gap": Quantity(value=contact.mean_gap, unit="m"),
+        "approach": Quantity(value=contact.approach, unit="m"),
+        "pressure_max": Quantity(value=float(contact.pressure.max()), unit="Pa"),
+        "mean_contact_pressure": Quantity(value=mean, unit="Pa"),
+    }
+    if task.heights.shape == scene.surface().shape:
+        by_pixels = uncertainties(contact)
+        by_pixels["mean_contact_pressure"] = mean * by_pixels["area_fraction"] / contact.area_fraction
+        quantities = with_uncertainties(quantities, by_pixels)
     return Answer(
-        quantities={
-            "area_fraction": one(contact.area_fraction),
-            "area_fraction_pixel": one(contact.area_fraction_pixel),
-            "plastic_fraction": one(contact.plastic_fraction),
-            "mean_gap": Quantity(value=contact.mean_gap, unit="m"),
-            "approach": Quantity(value=contact.approach, unit="m"),
-            "pressure_max": Quantity(value=float(contact.pressure.max()), unit="Pa"),
-            "mean_contact_pressure": Quantity(value=scene.load.pressure / contact.area_fraction, unit="Pa"),
-        },
+        quantities=quantities,
         fields={
             "pressure": Field(values=contact.pressure, unit="Pa"),
             "gap": Field(values=contact.gap, unit="m"),
@@ -65,6 +83,7 @@ def press(task: Task, *, plastic: bool) -> Answer:
         },
         residual=contact.complementarity,
         iterations=max(contact.iterations, 1),
+        warnings=warnings,
     )
 
 

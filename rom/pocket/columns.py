@@ -68,7 +68,7 @@ def _weights(corners: Array, period: float) -> Array:
     The sum Σ w / (1 + s²) of a row of corners at a distance a < π decay lengths is a/π · π/a = 1.
     """
     around = np.concatenate([corners[-1:] - period, corners, corners[:1] + period])
-    return np.minimum((around[2:] - around[:-2]) / 2 / (np.pi * DENSITY_DECAY_LENGTH), 1.0)
+    return np.asarray(np.minimum((around[2:] - around[:-2]) / 2 / (np.pi * DENSITY_DECAY_LENGTH), 1.0))
 
 
 def _apart(anchors: Array, measures: Array) -> list[int]:

@@ -33,7 +33,7 @@ from roughfilm.terminal.console import (
 from roughfilm.terminal.output_file import alone, refuse_unwritable
 from roughfilm.terminal.ranges import loads_of
 from roughfilm.terminal.results import origin, show_result, table_of
-from roughfilm.words.leakage import WORDS, in_words, leaks
+from roughfilm.words.leakage import WORDS, in_words, leaks, scatter_in_words
 from roughfilm.words.numbers import digits, finite
 
 SOURCES = ("Sahlin 2008, Paper F", "10.1016/S0043-1648(99)00113-1", "10.1016/j.triboint.2006.02.069")
@@ -96,6 +96,8 @@ def command(
         )
         yield table_of(HEADS, cells, title=f"{seal.name}: leakage per metre of width, kg/h")
         yield from (f"{WORDS[name]}: {in_words(threshold)}" for name, threshold in thresholds.items())
+        if np.ptp(body.surface.heights) > 0:
+            yield scatter_in_words(body.spread)
         yield f"report: {page}"
 
     show_result(entries, shown(), as_json=as_json, reused="loads")

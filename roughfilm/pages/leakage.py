@@ -18,7 +18,7 @@ from roughfilm.rom.seal.leakage.effective_medium import effective_medium
 from roughfilm.rom.seal.leakage.percolation import Threshold
 from roughfilm.rom.seal.leakage.series import SOUGHT, Row
 from roughfilm.rom.seal.scene import Seal
-from roughfilm.words.leakage import WORDS, in_words, leaks
+from roughfilm.words.leakage import WORDS, in_words, leaks, scatter_in_words
 from roughfilm.words.numbers import digits
 
 
@@ -48,6 +48,7 @@ def write_page(
         warnings=entries["provenance"]["warnings"],
         thresholds={WORDS[name]: in_words(threshold) for name, threshold in thresholds.items()},
         cards=[(axis, thresholds[f"direct_{axis}"]) for axis in "xy"],
+        scatter=scatter_in_words(body.spread) if np.ptp(body.surface.heights) > 0 else "",
         first=ordered[0],
         first_leak=leaks(scene, ordered[0], SOUGHT[scene.axis]),
         periods=scene.flow.length / body.surface.size[scene.axis],

@@ -92,11 +92,22 @@ class Spot:
 
 @dataclass(frozen=True, kw_only=True)
 class Judgement:
-    """The judgement of an answer: iterations, whether it is right, its error, other numbers, and a message."""
+    """The judgement of an answer.
+
+    Attributes
+    ----------
+    iterations : number of iterations of the solver.
+    right : whether the answer is right.
+    error : its error as the judge measures it.
+    reported : whether the answer itself reports, by a warning or an uncertainty, that it may be as wrong as it is.
+    numbers : other numbers of the map, by name.
+    message : message of the judge; "" where there is none.
+    """
 
     iterations: int
     right: bool
     error: float
+    reported: bool = False
     numbers: Mapping[str, float | None] = field(default_factory=dict)
     message: str = ""
 
@@ -152,7 +163,7 @@ class Probe:
         good = MapOutcome.SLOW if judged.iterations > SLOW_ITERATIONS else MapOutcome.CONVERGED
         return Spot(
             **place,
-            outcome=good if judged.right else MapOutcome.WRONG,
+            outcome=good if judged.right else MapOutcome.INACCURATE if judged.reported else MapOutcome.WRONG,
             iterations=judged.iterations,
             cpu_s=cpu_s,
             error=float(judged.error) if np.isfinite(judged.error) else None,

@@ -104,8 +104,9 @@ def spot_of(
         outcome, why = (MapOutcome.INACCURATE, REPORTED) if warned else (MapOutcome.WRONG, NOT_REPORTED)
         return replace(spot, outcome=outcome, why=why, message=f"{message}; {spot.message}".strip("; "))
     if spot.error is not None and spot.error > ALLOWED_ERROR:
-        why = REPORTED if warned or worst in uncertainties else NOT_REPORTED
-        why = CUT_OUT if run.wave is None else SLOPE_LEFT_OUT if homogenized else why
+        reported = SLOPE_LEFT_OUT if homogenized else REPORTED
+        why = reported if warned or (worst in uncertainties and not homogenized) else NOT_REPORTED
+        why = CUT_OUT if run.wave is None else why
         return replace(spot, outcome=MapOutcome.WRONG if why == NOT_REPORTED else MapOutcome.INACCURATE, why=why)
     if any(one.recipe for one in answer.numerics.runs):
         return replace(spot, outcome=MapOutcome.SLOW, why=SECOND_TRY)

@@ -1,6 +1,7 @@
 """Words and numbers of the leakage of a seal."""
 
 from roughfilm.rom.seal.leakage.percolation import Threshold
+from roughfilm.rom.seal.leakage.scatter import MEAN_SEALING_LOAD, SEALING_LOADS
 from roughfilm.rom.seal.leakage.series import Row
 from roughfilm.rom.seal.model import leakage_of
 from roughfilm.rom.seal.scene import Seal
@@ -21,6 +22,15 @@ def in_words(threshold: Threshold) -> str:
         return "sealed at every load"
     low, high = 100 * threshold.open.area_fraction, 100 * threshold.sealed.area_fraction
     return f"seals at {threshold.load / 1e6:.4g} MPa, {low:.2f} to {high:.2f} % contact"
+
+
+def scatter_in_words(spread: float) -> str:
+    """The sealing loads of other surfaces without a lay of the same E* g', Pa, as a sentence."""
+    low, high = SEALING_LOADS["without a lay"]
+    return (
+        f"other surfaces of this rms slope seal at {MEAN_SEALING_LOAD * spread / 1e6:.3g} MPa on average, 95 of 100 "
+        f"directions at {low * spread / 1e6:.3g} to {high * spread / 1e6:.3g} MPa, if they have no lay"
+    )
 
 
 def leaks(scene: Seal, row: Row, name: str) -> str:

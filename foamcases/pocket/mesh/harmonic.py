@@ -17,7 +17,7 @@ def samples(height: float, layers: int) -> Array:
     """The places 0 <= ξ < 1 at which the sides are sampled: a power of two of them, evenly spaced."""
     asked = min(max(SAMPLES_PER_LAYER * layers / height, MIN_SAMPLES), MAX_SAMPLES)
     count = 2 ** int(np.ceil(np.log2(asked)))
-    return np.arange(count) / count
+    return np.asarray(np.arange(count) / count)
 
 
 def fill(lower: Array, upper: Array, height: float, xi: Array, eta: Array) -> Array:
@@ -38,8 +38,9 @@ def fill(lower: Array, upper: Array, height: float, xi: Array, eta: Array) -> Ar
     Array
         The values, shape (columns, layers).
     """
-    decay = 2 * np.pi * height * np.arange(lower.size // 2 + 1)
-    series = _decayed(decay, eta) * np.fft.rfft(lower) + _decayed(decay, 1 - eta) * np.fft.rfft(upper)
+    decay: Array = np.asarray(2 * np.pi * height * np.arange(lower.size // 2 + 1))
+    waves = np.fft.rfft([lower, upper])
+    series = _decayed(decay, eta) * waves[0] + _decayed(decay, 1 - eta) * waves[1]
     return _between(np.fft.irfft(series, lower.size), xi).T
 
 

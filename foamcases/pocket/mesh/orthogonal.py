@@ -20,7 +20,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.foamcases.pocket.mesh import harmonic, laplace
 from roughfilm.foamcases.pocket.mesh.cells import convex
 from roughfilm.foamcases.pocket.mesh.laplace import OnWalls, over_periods
-from roughfilm.foamcases.pocket.mesh.wall import Wall, wall_of
+from roughfilm.foamcases.pocket.mesh.wall import CROWDED_POINTS, Wall, wall_of
 from roughfilm.rom.pocket.columns import MIN_CORNER_DISTANCE, columns
 from roughfilm.rom.pocket.gap import Gap
 
@@ -120,8 +120,9 @@ def _settled(wall: Wall, resolution: int, layers: int) -> Places:
 
 def _first_grid(wall: Wall, resolution: int, layers: int) -> tuple[Array, Array]:
     """A grid of vertical columns, more of them at steep walls, and their arc lengths on the lower wall."""
-    crowded = columns(wall.gap, resolution)
-    count = np.interp(wall.x, crowded, np.arange(crowded.size)) + (wall.arc - (wall.x - wall.x[0])) / ARC_STEP
+    crowded = columns(wall.gap, CROWDED_POINTS)
+    along = np.interp(wall.x, crowded, np.linspace(0, resolution, crowded.size))
+    count = along + (wall.arc - (wall.x - wall.x[0])) / ARC_STEP
     arc = np.interp(np.linspace(count[0], count[-1], int(count[-1]) + 1), count, wall.arc)
     lower = wall.points(arc)
     vertices = np.repeat(lower[:, None], layers + 1, axis=1)

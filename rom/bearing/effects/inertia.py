@@ -29,6 +29,9 @@ FIRST_ORDER = "inertial_reynolds"
 POCKET_QUANTITY = "load_plus"
 """Quantity of one pocket by which its model is chosen."""
 
+NO_CAVITATION = "1e12 Pa"
+"""Ambient pressure of a pocket whose inertia is judged apart from cavitation."""
+
 POCKET_TOLERANCE = 0.05
 """Relative error up to which a model of one pocket is sufficient."""
 
@@ -165,6 +168,7 @@ def _solved_pocket(scene: Bearing, texture: Texture, density: float, models: Seq
                 "density": with_unit(density, "kg/m^3"),
             },
             "motion": {"speed": with_unit(abs(scene.motion.speed), "m/s")},
+            "boundary": {"ambient_pressure": NO_CAVITATION},
         }
     )
     advice = advise(pocket, models, quantity=POCKET_QUANTITY, within=POCKET_TOLERANCE)

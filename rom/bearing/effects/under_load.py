@@ -22,7 +22,7 @@ from roughfilm.rom.bearing.solve import load_loops
 from roughfilm.rom.bearing.uncertainty import cells_of
 from roughfilm.rom.cavitation.grid import Grid, grid
 from roughfilm.rom.cavitation.network import State
-from roughfilm.rom.cavitation.solve import COARSEST_CELLS, Solution, coarsening, solve
+from roughfilm.rom.cavitation.solve import Solution, coarsening, solve
 from roughfilm.rom.ladder.model import Progress, silent
 
 MAX_THINNING = 30.0
@@ -39,6 +39,9 @@ FILM_RESIDUAL = 1e-11
 
 GRIDS = 4
 """Largest number of grids, the coarser ones for the uncertainty."""
+
+MIN_GRID_CELLS = 16
+"""Smallest number of cells along a side of a coarser grid."""
 
 PRESCRIBED = ("load", "load_per_width")
 """Quantities that the load prescribes."""
@@ -167,7 +170,7 @@ def under_load(variant: Variant, pressure: float, cells: int, progress: Progress
     cpu, guess, speed = time.process_time(), variant.scene.geometry.film, variant.scene.motion.speed
     states: list[VariantState] = []
     grids = [size for size, _ in coarsening((cells, cells), wide=True)][-GRIDS:]
-    sizes = [size for size in grids if size >= COARSEST_CELLS or size == cells]
+    sizes = [size for size in grids if size >= MIN_GRID_CELLS or size == cells]
     for count, size in enumerate(sizes):
         progress(count / len(sizes), f"{size} cells along a side")
         film = VariantFilm(variant=variant, cells=size)

@@ -54,6 +54,7 @@ def fischer_burmeister(
     """
     if network.shape[1] > 1 or network.periodic[0]:
         raise InputError(f"network: got {network.shape} nodes, periodic {network.periodic}; it must be an open line")
+    network = network.with_whole_faces()
     pressure = np.where(network.fixed, network.pressure, 0.0)
     cavity = np.zeros(network.shape)
     supplied = network.supply is not None

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from roughfilm.rom.advice.estimates import near
+from roughfilm.rom.advice.estimates import near, percent
 from roughfilm.rom.advice.laws import table
 from roughfilm.rom.ladder.model import Applicability
 from roughfilm.rom.pocket.scene import TITLES, Pocket
@@ -11,6 +11,9 @@ from roughfilm.rom.pocket.validity.numbers import SYMBOLS, numbers
 
 MAX_ERROR_WITHOUT_WARNING = 0.1
 """Promised relative error above which a result has a warning."""
+
+WARNED = ("load_plus", "friction_plus", "pressure_max_plus")
+"""The quantities of which a large promised error is a warning."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,8 +68,5 @@ def promise_warnings(scene: Pocket, model: str) -> tuple[str, ...]:
     }
     if not large:
         return ()
-    return (f"{model} leaves out effects that matter here: {Promised(errors=large, beyond='').words}",)
-
-
-WARNED = ("load_plus", "friction_plus", "pressure_max_plus")
-"""The quantities of which a large promised error is a warning."""
+    parts = " and ".join(f"{percent(error)} in {TITLES[quantity]}" for quantity, error in large.items())
+    return (f"{model} leaves out effects that matter here: its error may reach {parts}",)

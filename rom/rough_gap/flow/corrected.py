@@ -132,7 +132,7 @@ def _in_mean_gaps(walls: Walls, film: Estimated) -> tuple[Walls, Array]:
 def _relative(thin: RoughGapFactors, added: Array) -> Array:
     """The added dissipation of each drive over that of the thin film, 0 where the gap is sealed, shape (drives,)."""
     own = np.array([*(12 * np.diag(thin.pressure)), thin.friction])[: len(added)]
-    return np.divide(np.diag(added), own, out=np.zeros(len(added)), where=own > 0)
+    return np.asarray(np.divide(np.diag(added), own, out=np.zeros(len(added)), where=own > 0))
 
 
 def with_dissipation(thin: RoughGapFactors, added: Array) -> RoughGapFactors:

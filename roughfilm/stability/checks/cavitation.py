@@ -12,6 +12,10 @@ GAUSS = (0.5 - 0.5 / math.sqrt(3), 0.5 + 0.5 / math.sqrt(3))
 """Gauss points of an interval, as fractions of its length."""
 
 
+QUARTER = 0.25
+"""Part of a face after which a film may rupture, and after two and three of it."""
+
+
 def broken_balance(solution: Solution) -> float:
     """The largest net flow into a node of free state, over the largest flow; infinite if the state is impossible.
 
@@ -76,6 +80,19 @@ def _flows(problem: Problem, x: Array, y: Array, pressure: Array, fill: Array) -
     density = fill[:faces] + upstream * excess[:faces] + (1 - upstream) * ahead
     along = np.zeros(pressure.shape)
     along[:faces] = carried * density - conductance * phi * rise
+    begun = _between(mobility, np.ones_like(mobility))[:faces] * pressure[:faces]
+    filled = fill[:faces] + upstream * excess[:faces]
+    for number in (1, 2, 3):  # a film that ruptures inside the face carries the least of them
+        mean, cube = np.zeros((faces, y.size)), np.zeros((faces, y.size))
+        for strip in strips:
+            places = [x[:faces, None] + (quarter + 0.5) * QUARTER * step for quarter in range(number)]
+            h = [shape.thickness(*np.broadcast_arrays(place, strip)) for place in places]
+            cubed = np.sum([one**-3.0 for one in h], axis=0)
+            mean += np.sum([one**-2.0 for one in h], axis=0) / cubed / len(strips)
+            cube += 1 / (QUARTER * cubed) / len(strips)
+        torn = problem.speed / 2 * widths * radius * mean * filled
+        torn += cube * widths / (12 * problem.viscosity * radius * step) * begun
+        along[:faces] = np.minimum(along[:faces], torn)
     across = np.zeros(pressure.shape)
     if y.size > 1:
         lengths = control_lengths(x, shape.breaks[-1] - x[0] if shape.joined[0] else None)[:, None]

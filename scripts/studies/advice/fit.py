@@ -25,10 +25,10 @@ from roughfilm.rom.studies.convergence import ConvergenceKind as Way
 from roughfilm.rom.studies.convergence import converge
 from roughfilm.rom.studies.ordering import CERTAINTY
 from roughfilm.terminal.console import in_one_line, make_directory, output, run_alone
+from scripts.studies.advice.laws_file import OWN_FILE, text_of, write_table
 from scripts.studies.advice.runs import PARTS, DrawnScene, Run, draw, read
 from scripts.studies.advice.scenes import random_scene
 from scripts.studies.advice.steps import GRIDS, KINDS, STEPS, PlannedStep
-from scripts.studies.coverage.laws_file import OWN_FILE, text_of, write_table
 
 Rows = list[tuple[Numbers, float]]
 """The numbers of scenes, each with an error."""

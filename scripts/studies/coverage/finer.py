@@ -1,6 +1,8 @@
 """Finer solutions of the models of a scene, extrapolated, as the truth of their own equations."""
 
-from collections.abc import Callable, Mapping, Sequence
+import signal
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from functools import cache, partial
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
@@ -22,6 +24,9 @@ MAX_CPU_S = 0.3
 
 MAX_NEEDED_S = 3.0
 
+MAX_SOLVE_S = 5.0
+"""CPU time after which a finer solution is given up, s."""
+
 MAX_FACTOR = 8
 """Largest number of cells along a side over that of the judged solution."""
 
@@ -36,6 +41,22 @@ Values = Mapping[str, tuple[float, float]]
 
 Solver = Callable[[Model, int], Result]
 """solve(model, factor): the solution on a grid that is finer by a factor than the judged one; raises what models do."""
+
+
+@contextmanager
+def limited(seconds: float) -> Iterator[None]:
+    """Raise ConvergenceError in the body after so much CPU time; in the main thread only."""
+
+    def stop(*_: object) -> None:
+        raise ConvergenceError(f"took more than {seconds:g} s of CPU time")
+
+    before = signal.signal(signal.SIGVTALRM, stop)
+    signal.setitimer(signal.ITIMER_VIRTUAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
+        signal.signal(signal.SIGVTALRM, before)
 
 
 def finer_truth(scene: Scene) -> Truth:
@@ -67,12 +88,15 @@ def on_finer_surface(scene: Scene) -> Truth:
 
 
 def _truth(scene: Scene, solve: Solver, method: str) -> Truth:
-    """Return the extrapolated values of every model that runs in this process, those of the best one as the truth."""
+    """Return the extrapolated values of every model that runs in this process, those of the best one as the truth.
+
+    Without a limit of the best one, the truth is empty: expected errors are then not judged.
+    """
     applying = [model for model in models(scene.kind) if not model.outside and model.applies(scene).applies]
     own = {model.name: found for model in applying if (found := extrapolated(scene, model, solve))}
     if not own:
         raise ConvergenceError("no model solves the scene on finer grids")
-    top = own[best([model for model in applying if model.name in own]).name]
+    top = own.get(best(applying).name, {})
     return Truth(
         values={name: value for name, (value, _) in top.items()},
         uncertainty={name: bar for name, (_, bar) in top.items()},
@@ -93,7 +117,8 @@ def extrapolated(scene: Scene, model: Model, solve: Solver) -> Values:
         if factor > 1 and model.cost(scene, base * factor) > (MAX_CPU_S if len(runs) >= LEAST else MAX_NEEDED_S):
             break
         try:
-            runs.append(solve(model, factor))
+            with limited(MAX_SOLVE_S):
+                runs.append(solve(model, factor))
         except (ConvergenceError, InputError):
             break
         factor *= 2

@@ -3,7 +3,6 @@
 The laws are written into rom/advice/laws.toml, where they replace those of the same models; other laws are kept.
 """
 
-import math
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -14,15 +13,15 @@ import typer
 from rich.table import Table as ShownTable
 
 from roughfilm.ladder import find
-from roughfilm.rom.advice.laws import Grid, Law, Numbers, Promise, Step, Table, on_grid, table
+from roughfilm.rom.advice.laws import Grid, Law, Numbers, Promise, Table, on_grid, table
 from roughfilm.rom.ladder.kind import Kind, kind_of_name
 from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.terminal.console import in_one_line, make_directory, output, run_alone
+from scripts.studies.advice.laws_file import OWN_FILE, text_of, write_table
 from scripts.studies.coverage import resolutions, store
 from scripts.studies.coverage.drawing import part_of
 from scripts.studies.coverage.fitting import fitted
-from scripts.studies.coverage.laws_file import OWN_FILE, text_of, write_table
 from scripts.studies.coverage.store import Judged
 from scripts.studies.study import Out, counted
 
@@ -94,20 +93,6 @@ def promise_rows(scenes: Mapping[int, FitScene], model: str, quantity: str) -> R
     ]
 
 
-def seen_rows(scenes: Mapping[int, FitScene], model: str, below: str, quantity: str) -> Rows:
-    """Return the errors of a model, with its difference from a simpler one as the number ``correction``."""
-    rows: Rows = []
-    for one in scenes.values():
-        values, simpler = _values(one, model), _values(one, below)
-        if not values or not simpler or not _certain(one, quantity, values):
-            continue
-        sizes = [float(one.kind.scale(answer, quantity)) for answer in (values, simpler)]
-        correction = abs(values[quantity] - simpler[quantity]) / min(sizes)
-        if math.isfinite(correction) and correction > 0:
-            rows.append(({**one.numbers, "correction": correction}, one.error(quantity, values)))
-    return rows
-
-
 def resolution_rows(scenes: Mapping[int, FitScene], model: str, quantity: str, out: Path) -> Rows:
     """Return the errors of a model by its resolution: from its finest one, or from the truth if it runs outside."""
     rows: Rows = []
@@ -148,8 +133,6 @@ def laws_of(plan: PlannedLaw, model: str, scenes: Mapping[int, FitScene], out: P
     for quantity in next(iter(scenes.values())).judged.truth:
         if plan.part == "promise":
             rows = promise_rows(scenes, model, quantity)
-        elif plan.part == "seen":
-            rows = seen_rows(scenes, model, _step(table(), plan.kind, model).seen_from, quantity)
         else:
             rows = resolution_rows(scenes, model, quantity, out)
         if len(rows) >= MIN_SCENES:
@@ -157,18 +140,14 @@ def laws_of(plan: PlannedLaw, model: str, scenes: Mapping[int, FitScene], out: P
     return laws
 
 
-def _step(known: Table, kind: str, model: str) -> Step:
-    return next(step for step in known.steps if (step.kind, step.model) == (kind, model))
-
-
 def with_laws(known: Table, plan: PlannedLaw, model: str, laws: Mapping[str, Law]) -> Table:
     """Return the table with these laws in place of those of the same part and model; a promise replaces steps."""
     own = (plan.kind, model)
-    if plan.part == "seen":
-        steps = [replace(one, seen=laws) if (one.kind, one.model) == own else one for one in known.steps]
-        return replace(known, steps=steps)
     if plan.part == "promise":
-        steps = [replace(one, left_out={}) if (one.kind, one.model) == own else one for one in known.steps]
+        steps = [
+            replace(one, left_out={}, seen_from="", seen={}) if (one.kind, one.model) == own else one
+            for one in known.steps
+        ]
         others = [one for one in known.promises if (one.kind, one.model) != own]
         return replace(known, steps=steps, promises=[*others, Promise(kind=plan.kind, model=model, laws=laws)])
     grids = [one for one in known.grids if (one.kind, one.model) != own]

@@ -1,7 +1,6 @@
 """Fit of the bound of an error as a sum of powers of dimensionless numbers, by quantile regression."""
 
 from collections.abc import Mapping, Sequence
-from itertools import pairwise
 
 import numpy as np
 from scipy.optimize import minimize
@@ -30,10 +29,10 @@ FOLDS = 5
 """Number of parts of the scenes, each of which judges a law that is fitted to the others."""
 
 LEVELS = (0.01, 0.02, 0.05, 0.1, 0.2)
-"""Bounds up to which ``CERTAINTY`` of the scenes with a bound between two neighbours must keep their bound."""
+"""Tolerances that ``CERTAINTY`` of the scenes must keep whose bound is at most the tolerance."""
 
 MIN_SCENES_AT_LEVEL = 20
-"""Smallest number of scenes between two levels that raises the coefficients."""
+"""Smallest number of scenes at a level that may raise the coefficients."""
 
 
 def fitted(rows: Sequence[tuple[Numbers, float]], terms: Sequence[Sequence[str]]) -> Law:
@@ -41,9 +40,8 @@ def fitted(rows: Sequence[tuple[Numbers, float]], terms: Sequence[Sequence[str]]
 
     The logarithms minimise the mean pinball loss of ln(error) - ln E at the quantile ``CERTAINTY`` (Koenker and Bassett
     1978, doi:10.2307/1913643) with a ridge on the powers. The powers are rounded to ``POWER_STEP``. All coefficients
-    are then multiplied by a factor: the smallest with which 95 of 100 errors are below their bound, also among the
-    scenes whose bound lies between two neighbours of ``LEVELS``. For this each bound is that of a law fitted to the
-    other four fifths of the scenes.
+    are then multiplied by a factor, see :func:`calibration`, for which each bound is that of a law fitted to the other
+    four fifths of the scenes.
 
     Parameters
     ----------
@@ -61,7 +59,7 @@ def fitted(rows: Sequence[tuple[Numbers, float]], terms: Sequence[Sequence[str]]
         others[left] = weights @ _shapes({name: values[left] for name, values in x.items()}, powers)
     powers, weights = _law(x, errors, terms)
     bound = weights @ _shapes(x, powers)
-    factor = max(calibration(errors, others), calibration(errors, bound))
+    factor = calibration(errors, others)
     return Law(
         terms=tuple(
             Term(coefficient=_rounded(factor * weight), powers=own)
@@ -87,16 +85,18 @@ def _shapes(x: Mapping[str, Array], powers: Sequence[Mapping[str, float]]) -> Ar
 
 
 def calibration(errors: Array, bound: Array) -> float:
-    """The smallest factor of the bounds that ``CERTAINTY`` of the errors keep, in all and between any two levels."""
-    ratios = errors / bound
-    factor = float(np.quantile(ratios, CERTAINTY))
-    for _ in range(8):
-        edges = (0.0, *LEVELS, np.inf)
-        groups = [(low < factor * bound) & (factor * bound <= high) for low, high in pairwise(edges)]
-        needed = [np.quantile(ratios[own], CERTAINTY) for own in groups if own.sum() >= MIN_SCENES_AT_LEVEL]
-        if not needed or max(needed) <= factor:
-            break
-        factor = float(max(needed))
+    """The smallest factor of the bounds with which 95 of 100 errors are below them, at every level too.
+
+    A level is kept if ``CERTAINTY`` of the scenes whose bound is at most the level have an error of at most the level.
+    """
+    factor = float(np.quantile(errors / bound, CERTAINTY))
+    for level in LEVELS:
+        candidates = np.sort(level / bound[(errors > level) & (factor * bound <= level)])
+        for candidate in (factor, *candidates * (1 + 1e-9)):
+            own = errors[candidate * bound <= level]
+            if own.size < MIN_SCENES_AT_LEVEL or (own <= level).mean() >= CERTAINTY:
+                factor = max(factor, float(candidate))
+                break
     return factor
 
 

@@ -39,7 +39,7 @@ def drawn_surface(rng: Generator, points: int, finest: float) -> Array:
     if chance(rng, 0.7):
         power = np.maximum(q, between(rng, 1, highest / 2)) ** (-2 * (1 + rng.uniform(0.2, 1.0)))
     else:
-        power = np.exp(-((q / between(rng, 1.5, highest / 2)) ** 2))
+        power = np.exp(-((q / between(rng, min(1.5, highest / 2), highest / 2)) ** 2))
     kept = (np.hypot(x, y) <= highest) & (np.hypot(x, y) > 0)
     random = np.fft.fft2(rng.standard_normal((points, points)))
     heights = np.fft.ifft2(np.where(kept, np.sqrt(power) * random, 0)).real

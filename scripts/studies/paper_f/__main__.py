@@ -15,6 +15,7 @@ import numpy as np
 from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.terminal.console import AsJson, in_one_line, make_directory, run_alone
 from scripts.studies.paper_f import figures
+from scripts.studies.paper_f import scatter as scattered
 from scripts.studies.paper_f.claims import judge
 from scripts.studies.paper_f.data import MODULUS, PARTS, Pressed, press_all
 from scripts.studies.paper_f.fits import SLOPE, SealStudy, fit_groups, ratios
@@ -39,6 +40,7 @@ def command(out: Out, surfaces: Surfaces = None, as_json: AsJson = False) -> Non
         count=len(study.sample),
         laws=study.laws,
         slope=SLOPE,
+        scatter=study.scatter,
         **{name: results[name] for name in ("families", "measured", "finer")},
     )
 
@@ -52,19 +54,22 @@ def compute(
     points: int = POINTS,
     parts: Sequence[float] = PARTS,
     sizes: dict[int, int] | None = None,
+    scatter: dict[str, int] | None = None,
 ) -> SealStudy:
     """Compute all data of the page; finished surfaces are stored in ``folder``; smaller sizes are for tests."""
     made = made_surfaces(families, seeds, points)
     finer = made_surfaces(families, seeds[:1], 2 * points)
     measured = measured_surfaces(surfaces, points)
     counts = COUNTS if sizes is None else sizes
-    with counted(len(made) + 4 * len(finer) + len(measured) + len(counts)) as advance:
+    groups = scattered.COUNTS if scatter is None else scatter
+    with counted(len(made) + 4 * len(finer) + len(measured) + len(counts) + len(groups)) as advance:
         found = press_all(made, folder, advance, parts)
         return SealStudy(
             sample=found,
             measured=press_all(measured, folder, advance, parts),
             finer=press_all(finer, folder and folder / "finer", partial(advance, steps=4), parts),
             sizes=grow(folder, advance, counts),
+            scatter=scattered.scatter(folder, advance, groups),
             laws=fit_groups(found),
         )
 
@@ -84,6 +89,10 @@ def numbers(study: SealStudy) -> dict[str, Any]:
             {"lengths": lengths, "area": area, "load": study.sizes.load[lengths]}
             for lengths, area in study.sizes.area.items()
         ],
+        "scatter": {
+            name: {"loads": one.loads, "mean": one.mean, "interval": one.interval}
+            for name, one in study.scatter.items()
+        },
         "laws": {name: {**vars(laws), "leakage": [*laws.leakage.values()]} for name, laws in study.laws.items()},
         "provenance": circumstances(),
     }

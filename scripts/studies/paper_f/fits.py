@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from scripts.studies.paper_f.data import MODULUS, Pressed
+from scripts.studies.paper_f.scatter import Scatter
 from scripts.studies.paper_f.sizes import Sizes
 from scripts.studies.paper_f.surfaces import HEIGHTS
 
@@ -352,6 +353,7 @@ class SealStudy:
     ----------
     sample : independent synthetic surfaces.
     finer : first surface of each family on twice as many nodes along each side.
+    scatter : scatter of the sealing load by group, of surfaces of other sizes and spectra.
     laws : laws by the names of ``GROUPS``.
     """
 
@@ -359,6 +361,7 @@ class SealStudy:
     finer: Sequence[Pressed]
     measured: Sequence[Pressed]
     sizes: Sizes
+    scatter: Mapping[str, Scatter]
     laws: Mapping[str, GroupLaws]
 
 

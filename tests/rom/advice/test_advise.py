@@ -342,10 +342,13 @@ def test_the_table_names_rungs_quantities_and_numbers_that_exist():
         kind, models = kinds()[step.kind], {model.name for model in of_kind(ALL, step.kind)}
         assert {step.model, step.towards, step.seen_from or step.model} <= models
         assert step.tells in kind.symbols
-        assert set(step.left_out) == set(kind.compared)
+        promised = set(found.promises_of(step.kind, step.model))
+        assert set(kind.compared) <= (promised or set(step.left_out)) <= set(kind.titles)
+        assert not (promised and step.left_out), "a promise replaces the step"
     for grid in found.grids:
         assert grid.model in {model.name for model in of_kind(ALL, grid.kind)}
     laws = [(one.kind, law) for one in found.steps for law in (*one.left_out.values(), *one.seen.values())]
+    laws += [(one.kind, law) for one in found.promises for law in one.laws.values()]
     laws += [(one.kind, law) for one in found.grids for law in one.laws.values()]
     for kind, one in laws:
         assert set(one.names) <= {*kinds()[kind].symbols, *RESOLVING, "correction"}

@@ -7,7 +7,12 @@ import pytest
 from places import SCENES
 
 from roughfilm.ladder import find
-from roughfilm.rom.bearing.uncertainty import GRID_SAFETY_FACTOR, grid_uncertainty, observed_order
+from roughfilm.rom.bearing.uncertainty import (
+    GRID_SAFETY_FACTOR,
+    TWO_GRIDS_SAFETY_FACTOR,
+    grid_uncertainty,
+    observed_order,
+)
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import load_scene, read_scene
@@ -40,7 +45,7 @@ def test_values_that_oscillate_or_settle_slowly_have_the_lowest_order() -> None:
     assert observed_order(CELLS[:3], [1.0, 1.0, 1.3]) == 1.0
     assert observed_order(CELLS[:3], [1.0, 1.01, 1.5]) == 2.0
     assert grid_uncertainty(CELLS, [1.0, 1.0, 1.0, 1.0]) == 0.0
-    assert grid_uncertainty(CELLS[:2], [1.0, 1.3]) == pytest.approx(GRID_SAFETY_FACTOR * 0.3 / 0.6)
+    assert grid_uncertainty(CELLS[:2], [1.0, 1.3]) == pytest.approx(TWO_GRIDS_SAFETY_FACTOR * 0.3 / 0.6)
 
 
 @pytest.mark.parametrize("cells", [32, 64, 128, 256, 512])

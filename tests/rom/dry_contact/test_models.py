@@ -181,3 +181,24 @@ def test_pressures_that_are_all_alike_fall_into_bins(name, make_contact):
     area, load = binned(solved(name, scene))
     assert area == pytest.approx(1, abs=1e-4)  # four deviations lie within the bins
     assert load == pytest.approx(2e7, rel=1e-3)
+
+
+@pytest.mark.parametrize("name", ["elastic", "elastic_plastic"])
+def test_a_contact_states_its_uncertainty_by_the_pixels_on_its_own_grid_only(name, make_contact):
+    """A coarser grid omits waves, whose effect its pixels do not show."""
+    scene = make_contact(hardness=2e9)
+    result = solved(name, scene)
+    for quantity in ("area_fraction", "mean_contact_pressure", "mean_gap", "approach"):
+        assert 0 < result.quantities[quantity].uncertainty < 0.5 * value(result, quantity), quantity
+    assert result.quantities["area_fraction_pixel"].uncertainty is None
+    coarser = solved(name, scene, resolution=max(scene.surface().shape) // 2)
+    assert all(quantity.uncertainty is None for quantity in coarser.quantities.values())
+
+
+def test_an_elastic_contact_above_the_hardness_warns_with_the_area(make_contact):
+    soft, hard = (solved("elastic", make_contact(hardness=hardness)) for hardness in (2e9, 1e13))
+    above = np.mean(soft.fields["pressure"].values > 2e9)
+    assert above > 0
+    assert any(f"exceeds the hardness on {above:.3g} of the nominal area" in warning for warning in soft.warnings)
+    assert not hard.warnings
+    assert not solved("elastic_plastic", make_contact(hardness=2e9)).warnings

@@ -107,20 +107,24 @@ def test_a_half_circle_is_solved_or_refused(make_scene):
 
 
 def test_a_given_resolution_that_misses_the_tolerance_is_a_warning(make_scene):
-    scene = make_scene(0.3, 0.25, 40)
+    scene = make_scene(0.3, 0.25, 1)
     coarse, fine = (find("pocket", "reynolds").solve(scene, Request(resolution=n)) for n in (2, 24))
-    assert "misses the tolerance" in coarse.warnings[0]
-    assert fine.warnings == ()
+    assert any("misses the tolerance" in warning for warning in coarse.warnings)
+    assert not any("misses the tolerance" in warning for warning in fine.warnings)
 
 
 @pytest.mark.parametrize(
     ("name", "reynolds_number", "words"),
     [
-        ("inertial_reynolds", 200, ["load error above 10%"]),
-        ("inertial_reynolds", 5000, ["turbulent", "load error above 10%", "ruptures"]),
-        ("reynolds", 5000, ["turbulent", "ruptures"]),
-        ("inertial_reynolds", 10, []),
-        ("reynolds", 200, []),
+        ("inertial_reynolds", 200, ["leaves out effects that matter here: its error may reach"]),
+        (
+            "inertial_reynolds",
+            5000,
+            ["turbulent", "errors unknown, as Re = 5e+03 is outside the fitted range", "ruptures"],
+        ),
+        ("reynolds", 5000, ["turbulent", "errors unknown, as Re = 5e+03 is outside the fitted range", "ruptures"]),
+        ("inertial_reynolds", 1, []),
+        ("reynolds", 200, ["its error may reach more than 300 % in load"]),
     ],
 )
 def test_cautions_beyond_the_range_of_a_model(make_scene, name, reynolds_number, words):

@@ -162,24 +162,34 @@ def test_a_flat_surface_is_sealed(tmp_path):
         medium.solve(scene)
 
 
-def test_errors_are_relative_to_the_answer_near_sealing():
-    """At 0.18 E* g' the leakage is 1e-5 of a smooth gap's, and eight times less than its uncertainty."""
-    scene = seal(pressure="160.5 kPa")
-    found = find("seal", "direct_leakage").solve(scene)["leakage_per_width"]
-    assert found.uncertainty > found.value > 0
-    assert KIND.scale_of(find("seal", "direct_leakage").solve(scene), "leakage_per_width") == found.value
+@pytest.fixture(scope="module")
+def towards_sealing():
+    """Scenes and results of ``direct_leakage`` from 0.1 to 0.5 E* g'."""
+    scenes = [seal(pressure=f"{part * seal().pressure_unit} Pa") for part in np.geomspace(0.1, 0.5, 33)]
+    return [(scene, find("seal", "direct_leakage").solve(scene)) for scene in scenes]
+
+
+def test_errors_are_relative_to_the_answer_near_sealing(towards_sealing):
+    """Where the uncertainty is above half the leakage no model is within 20 %; with light loads one is."""
+    for _, result in towards_sealing:
+        leakage = result["leakage_per_width"]
+        if leakage.value > 0:
+            assert KIND.scale_of(result, "leakage_per_width") == leakage.value
+    scene, _ = next(
+        (scene, one)
+        for scene, one in towards_sealing
+        if one["permeability"].uncertainty > 0.5 * one["permeability"].value
+    )
     assert advise(scene, RUNGS, quantity="leakage_per_width", within=0.2).chosen is None
-    clear = advise(seal(pressure="10 kPa"), RUNGS, quantity="leakage_per_width", within=0.2)
-    assert clear.chosen is not None
+    assert advise(seal(pressure="10 kPa"), RUNGS, quantity="leakage_per_width", within=0.2).chosen is not None
 
 
-def test_a_sealed_gap_that_is_open_on_coarser_grids_has_an_uncertainty():
-    """At 0.19 E* g' the nodes seal, and every second one of them does not; far above, all grids seal."""
-    near, far = (find("seal", "direct_leakage").solve(seal(pressure=load)) for load in ("169.5 kPa", "240 kPa"))
-    for result in (near, far):
-        assert (result["sealed"].value, result["leakage_per_width"].value) == (1, 0)
-    assert near["leakage_per_width"].uncertainty > 0
-    assert far["leakage_per_width"].uncertainty == 0
+def test_a_sealed_gap_that_is_open_on_coarser_grids_has_an_uncertainty(towards_sealing):
+    """Near sealing every second node of some sealed gaps leaves a path; at 0.5 E* g' all grids are sealed."""
+    leakages = [result["leakage_per_width"] for _, result in towards_sealing if result["sealed"].value]
+    assert {one.value for one in leakages} == {0.0}
+    assert max(one.uncertainty for one in leakages) > 1e-15
+    assert leakages[-1].uncertainty < 1e-17
 
 
 @pytest.mark.parametrize("name", ["homogenized_leakage", "direct_leakage"])
@@ -193,6 +203,19 @@ def test_waves_that_a_grid_lacks_count_in_the_uncertainty(name):
     assert sealed["permeability"].value == 0
     assert sealed["permeability"].uncertainty is None
     assert any("raise the resolution" in warning for warning in sealed.warnings)
+
+
+def test_the_effective_medium_says_where_it_does_not_hold():
+    """It has an uncertainty, which contains the flow through the gap, for light loads without a lay only."""
+    light = seal(pressure="20 kPa")
+    found, true = (find("seal", name).solve(light)["permeability"] for name in ("effective_medium", "direct_leakage"))
+    assert abs(found.value - true.value) < found.uncertainty < found.value
+    lay = {"kind": "gaussian", "correlation_length": "2 um", "anisotropy": 4.0, "rms_height": "0.1 um"}
+    lay |= {key: ROUGH[key] for key in ("size", "points", "seed")}
+    for scene, words in ((seal(pressure="150 kPa"), "mean sealing load"), (seal(lay, pressure="10 kPa"), "has a lay")):
+        told = find("seal", "effective_medium").solve(scene)
+        assert told["permeability"].uncertainty is None
+        assert words in told.warnings[0]
 
 
 def test_a_softer_limit_of_pressure_seals_sooner():

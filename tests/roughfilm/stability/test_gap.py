@@ -61,7 +61,8 @@ def other(result, *, part=1.0, name="A22", runs=(), iterations=None):
 
 
 def without_bars(result):
-    return replace(result, quantities={k: replace(v, uncertainty=None) for k, v in result.quantities.items()})
+    bare = {name: replace(one, uncertainty=None) for name, one in result.quantities.items()}
+    return replace(result, quantities=bare, warnings=())
 
 
 @pytest.mark.parametrize("amplitude", [0.3, 0.9])
@@ -103,8 +104,10 @@ def test_the_judge_tells_right_from_wrong(asked):
     assert "A22: error" in wrong.message
     bare = without_bars(result)
     assert spot_of(probe, other(bare, part=1.01), right).outcome is MapOutcome.CONVERGED
-    far = spot_of(probe, other(bare, part=0.94), right)
+    far = spot_of(probe, replace(other(bare, part=0.94), warnings=result.warnings), right)
     assert (far.outcome, far.why) == (MapOutcome.INACCURATE, SLOPE_LEFT_OUT)
+    unsaid = spot_of(probe, other(bare, part=0.94), right)
+    assert (unsaid.outcome, unsaid.why) == (MapOutcome.WRONG, NOT_REPORTED)
     resolved = replace(probe, setting=Setting(model=find("rough_gap", "stokes"), resolution=32))
     silent = spot_of(resolved, replace(other(bare, part=0.94), model="stokes"), right)
     assert (silent.outcome, silent.why) == (MapOutcome.WRONG, NOT_REPORTED)

@@ -48,7 +48,7 @@ def few_resamples():
 @pytest.fixture(scope="module")
 def small(tmp_path_factory):
     folder = tmp_path_factory.mktemp("found")
-    return paper_f.compute(folder, **SMALL, sizes={32: 2}), folder
+    return paper_f.compute(folder, **SMALL, sizes={32: 2}, scatter={"without a lay": 2, "with a lay": 1}), folder
 
 
 def test_ridges_seal_across_at_once_and_along_in_full_contact():
@@ -167,7 +167,7 @@ def lawful(number, *, k=SEALING, a=LEAKAGE[0], b=LEAKAGE[1], area=0.44, more=1.0
 
 def study_of(sample):
     sizes = Sizes(area={5.0: np.full((3, 4), 0.44)}, load={5.0: np.full((3, 4), 0.2)})
-    return SealStudy(sample=sample, finer=[], measured=[], sizes=sizes, laws=fit_groups(sample))
+    return SealStudy(sample=sample, finer=[], measured=[], sizes=sizes, scatter={}, laws=fit_groups(sample))
 
 
 def verdicts(sample):
@@ -235,6 +235,9 @@ def test_the_page(monkeypatch, tmp_path, small):
     assert [claim["number"] for claim in told["claims"]] == [16, 19, 23, 24, 25, 26]
     assert told["laws"]["all"]["sealing"][SLOPE]["scale"] == SLOPE
     assert len(told["surfaces"]) == 4
+    assert {name: len(one["loads"]) for name, one in told["scatter"].items()} == {"without a lay": 2, "with a lay": 1}
+    low, high = told["scatter"]["without a lay"]["interval"]
+    assert 0.05 < low <= told["scatter"]["without a lay"]["mean"] <= high < 0.5
 
 
 def test_measured_surfaces_are_shrunk_and_scaled(tmp_path):

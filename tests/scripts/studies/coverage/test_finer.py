@@ -1,5 +1,7 @@
 """Truths by finer grids, against exact solutions."""
 
+import signal
+
 import numpy as np
 import pytest
 
@@ -46,6 +48,19 @@ def test_a_model_that_fails_on_finer_grids_has_no_truth(monkeypatch):
     monkeypatch.setattr(finer, "MAX_NEEDED_S", 0.0)
     with pytest.raises(ConvergenceError, match="finer grids"):
         finer_truth(scene)
+
+
+def test_a_solution_that_takes_too_long_is_given_up():
+    def work_on():
+        with finer.limited(0.05):
+            while True:
+                pass
+
+    with pytest.raises(ConvergenceError, match=r"more than 0\.05 s"):
+        work_on()
+    with finer.limited(10):
+        pass
+    assert signal.getitimer(signal.ITIMER_VIRTUAL)[0] == 0
 
 
 def test_a_scene_is_judged_at_one_resolution():

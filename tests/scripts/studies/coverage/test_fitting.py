@@ -1,0 +1,46 @@
+"""The fit of bounds: on made-up errors whose law is known."""
+
+import numpy as np
+import pytest
+
+from scripts.studies.coverage.fitting import calibration, fitted
+
+
+def made(count, seed):
+    """Errors |N| (0.02 a + 0.3 b²) with a standard normal N, whose 95 % bound is 1.96 times the bracket."""
+    rng = np.random.default_rng(seed)
+    rows = []
+    for _ in range(count):
+        numbers = {"a": float(np.exp(rng.uniform(-4, 4))), "b": float(np.exp(rng.uniform(-3, 0)))}
+        rows.append((numbers, float(abs(rng.normal()) * (0.02 * numbers["a"] + 0.3 * numbers["b"] ** 2))))
+    return rows
+
+
+def test_both_terms_of_a_sum_are_found():
+    law = fitted(made(600, 1), [("a",), ("b",)])
+    (first, second) = law.terms
+    assert first.powers["a"] == pytest.approx(1.0, abs=0.15)
+    assert second.powers["b"] == pytest.approx(2.0, abs=0.3)
+    assert first.coefficient == pytest.approx(1.96 * 0.02, rel=0.4)
+    assert second.coefficient == pytest.approx(1.96 * 0.3, rel=0.4)
+    assert law.reach["a"] == pytest.approx((np.exp(-4), np.exp(4)), rel=0.05)
+
+
+@pytest.mark.parametrize("terms", [[("a",), ("b",)], [("a", "b")]])
+def test_a_law_bounds_95_of_100_errors_of_other_scenes_at_every_level(terms):
+    """Also if its form is not that of the errors: a product stands for a sum."""
+    law = fitted(made(400, 2), terms)
+    others = made(2000, 3)
+    errors, bounds = np.array([error for _, error in others]), np.array([law.error(numbers) for numbers, _ in others])
+    assert 0.93 <= (errors <= bounds).mean() <= 0.995
+    for level in (0.02, 0.05, 0.1):
+        assert (errors[bounds <= level] <= level).mean() >= 0.93
+
+
+def test_a_level_that_is_not_kept_raises_the_factor():
+    """All errors are below their bounds but for those with small bounds, a tenth of which are far off."""
+    bound = np.concatenate([np.full(100, 0.008), np.full(1900, 0.5)])
+    errors = np.where(np.arange(2000) % 10 == 0, 0.03, 0.002)
+    assert (errors <= bound).mean() > 0.95
+    factor = calibration(errors, bound)
+    assert factor * 0.008 > 0.02, "the bound leaves the levels of 1 and 2 %, which a tenth misses"
