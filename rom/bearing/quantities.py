@@ -11,7 +11,7 @@ from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shapes import Journal
 from roughfilm.rom.cavitation.averaged import Averaged
-from roughfilm.rom.cavitation.balance import CAVITY, FILM
+from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED
 from roughfilm.rom.cavitation.grid import Grid
 from roughfilm.rom.cavitation.oblique import wetness
 from roughfilm.rom.cavitation.solve import Solution
@@ -216,7 +216,8 @@ def boundary_flows(solution: Solution) -> Flows:
 def film_ends(solution: Solution, row: int) -> tuple[float, float]:
     """The positions x/L, interpolated within cells, where the first film of a row begins and the last one ruptures.
 
-    A film that forms again before the outlet does not rupture. Without a film both are 1.
+    A film that forms again before the outlet does not rupture, and one at an inlet above the cavitation pressure begins
+    there; both may be thinner than a cell. Without a film both are 1.
     """
     x, length = solution.grid.x - solution.problem.shape.breaks[0], solution.problem.shape.length
     film = solution.kind[:, row] == FILM
@@ -224,6 +225,8 @@ def film_ends(solution: Solution, row: int) -> tuple[float, float]:
         return 1.0, 1.0
     torn = np.flatnonzero(film[:-1] & (solution.kind[1:, row] == CAVITY))
     end = _ends(solution, row, int(torn[-1]), x) / length if torn.size else 1.0
+    if solution.kind[0, row] == FIXED and solution.state.pressure[0, row] > 0:
+        return 0.0, end
     return _begins(solution, row, int(np.argmax(film)), x) / length, end
 
 

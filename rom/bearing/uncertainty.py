@@ -17,8 +17,11 @@ ORDERS = (1.0, 2.0)
 GRID_SAFETY_FACTOR = 1.5
 """Uncertainty over the largest of the errors that differences to coarser grids give."""
 
-TWO_GRIDS_SAFETY_FACTOR = 3.0
-"""The same with a single difference, which may be small by chance."""
+COARSE_SAFETY_FACTOR = 3.0
+"""The same with a single difference, or with a finest grid below ``MIN_CELLS``: they may be small by chance."""
+
+MIN_CELLS = 50
+"""Number of cells along a side from which on ``GRID_SAFETY_FACTOR`` holds."""
 
 MAX_GRID_RATIO = 0.75
 """Cells of a grid over those of the next finer one, up to which their difference is used."""
@@ -77,7 +80,8 @@ def grid_uncertainty(cells: Sequence[float], values: Sequence[float]) -> float:
     triples = range(len(values) - 2)
     order = min((observed_order(cells[n : n + 3], values[n : n + 3]) for n in triples), default=ORDERS[0])
     errors = [float(abs(values[0] - values[n]) / ((cells[0] / cells[n]) ** order - 1)) for n in range(1, len(values))]
-    return (GRID_SAFETY_FACTOR if len(errors) > 1 else TWO_GRIDS_SAFETY_FACTOR) * max(errors)
+    fine = len(errors) > 1 and cells[0] >= MIN_CELLS
+    return (GRID_SAFETY_FACTOR if fine else COARSE_SAFETY_FACTOR) * max(errors)
 
 
 def observed_order(cells: Sequence[float], values: Sequence[float]) -> float:

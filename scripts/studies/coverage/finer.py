@@ -2,7 +2,7 @@
 
 import signal
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from functools import cache, partial
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
@@ -93,10 +93,10 @@ def _truth(scene: Scene, solve: Solver, method: str) -> Truth:
     Without a limit of the best one, the truth is empty: expected errors are then not judged.
     """
     applying = [model for model in models(scene.kind) if not model.outside and model.applies(scene).applies]
-    own = {model.name: found for model in applying if (found := extrapolated(scene, model, solve))}
-    if not own:
+    own = {model.name: extrapolated(scene, model, solve) for model in applying}
+    if not any(own.values()):
         raise ConvergenceError("no model solves the scene on finer grids")
-    top = own.get(best(applying).name, {})
+    top = own[best(applying).name]
     return Truth(
         values={name: value for name, (value, _) in top.items()},
         uncertainty={name: bar for name, (_, bar) in top.items()},
@@ -117,7 +117,7 @@ def extrapolated(scene: Scene, model: Model, solve: Solver) -> Values:
         if factor > 1 and model.cost(scene, base * factor) > (MAX_CPU_S if len(runs) >= LEAST else MAX_NEEDED_S):
             break
         try:
-            with limited(MAX_SOLVE_S):
+            with limited(MAX_SOLVE_S) if factor > 1 else nullcontext():  # the first one may compile
                 runs.append(solve(model, factor))
         except (ConvergenceError, InputError):
             break

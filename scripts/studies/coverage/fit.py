@@ -12,9 +12,10 @@ from typing import Annotated
 import typer
 from rich.table import Table as ShownTable
 
-from roughfilm.ladder import find
+from roughfilm.ladder import find, models
 from roughfilm.rom.advice.laws import Grid, Law, Numbers, Promise, Table, on_grid, table
 from roughfilm.rom.ladder.kind import Kind, kind_of_name
+from roughfilm.rom.ladder.model import best
 from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.terminal.console import in_one_line, make_directory, output, run_alone
@@ -93,27 +94,30 @@ def promise_rows(scenes: Mapping[int, FitScene], model: str, quantity: str) -> R
     ]
 
 
-def resolution_rows(scenes: Mapping[int, FitScene], model: str, quantity: str, out: Path) -> Rows:
-    """Return the errors of a model by its resolution: from its finest one, or from the truth if it runs outside."""
+def resolution_rows(scenes: Mapping[int, FitScene], plan: PlannedLaw, model: str, quantity: str, out: Path) -> Rows:
+    """Return the errors of a model by its resolution.
+
+    The truth is that of the scene for the most complete model, and otherwise the value at the finest resolution; if
+    that is one of the usual ones, it is extrapolated from the two finest.
+    """
     rows: Rows = []
-    for (seed, name), one in resolutions.read(resolutions.path_of(out, "pocket")).items():
+    own, top = find(plan.kind, model), best(models(plan.kind))
+    for (seed, name), one in resolutions.read(resolutions.path_of(out, plan.kind)).items():
         scene = scenes.get(seed)
         known = {resolution: values for resolution, values in one.values.items() if quantity in values}
-        if name != model or scene is None or not known:
+        if name != model or scene is None or len(known) < 2:
             continue
-        finest = known[max(known)]
-        if find(one.kind, model).outside:
-            errors = {
-                n: scene.error(quantity, values) for n, values in known.items() if _certain(scene, quantity, values)
-            }
-        else:
-            size = float(scene.kind.scale(finest, quantity))
-            errors = {
-                n: abs(values[quantity] - finest[quantity]) / size
-                for n, values in known.items()
-                if values is not finest
-            }
-        rows += [(on_grid(scene.numbers, n), error) for n, error in errors.items()]
+        *_, second, last = sorted(known)
+        finest, limit = known[last], known[last][quantity]
+        if own.outside:
+            ratio = (last / second) ** (own.order or 1)
+            limit += (limit - known[second][quantity]) / (ratio - 1)
+        for resolution, values in known.items():
+            numbers = on_grid(scene.numbers, resolution)
+            if own is top and _certain(scene, quantity, values):
+                rows.append((numbers, scene.error(quantity, values)))
+            elif own is not top and (own.outside or resolution < last):
+                rows.append((numbers, abs(values[quantity] - limit) / float(scene.kind.scale(finest, quantity))))
     return rows
 
 
@@ -134,7 +138,7 @@ def laws_of(plan: PlannedLaw, model: str, scenes: Mapping[int, FitScene], out: P
         if plan.part == "promise":
             rows = promise_rows(scenes, model, quantity)
         else:
-            rows = resolution_rows(scenes, model, quantity, out)
+            rows = resolution_rows(scenes, plan, model, quantity, out)
         if len(rows) >= MIN_SCENES:
             laws[quantity] = fitted(rows, plan.terms)
     return laws

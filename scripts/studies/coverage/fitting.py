@@ -25,6 +25,9 @@ POWER_STEP = 0.05
 MAX_POWER = 4.0
 """Largest magnitude of a power."""
 
+LEAST_PART = 0.01
+"""Largest part of the bound of any scene below which a term is dropped."""
+
 FOLDS = 5
 """Number of parts of the scenes, each of which judges a law that is fitted to the others."""
 
@@ -58,13 +61,14 @@ def fitted(rows: Sequence[tuple[Numbers, float]], terms: Sequence[Sequence[str]]
         powers, weights = _law(own, errors[~left], terms)
         others[left] = weights @ _shapes({name: values[left] for name, values in x.items()}, powers)
     powers, weights = _law(x, errors, terms)
-    bound = weights @ _shapes(x, powers)
+    shapes = _shapes(x, powers)
+    bound = weights @ shapes
     factor = calibration(errors, others)
     return Law(
         terms=tuple(
             Term(coefficient=_rounded(factor * weight), powers=own)
-            for weight, own in zip(weights, powers, strict=True)
-            if weight > 0
+            for weight, own, shape in zip(weights, powers, shapes, strict=True)
+            if (weight * shape > LEAST_PART * bound).any()
         ),
         reach={name: (_rounded(np.exp(x[name].min())), _rounded(np.exp(x[name].max()))) for name in names},
         scenes=len(rows),

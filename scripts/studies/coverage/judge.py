@@ -71,8 +71,8 @@ def findings(scenes: Sequence[Judged]) -> Iterator[Finding]:
     """Return what every answer states about its quantities.
 
     An uncertainty is judged by the truth of the model's own equations, an expected error by the truth of the scene;
-    to an expected error the uncertainty is added. Where a scene has no own truths of models, and a model states no
-    expected error, its uncertainty is judged by the truth of the scene.
+    to an expected error the uncertainty is added. Where a model states no expected error and has no entry in the own
+    truths, its uncertainty is judged by the truth of the scene.
     """
     for one in scenes:
         kind = kind_of_name(one.kind)
@@ -87,7 +87,7 @@ def findings(scenes: Sequence[Judged]) -> Iterator[Finding]:
                 if expected is not None and quantity in one.truth:
                     size = float(kind.scale(values, quantity))
                     promises.append((EXPECTED, one.truth[quantity], expected * size + (bar or 0.0)))
-                elif bar is not None and quantity in one.truth and not one.own:
+                elif bar is not None and quantity in one.truth and model not in one.own:
                     promises.append((UNCERTAINTY, one.truth[quantity], bar))
                 for promise, (true, doubt), stated in promises:
                     yield Finding(

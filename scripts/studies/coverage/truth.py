@@ -19,8 +19,8 @@ class Truth:
     uncertainty : of each of these values, in the same unit; it contains the difference from the exact solution.
     method : the solution method and its resolutions, in words.
     own : by model and quantity, value and uncertainty of the exact solution of the model's own equations, by which the
-        uncertainty of that model is judged. If it is empty, all models are judged by ``values``, else those without an
-        entry are not judged.
+        uncertainty of that model is judged; models without an entry are judged by ``values``, those with an empty one
+        are not judged.
     warnings : one sentence for each reason to doubt the solution.
     """
 

@@ -1,18 +1,22 @@
 """The uncertainty of the quantities of a film against known errors, finer grids and exact solutions."""
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import pytest
 from places import SCENES
 
 from roughfilm.ladder import find
+from roughfilm.rom.bearing.quantities import film_ends
 from roughfilm.rom.bearing.uncertainty import (
+    COARSE_SAFETY_FACTOR,
     GRID_SAFETY_FACTOR,
-    TWO_GRIDS_SAFETY_FACTOR,
     grid_uncertainty,
     observed_order,
 )
+from roughfilm.rom.cavitation.balance import CAVITY
+from roughfilm.rom.cavitation.solve import solve as balance
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import load_scene, read_scene
@@ -37,6 +41,8 @@ def test_the_uncertainty_of_a_known_order_is_the_safety_factor_times_the_error(o
     assert observed_order(CELLS[:3], [7 + error for error in errors[:3]]) == pytest.approx(order, abs=1e-6)
     found = grid_uncertainty(CELLS, [7 + error for error in errors])
     assert found == pytest.approx(GRID_SAFETY_FACTOR * errors[0], rel=1e-6)
+    found = grid_uncertainty([n / 4 for n in CELLS], [7 + error for error in errors])
+    assert found == pytest.approx(COARSE_SAFETY_FACTOR * errors[0], rel=1e-6)
 
 
 def test_values_that_oscillate_or_settle_slowly_have_the_lowest_order() -> None:
@@ -45,7 +51,7 @@ def test_values_that_oscillate_or_settle_slowly_have_the_lowest_order() -> None:
     assert observed_order(CELLS[:3], [1.0, 1.0, 1.3]) == 1.0
     assert observed_order(CELLS[:3], [1.0, 1.01, 1.5]) == 2.0
     assert grid_uncertainty(CELLS, [1.0, 1.0, 1.0, 1.0]) == 0.0
-    assert grid_uncertainty(CELLS[:2], [1.0, 1.3]) == pytest.approx(TWO_GRIDS_SAFETY_FACTOR * 0.3 / 0.6)
+    assert grid_uncertainty(CELLS[:2], [1.0, 1.3]) == pytest.approx(COARSE_SAFETY_FACTOR * 0.3 / 0.6)
 
 
 @pytest.mark.parametrize("cells", [32, 64, 128, 256, 512])
@@ -91,3 +97,11 @@ def test_the_error_of_a_wedge_is_within_its_uncertainty_and_not_far_below(length
         load = solve(cells, wedge)["load"]
         assert load.uncertainty is not None
         assert 0.1 * load.uncertainty < abs(load.value - exact) <= load.uncertainty
+
+
+def test_a_film_thinner_than_a_cell_begins_at_an_inlet_above_the_cavitation_pressure() -> None:
+    scene = load_scene(SCENES / "parabolic_slider.toml", ["boundary.inlet.pressure=1 bar"])
+    found = balance(scene.problem(), (64, 64))
+    kind = found.kind.copy()
+    kind[1:5] = CAVITY
+    assert film_ends(replace(found, kind=kind), 0)[0] == 0.0

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.random import Generator
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import with_unit
 from scripts.studies.coverage.surfaces import stored
 from scripts.studies.random_entries import Entries, between, chance, length, random_surface
@@ -25,6 +26,9 @@ SHAPES = (
 CHANCES = (0.1, 0.14, 0.1, 0.12, 0.06, 0.06, 0.1, 0.2, 0.06, 0.06)
 """Probabilities of the shapes."""
 
+MAX_PRESSURE = 3e9
+"""Largest 6ηuL/h² of a scene, Pa."""
+
 RINGS = ("sector", "washer")
 
 
@@ -33,15 +37,24 @@ def draw(rng: Generator) -> Entries:
 
     A third has a texture, a quarter a starved inlet and a quarter pressures at its ends, a tenth slides backwards, and
     a third has ridges or a rough surface.
+
+    Raises
+    ------
+    InputError
+        If 6ηuL/h² exceeds ``MAX_PRESSURE`` or the bulk modulus, where no law of density holds.
     """
     side, film = between(rng, 2e-3, 0.1), between(rng, 2e-6, 100e-6)
     shape = str(rng.choice(SHAPES, p=CHANCES))
     geometry = shaped(rng, shape, film, side)
     joined = shape == "washer" or geometry.get("joined", False)
     speed = between(rng, 0.05, 30) * (-1 if chance(rng, 0.1) else 1)
+    oil = lubricant(rng)
+    pressure = 6 * _number(oil["viscosity"]) * abs(speed) * side / film**2
+    if pressure > min(MAX_PRESSURE, _number(oil["compressibility"].get("bulk_modulus", "inf Pa"))):
+        raise InputError(f"6ηuL/h²: got {pressure:.2g} Pa; draw again")
     entries: Entries = {
         "geometry": geometry,
-        "lubricant": lubricant(rng),
+        "lubricant": oil,
         "motion": {"speed": with_unit(speed, "m/s")},
         "boundary": fed(rng, joined, shape in RINGS or "width" in geometry),
     }
@@ -61,6 +74,10 @@ def draw(rng: Generator) -> Entries:
             solid = {"modulus": "210 GPa", "poisson": 0.3, "hardness": with_unit(between(rng, 0.5e9, 10e9), "Pa")}
             entries["asperities"] = {"friction": float(rng.uniform(0.03, 0.3)), "solid": solid}
     return entries
+
+
+def _number(text: str) -> float:
+    return float(text.partition(" ")[0])
 
 
 def lubricant(rng: Generator) -> Entries:

@@ -1,11 +1,12 @@
-"""Random rough gaps between ridges: sums of waves, valleys and plateaus on one wall or on both, at a negligible Re."""
+"""Random rough gaps: between ridges on one wall or on both, at a negligible Re, and between surfaces, also pressed."""
 
 import numpy as np
 from numpy.random import Generator
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.units import with_unit
-from scripts.studies.coverage.surfaces import stored
+from scripts.studies.coverage.scenes.dry_contact import pressed
+from scripts.studies.coverage.surfaces import drawn_surface, in_file, rms_slope, stored
 from scripts.studies.random_entries import Entries, between, chance, length
 
 MEAN_GAP = 10e-6
@@ -17,8 +18,38 @@ POINTS = 128
 HIGHEST_WAVE = 12
 """Number of the shortest wave of a period."""
 
+SIDE_POINTS = 48
+"""Number of points along a side of a surface."""
+
 
 def draw(rng: Generator) -> Entries:
+    """Return a gap between ridges, or one of 3 times in 10 between surfaces."""
+    ridged = between_ridges(rng)
+    return between_surfaces(rng) if chance(rng, 0.3) else ridged
+
+
+def between_surfaces(rng: Generator) -> Entries:
+    """Return a gap of rms height 0.01 to 0.4 mean gaps and rms slope 0.005 to 1.5, Re = 0.001 to 200.
+
+    Two of five are pressed together under P/(E* g') = 0.003 to 0.1, and a third of the others has two rough walls.
+    """
+    drive: Entries = {
+        "lubricant": {"viscosity": "10 mPa*s", "density": "870 kg/m^3"},
+        "flow": {"reynolds_number": 1e-3 if chance(rng, 0.5) else between(rng, 0.1, 200)},
+    }
+    if chance(rng, 0.4):
+        return {**pressed(rng, SIDE_POINTS, (3e-3, 0.1)), **drive}
+    heights = drawn_surface(rng, SIDE_POINTS, rng.uniform(6, 16))
+    height, slope = MEAN_GAP * between(rng, 0.01, 0.4), between(rng, 5e-3, 1.5)
+    step = height * rms_slope(heights) / slope / SIDE_POINTS
+    geometry = {**in_file(height * heights, (step, step)), "mean_gap": length(MEAN_GAP)}
+    if chance(rng, 0.33):
+        other = drawn_surface(rng, SIDE_POINTS, rng.uniform(6, 16))
+        geometry["upper"] = in_file(height * between(rng, 0.2, 1.0) * other, (step, step))
+    return {"geometry": geometry, **drive}
+
+
+def between_ridges(rng: Generator) -> Entries:
     """Return a gap with ridges across x, 1.5 to 60 mean gaps long, at least 0.12 of the mean gap apart."""
     period = MEAN_GAP * between(rng, 1.5, 60)
     lower, upper = _profile(rng), _profile(rng) * rng.uniform(0.2, 1) * (0.0 if chance(rng, 0.6) else 1.0)

@@ -34,6 +34,8 @@ def test_a_seed_is_one_scene(kind):
     assert first != other
 
 
-def test_rough_gaps_have_one_rough_wall_or_two():
-    gaps = [drawn("rough_gap", seed) for seed in range(20000, 20015)]
+def test_rough_gaps_are_between_ridges_or_surfaces_and_open_or_pressed():
+    gaps = [drawn("rough_gap", seed) for seed in range(20000, 20040)]
+    assert {one.load is None for one in gaps} == {True, False}
     assert {one.geometry.upper is None for one in gaps} == {True, False}
+    assert {one.surface().shape for one in gaps} == {(128, 2), (48, 48)}
