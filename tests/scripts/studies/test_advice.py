@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from scripts.studies.coverage.laws_file import write_table
 
 from roughfilm.ladder import find, models
 from roughfilm.rom.advice.advise import advise
