@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from scripts.studies.coverage.laws_file import write_table
 
 from roughfilm.ladder import find, models
 from roughfilm.rom.advice.advise import advise
@@ -13,6 +12,7 @@ from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import scene_entries
 from scripts.studies.advice.check import Trial, score, tried
 from scripts.studies.advice.fit import SolvedScene, cases, fitted
+from scripts.studies.advice.laws_file import write_table
 from scripts.studies.advice.runs import PARTS, DrawnScene, Run
 from scripts.studies.advice.scenes import DRAWN, random_scene
 
