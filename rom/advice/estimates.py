@@ -264,6 +264,7 @@ def left_out(task: AdviceTask, chain: Sequence[Model]) -> tuple[list[float], lis
 
 def _promise_reason(task: AdviceTask, chain: Sequence[Model], error: float) -> str:
     adds = [step.adds for model in chain if (step := task.step(model)) is not None]
+    adds = [one for one in adds if one.partition(" beyond ")[0] == one or one.partition(" beyond ")[0] not in adds]
     return f"{chain[0].name} leaves out {' and '.join(adds)}: its {task.title} is {near(error)}"
 
 

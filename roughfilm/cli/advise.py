@@ -104,8 +104,8 @@ def _shown(scene: Scene, advice: Advice) -> Iterator[Table | str]:
     if numbers:
         yield f"numbers of the scene: {', '.join(numbers)}"
     laws = laws_table().provenance
-    scenes = f"{sum(laws['scenes'].values())} random scenes, {laws['command']}"
-    yield f"{advice.spent_cpu_s:.2g} CPU s spent on the advice; laws: {scenes}"
+    own = laws["fits"].get(kind.name, {"scenes": laws["scenes"].get(kind.name, 0), "command": laws["command"]})
+    yield f"{advice.spent_cpu_s:.2g} CPU s spent on the advice; laws: {own['scenes']} random scenes, {own['command']}"
 
 
 def _short(estimate: Estimate | None) -> str:
