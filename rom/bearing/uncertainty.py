@@ -17,7 +17,7 @@ ORDERS = (1.0, 2.0)
 GRID_SAFETY_FACTOR = 1.5
 """Uncertainty over the largest of the errors that differences to coarser grids give."""
 
-COARSE_SAFETY_FACTOR = 3.0
+COARSE_SAFETY_FACTOR = 4.0
 """The same with a single difference, or with a finest grid below ``MIN_CELLS``: they may be small by chance."""
 
 MIN_CELLS = 50
