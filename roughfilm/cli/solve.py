@@ -99,7 +99,7 @@ def _shown(scene: Scene, by: Model, result: Result) -> Iterator[Table | str]:
         if run.recipe and not run.name:
             yield f"first run did not converge; second run succeeded with: {run.recipe}"
     if result.expected_error:
-        titles = kind_of_name(scene.kind).compared
+        titles = kind_of_name(scene.kind).titles
         errors = (f"{titles[name]} {bounded(error)}" for name, error in result.expected_error.items())
         yield f"expected error of {by.name} by the fitted laws: {', '.join(errors)}"
     yield by.applies(scene).reason

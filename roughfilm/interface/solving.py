@@ -131,7 +131,7 @@ def solve(
     >>> scene = rf.load_scene("scripts/examples/scenes/pocket.toml")
     >>> result = rf.solve(scene, model="film_slope")
     >>> result["load"].unit, result.fields["pressure"].unit, sorted(result.expected_error)
-    ('Pa', 'Pa', ['friction_plus', 'load_plus'])
+    ('Pa', 'Pa', ['friction_plus', 'load_plus', 'pressure_max_plus', 'pressure_min_plus'])
     """
     kind = checked_scene(scene).kind
     if within is not None:

@@ -41,7 +41,7 @@ def test_advice_for_people(run, groove):
     found = run("advise", *groove, "--within", "10%")
     assert found.exit_code == 0
     assert "load within 10 % by" in found.stdout
-    assert "reynolds would miss it" in found.stdout.replace("\n", " ")
+    assert "reynolds leaves out inertia and slope: its load is" in found.stdout.replace("\n", " ")
     assert "h/L = 0.03" in found.stdout
 
 
