@@ -305,15 +305,17 @@ def a_posteriori(task: AdviceTask, model: Model, resolution: int) -> Estimate | 
 def with_own_uncertainty(task: AdviceTask, model: Model, resolution: int, estimate: Estimate) -> Estimate:
     """The estimate with the uncertainty that the model states of its own run, where no law gives the grid's error.
 
-    This is so at the full resolution of a rough surface, for models that run in this process. The estimate does not
-    change if the run fails or does not state an uncertainty.
+    This is so at the full resolution of a rough surface, for models that run in this process. A promise contains this
+    error for surfaces like those of its fit, and is at least the stated uncertainty. The estimate does not change if
+    the run fails or does not state an uncertainty.
     """
     if model.outside or "waves" not in task.numbers or not task.at_full_resolution(model, resolution):
         return estimate
     own = _from_itself(task, model, resolution)
     if own is None or own.error == 0:
         return estimate
-    error = math.hypot(estimate.error, own.error)
+    promise = task.table.promise(task.kind.name, model.name, task.quantity)
+    error = math.hypot(estimate.error, own.error) if promise is None else max(estimate.error, own.error)
     first = own.reasons if own.error > estimate.error else ()
     return Estimate(error=error, reasons=(*first, *estimate.reasons), sure=estimate.sure, least=error)
 

@@ -3,8 +3,9 @@
 The laws are written into rom/advice/laws.toml, where they replace those of the same models; other laws are kept.
 """
 
+import math
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated
@@ -13,6 +14,7 @@ import typer
 from rich.table import Table as ShownTable
 
 from roughfilm.ladder import find, models
+from roughfilm.rom.advice.estimates import over
 from roughfilm.rom.advice.laws import Grid, Law, Numbers, Promise, Table, on_grid, table
 from roughfilm.rom.ladder.kind import Kind, kind_of_name
 from roughfilm.rom.ladder.model import best
@@ -73,7 +75,7 @@ class FitScene:
 
     def error(self, quantity: str, values: Mapping[str, float]) -> float:
         """The relative difference of values from the truth."""
-        return abs(values[quantity] - self.judged.truth[quantity][0]) / self.size(quantity, values)
+        return over(abs(values[quantity] - self.judged.truth[quantity][0]), self.size(quantity, values))
 
 
 def fit_scenes(kind: str, out: Path) -> dict[int, FitScene]:
@@ -87,11 +89,12 @@ def fit_scenes(kind: str, out: Path) -> dict[int, FitScene]:
 
 def promise_rows(scenes: Mapping[int, FitScene], model: str, quantity: str) -> Rows:
     """Return the errors of a model against the truth."""
-    return [
-        (one.numbers, one.error(quantity, values))
-        for one in scenes.values()
-        if (values := _values(one, model)) and _certain(one, quantity, values)
-    ]
+    rows: Rows = []
+    for one in scenes.values():
+        values = _values(one, model)
+        if quantity in values and quantity in one.judged.truth and _certain(one, quantity, values):
+            rows.append((one.numbers, one.error(quantity, values)))
+    return rows
 
 
 def resolution_rows(scenes: Mapping[int, FitScene], plan: PlannedLaw, model: str, quantity: str, out: Path) -> Rows:
@@ -127,21 +130,28 @@ def _values(one: FitScene, model: str) -> Mapping[str, float]:
 
 def _certain(one: FitScene, quantity: str, values: Mapping[str, float]) -> bool:
     """Whether the uncertainty of the truth is small compared with the size, or with the error."""
-    uncertainty = one.judged.truth[quantity][1] / one.size(quantity, values)
+    uncertainty = over(one.judged.truth[quantity][1], one.size(quantity, values))
     return uncertainty <= max(MAX_TRUTH_UNCERTAINTY, one.error(quantity, values) / 5)
 
 
 def laws_of(plan: PlannedLaw, model: str, scenes: Mapping[int, FitScene], out: Path) -> dict[str, Law]:
     """Return the laws of a model by quantity."""
     laws = {}
-    for quantity in next(iter(scenes.values())).judged.truth:
+    known = {name for one in scenes.values() for name in one.judged.truth}
+    for quantity in (name for name in kind_of_name(plan.kind).titles if name in known):
         if plan.part == "promise":
             rows = promise_rows(scenes, model, quantity)
         else:
             rows = resolution_rows(scenes, plan, model, quantity, out)
-        if len(rows) >= MIN_SCENES:
-            laws[quantity] = fitted(rows, plan.terms)
+        names = {name for term in plan.terms for name in term}
+        usable = [(numbers, error) for numbers, error in rows if _usable(numbers, names) and error < math.inf]
+        if len(usable) >= MIN_SCENES:
+            laws[quantity] = fitted(usable, plan.terms)
     return laws
+
+
+def _usable(numbers: Numbers, names: Iterable[str]) -> bool:
+    return all(name in numbers and 0 < numbers[name] < math.inf for name in names)
 
 
 def with_laws(known: Table, plan: PlannedLaw, model: str, laws: Mapping[str, Law]) -> Table:
