@@ -246,8 +246,9 @@ def left_out(task: AdviceTask, chain: Sequence[Model]) -> tuple[list[float], lis
     for place, model in enumerate(chain):
         promise = task.table.promise(task.kind.name, model.name, task.quantity)
         step = task.step(model)
-        if promise is not None and promise.knows(task.numbers):
-            error, beyond = promise.error(task.numbers), promise.beyond(task.numbers)
+        own = on_grid(task.numbers, model.resolution_of(task.scene))
+        if promise is not None and promise.knows(own):
+            error, beyond = promise.error(own, RESOLVING), promise.beyond(own, RESOLVING)
             reason = _promise_reason(task, chain[place:], error) + _range_note(task, beyond, promise)
             return [*parts, error], [*reasons, (error, reason)], sure and beyond is None
         if step is None:

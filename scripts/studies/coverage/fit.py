@@ -93,7 +93,8 @@ def promise_rows(scenes: Mapping[int, FitScene], model: str, quantity: str) -> R
     for one in scenes.values():
         values = _values(one, model)
         if quantity in values and quantity in one.judged.truth and _certain(one, quantity, values):
-            rows.append((one.numbers, one.error(quantity, values)))
+            numbers = on_grid(one.numbers, one.judged.models[model].resolution)
+            rows.append((numbers, one.error(quantity, values)))
     return rows
 
 
