@@ -34,7 +34,8 @@ class Promised:
         """The promise as the end of a sentence."""
         if self.beyond:
             return f"errors unknown, {self.beyond}"
-        return ", ".join(f"{TITLES[quantity]} {near(error)}" for quantity, error in self.errors.items())
+        errors = ", ".join(f"{TITLES[quantity]} {near(error)}" for quantity, error in self.errors.items())
+        return errors and f"compared with navier_stokes {errors}"
 
 
 def promised(scene: Pocket, model: str) -> Promised:
