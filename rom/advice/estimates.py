@@ -34,12 +34,14 @@ class Estimate:
     reasons : reasons for the error as text, the most important first.
     sure : whether the scene is within the range of the scenes to which the laws were fitted.
     least : the error that the model has at least, as runs show; 0 if they do not show any.
+    decides : whether it replaces the estimate by laws: the most complete model states it for its own run.
     """
 
     error: float
     reasons: tuple[str, ...]
     sure: bool = True
     least: float = 0.0
+    decides: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -210,9 +212,12 @@ def combined(before: Estimate | None, after: Estimate | None) -> Estimate | None
     """The smaller of two estimates, by the laws and from runs; that from runs if the laws do not hold for the scene.
 
     They do not hold outside of the range of their fit, or if runs show that the error is larger than the laws expect.
+    An uncertainty that the most complete model states itself always counts.
     """
     if before is None or after is None:
         return before if after is None else after
+    if after.decides:
+        return after
     wrong = not before.sure or after.least > before.error
     return after if wrong or (after.sure and after.error <= before.error) else before
 
@@ -341,7 +346,8 @@ def _from_itself(task: AdviceTask, model: Model, resolution: int) -> Estimate | 
     error = None if own is None else task.uncertainty(own)
     if error is None:
         return None
-    return Estimate(error=error, reasons=(f"at resolution {resolution} its own uncertainty is {percent(error)}",))
+    reason = f"at resolution {resolution} its own uncertainty is {percent(error)}"
+    return Estimate(error=error, reasons=(reason,), decides=True)
 
 
 def _from_above(task: AdviceTask, model: Model, resolution: int, above: Model, finer: int) -> Estimate | None:
