@@ -309,21 +309,21 @@ def a_posteriori(task: AdviceTask, model: Model, resolution: int) -> Estimate | 
 
 
 def with_own_uncertainty(task: AdviceTask, model: Model, resolution: int, estimate: Estimate) -> Estimate:
-    """The estimate with the uncertainty that the model states of its own run, where no law gives the grid's error.
+    """The estimate with the uncertainty that a model in this process states of its own run.
 
-    This is so at the full resolution of a rough surface, for models that run in this process. A promise contains this
-    error for surfaces like those of its fit, and is at least the stated uncertainty. The estimate does not change if
-    the run fails or does not state an uncertainty.
+    Where a law gives the error by the resolution, or a promise contains it, the error is at least this uncertainty. At
+    the full resolution of a rough surface without a promise, the uncertainty adds to the error. The estimate does not
+    change if the run fails or does not state an uncertainty.
     """
-    if model.outside or "waves" not in task.numbers or not task.at_full_resolution(model, resolution):
-        return estimate
-    own = _from_itself(task, model, resolution)
+    own = None if model.outside else _from_itself(task, model, resolution)
     if own is None or own.error == 0:
         return estimate
     promise = task.table.promise(task.kind.name, model.name, task.quantity)
-    error = math.hypot(estimate.error, own.error) if promise is None else max(estimate.error, own.error)
+    adds = promise is None and "waves" in task.numbers and task.at_full_resolution(model, resolution)
+    error = math.hypot(estimate.error, own.error) if adds else max(estimate.error, own.error)
     first = own.reasons if own.error > estimate.error else ()
-    return Estimate(error=error, reasons=(*first, *estimate.reasons), sure=estimate.sure, least=error)
+    reasons = (*first, *estimate.reasons)
+    return Estimate(error=error, reasons=reasons, sure=estimate.sure, least=estimate.least, decides=True)
 
 
 def _cheap(task: AdviceTask, check: float, cost: float) -> bool:
