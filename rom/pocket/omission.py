@@ -30,7 +30,7 @@ def rupture_omitted(scene: Pocket, quantity: str) -> Omission | None:
     The lowest pressure is that of ``film``, or of ``inertial_reynolds`` if it does not rupture or ``film`` does not
     converge. The change of a quantity without a known bound is infinite.
     """
-    found = INERTIAL_REYNOLDS.solve(scene)
+    found = INERTIAL_REYNOLDS.solve(scene, Request(resolution=INERTIAL_REYNOLDS.resolution_of(scene)))
     if not ruptures(scene, _lowest(scene, found)):
         return None
     found = _by_film(scene, FILM) or found

@@ -284,3 +284,7 @@ def answer_of(scene: Scene, model: Model, request: Request | None = None) -> Res
         return solve(scene, model=model.name, **({} if request is None else vars(request)))
     except ConvergenceError as error:
         return f"{type(error).__name__}: {error}"
+    except InputError as error:
+        if request is not None:
+            raise
+        return str(error)

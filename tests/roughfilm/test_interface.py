@@ -319,3 +319,26 @@ def test_a_program_refuses_a_file_that_is_no_study_in_one_line(tmp_path):
     assert done.returncode == 1
     assert done.stderr.startswith("error: nowhere.toml")
     assert done.stderr.count("\n") == 1
+
+
+def test_films_are_solved_where_quadrature_is_not():
+    """The check of cavitation takes the pressure of quadrature at a resolution that needs not meet its tolerance."""
+    half_circles = rf.read_scene(
+        {
+            "name": "half circles",
+            "kind": "pocket",
+            "geometry": {
+                "length": "0.2 mm",
+                "film": "30 um",
+                "grooves": [
+                    {"profile": "cylindrical", "position": at, "width": "0.1 mm", "depth": "0.05 mm"}
+                    for at in ("-0.05 mm", "0.05 mm")
+                ],
+            },
+            "lubricant": {"viscosity": "1 mPa*s", "density": "1000 kg/m^3"},
+            "motion": {"reynolds_number": 1},
+        }
+    )
+    with pytest.raises(rf.ConvergenceError, match="loosen the tolerance"):
+        rf.solve(half_circles, model="reynolds")
+    assert rf.solve(half_circles, model="film")["load"].value != 0

@@ -96,8 +96,11 @@ def orthogonal(gap: Gap, resolution: int, layers: int) -> Array:
         folded = ~convex(vertices).all(axis=1)
         if not folded.any():
             return vertices
-    place = vertices[:-1, 0, 0][folded][0] * gap.film
-    raise InputError(
+    raise _folding(vertices[:-1, 0, 0][folded][0] * gap.film, resolution)
+
+
+def _folding(place: float, resolution: int) -> InputError:
+    return InputError(
         f"geometry: got a ridge so sharp at x = {place:.4g} m that cells of a mesh of {resolution} columns fold there; "
         "give the grooves more land between them or less steep walls, or change the resolution"
     )
@@ -153,6 +156,8 @@ def _columns(wall: Wall, places: Places, resolution: int) -> Columns:
     moved = np.minimum(np.diff(lower), MAX_GROWTH * wall.period * np.diff(table))
     middle = (np.append(0.0, np.cumsum(moved)) + places.upper(table)) / 2
     start, end = np.interp([0.0, 1.0], table, middle).tolist()
+    if not end - start > SAME_PLACE:
+        raise _folding(gap.breaks[0], resolution)
 
     def on_wall(breaks: tuple[float, ...]) -> Array:
         return np.asarray(np.interp(np.array(breaks) / film, wall.x, wall.arc))

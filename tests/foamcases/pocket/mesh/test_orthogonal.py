@@ -190,8 +190,10 @@ def test_the_place_of_the_period_does_not_change_the_shape_of_the_cells():
     assert np.diff(vertices[:, -1, 0]).min() == pytest.approx(np.diff(centred[:, -1, 0]).min(), rel=0.15)
 
 
-def test_a_ridge_without_land_is_refused_in_one_line():
-    ridge = channel(length=33.0, film=1.0, grooves=[(at, cylindrical(width=6.0, depth=2.99)) for at in (-3.0, 3.0)])
+@pytest.mark.parametrize(("length", "depth"), [(33.0, 2.99), (12.0, 3.0)])
+def test_a_ridge_without_land_is_refused_in_one_line(length, depth):
+    """Also of two half circles that fill the period."""
+    ridge = channel(length=length, film=1.0, grooves=[(at, cylindrical(width=6.0, depth=depth)) for at in (-3.0, 3.0)])
     with pytest.raises(
         InputError, match=r"geometry: got a ridge so sharp at x = .* fold there; give the grooves more land"
     ):
