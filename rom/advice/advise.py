@@ -152,9 +152,9 @@ def advise(
 
     Pairs of a model and a resolution are judged in order of cost, until one is accurate enough. The error of a pair is
     the smaller of two estimates: by error laws fitted to random scenes, and by the difference from the next model, if
-    that model is cheap. Neither depends on the tolerance, so that a looser tolerance never chooses a dearer pair. A
-    pair is not run if the laws expect more than ``MAX_ERROR_RATIO`` tolerances. The effect that all models omit is
-    subtracted from the tolerance. An error is a bound that 95 of 100 scenes do not exceed.
+    that model is cheap. Neither depends on the tolerance, so that a looser tolerance never chooses a more expensive
+    pair. A pair is not run if the laws expect more than ``MAX_ERROR_RATIO`` tolerances. The effect that all models omit
+    is subtracted from the tolerance. An error is a bound that 95 of 100 scenes do not exceed.
 
     Parameters
     ----------

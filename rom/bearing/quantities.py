@@ -223,8 +223,8 @@ def film_ends(solution: Solution, row: int) -> tuple[float, float]:
     film = solution.kind[:, row] == FILM
     if not film.any():
         return 1.0, 1.0
-    torn = np.flatnonzero(film[:-1] & (solution.kind[1:, row] == CAVITY))
-    end = _ends(solution, row, int(torn[-1]), x) / length if torn.size else 1.0
+    ruptures = np.flatnonzero(film[:-1] & (solution.kind[1:, row] == CAVITY))
+    end = _ends(solution, row, int(ruptures[-1]), x) / length if ruptures.size else 1.0
     if solution.kind[0, row] == FIXED and solution.state.pressure[0, row] > 0:
         return 0.0, end
     return _begins(solution, row, int(np.argmax(film)), x) / length, end

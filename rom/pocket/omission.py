@@ -35,13 +35,13 @@ def rupture_omitted(scene: Pocket, quantity: str) -> Omission | None:
         return None
     found = _by_film(scene, FILM) or found
     lowest = _lowest(scene, found)
-    if not (told := ruptures(scene, lowest)):
+    if not (warnings := ruptures(scene, lowest)):
         return None
     missing = scene.cavitation_pressure / scene.pressure_unit - lowest
     thickest = (1 + scene.depth) * scene.geometry.film / scene.geometry.length
     change = {**CHANGES, "friction_plus": FRICTION_CHANGE * thickest}.get(quantity, float("inf"))
     size = abs(found.quantities[quantity].value) / scene.plus_factor if quantity in found.quantities else 0.0
-    return Omission(part=change * missing / size if size > 0 else float("inf"), reason=told[0])
+    return Omission(part=change * missing / size if size > 0 else float("inf"), reason=warnings[0])
 
 
 def _by_film(scene: Pocket, model: Model[Pocket]) -> Result | None:

@@ -22,5 +22,5 @@ def rupture_omitted(scene: RoughGap, quantity: str) -> Omission | None:
     if quantity not in OF_SLIDING or not walls.slides:
         return None
     corrector = flow_factors(walls.gap, walls.spacing).correctors[2]
-    told = ruptures(scene, lowest_under_sliding(scene, suction(walls.gap, corrector)), "under sliding")
-    return Omission(part=inf, reason=told[0]) if told else None
+    warnings = ruptures(scene, lowest_under_sliding(scene, suction(walls.gap, corrector)), "under sliding")
+    return Omission(part=inf, reason=warnings[0]) if warnings else None

@@ -63,11 +63,11 @@ def relative_uncertainty(result: Result, quantity: str) -> float | None:
     return None if uncertainty is None else uncertainty / scale(result, quantity)
 
 
-def told_apart(error: float, other: float, uncertainty: float | None) -> bool:
+def distinguished(error: float, other: float, uncertainty: float | None) -> bool:
     """Whether a reference of a relative uncertainty u shows which of two models has the smaller error.
 
-    The true errors lie within |error| ± u. The models can be told apart if these intervals do not overlap, that is, if
-    ||error| - |other|| > 2u; never if u is unknown (None).
+    The true errors lie within |error| ± u. The models can be distinguished if these intervals do not overlap, that
+    is, if ||error| - |other|| > 2u; never if u is unknown (None).
     """
     return uncertainty is not None and abs(abs(error) - abs(other)) > 2 * uncertainty
 
@@ -118,7 +118,7 @@ def to_best(models: Sequence[Model], results: Mapping[str, Result]) -> tuple[Dif
 
 
 def undecided(models: Sequence[Model], results: Mapping[str, Result]) -> dict[str, tuple[tuple[str, str], ...]]:
-    """The pairs of solved models, by quantity, whose errors the uncertainty of the best solved one does not tell apart.
+    """The pairs of solved models, by quantity, that the uncertainty of the best solved one does not distinguish.
 
     Parameters
     ----------
@@ -133,7 +133,7 @@ def undecided(models: Sequence[Model], results: Mapping[str, Result]) -> dict[st
         quantity: tuple(
             (one, other)
             for one, other in combinations([model.name for model in models if model.name in found], 2)
-            if not told_apart(found[one], found[other], relative_uncertainty(top, quantity))
+            if not distinguished(found[one], found[other], relative_uncertainty(top, quantity))
         )
         for quantity, found in errors.items()
     }
@@ -179,7 +179,7 @@ def points(reference: Result, runs: Sequence[Result]) -> tuple[Point, ...]:
 def pareto_front(chart: Sequence[Point], quantity: str, uncertainty: float | None = 0.0) -> tuple[Point, ...]:
     """The points for which no other point has both less cost and less error in a quantity, cheapest first.
 
-    A point whose error cannot be told apart from that of a cheaper point on the front, with a reference of this
+    A point whose error cannot be distinguished from that of a cheaper point on the front, with a reference of this
     relative uncertainty (None if it is unknown), is left out.
     """
     front: list[Point] = []
@@ -187,7 +187,7 @@ def pareto_front(chart: Sequence[Point], quantity: str, uncertainty: float | Non
     for point in sorted(known, key=lambda point: (point.cpu_s, point.error[quantity])):
         error = point.error[quantity]
         if not front or (
-            error < front[-1].error[quantity] and told_apart(error, front[-1].error[quantity], uncertainty)
+            error < front[-1].error[quantity] and distinguished(error, front[-1].error[quantity], uncertainty)
         ):
             front.append(point)
     return tuple(front)

@@ -1,4 +1,4 @@
-"""The reference of a sweep with its uncertainty in every case, and the models that it can tell apart."""
+"""The reference of a sweep with its uncertainty in every case, and the models that it can distinguish."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from roughfilm.rom.studies.convergence import converge
 from roughfilm.rom.studies.sweep import Sweep, loaded, relative_error
 
 MAX_WRONG = 0.05
-"""Fraction of the cases in which a reference may tell models apart wrongly: its uncertainty covers 95 of 100."""
+"""Fraction of the cases in which a reference may distinguish models wrongly: its uncertainty covers 95 of 100."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,7 +35,7 @@ class Order(StrEnum):
 
     FIRST = "the first is nearer"
     SECOND = "the second is nearer"
-    UNDECIDED = "cannot be told apart"
+    UNDECIDED = "cannot be distinguished"
     MIXED = "depends on the case"
 
 

@@ -29,7 +29,7 @@ class Chart:
     points : points with their errors, in the order of the family.
     counted : the same points with the errors of :func:`counting`.
     front : Pareto front of the counted points: no other point has both a smaller CPU time and a smaller error. A point
-        that the reference does not tell apart from a cheaper one on the front is left out.
+        that the reference does not distinguish from a cheaper one on the front is left out.
     cheapest : by tolerance, the cheapest counted point whose error plus the uncertainty of the reference is within it;
         None if there is none.
     absent : reason by name for peers that are not available.
@@ -141,7 +141,7 @@ def entries_of(chart: Chart) -> dict[str, Any]:
                 "error": chart.error(point),
                 "error_that_counts": chart.error(counted),
                 "on_front": (point.model, point.resolution) in front,
-                "told": dict(answers.points[_name(point)].details),
+                "details": dict(answers.points[_name(point)].details),
                 "taken": answers.taken[_name(point)],
             }
             for point, counted in zip(chart.points, chart.counted, strict=True)

@@ -75,7 +75,7 @@ def command(
     else:
         tables = [_convergence_table(name, study) for name, study in report.convergence.items()]
         pairs = [
-            f"{report.kind.compared[quantity]}: {one} and {other} cannot be told apart with this reference"
+            f"{report.kind.compared[quantity]}: {one} and {other} cannot be distinguished with this reference"
             for quantity, found in report.undecided.items()
             for one, other in found
         ]
@@ -180,7 +180,7 @@ def _entries(report: Report, out: Path) -> dict[str, Any]:
         "models": [as_entries(result) for result in report.results.values()],
         "differences": [asdict(difference) for difference in report.to_best + report.effects],
         "cheapest_within_10_percent": cheapest_within(report, 0.10),
-        "cannot_be_told_apart": {quantity: [*pairs] for quantity, pairs in report.undecided.items()},
+        "undecided": {quantity: [*pairs] for quantity, pairs in report.undecided.items()},
         "convergence": {
             model: {quantity: asdict(one) for quantity, one in study.items()}
             for model, study in report.convergence.items()

@@ -103,7 +103,7 @@ def command(
     ]
     table_of_errors = table_of(("setting", "CPU, s", *heads), cells, title=f"{len(sweep.names)} cases", left=1)
     undecided = [
-        f"{compared[one.quantity]}: {' and '.join(one.settings)} cannot be told apart with this reference"
+        f"{compared[one.quantity]}: {' and '.join(one.settings)} cannot be distinguished with this reference"
         for one in ranks
         if one.order is Order.UNDECIDED
     ]

@@ -44,7 +44,7 @@ def speed_against_accuracy(
     """Error over CPU time, a panel for each compared quantity, with the Pareto front.
 
     ``floor`` is the relative uncertainty of the reference by quantity: a bar at each point spans error ± uncertainty,
-    and points that it does not tell apart are not ranked by the front. ``titles`` are those of the compared quantities.
+    and the front does not rank points that it does not distinguish. ``titles`` are those of the compared quantities.
     """
     figure, panels = new_figure((10, 4.6), 1, len(titles))
     for axes, (quantity, title) in zip(panels, titles.items(), strict=True):

@@ -180,7 +180,7 @@ class Comparison:
     errors : by model and quantity, the signed difference from the best model over the size of the quantity.
     uncertainty : by quantity, the uncertainty of these differences, which is that of the best model: its numerical one,
         or its expected error where that is unknown.
-    undecided : by quantity, the pairs of models that this uncertainty does not tell apart; they are not to be ranked.
+    undecided : by quantity, the pairs of models that this uncertainty does not distinguish; they are not to be ranked.
     left_out : by model, the reason for a missing result.
     """
 

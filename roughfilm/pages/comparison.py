@@ -86,7 +86,7 @@ def _by_model(differences: tuple[Difference, ...]) -> dict[str, dict[str, Differ
 
 
 def _by_quantity(report: Report) -> dict[str, list[str]]:
-    """The pairs of models that cannot be told apart, as text, by the name of the quantity in a sentence."""
+    """The pairs of models that cannot be distinguished, as text, by the name of the quantity in a sentence."""
     return {
         report.kind.compared[quantity]: [f"{one} and {other}" for one, other in pairs]
         for quantity, pairs in report.undecided.items()

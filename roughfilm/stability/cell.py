@@ -142,7 +142,7 @@ def judged(solver: str, right: Callable[[], Reference], answer: CellAnswer) -> J
         iterations=answer.iterations,
         right=good,
         error=float(errors.max()),
-        numbers={"told": answer.unsolved},
+        numbers={"stated": answer.unsolved},
         message="the reference" * (truth.source == solver) if good else missed,
     )
 
@@ -189,7 +189,7 @@ def summary(spots: Sequence[Spot]) -> list[str]:
                 f"error of at most {worst.error:.1e} in A ({worst.group}: {worst.row}), "
                 f"{sum(spot.cpu_s for spot in own):.2g} s in all."
             )
-    over = {spot.place: (spot.error or 0.0) / left for spot in spots if (left := spot.numbers.get("told"))}
+    over = {spot.place: (spot.error or 0.0) / left for spot in spots if (left := spot.numbers.get("stated"))}
     short = [spot for spot in spots if over.get(spot.place, 0.0) > 1 and (spot.error or 0.0) > ROUND_OFF]
     if short:
         most = max(short, key=lambda spot: over[spot.place])

@@ -90,9 +90,9 @@ def _flows(problem: Problem, x: Array, y: Array, pressure: Array, fill: Array) -
             cubed = np.sum([one**-3.0 for one in h], axis=0)
             mean += np.sum([one**-2.0 for one in h], axis=0) / cubed / len(strips)
             cube += 1 / (QUARTER * cubed) / len(strips)
-        torn = problem.speed / 2 * widths * radius * mean * filled
-        torn += cube * widths / (12 * problem.viscosity * radius * step) * begun
-        along[:faces] = np.minimum(along[:faces], torn)
+        ruptured = problem.speed / 2 * widths * radius * mean * filled
+        ruptured += cube * widths / (12 * problem.viscosity * radius * step) * begun
+        along[:faces] = np.minimum(along[:faces], ruptured)
     across = np.zeros(pressure.shape)
     if y.size > 1:
         lengths = control_lengths(x, shape.breaks[-1] - x[0] if shape.joined[0] else None)[:, None]

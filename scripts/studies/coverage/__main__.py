@@ -198,7 +198,7 @@ def miss(one: Finding) -> str:
     """Return an answer that does not keep what it states, in words."""
     return (
         f"{one.kind} {one.seed}, {one.quantity} by {one.model}: {one.value:.5g}, true {one.true:.5g} ± "
-        f"{one.doubt:.2g}; {one.promise} {one.stated:.2g}" + (" (warned)" if one.warned else "")
+        f"{one.truth_uncertainty:.2g}; {one.promise} {one.stated:.2g}" + (" (warned)" if one.warned else "")
     )
 
 

@@ -30,7 +30,7 @@ class Finding:
     ----------
     kind, seed, model, quantity : the answer.
     promise : "uncertainty", of the numerical solution, or "expected error", of the model and its solution together.
-    value, true, doubt : the answer, the truth, and the uncertainty of the truth.
+    value, true, truth_uncertainty : the answer, the truth, and the uncertainty of the truth.
     stated : the stated error.
     warned : whether the result has a warning.
     """
@@ -42,7 +42,7 @@ class Finding:
     promise: str
     value: float
     true: float
-    doubt: float
+    truth_uncertainty: float
     stated: float
     warned: bool
 
@@ -54,7 +54,7 @@ class Finding:
     @property
     def decided(self) -> bool:
         """Whether the truth is sharp enough: its uncertainty is small, or cannot change whether the promise is kept."""
-        return self.doubt <= SHARE * self.stated or abs(self.error - self.stated) > self.doubt
+        return self.truth_uncertainty <= SHARE * self.stated or abs(self.error - self.stated) > self.truth_uncertainty
 
     @property
     def kept(self) -> bool:
@@ -64,7 +64,7 @@ class Finding:
     @property
     def misleads(self) -> bool:
         """Whether the error surely exceeds three times what is stated, without a warning."""
-        return self.error - self.doubt > FAR * self.stated and not self.warned
+        return self.error - self.truth_uncertainty > FAR * self.stated and not self.warned
 
 
 def findings(scenes: Sequence[Judged]) -> Iterator[Finding]:
@@ -89,7 +89,7 @@ def findings(scenes: Sequence[Judged]) -> Iterator[Finding]:
                     promises.append((EXPECTED, one.truth[quantity], expected * size + (bar or 0.0)))
                 elif bar is not None and quantity in one.truth and model not in one.own:
                     promises.append((UNCERTAINTY, one.truth[quantity], bar))
-                for promise, (true, doubt), stated in promises:
+                for promise, (true, truth_uncertainty), stated in promises:
                     yield Finding(
                         kind=one.kind,
                         seed=one.seed,
@@ -98,7 +98,7 @@ def findings(scenes: Sequence[Judged]) -> Iterator[Finding]:
                         promise=promise,
                         value=value,
                         true=true,
-                        doubt=doubt,
+                        truth_uncertainty=truth_uncertainty,
                         stated=stated,
                         warned=bool(answer.warnings),
                     )
@@ -213,9 +213,9 @@ def relative_error(scene: Judged, advice: Advised) -> tuple[float, float] | None
     """Return error and uncertainty of the truth over the size of the quantity; None without an answer or a truth."""
     if advice.value is None or advice.quantity not in scene.truth:
         return None
-    true, doubt = scene.truth[advice.quantity]
+    true, truth_uncertainty = scene.truth[advice.quantity]
     size = float(kind_of_name(scene.kind).scale({name: pair[0] for name, pair in scene.truth.items()}, advice.quantity))
-    return abs(advice.value - true) / size, doubt / size
+    return abs(advice.value - true) / size, truth_uncertainty / size
 
 
 def advice_scores(scenes: Sequence[Judged]) -> tuple[list[AdviceScore], list[tuple[Judged, Advised, float]]]:

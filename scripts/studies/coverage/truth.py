@@ -21,7 +21,7 @@ class Truth:
     own : by model and quantity, value and uncertainty of the exact solution of the model's own equations, by which the
         uncertainty of that model is judged; models without an entry are judged by ``values``, those with an empty one
         are not judged.
-    warnings : one sentence for each reason to doubt the solution.
+    warnings : one sentence for each reason why the solution may be wrong.
     """
 
     values: Mapping[str, float]

@@ -35,8 +35,8 @@ def test_the_linear_slider_is_the_integral_of_its_own_equation():
         return 6 * VISCOSITY * SPEED * (h(x) - full) / h(x) ** 3
 
     assert solution.load == pytest.approx(quad(lambda x: -x * slope(x), 0, LENGTH)[0], rel=1e-10)
-    rub = quad(lambda x: VISCOSITY * SPEED / h(x) + h(x) / 2 * slope(x), 0, LENGTH)[0]
-    assert solution.friction == pytest.approx(rub, rel=1e-10)
+    friction = quad(lambda x: VISCOSITY * SPEED / h(x) + h(x) / 2 * slope(x), 0, LENGTH)[0]
+    assert solution.friction == pytest.approx(friction, rel=1e-10)
     peak = LENGTH * (1 - (full - FILM) / RISE)
     assert solution.pressure_max == pytest.approx(quad(slope, 0, peak)[0], rel=1e-10)
 

@@ -229,9 +229,9 @@ def test_it_grows_with_density_alone() -> None:
 
 
 def test_inertia_changes_no_pressure_in_cavities() -> None:
-    torn = bearing(20.0, geometry={"width": "1 mm"}, lubricant={"cavitation_pressure": "-1 kPa"})
-    solved = solve(torn.problem(), (64, 64))
-    added = inertia(torn, solved)
+    cavitated = bearing(20.0, geometry={"width": "1 mm"}, lubricant={"cavitation_pressure": "-1 kPa"})
+    solved = solve(cavitated.problem(), (64, 64))
+    added = inertia(cavitated, solved)
     assert (solved.state.fill < 1).any()
     assert (added.pressure[solved.state.fill < 1] == 0).all()
 

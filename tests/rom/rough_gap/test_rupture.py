@@ -49,7 +49,7 @@ def test_sliding_ruptures_the_film_above_a_gradient_and_not_below(model):
 
 def test_the_advice_on_sliding_is_refused_and_that_on_flow_is_not():
     omitted = kind_of_name("rough_gap").omitted
-    torn = gap(-60e3 / lowest_over_gradient())
-    assert omitted(torn, "friction").part == omitted(torn, "B1").part == float("inf")
-    assert omitted(torn, "A11") is None
+    ruptured = gap(-60e3 / lowest_over_gradient())
+    assert omitted(ruptured, "friction").part == omitted(ruptured, "B1").part == float("inf")
+    assert omitted(ruptured, "A11") is None
     assert omitted(gap(-40e3 / lowest_over_gradient()), "friction") is None

@@ -34,14 +34,14 @@ def solved(name, amplitude, wavelength):
 )
 def test_an_error_beyond_the_uncertainty_has_a_warning(name, amplitude, wavelength):
     exact = sinusoidal_ridge_flow(amplitude, wavelength, tolerance=1e-5)
-    told = solved(name, amplitude, wavelength)
+    result = solved(name, amplitude, wavelength)
     true = {"A11": exact.across, "A22": exact.along, "B1": exact.drag, "friction": exact.friction}
     silent = {
-        quantity: (told[quantity].value, value)
+        quantity: (result[quantity].value, value)
         for quantity, value in true.items()
-        if abs(told[quantity].value - value) > (told[quantity].uncertainty or 0.0) + SILENT_ERROR * value
+        if abs(result[quantity].value - value) > (result[quantity].uncertainty or 0.0) + SILENT_ERROR * value
     }
-    assert any("out of its range" in warning for warning in told.warnings) or not silent
+    assert any("out of its range" in warning for warning in result.warnings) or not silent
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -105,10 +105,14 @@ def test_a_smooth_gap_leaks_as_a_slit_does():
 
 
 def test_units_are_those_of_the_scene():
-    told = values("direct_leakage", seal())
-    assert told["leakage_per_width"] == pytest.approx(1e3 * told["permeability"] * 1e6 / (12 * 1e-3 * 1e-3), rel=1e-12)
-    assert told["dimensionless_leakage"] == pytest.approx(told["permeability"] / told["rms_height"] ** 3, rel=1e-12)
-    assert told["smooth_leakage"] * told["dimensionless_leakage"] == pytest.approx(told["leakage_per_width"])
+    numbers = values("direct_leakage", seal())
+    assert numbers["leakage_per_width"] == pytest.approx(
+        1e3 * numbers["permeability"] * 1e6 / (12 * 1e-3 * 1e-3), rel=1e-12
+    )
+    assert numbers["dimensionless_leakage"] == pytest.approx(
+        numbers["permeability"] / numbers["rms_height"] ** 3, rel=1e-12
+    )
+    assert numbers["smooth_leakage"] * numbers["dimensionless_leakage"] == pytest.approx(numbers["leakage_per_width"])
 
 
 def test_the_longer_a_seal_the_nearer_is_averaging():
@@ -146,9 +150,9 @@ def test_directions_are_those_of_the_surface(tmp_path):
 
 def test_full_contact_is_sealed_and_told_as_a_number():
     for name in ("direct_leakage", "homogenized_leakage"):
-        told = values(name, seal(pressure="100 MPa"))
-        assert told["sealed"] == 1.0
-        assert told["leakage_per_width"] == told["permeability"] == told["mean_gap"] == 0.0
+        result = values(name, seal(pressure="100 MPa"))
+        assert result["sealed"] == 1.0
+        assert result["leakage_per_width"] == result["permeability"] == result["mean_gap"] == 0.0
     assert values("effective_medium", seal(pressure="100 MPa"))["sealed"] == 1.0
 
 
@@ -213,9 +217,9 @@ def test_the_effective_medium_says_where_it_does_not_hold():
     lay = {"kind": "gaussian", "correlation_length": "2 um", "anisotropy": 4.0, "rms_height": "0.1 um"}
     lay |= {key: ROUGH[key] for key in ("size", "points", "seed")}
     for scene, words in ((seal(pressure="150 kPa"), "mean sealing load"), (seal(lay, pressure="10 kPa"), "has a lay")):
-        told = find("seal", "effective_medium").solve(scene)
-        assert told["permeability"].uncertainty is None
-        assert words in told.warnings[0]
+        result = find("seal", "effective_medium").solve(scene)
+        assert result["permeability"].uncertainty is None
+        assert words in result.warnings[0]
 
 
 def test_a_softer_limit_of_pressure_seals_sooner():

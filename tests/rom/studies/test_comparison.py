@@ -6,12 +6,12 @@ from roughfilm import rom
 from roughfilm.rom.ladder.model import Effect, ladder, of_kind
 from roughfilm.rom.studies.comparison import (
     Point,
+    distinguished,
     effects,
     pareto_front,
     points,
     scale,
     to_best,
-    told_apart,
     undecided,
     with_uncertainty,
 )
@@ -97,8 +97,8 @@ def test_a_larger_uncertainty_of_the_run_itself_is_kept(results):
     ],
 )
 def test_errors_are_told_apart_where_their_intervals_do_not_overlap(error, other, uncertainty, apart):
-    assert told_apart(error, other, uncertainty) is apart
-    assert told_apart(other, error, uncertainty) is apart
+    assert distinguished(error, other, uncertainty) is apart
+    assert distinguished(other, error, uncertainty) is apart
 
 
 def test_models_within_the_uncertainty_of_the_reference_are_not_ranked(results):

@@ -131,9 +131,9 @@ def attempts(tmp_path):
 
 def test_a_table_of_all_cases_by_all_models(tmp_path):
     out = tmp_path / "out"
-    code, told, error = Batch(POCKET, out, tmp_path, "--json").end()
+    code, output, error = Batch(POCKET, out, tmp_path, "--json").end()
     assert code == 0, error
-    assert json.loads(told)["cases"] == 12
+    assert json.loads(output)["cases"] == 12
     table = read_table(out / "table.h5")
     assert {len(column) for column in table.values()} == {24}
     assert set(table["outcome"]) == {"solved"}
@@ -182,9 +182,9 @@ def test_finished_jobs_are_skipped_also_when_the_study_grows(tmp_path):
     stamps = {path: path.stat().st_mtime_ns for path in results(out)}
     assert len(stamps) == 2
     write_study(study, models=["moody"], numbers=[1, 2, 3], depths=["0.25 film", "0.5 film"])
-    code, told, _ = Batch(study, out, tmp_path, "--dry-run", "--json").end()
+    code, output, _ = Batch(study, out, tmp_path, "--dry-run", "--json").end()
     assert code == 0
-    assert json.loads(told)["jobs"]["moody"] == {"finished": 2, "solved": 0, "failed": 0, "left out": 0, "to do": 4}
+    assert json.loads(output)["jobs"]["moody"] == {"finished": 2, "solved": 0, "failed": 0, "left out": 0, "to do": 4}
     assert Batch(study, out, tmp_path).end()[0] == 0
     assert sorted(attempts(tmp_path)) == ["1", "1", "2", "2", "3", "3"]
     assert {path: path.stat().st_mtime_ns for path in stamps} == stamps
@@ -192,9 +192,9 @@ def test_finished_jobs_are_skipped_also_when_the_study_grows(tmp_path):
 
 
 def test_a_dry_run_makes_nothing(tmp_path):
-    code, told, _ = called(POCKET, tmp_path / "out", "--dry-run")
+    code, output, _ = called(POCKET, tmp_path / "out", "--dry-run")
     assert code == 0
-    assert "12 cases" in told
+    assert "12 cases" in output
     assert not (tmp_path / "out").exists()
 
 
@@ -202,9 +202,9 @@ def test_one_failure_stops_nothing(tmp_path):
     """One that diverges has answered and is not asked again; one that breaks, stops or kills its worker is."""
     out, study = tmp_path / "out", tmp_path / "s.toml"
     write_study(study, models=["moody", "reynolds"], numbers=[5, 6, 7, 8, 9, 9.5])
-    code, told, error = Batch(study, out, tmp_path, "--json").end()
+    code, output, error = Batch(study, out, tmp_path, "--json").end()
     assert code == 3
-    failures = json.loads(told)["failures"]
+    failures = json.loads(output)["failures"]
     kinds = {failure["kind"]: failure for failure in failures if failure["outcome"] != "failed"}
     assert set(kinds) == {"ConvergenceError", "WorkerDied", "ZeroDivisionError"}
     assert kinds["ConvergenceError"]["message"] == "moody: the residual grows; lower the Reynolds number"
@@ -380,11 +380,11 @@ def test_a_killed_batch_of_openfoam_runs_goes_on(tmp_path):
 )
 def test_bad_input_is_one_line_and_code_2(tmp_path, more, arguments, words):
     study = write_study(tmp_path / "s.toml", more=more)
-    code, told, error = called(study, tmp_path / "out", *arguments)
+    code, output, error = called(study, tmp_path / "out", *arguments)
     assert code == 2
     (line,) = error.splitlines()
     assert words in line
-    assert told == ""
+    assert output == ""
     assert not (tmp_path / "out").exists()
 
 
@@ -403,13 +403,13 @@ def cluster(tmp_path):
             running.append(subprocess.Popen(command, env=environment, stdout=log, stderr=log))
         return running[-1]
 
-    told, preload = tmp_path / "scheduler.json", tmp_path / "preload.py"
+    output, preload = tmp_path / "scheduler.json", tmp_path / "preload.py"
     preload.write_text(
         f"from roughfilm.rom.pocket import models\nmodels.__path__.append({str(MOODY.parent / 'models')!r})\n"
     )
-    scheduler = start("dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--scheduler-file", told)
-    wait_for(lambda: told.exists() and told.read_text())
-    address = json.loads(told.read_text())["address"]
+    scheduler = start("dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--scheduler-file", output)
+    wait_for(lambda: output.exists() and output.read_text())
+    address = json.loads(output.read_text())["address"]
     workers = [start("dask_worker", address, "--nthreads", 1, "--no-nanny", "--preload", preload) for _ in range(2)]
     for number in (1, 2):
         wait_for(lambda: "Registered to" in (tmp_path / f"log-{number}").read_text())  # noqa: B023
@@ -443,11 +443,11 @@ def test_a_cluster_that_loses_a_worker_answers_as_this_machine_does(tmp_path, cl
 @pytest.mark.parametrize("address", ["tcp://127.0.0.1:9", "nowhere"])
 def test_a_scheduler_that_does_not_answer_is_one_line_and_code_4(tmp_path, address):
     batch = Batch(POCKET, tmp_path / "out", tmp_path, "--executor", "dask", "--scheduler", address)
-    code, told, error = batch.end()
+    code, output, error = batch.end()
     assert code == 4
     (line,) = error.splitlines()
     assert line.startswith(f"error: --scheduler {address}: no dask scheduler answers")
-    assert told == ""
+    assert output == ""
 
 
 @needs_dask

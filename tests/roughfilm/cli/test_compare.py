@@ -66,22 +66,22 @@ def test_the_whole_ladder_in_one_self_contained_page(pocket_file, tmp_path):
         timeout=300,
     )
     assert done.returncode == 0, done.stderr
-    told = json.loads(done.stdout)
-    assert told["model"] == "navier_stokes"
+    entries = json.loads(done.stdout)
+    assert entries["model"] == "navier_stokes"
     names = ["reynolds", "inertial_reynolds", "film", "stokes", "film_slope", "navier_stokes"]
-    assert [part["model"] for part in told["models"]] == names == [model.name for model in models("pocket")]
-    named = {(d["other"], d["model"], d["effect"]) for d in told["differences"] if d["effect"]}
+    assert [part["model"] for part in entries["models"]] == names == [model.name for model in models("pocket")]
+    named = {(d["other"], d["model"], d["effect"]) for d in entries["differences"] if d["effect"]}
     assert ("stokes", "navier_stokes", "inertia") in named
     assert ("film", "navier_stokes", "slope") in named
-    assert told["cheapest_within_10_percent"] == "inertial_reynolds"
+    assert entries["cheapest_within_10_percent"] == "inertial_reynolds"
     page = read_page(tmp_path / "report.html")
     assert all(place.startswith("data:image/png;base64,") for place in page.outside)
     assert page.tags.count("svg") == 3
-    found = told["convergence"]["navier_stokes"]["load_plus"]
+    found = entries["convergence"]["navier_stokes"]["load_plus"]
     assert (found["kind"], found["grids"]) == ("monotone", [60, 120, 240])
     assert found["value"] == pytest.approx(3.303, abs=found["uncertainty"])
-    assert set(told["convergence"]) == {"film", "film_slope", "stokes", "navier_stokes"}
-    assert told["convergence"]["stokes"]["load_plus"]["kind"] == "at round-off"
+    assert set(entries["convergence"]) == {"film", "film_slope", "stokes", "navier_stokes"}
+    assert entries["convergence"]["stokes"]["load_plus"]["kind"] == "at round-off"
     if rendering.probe().available:
         assert page.tags.count("img") == 4
     for name in names:
@@ -173,9 +173,9 @@ def test_the_grids_of_the_chart_are_those_of_the_convergence(pocket_file, tmp_pa
 
 def test_a_fourth_grid_is_finer_and_becomes_the_reference(pocket_file, tmp_path, monkeypatch, capsys):
     sampled(monkeypatch)
-    told = compared(capsys, pocket_file, tmp_path, grids=4)
-    assert told["convergence"]["reynolds"]["load_plus"]["grids"] == [8, 16, 32]
-    assert told["chart"]["reference"]["resolution"] == told["numerics"]["resolution"] == 32
+    entries = compared(capsys, pocket_file, tmp_path, grids=4)
+    assert entries["convergence"]["reynolds"]["load_plus"]["grids"] == [8, 16, 32]
+    assert entries["chart"]["reference"]["resolution"] == entries["numerics"]["resolution"] == 32
     finest = tmp_path / "results" / "reynolds-32.h5"
     stamp = finest.stat().st_mtime_ns
     compared(capsys, pocket_file, tmp_path, grids=4)
@@ -216,16 +216,16 @@ def test_models_that_the_reference_does_not_tell_apart_are_named(pocket_file, tm
     own = find("pocket", "film"), replace(find("pocket", "film_slope"), resolutions=coarse)
     monkeypatch.setattr(compare, "models", lambda _: own)
     scene = ["geometry.depth=1 um", "geometry.width=0.5 mm"]
-    compare.command(pocket_file, out=tmp_path / "told", set_=scene)
-    assert "load: film and film_slope cannot be told apart with this reference" in capsys.readouterr().out
-    told = compared(capsys, pocket_file, tmp_path / "told", set_=scene)
-    assert told["cannot_be_told_apart"]["load_plus"] == [["film", "film_slope"]]
-    (difference,) = (d for d in told["differences"] if d["quantity"] == "load_plus" and d["effect"] is None)
+    compare.command(pocket_file, out=tmp_path / "report", set_=scene)
+    assert "load: film and film_slope cannot be distinguished with this reference" in capsys.readouterr().out
+    entries = compared(capsys, pocket_file, tmp_path / "report", set_=scene)
+    assert entries["undecided"]["load_plus"] == [["film", "film_slope"]]
+    (difference,) = (d for d in entries["differences"] if d["quantity"] == "load_plus" and d["effect"] is None)
     assert 2 * difference["uncertainty"] > abs(difference["relative"])
-    reference = told["quantities"]["load_plus"]
+    reference = entries["quantities"]["load_plus"]
     assert difference["uncertainty"] == pytest.approx(reference["uncertainty"] / reference["value"])
-    page = (tmp_path / "told" / "report.html").read_text(encoding="utf-8")
-    assert "Models that cannot be told apart" in page
+    page = (tmp_path / "report" / "report.html").read_text(encoding="utf-8")
+    assert "Models that cannot be distinguished" in page
     assert "in load film and film_slope" in page
 
 

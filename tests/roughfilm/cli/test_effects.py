@@ -23,7 +23,7 @@ def run(scene: str, *arguments: object) -> Result:
 
 @pytest.fixture(scope="module")
 def pad(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, Any]]:
-    """The directory of the example, coarse, and what ``--json`` told."""
+    """The directory of the example, coarse, and what ``--json`` entries."""
     out = tmp_path_factory.mktemp("effects")
     done = run("pad.toml", *COARSE, "--resolution", 32, "--out", out, "--json")
     assert done.exit_code == 0, done.stderr
@@ -31,10 +31,10 @@ def pad(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, Any]]
 
 
 def test_the_example_has_every_effect_and_the_steps_lead_to_all_of_it(pad: tuple[Path, dict[str, Any]]) -> None:
-    told = pad[1]
-    assert told["left_out"] == []
+    entries = pad[1]
+    assert entries["left_out"] == []
     for view, names in (("at_film", ("load", "friction", "side_leakage")), ("under_load", ("film", "friction"))):
-        found = told[view]
+        found = entries[view]
         assert [one["name"] for one in found["contributions"]] == [effect.name for effect in EFFECTS]
         for name in names:
             steps = sum(one["on"][name]["value"] for one in found["contributions"])
@@ -42,7 +42,7 @@ def test_the_example_has_every_effect_and_the_steps_lead_to_all_of_it(pad: tuple
             for one in found["contributions"]:
                 without = one["off"][name]["value"] + one["alone"][name]["value"]
                 assert without == pytest.approx(found["full"][name]["value"], rel=1e-9)
-    assert told["quantities"]["load"] == told["at_film"]["full"]["load"]
+    assert entries["quantities"]["load"] == entries["at_film"]["full"]["load"]
 
 
 def test_under_the_load_everything_carries_it(pad: tuple[Path, dict[str, Any]]) -> None:
@@ -55,26 +55,26 @@ def test_under_the_load_everything_carries_it(pad: tuple[Path, dict[str, Any]]) 
 
 
 def test_inertia_is_told_beside_and_not_within(pad: tuple[Path, dict[str, Any]]) -> None:
-    told = pad[1]
-    added = told["inertia"]["amounts"]["load"]
-    assert 0 < abs(added["value"]) + added["uncertainty"] < 0.01 * told["quantities"]["load"]["value"]
-    assert told["inertia"]["pocket"]["model"] in ("inertial_reynolds", "film", "film_slope"), "by the advice on pockets"
-    assert told["inertia"]["pocket"]["within"] <= 0.05
-    assert told["inertia_under_load"]["thicker"]["unit"] == "m"
-    assert [one["effect"] for one in told["treatments"]][-1] == "inertia"
+    entries = pad[1]
+    added = entries["inertia"]["amounts"]["load"]
+    assert 0 < abs(added["value"]) + added["uncertainty"] < 0.01 * entries["quantities"]["load"]["value"]
+    assert entries["inertia"]["pocket"]["model"] in ("inertial_reynolds", "film", "film_slope"), "by advice"
+    assert entries["inertia"]["pocket"]["within"] <= 0.05
+    assert entries["inertia_under_load"]["thicker"]["unit"] == "m"
+    assert [one["effect"] for one in entries["treatments"]][-1] == "inertia"
 
 
 def test_the_page_is_whole(pad: tuple[Path, dict[str, Any]]) -> None:
-    out, told = pad
+    out, entries = pad
     page = (out / "report.html").read_text(encoding="utf-8")
     assert page.count("<svg") == 2
-    for one in told["treatments"]:
+    for one in entries["treatments"]:
         assert one["why"].split(",")[0] in page
     for words in (
         "Each added to all the others",
         "inertia, not counted",
         "Under 2 MPa",
-        told["inertia"]["pocket"]["model"],
+        entries["inertia"]["pocket"]["model"],
     ):
         assert words in page
     assert {path.name for path in out.iterdir()} == {
@@ -83,16 +83,16 @@ def test_the_page_is_whole(pad: tuple[Path, dict[str, Any]]) -> None:
         "effects_at_film.svg",
         "effects_under_load.svg",
     }
-    assert json.loads((out / "effects.json").read_text(encoding="utf-8"))["at_film"] == told["at_film"]
+    assert json.loads((out / "effects.json").read_text(encoding="utf-8"))["at_film"] == entries["at_film"]
 
 
 def test_what_a_scene_lacks_is_left_out_and_said(tmp_path: Path) -> None:
     done = run("parabolic_slider.toml", "--resolution", 128, "--out", tmp_path)
     assert done.exit_code == 0, done.stderr
-    told = json.loads((tmp_path / "effects.json").read_text(encoding="utf-8"))
-    assert told["left_out"] == ["side flow", "texture", "roughness", "asperities"]
-    assert told["under_load"] is None
-    assert told["inertia"] is None
+    entries = json.loads((tmp_path / "effects.json").read_text(encoding="utf-8"))
+    assert entries["left_out"] == ["side flow", "texture", "roughness", "asperities"]
+    assert entries["under_load"] is None
+    assert entries["inertia"] is None
     said = " ".join(done.stdout.split())
     assert "left out, because the scene does not have them: side flow, texture, roughness, asperities" in said
     assert "the scene has no lubricant.density" in said
@@ -101,10 +101,10 @@ def test_what_a_scene_lacks_is_left_out_and_said(tmp_path: Path) -> None:
 def test_a_load_of_the_command_takes_the_place_of_the_scenes(tmp_path: Path) -> None:
     done = run("rough_pad.toml", "--resolution", 32, "--load", "0.2MPa", "--out", tmp_path, "--json")
     assert done.exit_code == 0, done.stderr
-    told = json.loads(done.stdout)
-    assert told["provenance"]["scene"]["load"]["pressure"].split()[0] == "200000.0"
-    assert set(told["under_load"]["untold"]) == {"the plain film", "with side flow", "without cavitation"}
-    (roughness,) = [one for one in told["under_load"]["contributions"] if one["name"] == "roughness"]
+    entries = json.loads(done.stdout)
+    assert entries["provenance"]["scene"]["load"]["pressure"].split()[0] == "200000.0"
+    assert set(entries["under_load"]["untold"]) == {"the plain film", "with side flow", "without cavitation"}
+    (roughness,) = [one for one in entries["under_load"]["contributions"] if one["name"] == "roughness"]
     assert roughness["on"]["film"]["value"] > 0
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert "No numbers the plain film" not in page
@@ -136,7 +136,7 @@ def test_a_rung_says_that_a_given_film_does_not_carry_the_load() -> None:
     assert read_scene(scene.model_dump(mode="json", exclude_none=True)) == scene
     found = MODEL.solve(scene, Request(resolution=128))
     mean = found.quantities["load_per_width"].value / 76.2e-3
-    (warning,) = [told for told in found.warnings if "the film as given" in told]
+    (warning,) = [entries for entries in found.warnings if "the film as given" in entries]
     assert f"{mean:.4g} Pa" in warning
     near = load_scene(SCENES / "parabolic_slider.toml", [f"load.pressure={mean!r} Pa"])
-    assert not any("the film as given" in told for told in MODEL.solve(near, Request(resolution=128)).warnings)
+    assert not any("the film as given" in entries for entries in MODEL.solve(near, Request(resolution=128)).warnings)

@@ -40,7 +40,7 @@ def run(*arguments):
     return CliRunner().invoke(app, ["factors", *map(str, arguments)], catch_exceptions=False)
 
 
-def told(*arguments):
+def entries(*arguments):
     done = run(*arguments, "--json")
     assert done.exit_code == 0, done.stderr
     return json.loads(done.stdout)
@@ -56,7 +56,7 @@ def groove(path, *, turned=False):
 
 def test_one_mean_gap_of_ridges_has_the_closed_form(tmp_path):
     file, a = groove(tmp_path / "g.npy"), 0.5
-    found = told(file, "--spacing", "1um,2um", "--gap", "1 um")["quantities"]
+    found = entries(file, "--spacing", "1um,2um", "--gap", "1 um")["quantities"]
     exact = {"A11": (1 - a * a) ** 2.5 / (1 + a * a / 2), "A22": 1 + 1.5 * a * a, "A12": 0.0, "A21": 0.0, "B2": 0.0}
     exact["B1"] = (1 - a * a) / (1 + a * a / 2)
     for name, value in exact.items():
@@ -68,30 +68,30 @@ def test_one_mean_gap_of_ridges_has_the_closed_form(tmp_path):
 
 def test_the_harmonic_rule_is_exact_for_ridges(tmp_path):
     file, a = groove(tmp_path / "g.npy"), 0.5
-    found = told(file, "--spacing", "1um,2um", "--gap", "1um", "--rule", "harmonic")["quantities"]
+    found = entries(file, "--spacing", "1um,2um", "--gap", "1um", "--rule", "harmonic")["quantities"]
     assert found["A11"]["value"] == pytest.approx((1 - a * a) ** 2.5 / (1 + a * a / 2), rel=1e-9)
 
 
 def test_what_is_sealed_is_said(tmp_path):
     # Ridges that touch all along y: at a mean gap of a tenth of their height nothing passes in x.
-    found = told(groove(tmp_path / "g.npy"), "--spacing", "1um", "--gap", "0.2um")
+    found = entries(groove(tmp_path / "g.npy"), "--spacing", "1um", "--gap", "0.2um")
     assert found["sealed_x"] is True
     assert found["sealed_y"] is False
     assert found["quantities"]["A11"]["value"] == found["quantities"]["B1"]["value"] == 0.0
     assert found["quantities"]["A22"]["value"] > 1
-    turned = told(groove(tmp_path / "t.npy", turned=True), "--spacing", "1um", "--gap", "0.2um")
+    turned = entries(groove(tmp_path / "t.npy", turned=True), "--spacing", "1um", "--gap", "0.2um")
     assert (turned["sealed_x"], turned["sealed_y"]) == (False, True)
 
 
 def test_an_offset_opens_what_is_sealed(tmp_path):
-    found = told(groove(tmp_path / "g.npy"), "--spacing", "1um", "--gap", "0.2um", "--offset", "10nm")
+    found = entries(groove(tmp_path / "g.npy"), "--spacing", "1um", "--gap", "0.2um", "--offset", "10nm")
     assert found["sealed_x"] is False
     assert found["quantities"]["A11"]["value"] > 0
 
 
 def test_a_table_is_kept_and_gone_on_with(surface, tmp_path):
     out, page = tmp_path / "F.h5", tmp_path / "F.html"
-    first = told(surface, "--out", out, "--report", page)
+    first = entries(surface, "--out", out, "--report", page)
     assert first["numerics"]["separations_found"] == 0
     assert first["quantities"]["interpolation_error"]["value"] <= 0.005
     table = load_table(out)
@@ -100,7 +100,7 @@ def test_a_table_is_kept_and_gone_on_with(surface, tmp_path):
     text = page.read_text()
     assert text.count("<svg") == 2
     assert "Where the flow goes" in text
-    again = told(surface, "--out", out)
+    again = entries(surface, "--out", out)
     assert again["numerics"]["separations_found"] == again["numerics"]["separations"] == len(table.points)
     done = run(surface, "--out", out)
     assert "were solved before" in done.stderr
@@ -108,17 +108,17 @@ def test_a_table_is_kept_and_gone_on_with(surface, tmp_path):
 
 def test_a_looser_table_keeps_what_a_finer_one_found(surface, tmp_path):
     out = tmp_path / "F.h5"
-    fine = told(surface, "--out", out, "--tolerance", "0.002")["numerics"]["separations"]
-    loose = told(surface, "--out", out, "--tolerance", "0.05")["numerics"]
+    fine = entries(surface, "--out", out, "--tolerance", "0.002")["numerics"]["separations"]
+    loose = entries(surface, "--out", out, "--tolerance", "0.05")["numerics"]
     assert loose["separations"] == loose["separations_found"] < fine
     assert len(load_table(out).points) == fine
-    assert told(surface, "--out", out, "--tolerance", "0.002")["numerics"]["separations_found"] == fine
+    assert entries(surface, "--out", out, "--tolerance", "0.002")["numerics"]["separations_found"] == fine
 
 
 def test_a_table_that_interpolation_cannot_hold_is_warned_of(tmp_path):
     random = np.random.default_rng(31)
     np.save(tmp_path / "levels.npy", 1e-6 * (random.normal(size=(24, 24)) > 0))
-    found = told(tmp_path / "levels.npy", "--spacing", "1um", "--tolerance", "0.0001")
+    found = entries(tmp_path / "levels.npy", "--spacing", "1um", "--tolerance", "0.0001")
     off = found["quantities"]["interpolation_error"]["value"]
     assert off <= 0.0001 or any("spikes and plateaus" in words for words in found["provenance"]["warnings"])
 
@@ -132,7 +132,7 @@ def pressed(surface, tmp_path, *more):
 
 def test_contacts_make_one_table_from_thick_films_to_the_greatest_load(surface, tmp_path):
     series, out, page = pressed(surface, tmp_path), tmp_path / "T.h5", tmp_path / "T.html"
-    first = told(series, "--out", out, "--tolerance", "0.05", "--report", page)
+    first = entries(series, "--out", out, "--tolerance", "0.05", "--report", page)
     loads = {point["load"] for point in first["points"]}
     assert {0.0, 2e7, 2e8, 1e9} <= loads
     table = AsperityTable(factors=load_table(out))
@@ -141,7 +141,7 @@ def test_contacts_make_one_table_from_thick_films_to_the_greatest_load(surface, 
     alpha = contact.heights.max() - contact.heights.mean() - contact.approach
     assert table.contact_pressure(np.array([alpha])) == pytest.approx(2e8, rel=1e-9)
     assert "<h2>Contact pressure</h2>" in page.read_text()
-    again = told(series, "--out", out, "--tolerance", "0.05")["numerics"]
+    again = entries(series, "--out", out, "--tolerance", "0.05")["numerics"]
     assert again["separations_found"] == again["separations"] == len(table.factors.points)
     assert "MPa" in run(series, "--out", out, "--tolerance", "0.05").stdout
 
@@ -226,7 +226,7 @@ def test_an_interrupted_table_keeps_its_points_and_goes_on(surface, tmp_path, mo
     assert "stopped: 2 points; the same command goes on" in stopped.stderr
     assert {point.mean_gap for point in load_table(out).points} == {point.mean_gap for point in new}
     monkeypatch.undo()
-    assert told(surface, "--out", out)["numerics"]["separations_found"] == 2
+    assert entries(surface, "--out", out)["numerics"]["separations_found"] == 2
     assert sorted(os.listdir(tmp_path)) == ["F.h5", "s.toml"]
 
 

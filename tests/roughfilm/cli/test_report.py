@@ -59,10 +59,10 @@ def test_a_sweep_is_read_side_by_side(finished):
 def test_the_report_orders_the_errors_of_every_model(finished):
     run = CliRunner().invoke(app, ["report", str(finished), "--json"])
     assert run.exit_code == 0, run.output
-    told = json.loads(run.stdout)
-    assert told["reference"] == "film_slope-100"
-    assert told["cases"] == 36
-    rows = {row["setting"]: row for row in told["settings"]}
+    entries = json.loads(run.stdout)
+    assert entries["reference"] == "film_slope-100"
+    assert entries["cases"] == 36
+    rows = {row["setting"]: row for row in entries["settings"]}
     sweep = read_sweep(read_table(finished / "table.h5"), "pocket")
     error = relative_error(sweep, "film-100", "film_slope-100", "load_plus")[loaded(sweep, "film_slope-100")]
     assert rows["film-100"]["error"]["load_plus"]["worst"] == pytest.approx(error.max())
@@ -75,17 +75,17 @@ def test_the_report_orders_the_errors_of_every_model(finished):
 
 def test_a_reference_that_leaves_effects_out_ranks_only_what_it_can_tell_apart(finished):
     """film_slope is itself off by some per cent by the laws; film differs from it by less in most cases."""
-    told = json.loads(CliRunner().invoke(app, ["report", str(finished), "--json"]).stdout)
-    bar = told["reference_uncertainty"]["load_plus"]
+    entries = json.loads(CliRunner().invoke(app, ["report", str(finished), "--json"]).stdout)
+    bar = entries["reference_uncertainty"]["load_plus"]
     assert bar["known"] == bar["cases"]
-    rows = {row["setting"]: row["error"]["load_plus"] for row in told["settings"]}
+    rows = {row["setting"]: row["error"]["load_plus"] for row in entries["settings"]}
     least, largest = rows["film-100"]["intervals"]["median"]
     assert least <= rows["film-100"]["median"] <= largest
     assert largest - rows["film-100"]["median"] == pytest.approx(bar["median"], rel=1)
-    orders = {(*one["settings"], one["quantity"]): one for one in told["ranking"]}
+    orders = {(*one["settings"], one["quantity"]): one for one in entries["ranking"]}
     assert orders["reynolds", "film-100", "load_plus"]["order"] == "film-100 is nearer"
     page = (finished / "report.html").read_text(encoding="utf-8")
-    assert "Which models can be told apart" in page
+    assert "Which models can be distinguished" in page
 
 
 def test_a_directory_without_a_table_is_one_line(tmp_path):

@@ -30,7 +30,7 @@ def run(*arguments):
 
 @pytest.fixture(scope="module")
 def swept(tmp_path_factory):
-    """The directory of a finished sweep, and what ``--json`` told."""
+    """The directory of a finished sweep, and what ``--json`` entries."""
     out = tmp_path_factory.mktemp("stribeck")
     done = run("--out", out, *SWEEP, "--json")
     assert done.exit_code == 0, done.stderr
@@ -38,8 +38,8 @@ def swept(tmp_path_factory):
 
 
 def test_film_and_asperities_carry_the_load_between_them(swept):
-    _, told = swept
-    for curve in told["curves"]:
+    _, entries = swept
+    for curve in entries["curves"]:
         points = curve["points"]
         area = points[0]["load"] / points[0]["pressure"]
         for point in points:
@@ -51,8 +51,8 @@ def test_film_and_asperities_carry_the_load_between_them(swept):
 
 def test_at_rest_only_what_touches_rubs_and_the_inner_pressure_carries_the_rest(swept):
     """At rest nothing shears, and without pressure at the inner edge the asperities would carry all."""
-    _, told = swept
-    for curve in told["curves"]:
+    _, entries = swept
+    for curve in entries["curves"]:
         rest = curve["points"][0]
         assert rest["speed"] == 0
         assert rest["friction_coefficient"] == pytest.approx(0.1 * rest["contact_share"], abs=2e-3)
@@ -60,9 +60,9 @@ def test_at_rest_only_what_touches_rubs_and_the_inner_pressure_carries_the_rest(
 
 
 def test_walls_part_between_the_points_that_touch_and_those_that_do_not(swept):
-    _, told = swept
+    _, entries = swept
     lifts = []
-    for curve in told["curves"]:
+    for curve in entries["curves"]:
         lift = curve["lift_off"]["speed"]
         assert max(point["speed"] for point in curve["points"] if point["contact_load"] > 0) < lift
         assert min(point["speed"] for point in curve["points"] if point["contact_load"] == 0) > lift
@@ -71,9 +71,9 @@ def test_walls_part_between_the_points_that_touch_and_those_that_do_not(swept):
 
 
 def test_files_hold_what_was_told(swept):
-    out, told = swept
-    points = [point for curve in told["curves"] for point in curve["points"]]
-    assert json.loads((out / "stribeck.json").read_text())["curves"] == told["curves"]
+    out, entries = swept
+    points = [point for curve in entries["curves"] for point in curve["points"]]
+    assert json.loads((out / "stribeck.json").read_text())["curves"] == entries["curves"]
     with (out / "stribeck.csv").open() as file:
         rows = list(csv.reader(file, skipinitialspace=True))
     assert rows[0][:2] == ["pressure (Pa)", "speed (m/s)"]
@@ -81,7 +81,7 @@ def test_files_hold_what_was_told(swept):
     with h5py.File(out / "stribeck.h5") as file:
         for name in NUMBERS:
             np.testing.assert_array_equal(file[f"points/{name}"][()], [point[name] for point in points])
-            assert file[f"points/{name}"].attrs["unit"] == told["units"][name]
+            assert file[f"points/{name}"].attrs["unit"] == entries["units"][name]
         assert file["lift_off/speed"].shape == (2,)
     page = (out / "report.html").read_text()
     assert page.count("<svg") == 3
@@ -89,12 +89,12 @@ def test_files_hold_what_was_told(swept):
 
 
 def test_finished_points_are_found_again_and_others_added(swept):
-    out, told = swept
+    out, entries = swept
     again = run("--out", out, "--loads", "2MPa", "--speeds", "20rpm,40rpm,80rpm", "--json")
     found = json.loads(again.stdout)
     assert found["numerics"]["points_found"] == 2
     assert found["numerics"]["table_points_found"] == found["numerics"]["table_points"]
-    before = {point["speed"]: point for point in told["curves"][1]["points"]}
+    before = {point["speed"]: point for point in entries["curves"][1]["points"]}
     for point in found["curves"][0]["points"]:
         assert before.get(point["speed"], point) == point
 
@@ -119,8 +119,8 @@ def test_a_sweep_that_is_stopped_goes_on(swept, tmp_path, monkeypatch):
     monkeypatch.setattr(stribeck_sweep, "stribeck", interrupted)
     assert run("--out", tmp_path, *SWEEP).exit_code != 0
     monkeypatch.undo()
-    told = json.loads(run("--out", tmp_path, *SWEEP, "--json").stdout)
-    assert told["numerics"]["points_found"] == stopped
+    entries = json.loads(run("--out", tmp_path, *SWEEP, "--json").stdout)
+    assert entries["numerics"]["points_found"] == stopped
 
 
 def test_a_table_that_does_not_reach_is_extended_and_that_is_told(swept, tmp_path):
@@ -143,11 +143,13 @@ def test_a_table_that_does_not_reach_is_extended_and_that_is_told(swept, tmp_pat
     assert reach == 0.5e6 < max(point.load for point in whole.points)
     done = run("--out", tmp_path / "out", "--table", short, "--loads", "2MPa", "--speeds", "0", "--json")
     assert done.exit_code == 0, done.stderr
-    told = json.loads(done.stdout)
-    warned = [words for words in told["provenance"]["warnings"] if "T.h5 has contact pressures of up to 0.5" in words]
+    entries = json.loads(done.stdout)
+    warned = [
+        words for words in entries["provenance"]["warnings"] if "T.h5 has contact pressures of up to 0.5" in words
+    ]
     assert len(warned) == 1
     assert "extended to" in warned[0]
-    assert told["curves"][0]["points"][0]["contact_load"] > 0
+    assert entries["curves"][0]["points"][0]["contact_load"] > 0
 
 
 def scene_of_tests():

@@ -112,8 +112,8 @@ def test_the_judge_tells_right_from_wrong(asked):
     silent = spot_of(resolved, replace(other(bare, part=0.94), model="stokes"), right)
     assert (silent.outcome, silent.why) == (MapOutcome.WRONG, NOT_REPORTED)
     warned = replace(bare, model="stokes", warnings=("coarse",))
-    told = spot_of(resolved, other(warned, part=0.94), right)
-    assert (told.outcome, told.why) == (MapOutcome.INACCURATE, REPORTED)
+    report = spot_of(resolved, other(warned, part=0.94), right)
+    assert (report.outcome, report.why) == (MapOutcome.INACCURATE, REPORTED)
     again = spot_of(probe, other(bare, runs=TWO_RUNS), right)
     assert (again.outcome, again.why) == (MapOutcome.SLOW, SECOND_TRY)
     assert spot_of(probe, other(bare, iterations=101), right).outcome is MapOutcome.SLOW

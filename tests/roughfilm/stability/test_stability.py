@@ -150,10 +150,10 @@ def test_a_map_is_a_page_a_table_and_json_and_is_not_made_twice(small, tmp_path)
     small({"reynolds", "inertial_reynolds"})
     result = run("pocket", "--out", tmp_path, "--jobs", 1, "--json")
     assert result.exit_code == 0, result.stderr
-    told = json.loads(result.stdout)
-    assert told == json.loads((tmp_path / "stability.json").read_text())
-    assert told["provenance"]["machine"]["cores"]
-    assert told["counts"] == dict.fromkeys(MapOutcome, 0) | {"converged": 4}
+    report = json.loads(result.stdout)
+    assert report == json.loads((tmp_path / "stability.json").read_text())
+    assert report["provenance"]["machine"]["cores"]
+    assert report["counts"] == dict.fromkeys(MapOutcome, 0) | {"converged": 4}
     with (tmp_path / "stability.csv").open() as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == 4
@@ -202,9 +202,9 @@ def test_all_maps_stand_in_one_place_and_a_run_that_was_stopped_goes_on(monkeypa
     result = run("all", "--out", tmp_path, "--json")
     assert result.exit_code == 0, result.stderr
     assert (one.asked, two.asked, three.asked) == (1, 1, 2)
-    told = json.loads(result.stdout)
-    assert told == json.loads((tmp_path / "stability.json").read_text())
-    assert [(each["family"], each["counts"]["wrong"]) for each in told["maps"]] == [
+    report = json.loads(result.stdout)
+    assert report == json.loads((tmp_path / "stability.json").read_text())
+    assert [(each["family"], each["counts"]["wrong"]) for each in report["maps"]] == [
         ("one", 0),
         ("two", 1),
         ("three", 0),
@@ -222,10 +222,10 @@ def test_maps_by_laws_alone_are_drawn_and_what_breaks_a_law_is_wrong(monkeypatch
     monkeypatch.setattr(stability_laws, "LOADS", (0.01, 0.1, 0.6))
     result = run("seal", "--out", tmp_path, "--resolution", 32, "--json")
     assert result.exit_code == 0, result.stderr
-    told = json.loads(result.stdout)
-    counts = told["counts"]
+    report = json.loads(result.stdout)
+    counts = report["counts"]
     assert (counts["wrong"], counts["stalled"], counts["refused"]) == (0, 0, 12)
-    inaccurate = {(run["row"], run["column"]) for run in told["runs"] if run["outcome"] == "inaccurate"}
+    inaccurate = {(run["row"], run["column"]) for run in report["runs"] if run["outcome"] == "inaccurate"}
     assert {row for row, _ in inaccurate} == {"effective_medium"}
     assert ("effective_medium", "P = 0.1 E* g'") in inaccurate
     answer = next(probe for probe in stability_laws.seals(32) if probe.row == "direct_leakage").ask()
@@ -266,12 +266,12 @@ def test_a_second_try_and_a_failure_are_told_from_what_simply_converges(small, t
     small({"stokes", "navier_stokes"}, depths_plus=(1e-9, 1e-6, 0.25))
     assert run("pocket", "--out", tmp_path, "--resolution", 30).exit_code == 0
     runs = json.loads((tmp_path / "stability.json").read_text())["runs"]
-    told = {
+    report = {
         group: [(one["outcome"], one["why"]) for one in runs if one["group"] == group]
         for group in ("navier_stokes, linear_upwind", "stokes")
     }
-    assert told["navier_stokes, linear_upwind"] == [("converged", ""), ("slow", SECOND_TRY), ("stalled", "")]
-    assert told["stokes"] == [("converged", ""), ("converged", ""), ("stalled", "")]
+    assert report["navier_stokes, linear_upwind"] == [("converged", ""), ("slow", SECOND_TRY), ("stalled", "")]
+    assert report["stokes"] == [("converged", ""), ("converged", ""), ("stalled", "")]
     assert all(one["iterations"] > 50 and one["cpu_s"] > 0 for one in runs)
     assert (tmp_path / "report.html").read_text().count('td class="stalled"') == 3
 

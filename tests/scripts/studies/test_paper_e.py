@@ -132,11 +132,11 @@ class Lifted:
 
     cell: tuple
     box: tuple
-    unsure: float = 0.01
+    uncertainty: float = 0.01
 
     def lift(self, *, boxed=False):
         speeds = np.array(self.box if boxed else self.cell)
-        return np.stack([speeds, self.unsure * speeds], axis=1)
+        return np.stack([speeds, self.uncertainty * speeds], axis=1)
 
     def apart(self):
         return max(abs(b / c - 1) for b, c in zip(self.box, self.cell, strict=True))
@@ -187,10 +187,10 @@ def test_direct_and_homogenized_leaks_are_judged_within_five_per_cent(apart, ver
 
 
 def test_studies_tell_what_half_and_double_the_load_do():
-    told = dict(studies(windows(0.01)))
-    assert told["half load, window a"] == "+18.9 %"
-    assert told["double load, window a"] == "-15.9 %"
-    assert told["slope d ln Q/d ln W, window a, half to double the load"] == "-0.25"
+    report = dict(studies(windows(0.01)))
+    assert report["half load, window a"] == "+18.9 %"
+    assert report["double load, window a"] == "-15.9 %"
+    assert report["slope d ln Q/d ln W, window a, half to double the load"] == "-0.25"
 
 
 @pytest.fixture(scope="module")

@@ -231,13 +231,13 @@ def test_the_page(monkeypatch, tmp_path, small):
     page = (tmp_path / "paper_f.html").read_text(encoding="utf-8")
     assert page.count("<svg") == 11
     assert not re.search(r"""(src|href)\s*=\s*["'](?!#|data:|https://doi)|<script|@import""", page)
-    told = json.loads((tmp_path / "paper_f.json").read_text(encoding="utf-8"))
-    assert [claim["number"] for claim in told["claims"]] == [16, 19, 23, 24, 25, 26]
-    assert told["laws"]["all"]["sealing"][SLOPE]["scale"] == SLOPE
-    assert len(told["surfaces"]) == 4
-    assert {name: len(one["loads"]) for name, one in told["scatter"].items()} == {"without a lay": 2, "with a lay": 1}
-    low, high = told["scatter"]["without a lay"]["interval"]
-    assert 0.05 < low <= told["scatter"]["without a lay"]["mean"] <= high < 0.5
+    report = json.loads((tmp_path / "paper_f.json").read_text(encoding="utf-8"))
+    assert [claim["number"] for claim in report["claims"]] == [16, 19, 23, 24, 25, 26]
+    assert report["laws"]["all"]["sealing"][SLOPE]["scale"] == SLOPE
+    assert len(report["surfaces"]) == 4
+    assert {name: len(one["loads"]) for name, one in report["scatter"].items()} == {"without a lay": 2, "with a lay": 1}
+    low, high = report["scatter"]["without a lay"]["interval"]
+    assert 0.05 < low <= report["scatter"]["without a lay"]["mean"] <= high < 0.5
 
 
 def test_measured_surfaces_are_shrunk_and_scaled(tmp_path):

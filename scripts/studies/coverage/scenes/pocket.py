@@ -17,8 +17,8 @@ def draw(rng: Generator) -> Entries:
     """Return one to three grooves: w/L = 0.1 to 0.9, d/h = 0.05 to 3, 2d/w <= 1, h/L = 0.005 to 0.2, Re = 0 to 300.
 
     A fifth of the scenes has Re = 0.001, which stands for none, and a fifth has several grooves. 40 of 100 grooves are
-    off the middle of the period. The lubricant is so thin that no film tears; load and friction as p+ do not depend on
-    it.
+    off the middle of the period. The lubricant is so thin that no film ruptures; load and friction as p+ do not
+    depend on it.
     """
     film = PERIOD * between(rng, 0.005, 0.2)
     count = int(rng.integers(2, 4)) if chance(rng, 0.2) else 1

@@ -78,9 +78,9 @@ def test_film_and_asperities_of_a_wedge_are_each_as_if_alone(tips):
     assert value(result, "contact_load_per_width") == pytest.approx(contact, rel=1e-5)
     assert value(result, "film_load_per_width") == pytest.approx(slider.load, rel=1e-5)
     assert value(result, "load_per_width") == pytest.approx(contact + slider.load, rel=1e-5)
-    rub = slider.friction + tips.friction * contact
-    assert value(result, "friction_per_width") == pytest.approx(rub, rel=1e-5)
-    assert value(result, "friction_coefficient") == pytest.approx(rub / (contact + slider.load), rel=1e-5)
+    friction = slider.friction + tips.friction * contact
+    assert value(result, "friction_per_width") == pytest.approx(friction, rel=1e-5)
+    assert value(result, "friction_coefficient") == pytest.approx(friction / (contact + slider.load), rel=1e-5)
 
 
 def test_uncertainties_hold_the_error(tips):

@@ -28,7 +28,7 @@ from scripts.studies.study import plain
 STORED = Path(__file__).parent
 
 
-def finding(error, *, stated=1.0, doubt=0.0, warned=False):
+def finding(error, *, stated=1.0, truth_uncertainty=0.0, warned=False):
     return Finding(
         kind="pocket",
         seed=20000,
@@ -37,7 +37,7 @@ def finding(error, *, stated=1.0, doubt=0.0, warned=False):
         promise=EXPECTED,
         value=100 + error,
         true=100.0,
-        doubt=doubt,
+        truth_uncertainty=truth_uncertainty,
         stated=stated,
         warned=warned,
     )
@@ -67,9 +67,9 @@ def test_answers_are_kept_missed_or_undecided():
         finding(2.0),
         finding(3.5),
         finding(3.5, warned=True),
-        finding(0.9, doubt=0.5),
-        finding(0.2, doubt=0.5),
-        finding(3.2, doubt=0.5),
+        finding(0.9, truth_uncertainty=0.5),
+        finding(0.2, truth_uncertainty=0.5),
+        finding(3.2, truth_uncertainty=0.5),
     ]
     (row,) = coverage(found)
     assert (row.judged, row.kept, row.undecided, row.misleading) == (6, 2, 1, 1)
