@@ -172,8 +172,10 @@ def near(fraction: float) -> str:
     return f"within {percent(fraction)}" if fraction <= MAX_STATED_ERROR else f"off by {percent(fraction)}"
 
 
-def expected_errors(scene: Scene, model: Model, resolution: int, models: Sequence[Model]) -> dict[str, float]:
-    """The bounds by the fitted laws of the error of a model over the size of each quantity, without a solution.
+def expected_errors(
+    scene: Scene, model: Model, resolution: int, models: Sequence[Model], stated: Mapping[str, float]
+) -> dict[str, float]:
+    """The bounds by the fitted laws of the error of a model over the size of each quantity.
 
     Parameters
     ----------
@@ -181,6 +183,8 @@ def expected_errors(scene: Scene, model: Model, resolution: int, models: Sequenc
     model : the model.
     resolution : resolution at which the model solves the scene.
     models : all models for this kind of scene.
+    stated : by quantity, the numerical uncertainty that the model states, over the size. It replaces the law of the
+        error by the resolution, unless a promise contains that error, and the bound is at least this uncertainty.
 
     Returns
     -------
@@ -189,7 +193,7 @@ def expected_errors(scene: Scene, model: Model, resolution: int, models: Sequenc
     """
     kind = kind_of_name(scene.kind)
     applying = [other for other in models if other.applies(scene).applies]
-    errors = {}
+    errors: dict[str, float] = {}
     for quantity, title in kind.titles.items() if any(other.name == model.name for other in applying) else ():
         task = AdviceTask(
             scene=scene,
@@ -201,10 +205,11 @@ def expected_errors(scene: Scene, model: Model, resolution: int, models: Sequenc
             numbers=kind.numbers(scene),
             run=lambda other, grid: other.solve(scene, Request(resolution=grid)),
         )
-        estimate, omitted = a_priori(task, model, resolution), kind.omitted(scene, quantity)
-        part = omitted.part if omitted else 0.0
-        if estimate is not None and estimate.sure and estimate.error + part < math.inf:
-            errors[quantity] = estimate.error + part
+        own = stated.get(quantity)
+        estimate, omitted = a_priori(task, model, resolution, own), kind.omitted(scene, quantity)
+        if estimate is not None and estimate.sure:
+            error = max(estimate.error + (omitted.part if omitted else 0.0), own or 0.0)
+            errors |= {quantity: error} if error < math.inf else {}
     return errors
 
 
@@ -222,16 +227,23 @@ def combined(before: Estimate | None, after: Estimate | None) -> Estimate | None
     return after if wrong or (after.sure and after.error <= before.error) else before
 
 
-def a_priori(task: AdviceTask, model: Model, resolution: int) -> Estimate | None:
+def a_priori(task: AdviceTask, model: Model, resolution: int, stated: float | None = None) -> Estimate | None:
     """The estimate by the laws: the promise of a model, or the sum of the steps above it, and the resolution.
 
-    The parts are independent bounds e_i, which add up to √(Σ e_i²). The result is None if a part has no law.
+    The parts are independent bounds e_i, which add up to √(Σ e_i²). The result is None if a part has no law. For a
+    model without a promise, the uncertainty that it states for a run replaces the law over resolutions.
     """
-    left, grid = left_out(task, task.chain(model)), task.grid(model, resolution)
+    left = left_out(task, task.chain(model))
+    promised = task.quantity in task.table.promise(task.kind.name, model.name).laws
+    by_law = stated is None or promised
+    grid = task.grid(model, resolution) if by_law else stated
     if left is None or grid is None:
         return None
     parts, reasons, sure = left
-    if grid > 0:
+    if grid > 0 and not by_law:
+        parts = [*parts, grid]
+        reasons = [*reasons, (grid, f"at resolution {resolution} its own uncertainty is {percent(grid)}")]
+    elif grid > 0:
         beyond = task.beyond_grids(model, resolution)
         reason = f"a resolution of {resolution} costs {bounded(grid)}"
         reasons = [*reasons, (grid, reason + _range_note(task, beyond, task.grid_law(model)))]
@@ -247,15 +259,22 @@ def left_out(task: AdviceTask, chain: Sequence[Model]) -> tuple[list[float], lis
     """
     parts: list[float] = []
     reasons: list[tuple[float, str]] = []
-    sure = True
+    sure, contained = True, 0
     for place, model in enumerate(chain):
-        promise = task.table.promise(task.kind.name, model.name, task.quantity)
+        if place < contained:
+            continue
+        promise = task.table.promise(task.kind.name, model.name)
+        law = promise.laws.get(task.quantity)
         step = task.step(model)
         own = on_grid(task.numbers, model.resolution_of(task.scene))
-        if promise is not None and promise.knows(own):
-            error, beyond = promise.error(own, RESOLVING), promise.beyond(own, RESOLVING)
-            reason = _promise_reason(task, chain[place:], error) + _range_note(task, beyond, promise)
-            return [*parts, error], [*reasons, (error, reason)], sure and beyond is None
+        if law is not None and law.knows(own):
+            error, beyond = law.error(own, RESOLVING), law.beyond(own, RESOLVING)
+            names = [one.name for one in chain]
+            contained = names.index(promise.towards) if promise.towards in names else len(chain)
+            reason = _promise_reason(task, chain[place:contained], error) + _range_note(task, beyond, law)
+            parts, reasons = [*parts, error], [*reasons, (error, reason)]
+            sure = sure and beyond is None
+            continue
         if step is None:
             break
         law = step.left_out.get(task.quantity)
@@ -294,9 +313,8 @@ def a_posteriori(task: AdviceTask, model: Model, resolution: int) -> Estimate | 
     """The estimate of the error of a model from runs; None if there is no cheap model to compare with, or a run fails.
 
     The model is compared with the next one, at a resolution whose error is at most ``CHECK_FRACTION`` of that expected
-    by the laws: the difference plus the error of that model bounds the error. If that model costs too much, the
-    comparison is with a simpler model, and a law gives the error from the difference. The most complete model, if it
-    runs in this process, is judged by the numerical uncertainty of its own run.
+    by the laws: the difference plus the error of that model bounds the error. The most complete model, if it runs in
+    this process, is judged by the numerical uncertainty of its own run.
     """
     above = task.next(model)
     if above is None:
@@ -305,7 +323,7 @@ def a_posteriori(task: AdviceTask, model: Model, resolution: int) -> Estimate | 
     finer = task.as_fine(above, 0.0 if before is None else CHECK_FRACTION * before.error)
     if above.available().available and _cheap(task, task.cost(above, finer), task.cost(model, resolution)):
         return _from_above(task, model, resolution, above, finer)
-    return _from_below(task, model, resolution)
+    return None
 
 
 def with_own_uncertainty(task: AdviceTask, model: Model, resolution: int, estimate: Estimate) -> Estimate:
@@ -318,8 +336,8 @@ def with_own_uncertainty(task: AdviceTask, model: Model, resolution: int, estima
     own = None if model.outside else _from_itself(task, model, resolution)
     if own is None or own.error == 0:
         return estimate
-    promise = task.table.promise(task.kind.name, model.name, task.quantity)
-    adds = promise is None and "waves" in task.numbers and task.at_full_resolution(model, resolution)
+    promised = task.quantity in task.table.promise(task.kind.name, model.name).laws
+    adds = not promised and "waves" in task.numbers and task.at_full_resolution(model, resolution)
     error = math.hypot(estimate.error, own.error) if adds else max(estimate.error, own.error)
     first = own.reasons if own.error > estimate.error else ()
     reasons = (*first, *estimate.reasons)
@@ -366,27 +384,3 @@ def _from_above(task: AdviceTask, model: Model, resolution: int, above: Model, f
         sure=left.sure,
         least=max(difference - left.error, 0.0) if left.sure else 0.0,
     )
-
-
-def _from_below(task: AdviceTask, model: Model, resolution: int) -> Estimate | None:
-    step = task.step(model)
-    law = None if step is None else step.seen.get(task.quantity)
-    if step is None or law is None:
-        return None
-    below, higher = find(task.models, task.kind.name, step.seen_from), left_out(task, task.chain(model)[1:])
-    if higher is None:
-        return None
-    own, result = _run(task, model, resolution), _run(task, below, task.as_fine(below, 0.0))
-    if own is None or result is None:
-        return None
-    difference = task.difference(result, own)
-    numbers = {**task.numbers, "correction": difference}
-    grid = task.uncertainty(own)
-    grid = task.grid(model, resolution) if grid is None else grid
-    if grid is None or not law.knows(numbers):
-        return None
-    left, (parts, reasons, sure) = law.error(numbers), higher
-    error = math.hypot(left, grid, *parts)
-    first = f"{below.name} was run too and differs by {percent(difference)}, so that {model.name} is {near(error)}"
-    more = [reason for part, reason in reasons if part > left]
-    return Estimate(error=error, reasons=("; ".join((first, *more)),), sure=sure and law.beyond(numbers) is None)

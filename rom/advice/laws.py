@@ -125,9 +125,6 @@ class Step:
     adds : the effect that the next one adds, in words.
     tells : the number that measures the effect.
     left_out : by quantity, the law of the difference from the next model.
-    seen_from : a simpler model, used if the next model is expensive.
-    seen : by quantity, the law of the difference from the next model as a function of the difference from the simpler
-        model, ``correction``.
     """
 
     kind: str
@@ -135,21 +132,21 @@ class Step:
     towards: str
     adds: str
     tells: str
-    left_out: Mapping[str, Law]
-    seen_from: str = ""
-    seen: Mapping[str, Law] = field(default_factory=dict)
+    left_out: Mapping[str, Law] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Promise:
     """The laws, by quantity, of the whole error of a model at a fine resolution, compared with independent solutions.
 
-    A promise replaces the sum of the laws of all steps from the model to the most complete one.
+    A promise replaces the sum of the laws of all steps from the model to ``towards``, whose equations the independent
+    solutions solve; an empty name stands for the most complete model.
     """
 
     kind: str
     model: str
     laws: Mapping[str, Law]
+    towards: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -178,21 +175,15 @@ class Table:
         own = (step for step in self.steps if (step.kind, step.model) == (kind, model) and step.towards in applying)
         return next(own, None)
 
-    def promise(self, kind: str, model: str, quantity: str) -> Law | None:
-        """The law of the whole error of a model; None if there is none."""
-        return _own(self.promises, kind, model, quantity)
-
-    def promises_of(self, kind: str, model: str) -> Mapping[str, Law]:
-        """The laws of the whole error of a model, by quantity; empty if there are none."""
-        return next((one.laws for one in self.promises if (one.kind, one.model) == (kind, model)), {})
+    def promise(self, kind: str, model: str) -> Promise:
+        """The laws of the whole error of a model, which are empty if it has none."""
+        own = (one for one in self.promises if (one.kind, one.model) == (kind, model))
+        return next(own, Promise(kind=kind, model=model, laws={}))
 
     def grid(self, kind: str, model: str, quantity: str) -> Law | None:
         """The law of the error by the resolution of a model; None if it is unknown."""
-        return _own(self.grids, kind, model, quantity)
-
-
-def _own(entries: Sequence[Promise] | Sequence[Grid], kind: str, model: str, quantity: str) -> Law | None:
-    return next((one.laws.get(quantity) for one in entries if (one.kind, one.model) == (kind, model)), None)
+        own = (one.laws.get(quantity) for one in self.grids if (one.kind, one.model) == (kind, model))
+        return next(own, None)
 
 
 def _law(entries: Mapping[str, Any]) -> Law:
@@ -212,10 +203,7 @@ def read_table(text: str) -> Table:
     """Read the table of laws from TOML text."""
     entries = tomllib.loads(text)
     return Table(
-        steps=tuple(
-            Step(**{**step, "left_out": _laws(step.get("left_out", {})), "seen": _laws(step.get("seen", {}))})
-            for step in entries["step"]
-        ),
+        steps=tuple(Step(**{**step, "left_out": _laws(step.get("left_out", {}))}) for step in entries["step"]),
         promises=tuple(Promise(**{**one, "laws": _laws(one["laws"])}) for one in entries.get("promise", ())),
         grids=tuple(Grid(**{**grid, "laws": _laws(grid["laws"])}) for grid in entries["grid"]),
         provenance=entries["provenance"],

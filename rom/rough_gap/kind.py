@@ -73,13 +73,17 @@ MIN_GAP_RATIO = 1e-3
 
 
 def numbers(scene: RoughGap) -> dict[str, float]:
-    """The dimensionless numbers of a rough gap, with λ = 2π Sq/g'; side/λ is 0 for flat walls."""
+    """The dimensionless numbers of a rough gap, with λ = 2π Sq/g'; side/λ is 0 for flat walls.
+
+    Sq/h̄ is that of the undeformed walls, or of the gap if a load presses the walls together.
+    """
     surface = scene.surface()
     walls = scene.walls(max(surface.shape))
+    height = scene.rms_height if scene.load is None else float(walls.gap.std())
     waves = max(surface.size) * scene.rms_slope / (2 * np.pi * scene.rms_height) if scene.rms_height > 0 else 0.0
     return {
         "slope": scene.rms_slope,
-        "height": scene.rms_height / scene.mean_gap,
+        "height": height / scene.mean_gap,
         "shortness": scene.gap_over_wavelength,
         "reynolds_number": scene.reynolds_number,
         "roughness_reynolds_number": scene.reynolds_number * scene.rms_slope,

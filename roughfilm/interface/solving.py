@@ -7,7 +7,7 @@ from roughfilm import ladder
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.interface.scenes import checked_scene
 from roughfilm.rom.advice import advise as advice
-from roughfilm.rom.advice.estimates import expected_errors
+from roughfilm.rom.advice.estimates import expected_errors, over
 from roughfilm.rom.ladder.kind import Scene, kind_names, kind_of_name
 from roughfilm.rom.ladder.model import Model, Progress, best, silent
 from roughfilm.rom.ladder.request import Request
@@ -160,12 +160,13 @@ def with_expected_error(result: Result, scene: Scene, model: Model) -> Result:
 
     An error is at least the numerical uncertainty that the result states.
     """
-    errors = expected_errors(scene, model, result.numerics.resolution, ladder.models(scene.kind))
     kind = kind_of_name(scene.kind)
-    for name in errors.keys() & result.quantities.keys():
-        uncertainty, size = result.quantities[name].uncertainty, kind.scale_of(result, name)
-        if uncertainty is not None and size > 0:
-            errors[name] = max(errors[name], uncertainty / size)
+    stated = {
+        name: over(quantity.uncertainty, kind.scale_of(result, name))
+        for name, quantity in result.quantities.items()
+        if name in kind.titles and quantity.uncertainty is not None
+    }
+    errors = expected_errors(scene, model, result.numerics.resolution, ladder.models(scene.kind), stated)
     return replace(result, expected_error=errors)
 
 

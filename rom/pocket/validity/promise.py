@@ -40,7 +40,7 @@ class Promised:
 
 def promised(scene: Pocket, model: str) -> Promised:
     """The promise of a model for a scene, from the laws in ``rom/advice/laws.toml``."""
-    laws, own = table().promises_of("pocket", model), numbers(scene)
+    laws, own = table().promise("pocket", model).laws, numbers(scene)
     for law in laws.values():
         if (name := law.beyond(own)) is not None:
             least, most = law.reach[name]

@@ -59,6 +59,7 @@ def judged(kind: str, seed: int, known: Judged | None, with_advice: bool) -> Jud
                 known,
                 truth={name: (value, truth.uncertainty[name]) for name, value in truth.values.items()},
                 own=truth.own,
+                by=truth.by,
                 method=truth.method,
                 truth_warnings=truth.warnings,
                 truth_cpu_s=time.process_time() - begun,

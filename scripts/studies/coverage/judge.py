@@ -70,9 +70,9 @@ class Finding:
 def findings(scenes: Sequence[Judged]) -> Iterator[Finding]:
     """Return what every answer states about its quantities.
 
-    An uncertainty is judged by the truth of the model's own equations, an expected error by the truth of the scene;
-    to an expected error the uncertainty is added. Where a model states no expected error and has no entry in the own
-    truths, its uncertainty is judged by the truth of the scene.
+    An uncertainty is judged by the truth of the model's own equations, an expected error, which contains it, by the
+    truth of the scene. Where a model states no expected error and has no entry in the own truths, its uncertainty is
+    judged by the truth of the scene.
     """
     for one in scenes:
         kind = kind_of_name(one.kind)
@@ -84,10 +84,11 @@ def findings(scenes: Sequence[Judged]) -> Iterator[Finding]:
                 promises = []
                 if bar is not None and quantity in own:
                     promises.append((UNCERTAINTY, own[quantity], bar))
-                if expected is not None and quantity in one.truth:
-                    size = float(kind.scale(values, quantity))
-                    promises.append((EXPECTED, one.truth[quantity], expected * size + (bar or 0.0)))
-                elif bar is not None and quantity in one.truth and model not in one.own:
+                if quantity not in one.truth or model == one.by:
+                    pass
+                elif expected is not None:
+                    promises.append((EXPECTED, one.truth[quantity], expected * float(kind.scale(values, quantity))))
+                elif bar is not None and model not in one.own:
                     promises.append((UNCERTAINTY, one.truth[quantity], bar))
                 for promise, (true, truth_uncertainty), stated in promises:
                     yield Finding(
@@ -211,7 +212,7 @@ class AdviceScore:
 
 def relative_error(scene: Judged, advice: Advised) -> tuple[float, float] | None:
     """Return error and uncertainty of the truth over the size of the quantity; None without an answer or a truth."""
-    if advice.value is None or advice.quantity not in scene.truth:
+    if advice.value is None or advice.quantity not in scene.truth or advice.model == scene.by:
         return None
     true, truth_uncertainty = scene.truth[advice.quantity]
     size = float(kind_of_name(scene.kind).scale({name: pair[0] for name, pair in scene.truth.items()}, advice.quantity))

@@ -47,7 +47,8 @@ class Advised:
 class Judged:
     """A random scene with its truth, as (value, uncertainty) by quantity, and the answers of models by name.
 
-    ``own`` is the truth of the own equations of a model, by its name (see ``Truth.own``).
+    ``own`` is the truth of the own equations of a model, by its name, and ``by`` the model that gave the truth of the
+    scene (see ``Truth``).
     ``failure`` is the reason why there is no truth. ``code`` is a digest of the code that gave the answers.
     """
 
@@ -56,6 +57,7 @@ class Judged:
     scene: Mapping[str, Any]
     truth: Mapping[str, tuple[float, float]]
     own: Mapping[str, Mapping[str, tuple[float, float]]] = field(default_factory=dict)
+    by: str = ""
     method: str = ""
     truth_warnings: tuple[str, ...] = ()
     truth_cpu_s: float = 0.0

@@ -15,7 +15,7 @@ from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.scene import read_scene, scene_entries
 from roughfilm.rom.parts.surface_geometry import SurfaceGeometry
-from scripts.studies.random_entries import Entries, between, chance
+from scripts.studies.coverage.random_entries import Entries, between, chance
 
 DESCRIBING = ("surface", "spacing", "digest", "amplitude", "wavelength")
 """Keys of a scene that describe the heights of a wall."""

@@ -22,6 +22,7 @@ class Truth:
         uncertainty of that model is judged; models without an entry are judged by ``values``, those with an empty one
         are not judged.
     warnings : one sentence for each reason why the solution may be wrong.
+    by : name of the model whose finer solutions are the truth, by which it is not judged; empty for other methods.
     """
 
     values: Mapping[str, float]
@@ -29,6 +30,7 @@ class Truth:
     method: str
     own: Mapping[str, Mapping[str, tuple[float, float]]] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
+    by: str = ""
 
 
 def kinds_with_truth() -> tuple[str, ...]:

@@ -8,8 +8,8 @@ from numpy.random import Generator
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import with_unit
+from scripts.studies.coverage.random_entries import Entries, between, chance, length, random_surface
 from scripts.studies.coverage.surfaces import stored
-from scripts.studies.random_entries import Entries, between, chance, length, random_surface
 
 SHAPES = (
     "parallel",
@@ -36,7 +36,7 @@ def draw(rng: Generator) -> Entries:
     """Return a bearing: rise/h = 0.1 to 8, B/L = 0.1 to 8, eccentricity to 0.97, cavitation at -1 kPa to -1 MPa.
 
     A third has a texture, a quarter a starved inlet and a quarter pressures at its ends, a tenth slides backwards, and
-    a third has ridges or a rough surface.
+    a quarter each has ridges and a rough surface.
 
     Raises
     ------
@@ -58,7 +58,7 @@ def draw(rng: Generator) -> Entries:
         "motion": {"speed": with_unit(speed, "m/s")},
         "boundary": fed(rng, joined, shape in RINGS or "width" in geometry),
     }
-    kind = str(rng.choice(["smooth", "ridges", "surface"], p=[0.68, 0.24, 0.08]))
+    kind = str(rng.choice(["smooth", "ridges", "surface"], p=[0.5, 0.25, 0.25]))
     if kind == "ridges":
         entries["roughness"] = {
             "kind": "sinusoid",
@@ -70,7 +70,7 @@ def draw(rng: Generator) -> Entries:
         rms_height = film / between(rng, 1.0, 15)
         surface = random_surface(rng, rms_height * between(rng, 50, 2000), 48, rms_height, int(rng.integers(4, 12)))
         entries["roughness"] = {"kind": "surface", "surface": surface}
-        if chance(rng, 0.5):
+        if chance(rng, 0.7):
             solid = {"modulus": "210 GPa", "poisson": 0.3, "hardness": with_unit(between(rng, 0.5e9, 10e9), "Pa")}
             entries["asperities"] = {"friction": float(rng.uniform(0.03, 0.3)), "solid": solid}
     return entries

@@ -3,8 +3,8 @@
 from numpy.random import Generator
 
 from roughfilm.contact.foundation.units import with_unit
+from scripts.studies.coverage.random_entries import Entries, between, chance
 from scripts.studies.coverage.surfaces import SIDE, drawn_surface, in_file, rms_slope
-from scripts.studies.random_entries import Entries, between, chance
 
 MODULUS = 210e9
 POISSON = 0.3

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.random import Generator
 
-from scripts.studies.random_entries import Entries, between, chance, length
+from scripts.studies.coverage.random_entries import Entries, between, chance, length
 
 SHAPES = ("cylindrical", "splined", "points")
 CHANCES = (0.4, 0.35, 0.25)

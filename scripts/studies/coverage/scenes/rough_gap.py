@@ -1,13 +1,13 @@
-"""Random rough gaps: between ridges on one wall or on both, at a negligible Re, and between surfaces, also pressed."""
+"""Random rough gaps: between ridges on one wall or on both, and between surfaces, also pressed."""
 
 import numpy as np
 from numpy.random import Generator
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.units import with_unit
+from scripts.studies.coverage.random_entries import Entries, between, chance, length
 from scripts.studies.coverage.scenes.dry_contact import pressed
 from scripts.studies.coverage.surfaces import drawn_surface, in_file, rms_slope, stored
-from scripts.studies.random_entries import Entries, between, chance, length
 
 MEAN_GAP = 10e-6
 """Mean gap, m; only ratios of lengths matter."""
@@ -33,10 +33,7 @@ def between_surfaces(rng: Generator) -> Entries:
 
     Two of five are pressed together under P/(E* g') = 0.003 to 0.1, and a third of the others has two rough walls.
     """
-    drive: Entries = {
-        "lubricant": {"viscosity": "10 mPa*s", "density": "870 kg/m^3"},
-        "flow": {"reynolds_number": 1e-3 if chance(rng, 0.5) else between(rng, 0.1, 200)},
-    }
+    drive = driven(rng)
     if chance(rng, 0.4):
         return {**pressed(rng, SIDE_POINTS, (3e-3, 0.1)), **drive}
     heights = drawn_surface(rng, SIDE_POINTS, rng.uniform(6, 16))
@@ -49,8 +46,16 @@ def between_surfaces(rng: Generator) -> Entries:
     return {"geometry": geometry, **drive}
 
 
+def driven(rng: Generator) -> Entries:
+    """Return an oil and its flow, creeping in every second gap."""
+    return {
+        "lubricant": {"viscosity": "10 mPa*s", "density": "870 kg/m^3"},
+        "flow": {"reynolds_number": 1e-3 if chance(rng, 0.5) else between(rng, 0.1, 200)},
+    }
+
+
 def between_ridges(rng: Generator) -> Entries:
-    """Return a gap with ridges across x, 1.5 to 60 mean gaps long, at least 0.12 of the mean gap apart."""
+    """Return a gap with ridges across x, 1.5 to 60 mean gaps long, at least 0.12 mean gaps apart."""
     period = MEAN_GAP * between(rng, 1.5, 60)
     lower, upper = _profile(rng), _profile(rng) * rng.uniform(0.2, 1) * (0.0 if chance(rng, 0.6) else 1.0)
     amplitude = rng.uniform(0.03, 0.88) * MEAN_GAP / float(-(upper - lower).min())
@@ -59,8 +64,7 @@ def between_ridges(rng: Generator) -> Entries:
         geometry["upper"] = _wall(upper * amplitude, period)
     return {
         "geometry": geometry,
-        "lubricant": {"viscosity": "10 mPa*s", "density": "870 kg/m^3"},
-        "flow": {"reynolds_number": 1e-3},
+        **driven(rng),
     }
 
 

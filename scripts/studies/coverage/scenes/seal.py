@@ -2,9 +2,9 @@
 
 from numpy.random import Generator
 
+from scripts.studies.coverage.random_entries import Entries, length
 from scripts.studies.coverage.scenes.dry_contact import pressed
 from scripts.studies.coverage.surfaces import SIDE
-from scripts.studies.random_entries import Entries, length
 
 
 def draw(rng: Generator) -> Entries:

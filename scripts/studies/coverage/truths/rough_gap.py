@@ -1,10 +1,7 @@
-"""The truth of a rough gap between ridges across x: plane Stokes flow by finite elements.
-
-Of a gap between surfaces only the limits of fine grids of the models are known, which judge their uncertainties.
-"""
+"""The truth of a rough gap: Stokes flow by finite elements between ridges across x, else by a model on finer grids."""
 
 from dataclasses import replace
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import scipy.sparse.linalg
@@ -12,10 +9,17 @@ from numpy.typing import NDArray
 from skfem import MeshTri1, MeshTri2
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.rom.rough_gap.models.slope_corrected import MODEL as SLOPE_CORRECTED
 from roughfilm.rom.rough_gap.scene import RoughGap
+from roughfilm.rom.rough_gap.walls import Walls
 from scripts.studies.coverage.finer import on_finer_surface
 from scripts.studies.coverage.finite_elements.spaces import Spaces
+from scripts.studies.coverage.surfaces import refined
 from scripts.studies.coverage.truth import Truth
+
+FINER = 2
+"""Number of points along a side over that of a surface, of the solution that states the neglected slope."""
 
 ROWS = (5, 8)
 """Numbers of rows of cells across the gap of the two meshes."""
@@ -43,7 +47,10 @@ LEAST_UNCERTAINTY = 1e-7
 
 
 def truth(scene: RoughGap) -> Truth:
-    """Return the flow and friction factors of a gap between ridges across x, of others the limits of the models alone.
+    """Return the factors of a gap in Stokes flow, and those of the models' own equations.
+
+    They are the truth of the scene where the flow is creeping. Between ridges across x they are found by finite
+    elements, between other walls by ``slope_corrected`` on finer grids, with the uncertainty that it states.
 
     Raises
     ------
@@ -51,27 +58,59 @@ def truth(scene: RoughGap) -> Truth:
         If no model solves a gap between surfaces on finer grids.
     """
     walls = scene.walls(max(scene.surface().shape))
+    ridged = max(float(np.ptp(wall, axis=1).max()) for wall in (walls.lower, walls.upper)) < FLATNESS * scene.mean_gap
+    open_gap = scene.load is None and walls.gap.min() > 0
+    found = between_ridges(scene, walls) if ridged and open_gap else between_surfaces(scene)
+    if scene.reynolds_number * scene.rms_slope <= MAX_CREEPING:
+        return found
+    return replace(found, values={}, uncertainty={})
+
+
+def between_ridges(scene: RoughGap, walls: Walls) -> Truth:
+    """Return the factors of a gap between ridges across x, by finite elements."""
     mean = scene.mean_gap
-    ridged = max(float(np.ptp(wall, axis=1).max()) for wall in (walls.lower, walls.upper)) < FLATNESS * mean
-    creeping = scene.reynolds_number * scene.rms_slope <= MAX_CREEPING
-    if not (ridged and creeping) or scene.load is not None or not walls.gap.min() > 0:
-        return replace(on_finer_surface(scene), values={}, uncertainty={})
     lower, upper = walls.lower[:, 0] / mean, walls.upper[:, 0] / mean
     coarse, fine = (ridge_factors(lower, upper, walls.size[0] / mean, rows) for rows in ROWS)
     thin = thin_film_factors(lower, upper)
     if not walls.slides:
         del fine["B1"], fine["friction"]
+    uncertainty = {
+        name: SAFETY_FACTOR * abs(value - coarse[name]) + LEAST_UNCERTAINTY * abs(value) for name, value in fine.items()
+    }
+    stokes = {name: (value, uncertainty[name]) for name, value in fine.items()}
     return Truth(
         values=fine,
-        uncertainty={
-            name: SAFETY_FACTOR * abs(value - coarse[name]) + LEAST_UNCERTAINTY * abs(value)
-            for name, value in fine.items()
-        },
+        uncertainty=uncertainty,
         method=f"Taylor-Hood finite elements, cubics and quadratics, on {ROWS[0]} and {ROWS[1]} rows of cells",
         own={
             "smooth_gap": dict.fromkeys(fine, (1.0, LEAST_UNCERTAINTY)),
             "homogenized": {name: (thin[name], LEAST_UNCERTAINTY * thin[name]) for name in fine},
+            "slope_corrected": stokes,
+            "stokes": stokes,
         },
+    )
+
+
+def between_surfaces(scene: RoughGap) -> Truth:
+    """Return the factors of a gap between surfaces, by ``slope_corrected`` on finer grids.
+
+    Friction is left out where the walls touch, as it has no limit there.
+    """
+    found = on_finer_surface(scene)
+    limits = found.own["slope_corrected"]
+    try:
+        stated = SLOPE_CORRECTED.solve(cast(RoughGap, refined(scene, FINER))).quantities
+    except (ConvergenceError, InputError) as error:
+        raise ConvergenceError(f"slope_corrected on a finer grid: {error}") from error
+    touching = bool((scene.walls(max(scene.surface().shape)).gap <= 0).any())
+    values = {name: value for name, (value, _) in limits.items() if not (touching and name == "friction")}
+    uncertainty = {name: limits[name][1] + (stated[name].uncertainty or 0.0) for name in values}
+    return replace(
+        found,
+        values=values,
+        uncertainty=uncertainty,
+        own={**found.own, "stokes": {name: (value, uncertainty[name]) for name, value in values.items()}},
+        by="slope_corrected",
     )
 
 

@@ -1,12 +1,12 @@
 """Values of the models of a kind at all their resolutions, over the scenes to which laws are fitted."""
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
-from roughfilm.ladder import models
+from roughfilm.ladder import find
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.request import Request
@@ -44,26 +44,24 @@ def read(path: Path) -> dict[tuple[int, str], Refinement]:
     return found
 
 
-def refined(kind: str) -> tuple[Model, ...]:
-    """Return the models with an order of convergence."""
-    return tuple(model for model in models(kind) if model.order)
-
-
 def resolutions_of(model: Model, scene: Scene) -> tuple[int, ...]:
-    """Return the series of a model, and a finer resolution if it runs in this process."""
+    """Return the series of a model; with a finer one if it converges with an order and runs in this process.
+
+    The series of a model on the points of a surface ends with all of them.
+    """
     series = model.resolutions_of(scene)
-    return series if model.outside else (*series, FINEST_FACTOR * max(series))
+    return series if model.outside or model.order is None else (*series, FINEST_FACTOR * max(series))
 
 
-def refine(kind: str, seeds: list[int], out: Path, advance: Callable[[str], None]) -> None:
-    """Solve what the file lacks, and append it."""
+def refine(kind: str, names: Sequence[str], seeds: Sequence[int], out: Path, advance: Callable[[str], None]) -> None:
+    """Solve what the file lacks of these models, and append it."""
     path = path_of(out, kind)
     known = read(path)
     for seed in seeds:
         scene = drawn(kind, seed)
-        for model in refined(kind):
+        for model in (find(kind, name) for name in names):
             advance(f"{kind} {seed}, {model.name}")
-            if (seed, model.name) in known or not model.available().available:
+            if (seed, model.name) in known or not (model.available().available and model.applies(scene).applies):
                 continue
             values = {resolution: _values(model, scene, resolution) for resolution in resolutions_of(model, scene)}
             with path.open("a", encoding="utf-8") as file:

@@ -3,7 +3,10 @@
 import numpy as np
 import pytest
 
-from scripts.studies.coverage.fitting import calibration, fitted
+from roughfilm.rom.advice.laws import Grid, Promise, Step, Table, read_table
+from scripts.studies.coverage.fit.__main__ import replaced
+from scripts.studies.coverage.fit.laws_file import write_table
+from scripts.studies.coverage.fit.regression import calibration, fitted
 
 
 def made(count, seed):
@@ -44,3 +47,29 @@ def test_a_level_that_is_not_kept_raises_the_factor():
     assert (errors <= bound).mean() > 0.95
     factor = calibration(errors, bound)
     assert factor * 0.008 > 0.02, "the bound leaves the levels of 1 and 2 %, which a tenth misses"
+
+
+@pytest.fixture
+def own():
+    law = fitted(made(60, 4), [("a",), ("b",)])
+    return Table(
+        steps=[Step(kind="k", model="m", towards="n", adds="x", tells="a", left_out={"load": law})],
+        promises=[Promise(kind="k", model="m", towards="n", laws={"load": law})],
+        grids=[Grid(kind="k", model="m", laws={"load": law})],
+        provenance={"fits": {"k": {"scenes": 60}}},
+    )
+
+
+def test_the_table_is_read_back_as_it_was_written(own, tmp_path):
+    write_table(own, tmp_path / "laws.toml")
+    back = read_table((tmp_path / "laws.toml").read_text())
+    assert (list(back.steps), list(back.promises), list(back.grids)) == (own.steps, own.promises, own.grids)
+    assert back.provenance == own.provenance
+
+
+def test_the_laws_of_one_kind_are_replaced_alone(own):
+    other = Table(steps=[Step(kind="other", model="m", towards="n", adds="x", tells="a")], grids=[], provenance={})
+    both = replaced(replaced(other, "k", own, {"scenes": 60}), "k", own, {"scenes": 61})
+    assert [one.kind for one in both.steps] == ["other", "k"]
+    assert (len(both.promises), len(both.grids)) == (1, 1)
+    assert both.provenance["fits"] == {"k": {"scenes": 61}}

@@ -1,1 +1,0 @@
-"""Error laws of the advice, which are fitted to random scenes and checked on others."""
