@@ -119,7 +119,7 @@ NUMBERS = {
     "cavitation_number": "(p_amb - p_cav) h²/(6ηuL)",
     "compression": "p/β",
     "piezoviscous": "αp",
-    "pressure_dependence": "p/β + αp",
+    "pressure_dependence": "p_B/β + αp_B",
     "roughness_ratio": "Sq/h",
     "peak_ratio": "Sp/h",
     "roughness_period": "period/L",
@@ -130,7 +130,7 @@ NUMBERS = {
     "reynolds_number": "Re",
     "reduced_reynolds_number": "Re·h/L",
 }
-"""The symbols of the dimensionless numbers, with p = 6ηuL/h²."""
+"""The symbols of the dimensionless numbers; p = 6ηuL/h², p_B = p/(1 + (L/B)²) plus the largest pressure at an edge."""
 
 
 def omitted(scene: Bearing, quantity: str) -> Omission | None:

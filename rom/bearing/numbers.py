@@ -8,6 +8,7 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.ring import Ring, Washer
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.shapes import AnyShape
 from roughfilm.rom.bearing.texture import Texture
 from roughfilm.rom.cavitation.shape import Shape
 
@@ -28,7 +29,7 @@ def bearing_numbers(scene: Bearing) -> Mapping[str, float]:
         the shape; a film without divergence does not cavitate.
     compression : θ - 1 at 6ηuL/h², which is p/β of a stiff liquid.
     piezoviscous : ln η/η0 at 6ηuL/h², which is αp by Barus' law.
-    pressure_dependence : sum of the two.
+    pressure_dependence : sum of θ - 1 and ln η/η0 at p/(1 + (L/B)²) plus the largest pressure at an edge, p = 6ηuL/h².
     roughness_ratio, peak_ratio : Sq/h and Sp/h; the walls touch if the latter is above 1.
     roughness_period : period of the roughness over the length, if the period is known.
     texture_density : fraction of the bearing that pockets cover.
@@ -51,12 +52,8 @@ def bearing_numbers(scene: Bearing) -> Mapping[str, float]:
     numbers["cavitation_number"] = (
         tension / scale if scale > 0 else math.copysign(math.inf, tension) if tension else 0.0
     )
-    problem, pressure = scene.problem(), np.array([scale])
-    with np.errstate(all="ignore"):
-        numbers["compression"] = float(problem.compression(pressure)[0][0])
-        thinner = float(problem.piezoviscosity.fluidity(pressure, lubricant.viscosity)[0][0])
-    numbers["piezoviscous"] = 0.0 - math.log(thinner) if thinner > 0 else math.inf
-    numbers["pressure_dependence"] = numbers["compression"] + numbers["piezoviscous"]
+    numbers["compression"], numbers["piezoviscous"] = _pressed(scene, scale)
+    numbers["pressure_dependence"] = sum(_pressed(scene, scale * _share_of_wide(geometry) + _largest_at_edges(scene)))
     if roughness is not None:
         numbers |= {"roughness_ratio": roughness.rms / film, "peak_ratio": roughness.peak / film}
         if math.isfinite(roughness.period):
@@ -67,6 +64,26 @@ def bearing_numbers(scene: Bearing) -> Mapping[str, float]:
         numbers["reynolds_number"] = number
         numbers["reduced_reynolds_number"] = number * film / min(finest, length)
     return numbers
+
+
+def _pressed(scene: Bearing, pressure: float) -> tuple[float, float]:
+    """θ - 1 and ln η/η0 at a pressure."""
+    problem, at = scene.problem(), np.array([pressure])
+    with np.errstate(all="ignore"):
+        compression = float(problem.compression(at)[0][0])
+        thinner = float(problem.piezoviscosity.fluidity(at, scene.lubricant.viscosity)[0][0])
+    return compression, 0.0 - math.log(thinner) if thinner > 0 else math.inf
+
+
+def _share_of_wide(geometry: AnyShape) -> float:
+    """The pressure of a film of finite width over that of an infinitely wide one, roughly 1/(1 + (L/B)²)."""
+    return 1.0 if geometry.width is None else 1 / (1 + (geometry.length / geometry.width) ** 2)
+
+
+def _largest_at_edges(scene: Bearing) -> float:
+    """The largest pressure above ambient at an edge, Pa."""
+    edges = scene.boundary
+    return max(edges.inlet.pressure or 0.0, edges.outlet.pressure, edges.sides.low, edges.sides.high)
 
 
 def without_texture(scene: Bearing) -> Bearing:

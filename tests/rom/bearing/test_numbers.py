@@ -69,7 +69,7 @@ def test_each_table_adds_its_own_numbers() -> None:
         scene(
             geometry={"texture": POCKETS},
             lubricant={"density": "900 kg/m^3", "piezoviscosity": law, "compressibility": stiff},
-            boundary={"inlet": {"theta": 0.7}},
+            boundary={"inlet": {"theta": 0.7}, "sides": {"low": "1 bar"}},
             roughness=RIDGES,
         )
     )
@@ -79,6 +79,7 @@ def test_each_table_adds_its_own_numbers() -> None:
         "starvation": 0.7,
         "compression": MADE / 1e15,
         "piezoviscous": 20e-9 * MADE,
+        "pressure_dependence": (1 / 1e15 + 20e-9) * (MADE / (1 + (20 / 30) ** 2) + 1e5),
         "roughness_ratio": 2 / math.sqrt(2) / 5,
         "peak_ratio": 0.4,
         "roughness_period": 0.025,
