@@ -25,6 +25,25 @@ def flux(
     return _at_nodes(parts.east * drops[0], parts.north * drops[1])
 
 
+def widening(gap: Array, spacing: tuple[float, float], corrector: Array, direction: int) -> float:
+    """The derivative of A_ii, i = ``direction``, by a uniform increase of the open gap, m²: 3 <h² |e_i + ∇χ_i|²>.
+
+    A_ii is the minimum <h³ |e_i + ∇χ_i|²> over χ_i, so that a change of χ_i does not count. The derivative is that of
+    the linear interpolation between the nodes; the parameters are those of :func:`flux`.
+    """
+    h = without_traces(gap)
+    parts = faces(h, FaceRule.LINEAR)
+    drops = _drops(corrector, spacing)
+    drops[direction] += 1
+    total = 0.0
+    for axis, conductance in enumerate((parts.east, parts.north)):
+        ahead, some = np.roll(h, -1, axis=axis), conductance > 0
+        own, other = h[some], ahead[some]
+        rate = conductance[some] * (2 / own + 2 / other - 2 / (own + other))
+        total += float((rate * drops[axis][some] ** 2).sum())
+    return total / h.size
+
+
 def sliding_flux(gap: Array, spacing: tuple[float, float], corrector: Array, rule: FaceRule = FaceRule.LINEAR) -> Array:
     """Twice the flow over the sliding speed, h e₁ - h³∇χ₃, at the nodes, shape (2, nx, ny), m. Its mean is B.
 

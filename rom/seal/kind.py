@@ -20,9 +20,15 @@ SEALED = 1e-9
 
 
 def scale(values: Mapping[str, Any], quantity: str) -> Any:
-    """The magnitude of a quantity, of a leakage at least ``SEALED`` times that of a smooth gap of the rms height."""
-    size = np.abs(values[quantity])
-    return np.maximum(size, SEALED * values["smooth_leakage"]) if quantity == "leakage_per_width" else size
+    """The magnitude of a quantity, of leakage and permeability at least ``SEALED`` times that of a smooth gap.
+
+    The smooth gap is as high as the rms height. Other quantities are those of a dry contact.
+    """
+    if quantity == "leakage_per_width":
+        return np.maximum(np.abs(values[quantity]), SEALED * values["smooth_leakage"])
+    if quantity == "permeability":
+        return np.maximum(np.abs(values[quantity]), SEALED * values["rms_height"] ** 3)
+    return dry_contact.scale(values, quantity)
 
 
 def columns(scene: Seal) -> dict[str, Quantity | str]:

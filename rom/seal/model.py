@@ -36,18 +36,25 @@ FlowSolver = Callable[[Contact, Seal], Passage]
 
 
 def leak(task: Task, *, flow: FlowSolver) -> Answer:
-    """Solve the contact of the surface, then the flow through its gap."""
+    """Solve the contact of the surface, then the flow through its gap.
+
+    The uncertainty of contact area and mean gap is that by the pixels; it is unknown on a coarser grid than the
+    surface's own, which omits waves.
+    """
+    from roughfilm.contact.mechanics.discretisation import uncertainties
     from roughfilm.contact.mechanics.press import Press  # numba is slow to import
     from roughfilm.rom.homogenization.flux import flux
+    from roughfilm.rom.seal.leakage.pixels import with_pixels
 
     scene: Seal = task.scene
     contact = Press(task.heights, task.spacing, scene.composite_modulus, hardness=scene.hardness).at(
         scene.load.pressure, tolerance=task.tolerance
     )
-    passage = flow(contact, scene)
+    passage = with_pixels(flow(contact, scene), contact, scene.axis)
     driven = flux(contact.gap, contact.spacing, passage.corrector, scene.axis) if not passage.sealed else None
     size = np.zeros(contact.gap.shape) if driven is None else np.hypot(*driven)
     uncertainty = with_lost_waves(passage, scene, task)
+    by_pixels = uncertainties(contact) if task.heights.shape == scene.surface().shape else {}
     per_permeability = scene.flow.pressure_drop / (12 * scene.liquid.viscosity * scene.flow.length)
     return Answer(
         quantities=with_uncertainties(
@@ -57,6 +64,7 @@ def leak(task: Task, *, flow: FlowSolver) -> Answer:
             {
                 "permeability": uncertainty,
                 "leakage_per_width": leakage_of(scene, uncertainty),
+                **{name: by_pixels[name] for name in ("area_fraction", "mean_gap") if name in by_pixels},
             },
         ),
         fields={

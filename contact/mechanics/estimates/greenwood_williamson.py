@@ -15,6 +15,15 @@ from roughfilm.contact.mechanics.moments import SpectralMoments
 MAX_SEPARATION, MIN_SEPARATION = 6.0, -30.0
 """Range of the separation, in standard deviations of the summit heights; one summit of a billion is higher than 6."""
 
+MAX_ARGUMENT = 36.0
+"""Largest t at which F_n(t) does not underflow."""
+
+LEAST_SUMMITS = 1.0
+"""Smallest mean number of touching summits of a surface for which there is an estimate."""
+
+MAX_PLASTIC_SHARE = 0.1
+"""Largest part of the contact area of a trusted estimate whose elastic pressure exceeds the hardness."""
+
 AREA_FRACTIONS = (1e-3, 0.02)
 """Range of the area fraction of a trusted estimate."""
 
@@ -28,7 +37,14 @@ LEAST_NAYAK, LARGEST_NAYAK = 1.5 * (1 - 1e-6), 100.0
 """Range of Nayak's parameter in which there is an estimate; no surface is below 3/2."""
 
 
-def greenwood_williamson(moments: SpectralMoments, *, composite_modulus: float, load: float) -> Estimate:
+def greenwood_williamson(
+    moments: SpectralMoments,
+    *,
+    composite_modulus: float,
+    load: float,
+    hardness: float = math.inf,
+    nominal_area: float = math.inf,
+) -> Estimate:
     """Estimate of the elastic contact of independent spherical asperities of one radius with Gaussian heights.
 
     With t the distance of the plane from the mean summit in units of the standard deviation σs of summit heights, and
@@ -41,6 +57,9 @@ def greenwood_williamson(moments: SpectralMoments, *, composite_modulus: float, 
     moments : spectral moments of an isotropic Gaussian surface.
     composite_modulus : E*, Pa.
     load : P, mean pressure, Pa; above 0.
+    hardness : H, Pa; the estimate is elastic and trusted only if at most 0.1 of its contact area has p > H.
+    nominal_area : A0, m²; the mean number of touching summits η A0 F_0(t) must be 1 or more, since a surface on which
+        fewer touch is in contact at its highest summit, whose height the statistics do not give.
 
     Returns
     -------
@@ -50,11 +69,14 @@ def greenwood_williamson(moments: SpectralMoments, *, composite_modulus: float, 
     ------
     InputError
         If the moments are those of a profile, Nayak's parameter α lies outside 3/2 to 100, or the load outside the
-        range from a separation of 6 σs to an area fraction of 0.1, and to a plane at the mean height.
+        range from one touching summit, or a separation of 6 σs, to an area fraction of 0.1, and to a plane at the mean
+        height, or the nominal area has so few summits that this range is empty.
 
     Notes
     -----
-    The estimate is trusted for A/A0 of 0.001 to 0.02 and α of 1.6 to 8. Ratios to numerical solutions for 200 isotropic
+    The estimate is trusted for A/A0 of 0.001 to 0.02 and α of 1.6 to 8. In a contact of the depth w, whose largest
+    pressure is p0 = (2E*/π) sqrt(w/R), the pressure exceeds H on the area π R (w − w_H), w_H = R (πH/(2E*))², so that
+    this part of all contact is F_1(t + w_H/σs)/F_1(t). Ratios to numerical solutions for 200 isotropic
     Gaussian surfaces (128 x 128 to 1024 x 1024 points, Hurst exponents of 0.3 to 1; median and 90 % of the surfaces):
 
     ==========  ===================  ===================  ===================
@@ -91,16 +113,28 @@ def greenwood_williamson(moments: SpectralMoments, *, composite_modulus: float, 
     nearest = -moments.summit_mean / spread
     if touching * exceedance(nearest, 1.0) > LARGEST_AREA_FRACTION:
         nearest = _separation(1.0, LARGEST_AREA_FRACTION / touching)
-    least, most = (carried * exceedance(t, 1.5) for t in (MAX_SEPARATION, nearest))
+    for name, size in (("hardness", hardness), ("nominal_area", nominal_area)):
+        if not size > 0:
+            raise InputError(f"greenwood_williamson.{name}: got {size!r}; give a number above 0")
+    summits = density * nominal_area
+    farthest = -float(scipy.special.ndtri(LEAST_SUMMITS / summits)) if summits > LEAST_SUMMITS else -math.inf
+    if farthest < nearest:
+        raise InputError(
+            f"greenwood_williamson.nominal_area: got {nominal_area:.4g} m² with {summits:.2g} summits, too few for "
+            "their statistics; give a larger surface, or take persson or elastic"
+        )
+    least, most = (carried * exceedance(t, 1.5) for t in (min(farthest, MAX_SEPARATION), nearest))
     if not least <= load <= most:
         raise InputError(
-            f"greenwood_williamson.load: got {load:.6g} Pa; it must be {least:.4g} to {most:.4g} Pa, where summits "
-            f"touch on at most {LARGEST_AREA_FRACTION:g} of the area and the plane lies above the mean height, take "
-            "persson or elastic"
+            f"greenwood_williamson.load: got {load:.6g} Pa; it must be {least:.4g} to {most:.4g} Pa, where one summit "
+            f"or more touches, on at most {LARGEST_AREA_FRACTION:g} of the area, and the plane lies above the mean "
+            "height, take persson or elastic"
         )
     t = _separation(1.5, load / carried)
     area = touching * exceedance(t, 1.0)
     separation = moments.summit_mean + t * spread
+    yielding = radius * (math.pi * hardness / (2 * modulus)) ** 2 / spread
+    plastic_share = exceedance(min(t + yielding, MAX_ARGUMENT), 1.0) / exceedance(t, 1.0)
 
     def pressure_density(pressure: ArrayLike) -> Array:
         """Sum of 2p/p0² over the Hertzian contacts whose largest pressure p0 = (2E*/π) sqrt(w/R) exceeds p, 1/Pa."""
@@ -115,12 +149,14 @@ def greenwood_williamson(moments: SpectralMoments, *, composite_modulus: float, 
         plastic_fraction=0.0,
         mean_gap=separation,
         pressure_density=pressure_density,
-        trusted=AREA_FRACTIONS[0] <= area <= AREA_FRACTIONS[1]
+        trusted=plastic_share <= MAX_PLASTIC_SHARE
+        and AREA_FRACTIONS[0] <= area <= AREA_FRACTIONS[1]
         and NAYAK_PARAMETERS[0] <= moments.nayak <= NAYAK_PARAMETERS[1],
         range_of_validity="isotropic Gaussian surfaces with Nayak's parameter of {:g} to {:g} ".format(
             *NAYAK_PARAMETERS
         )
-        + "at contact areas of {:g} to {:g} of the nominal".format(*AREA_FRACTIONS),
+        + "at contact areas of {:g} to {:g} of the nominal, ".format(*AREA_FRACTIONS)
+        + f"of which at most {MAX_PLASTIC_SHARE:g} would exceed the hardness",
         cannot_say="how asperities lower each other or merge, plastic deformation, ridges, and skewed heights",
     )
 
@@ -141,7 +177,8 @@ def _separation(power: float, wanted: float) -> float:
 def exceedance(t: float, power: float) -> float:
     """The function F_n(t) = ∫_t^∞ (s − t)^n exp(−s²/2) ds/sqrt(2π) = Γ(n + 1) exp(−t²/4) D_(−n−1)(t)/sqrt(2π).
 
-    D is Whittaker's parabolic cylinder function; t is -30 to 36, where F neither overflows nor underflows.
+    D is Whittaker's parabolic cylinder function; t is -30 to ``MAX_ARGUMENT``, where F is
+    neither 0 nor infinite by rounding.
     """
     return float(
         scipy.special.gamma(power + 1)

@@ -3,7 +3,7 @@
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.mechanics.estimates.estimate import Estimate
 from roughfilm.contact.mechanics.moments import wave_power
-from roughfilm.rom.dry_contact.estimated import estimated_model
+from roughfilm.rom.dry_contact.estimated import estimated_model, gaussian
 from roughfilm.rom.dry_contact.model import Task
 from roughfilm.rom.dry_contact.scene import DryContact
 from roughfilm.rom.ladder.model import Effect
@@ -31,4 +31,5 @@ MODEL = estimated_model(
     complete=False,
     sources=("10.1063/1.1388626", "10.1088/0953-8984/20/21/215214"),
     guess=guess,
+    assumes=(gaussian,),
 )

@@ -27,6 +27,7 @@ from roughfilm.rom.ladder.provenance import code
 from roughfilm.rom.seal.leakage.direct import direct_leakage
 from roughfilm.rom.seal.leakage.homogenized import homogenized_leakage
 from roughfilm.rom.seal.leakage.percolation import Threshold, thresholds
+from roughfilm.rom.seal.leakage.pixels import with_pixels
 from roughfilm.rom.seal.leakage.series import SOUGHT, UNITS, LeakageSeries, Row, save_series, stored_series
 from roughfilm.rom.seal.model import leakage_of
 from roughfilm.rom.seal.scene import Seal
@@ -244,7 +245,9 @@ def _flow_of(body: SealSetup) -> Callable[[Contact], Row]:
         direct = direct_leakage(contact.gap, contact.spacing)
         cell = homogenized_leakage(contact.gap, contact.spacing)
         numbers = {}
-        for name, passage in zip(SOUGHT, (direct.along, direct.across, cell.along, cell.across), strict=True):
+        passages = (direct.along, direct.across, cell.along, cell.across)
+        for number, (name, one) in enumerate(zip(SOUGHT, passages, strict=True)):
+            passage = with_pixels(one, contact, number % 2)
             numbers[name] = passage.permeability
             numbers[f"{name}_uncertainty"] = passage.uncertainty
             numbers[f"{name}_sealed"] = float(passage.sealed)

@@ -2,10 +2,9 @@
 
 import math
 
-import numpy as np
-
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.mechanics.moments import wave_power
+from roughfilm.rom.dry_contact.gaussian import skewed, with_lay
 from roughfilm.rom.dry_contact.model import Answer, Task, contact_model
 from roughfilm.rom.ladder.model import Applicability, Effect
 from roughfilm.rom.ladder.result import with_uncertainties
@@ -19,12 +18,6 @@ RELATIVE_UNCERTAINTY = 0.75
 The leakage of 95 of 100 random surfaces without a lay, up to a third of the mean sealing load, is 0.35 to 1.75 times
 that of the model (236 cases by ``direct_leakage``).
 """
-
-MAX_SLOPE_RATIO = 1.5
-"""Largest ratio of rms slopes across and along a lay of a surface that counts as one without a lay."""
-
-MAX_SKEWNESS = 0.7
-"""Largest skewness of heights that count as Gaussian."""
 
 RESIDUAL_MEANING = "residual of the equation of the effective medium, over its positive terms"
 
@@ -58,7 +51,6 @@ def work(task: Task) -> Answer:
 
 def out_of_range(scene: Seal, task: Task) -> tuple[str, ...]:
     """The reasons for which the leakage may be wrong by more than ``RELATIVE_UNCERTAINTY``, one sentence each."""
-    heights = task.heights - task.heights.mean()
     warnings = [] if scene.solid.hardness is None else ["the solid is treated as elastic"]
     load = scene.load.pressure / scene.pressure_unit
     if load > MEAN_SEALING_LOAD / 3:
@@ -68,20 +60,8 @@ def out_of_range(scene: Seal, task: Task) -> tuple[str, ...]:
             "without a lay) E* g', and the leakage may be wrong by orders of magnitude: out of its range, take "
             "direct_leakage"
         )
-    slopes = [np.roll(heights, -1, axis) - heights for axis in (0, 1)]
-    x, y = (slope / step for slope, step in zip(slopes, task.spacing, strict=True))
-    least, most = np.linalg.eigvalsh([[np.mean(x * x), np.mean(x * y)], [np.mean(x * y), np.mean(y * y)]])
-    if most > MAX_SLOPE_RATIO**2 * least:
-        warnings.append(
-            "the surface has a lay, which the theory leaves out (ratio of rms slopes across and along it above "
-            f"{MAX_SLOPE_RATIO:g}): out of its range, take direct_leakage"
-        )
-    skewness = float(np.mean(heights**3) / np.mean(heights**2) ** 1.5)
-    if abs(skewness) > MAX_SKEWNESS:
-        warnings.append(
-            f"the skewness of the heights is {skewness:.2g}, beyond ±{MAX_SKEWNESS:g}, and the theory is for Gaussian "
-            "heights: out of its range, take direct_leakage"
-        )
+    deviations = (with_lay(task.heights, task.spacing), skewed(task.heights))
+    warnings += [f"{sentence}: out of its range, take direct_leakage" for sentence in deviations if sentence]
     return tuple(warnings)
 
 

@@ -66,6 +66,28 @@ def test_it_covers_what_finer_pixels_change(hardness):
     assert np.median(ratios) >= 0.05
 
 
+def test_it_covers_the_height_of_the_plane_of_smooth_plastic_contacts():
+    """Their plane follows from the number of pixels above it, whose error does not vanish with the curvature."""
+    ratios = []
+    for seed in range(31, 38):
+
+        def pressed(points, seed=seed):
+            surface = self_affine(
+                size=(1e-3, 1e-3),
+                points=(points, points),
+                seed=seed,
+                hurst=0.7,
+                roll_off=0.5e-3,
+                cut_off=1e-3 / 3,
+                rms_slope=0.1,
+            )
+            return Press(surface.heights, surface.spacing, 1e11, hardness=5e8).at(5e7)
+
+        ratios.append(errors_over_uncertainty(pressed(48), {"mean_gap": pressed(192).mean_gap})["mean_gap"])
+    assert np.mean(np.array(ratios) <= 1) >= 0.85
+    assert np.median(ratios) >= 0.1
+
+
 def test_a_flat_surface_has_no_error_by_its_pixels():
     assert not any(uncertainties(Press(np.zeros((8, 8)), (1e-6, 1e-6), 1e11).at(1e6)).values())
 

@@ -1,6 +1,7 @@
 """Asperities apart: sums over single Hertzian contacts, and contacts solved at light load."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -132,10 +133,41 @@ def test_where_it_is_trusted_a_solved_contact_is_like_it(seed, hurst, shortest):
     assert trusted == 3
 
 
+def test_the_lightest_load_is_that_of_one_summit():
+    """On an area A0, η A0 Φ(−t) summits lie above the plane; at the lightest load this is 1."""
+    area = 1000 / MOMENTS.summit_density
+    with pytest.raises(InputError, match=r"it must be .*, where one summit or more touches") as refused:
+        greenwood_williamson(MOMENTS, composite_modulus=MODULUS, load=1e-6 * STIFFNESS, nominal_area=area)
+    least = float(re.search(r"must be (\S+) to", str(refused.value))[1])
+    found = greenwood_williamson(MOMENTS, composite_modulus=MODULUS, load=1.001 * least, nominal_area=area)
+    t = (found.mean_gap - MOMENTS.summit_mean) / MOMENTS.summit_spread
+    assert 1000 * stats.norm.sf(t) == pytest.approx(1, rel=5e-3)
+    with pytest.raises(InputError, match=r"nominal_area: got .* with 1.2 summits, too few"):
+        greenwood_williamson(
+            MOMENTS, composite_modulus=MODULUS, load=1e-3 * STIFFNESS, nominal_area=1.2 / MOMENTS.summit_density
+        )
+
+
+def test_it_is_not_trusted_where_a_tenth_of_its_contact_exceeds_the_hardness():
+    load = 2e-3 * STIFFNESS
+    elastic = greenwood_williamson(MOMENTS, composite_modulus=MODULUS, load=load)
+    assert elastic.trusted
+    for ratio in (1.0, 1.5, 2.0, 2.5, 3.0):
+        hardness = ratio * elastic.mean_contact_pressure
+        above, _ = quad(elastic.pressure_density, hardness, 40 * elastic.mean_contact_pressure, limit=200)
+        found = greenwood_williamson(MOMENTS, composite_modulus=MODULUS, load=load, hardness=hardness)
+        assert found.trusted == (above <= 0.1 * elastic.area_fraction), ratio
+    assert not greenwood_williamson(
+        MOMENTS, composite_modulus=MODULUS, load=load, hardness=elastic.mean_contact_pressure
+    ).trusted
+
+
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
         ({"load": 0.0}, "load"),
+        ({"hardness": 0.0}, "hardness: got 0.0; give a number above 0"),
+        ({"nominal_area": -1.0}, "nominal_area: got -1.0; give a number above 0"),
         ({"load": 1e30}, "got 1e.30 Pa; it must be"),
         ({"load": 1e-9}, "got 1e-09 Pa; it must be"),
         (
