@@ -182,9 +182,10 @@ def _check_pressure_limit(problem: Problem, cells: tuple[int, int], limit: float
     highest = float(solve(at_constant_viscosity(problem), cells, ruptures=ruptures).state.pressure.max())
     if highest >= limit:
         raise ConvergenceError(
-            f"lubricant.piezoviscosity: no steady film was found: at constant viscosity its pressure is {highest:.4g} Pa, "
-            f"and by the law {problem.piezoviscosity.law} it must be below {limit:.4g} Pa, the integral of η0/η over "
-            "pressure; lower the viscosity, its growth with pressure, the speed or the load, or take another law",
+            "lubricant.piezoviscosity: no steady film was found: at constant viscosity its pressure is "
+            f"{highest:.4g} Pa, and by the law {problem.piezoviscosity.law} it must be below {limit:.4g} Pa, the "
+            "integral of η0/η over pressure; lower the viscosity, its growth with pressure, the speed or the load, or "
+            "take another law",
             outcome=Outcome.DIVERGED,
         )
 
