@@ -88,7 +88,7 @@ def peak_pressure(solution: Solution) -> float:
     with equal cells. At a break of the film thickness the pressure may have a kink; the highest node then is the peak.
     """
     pressure, nodes = solution.state.pressure, solution.grid
-    shape, (i, j) = solution.problem.shape, np.unravel_index(np.argmax(pressure), pressure.shape)
+    shape, (i, j) = solution.problem.shape, (int(at) for at in np.unravel_index(np.argmax(pressure), pressure.shape))
     top = float(pressure[i, j])
     ways = [
         _smooth(place, at, spacing, breaks, periodic=periodic)

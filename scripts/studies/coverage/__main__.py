@@ -28,6 +28,7 @@ from scripts.studies.coverage.judge import (
     ADVICE_GOAL,
     FAR,
     GOAL,
+    SHARE,
     AdviceScore,
     Coverage,
     Finding,
@@ -40,7 +41,7 @@ from scripts.studies.coverage.store import Advised, Answer, Judged, append, path
 from scripts.studies.coverage.truth import kinds_with_truth, truth_of
 from scripts.studies.study import Out, counted, publish
 
-ROUNDING = 1e-6
+ROUNDING = 1e-9
 """Relative difference up to which two answers are the same."""
 
 
@@ -80,16 +81,16 @@ def with_truth(kind: str, seed: int, scene: Scene) -> Judged:
 
 
 def moved(known: Judged, found: Mapping[str, Answer]) -> bool:
-    """Return whether an answer with a truth of its own model differs from the known one by more than both state.
+    """Return whether an answer differs from the known one by so much that a truth by its own model cannot judge it.
 
-    The quantity or the model then has another meaning than its truth.
+    The limit is ``SHARE`` of the lower uncertainty, or ``ROUNDING``.
     """
     for model, true in known.own.items():
         before, now = known.models.get(model, Answer()), found.get(model, Answer())
         for quantity in true.keys() & before.values.keys() & now.values.keys():
             bars = [one.uncertainty.get(quantity, 0.0) for one in (before, now)]
             value, other = before.values[quantity], now.values[quantity]
-            if abs(value - other) > max(*bars, ROUNDING * abs(value)):
+            if abs(value - other) > max(SHARE * min(bars), ROUNDING * abs(value)):
                 return True
     return False
 
