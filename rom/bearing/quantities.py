@@ -1,7 +1,7 @@
 """The quantities of a converged film: load, friction, pressures and flows."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -47,7 +47,7 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
     values: dict[str, tuple[float, str]] = {
         "load_per_width": (load / width, "N/m"),
         "friction_per_width": (resistance / width, "N/m"),
-        "pressure_max": (float(pressure.max()), "Pa"),
+        "pressure_max": (peak_pressure(solution) + pc, "Pa"),
         "film_start": (start, "1"),
         "rupture": (end, "1"),
         "cavitated_fraction": (
@@ -79,6 +79,49 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
     if load > MIN_MEAN_PRESSURE_RATIO * float(grid.areas.sum()) * float(np.abs(force / grid.areas).max()):
         values["friction_coefficient"] = (resistance / load, "1")
     return {name: Quantity(value=value, unit=unit) for name, (value, unit) in values.items()}
+
+
+def peak_pressure(solution: Solution) -> float:
+    """The largest pressure above cavitation pressure, Pa: of a parabola through the highest node and its neighbours.
+
+    p + gᵀ(-H)⁻¹g/2 with the central differences g and H, in the directions in which the highest node lies inside a film
+    with equal cells. At a break of the film thickness the pressure may have a kink; the highest node then is the peak.
+    """
+    pressure, nodes = solution.state.pressure, solution.grid
+    shape, (i, j) = solution.problem.shape, (int(at) for at in np.unravel_index(np.argmax(pressure), pressure.shape))
+    top = float(pressure[i, j])
+    ways = [
+        _smooth(place, at, spacing, breaks, periodic=periodic)
+        for place, at, spacing, breaks, periodic in (
+            (nodes.x, i, nodes.spacing_x, shape.breaks, solution.network.periodic[0]),
+            (nodes.y, j, nodes.spacing_y, shape.steps_across, solution.network.periodic[1]),
+        )
+    ]
+    around = pressure.take(range(i - 1, i + 2), axis=0, mode="wrap").take(range(j - 1, j + 2), axis=1, mode="wrap")
+    film = solution.kind.take(range(i - 1, i + 2), axis=0, mode="wrap").take(range(j - 1, j + 2), axis=1, mode="wrap")
+    if not (film[1 - ways[0] : 2 + ways[0], 1 - ways[1] : 2 + ways[1]] == FILM).all():
+        return top
+    slope = np.array([around[2, 1] - around[0, 1], around[1, 2] - around[1, 0]]) / 2
+    mixed = (around[2, 2] - around[2, 0] - around[0, 2] + around[0, 0]) / 4
+    bend = np.array(
+        [
+            [2 * top - around[2, 1] - around[0, 1], -mixed],
+            [-mixed, 2 * top - around[1, 2] - around[1, 0]],
+        ]
+    )
+    slope, bend = slope[ways], bend[np.ix_(ways, ways)]
+    if not (slope.any() and np.linalg.eigvalsh(bend).min() > 0):
+        return top
+    offset = np.linalg.solve(bend, slope)
+    return top + float(slope @ offset) / 2 if np.abs(offset).max() <= 1 else top
+
+
+def _smooth(places: Array, at: int, spacing: Array, breaks: Sequence[float], *, periodic: bool) -> bool:
+    """Whether a node lies between two equal cells and at no break."""
+    if places.size < 3 or not (periodic or 0 < at < places.size - 1):
+        return False
+    before, after = spacing[at - 1], spacing[at]
+    return bool(abs(before - after) <= 1e-6 * after and (np.abs(places[at] - np.array(breaks)) > 1e-6 * after).all())
 
 
 def density_ratio(solution: Solution) -> Array:
@@ -113,7 +156,7 @@ def friction(solution: Solution) -> float:
         fill = np.pad(fill[:, 1:-1], ((0, 0), (1, 1)), mode="edge")
     rough = solution.faces.averaged
     with np.errstate(divide="ignore", invalid="ignore"):
-        gradient = fill / mean if rough is None else _shear_factor(rough, fill)
+        gradient = fill / mean if rough is None else _shear_factor(solution, rough, fill)
         shear = np.where(mean > 0, problem.viscosity * speed * gradient, 0.0)
     shear = shear * (1 / fluidity + np.roll(1 / fluidity, -1, axis=0)) / 2
     rise = np.roll(solution.state.pressure, -1, axis=0) - solution.state.pressure
@@ -124,9 +167,22 @@ def friction(solution: Solution) -> float:
     return along + float((grid.volume_x[:, None] * _towards(grid) * rough.drag_across[:, :-1] / 2 * climb).sum())
 
 
-def _shear_factor(rough: Averaged, fill: Array) -> Array:
+def _shear_factor(solution: Solution, rough: Averaged, fill: Array) -> Array:
     """Friction over ηu of averaged roughness, 1/m: d + 3e in a film, that of streamers where the tips are dry."""
-    return np.asarray(fill * rough.streaming + wetness(fill, rough.threshold) * (rough.wet - rough.streaming))
+    return np.asarray(fill * rough.streaming + _wetness(solution, rough, fill) * (rough.wet - rough.streaming))
+
+
+def _wetness(solution: Solution, rough: Averaged, fill: Array) -> Array:
+    """The wetness g of the tips at the faces towards i + 1, where a film begins the mean over cavity and film."""
+    couette, kind = solution.network.couette, solution.kind
+    inflow = np.roll(flow_along(solution), 1, axis=0)
+    if solution.network.supplied.size:
+        inflow[0] = solution.network.supplied
+    empty = np.clip(np.divide(inflow, couette, out=np.zeros_like(couette), where=couette > 0), 0.0, fill)
+    film = np.divide(fill - empty, 1 - empty, out=np.zeros_like(fill), where=empty < 1)
+    begins = (kind == CAVITY) & (np.roll(kind, -1, axis=0) == FILM)
+    of_cavity = wetness(np.where(begins, empty, fill), rough.threshold)
+    return np.where(begins, film + (1 - film) * of_cavity, of_cavity)
 
 
 def _towards(grid: Grid) -> Array:

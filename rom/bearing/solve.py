@@ -11,7 +11,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.bearing.corners import infinite_flows
 from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Fields, Outputs, density_ratio
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.uncertainty import uncertainties
+from roughfilm.rom.bearing.uncertainty import POSITIONS, uncertainties
 from roughfilm.rom.bearing.warnings import (
     grid_warnings,
     load_warnings,
@@ -78,8 +78,8 @@ def solve(
     ]
     if not uncertainty:
         warnings.append(NO_COARSER_GRID)
-    infinite = infinite_flows(solution)
-    if unknown := [name for name, value in uncertainty.items() if not math.isfinite(value) and name not in infinite]:
+    explained = infinite_flows(solution) | frozenset(POSITIONS)
+    if unknown := [name for name, value in uncertainty.items() if not math.isfinite(value) and name not in explained]:
         warnings.append(f"{', '.join(unknown)}: unknown uncertainty, as the roughness has too few points")
     return Result(
         model=solver.name,

@@ -9,6 +9,7 @@ from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.corners import infinite_flows
 from roughfilm.rom.bearing.quantities import Outputs
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.cavitation.balance import FILM
 from roughfilm.rom.cavitation.solve import Solution
 
 ORDERS = (1.0, 2.0)
@@ -29,6 +30,12 @@ MAX_GRID_RATIO = 0.75
 IMBALANCE_FACTOR = 10.0
 """Relative error of a quantity over the relative error of the flow along the film."""
 
+POSITIONS = ("film_start", "rupture")
+"""Quantities that are positions x/L."""
+
+MIN_CELLS_OF_POSITIONS = 15
+"""Number of cells along a side below which a grid does not show where a film begins or ends: it may lack the film."""
+
 FLOW_UNIT = "m^3/s"
 """Unit of the flows through the edges of a film with a width."""
 
@@ -39,7 +46,7 @@ def uncertainties(
     """The uncertainty of each quantity in its unit, infinite if unknown; empty without a coarser grid.
 
     It is the sum of that of the grid, ``IMBALANCE_FACTOR`` times the relative error of the flow along the film (of a
-    flow, relative to the largest flow), and the contribution of the flow factors.
+    flow, relative to the largest flow), and the contribution of the flow factors. Positions without a film are unknown.
     """
     grids = grid_sequence(solution)
     if len(grids) == 1:
@@ -48,7 +55,7 @@ def uncertainties(
     values = [quantities, *(outputs.quantities(scene, grid) for grid in grids[1:])]
     averaged = solution.problem.shape.roughness is not None
     of_factors = outputs.factor_uncertainties(scene, solution, quantities) if averaged else {}
-    unknown = infinite_flows(solution)
+    unknown = infinite_flows(solution) | (frozenset() if (solution.kind == FILM).any() else frozenset(POSITIONS))
     largest_flow = max((abs(one.value) for one in quantities.values() if one.unit == FLOW_UNIT), default=0.0)
     result = {}
     for name, quantity in quantities.items():
@@ -57,9 +64,22 @@ def uncertainties(
         if name in unknown:
             result[name] = math.inf
         elif len(known) > 1:
+            if name in POSITIONS:
+                known = _positions(known, ring=solution.network.periodic[0])
             of_grid = grid_uncertainty([*known], [*known.values()])
             result[name] = of_grid + IMBALANCE_FACTOR * size * solution.imbalance + of_factors.get(name, 0.0)
     return result
+
+
+def _positions(known: Mapping[float, float], *, ring: bool) -> dict[float, float]:
+    """Positions on the finest two grids and those with ``MIN_CELLS_OF_POSITIONS``, on a ring by the nearest turn."""
+    (finest, place), *others = known.items()
+    near = {
+        cells: place + math.remainder(other - place, 1.0) if ring else other
+        for number, (cells, other) in enumerate(others)
+        if number == 0 or cells >= MIN_CELLS_OF_POSITIONS
+    }
+    return {finest: place, **near}
 
 
 def grid_uncertainty(cells: Sequence[float], values: Sequence[float]) -> float:

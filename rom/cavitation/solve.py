@@ -14,9 +14,11 @@ from roughfilm.rom.cavitation.grid import Grid, grid
 from roughfilm.rom.cavitation.interpolation import carried, interpolated
 from roughfilm.rom.cavitation.network import Network, State
 from roughfilm.rom.cavitation.newton import UnsettledError, settle
+from roughfilm.rom.cavitation.pressure_limit import at_constant_viscosity, pressure_limit, reduced_pressure
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
 from roughfilm.rom.homogenization.gap_factors import mirrored_factors
+from roughfilm.rom.lubricants.compressibility import Incompressible
 
 COARSEST_CELLS = 10
 """Largest number of cells along a side of the coarsest grid, which starts from a full film at cavitation pressure."""
@@ -39,6 +41,9 @@ COLD_SWEEPS = 400
 
 WARM_SWEEPS = 6
 """Relaxation sweeps before Newton's method from the solution of a coarser grid or of a time step."""
+
+NEAR_PRESSURE_LIMIT = 0.5
+"""Reduced pressure on a grid over its limit above which the existence of a solution is checked for the finest grid."""
 
 NEGATIVE_FILL_TOLERANCE = 1e-6
 """Tolerated negative filling fraction (round-off)."""
@@ -103,7 +108,8 @@ def solve(
     Raises
     ------
     ConvergenceError
-        If the residual does not meet the tolerance, or if a filling fraction is negative.
+        If the residual does not meet the tolerance, a filling fraction is negative, or the viscosity grows so much with
+        pressure that there is no steady film.
 
     Sources: Jakobsson and Floberg 1957; Elrod 1981, doi:10.1115/1.3251669; Sahlin et al. 2007,
     doi:10.1016/j.triboint.2007.02.021.
@@ -121,7 +127,15 @@ def solve(
     work = [float(nx * (1 if wide else ny)) for nx, ny in sizes]
     finest = grid(problem.shape, cells)
     found: Solution | None = None
+    limit = pressure_limit(problem)
+    exact = isinstance(problem.compressibility, Incompressible)
+    unchecked = math.isfinite(limit)
     for number, size in enumerate(sizes):
+        if unchecked and exact and found is not None:
+            highest = reduced_pressure(problem, float(found.state.pressure.max()))
+            if highest > NEAR_PRESSURE_LIMIT * limit:
+                unchecked = False
+                _check_pressure_limit(problem, cells, limit, ruptures=ruptures)
         progress(sum(work[:number]) / sum(work), " × ".join(map(str, size[:1] if wide else size)) + " cells")
         nodes = finest if size == cells else grid(problem.shape, size)
         before, cold = found, start is None
@@ -136,6 +150,9 @@ def solve(
                 storage=storage and (storage[0], interpolated(storage[1], finest, nodes, problem.shape.joined)),
             )
         except UnsettledError as error:
+            if unchecked and storage is None:
+                unchecked = False
+                _check_pressure_limit(problem, cells, limit, ruptures=ruptures)
             if given:
                 again = solve(
                     problem, cells, tolerance=tolerance, ruptures=ruptures, storage=storage, progress=progress
@@ -158,6 +175,19 @@ def solve(
     assert found is not None
     _check_fill(found)
     return found
+
+
+def _check_pressure_limit(problem: Problem, cells: tuple[int, int], limit: float, *, ruptures: bool) -> None:
+    """Raise ConvergenceError if the film at constant viscosity reaches the limit of the reduced pressure, Pa."""
+    highest = float(solve(at_constant_viscosity(problem), cells, ruptures=ruptures).state.pressure.max())
+    if highest >= limit:
+        raise ConvergenceError(
+            "lubricant.piezoviscosity: no steady film was found: at constant viscosity its pressure is "
+            f"{highest:.4g} Pa, and by the law {problem.piezoviscosity.law} it must be below {limit:.4g} Pa, the "
+            "integral of η0/η over pressure; lower the viscosity, its growth with pressure, the speed or the load, or "
+            "take another law",
+            outcome=Outcome.DIVERGED,
+        )
 
 
 def _kept(solution: Solution | None, count: int) -> Solution | None:

@@ -4,7 +4,7 @@ Every finished scene is one line of ``OUT/coverage_KIND.jsonl``. The command goe
 """
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, replace
 from pathlib import Path
 from statistics import median
@@ -17,6 +17,7 @@ from rich.table import Table
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.figures.base import new_figure
+from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.provenance import circumstances, code
 from roughfilm.rom.ladder.scene import read_scene, scene_entries
 from roughfilm.terminal.console import AsJson, in_one_line, make_directory, run_alone
@@ -27,6 +28,7 @@ from scripts.studies.coverage.judge import (
     ADVICE_GOAL,
     FAR,
     GOAL,
+    SHARE,
     AdviceScore,
     Coverage,
     Finding,
@@ -35,39 +37,63 @@ from scripts.studies.coverage.judge import (
     findings,
     silences,
 )
-from scripts.studies.coverage.store import Advised, Judged, append, path_of, read
+from scripts.studies.coverage.store import Advised, Answer, Judged, append, path_of, read
 from scripts.studies.coverage.truth import kinds_with_truth, truth_of
 from scripts.studies.study import Out, counted, publish
 
+ROUNDING = 1e-9
+"""Relative difference up to which two answers are the same."""
+
 
 def judged(kind: str, seed: int, known: Judged | None, with_advice: bool) -> Judged:
-    """Return a scene with its truth, which is taken from a known one of the same scene, and the answers of today.
+    """Return a scene with its truth and the answers of today; with advice, models in OpenFOAM answer too.
 
-    With advice, models in OpenFOAM answer too.
+    The truth is taken from a known one of the same scene, unless models gave it themselves and their answers moved.
     """
     scene = drawn(kind, seed)
-    entries = scene_entries(scene)
-    if known is None or scene_entries(read_scene(known.scene)) != entries:
-        begun = time.process_time()
-        known = Judged(kind=kind, seed=seed, scene=entries, truth={})
-        try:
-            truth = truth_of(scene)
-        except ConvergenceError as error:
-            known = replace(known, failure=str(error))
-        else:
-            known = replace(
-                known,
-                truth={name: (value, truth.uncertainty[name]) for name, value in truth.values.items()},
-                own=truth.own,
-                by=truth.by,
-                method=truth.method,
-                truth_warnings=truth.warnings,
-                truth_cpu_s=time.process_time() - begun,
-            )
+    if known is None or scene_entries(read_scene(known.scene)) != scene_entries(scene):
+        known = with_truth(kind, seed, scene)
     if known.failure:
         return replace(known, code=code())
+    found = answers(scene, outside=with_advice)
+    if moved(known, found):
+        known = with_truth(kind, seed, scene)
     advice = advised(scene) if with_advice else ()
-    return replace(known, models=answers(scene, outside=with_advice), advice=advice, code=code())
+    return replace(known, models=found, advice=advice, code=code())
+
+
+def with_truth(kind: str, seed: int, scene: Scene) -> Judged:
+    """Return a scene with its truth, or with the reason why there is none."""
+    begun = time.process_time()
+    known = Judged(kind=kind, seed=seed, scene=scene_entries(scene), truth={})
+    try:
+        truth = truth_of(scene)
+    except ConvergenceError as error:
+        return replace(known, failure=str(error))
+    return replace(
+        known,
+        truth={name: (value, truth.uncertainty[name]) for name, value in truth.values.items()},
+        own=truth.own,
+        by=truth.by,
+        method=truth.method,
+        truth_warnings=truth.warnings,
+        truth_cpu_s=time.process_time() - begun,
+    )
+
+
+def moved(known: Judged, found: Mapping[str, Answer]) -> bool:
+    """Return whether an answer differs from the known one by so much that a truth by its own model cannot judge it.
+
+    The limit is ``SHARE`` of the lower uncertainty, or ``ROUNDING``.
+    """
+    for model, true in known.own.items():
+        before, now = known.models.get(model, Answer()), found.get(model, Answer())
+        for quantity in true.keys() & before.values.keys() & now.values.keys():
+            bars = [one.uncertainty.get(quantity, 0.0) for one in (before, now)]
+            value, other = before.values[quantity], now.values[quantity]
+            if abs(value - other) > max(SHARE * min(bars), ROUNDING * abs(value)):
+                return True
+    return False
 
 
 def missing(out: Path, kind: str, scenes: int, advice: int) -> Iterator[tuple[int, Judged | None, bool]]:

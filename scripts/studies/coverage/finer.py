@@ -33,6 +33,9 @@ MAX_FACTOR = 8
 SOUGHT = ("load_per_width", "friction_per_width", "side_leakage", "pressure_max", "leakage_per_width")
 """Quantities whose truth is to be sharp."""
 
+TOLERANCE_RATIO = 1e-2
+"""Tolerance of the residual of the finer solutions over that of the judged one: the grid alone shall differ."""
+
 LEAST = 3
 """Least number of grids, with the judged one."""
 
@@ -72,7 +75,8 @@ def finer_truth(scene: Scene) -> Truth:
         resolution = judged_resolution(model, scene) * factor
         if resolution > model.offered(scene).most:
             raise ConvergenceError(f"{model.name}: has no resolution {resolution}")
-        return model.solve(scene, Request(resolution=resolution))
+        tolerance = model.tolerance * (TOLERANCE_RATIO if factor > 1 else 1.0)
+        return model.solve(scene, Request(resolution=resolution, tolerance=tolerance))
 
     return _truth(scene, solve, "grids 2 to 8 times finer, extrapolated")
 

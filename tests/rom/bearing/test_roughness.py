@@ -399,3 +399,22 @@ def test_a_negative_filling_fraction_is_an_error():
     }
     with pytest.raises(ConvergenceError, match="a filling fraction is -"):
         HOMOGENIZED.solve(read_scene(entries), Request(resolution=32))
+
+
+def test_friction_where_a_film_begins_inside_a_cell_is_of_second_order():
+    """The tips are wet from the place where the film begins; its phase in the cell must not show."""
+    entries = {
+        "name": "starved",
+        "kind": "bearing",
+        "geometry": {"shape": "linear", "length": "10 mm", "film": "15 um", "rise": "20 um"},
+        "lubricant": {"viscosity": "0.05 Pa*s", "cavitation_pressure": "0 Pa"},
+        "motion": {"speed": "1 m/s"},
+        "boundary": {"inlet": {"theta": 0.45}},
+        "roughness": {"kind": "sinusoid", "amplitude": "5 um", "wavelength": "2 mm", "direction": "0 deg"},
+    }
+    scene, model = read_scene(entries), find("bearing", "homogenized")
+    frictions = [
+        model.solve(scene, Request(resolution=cells))["friction_per_width"].value for cells in (100, 113, 128, 150, 200)
+    ]
+    assert frictions == sorted(frictions)
+    assert max(frictions) / min(frictions) - 1 < 4e-5

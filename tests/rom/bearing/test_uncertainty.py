@@ -12,6 +12,7 @@ from roughfilm.rom.bearing.quantities import film_ends
 from roughfilm.rom.bearing.uncertainty import (
     COARSE_SAFETY_FACTOR,
     GRID_SAFETY_FACTOR,
+    _positions,
     grid_uncertainty,
     observed_order,
 )
@@ -22,6 +23,11 @@ from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import load_scene, read_scene
 
 CELLS = (128, 80, 40, 20)
+
+INLET_WITHOUT_FILM = {
+    "lubricant": {"viscosity": "0.01 Pa*s", "cavitation_pressure": "0 Pa"},
+    "boundary": {"inlet": {"theta": 0.2}},
+}
 
 
 def solve(cells: int, geometry: dict[str, Any], **tables: Any) -> Result:
@@ -105,3 +111,17 @@ def test_a_film_thinner_than_a_cell_begins_at_an_inlet_above_the_cavitation_pres
     kind = found.kind.copy()
     kind[1:5] = CAVITY
     assert film_ends(replace(found, kind=kind), 0)[0] == 0.0
+
+
+def test_positions_without_a_film_are_unknown() -> None:
+    starved = solve(64, {"shape": "linear", "length": "10 mm", "film": "10 um", "rise": "10 um"}, **INLET_WITHOUT_FILM)
+    assert starved["film_start"].value == starved["rupture"].value == 1.0
+    assert starved["film_start"].uncertainty is None
+    assert starved["rupture"].uncertainty is None
+    assert any("no film forms" in warning for warning in starved.warnings)
+
+
+def test_grids_that_miss_the_film_do_not_widen_the_uncertainty_of_positions() -> None:
+    assert _positions({64: 0.70, 40: 0.71, 20: 0.74, 10: 0.2}, ring=False) == {64: 0.70, 40: 0.71, 20: 0.74}
+    assert _positions({16: 0.70, 10: 0.2}, ring=False) == {16: 0.70, 10: 0.2}
+    assert _positions({64: 0.02, 40: 0.99}, ring=True) == pytest.approx({64: 0.02, 40: -0.01})

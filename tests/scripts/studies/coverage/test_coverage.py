@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from roughfilm.rom.ladder.scene import read_scene, scene_entries
+from scripts.studies.coverage import __main__ as study
 from scripts.studies.coverage.answering import answers
 from scripts.studies.coverage.drawing import drawn, part_of, seeds
 from scripts.studies.coverage.judge import (
@@ -22,7 +23,7 @@ from scripts.studies.coverage.judge import (
     silences,
 )
 from scripts.studies.coverage.store import Advised, Answer, Judged, append, path_of, read
-from scripts.studies.coverage.truth import kinds_with_truth
+from scripts.studies.coverage.truth import Truth, kinds_with_truth
 from scripts.studies.study import plain
 
 STORED = Path(__file__).parent
@@ -122,6 +123,26 @@ def test_the_store_gives_back_what_was_written_and_leaves_out_a_line_that_was_cu
     with path.open("a", encoding="utf-8") as file:
         file.write('{"kind": "pocket", "se')
     assert plain(read(path)[20000]) == plain(one)
+
+
+def test_the_truth_of_a_models_own_equations_is_that_of_todays_quantities(monkeypatch):
+    """A quantity whose meaning changed has another value, which its known truth does not judge."""
+    seed = 20002
+    scene = drawn("bearing", seed)
+    now = Answer(values={"rupture": 0.71, "load_per_width": 5.0}, uncertainty={"rupture": 1e-4, "load_per_width": 0.1})
+    own = {"reynolds": {"rupture": (1.0, 1e-9), "load_per_width": (5.0, 1e-9)}}
+    truth = Truth(values={}, uncertainty={}, method="", own={"reynolds": {"rupture": (0.71, 1e-9)}})
+    monkeypatch.setattr(study, "answers", lambda *_, **__: {"reynolds": now})
+    monkeypatch.setattr(study, "truth_of", lambda _: truth)
+
+    def judge(**before):
+        models = {"reynolds": replace(now, values=now.values | before)}
+        known = Judged(kind="bearing", seed=seed, scene=scene_entries(scene), truth={}, own=own, models=models)
+        return study.judged("bearing", seed, known, with_advice=False).own
+
+    assert judge(load_per_width=5.01) == own
+    assert judge(load_per_width=5.05) == truth.own
+    assert judge(rupture=1.0) == truth.own
 
 
 def test_a_sample_of_every_kind_is_covered():

@@ -38,6 +38,21 @@ def test_the_truth_of_a_wedge_is_the_closed_form():
     assert found.own.keys() == answers(read_scene(WEDGE)).keys()
 
 
+def test_finer_solutions_stop_at_smaller_residuals(monkeypatch):
+    """Flows agree to 1e-12 on all grids of some films; errors of the iteration would then look like those of grids."""
+    tolerances = {}
+
+    def collect(_scene, model, solve):
+        tolerances[model.name] = [solve(model, factor).numerics.tolerance for factor in (1, 2)]
+        return {"load_per_width": (1.0, 0.0)}
+
+    monkeypatch.setattr(finer, "extrapolated", collect)
+    finer_truth(read_scene(WEDGE))
+    for name, (judged, fine) in tolerances.items():
+        assert judged == find("bearing", name).tolerance
+        assert fine <= judged / 100
+
+
 def test_a_model_that_fails_on_finer_grids_has_no_truth(monkeypatch):
     scene = read_scene(WEDGE)
 
