@@ -5,7 +5,7 @@ The laws are written into rom/advice/laws.toml, where they replace those of the 
 
 import math
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated
@@ -13,6 +13,7 @@ from typing import Annotated
 import typer
 from rich.table import Table as ShownTable
 
+from roughfilm.contact.foundation.errors import InputError
 from roughfilm.ladder import find, models
 from roughfilm.rom.advice.estimates import over
 from roughfilm.rom.advice.laws import Grid, Law, Numbers, Promise, Table, on_grid, table
@@ -87,14 +88,20 @@ def fit_scenes(kind: str, out: Path) -> dict[int, FitScene]:
     return found
 
 
-def promise_rows(scenes: Mapping[int, FitScene], model: str, quantity: str) -> Rows:
-    """Return the errors of a model against the truth."""
-    rows: Rows = []
-    for one in scenes.values():
-        values = _values(one, model)
+def promise_rows(scenes: Mapping[int, FitScene], kind: str, model: str, quantity: str, out: Path) -> Rows:
+    """Return the errors of a model against the truth; of one that another program runs at its default resolution."""
+    own, rows = find(kind, model), []
+    refinements = resolutions.read(resolutions.path_of(out, kind)) if own.outside else {}
+    for seed, one in scenes.items():
+        if not own.outside and model in one.judged.models:
+            values, resolution = one.judged.models[model].values, one.judged.models[model].resolution
+        elif (seed, model) in refinements:
+            resolution = own.resolution_of(read_scene(one.judged.scene))
+            values = refinements[seed, model].values.get(resolution, {})
+        else:
+            continue
         if quantity in values and quantity in one.judged.truth and _certain(one, quantity, values):
-            numbers = on_grid(one.numbers, one.judged.models[model].resolution)
-            rows.append((numbers, one.error(quantity, values)))
+            rows.append((on_grid(one.numbers, resolution), one.error(quantity, values)))
     return rows
 
 
@@ -125,10 +132,6 @@ def resolution_rows(scenes: Mapping[int, FitScene], plan: PlannedLaw, model: str
     return rows
 
 
-def _values(one: FitScene, model: str) -> Mapping[str, float]:
-    return one.judged.models[model].values if model in one.judged.models else {}
-
-
 def _certain(one: FitScene, quantity: str, values: Mapping[str, float]) -> bool:
     """Whether the uncertainty of the truth is small compared with the size, or with the error."""
     uncertainty = over(one.judged.truth[quantity][1], one.size(quantity, values))
@@ -141,7 +144,7 @@ def laws_of(plan: PlannedLaw, model: str, scenes: Mapping[int, FitScene], out: P
     known = {name for one in scenes.values() for name in one.judged.truth}
     for quantity in (name for name in kind_of_name(plan.kind).titles if name in known):
         if plan.part == "promise":
-            rows = promise_rows(scenes, model, quantity)
+            rows = promise_rows(scenes, plan.kind, model, quantity, out)
         else:
             rows = resolution_rows(scenes, plan, model, quantity, out)
         names = {name for term in plan.terms for name in term}
@@ -169,17 +172,27 @@ def with_laws(known: Table, plan: PlannedLaw, model: str, laws: Mapping[str, Law
     return replace(known, grids=[*grids, Grid(kind=plan.kind, model=model, laws=laws)])
 
 
+def planned_kinds(kinds: str | None) -> Sequence[str]:
+    """Return the kinds named in a text with commas, or all kinds of the planned laws."""
+    known = tuple(dict.fromkeys(plan.kind for plan in PLANNED))
+    names = known if kinds is None else tuple(kinds.split(","))
+    if unknown := [name for name in names if name not in known]:
+        raise InputError(f"--kinds: got {unknown[0]!r}; it must be among {', '.join(known)}, joined by commas")
+    return names
+
+
 @in_one_line
 def command(
     out: Out,
     refined: Annotated[int, typer.Option(help="Scenes that are solved at all resolutions.")] = 100,
     again: Annotated[bool, typer.Option(help="Fit to the runs that are there, without solving any.")] = False,
+    kinds: Annotated[str | None, typer.Option(help="Kinds, joined by commas (default: all).")] = None,
 ) -> None:
     """Fit the laws in promises.toml to the scenes in OUT, and write them into the table of the project."""
     make_directory(out)
     known = table()
     shown = ShownTable("model", "law", "quantity", "bound", "scenes", "bound over middle")
-    for kind in dict.fromkeys(plan.kind for plan in PLANNED):
+    for kind in planned_kinds(kinds):
         scenes = fit_scenes(kind, out)
         if not again:
             seeds = sorted(scenes)[:refined]
