@@ -16,7 +16,7 @@ from roughfilm.rom.pocket.model import SCHEMES
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
 from roughfilm.rom.pocket.thin_film import Strip, StripFlow
 from roughfilm.rom.pocket.validity.promise import promise_warnings
-from roughfilm.rom.pocket.validity.warnings import cautions, ruptures
+from roughfilm.rom.pocket.validity.warnings import cancellations, cautions, ruptures
 
 MODES = 10
 """Polynomials across the film; with 16 load changes by at most 3e-5 and friction by 3e-4 in 120 published cases."""
@@ -135,20 +135,21 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
             f"{MODES} polynomials do not resolve the velocity across the film: load errors of some per cent"
         )
     pressure = np.concatenate([[0.0], np.cumsum(rise)])
-    warnings += ruptures(scene, float(pressure.min()))
-    middle = (pressure[1:] + pressure[:-1]) / 2
+    middle, lowest, highest = (pressure[1:] + pressure[:-1]) / 2, float(pressure.min()), float(pressure.max())
     shear = (1 + thin_film.all_amplitudes(film, across, state) @ sliding_wall_slope(MODES)) / film.thickness
     u, v = slope.velocities(film, even_basis(MODES, LAYERS), state)
     slowest = thin_film.velocity(film, even_basis(MODES, BACKFLOW_LAYERS), state).min()
     length, pascal = film.faces[-1] - film.faces[0], scene.pressure_unit
+    load = float((film.lengths * middle).sum() / length)
+    warnings += ruptures(scene, lowest) + cancellations(scene, load=load, lowest=lowest, highest=highest)
     return Result(
         model=model,
         quantities=pocket_quantities(
             scene,
-            load=float((film.lengths * middle).sum() / length),
+            load=load,
             friction=float((film.lengths * shear).sum() / length),
-            pressure_max=float(pressure.max()),
-            pressure_min=float(pressure.min()),
+            pressure_max=highest,
+            pressure_min=lowest,
             backflow=float(max(0.0, -slowest)),
         ),
         fields={

@@ -1,5 +1,9 @@
 """The dimensionless numbers of a pocket on which the errors of its models depend."""
 
+from itertools import pairwise
+
+from roughfilm.rom.pocket.gap import Gap
+from roughfilm.rom.pocket.groove import SAME_PLACE
 from roughfilm.rom.pocket.pressure import load_over_pressure
 from roughfilm.rom.pocket.scene import Pocket
 
@@ -12,8 +16,10 @@ SYMBOLS = {
     "slope": "slope",
     "asymmetry": "2|s|/w",
     "loaded": "load/p_max",
+    "shortness": "h/l",
 }
-"""Symbols of the numbers: h is the film, L its period; w, d and s are width, depth and shift of a groove."""
+"""Symbols of the numbers: h is the film, L its period, l the shortest piece of the wall; w, d and s are width, depth
+and shift of a groove."""
 
 MIN_ASYMMETRY = 1e-3
 """The asymmetry of a symmetric groove."""
@@ -21,9 +27,13 @@ MIN_ASYMMETRY = 1e-3
 MIN_LOAD_SCALE = 1e-3
 """Load over the largest pressure below which errors are relative to the pressure."""
 
+MAX_SHORTNESS = 20.0
+"""Film over the shortest piece of the wall above which a piece is too short to matter more."""
+
 
 def numbers(scene: Pocket) -> dict[str, float]:
     """The dimensionless numbers of the deepest, narrowest and steepest grooves, with load to first order in Re."""
+    gap = scene.gap()
     return {
         "reynolds_number": scene.reynolds_number,
         "reduced_reynolds_number": scene.reduced_reynolds_number,
@@ -32,5 +42,19 @@ def numbers(scene: Pocket) -> dict[str, float]:
         "aspect": scene.aspect,
         "slope": scene.slope,
         "asymmetry": max(1 - scene.aspect / scene.slope, MIN_ASYMMETRY),
-        "loaded": max(load_over_pressure(scene.gap(), scene.reynolds_number), MIN_LOAD_SCALE),
+        "loaded": max(load_over_pressure(gap, scene.reynolds_number), MIN_LOAD_SCALE),
+        "shortness": min(gap.film / shortest_piece(scene, gap), MAX_SHORTNESS),
     }
+
+
+def shortest_piece(scene: Pocket, gap: Gap) -> float:
+    """The shortest length over which the wall is smooth, m.
+
+    It is the least distance between neighbouring corners, edges of grooves and the ends of the period, where pressure
+    is ambient, or between the lowest point of a groove and its nearer edge. The flow is disturbed near the ends of each
+    piece over about a film thickness: thin-film models leave this out, and meshes must resolve it.
+    """
+    half = gap.length / 2
+    ends = sorted({-half, half, *gap.corners, *(edge for groove in scene.grooves for edge in groove.span)})
+    between = (right - left for left, right in pairwise(ends) if right - left > SAME_PLACE * gap.length)
+    return min(*between, *(groove.depth / groove.slope for groove in scene.grooves))

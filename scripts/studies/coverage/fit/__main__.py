@@ -65,7 +65,7 @@ def fit(kind: str, scenes: Mapping[int, FitScene], refinements: Refinements) -> 
             kind=kind,
             model=model,
             towards=plan.towards,
-            laws=laws(kind, plan.terms, partial(rows.promised, scenes, model, plan.towards)),
+            laws=laws(kind, plan.terms, partial(rows.promised, scenes, refinements, model, plan.towards)),
         )
         for plan in PROMISES
         if plan.kind == kind

@@ -7,7 +7,7 @@ from scipy.optimize import minimize
 from scipy.special import expit
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.advice.laws import Law, Numbers, Term
+from roughfilm.rom.advice.laws import RESOLVING, Law, Numbers, Term
 from roughfilm.rom.studies.ordering import CERTAINTY
 
 MIN_ERROR = 1e-7
@@ -24,6 +24,9 @@ POWER_STEP = 0.05
 
 MAX_POWER = 4.0
 """Largest magnitude of a power."""
+
+NOT_FALLING = frozenset({"reynolds_number"})
+"""Numbers whose powers are at least 0: the error stays finite as they go to 0."""
 
 LEAST_PART = 0.01
 """Largest part of the bound of any scene below which a term is dropped."""
@@ -44,7 +47,7 @@ def fitted(rows: Sequence[tuple[Numbers, float]], terms: Sequence[Sequence[str]]
     The logarithms minimise the mean pinball loss of ln(error) - ln E at the quantile ``CERTAINTY`` (Koenker and Bassett
     1978, doi:10.2307/1913643) with a ridge on the powers. The powers are rounded to ``POWER_STEP``. All coefficients
     are then multiplied by a factor, see :func:`calibration`, for which each bound is that of a law fitted to the other
-    four fifths of the scenes.
+    four fifths of the scenes. All resolutions of a scene are in the same fifth.
 
     Parameters
     ----------
@@ -54,9 +57,9 @@ def fitted(rows: Sequence[tuple[Numbers, float]], terms: Sequence[Sequence[str]]
     errors = np.maximum([error for _, error in rows], MIN_ERROR)
     names = tuple(dict.fromkeys(name for term in terms for name in term))
     x = {name: np.log([numbers[name] for numbers, _ in rows]) for name in names}
-    others = np.empty(errors.size)
+    others, folds = np.empty(errors.size), _folds(rows)
     for fold in range(FOLDS):
-        left = np.arange(errors.size) % FOLDS == fold
+        left = folds == fold
         own = {name: values[~left] for name, values in x.items()}
         powers, weights = _law(own, errors[~left], terms)
         others[left] = weights @ _shapes({name: values[left] for name, values in x.items()}, powers)
@@ -73,6 +76,20 @@ def fitted(rows: Sequence[tuple[Numbers, float]], terms: Sequence[Sequence[str]]
         reach={name: (_rounded(np.exp(x[name].min())), _rounded(np.exp(x[name].max()))) for name in names},
         scenes=len(rows),
         spread=_rounded(float(np.median(factor * bound / errors))),
+    )
+
+
+def _folds(rows: Sequence[tuple[Numbers, float]]) -> Array:
+    """The part of the scenes that each row belongs to; rows of one scene, which differ by its grid, are in one part."""
+    scenes: dict[tuple[float, ...], int] = {}
+    return (
+        np.array(
+            [
+                scenes.setdefault(tuple(value for name, value in numbers.items() if name not in RESOLVING), len(scenes))
+                for numbers, _ in rows
+            ]
+        )
+        % FOLDS
     )
 
 
@@ -130,7 +147,9 @@ def _powers(x: Mapping[str, Array], y: Array, terms: Sequence[Sequence[str]]) ->
             slope[ends[j] + 1 : ends[j + 1]] += design @ share
         return float(value + penalty), slope
 
-    limits = [bound for term in terms for bound in [(None, None), *[(-MAX_POWER, MAX_POWER)] * len(term)]]
+    limits: list[tuple[float | None, float | None]] = []
+    for term in terms:
+        limits += [(None, None), *((0.0 if name in NOT_FALLING else -MAX_POWER, MAX_POWER) for name in term)]
     starts = []
     for favoured in range(len(terms)):
         start = np.zeros(ends[-1])

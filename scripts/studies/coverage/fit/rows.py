@@ -40,10 +40,6 @@ class FitScene:
         own = self.judged.own.get(model)
         return self.judged.truth if own is None else own
 
-    def values(self, model: str) -> Mapping[str, float]:
-        """The answer of a model; empty if it gave none."""
-        return self.judged.models[model].values if model in self.judged.models else {}
-
     def error(self, quantity: str, values: Mapping[str, float], model: str) -> float | None:
         """The difference of values from the limit of a model over the size; None if the limit is unknown or uncertain.
 
@@ -67,13 +63,24 @@ def fit_scenes(kind: str, out: Path) -> dict[int, FitScene]:
     return found
 
 
-def promised(scenes: Mapping[int, FitScene], model: str, towards: str, quantity: str) -> Rows:
-    """Return the errors of a model at its judged resolution against the limit of another model, or the truth."""
+def promised(scenes: Mapping[int, FitScene], refinements: Refinements, model: str, towards: str, quantity: str) -> Rows:
+    """Return the errors of a model against the limit of another model, or the truth.
+
+    The errors are those at the judged resolution; of a model that another program runs, at its default resolution.
+    """
     rows: Rows = []
-    for one in scenes.values():
-        error = one.error(quantity, one.values(model), towards)
+    for seed, one in scenes.items():
+        own = find(one.judged.kind, model)
+        if own.outside and (seed, model) in refinements:
+            resolution = own.resolution_of(read_scene(one.judged.scene))
+            values = refinements[seed, model].values.get(resolution, {})
+        elif not own.outside and model in one.judged.models:
+            resolution, values = one.judged.models[model].resolution, one.judged.models[model].values
+        else:
+            continue
+        error = one.error(quantity, values, towards)
         if error is not None:
-            rows.append((on_grid(one.numbers, one.judged.models[model].resolution), error))
+            rows.append((on_grid(one.numbers, resolution), error))
     return rows
 
 
@@ -106,10 +113,10 @@ def at_one_resolution(
     return rows
 
 
-def answered(scenes: Mapping[int, FitScene], _: Refinements, model: str, quantity: str) -> Rows:
+def answered(scenes: Mapping[int, FitScene], refinements: Refinements, model: str, quantity: str) -> Rows:
     """Return the errors of a model at its judged resolution against the limit of its own equations."""
     own = {seed: one for seed, one in scenes.items() if model in one.judged.own}
-    return promised(own, model, model, quantity)
+    return promised(own, refinements, model, model, quantity)
 
 
 def refinement(scenes: Mapping[int, FitScene], refinements: Refinements, model: str, quantity: str) -> Rows:

@@ -40,6 +40,24 @@ def test_a_law_bounds_95_of_100_errors_of_other_scenes_at_every_level(terms):
         assert (errors[bounds <= level] <= level).mean() >= 0.93
 
 
+def test_further_resolutions_of_the_same_scenes_do_not_narrow_a_bound():
+    """Rows that repeat the errors of 40 scenes add nothing; in other fifths they would judge their own fit."""
+    rng = np.random.default_rng(4)
+    noise = [
+        ({name: float(np.exp(rng.uniform(-1, 1))) for name in "abcd"}, float(abs(rng.normal()))) for _ in range(40)
+    ]
+    repeated = [({**numbers, "resolution": float(grid)}, error) for numbers, error in noise for grid in (1, 2, 3)]
+    once, thrice = fitted(noise, [tuple("abcd")]), fitted(repeated, [tuple("abcd")])
+    assert thrice.error(noise[0][0]) == pytest.approx(once.error(noise[0][0]), rel=0.05)
+
+
+def test_an_error_does_not_grow_as_the_reynolds_number_vanishes():
+    rng = np.random.default_rng(5)
+    rows = [({"reynolds_number": float(x)}, float(x**-0.2 * abs(rng.normal()))) for x in np.geomspace(1e-3, 300, 60)]
+    law = fitted(rows, [("reynolds_number",)])
+    assert law.beyond({"reynolds_number": 1e-9}) is None
+
+
 def test_a_level_that_is_not_kept_raises_the_factor():
     """All errors are below their bounds but for those with small bounds, a tenth of which are far off."""
     bound = np.concatenate([np.full(100, 0.008), np.full(1900, 0.5)])

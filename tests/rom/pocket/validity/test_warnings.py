@@ -1,0 +1,50 @@
+"""A warning where effects cancel in the load of a pocket, whose relative error the fitted laws then underestimate."""
+
+import pytest
+
+import roughfilm as rf
+from roughfilm.rom.ladder.scene import read_scene
+from roughfilm.rom.pocket.validity.numbers import numbers
+from roughfilm.rom.pocket.validity.warnings import cancellations
+
+TRUE_LOAD, TRUE_LOAD_UNCERTAINTY = -0.02340, 0.00015
+"""Load p+ of the scene ``CANCELLING`` by Taylor-Hood finite elements on two meshes."""
+
+CANCELLING = {
+    "name": "cancelling",
+    "kind": "pocket",
+    "geometry": {
+        "length": "1 mm",
+        "film": "0.17074041855236864 mm",
+        "position": "-0.04525857271881324 mm",
+        "profile": "points",
+        "points": [
+            [-0.0003118337846620451, 0.0],
+            [0.00015985111327608217, 1.4045817253708411e-05],
+            [0.0003118337846620451, 0.0],
+        ],
+    },
+    "lubricant": {"viscosity": "0.1 mPa*s", "density": "1000 kg/m^3"},
+    "motion": {"reynolds_number": 0.001},
+}
+
+
+def test_a_load_that_slope_nearly_cancels_has_a_warning():
+    result = rf.solve(read_scene(CANCELLING), model="film_slope")
+    error = abs(result["load_plus"].value - TRUE_LOAD)
+    stated = result.expected_error["load_plus"] * abs(TRUE_LOAD)
+    assert error - TRUE_LOAD_UNCERTAINTY > 3 * stated, "the laws expect too little here"
+    assert any("effects cancel" in warning for warning in result.warnings)
+
+
+@pytest.mark.parametrize(("share", "warned"), [(1.0, False), (0.9, False), (0.5, True), (0.0, True)])
+def test_the_load_of_a_result_is_compared_with_that_to_first_order(share, warned):
+    scene = read_scene(CANCELLING)
+    load = 2.0 * share * numbers(scene)["loaded"]
+    assert bool(cancellations(scene, load=-load, lowest=-1.0, highest=2.0)) is warned
+
+
+def test_a_film_without_load_in_any_model_has_no_warning():
+    geometry = {"length": "1 mm", "film": "10 um", "width": "0.3 mm", "depth": "5 um"}
+    scene = read_scene({**CANCELLING, "geometry": geometry})
+    assert not cancellations(scene, load=1e-12, lowest=-1.0, highest=1.0)
