@@ -77,12 +77,12 @@ def span(least: float | None, largest: float | None) -> str:
     Examples
     --------
     >>> span(0.0042, 0.021), span(0.0123, 0.01231), span(0.0, None)
-    ('0.42 % to 2.1 %', '1.2 %', 'unknown')
+    ('0.42–2.1 %', '1.2 %', 'unknown')
     """
     if least is None or largest is None:
         return "unknown"
     ends = share(least), share(largest)
-    return ends[0] if ends[0] == ends[1] else " to ".join(ends)
+    return ends[0] if ends[0] == ends[1] else f"{ends[0].removesuffix(' %')}–{ends[1]}"
 
 
 def in_unit(quantity: Quantity) -> tuple[str, str]:

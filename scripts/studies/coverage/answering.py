@@ -1,18 +1,28 @@
 """The answers of the models of a scene's kind at their default resolutions, of bearings in the plane also at others."""
 
+import hashlib
 import json
 import zlib
+from functools import cache
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.interface.solving import solve
 from roughfilm.ladder import models
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.model import Model
+from roughfilm.rom.ladder.provenance import code
 from roughfilm.rom.ladder.scene import scene_entries
+from scripts.studies.coverage.fit.laws_file import OWN_FILE
 from scripts.studies.coverage.store import Answer
 
 MAX_OUTSIDE_CPU_S = 60.0
 """Largest expected CPU time of a model that another program runs, s."""
+
+
+@cache
+def code_and_laws() -> str:
+    """Return a digest of the code of all models and of the error laws: equal digests give equal answers."""
+    return hashlib.sha256(code().encode() + OWN_FILE.read_bytes()).hexdigest()[:16]
 
 
 def answers(scene: Scene, outside: bool = False) -> dict[str, Answer]:

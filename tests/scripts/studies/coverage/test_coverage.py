@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from roughfilm.rom.ladder.scene import read_scene, scene_entries
+from roughfilm.rom.ladder.scene import scene_entries
 from scripts.studies.coverage import __main__ as study
 from scripts.studies.coverage.answering import answers
 from scripts.studies.coverage.drawing import drawn, part_of, seeds
