@@ -49,7 +49,7 @@ class Judged:
 
     ``own`` is the truth of the own equations of a model, by its name, and ``by`` the model that gave the truth of the
     scene (see ``Truth``).
-    ``failure`` is the reason why there is no truth. ``code`` is a digest of the code and the laws that gave the answers.
+    ``failure`` is the reason why there is no truth. ``code`` is a digest of the code and the laws behind the answers.
     """
 
     kind: str
