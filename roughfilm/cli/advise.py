@@ -104,8 +104,8 @@ def _shown(scene: Scene, advice: Advice) -> Iterator[Table | str]:
     if numbers:
         yield f"numbers of the scene: {', '.join(numbers)}"
     laws = laws_table().provenance
-    own = laws["fits"].get(kind.name, {"scenes": laws["scenes"].get(kind.name, 0), "command": laws["command"]})
-    yield f"{advice.spent_cpu_s:.2g} CPU s spent on the advice; laws: {own['scenes']} random scenes, {own['command']}"
+    count = laws["fits"][kind.name]["scenes"]
+    yield f"{advice.spent_cpu_s:.2g} CPU s spent on the advice; laws: {count} random scenes, {laws['command']}"
 
 
 def _short(estimate: Estimate | None) -> str:

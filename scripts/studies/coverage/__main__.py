@@ -54,12 +54,12 @@ def judged(kind: str, seed: int, known: Judged | None, with_advice: bool) -> Jud
     if known is None or scene_entries(read_scene(known.scene)) != scene_entries(scene):
         known = with_truth(kind, seed, scene)
     if known.failure:
-        return replace(known, code=code_and_laws())
+        return replace(known, code=code_and_laws(kind))
     found = answers(scene, outside=with_advice)
     if moved(known, found):
         known = with_truth(kind, seed, scene)
     advice = advised(scene) if with_advice else ()
-    return replace(known, models=found, advice=advice, code=code_and_laws())
+    return replace(known, models=found, advice=advice, code=code_and_laws(kind))
 
 
 def with_truth(kind: str, seed: int, scene: Scene) -> Judged:
@@ -101,7 +101,7 @@ def missing(out: Path, kind: str, scenes: int, advice: int) -> Iterator[tuple[in
     stored = read(path_of(out, kind))
     for seed in seeds(scenes):
         known, wanted = stored.get(seed), part_of(seed) == "check" and seed - FIRST_SEED["check"] < advice
-        if known is None or known.code != code_and_laws() or (wanted and not known.advice and not known.failure):
+        if known is None or known.code != code_and_laws(kind) or (wanted and not known.advice and not known.failure):
             yield seed, known, wanted
 
 

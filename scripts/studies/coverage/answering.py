@@ -8,11 +8,11 @@ from functools import cache
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.interface.solving import solve
 from roughfilm.ladder import models
+from roughfilm.rom.advice.laws import table
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.provenance import code
 from roughfilm.rom.ladder.scene import scene_entries
-from scripts.studies.coverage.fit.laws_file import OWN_FILE
 from scripts.studies.coverage.store import Answer
 
 MAX_OUTSIDE_CPU_S = 60.0
@@ -20,9 +20,11 @@ MAX_OUTSIDE_CPU_S = 60.0
 
 
 @cache
-def code_and_laws() -> str:
-    """Return a digest of the code of all models and of the error laws: equal digests give equal answers."""
-    return hashlib.sha256(code().encode() + OWN_FILE.read_bytes()).hexdigest()[:16]
+def code_and_laws(kind: str) -> str:
+    """Return a digest of the code of all models and of the error laws of a kind: equal digests give equal answers."""
+    laws = table()
+    own = [one for entries in (laws.steps, laws.promises, laws.grids) for one in entries if one.kind == kind]
+    return hashlib.sha256(f"{code()} {own}".encode()).hexdigest()[:16]
 
 
 def answers(scene: Scene, outside: bool = False) -> dict[str, Answer]:

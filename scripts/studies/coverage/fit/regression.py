@@ -25,7 +25,16 @@ POWER_STEP = 0.05
 MAX_POWER = 4.0
 """Largest magnitude of a power."""
 
-NOT_FALLING = frozenset({"reynolds_number"})
+NOT_FALLING = frozenset(
+    {
+        "reynolds_number",
+        "roughness_reynolds_number",
+        "pressure_dependence",
+        "roughness_ratio",
+        "peak_ratio",
+        "roughness_period",
+    }
+)
 """Numbers whose powers are at least 0: the error stays finite as they go to 0."""
 
 LEAST_PART = 0.01
