@@ -17,6 +17,9 @@ LOAD_WARNING_LEVEL = 0.01
 """Relative difference between the load of a given film and that of the scene up to which no warning is given."""
 
 
+MAX_SIDE_PRESSURE = 0.01
+"""Largest pressure at a side over the largest pressure of the film that a model without sides leaves out unwarned."""
+
 ROUNDING = 1e-9
 """Pressure over the largest one below which it is zero."""
 
@@ -58,7 +61,11 @@ def rupture_warnings(solution: Solution) -> list[str]:
 
 
 def scene_warnings(scene: Bearing, solution: Solution) -> list[str]:
-    """Warnings about boundary conditions: no film, starved inlets without sliding or below ambient, pressure jumps."""
+    """Warnings about boundary conditions.
+
+    They are no film, starved inlets without sliding or below ambient, pressures at sides that the model leaves out, and
+    jumps of the pressure.
+    """
     warnings, ends, lowest = [], solution.problem.ends, scene.lubricant.cavitation_pressure
     if (solution.kind == CAVITY).any() and not (solution.kind == FILM).any():
         warnings.append("no film forms: the inlet flow is smaller than the flow that the narrowest place can carry")
@@ -68,6 +75,13 @@ def scene_warnings(scene: Bearing, solution: Solution) -> list[str]:
         warnings.append(
             f"the inlet with a theta is at the cavitation pressure, {-lowest:.3g} Pa below ambient; if it is open to "
             "ambient air, set lubricant.cavitation_pressure to 0 Pa"
+        )
+    sides = scene.boundary.sides
+    fed, highest = max(abs(sides.low), abs(sides.high)), float(solution.state.pressure.max()) + lowest
+    if scene.geometry.width is not None and ends.sides is None and fed > MAX_SIDE_PRESSURE * highest:
+        warnings.append(
+            f"boundary.sides: one line leaves out the pressure of {fed:.3g} Pa at a side, while the largest one in the "
+            f"film is {highest:.3g} Pa; take reynolds_cavitating"
         )
     warnings += [
         f"the pressure at the {jump.end} is {jump.difference:.3g} Pa above that at the {jump.side} side: the flows "

@@ -263,6 +263,18 @@ def test_a_starved_inlet_without_sliding_is_reported():
     assert "is treated as flooded" in result.warnings[0]
 
 
+@pytest.mark.parametrize(("fed", "warned"), [("0.5 MPa", True), ("1 kPa", False)])
+def test_one_line_warns_of_pressure_at_the_sides_that_it_leaves_out(fed, warned):
+    """The largest pressure of this film is some MPa."""
+    entries = scene_entries(load_scene(SCENES / "parabolic_slider.toml"))
+    entries["geometry"]["width"] = "0.1 m"
+    entries["boundary"]["sides"] = {"high": fed}
+    scene = read_scene(entries)
+    warnings = find("bearing", "infinitely_wide").solve(scene, Request(resolution=512)).warnings
+    assert any(warning.startswith("boundary.sides: ") for warning in warnings) == warned
+    assert not any("boundary.sides" in one for one in CAVITATING.solve(scene, Request(resolution=32)).warnings)
+
+
 def test_an_unknown_uncertainty_is_not_zero():
     fine = solve("parabolic_slider", resolution=16_000)
     for options in ({"resolution": 256}, {"resolution": 1024}, {"tolerance": 1e-3}):
