@@ -46,6 +46,7 @@ def draw(rng: Generator) -> Entries:
     side, film = between(rng, 2e-3, 0.1), between(rng, 2e-6, 100e-6)
     shape = str(rng.choice(SHAPES, p=CHANCES))
     geometry = shaped(rng, shape, film, side)
+    narrow = shape in RINGS or "width" in geometry
     joined = shape == "washer" or geometry.get("joined", False)
     speed = between(rng, 0.05, 30) * (-1 if chance(rng, 0.1) else 1)
     oil = lubricant(rng)
@@ -56,14 +57,14 @@ def draw(rng: Generator) -> Entries:
         "geometry": geometry,
         "lubricant": oil,
         "motion": {"speed": with_unit(speed, "m/s")},
-        "boundary": fed(rng, joined, shape in RINGS or "width" in geometry),
+        "boundary": fed(rng, joined, narrow),
     }
     kind = str(rng.choice(["smooth", "ridges", "surface"], p=[0.5, 0.25, 0.25]))
     if kind == "ridges":
         entries["roughness"] = {
             "kind": "sinusoid",
             "amplitude": length(film * between(rng, 0.02, 0.9)),
-            "wavelength": length(side / between(rng, 2, 10)),
+            "wavelength": length(side / between(rng, 2, 10 if narrow else 200)),
             "direction": f"{rng.choice([0, 90, rng.uniform(-90, 90)]):.4g} deg",
         }
     if kind == "surface":
