@@ -14,6 +14,7 @@ from roughfilm.rom.bearing.mixed.balance import STEEPNESS, FilmsAtSpeed, balance
 from roughfilm.rom.bearing.mixed.film import MixedFilm, MixedState
 from roughfilm.rom.bearing.mixed.lift_off import lift_off_speed
 from roughfilm.rom.bearing.mixed.wall import asperities_of
+from roughfilm.rom.bearing.quantities import peak_pressure
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.solve import load_loops
 from roughfilm.rom.cavitation.network import State
@@ -244,7 +245,7 @@ def stribeck_point(state: MixedState, film: MixedFilm, pressure: float) -> Strib
         contact_share=state.contact_load / state.load,
         friction=state.friction,
         friction_coefficient=state.friction / state.load,
-        pressure_max=float(state.solution.state.pressure.max()) + lowest,
+        pressure_max=peak_pressure(state.solution) + lowest,
         contact_pressure_max=state.contact.pressure_max,
         contact_area=state.contact.area_fraction,
         cavitated_fraction=state.cavitated_fraction,

@@ -75,8 +75,8 @@ def bearing(scene: Bearing, result: Result) -> Iterator[str]:
     theta = field["density_ratio"]
     if theta.min() < 0 or abs(value["theta_min"] - theta.min()) > ROUND_OFF:
         yield f"the smallest density ratio is {theta.min():.6g}, reported {value['theta_min']:.6g}"
-    if abs(value["pressure_max"] - pressure.max()) > slack:
-        yield f"the greatest pressure is {pressure.max():.6g} Pa, reported {value['pressure_max']:.6g}"
+    if not -slack <= value["pressure_max"] - pressure.max() <= _most_above(pressure) + slack:
+        yield f"the greatest pressure at a node is {pressure.max():.6g} Pa, reported {value['pressure_max']:.6g}"
     if field["film_thickness"].min() <= 0 and result.model != "mixed":
         yield "the film has no thickness"
     for name in ("film_start", "rupture", "cavitated_fraction"):
@@ -88,6 +88,18 @@ def bearing(scene: Bearing, result: Result) -> Iterator[str]:
         yield f"the film drives the wall, friction {value['friction_per_width']:.6g} N/m"
     if result.model == "mixed":
         yield from _touching(scene, value, field)
+
+
+def _most_above(pressure: Array) -> float:
+    """The most by which a peak between nodes exceeds the highest node: a quarter of the drop to its lowest neighbour.
+
+    A parabola through three points whose middle one is the highest exceeds it by at most an eighth of that drop.
+    """
+    peak = np.unravel_index(np.argmax(pressure), pressure.shape)
+    nearest = pressure
+    for axis, at in enumerate(peak):
+        nearest = nearest.take(range(int(at) - 1, int(at) + 2), axis=axis, mode="wrap")
+    return float(pressure.max() - nearest.min()) / 4
 
 
 def _loads(scene: Bearing, value: dict[str, float], field: dict[str, Array]) -> Iterator[str]:
