@@ -1,7 +1,7 @@
 """Judged scenes in a file of one JSON object a line, which grows by one line with every finished scene."""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
@@ -78,14 +78,19 @@ def append(path: Path, found: Judged) -> None:
         file.write(json.dumps(plain(asdict(found)), allow_nan=False) + "\n")
 
 
-def read(path: Path) -> dict[int, Judged]:
-    """Return the scenes in a file by seed; a line that was cut off is left out."""
-    found = {}
+def lines(path: Path) -> Iterator[dict[str, Any]]:
+    """Return the objects in a file of one JSON object a line; a line that was cut off is left out."""
     for line in path.read_text(encoding="utf-8").splitlines() if path.is_file() else ():
         try:
-            entries = json.loads(line)
+            yield json.loads(line)
         except ValueError:
             continue
+
+
+def read(path: Path) -> dict[int, Judged]:
+    """Return the scenes in a file by seed."""
+    found = {}
+    for entries in lines(path):
         entries["truth"] = {name: tuple(pair) for name, pair in entries["truth"].items()}
         own = entries.get("own", {})
         entries["own"] = {name: {q: tuple(pair) for q, pair in one.items()} for name, one in own.items()}

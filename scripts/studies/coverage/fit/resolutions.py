@@ -10,6 +10,7 @@ from roughfilm.ladder import find
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.request import Request
+from scripts.studies.coverage import store
 from scripts.studies.coverage.drawing import drawn
 
 FINEST_FACTOR = 3
@@ -32,13 +33,9 @@ def path_of(out: Path, kind: str) -> Path:
 
 
 def read(path: Path) -> dict[tuple[int, str], Refinement]:
-    """Return the refinements in a file by seed and model; a line that was cut off is left out."""
+    """Return the refinements in a file by seed and model."""
     found = {}
-    for line in path.read_text(encoding="utf-8").splitlines() if path.is_file() else ():
-        try:
-            entries = json.loads(line)
-        except ValueError:
-            continue
+    for entries in store.lines(path):
         values = {int(resolution): quantities for resolution, quantities in entries["values"].items()}
         found[entries["seed"], entries["model"]] = Refinement(**{**entries, "values": values})
     return found
