@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
 from roughfilm.rom.advice.laws import RESOLVING, Law, Numbers, Step, Table, on_grid, table
@@ -172,24 +172,23 @@ def near(fraction: float) -> str:
     return f"within {percent(fraction)}" if fraction <= MAX_STATED_ERROR else f"off by {percent(fraction)}"
 
 
-def expected_errors(
-    scene: Scene, model: Model, resolution: int, models: Sequence[Model], stated: Mapping[str, float]
-) -> dict[str, float]:
-    """The bounds by the fitted laws of the error of a model over the size of each quantity.
+def expected_errors(scene: Scene, model: Model, result: Result, models: Sequence[Model]) -> dict[str, float]:
+    """The bounds by the fitted laws of the error of a result over the size of each quantity.
+
+    The uncertainty that the result states replaces the law of the error by the resolution, unless a promise contains
+    that error, and the bound is at least this uncertainty.
 
     Parameters
     ----------
     scene : the scene.
-    model : the model.
-    resolution : resolution at which the model solves the scene.
+    model : the model of the result.
+    result : the result; only its quantities and its resolution are used.
     models : all models for this kind of scene.
-    stated : by quantity, the numerical uncertainty that the model states, over the size. It replaces the law of the
-        error by the resolution, unless a promise contains that error, and the bound is at least this uncertainty.
 
     Returns
     -------
     dict
-        The error that 95 of 100 scenes do not exceed, for each quantity whose laws hold for the scene.
+        The error that 95 of 100 scenes do not exceed, for each quantity whose laws hold for the scene and the result.
     """
     kind = kind_of_name(scene.kind)
     applying = [other for other in models if other.applies(scene).applies]
@@ -205,8 +204,10 @@ def expected_errors(
             numbers=kind.numbers(scene),
             run=lambda other, grid: other.solve(scene, Request(resolution=grid)),
         )
-        own = stated.get(quantity)
-        estimate, omitted = a_priori(task, model, resolution, own), kind.omitted(scene, quantity)
+        if quantity in result.quantities and kind.outside_laws(scene, result, quantity):
+            continue
+        own = task.uncertainty(result) if quantity in result.quantities else None
+        estimate, omitted = a_priori(task, model, result.numerics.resolution, own), kind.omitted(scene, quantity)
         if estimate is not None and estimate.sure:
             error = max(estimate.error + (omitted.part if omitted else 0.0), own or 0.0)
             errors |= {quantity: error} if error < math.inf else {}
@@ -331,8 +332,13 @@ def with_own_uncertainty(task: AdviceTask, model: Model, resolution: int, estima
 
     Where a law gives the error by the resolution, or a promise contains it, the error is at least this uncertainty. At
     the full resolution of a rough surface without a promise, the uncertainty adds to the error. The estimate does not
-    change if the run fails or does not state an uncertainty.
+    change if the run fails or does not state an uncertainty. It is not sure where the run shows that the laws do not
+    hold.
     """
+    result = None if model.outside else _run(task, model, resolution)
+    outside = "" if result is None else task.kind.outside_laws(task.scene, result, task.quantity)
+    if outside:
+        return replace(estimate, reasons=(outside, *estimate.reasons), sure=False, decides=True)
     own = None if model.outside else _from_itself(task, model, resolution)
     if own is None or own.error == 0:
         return estimate

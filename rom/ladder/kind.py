@@ -53,6 +53,11 @@ def nothing_omitted(_scene: Any, _quantity: str) -> None:
     """Return no omission, for kinds whose most complete model keeps every relevant effect."""
 
 
+def within_laws(_scene: Any, _result: Any, _quantity: str) -> str:
+    """Return no reason, for kinds whose results do not show whether the error laws hold."""
+    return ""
+
+
 def nothing_composed(_scene: Any) -> tuple[str, ...]:
     """Return no lines, for kinds whose scenes are not composed of effects."""
     return ()
@@ -94,6 +99,8 @@ class Kind:
     symbols : the symbols of these numbers.
     composed : composed(scene), a line on the model of each effect of a scene, with its reason.
     omitted : omitted(scene, quantity), the effect that all models leave out; None if it is zero or unknown.
+    outside_laws : outside_laws(scene, result, quantity), the reason for which a result shows that the error laws of a
+        quantity do not hold; empty if it does not.
     message : message(error, entries), the first fault of a scene in one line, from pydantic's error; None for
         ``plain_fault``.
     sweeping : the data for a report over many cases; None if the kind has no such report.
@@ -110,6 +117,7 @@ class Kind:
     others: Mapping[str, str] = field(default_factory=dict)
     composed: Callable[[Any], Sequence[str]] = nothing_composed
     omitted: Callable[[Any, str], Omission | None] = nothing_omitted
+    outside_laws: Callable[[Any, Any, str], str] = within_laws
     files: frozenset[str] = frozenset()
     no_files: frozenset[str] = frozenset()
     replaces: Mapping[str, Sequence[str]] = field(default_factory=dict)

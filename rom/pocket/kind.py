@@ -10,6 +10,7 @@ from pydantic import ValidationError
 from roughfilm.contact.foundation.toml import Location, in_one_line, known_keys, unknown_key
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.ladder.kind import Kind, Omission
+from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import scene_entries
 from roughfilm.rom.ladder.sweeping import Columns, Sweeping
 from roughfilm.rom.pocket.geometry import PROFILES, PocketGeometry
@@ -18,6 +19,11 @@ from roughfilm.rom.pocket.validity.numbers import MIN_LOAD_SCALE, SYMBOLS, numbe
 
 COMPARED = ("load_plus", "friction_plus")
 """The quantities by which models are compared."""
+
+FULL_INERTIA = ("film", "film_slope")
+"""The thin-film models whose load shows whether effects cancel that the laws, to first order in Re, add."""
+
+EXTREMES = ("pressure_min_plus", "pressure_max_plus")
 
 MIN_JUDGED_LOAD = 0.05
 """Load over the largest pressure below which load is a difference of larger numbers, and its error has no law."""
@@ -105,6 +111,16 @@ def omitted(scene: Pocket, quantity: str) -> Omission | None:
     return rupture_omitted(scene, quantity)
 
 
+def outside_laws(scene: Pocket, result: Result, quantity: str) -> str:
+    """The reason for which the laws of the load do not hold for a film whose effects cancel in it; empty if they do."""
+    from roughfilm.rom.pocket.validity.warnings import cancellations
+
+    if quantity != "load_plus" or result.model not in FULL_INERTIA:
+        return ""
+    load, lowest, highest = (result.quantities[name].value for name in ("load_plus", *EXTREMES))
+    return next(iter(cancellations(scene, load=load, lowest=lowest, highest=highest)), "")
+
+
 def _length(text: str) -> float:
     return float(text.partition(" ")[0])
 
@@ -148,6 +164,7 @@ KIND = Kind(
     numbers=numbers,
     symbols=SYMBOLS,
     omitted=omitted,
+    outside_laws=outside_laws,
     files=frozenset({"points"}),
     replaces={
         "motion.speed": ("reynolds_number",),

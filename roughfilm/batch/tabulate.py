@@ -72,7 +72,7 @@ def _expected_errors(case: Case, job: Job, answer: Result) -> dict[str, Cell]:
         return {}
     model = job.setting.model
     try:
-        errors = expected_errors(case.scene, model, answer.numerics.resolution, models(case.scene.kind), {})
+        errors = expected_errors(case.scene, model, answer, models(case.scene.kind))
     except (InputError, ConvergenceError):
         return {}
     return {f"{name}_expected_error": _number(errors[name]) for name in unknown if name in errors}

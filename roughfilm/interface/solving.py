@@ -7,8 +7,8 @@ from roughfilm import ladder
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.interface.scenes import checked_scene
 from roughfilm.rom.advice import advise as advice
-from roughfilm.rom.advice.estimates import expected_errors, over
-from roughfilm.rom.ladder.kind import Scene, kind_names, kind_of_name
+from roughfilm.rom.advice.estimates import expected_errors
+from roughfilm.rom.ladder.kind import Scene, kind_names
 from roughfilm.rom.ladder.model import Model, Progress, best, silent
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
@@ -160,13 +160,7 @@ def with_expected_error(result: Result, scene: Scene, model: Model) -> Result:
 
     An error is at least the numerical uncertainty that the result states.
     """
-    kind = kind_of_name(scene.kind)
-    stated = {
-        name: over(quantity.uncertainty, kind.scale_of(result, name))
-        for name, quantity in result.quantities.items()
-        if name in kind.titles and quantity.uncertainty is not None
-    }
-    errors = expected_errors(scene, model, result.numerics.resolution, ladder.models(scene.kind), stated)
+    errors = expected_errors(scene, model, result, ladder.models(scene.kind))
     return replace(result, expected_error=errors)
 
 

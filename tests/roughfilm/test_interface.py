@@ -342,3 +342,16 @@ def test_films_are_solved_where_quadrature_is_not():
     with pytest.raises(rf.ConvergenceError, match="loosen the tolerance"):
         rf.solve(half_circles, model="reynolds")
     assert rf.solve(half_circles, model="film")["load"].value != 0
+
+
+def test_a_law_that_a_run_contradicts_states_no_error_and_is_not_advised():
+    """Finite elements: load 0.9664; film_slope is 7.8 % off, since effects cancel in the load of this deep groove."""
+    change = {"geometry.width": "0.3 mm", "geometry.depth": "60 um", "motion.reynolds_number": 100}
+    deep = rf.load_scene(SCENES / "pocket.toml", set=change)
+    result = rf.solve(deep, model="film_slope")
+    assert abs(result["load_plus"].value / 0.9664 - 1) == pytest.approx(0.078, abs=2e-3)
+    assert "load_plus" not in result.expected_error
+    assert "friction_plus" in result.expected_error
+    assert any("effects cancel" in warning for warning in result.warnings)
+    chosen = rf.advise(deep, within=0.05, quantity="load_plus").chosen
+    assert chosen is None or chosen.model == "navier_stokes"
