@@ -60,4 +60,3 @@ _TABLE: Mapping[str, Sequence[Mapping[str, Any]]] = tomllib.loads(
 STEPS: tuple[PlannedStep, ...] = tuple(PlannedStep(**_plan(one)) for one in _TABLE["step"])
 PROMISES: tuple[PlannedPromise, ...] = tuple(PlannedPromise(**_plan(one)) for one in _TABLE["promise"])
 RESOLUTIONS: tuple[PlannedResolution, ...] = tuple(PlannedResolution(**_plan(one)) for one in _TABLE["resolution"])
-KINDS: tuple[str, ...] = tuple(dict.fromkeys(one.kind for one in STEPS))

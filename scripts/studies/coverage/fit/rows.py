@@ -25,6 +25,7 @@ MAX_TRUTH_UNCERTAINTY = 0.02
 """Largest relative uncertainty of a truth to which a law is fitted, unless the error is ``SHARE`` times larger."""
 
 SHARE = 5.0
+"""Smallest ratio of an error to the uncertainty of a truth that is larger than ``MAX_TRUTH_UNCERTAINTY``."""
 
 
 @dataclass(frozen=True, kw_only=True)
