@@ -23,34 +23,98 @@ def solve(blocks: Array, right: Array) -> Array:
     Raises
     ------
     LinAlgError
-        If the system without the coupling of the last cell to the first is singular.
+        If a block that is eliminated is singular.
 
     Notes
     -----
-    Banded elimination with partial pivoting solves the system without the periodic coupling, which the Woodbury
-    identity adds.
-    """
-    from scipy.linalg import solve_banded  # slow to import, and most commands do without
+    Groups of r cells are coupled to the groups beside them alone, and cyclic reduction eliminates every second group
+    until one is left. Cells that fill no group are eliminated first, by their Schur complement. Pivots are sought
+    within a group, so that the method is for systems whose groups can be solved by themselves.
 
+    R. W. Hockney, J. ACM 12 (1965) 95-113, doi:10.1145/321250.321259.
+    """
     cells, width, n, _ = blocks.shape
     reach = width // 2
-    band = (reach + 1) * n - 1
-    banded = np.zeros((2 * band + 1, cells * n))
-    r = np.arange(n)
-    at_cut = np.array([*range(cells - reach, cells), *range(reach)])
-    place = {int(cell): number for number, cell in enumerate(at_cut)}
-    across_cut = np.zeros((cells, n, 2 * reach, n))
-    for o in range(-reach, reach + 1):
-        rows = np.arange(max(0, -o), cells - max(0, o))
-        row = rows[:, None, None] * n + r[:, None]
-        column = (rows[:, None, None] + o) * n + r
-        banded[band + row - column, np.broadcast_to(column, (rows.size, n, n))] = blocks[rows, reach + o]
-        for i in (*range(-o), *range(cells - max(0, o), cells)):
-            across_cut[i, :, place[(i + o) % cells]] += blocks[i, reach + o]
-    known = np.concatenate([right.reshape(cells * n, -1), across_cut.reshape(cells * n, -1)], axis=1)
-    answer = solve_banded((band, band), banded, known, overwrite_ab=True, overwrite_b=True, check_finite=False)
-    count = right.shape[2]
-    inner, outer = answer[:, :count], answer[:, count:]
-    chosen = (at_cut[:, None] * n + r).ravel()
-    meeting = np.linalg.solve(np.eye(chosen.size) + outer[chosen], inner[chosen])
-    return np.asarray((inner - outer @ meeting).reshape(cells, n, count))
+    left_over = cells % reach
+    if not left_over:
+        return _grouped(blocks, right)
+    inner, size, count = cells - left_over, left_over * n, right.shape[2]
+    within, rows, columns, corner = _apart(blocks, inner)
+    answer = _grouped(within, np.concatenate([right[:inner], columns], axis=2))
+    beside = rows @ answer[_ends(inner, reach)].reshape(2 * reach * n, -1)
+    last = np.linalg.solve(corner - beside[:, count:], right[inner:].reshape(size, -1) - beside[:, :count])
+    return np.concatenate([answer[:, :, :count] - answer[:, :, count:] @ last, last.reshape(left_over, n, count)])
+
+
+def _ends(cells: int, reach: int) -> list[int]:
+    """The cells at both ends of a row, which are coupled across its cut."""
+    return [*range(reach), *range(cells - reach, cells)]
+
+
+def _apart(blocks: Array, inner: int) -> tuple[Array, Array, Array, Array]:
+    """The blocks of a ring of the first ``inner`` cells, and the couplings of the cells after them, the border.
+
+    They are those of the border to the ends of the ring, shape (border, ends), those of the ring to the border, shape
+    (inner, n, border), and those within the border, as matrices of unknowns.
+    """
+    cells, width, n, _ = blocks.shape
+    reach, border = width // 2, cells - inner
+    within, ends = blocks[:inner].copy(), _ends(inner, reach)
+    place = {cell: number for number, cell in enumerate([*ends, *range(inner, cells)])}
+    rows, columns = np.zeros((border, n, len(place), n)), np.zeros((inner, n, border, n))
+    for i in ends:
+        crossing = [o for o in range(-reach, reach + 1) if not 0 <= i + o < inner]
+        within[i, [reach + o for o in crossing]] = 0.0
+        for o in crossing:
+            beside = (i + o) % cells
+            if beside >= inner:
+                columns[i, :, beside - inner] += blocks[i, reach + o]
+            else:
+                within[i, reach + o + (border if o < 0 else -border)] += blocks[i, reach + o]
+    for i in range(inner, cells):
+        for o in range(-reach, reach + 1):
+            rows[i - inner, :, place[(i + o) % cells]] += blocks[i, reach + o]
+    flat = rows.reshape(border * n, -1)
+    return within, flat[:, : len(ends) * n], columns.reshape(inner, n, -1), flat[:, len(ends) * n :]
+
+
+def _grouped(blocks: Array, right: Array) -> Array:
+    """The solutions for a whole number of groups of r cells."""
+    cells, width, n, _ = blocks.shape
+    reach = width // 2
+    groups = cells // reach
+    parts = np.zeros((3, groups, reach, n, reach, n))
+    for first in range(reach):
+        for o in range(-reach, reach + 1):
+            group, second = divmod(first + o, reach)
+            parts[1 + group, :, first, :, second] = blocks[first::reach, reach + o]
+    before, own, after = parts.reshape(3, groups, reach * n, reach * n)
+    return _reduced(before, own, after, right.reshape(groups, reach * n, -1)).reshape(right.shape)
+
+
+def _reduced(before: Array, own: Array, after: Array, right: Array) -> Array:
+    """Solve before[i] x[i - 1] + own[i] x[i] + after[i] x[i + 1] = right[i] on a ring by cyclic reduction.
+
+    The groups 1, 3, 5 .. are eliminated; of an odd number of groups the last and the first then stay beside each other.
+    """
+    groups, size, _ = own.shape
+    if groups == 1:
+        return np.linalg.solve(before + own + after, right)
+    odd = np.linalg.solve(own[1::2], np.concatenate([before[1::2], after[1::2], right[1::2]], axis=2))
+    count = odd.shape[0]
+    left, centre, right_of = before[::2].copy(), own[::2].copy(), after[::2].copy()
+    known = right[::2].copy()
+    following = (np.arange(count) + 1) % centre.shape[0]
+    ahead, behind = right_of[:count] @ odd, left[following] @ odd
+    right_of[:count] = -ahead[:, :, size : 2 * size]
+    left[following] = -behind[:, :, :size]
+    centre[:count] -= ahead[:, :, :size]
+    known[:count] -= ahead[:, :, 2 * size :]
+    centre[following] -= behind[:, :, size : 2 * size]
+    known[following] -= behind[:, :, 2 * size :]
+    answer = np.empty_like(right)
+    answer[::2] = even = _reduced(left, centre, right_of, known)
+    answer[1::2] = (
+        odd[:, :, 2 * size :] - odd[:, :, :size] @ even[:count] - odd[:, :, size : 2 * size] @ even[following]
+    )
+    return answer

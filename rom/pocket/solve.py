@@ -115,8 +115,6 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
     ConvergenceError
         If Newton's method does not converge to the tolerance.
     """
-    import scipy.linalg  # noqa: F401  # slow to import, and not the scene's cost
-
     wall, cpu = time.perf_counter(), time.process_time()
     model, keeps, sources = solver.name, solver.keeps, solver.sources
     resolution, tolerance, scheme = request.resolution, request.tolerance, request.scheme

@@ -143,15 +143,19 @@ def linearise(film: Strip, across: Basis, reynolds_number: float, state: StripFl
 
     n = a.shape[1]
     blocks = np.zeros((h.size, 5, n, n - 1))
-    by_face = (2 * h_face[:, None] * u_face)[:, None, None, :] * weighted
-    by_face = (by_face * parts[:, :, None, :]) @ inner.T
-    blocks[:, 1:] += _next(by_face)
-    blocks[:, :-1] -= by_face
-    blocks[:, 2] += (turning * rise[:, None, :]) @ inner.T
-    by_stream = (turning * u[:, None, :]) @ across.primitive[1:].T
-    lever = film.middle * h_face[:, None]
-    blocks[:, 1:] += _next(lever)[:, :, None, None] * by_stream[:, None]
-    blocks[:, :-1] -= lever[:, :, None, None] * by_stream[:, None]
+    by_momentum = 2 * h_face[:, None] * u_face
+    downstream = _tested(by_momentum * forward, weighted, inner)
+    blocks[:, 1:3] += _next(film.from_left[:, :2, None, None] * downstream[:, None])
+    blocks[:, :2] -= film.from_left[:, :2, None, None] * downstream[:, None]
+    if not forward.all():
+        upstream = _tested(by_momentum * ~forward, weighted, inner)
+        blocks[:, 3:] += _next(film.from_right[:, 2:, None, None] * upstream[:, None])
+        blocks[:, 2:4] -= film.from_right[:, 2:, None, None] * upstream[:, None]
+    blocks[:, 2] += _tested(rise, turning, inner)
+    by_stream = _tested(u, turning, across.primitive[1:])
+    lever = film.middle[:, 1:3] * h_face[:, None]
+    blocks[:, 2:4] += _next(lever)[:, :, None, None] * by_stream[:, None]
+    blocks[:, 1:3] -= lever[:, :, None, None] * by_stream[:, None]
     blocks *= reynolds_number
     k = np.arange(1, n)
     blocks[:, 2, k, k - 1] += (dx / h)[:, None] * STIFFNESS
@@ -180,6 +184,11 @@ def step(film: Strip, across: Basis, linear: Linearised, imbalance: Array) -> tu
     flow = float(rise.sum() / by_flow.sum())
     change = StripFlow(amplitudes=answer[:, :, 1] * flow - answer[:, :, 0], flow=-flow)
     return change, np.asarray(rise - by_flow * flow)
+
+
+def _tested(values: Array, first: Array, second: Array) -> Array:
+    """The sums over the points across of values times two sets of functions, shape (cells, first, second)."""
+    return np.asarray((first * values[:, None, :]) @ second.T)
 
 
 def _next(values: Array) -> Array:

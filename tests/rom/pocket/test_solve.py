@@ -43,7 +43,7 @@ def test_polynomials_are_orthogonal_in_slope_and_carry_no_flow_but_the_first():
     assert across.nodes**3 @ across.above == pytest.approx((1 - across.nodes**4) / 4)
 
 
-@pytest.mark.parametrize("cells", [5, 8, 23])
+@pytest.mark.parametrize("cells", [5, 6, 7, 8, 23, 24])
 def test_a_ring_of_blocks_is_solved_like_the_whole_matrix(cells):
     random = np.random.default_rng(20050718)
     blocks = random.normal(size=(cells, 5, 3, 3)) + 6 * np.eye(3) * (np.arange(5) == 2)[:, None, None]
