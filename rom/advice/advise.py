@@ -10,6 +10,7 @@ from roughfilm.rom.advice.estimates import (
     Estimate,
     a_posteriori,
     a_priori,
+    affordable,
     combined,
     near,
     percent,
@@ -152,9 +153,10 @@ def advise(
 
     Pairs of a model and a resolution are judged in order of cost, until one is accurate enough. The error of a pair is
     the smaller of two estimates: by error laws fitted to random scenes, and by the difference from the next model, if
-    that model is cheap. Neither depends on the tolerance, so that a looser tolerance never chooses a more expensive
-    pair. A pair is not run if the laws expect more than ``MAX_ERROR_RATIO`` tolerances. The effect that all models omit
-    is subtracted from the tolerance. An error is a bound that 95 of 100 scenes do not exceed.
+    that model is cheap and the checks of all cheaper pairs cost little (:func:`affordable`). Neither depends on the
+    tolerance, so that a looser tolerance never chooses a more expensive pair. A pair is not run if the laws expect more
+    than ``MAX_ERROR_RATIO`` tolerances. The effect that all models omit is subtracted from the tolerance. An error is a
+    bound that 95 of 100 scenes do not exceed.
 
     Parameters
     ----------
@@ -238,6 +240,7 @@ def _judged(task: AdviceTask, within: float) -> list[ModelVerdict]:
     """The verdict on every model that applies, cheapest first: at the accepted resolution, or at the most accurate."""
     pairs = [(model, resolution) for model in task.models for resolution in task.resolutions(model)]
     pairs.sort(key=lambda pair: (task.cost(*pair), -len(pair[0].keeps)))
+    checked = affordable(task, pairs)
     verdicts: dict[str, ModelVerdict] = {}
     hopeless: set[str] = set()
     chosen = False
@@ -247,7 +250,7 @@ def _judged(task: AdviceTask, within: float) -> list[ModelVerdict]:
         one = (
             _after(task, model, resolution, within)
             if chosen or within <= 0
-            else _verdict(task, model, resolution, within)
+            else _verdict(task, model, resolution, within, checked=(model.name, resolution) in checked)
         )
         before = verdicts.get(model.name)
         if before is None or _better(one, before):
@@ -323,14 +326,14 @@ def _accepts(estimate: Estimate | None, within: float) -> bool:
     return estimate is not None and estimate.sure and estimate.error <= within
 
 
-def _verdict(task: AdviceTask, model: Model, resolution: int, within: float) -> ModelVerdict:
-    """The verdict on a model at a resolution, which is run if a check of it is cheap."""
+def _verdict(task: AdviceTask, model: Model, resolution: int, within: float, *, checked: bool) -> ModelVerdict:
+    """The verdict on a model at a resolution, which is run if it is to be ``checked``."""
     here, before = model.available(), a_priori(task, model, resolution)
     if not here.available:
         return _as_verdict(task, model, resolution, Verdict.NOT_HERE, here.detail, before)
     if before is not None and before.sure and before.error > MAX_ERROR_RATIO * within:
         return _as_verdict(task, model, resolution, Verdict.NOT_ENOUGH, _main(before), before)
-    after = a_posteriori(task, model, resolution)
+    after = a_posteriori(task, model, resolution) if checked else None
     if failure := task.failed.get((model.name, resolution)):
         return _as_verdict(task, model, resolution, Verdict.FAILED, str(failure), before)
     estimate = combined(before, after)

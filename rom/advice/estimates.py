@@ -17,6 +17,9 @@ MAX_COST_OF_BEST = 0.01
 MAX_COST_OF_MODEL = 3.0
 """Largest ratio of the cost of a check to that of the checked model; one of the two limits must be met."""
 
+BUDGET = 0.5
+"""Largest ratio of the cost of all checks to that of the best model here at its finest usual resolution."""
+
 CHECK_FRACTION = 1 / 3
 """Largest ratio of the error by the resolution of a check to the error that the laws expect of the checked model."""
 
@@ -313,18 +316,49 @@ def _range_note(task: AdviceTask, beyond: str | None, law: Law | None) -> str:
 def a_posteriori(task: AdviceTask, model: Model, resolution: int) -> Estimate | None:
     """The estimate of the error of a model from runs; None if there is no cheap model to compare with, or a run fails.
 
-    The model is compared with the next one, at a resolution whose error is at most ``CHECK_FRACTION`` of that expected
-    by the laws: the difference plus the error of that model bounds the error. The most complete model, if it runs in
-    this process, is judged by the numerical uncertainty of its own run.
+    The model is compared with the next one: the difference plus the error of that model bounds the error. The most
+    complete model, if it runs in this process, is judged by the numerical uncertainty of its own run.
+    """
+    runs = runs_of_check(task, model, resolution)
+    if len(runs) == 2:
+        return _from_above(task, model, resolution, *runs[1])
+    return _from_itself(task, model, resolution) if runs else None
+
+
+def runs_of_check(task: AdviceTask, model: Model, resolution: int) -> tuple[tuple[Model, int], ...]:
+    """The models and resolutions that are run to check a model; none if no check is cheap.
+
+    The resolution of the next model is one whose error is at most ``CHECK_FRACTION`` of that which the laws expect.
     """
     above = task.next(model)
     if above is None:
-        return None if model.outside else _from_itself(task, model, resolution)
+        return () if model.outside else ((model, resolution),)
     before = a_priori(task, model, resolution)
     finer = task.as_fine(above, 0.0 if before is None else CHECK_FRACTION * before.error)
     if above.available().available and _cheap(task, task.cost(above, finer), task.cost(model, resolution)):
-        return _from_above(task, model, resolution, above, finer)
-    return None
+        return (model, resolution), (above, finer)
+    return ()
+
+
+def affordable(task: AdviceTask, pairs: Sequence[tuple[Model, int]]) -> set[tuple[str, int]]:
+    """The pairs of a model and a resolution that are checked by runs.
+
+    The pairs are taken in order of cost, as long as all runs together cost at most ``BUDGET`` of the best model here at
+    its finest usual resolution. That run itself is always affordable. The choice does not depend on the tolerance.
+    """
+    top = best([model for model in task.models if model.available().available] or task.models)
+    finest = max(task.resolutions(top))
+    left = BUDGET * task.cost(top, finest)
+    paid = {(top.name, finest)}
+    checked: set[tuple[str, int]] = set()
+    for model, resolution in pairs:
+        runs = {(one.name, n): task.cost(one, n) for one, n in runs_of_check(task, model, resolution)}
+        cost = sum(runs[key] for key in runs.keys() - paid)
+        if cost <= left:
+            left -= cost
+            paid |= runs.keys()
+            checked.add((model.name, resolution))
+    return checked
 
 
 def with_own_uncertainty(task: AdviceTask, model: Model, resolution: int, estimate: Estimate) -> Estimate:

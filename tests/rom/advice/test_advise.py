@@ -146,7 +146,7 @@ def test_a_model_that_the_laws_rule_out_is_not_run(scene):
 
 
 def test_runs_that_contradict_the_laws_decide(scene):
-    cheap = {"navier_stokes": 2e-4, "film": 1.5e-4}
+    cheap = {"navier_stokes": 8.4e-4, "film": 2.9e-4}
     wrong = Fakes({"reynolds": 0.01, "film": 0.01}, {"reynolds": 1.2, "film": 1.0}, cheap)
     found = wrong.advise(scene, 0.05)
     assert found.chosen.model == "film", "film differs from reynolds by 20 %, and is itself within 1 %"
@@ -198,7 +198,13 @@ def test_a_dear_best_rung_is_not_run_to_check_another(scene):
     assert found.chosen.a_posteriori is None
 
 
-def test_beyond_the_tolerance_the_best_rung_is_left(scene):
+@pytest.mark.parametrize(("best_cost", "chosen"), [(8.4e-4, "reynolds"), (7e-4, "film")])
+def test_all_checks_cost_at_most_half_of_the_best_model(scene, best_cost, chosen):
+    fakes = Fakes({"reynolds": 0.08, "film": 0.01}, {"reynolds": 1.01}, {"navier_stokes": best_cost, "film": 2.9e-4})
+    assert fakes.advise(scene, 0.05).chosen.model == chosen, "both runs of the check of reynolds cost 3.9e-4 s"
+
+
+def test_beyond_the_tolerance_the_best_model_is_left(scene):
     fakes = Fakes({"reynolds": 0.5, "film": 0.2})
     found = fakes.advise(scene, 0.01)
     assert found.chosen.model == "navier_stokes"
@@ -222,7 +228,7 @@ def test_a_rung_without_a_law_is_not_trusted_unless_a_cheap_one_tells(scene):
 
 
 def test_what_has_failed_is_not_run_again(scene):
-    cheap = {"navier_stokes": 2e-4, "film": 1.5e-4}
+    cheap = {"navier_stokes": 8.4e-4, "film": 2.9e-4}
     fakes = Fakes({"reynolds": 0.01, "film": 0.01}, {"navier_stokes": None}, cheap)
     assert fakes.advise(scene, 0.05).chosen.model == "film"
     assert fakes.ran.count("navier_stokes") == 1
@@ -282,7 +288,7 @@ def test_a_grid_of_which_nothing_is_known_is_not_trusted(scene):
 
 
 def test_a_check_that_does_not_converge_decides_nothing(scene):
-    cheap = {"navier_stokes": 2e-4, "film": 1.5e-4}
+    cheap = {"navier_stokes": 8.4e-4, "film": 2.9e-4}
     fakes = Fakes({"reynolds": 0.02, "film": 0.01}, {"film": None}, cheap)
     found = fakes.advise(scene, 0.05)
     assert found.chosen.model == "reynolds", "by its numbers, as nothing can be run beside it"
