@@ -1,12 +1,14 @@
 """The models of every kind of scene, those that run OpenFOAM among them."""
 
 import importlib
+from functools import cache
 
 from roughfilm import foamcases, rom
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.ladder.model import Model, ladder, model_modules
 
 
+@cache
 def models(kind: str | None = None) -> tuple[Model, ...]:
     """All models, or those of one kind of scene, each kind's from the plainest to the one that keeps most.
 

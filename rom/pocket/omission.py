@@ -1,5 +1,7 @@
 """The effect of cavitation, which all models of a pocket leave out."""
 
+from functools import lru_cache
+
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.rom.ladder.kind import Omission
 from roughfilm.rom.ladder.model import Model
@@ -30,18 +32,24 @@ def rupture_omitted(scene: Pocket, quantity: str) -> Omission | None:
     The lowest pressure is that of ``film``, or of ``inertial_reynolds`` if it does not rupture or ``film`` does not
     converge. The change of a quantity without a known bound is infinite.
     """
-    found = INERTIAL_REYNOLDS.solve(scene, Request(resolution=INERTIAL_REYNOLDS.resolution_of(scene)))
-    if not ruptures(scene, _lowest(scene, found)):
+    found = _ruptured(scene)
+    if found is None:
         return None
-    found = _by_film(scene, FILM) or found
     lowest = _lowest(scene, found)
-    if not (warnings := ruptures(scene, lowest)):
-        return None
     missing = scene.cavitation_pressure / scene.pressure_unit - lowest
     thickest = (1 + scene.depth) * scene.geometry.film / scene.geometry.length
     change = {**CHANGES, "friction_plus": FRICTION_CHANGE * thickest}.get(quantity, float("inf"))
     size = abs(found.quantities[quantity].value) / scene.plus_factor if quantity in found.quantities else 0.0
-    return Omission(part=change * missing / size if size > 0 else float("inf"), reason=warnings[0])
+    return Omission(part=change * missing / size if size > 0 else float("inf"), reason=ruptures(scene, lowest)[0])
+
+
+@lru_cache(maxsize=8)
+def _ruptured(scene: Pocket) -> Result | None:
+    """The film whose pressure falls below the cavitation pressure; None if it does not."""
+    found = INERTIAL_REYNOLDS.solve(scene, Request(resolution=INERTIAL_REYNOLDS.resolution_of(scene)))
+    if ruptures(scene, _lowest(scene, found)):
+        found = _by_film(scene, FILM) or found
+    return found if ruptures(scene, _lowest(scene, found)) else None
 
 
 def _by_film(scene: Pocket, model: Model[Pocket]) -> Result | None:

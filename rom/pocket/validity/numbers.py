@@ -1,6 +1,9 @@
 """The dimensionless numbers of a pocket on which the errors of its models depend."""
 
+from collections.abc import Mapping
+from functools import lru_cache
 from itertools import pairwise
+from types import MappingProxyType
 
 from roughfilm.rom.pocket.gap import Gap
 from roughfilm.rom.pocket.groove import SAME_PLACE
@@ -31,10 +34,11 @@ MAX_SHORTNESS = 20.0
 """Film over the shortest piece of the wall above which a piece is too short to matter more."""
 
 
-def numbers(scene: Pocket) -> dict[str, float]:
+@lru_cache(maxsize=8)
+def numbers(scene: Pocket) -> Mapping[str, float]:
     """The dimensionless numbers of the deepest, narrowest and steepest grooves, with load to first order in Re."""
     gap = scene.gap()
-    return {
+    found = {
         "reynolds_number": scene.reynolds_number,
         "reduced_reynolds_number": scene.reduced_reynolds_number,
         "film": scene.geometry.film / scene.geometry.length,
@@ -45,6 +49,7 @@ def numbers(scene: Pocket) -> dict[str, float]:
         "loaded": max(load_over_pressure(gap, scene.reynolds_number), MIN_LOAD_SCALE),
         "shortness": min(gap.film / shortest_piece(scene, gap), MAX_SHORTNESS),
     }
+    return MappingProxyType(found)
 
 
 def shortest_piece(scene: Pocket, gap: Gap) -> float:
