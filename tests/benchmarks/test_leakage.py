@@ -88,7 +88,7 @@ def test_a_series_from_the_first_touch_to_sealed(found):
     assert ordered[0].area_fraction < 0.01
     for name in SOUGHT:
         assert thresholds[name].bracketed
-        assert [getattr(row, name) == 0 for row in ordered] == [
+        assert [getattr(row, f"{name}_sealed") == 1 for row in ordered] == [
             row.load > thresholds[name].open.load for row in ordered
         ]
         values = [getattr(row, name) for row in ordered]
