@@ -362,6 +362,27 @@ def separate(pressure, deformed, plane):  # type: ignore[no-untyped-def]
 
 
 @compiled
+def smooth_edges(pressure, elastic, gap, hardness, step_gap, step_pressure, out):  # type: ignore[no-untyped-def]
+    """Return the number of edges between elastic and open pixels of a periodic grid, without steps of the surface."""
+    rows, columns = pressure.shape
+    count = 0
+    for row in range(rows):
+        for column in range(columns):
+            p = pressure[row, column]
+            if 0 < p < hardness:
+                u = elastic[row, column]
+                for side in range(4):
+                    x, y = (1 if side == 0 else -1 if side == 1 else 0), (1 if side == 2 else -1 if side == 3 else 0)
+                    beside = (row + x) % rows, (column + y) % columns
+                    if pressure[beside] <= 0:
+                        behind = pressure[(row - x) % rows, (column - y) % columns]
+                        rise = u - elastic[beside]
+                        step = gap[beside] > step_gap * rise and behind > 0 and p >= step_pressure * behind
+                        count += not step
+    out[0] = count
+
+
+@compiled
 def clipped_sum(field, shift, most, out):  # type: ignore[no-untyped-def]
     """Return Σ clip(p + λ, 0, H), and the number of nodes that are not clipped."""
     total = 0.0
