@@ -95,7 +95,7 @@ def locked(lock: Path, message: str) -> Iterator[None]:
             except OSError:
                 file.seek(0)
                 raise InputError(message.replace("{process}", file.read().strip() or "unknown")) from None
-            if not _is_at(file.fileno(), lock):  # removed by the last holder since it was opened
+            if not is_at(file.fileno(), lock):  # removed by the last holder since it was opened
                 continue
             file.truncate(0)
             file.write(str(os.getpid()))
@@ -107,7 +107,8 @@ def locked(lock: Path, message: str) -> Iterator[None]:
             return
 
 
-def _is_at(descriptor: int, path: Path) -> bool:
+def is_at(descriptor: int, path: Path) -> bool:
+    """Whether an open file is the one at a path."""
     try:
         return os.path.samestat(os.fstat(descriptor), path.stat())
     except FileNotFoundError:

@@ -4,6 +4,7 @@ import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -26,7 +27,7 @@ class Inputs:
     spacing: tuple[float, float]
     settings: Mapping[str, Any]
 
-    @property
+    @cached_property
     def digest(self) -> str:
         """The SHA-256 digest of all inputs, in hexadecimal; equal digests mean equal results."""
         text = json.dumps([self.heights.shape, self.spacing, self.settings], sort_keys=True, allow_nan=False)

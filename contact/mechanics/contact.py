@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array, Mask
+from roughfilm.contact.mechanics import kernels
 
 PERIMETER_CORRECTION = (math.pi - 1 + math.log(2)) / 24
 """Mean excess of an area counted in pixels, over the length of its perimeter in pixels."""
@@ -74,18 +75,12 @@ class Contact:
         """
         if 1 in self.pressure.shape:
             return self.area_fraction_pixel
-        elastic = self.in_contact & ~self.plastic
-        edges = sum(np.count_nonzero(elastic & self._smooth_edge(shift, axis)) for axis in (0, 1) for shift in (1, -1))
-        return max(
-            float(self.area_fraction_pixel - PERIMETER_CORRECTION * edges / elastic.size), self.load / self.hardness
+        out = np.empty(1)
+        kernels.smooth_edges(
+            self.pressure, self.elastic_displacement, self.gap, self.hardness, STEP_GAP, STEP_PRESSURE, out
         )
-
-    def _smooth_edge(self, shift: int, axis: int) -> Mask:
-        """Mask of the pixels beside an open one, except at steps of the surface."""
-        p, u = self.pressure, self.elastic_displacement
-        gap, behind = np.roll(self.gap, shift, axis), np.roll(p, -shift, axis)
-        step = (gap > STEP_GAP * (u - np.roll(u, shift, axis))) & (behind > 0) & (p >= STEP_PRESSURE * behind)
-        return np.asarray((np.roll(p, shift, axis) == 0) & ~step)
+        corrected = self.area_fraction_pixel - PERIMETER_CORRECTION * float(out[0]) / self.pressure.size
+        return max(corrected, self.load / self.hardness)
 
     @property
     def plastic_fraction(self) -> float:

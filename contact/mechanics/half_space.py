@@ -1,6 +1,5 @@
 """The elastic half-space on a grid: displacement from pressure and pressure from displacement, by FFT."""
 
-import math
 from typing import Literal
 
 import numpy as np
@@ -14,18 +13,21 @@ Boundary = Literal["periodic", "free"]
 
 
 def periodic_response(shape: tuple[int, int], spacing: tuple[float, float]) -> Array:
-    """Transfer function 2/|q| from pressure to displacement for E* = 1, shape (nx, ny // 2 + 1), m; 0 for the mean."""
-    qx, qy = 2 * np.pi * np.fft.fftfreq(shape[0], spacing[0]), 2 * np.pi * np.fft.rfftfreq(shape[1], spacing[1])
+    """Transfer function 2/|q| from pressure to displacement for E* = 1, m; infinite for the mean.
+
+    The shape is (nx // 2 + 1, ny // 2 + 1); the modes of opposite sign have the same value.
+    """
+    qx, qy = (2 * np.pi * np.fft.rfftfreq(n, d) for n, d in zip(shape, spacing, strict=True))
     q = np.hypot(qx[:, None], qy[None, :])
-    q[0, 0] = math.inf
-    return np.asarray(2 / q)
+    with np.errstate(divide="ignore"):
+        return np.asarray(np.divide(2, q, out=q))
 
 
 class HalfSpace:
     """The convolution u = K ∗ p over a grid of nodes, periodic, or free by zero padding to twice the grid.
 
-    Iterations use transforms in single precision, which read the flat arrays ``step`` and ``source`` and write
-    ``image``; residuals use transforms in double precision.
+    Iterations use transforms in single precision, which read the flat array ``source`` and write ``image``; residuals
+    use a transform in double precision, in place in ``grid``.
 
     Parameters
     ----------
@@ -39,52 +41,49 @@ class HalfSpace:
     def __init__(
         self, shape: tuple[int, int], spacing: tuple[float, float], boundary: Boundary, team: Team | None = None
     ) -> None:
-        import pyfftw  # slow to import
-
         team = team or Team(1)
-        self.shape = shape
-        grids = [pyfftw.empty_aligned(shape, "float32") for _ in range(3)]
-        self._single = Filter(grids[:2], grids[2], team)
-        self._grid = pyfftw.empty_aligned(shape, "float64")
-        self._double = Filter([self._grid], self._grid, team)
-        for grid in grids:
-            grid[:] = 0
-        self.step, self.source, self.image = (grid.reshape(-1) for grid in grids)
+        self.shape, self.spacing = shape, spacing
+        self._single = Filter(shape, "float32", team)
+        self._double = Filter(shape, "float64", team, in_place=True)
+        self.source, self.image = self._single.source.reshape(-1), self._single.result.reshape(-1)
+        self.grid = self._double.result
 
         response = periodic_response(shape, spacing)
-        response[0, 0] = math.inf
         inverse = 1 / response
         if boundary == "free":
             inverse[0, 0] = inverse.ravel()[1:].min()
-            response = influence(shape, spacing)
+            response = influence(shape, spacing)[: len(inverse)]
         else:
             response[0, 0] = 0
-        self._response, self._inverse = self._double.cut(response), self._double.cut(inverse)
+        self._response = self._double.cut(response)
         self._response_single, self._inverse_single = self._single.cut(response), self._single.cut(inverse)
 
     def displace(self) -> None:
-        """Set ``image`` to K ∗ ``step``."""
-        self._single.apply(0, self._response_single)
+        """Set ``image`` to K ∗ ``source``."""
+        self._single.apply(self._response_single)
 
     def precondition(self) -> None:
-        """Set ``image`` to the pressure whose displacement is ``source`` if every node is in contact."""
-        self._single.apply(1, self._inverse_single)
+        """Set ``image`` to the pressure whose displacement is ``source``."""
+        self._single.apply(self._inverse_single)
+
+    def convolve(self) -> None:
+        """Replace the pressure in ``grid`` by its displacement, in double precision."""
+        self._double.apply(self._response)
 
     def displacement(self, pressure: Array) -> Array:
         """K ∗ p in double precision, same shape as ``pressure``, which may cover a part of the grid.
 
         The next transform in double precision overwrites the array returned.
         """
-        return self._in_double(pressure, self._response)
+        part = tuple(slice(n) for n in pressure.shape)
+        if pressure.shape != self.shape:
+            self.grid[:] = 0
+        self.grid[part] = pressure
+        self.convolve()
+        return np.asarray(self.grid[part])
 
     def pressure(self, displacement: Array) -> Array:
         """Pressure of zero mean with a given displacement, in double precision; periodic only; overwritten likewise."""
-        return self._in_double(displacement, self._inverse)
-
-    def _in_double(self, values: Array, factors: list[list[Array]]) -> Array:
-        part = tuple(slice(n) for n in values.shape)
-        if values.shape != self.shape:
-            self._grid[:] = 0
-        self._grid[part] = values
-        self._double.apply(0, factors)
-        return np.asarray(self._grid[part])
+        self.grid[:] = displacement
+        self._double.apply(self._double.cut(1 / periodic_response(self.shape, self.spacing)))
+        return np.asarray(self.grid)

@@ -1,8 +1,8 @@
 """Fused loops over ranges of the grid, which read and write every array once; threads process separate ranges.
 
-A range holds the nodes [low, high). Its free nodes, whose pressure may change, are listed at the front of the same
-range of ``index``; the same entries of ``residual``, ``held`` (pressure), ``move``, ``taken`` (step s) and
-``move_image`` (K∗s) belong to them, so that most loops access memory in order.
+The free nodes, whose pressure may change, are in lists: ``index``, and for each entry of it ``residual``, ``held``
+(pressure), ``move``, ``taken`` (step s) and ``move_image`` (K∗s), so that most loops access memory in order. A range of
+nodes [low, high) has the entries [first, end). Other nodes have p = 0 or p = H by their ``state``.
 """
 
 import numpy as np
@@ -16,39 +16,40 @@ WORD = 8
 """Number of nodes tested together, as most are far from contact; ranges begin at whole words."""
 
 LISTED = 4
-"""Flag in ``state`` of a free node, whose pressure is in the list; other nodes have theirs in the grid."""
-
+"""Flag in ``state`` of a free node."""
 
 ROUNDING = 1e-15
 """Distance of a pressure from the hardness, over the hardness, that is rounding."""
 
 
 @compiled
-def advance(low, high, fraction, image, gap, plane, state, touched):  # type: ignore[no-untyped-def]
-    """Add t K∗s to the gap g, and mark the nodes that may be free: listed ones, p > 0, g < g00."""
+def advance(low, high, fraction, image, gap, plane, state, touched, out):  # type: ignore[no-untyped-def]
+    """Add t K∗s to the gap g, mark the nodes that may be free (listed, p > 0 or g < g00), and return their number."""
     part = np.float32(fraction)
     level = np.float32(plane)
     image, gap, state, touched = image[low:high], gap[low:high], state[low:high], touched[low:high]
+    count = np.int32(0)
     for node in range(gap.size):
         value = gap[node] + part * image[node]
         gap[node] = value
-        touched[node] = (state[node] != 0) | (value < level)
+        mark = (state[node] != 0) | (value < level)
+        touched[node] = mark
+        count += mark
+    out[0] = count
 
 
 @compiled
-def gather(low, high, words, gap, plane, image, state, pressure, source, step, held, taken, index, residual, now_held, now_taken, move_image, out):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
+def gather(low, high, before, first, words, gap, plane, image, state, hardness, held, taken, index, residual, now_held, now_taken, move_image, out):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
     """List the free nodes among the marked ones with residual g − g00, pressure, s and K∗s; eight marks are a word.
 
-    Nodes that were free before have pressure and step in the old lists, in the same order; all others in the grids.
+    Nodes that were free before have pressure and step in the old lists, in the same order, from entry ``before`` on.
+    The new entries begin at ``first``; returns their number, Σ(g − g00) and the largest |g − g00|.
     """
     level = np.float32(plane)
-    count = before = 0
+    count = first
     total = 0.0
     worst = np.float32(0)
     words, gap, image, state = words[low // WORD : -(-high // WORD)], gap[low:high], image[low:high], state[low:high]
-    pressure, source, step, held, taken = pressure[low:high], source[low:high], step[low:high], held[low:], taken[low:]
-    index, residual, now_held, now_taken = index[low:high], residual[low:high], now_held[low:high], now_taken[low:high]
-    move_image = move_image[low:high]
     for word in range(words.size):
         if words[word] == 0:
             continue
@@ -61,7 +62,7 @@ def gather(low, high, words, gap, plane, image, state, pressure, source, step, h
             if kind == INSIDE or (kind == OFF and difference < 0) or (kind == HARD and difference > 0):
                 index[count] = low + node
                 residual[count] = difference
-                now_held[count] = held[before] if listed else pressure[node]
+                now_held[count] = held[before] if listed else hardness if kind == HARD else 0.0
                 now_taken[count] = taken[before] if listed else 0
                 move_image[count] = image[node]
                 state[node] = kind | LISTED
@@ -69,41 +70,127 @@ def gather(low, high, words, gap, plane, image, state, pressure, source, step, h
                 total += difference
                 worst = max(worst, abs(difference))
             elif listed:
-                pressure[node] = held[before]
                 state[node] = kind
-                source[node] = 0
-                step[node] = 0
             before += listed != 0
-    out[0] = low + count
+    out[0] = count - first
     out[1] = total
     out[2] = worst
 
 
 @compiled
-def spread(low, end, index, held, pressure):  # type: ignore[no-untyped-def]
-    """Copy the pressure of the free nodes to the grid."""
-    index, held = index[low:end], held[low:end]
-    for place in range(index.size):
-        pressure[index[place]] = held[place]
-
-
-@compiled
-def centre(low, end, mean, source, index, residual):  # type: ignore[no-untyped-def]
-    """Subtract the mean from the residual of the free nodes and copy it to the grid."""
+def centre(first, end, mean, residual):  # type: ignore[no-untyped-def]
+    """Subtract the mean from the residual of the free nodes."""
     offset = np.float32(mean)
-    index, residual = index[low:end], residual[low:end]
-    for place in range(index.size):
-        value = residual[place] - offset
-        residual[place] = value
-        source[index[place]] = value
+    residual = residual[first:end]
+    for place in range(residual.size):
+        residual[place] -= offset
 
 
 @compiled
-def products(low, end, preconditioned, index, residual, taken, move_image, move, out):  # type: ignore[no-untyped-def]
+def sum_cells(first, end, piece, columns, row_cells, column_cells, index, residual, sums):  # type: ignore[no-untyped-def]  # fmt: skip
+    """Sum the number of free nodes and their residuals in each cell."""
+    index, residual, sums = index[first:end], residual[first:end], sums[piece]
+    sums[:] = 0
+    beginning = row = 0
+    for place in range(index.size):
+        node = index[place]
+        while node >= beginning + columns:
+            beginning += columns
+            row += 1
+        cell_row, cell_column = row_cells[row], column_cells[node - beginning]
+        sums[0, cell_row, cell_column] += 1
+        sums[1, cell_row, cell_column] += residual[place]
+
+
+@compiled
+def extend(low, high, row_cells, column_bounds, cells, grid):  # type: ignore[no-untyped-def]
+    """Set each node of the rows to the value of its cell."""
+    for row in range(low, high):
+        if row > low and row_cells[row] == row_cells[row - 1]:
+            for column in range(grid.shape[1]):
+                grid[row, column] = grid[row - 1, column]
+            continue
+        for cell in range(cells.shape[1]):
+            grid[row, column_bounds[cell] : column_bounds[cell + 1]] = cells[row_cells[row], cell]
+
+
+@compiled
+def scatter(first, end, index, values, grid):  # type: ignore[no-untyped-def]
+    """Copy values of the free nodes to the flat grid."""
+    index, values = index[first:end], values[first:end]
+    for place in range(index.size):
+        grid[index[place]] = values[place]
+
+
+@compiled
+def scatter_alone(low, high, first, end, index, values, grid):  # type: ignore[no-untyped-def]
+    """Copy values of the free nodes to the flat grid, and set its other nodes to 0."""
+    grid[low:high] = 0
+    for place in range(first, end):
+        grid[index[place]] = values[place]
+
+
+@compiled
+def spread(first, end, index, held, columns, grid):  # type: ignore[no-untyped-def]
+    """Copy the pressure of the free nodes to a grid of rows."""
+    index, held = index[first:end], held[first:end]
+    for place in range(index.size):
+        node = index[place]
+        grid[node // columns, node % columns] = held[place]
+
+
+@compiled
+def load(low, high, state, hardness, grid):  # type: ignore[no-untyped-def]
+    """Set the pressure of the nodes that are not free, 0 or H, in rows of a grid; ``state`` may have longer rows."""
+    for row in range(low, min(high, grid.shape[0])):
+        for column in range(grid.shape[1]):
+            grid[row, column] = hardness if state[row, column] == HARD else 0.0
+
+
+@compiled
+def inside_level(first, end, index, held, hardness, columns, heights, height, unit, displacement, out):  # type: ignore[no-untyped-def]  # fmt: skip
+    """Return Σ(h + u) over the nodes with 0 < p < H, and their number; h = (z̄ − z)/unit."""
+    total = 0.0
+    count = 0
+    index, held = index[first:end], held[first:end]
+    for place in range(index.size):
+        if 0 < held[place] < hardness:
+            row, column = index[place] // columns, index[place] % columns
+            total += (height - heights[row, column]) / unit + displacement[row, column]
+            count += 1
+    out[0] = total
+    out[1] = count
+
+
+@compiled
+def outer_levels(low, high, state, heights, height, unit, displacement, out):  # type: ignore[no-untyped-def]
+    """Return the largest h + u of the nodes at H that are not free and the smallest of those at 0."""
+    most = -np.inf
+    least = np.inf
+    for row in range(low, min(high, heights.shape[0])):
+        for column in range(heights.shape[1]):
+            value = (height - heights[row, column]) / unit + displacement[row, column]
+            kind = state[row, column] & 3
+            most = max(most, value if kind == HARD else -np.inf)
+            least = min(least, value if kind == OFF else np.inf)
+    out[0] = most
+    out[1] = least
+
+
+@compiled
+def open_gap(low, high, plane, heights, height, unit, displacement, gap):  # type: ignore[no-untyped-def]
+    """Set the gap to h + u − g00."""
+    for row in range(low, min(high, heights.shape[0])):
+        for column in range(heights.shape[1]):
+            gap[row, column] = (height - heights[row, column]) / unit + displacement[row, column] - plane
+
+
+@compiled
+def products(first, end, preconditioned, index, residual, taken, move_image, move, out):  # type: ignore[no-untyped-def]
     """Copy z to the list of free nodes; returns Σz, Σs, ΣKs, ΣzKs, Σzr, Σsr."""
     z_sum = s_sum = k_sum = zk = zr = sr = 0.0
-    index, residual, move = index[low:end], residual[low:end], move[low:end]
-    taken, move_image = taken[low:end], move_image[low:end]
+    index, residual, move = index[first:end], residual[first:end], move[first:end]
+    taken, move_image = taken[first:end], move_image[first:end]
     for place in range(index.size):
         z = np.float64(preconditioned[index[place]])
         move[place] = z
@@ -125,29 +212,29 @@ def products(low, end, preconditioned, index, residual, taken, move_image, move,
 
 
 @compiled
-def direct(low, end, length, z_mean, conjugate, s_mean, move, taken):  # type: ignore[no-untyped-def]
+def direct(first, end, length, z_mean, conjugate, s_mean, move, taken):  # type: ignore[no-untyped-def]
     """Replace z by the move along the conjugate direction, α (−(z − z̄) + b (s − s̄))."""
     back, along = np.float32(-length), np.float32(length * conjugate)
     offset = np.float32(length * (z_mean - conjugate * s_mean))
-    move, taken = move[low:end], taken[low:end]
+    move, taken = move[first:end], taken[first:end]
     for place in range(move.size):
         move[place] = back * move[place] + along * taken[place] + offset
 
 
 @compiled
-def descend(low, end, length, residual, move):  # type: ignore[no-untyped-def]
+def descend(first, end, length, residual, move):  # type: ignore[no-untyped-def]
     """Set the move down the gradient, −α r."""
-    residual, move = residual[low:end], move[low:end]
+    residual, move = residual[first:end], move[first:end]
     for place in range(move.size):
         move[place] = -length * residual[place]
 
 
 @compiled
-def excess(low, end, shift, held, hardness, move, out):  # type: ignore[no-untyped-def]
+def excess(first, end, shift, held, hardness, move, out):  # type: ignore[no-untyped-def]
     """Return the sum of clip(p + move + λ) − p, and the number of nodes that are not clipped."""
     total = 0.0
     within = 0
-    held, move = held[low:end], move[low:end]
+    held, move = held[first:end], move[first:end]
     for place in range(held.size):
         p = held[place]
         moved = p + move[place] + shift
@@ -159,11 +246,11 @@ def excess(low, end, shift, held, hardness, move, out):  # type: ignore[no-untyp
 
 
 @compiled
-def beyond(low, end, shift, held, hardness, move, out):  # type: ignore[no-untyped-def]
+def beyond(first, end, shift, held, hardness, move, out):  # type: ignore[no-untyped-def]
     """Return the largest value of p + move + λ below 0 and the smallest above H."""
     below = -np.inf
     above = np.inf
-    held, move = held[low:end], move[low:end]
+    held, move = held[first:end], move[first:end]
     for place in range(held.size):
         moved = held[place] + move[place] + shift
         below = max(below, moved if moved < 0 else -np.inf)
@@ -173,17 +260,16 @@ def beyond(low, end, shift, held, hardness, move, out):  # type: ignore[no-untyp
 
 
 @compiled
-def displace(low, end, shift, held, hardness, index, move, residual, taken, step, out):  # type: ignore[no-untyped-def]
+def displace(first, end, shift, held, hardness, move, residual, taken, out):  # type: ignore[no-untyped-def]
     """Compute the step s = clip(p + move + λ) − p; returns Σrs and the largest multiple of s within the bounds."""
     slope = 0.0
     room = np.inf
-    index, held, move = index[low:end], held[low:end], move[low:end]
-    residual, taken = residual[low:end], taken[low:end]
-    for place in range(index.size):
+    held, move = held[first:end], move[first:end]
+    residual, taken = residual[first:end], taken[first:end]
+    for place in range(held.size):
         p = held[place]
         s = min(max(p + move[place] + shift, 0.0), hardness) - p
         taken[place] = s
-        step[index[place]] = s
         slope += s * residual[place]
         bound = hardness if s > 0 else 0.0
         if s * room > bound - p if s > 0 else s * room < bound - p:
@@ -193,11 +279,11 @@ def displace(low, end, shift, held, hardness, index, move, residual, taken, step
 
 
 @compiled
-def curvature(low, end, image, index, taken, move_image, out):  # type: ignore[no-untyped-def]
+def curvature(first, end, image, index, taken, move_image, out):  # type: ignore[no-untyped-def]
     """Copy K∗s to the list of free nodes; returns ΣsKs and Σss."""
     bend = 0.0
     square = 0.0
-    index, taken, move_image = index[low:end], taken[low:end], move_image[low:end]
+    index, taken, move_image = index[first:end], taken[first:end], move_image[first:end]
     for place in range(index.size):
         k = image[index[place]]
         move_image[place] = k
@@ -209,12 +295,12 @@ def curvature(low, end, image, index, taken, move_image, out):  # type: ignore[n
 
 
 @compiled
-def press_on(low, end, fraction, shift, held, hardness, index, move, residual, move_image, state, out):  # type: ignore[no-untyped-def]  # fmt: skip
+def press_on(first, end, fraction, shift, held, hardness, index, move, residual, move_image, state, out):  # type: ignore[no-untyped-def]  # fmt: skip
     """Add t times the step to the pressure; returns Σ(r + t Ks) over nodes with 0 < p < H, and their number."""
     total = 0.0
     count = 0
-    index, held, move = index[low:end], held[low:end], move[low:end]
-    residual, move_image = residual[low:end], move_image[low:end]
+    index, held, move = index[first:end], held[first:end], move[first:end]
+    residual, move_image = residual[first:end], move_image[first:end]
     for place in range(index.size):
         p = held[place]
         s = min(max(p + move[place] + shift, 0.0), hardness) - p
@@ -231,9 +317,104 @@ def press_on(low, end, fraction, shift, held, hardness, index, move, residual, m
 
 
 @compiled
-def scale_modes(spectrum, left, factors):  # type: ignore[no-untyped-def]
-    """Multiply the modes of the columns from ``left`` on by real factors."""
-    rows, columns = factors.shape
+def levels(pressure, gap, hardness, out):  # type: ignore[no-untyped-def]
+    """Return Σg where 0 < p < H, the number of these nodes, the largest g where p = H and the smallest where p = 0."""
+    total = 0.0
+    count = 0
+    most = -np.inf
+    least = np.inf
+    for node in range(gap.size):
+        p, g = pressure[node], gap[node]
+        inside = 0 < p < hardness
+        total += g if inside else 0.0
+        count += inside
+        most = max(most, g if p >= hardness else -np.inf)
+        least = min(least, g if p <= 0 else np.inf)
+    out[0] = total
+    out[1] = count
+    out[2] = most
+    out[3] = least
+
+
+@compiled
+def violation(pressure, gap, plane, hardness, out):  # type: ignore[no-untyped-def]
+    """Return the largest of |g − g00| where 0 < p < H, g00 − g where p = 0 and g − g00 where p = H, and 0."""
+    worst = 0.0
+    for node in range(gap.size):
+        p, difference = pressure[node], gap[node] - plane
+        worst = max(worst, difference if p > 0 else 0.0)
+        worst = max(worst, -difference if p < hardness else 0.0)
+    out[0] = worst
+
+
+@compiled
+def dent(pressure, deformed, plane, hardness, plastic):  # type: ignore[no-untyped-def]
+    """Set the plastic displacement, g00 − h − u where p = H, at least 0."""
+    for node in range(deformed.size):
+        plastic[node] = max(plane - deformed[node], 0.0) if pressure[node] >= hardness else 0.0
+
+
+@compiled
+def separate(pressure, deformed, plane):  # type: ignore[no-untyped-def]
+    """Replace h + u by the gap, h + u − g00 where p = 0, at least 0."""
+    for node in range(deformed.size):
+        deformed[node] = max(deformed[node] - plane, 0.0) if pressure[node] <= 0 else 0.0
+
+
+@compiled
+def smooth_edges(pressure, elastic, gap, hardness, step_gap, step_pressure, out):  # type: ignore[no-untyped-def]
+    """Return the number of edges between elastic and open pixels of a periodic grid, without steps of the surface."""
+    rows, columns = pressure.shape
+    count = 0
     for row in range(rows):
         for column in range(columns):
-            spectrum[row, left + column] *= factors[row, column]
+            p = pressure[row, column]
+            if 0 < p < hardness:
+                u = elastic[row, column]
+                for side in range(4):
+                    x, y = (1 if side == 0 else -1 if side == 1 else 0), (1 if side == 2 else -1 if side == 3 else 0)
+                    beside = (row + x) % rows, (column + y) % columns
+                    if pressure[beside] <= 0:
+                        behind = pressure[(row - x) % rows, (column - y) % columns]
+                        rise = u - elastic[beside]
+                        step = gap[beside] > step_gap * rise and behind > 0 and p >= step_pressure * behind
+                        count += not step
+    out[0] = count
+
+
+@compiled
+def clipped_sum(field, shift, most, out):  # type: ignore[no-untyped-def]
+    """Return Σ clip(p + λ, 0, H), and the number of nodes that are not clipped."""
+    total = 0.0
+    count = 0
+    for node in range(field.size):
+        moved = field[node] + shift
+        kept = min(max(moved, 0.0), most)
+        total += kept
+        count += kept == moved
+    out[0] = total
+    out[1] = count
+
+
+@compiled
+def refine(coarse, fine):  # type: ignore[no-untyped-def]
+    """Interpolate a periodic field linearly to a grid twice as fine."""
+    rows, columns = coarse.shape
+    for row in range(rows):
+        here, below = coarse[row], coarse[(row + 1) % rows]
+        for column in range(columns):
+            right = column + 1 if column + 1 < columns else 0
+            fine[2 * row, 2 * column] = here[column]
+            fine[2 * row, 2 * column + 1] = (here[column] + here[right]) / 2
+            fine[2 * row + 1, 2 * column] = (here[column] + below[column]) / 2
+            fine[2 * row + 1, 2 * column + 1] = (here[column] + below[column] + here[right] + below[right]) / 4
+
+
+@compiled
+def scale_modes(spectrum, left, factors):  # type: ignore[no-untyped-def]
+    """Multiply the modes of the columns from ``left`` on by real factors, which rows of opposite sign share."""
+    rows, columns = spectrum.shape[0], factors.shape[1]
+    for row in range(rows):
+        mirrored = min(row, rows - row)
+        for column in range(columns):
+            spectrum[row, left + column] *= factors[mirrored, column]

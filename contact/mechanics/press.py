@@ -1,7 +1,6 @@
 """Elastic or elastic-plastic contact of a rough surface with a rigid plane, without friction or adhesion."""
 
 import math
-from functools import cached_property
 
 import numpy as np
 import scipy
@@ -9,9 +8,9 @@ import scipy
 from roughfilm.contact.foundation.arrays import Array, unmasked
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.contact.foundation.threads import Team
+from roughfilm.contact.mechanics import kernels
 from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.contact.mechanics.half_space import Boundary, HalfSpace
-from roughfilm.contact.mechanics.loop_ranges import Pieces
 from roughfilm.contact.mechanics.projected_gradients import minimise, plane_of, violation_of
 from roughfilm.contact.mechanics.starts import refined, shifted, signed
 from roughfilm.contact.surfaces.surface import MAX_LENGTH, MAX_POINTS, MIN_SPACING
@@ -97,9 +96,9 @@ class Press:
         self.composite_modulus, self.hardness, self.boundary = composite_modulus, hardness, boundary
         shape = self.heights.shape
         self._grid = shape if boundary == "periodic" else _doubled(shape)
-        self._part = tuple(slice(n) for n in shape)
         self._length = max(n * d for n, d in zip(shape, self.spacing, strict=True))
-        self._down = self.heights.mean() - self.heights
+        self._highest = float(self.heights.max() - self.heights.mean())
+        self._rms = float(self.heights.std())
         self._team = Team(min(threads, max(1, math.prod(self._grid) // NODES_PER_THREAD)))
         self._threads = threads
         dx, dy = self.spacing
@@ -149,41 +148,43 @@ class Press:
         """The pressure, shape (nx, ny), Pa, and the number of iterations."""
         if load == self.hardness:
             return np.full(self.heights.shape, self.hardness), 0
-        if self.boundary == "periodic":
-            least, most = self._full_contact
-            if load + least >= 0 and load + most <= self.hardness:
-                return load + self._full_pressure(), 0
-        return self._search(load, tolerance, start)
-
-    @cached_property
-    def _full_contact(self) -> tuple[float, float]:
-        """Smallest and largest deviation of the pressure from its mean in full contact, Pa."""
-        pressure = self._full_pressure()
-        return float(pressure.min()), float(pressure.max())
-
-    def _full_pressure(self) -> Array:
-        """Deviation of the pressure from its mean in full contact, shape (nx, ny), Pa."""
-        return -self.composite_modulus * self._half_space.pressure(self._down / self._length)
-
-    def _search(self, load: float, tolerance: float, start: Contact | None) -> tuple[Array, int]:
-        unit = self._unit(load)
-        pressure_unit = self.composite_modulus * unit / self._length
-        hardness = self.hardness / pressure_unit
         if start is None:
             initial = self._initial(load)
         else:
             initial = shifted(signed(start, self.composite_modulus), load, self.hardness)
+        if (full := self._full_contact(load, initial)) is not None:
+            return full, 0
+        pressure, iterations = self._search(load, tolerance, initial)
+        full = self._full_contact(load, pressure)
+        return pressure if full is None else full, iterations
+
+    def _full_contact(self, load: float, pressure: Array) -> Array | None:
+        """The pressure of full contact, Pa, if it is between 0 and H; it is computed where that of the search is."""
+        if self.boundary == "free" or pressure.min() <= 0 or pressure.max() >= self.hardness:
+            return None
+        displacement = np.subtract(self.heights, self.heights.mean())
+        displacement *= self.composite_modulus / self._length
+        displacement = self._half_space.pressure(displacement) + load
+        return displacement if displacement.min() >= 0 and displacement.max() <= self.hardness else None
+
+    def _search(self, load: float, tolerance: float, initial: Array) -> tuple[Array, int]:
+        unit = self._unit(load)
+        pressure_unit = self.composite_modulus * unit / self._length
+        hardness = self.hardness / pressure_unit
+        initial /= pressure_unit
         pressure, iterations = minimise(
             self._half_space,
-            self._padded(self._down / unit, math.inf),
-            self._padded(initial / pressure_unit, 0.0),
+            self.heights,
+            unit,
+            self._padded(initial),
             hardness,
             tolerance=SEARCH_TOLERANCE_FRACTION * tolerance,
             most_iterations=MAX_ITERATIONS,
-            pieces=Pieces(math.prod(self._grid), self._team),
+            team=self._team,
         )
-        pressure = pressure.reshape(self._grid)[self._part]
-        pressure = np.where(pressure >= hardness, self.hardness, pressure * pressure_unit)
+        plastic = pressure >= hardness
+        pressure *= pressure_unit
+        pressure[plastic] = self.hardness
         return _scaled(pressure, load, self.hardness), iterations
 
     def _initial(self, load: float) -> Array:
@@ -206,24 +207,30 @@ class Press:
             return uniform
         return shifted(refined(signed(contact, self.composite_modulus)), load, self.hardness)
 
-    def _padded(self, values: Array, padding: float) -> Array:
-        """Values at the nodes of the surface, padded to the whole grid, flat."""
-        grid = np.full(self._grid, padding)
-        grid[self._part] = values
+    def _padded(self, pressure: Array) -> Array:
+        """The pressure on the whole grid, flat; 0 outside the surface."""
+        if pressure.shape == self._grid:
+            return pressure.reshape(-1)
+        grid = np.zeros(self._grid)
+        grid[tuple(slice(n) for n in pressure.shape)] = pressure
         return grid.reshape(-1)
 
     def _unit(self, load: float) -> float:
         """The unit of length of the minimisation, m: the rms height, or the displacement scale of a flat punch."""
-        return float(self._down.std()) or load / self.composite_modulus * self._length
+        return self._rms or load / self.composite_modulus * self._length
 
     def contact_of(self, load: float, pressure: Array, iterations: int) -> Contact:
         """The contact state of a pressure, shape (nx, ny), Pa, with displacement and complementarity recomputed."""
         base = load if self.boundary == "periodic" else 0.0
         elastic = self._half_space.displacement((pressure - base) / self.composite_modulus) * self._length
-        deformed = self._down + elastic
-        plane = plane_of(pressure, deformed, self.hardness)
-        violation = violation_of(pressure, deformed, plane, self.hardness)
-        gap = np.subtract(deformed, plane, out=deformed)
+        gap = self.heights.mean() - self.heights
+        gap += elastic
+        plane = plane_of(pressure, gap, self.hardness)
+        violation = violation_of(pressure, gap, plane, self.hardness)
+        plastic = np.zeros(pressure.shape)
+        if math.isfinite(self.hardness):
+            kernels.dent(pressure.reshape(-1), gap.reshape(-1), plane, self.hardness, plastic.reshape(-1))
+        kernels.separate(pressure.reshape(-1), gap.reshape(-1), plane)
         return Contact(
             load=load,
             hardness=self.hardness,
@@ -231,9 +238,9 @@ class Press:
             spacing=self.spacing,
             pressure=pressure,
             elastic_displacement=elastic,
-            plastic_displacement=np.where(pressure >= self.hardness, np.maximum(-gap, 0), 0.0),
-            approach=plane - float(self._down.min()),
-            gap=np.where(pressure > 0, 0.0, np.maximum(gap, 0)),
+            plastic_displacement=plastic,
+            approach=plane + self._highest,
+            gap=gap,
             complementarity=violation / self._unit(load),
             iterations=iterations,
         )

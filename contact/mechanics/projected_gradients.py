@@ -1,10 +1,14 @@
 """Projected conjugate gradients, preconditioned by |q|, for pressures between 0 and H with a given sum.
 
 The method minimises ½ p·K p + p·h under 0 ≤ p ≤ H and Σp = N W. On the free nodes, whose pressure may change, the
-residual r = h + K p − g00 must vanish. Each iteration computes z = |q| r, makes d = −z + b s conjugate to the last step
-s, sets s = clip(p + α d + λ) − p with λ such that the sum stays, and minimises along p + t s. K s is the only
-displacement computed: it serves the line search, the update of the gap and the next b, so that an iteration costs two
-pairs of transforms. If s is not a descent direction, a gradient step of the length of Barzilai and Borwein replaces it.
+residual r = h + K p − g00 must vanish. Each iteration extends r to the other nodes nearly as the half-space deforms
+there, computes z = |q| r, makes d = −z + b s conjugate to the last step s, sets s = clip(p + α d + λ) − p with λ such
+that the sum stays, and minimises along p + t s. K s is the only displacement computed: it serves the line search, the
+update of the gap and the next b, so that an iteration costs two pairs of transforms. If s is not a descent direction, a
+gradient step of the length of Barzilai and Borwein replaces it.
+
+Without the extension, r = 0 off the free nodes, the condition number grows with the distance of the patches of contact
+over the spacing, and the iterations with the number of nodes.
 
 The steps and the errors of their images shrink together, so that transforms in single precision suffice if the gap is
 recomputed in double precision from time to time.
@@ -19,7 +23,9 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
+from roughfilm.contact.foundation.threads import Team
 from roughfilm.contact.mechanics import kernels
+from roughfilm.contact.mechanics.extension import Extension
 from roughfilm.contact.mechanics.half_space import HalfSpace
 from roughfilm.contact.mechanics.loop_ranges import Pieces
 
@@ -41,46 +47,52 @@ IMPROVEMENT_FACTOR, STALL_ITERATIONS = 0.9, 500
 GRADIENT_ITERATIONS = 10
 """Iterations without improvement after which gradient and conjugate steps alternate in blocks of this length."""
 
+GROWTH = 125
+"""Size of new lists of free nodes over the number that may be free, percent."""
+
 MIN_TRIAL_LENGTH, MAX_TRIAL_LENGTH = 0.2, 3.0
 """Range of the trial length α; 1 is exact where every node is in contact."""
 
 
 def plane_of(pressure: Array, gap: Array, hardness: float) -> float:
     """The plane g00: mean gap where 0 < p < H, or without such nodes the middle between nodes at H and nodes at 0."""
-    inside = (pressure > 0) & (pressure < hardness)
-    if inside.any():
-        return float(gap[inside].mean())
-    at_hardness, off = gap[pressure >= hardness], gap[pressure <= 0]
-    if at_hardness.size == 0 or off.size == 0:
-        return float(at_hardness.max() if at_hardness.size else off.min())
-    return float(at_hardness.max() + off.min()) / 2
+    out = np.empty(4)
+    kernels.levels(pressure.reshape(-1), gap.reshape(-1), hardness, out)
+    total, count, most, least = (float(number) for number in out)
+    return total / count if count else _middle(most, least)
+
+
+def _middle(most: float, least: float) -> float:
+    """The middle between the largest gap of the nodes at H and the smallest of those at 0; ±∞ where there are none."""
+    if math.isinf(most) or math.isinf(least):
+        return least if math.isinf(most) else most
+    return (most + least) / 2
 
 
 def violation_of(pressure: Array, gap: Array, plane: float, hardness: float) -> float:
     """The largest of |g − g00| where 0 < p < H, g00 − g where p = 0 and g − g00 where p = H."""
-    difference = gap - plane
-    worst = np.max(-difference, where=pressure < hardness, initial=0.0)
-    return float(max(worst, np.max(difference, where=pressure > 0, initial=0.0)))
+    out = np.empty(1)
+    kernels.violation(pressure.reshape(-1), gap.reshape(-1), plane, hardness, out)
+    return float(out[0])
 
 
 class _Search:
     """State of one minimisation, and the steps of an iteration."""
 
-    def __init__(self, half_space: HalfSpace, heights: Array, pressure: Array, hardness: float, pieces: Pieces) -> None:
-        self.half_space, self.heights, self.pressure, self.hardness = half_space, heights, pressure, hardness
-        self.pieces = pieces
-        self.gap = np.empty(heights.size, dtype=np.float32)
-        self.index = np.empty(heights.size, dtype=np.int32)
-        self.residual = np.empty(heights.size, dtype=np.float32)
-        self.move = np.empty(heights.size, dtype=np.float32)
-        self.taken, self.was_taken = (np.empty(heights.size, dtype=np.float32) for _ in range(2))
-        self.move_image = np.empty(heights.size, dtype=np.float32)
-        self.held, self.was_held = np.empty(heights.size), np.empty(heights.size)
-        self.state = np.where(pressure > 0, np.where(pressure < hardness, kernels.INSIDE, kernels.HARD), kernels.OFF)
-        self.state = self.state.astype(np.uint8)
-        self.touched = np.zeros(-(-heights.size // kernels.WORD) * kernels.WORD, dtype=np.uint8)
-        half_space.step[:] = half_space.source[:] = 0
+    def __init__(
+        self, half_space: HalfSpace, heights: Array, unit: float, pressure: Array, hardness: float, team: Team
+    ) -> None:
+        self.half_space, self.hardness = half_space, hardness
+        self.heights = (heights, float(heights.mean()), unit)
+        self.columns, size = half_space.shape[1], half_space.source.size
+        self.pieces = Pieces(half_space.shape, team)
+        self.extension = Extension(half_space.shape, half_space.spacing, self.pieces)
+        self.gap = np.full(size, np.inf, dtype=np.float32)
+        self.state = (pressure > 0).astype(np.uint8) + (pressure >= hardness)
+        self.touched = np.zeros(-(-size // kernels.WORD) * kernels.WORD, dtype=np.uint8)
         self.sum = float(pressure.sum())
+        self._list(pressure)
+        half_space.image[:] = 0
         self.length = 1.0
         self.slide = 0.0
         self.fraction = 0.0
@@ -88,45 +100,87 @@ class _Search:
         self.square = 0.0
         self.refresh()
 
+    def _list(self, pressure: Array) -> None:
+        """List the nodes with 0 < p < H."""
+        pieces = self.pieces
+        nodes = [low + np.flatnonzero(self.state[low:high] == kernels.INSIDE) for low, high in pieces.nodes]
+        counts = [len(listed) for listed in nodes]
+        self._allocate(max(counts))
+        pieces.set_counts(counts)
+        for first, listed in zip(pieces.firsts, nodes, strict=True):
+            self.index[first : first + len(listed)] = listed
+            self.held[first : first + len(listed)] = pressure[listed]
+            self.state[listed] |= kernels.LISTED
+        self.taken[:] = 0
+
+    def _allocate(self, capacity: int) -> None:
+        """Make lists for a number of free nodes in each range."""
+        self.pieces.reserve(capacity)
+        size = capacity * len(self.pieces.firsts)
+        self.index = np.empty(size, dtype=np.int32)
+        self.residual, self.move, self.move_image, self.taken = (np.empty(size, dtype=np.float32) for _ in range(4))
+        self.held = np.empty(size)
+        self.spare: tuple[Array, Array] = np.empty(size), np.empty(size, dtype=np.float32)
+
     def refresh(self) -> None:
         """Recompute the gap over its plane from the pressure in double precision and store it in single precision."""
-        self.pieces.over_free(kernels.spread, self.index, self.held, self.pressure)
-        displacement = self.half_space.displacement(self.pressure.reshape(self.half_space.shape)).reshape(-1)
-        displacement += self.heights
-        plane = plane_of(self.pressure, displacement, self.hardness)
-        np.subtract(displacement, plane, out=self.gap, casting="same_kind")
+        half_space, pieces = self.half_space, self.pieces
+        shape = half_space.shape
+        state = self.state.reshape(shape)
+        pieces.over_rows(kernels.load, state, self.hardness, half_space.grid)
+        pieces.over_free(kernels.spread, self.index, self.held, self.columns, half_space.grid)
+        half_space.convolve()
+        free = (self.index, self.held, self.hardness, self.columns)
+        numbers = pieces.over_free(kernels.inside_level, *free, *self.heights, half_space.grid, out=True)
+        total, count = map(sum, numbers[:2])
+        if count:
+            plane = total / count
+        else:
+            numbers = pieces.over_rows(kernels.outer_levels, state, *self.heights, half_space.grid, out=True)
+            plane = _middle(max(numbers[0]), min(numbers[1]))
+        pieces.over_rows(kernels.open_gap, plane, *self.heights, half_space.grid, self.gap.reshape(shape))
         self.plane = self.fraction = 0.0
 
     def free_nodes(self) -> float:
         """Update the gap, list the free nodes and their residuals, and return the largest absolute residual."""
         half_space, pieces = self.half_space, self.pieces
-        image, source, step = half_space.image, half_space.source, half_space.step
-        self.held, self.was_held = self.was_held, self.held
-        self.taken, self.was_taken = self.was_taken, self.taken
-        pieces.over_all(kernels.advance, self.fraction, image, self.gap, self.plane, self.state, self.touched)
-        numbers = pieces.over_all(
+        image = half_space.image
+        numbers = pieces.over_nodes(
+            kernels.advance, self.fraction, image, self.gap, self.plane, self.state, self.touched, out=True
+        )
+        before, old = pieces.firsts, (self.held, self.taken)
+        largest = int(max(numbers[0]))
+        if largest > pieces.capacity:
+            self._allocate(largest * GROWTH // 100)
+        else:
+            (self.held, self.taken), self.spare = self.spare, old
+        numbers = pieces.over(
+            [(*nodes, *firsts) for *firsts, nodes in zip(before, pieces.firsts, pieces.nodes, strict=True)],
             kernels.gather,
-            *(self.touched.view(np.uint64), self.gap, self.plane, image, self.state, self.pressure, source, step),
-            *(self.was_held, self.was_taken, self.index, self.residual, self.held, self.taken, self.move_image),
+            *(self.touched.view(np.uint64), self.gap, self.plane, image, self.state, self.hardness, *old),
+            *(self.index, self.residual, self.held, self.taken, self.move_image),
             out=True,
         )
-        pieces.ends = [int(end) for end in numbers[:, 0]]
-        self.free = sum(end - low for end, (low, _) in zip(pieces.ends, pieces.ranges, strict=True))
-        worst = float(numbers[:, 2].max())
+        pieces.set_counts([int(count) for count in numbers[0]])
+        self.free = int(sum(numbers[0]))
         if self.free:
-            self.mean = float(numbers[:, 1].sum()) / self.free
-            pieces.over_free(kernels.centre, self.mean, half_space.source, self.index, self.residual)
-        return worst
+            worst = max(numbers[2])
+            self.mean = sum(numbers[1]) / self.free
+            pieces.over_free(kernels.centre, self.mean, self.residual)
+            return worst
+        return 0.0
 
     def conjugate(self) -> bool:
         """Set ``move`` along z = |q| r made conjugate to the last step; false if this is not a descent direction."""
         half_space, pieces = self.half_space, self.pieces
+        self.extension.extend(self.index, self.residual, half_space.source)
         half_space.precondition()
-        z, s, k, zk, zr, sr = pieces.over_free(
+        numbers = pieces.over_free(
             kernels.products,
             *(half_space.image, self.index, self.residual, self.taken, self.move_image, self.move),
             out=True,
-        ).sum(axis=0)
+        )
+        z, s, k, zk, zr, sr = map(sum, numbers)
         z_mean, s_mean = z / self.free, s / self.free
         b = (zk - z_mean * k) / self.curvature if self.curvature > 0 else 0.0
         if b * sr >= zr:
@@ -142,24 +196,22 @@ class _Search:
 
     def step(self) -> bool:
         """Compute the step along ``move`` within the bounds that keeps the sum; true if the energy decreases."""
-        half_space = self.half_space
         self.slide, self.cut = self._shift()
         numbers = self.pieces.over_free(
-            kernels.displace,
-            *(self.slide, self.held, self.hardness, self.index, self.move, self.residual, self.taken, half_space.step),
-            out=True,
+            kernels.displace, *(self.slide, self.held, self.hardness, self.move, self.residual, self.taken), out=True
         )
-        self.slope, self.room = float(numbers[:, 0].sum()), float(numbers[:, 1].min())
+        self.slope, self.room = sum(numbers[0]), min(numbers[1])
         return self.slope < 0
 
     def search(self) -> None:
         """Minimise the energy along the step and update the pressure."""
         half_space, pieces = self.half_space, self.pieces
+        pieces.scatter_alone(self.index, self.taken, half_space.source)
         half_space.displace()
         numbers = pieces.over_free(
             kernels.curvature, half_space.image, self.index, self.taken, self.move_image, out=True
         )
-        self.curvature, self.square = (float(total) for total in numbers[:, :2].sum(axis=0))
+        self.curvature, self.square = map(sum, numbers[:2])
         best = -self.slope / self.curvature if self.curvature > 0 else 1.0
         if self.cut:
             self.fraction = 1.0 if best > WHOLE_STEP_FRACTION else best
@@ -173,11 +225,18 @@ class _Search:
             *(self.move_image, self.state),
             out=True,
         )
-        total, inside = numbers[:, :2].sum(axis=0)
+        total, inside = map(sum, numbers[:2])
         if inside:
-            self.plane += self.mean + float(total / inside)
+            self.plane += self.mean + total / inside
         else:
             self.refresh()
+
+    def pressure(self) -> Array:
+        """The pressure at the nodes of the surface, shape (nx, ny)."""
+        pressure = np.empty(self.heights[0].shape)
+        self.pieces.over_rows(kernels.load, self.state.reshape(self.half_space.shape), self.hardness, pressure)
+        self.pieces.over_free(kernels.spread, self.index, self.held, self.columns, pressure)
+        return pressure
 
     def _shift(self) -> tuple[float, bool]:
         """The shift λ with Σ clip(p + move + λ) = Σp over the free nodes, and whether a node is clipped.
@@ -188,7 +247,7 @@ class _Search:
         shift, low, high = 0.0, -math.inf, math.inf
         while True:
             numbers = self.pieces.over_free(kernels.excess, shift, self.held, self.hardness, self.move, out=True)
-            excess, within = float(numbers[:, 0].sum()), int(numbers[:, 1].sum())
+            excess, within = sum(numbers[0]), int(sum(numbers[1]))
             cut = within < self.free
             if abs(excess) <= SUM_TOLERANCE * self.sum:
                 return (shift if cut else shift - excess / within), cut
@@ -200,7 +259,7 @@ class _Search:
                 new = shift - excess / within
             else:
                 nearest = self.pieces.over_free(kernels.beyond, shift, self.held, self.hardness, self.move, out=True)
-                over, under = float(nearest[:, 1].min()) - self.hardness, float(nearest[:, 0].max())
+                over, under = min(nearest[1]) - self.hardness, max(nearest[0])
                 new = shift - (over if excess > 0 else under) - excess
             if not math.isfinite(new):
                 return shift, cut
@@ -214,28 +273,30 @@ class _Search:
 def minimise(
     half_space: HalfSpace,
     heights: Array,
+    unit: float,
     start: Array,
     hardness: float,
     *,
     tolerance: float,
     most_iterations: int,
-    pieces: Pieces,
+    team: Team,
 ) -> tuple[Array, int]:
     """The pressure that minimises the energy, from a start within the bounds that has the prescribed sum.
 
     Parameters
     ----------
     half_space : K, for E* = 1.
-    heights : h, gap of the undeformed surface, flat; infinite outside the surface.
-    start : initial pressure, flat, for E* = 1; overwritten with the result.
+    heights : z of the surface, shape (nx, ny), m, of the whole grid or of a corner of it.
+    unit : the unit of length, m, in which h = (z̄ − z)/unit is the gap of the undeformed surface.
+    start : initial pressure on the whole grid, flat, for E* = 1; 0 outside the surface.
     hardness : H, for E* = 1.
-    tolerance : largest violation, in the unit of h, the rms height.
+    tolerance : largest violation, in the unit of length.
     most_iterations : largest number of iterations.
-    pieces : ranges of nodes for the threads.
+    team : threads that share the loops.
 
     Returns
     -------
-    pressure : flat, for E* = 1.
+    pressure : shape (nx, ny), for E* = 1.
     iterations : number of iterations.
 
     Raises
@@ -243,7 +304,8 @@ def minimise(
     ConvergenceError
         If the violation stays above the tolerance; the message gives the smallest violation.
     """
-    search = _Search(half_space, heights, start, hardness, pieces)
+    search = _Search(half_space, heights, unit, start, hardness, team)
+    del start
     violation = refreshed = best = search.free_nodes()
     since = 0
     outcome = Outcome.UNFINISHED
@@ -252,7 +314,7 @@ def minimise(
             search.refresh()
             violation = refreshed = search.free_nodes()
             if violation <= tolerance:
-                return search.pressure, iteration
+                return search.pressure(), iteration
         if violation < IMPROVEMENT_FACTOR * best:
             best, since = violation, iteration
         if iteration - since > STALL_ITERATIONS:

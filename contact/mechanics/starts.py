@@ -3,6 +3,7 @@
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.mechanics import kernels
 from roughfilm.contact.mechanics.contact import Contact
 
 GAP_PRESSURE = 0.3
@@ -33,22 +34,23 @@ def shifted(pressure: Array, mean: float, most: float) -> Array:
     low = -float(pressure.max())
     high = min(mean, most) - float(pressure.min())
     shift = min(max(0.0, low), high)
+    flat, out = pressure.reshape(-1), np.empty(2)
     for _ in range(MAX_STEPS):
-        moved = pressure + shift
-        kept = np.clip(moved, 0.0, most)
-        missing = mean - float(kept.mean())
+        kernels.clipped_sum(flat, shift, most, out)
+        total, inside = (float(number) for number in out)
+        missing = mean - total / pressure.size
         if abs(missing) <= MEAN_TOLERANCE * mean or not low < high:
             break
         if missing > 0:
             low = shift
         else:
             high = shift
-        inside = np.count_nonzero(kept == moved)
         candidate = shift + missing * pressure.size / inside if inside else (low + high) / 2
         shift = candidate if low < candidate < high else (low + high) / 2
         if shift in (low, high):
             break
-    return kept
+    moved = pressure + shift
+    return np.clip(moved, 0.0, most, out=moved)
 
 
 def signed(contact: Contact, composite_modulus: float) -> Array:
@@ -62,7 +64,6 @@ def signed(contact: Contact, composite_modulus: float) -> Array:
 
 def refined(field: Array) -> Array:
     """A periodic field interpolated linearly to a grid twice as fine, shape (2 nx, 2 ny)."""
-    for axis in (0, 1):
-        between = (field + np.roll(field, -1, axis)) / 2
-        field = np.stack([field, between], axis + 1).reshape([n * (1 + (k == axis)) for k, n in enumerate(field.shape)])
-    return field
+    fine = np.empty([2 * n for n in field.shape])
+    kernels.refine(field, fine)
+    return fine

@@ -1,36 +1,29 @@
 """Series of contacts over the load in HDF5 files; each completed load is added to the file.
 
-The files have a header with a digest, see `roughfilm.contact.foundation.checked_hdf5`. A load is added to a copy, which
-then replaces the file.
+The files grow in place and are checked, see `roughfilm.contact.foundation.growing_hdf5`. Fields are stored without
+compression, which would take as long as the contact itself; fields that are 0 everywhere take no space.
 """
 
 import json
 import math
-import os
-import shutil
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import h5py
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.checked_hdf5 import (
-    HEADER_BYTES,
-    content_digest,
-    has_mark,
-    header_block,
-    open_checked,
-    refuse_damaged,
-)
+from roughfilm.contact.foundation.checked_hdf5 import HEADER_BYTES, has_mark
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.growing_hdf5 import Writer, grow, read
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.mechanics.contact import Contact
 
-SCHEMA = 1
+T = TypeVar("T")
+
+SCHEMA = 2
 MARK = b"roughfilm contact, HDF5 behind 512 bytes, sha256 "
 REMEDY = "remove it or choose another place"
 
@@ -96,36 +89,34 @@ def add(path: Path, inputs: Inputs, contacts: Sequence[tuple[Row, Contact | None
     InputError
         If the file cannot be written, was damaged, or holds a series of other inputs or other data.
     """
-    before = finished(path, inputs)
-    with replacing(path) as scratch:
-        if before:
-            shutil.copyfile(path, scratch)
-        mode = (
-            {"name": scratch, "mode": "r+"}
-            if before
-            else {"name": scratch, "mode": "w", "userblock_size": HEADER_BYTES}
-        )
-        with h5py.File(**mode) as file:
-            if not before:
-                _begin(file, inputs)
-            for row, contact in contacts:
-                _put(file, row, contact)
-            _tabulate(file, before | {row.load: row for row, _ in contacts})
-        with scratch.open("r+b") as raw:
-            raw.write(header_block(MARK, content_digest(scratch)))
-            os.fsync(raw.fileno())
+
+    def fill(writer: Writer) -> None:
+        if "series" in writer.file:
+            before = _rows(writer.file, path, inputs)
+        else:
+            before = {}
+            _begin(writer, inputs)
+        for row, contact in contacts:
+            _put(writer, row, contact)
+        _tabulate(writer.file, before | {row.load: row for row, _ in contacts})
+
+    if _holds_data(path):
+        _refuse_other(path)
+    grow(path, MARK, REMEDY, fill)
 
 
-def _put(file: h5py.File, row: Row, contact: Contact | None) -> None:
-    name = f"loads/{row.load!r}"
-    if name in file:
-        del file[name]
-    group = file.create_group(name)
+def _put(writer: Writer, row: Row, contact: Contact | None) -> None:
+    """Add a load; a group of the same load is removed after the new one is written, so that it is not overwritten."""
+    name, new = f"loads/{row.load!r}", "loads/new"
+    group = writer.file.create_group(new)
     group.attrs.update(_numbers(row))
     if contact is not None:
         group.attrs["hardness"] = contact.hardness
-        for name, values in _arrays(contact).items():
-            _write(group, name, values, "Pa" if name == "pressure" else "m")
+        for field, values in _arrays(contact).items():
+            writer.write(f"{new}/{field}", values, "Pa" if field == "pressure" else "m")
+    if name in writer.file:
+        writer.remove(name)
+    writer.rename(new, name)
 
 
 def finished(path: Path, inputs: Inputs) -> dict[float, Row]:
@@ -137,25 +128,45 @@ def finished(path: Path, inputs: Inputs) -> dict[float, Row]:
         If the file cannot be read, was damaged or changed, or holds another series or other data.
     """
     try:
-        with path.open("rb") as raw:
-            head = raw.read(len(MARK))
-        if not head:
+        if not _holds_data(path):
             return {}
-        if head != MARK:
-            raise InputError(f"{path}: is no series of contacts; {REMEDY}")
-        refuse_damaged(path, MARK, REMEDY)
-        with h5py.File(path) as file:
-            if file.attrs["schema"] != SCHEMA:
-                raise InputError(f"{path}: is of another version of roughfilm; {REMEDY}")
-            if file.attrs["digest"] != inputs.digest:
-                raise InputError(f"{path}: holds another series, {inputs.difference(file.attrs['settings'])}; {REMEDY}")
-            columns = [file[f"series/{name}"][()] for name in NUMBERS]
-            rows = [_row(dict(zip(NUMBERS, numbers, strict=True))) for numbers in zip(*columns, strict=True)]
-            return {row.load: row for row in rows}
-    except FileNotFoundError:
-        return {}
+        return _read(path, lambda file: _rows(file, path, inputs))
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror or error}); choose another place") from error
+
+
+def _holds_data(path: Path) -> bool:
+    return path.exists() and path.stat().st_size > 0
+
+
+def _rows(file: h5py.File, path: Path, inputs: Inputs) -> dict[float, Row]:
+    """The rows of a series by load, Pa; raises InputError if it has other inputs."""
+    if file.attrs["digest"] != inputs.digest:
+        raise InputError(f"{path}: holds another series, {inputs.difference(file.attrs['settings'])}; {REMEDY}")
+    columns = [file[f"series/{name}"][()] for name in NUMBERS]
+    rows = [_row(dict(zip(NUMBERS, numbers, strict=True))) for numbers in zip(*columns, strict=True)]
+    return {row.load: row for row in rows}
+
+
+def _refuse_other(path: Path) -> None:
+    """Raise InputError if a file is no series of contacts, or one of an older version."""
+    if not is_series(path):
+        raise InputError(f"{path}: is no series of contacts; {REMEDY}")
+    with path.open("rb") as raw:
+        if len(raw.read(HEADER_BYTES).removeprefix(MARK).rstrip(b"\0").split()) == 1:
+            raise InputError(f"{path}: is of an older version of roughfilm; {REMEDY}")
+
+
+def _read(path: Path, get: Callable[[h5py.File], T], arrays: Callable[[str], bool] = lambda _name: True) -> T:
+    """The return value of ``get``, called with the open file after a check of the arrays."""
+    _refuse_other(path)
+
+    def checked(file: h5py.File) -> T:
+        if file.attrs["schema"] != SCHEMA:
+            raise InputError(f"{path}: is of another version of roughfilm; {REMEDY}")
+        return get(file)
+
+    return read(path, MARK, REMEDY, checked, arrays=arrays)
 
 
 def is_series(path: Path) -> bool:
@@ -171,17 +182,17 @@ def load_series(path: Path) -> tuple[Inputs, tuple[float, ...]]:
     InputError
         If the file cannot be read, was damaged or changed, or holds other data.
     """
-    if not is_series(path):
-        raise InputError(f"{path}: is no series of contacts; {REMEDY}")
-    with open_checked(path, MARK, SCHEMA, REMEDY) as file:
+
+    def get(file: h5py.File) -> tuple[Inputs, tuple[float, ...]]:
         dx_dy = file.attrs["spacing"]
         inputs = Inputs(
             heights=file["heights"][()],
             spacing=(float(dx_dy[0]), float(dx_dy[1])),
             settings=json.loads(file.attrs["settings"]),
         )
-        loads = sorted(float(name) for name, group in file["loads"].items() if "pressure" in group)
-    return inputs, tuple(loads)
+        return inputs, tuple(sorted(float(name) for name, group in file["loads"].items() if "pressure" in group))
+
+    return _read(path, get)
 
 
 def load_contact(path: Path, load: float) -> Contact:
@@ -195,9 +206,9 @@ def load_contact(path: Path, load: float) -> Contact:
     InputError
         If the file was damaged or changed, or holds no fields at this load.
     """
-    refuse_damaged(path, MARK, REMEDY)
-    with h5py.File(path) as file:
-        name = f"loads/{load!r}"
+    name = f"loads/{load!r}"
+
+    def get(file: h5py.File) -> Contact:
         if name not in file or "pressure" not in file[name]:
             raise InputError(f"{path}: holds no fields at {load!r} Pa; solve this load")
         group = file[name]
@@ -219,19 +230,17 @@ def load_contact(path: Path, load: float) -> Contact:
             iterations=int(row.iterations or 0),
         )
 
-
-def _begin(file: h5py.File, inputs: Inputs) -> None:
-    file.attrs["schema"] = SCHEMA
-    file.attrs["digest"] = inputs.digest
-    file.attrs["settings"] = json.dumps(inputs.settings, sort_keys=True, allow_nan=False)
-    file.attrs["spacing"] = inputs.spacing
-    file.attrs["spacing_unit"] = "m"
-    _write(file, "heights", inputs.heights, "m")
+    return _read(path, get, lambda array: array == "/heights" or array.startswith(f"/{name}/"))
 
 
-def _write(group: h5py.Group, name: str, values: Array, unit: str) -> None:
-    written = group.create_dataset(name, data=values, compression="gzip", compression_opts=1, shuffle=True)
-    written.attrs["unit"] = unit
+def _begin(writer: Writer, inputs: Inputs) -> None:
+    attributes = writer.file.attrs
+    attributes["schema"] = SCHEMA
+    attributes["digest"] = inputs.digest
+    attributes["settings"] = json.dumps(inputs.settings, sort_keys=True, allow_nan=False)
+    attributes["spacing"] = inputs.spacing
+    attributes["spacing_unit"] = "m"
+    writer.write("heights", inputs.heights, "m")
 
 
 def _tabulate(file: h5py.File, rows: Mapping[float, Row]) -> None:

@@ -1,8 +1,9 @@
 """Filters of real grids by Fourier transforms; plans are cached on disk for the next run."""
 
 import json
+import math
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cache
 from itertools import pairwise
@@ -25,33 +26,41 @@ ALIGNMENT = 16
 
 
 class Filter:
-    """Multiplication of the Fourier modes of real grids by real factors.
+    """Multiplication of the Fourier modes of a real grid by real factors.
 
     Rows are transformed first; then columns are transformed, multiplied and transformed back, slab by slab; then rows
     are transformed back. Each thread processes its own rows and columns.
 
     Parameters
     ----------
-    sources : grids (nx, ny), C-contiguous and aligned by pyfftw; planning overwrites them.
-    result : a grid like these, or one of them.
+    shape : number of nodes (nx, ny).
+    precision : "float32" or "float64".
+    in_place : whether source and result are the same grid, whose memory also holds the modes.
+
+    Attributes
+    ----------
+    source, result : grids, shape (nx, ny); all zero at first. In place, rows are longer in memory than ny.
     """
 
-    def __init__(self, sources: Sequence[Any], result: Any, team: Team) -> None:
+    def __init__(self, shape: tuple[int, int], precision: str, team: Team, *, in_place: bool = False) -> None:
         import pyfftw  # slow to import
 
-        self._team, self._nodes = team, result.size
-        rows, columns = result.shape[0], result.shape[1] // 2 + 1
-        kind = np.result_type(result.dtype, np.complex64)
+        self._team, self._nodes = team, math.prod(shape)
+        rows, columns = shape[0], shape[1] // 2 + 1
+        kind = np.result_type(precision, np.complex64)
         padded = (columns // ALIGNMENT + 2) * ALIGNMENT
         self._spectrum = pyfftw.empty_aligned((rows, padded), kind)
         modes = self._spectrum[:, :columns]
+        if in_place:
+            self.source = self.result = self._spectrum.view(precision)[:, : shape[1]]
+        else:
+            self.source, self.result = (pyfftw.empty_aligned(shape, precision) for _ in range(2))
         width = max(SLAB_BYTES // (rows * kind.itemsize * ALIGNMENT), 1) * ALIGNMENT
         with _planner() as planner:
             plan = planner.plan
-            self._rows = [
-                [plan(source[low:high], modes[low:high], 1) for low, high in team.ranges(rows)] for source in sources
-            ]
-            self._rows_back = [plan(modes[low:high], result[low:high], 1, back=True) for low, high in team.ranges(rows)]
+            parts = team.ranges(rows)
+            self._rows = [plan(self.source[low:high], modes[low:high], 1) for low, high in parts]
+            self._rows_back = [plan(modes[low:high], self.result[low:high], 1, back=True) for low, high in parts]
             self._slabs = [
                 [
                     (left, right, plan(modes[:, left:right], modes[:, left:right], 0),
@@ -60,18 +69,21 @@ class Filter:
                 ]
                 for first, last in team.ranges(columns, ALIGNMENT)
             ]  # fmt: skip
+        self.source[:] = self.result[:] = 0
 
     def cut(self, factors: Array) -> list[list[Array]]:
-        """Factors of the modes, shape (nx, ny // 2 + 1), normalised and divided into slabs for ``apply``."""
-        factors = factors / self._nodes
+        """Factors of the modes, normalised and divided into slabs for ``apply``.
+
+        They have the shape (nx // 2 + 1, ny // 2 + 1), because the modes of opposite sign along x have the same factor.
+        """
         return [
-            [np.ascontiguousarray(factors[:, left:right], dtype=self._spectrum.real.dtype) for left, right, *_ in slabs]
+            [np.asarray(factors[:, left:right] / self._nodes, self._spectrum.real.dtype) for left, right, *_ in slabs]
             for slabs in self._slabs
         ]
 
-    def apply(self, source: int, factors: list[list[Array]]) -> None:
-        """Filter the source grid of index ``source`` into the result; other grids stay unchanged."""
-        self._team.share(lambda member: self._rows[source][member].execute())
+    def apply(self, factors: list[list[Array]]) -> None:
+        """Filter the source into the result; out of place, the source stays unchanged."""
+        self._team.share(lambda member: self._rows[member].execute())
         self._team.share(lambda member: self._columns(self._slabs[member], factors[member]))
         self._team.share(lambda member: self._rows_back[member].execute())
 

@@ -1,17 +1,22 @@
 """A series of contacts in a file: read back as it was, whole or refused, and another series is never taken for it."""
 
 import math
+import multiprocessing
 import os
+from dataclasses import replace
+from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
 
+from roughfilm.contact.foundation import growing_hdf5
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.growing_hdf5 import Writer, undo_file
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.mechanics import store as contact_store
 from roughfilm.contact.mechanics.press import Press
-from roughfilm.contact.mechanics.store import add, finished, load_contact, row_of
+from roughfilm.contact.mechanics.store import add, finished, load_contact, load_series, row_of
 
 SETTINGS = {"hardness": 4e9, "model": "elastic_plastic"}
 
@@ -87,7 +92,7 @@ def test_an_elastic_contact_keeps_its_hardness(tmp_path, heights):
 )
 def test_another_series_is_refused_and_kept(file, inputs, contacts, change, difference):
     changed = {name: value(inputs.heights) if callable(value) else value for name, value in change.items()}
-    other = Inputs(**{**vars(inputs), **changed})
+    other = replace(inputs, **changed)
     before = file.read_bytes()
     with pytest.raises(InputError, match=f"holds another series, {difference}; remove it"):
         finished(file, other)
@@ -134,16 +139,121 @@ def test_a_load_it_does_not_hold_is_refused(file):
         load_contact(file, 5e7)
 
 
-@pytest.mark.parametrize("dies", ["_tabulate", "content_digest"])
-def test_a_writer_that_dies_leaves_the_loads_before(file, inputs, contacts, monkeypatch, dies):
+def test_a_damaged_array_is_refused_where_it_is_read(file, inputs, contacts):
+    with h5py.File(file) as stored:
+        place = stored["loads/200000000.0/gap"].id.get_offset()
+    data = bytearray(file.read_bytes())
+    data[place + 16] ^= 1
+    file.write_bytes(data)
+    assert np.array_equal(load_contact(file, 3e7).gap, contacts[1].gap)
+    for read in (lambda: load_contact(file, 2e8), lambda: load_series(file), lambda: finished(file, inputs)):
+        with pytest.raises(InputError, match="damaged"):
+            read()
+
+
+def test_a_file_of_an_older_version_is_refused_in_one_line(tmp_path, inputs, contacts):
+    old = tmp_path / "old.h5"
+    with h5py.File(old, "w", userblock_size=512) as file:
+        file.attrs["schema"] = 1
+    with old.open("r+b") as raw:
+        raw.write(contact_store.MARK + b"0" * 64 + b"\n")
+    for use in (
+        lambda: finished(old, inputs),
+        lambda: load_series(old),
+        lambda: add(old, inputs, [(row_of(contacts[0], 0.0), contacts[0])]),
+    ):
+        with pytest.raises(InputError, match=r"old\.h5: is of an older version of roughfilm; remove it"):
+            use()
+
+
+def third(contacts):
+    """A third load."""
+    return replace(row_of(contacts[0], 0.5), load=1e9), contacts[0]
+
+
+def test_a_load_is_added_without_a_change_of_the_arrays_before(file, inputs, contacts):
+    def arrays():
+        with h5py.File(file) as stored:
+            names = [f"loads/{load!r}/{name}" for load in (3e7, 2e8) for name in ("pressure", "gap")]
+            return {name: stored[name].id.get_offset() for name in ["heights", *names]}
+
+    before = arrays()
+    add(file, inputs, [third(contacts)])
+    assert arrays() == before
+    assert sorted(finished(file, inputs)) == [3e7, 2e8, 1e9]
+    assert os.listdir(file.parent) == ["c.h5"]
+
+
+@pytest.mark.parametrize(("place", "name"), [(contact_store, "_tabulate"), (growing_hdf5, "_gaps")])
+def test_a_writer_that_fails_leaves_the_loads_before(file, inputs, contacts, monkeypatch, place, name):
+    before, calls, work = file.read_bytes(), [], getattr(place, name)
+
+    def fail(*arguments):
+        calls.append(name)
+        if len(calls) == {"_tabulate": 1, "_gaps": 3}[name]:
+            raise KeyboardInterrupt
+        return work(*arguments)
+
+    monkeypatch.setattr(place, name, fail)
+    with pytest.raises(KeyboardInterrupt):
+        add(file, inputs, [third(contacts)])
+    assert file.read_bytes() == before
+    assert os.listdir(file.parent) == ["c.h5"]
+
+
+KILLED_AT = [
+    (Writer, "write", 1),
+    (Writer, "write", 3),
+    (Writer, "rename", 1),
+    (contact_store, "_tabulate", 1),
+    (h5py.File, "close", 1),
+    (os, "fsync", 1),
+    (os, "fsync", 2),
+    (Path, "unlink", 2),
+]
+"""Functions that a killed writer still enters, and the number of the call."""
+
+
+@pytest.mark.parametrize(("place", "name", "call"), KILLED_AT)
+def test_a_killed_writer_leaves_the_loads_before(file, inputs, contacts, place, name, call):
     before = file.read_bytes()
 
-    def die(*_):
-        raise KeyboardInterrupt
+    def killed():
+        work, calls = getattr(place, name), []
 
-    monkeypatch.setattr(contact_store, dies, die)
-    row = row_of(contacts[0], 0.5)
-    with pytest.raises(KeyboardInterrupt):
-        add(file, inputs, [(type(row)(**{**vars(row), "load": 1e9}), contacts[0])])
+        def die(*arguments, **options):
+            calls.append(name)
+            if len(calls) == call:
+                os._exit(9)
+            return work(*arguments, **options)
+
+        setattr(place, name, die)
+        add(file, inputs, [third(contacts)])
+
+    writer = multiprocessing.get_context("fork").Process(target=killed)
+    writer.start()
+    writer.join()
+    assert writer.exitcode == 9
+    assert sorted(finished(file, inputs)) == [3e7, 2e8]
     assert file.read_bytes() == before
+    assert not undo_file(file).exists()
+    assert np.array_equal(load_contact(file, 2e8).gap, contacts[0].gap)
+    add(file, inputs, [third(contacts)])
+    assert sorted(finished(file, inputs)) == [3e7, 2e8, 1e9]
+
+
+def test_a_file_that_replaced_a_half_written_one_is_kept(file, inputs, contacts):
+    copy = file.with_name("copy.h5")
+    copy.write_bytes(file.read_bytes())
+
+    def killed():
+        contact_store._tabulate = lambda *_: os._exit(9)
+        add(file, inputs, [third(contacts)])
+
+    writer = multiprocessing.get_context("fork").Process(target=killed)
+    writer.start()
+    writer.join()
+    add(copy, inputs, [third(contacts)])
+    copy.replace(file)
+    assert sorted(finished(file, inputs)) == [3e7, 2e8, 1e9]
     assert os.listdir(file.parent) == ["c.h5"]
