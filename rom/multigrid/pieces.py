@@ -12,7 +12,8 @@ LEAK_ROUNDOFF = 4e-15
 def set_leak(centre, east, north, leak, seen, stack):  # type: ignore[no-untyped-def]
     """Write the diagonal minus all couplings to ``leak``, and fix each part without a leak at its strongest node.
 
-    Sources of a part whose sum is 0 but for round-off then shift its mean by the least. Conjugate gradients lose only the free mean of the part. Arrays have the shape (n, m), ``stack`` (n m,).
+    Sources of a part whose sum is 0 except for round-off then shift its mean by the least. Conjugate gradients lose
+    only the free mean of the part. Arrays have the shape (n, m), ``stack`` (n m,).
     """
     count, length = centre.shape
     pending = np.int64(0)
