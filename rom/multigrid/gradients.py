@@ -6,41 +6,59 @@ preconditioner.
 
 import numpy as np
 
-from roughfilm.contact.foundation.compiled import allocating, called, compiled
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.compiled import called, compiled
 
 
 @called
-def set_image_row(centre, east, north, p, row, across, along, out):  # type: ignore[no-untyped-def]
-    """Write a row of Ap; ``across``, ``along``: whether first and second direction are periodic."""
-    count = p.shape[0]
-    last = p.shape[1] - 1
-    own, weight, coupling = p[row], centre[row], north[row]
-    for j in range(last + 1):
-        out[j] = weight[j] * own[j]
-    for j in range(last):
-        out[j] -= coupling[j] * own[j + 1]
-    for j in range(last):
-        out[j + 1] -= coupling[j] * own[j]
-    if along:
-        out[last] -= coupling[last] * own[0]
-        out[0] -= coupling[last] * own[last]
-    if row > 0 or across:
-        coupling, beside = east[row - 1], p[row - 1]
-        for j in range(last + 1):
-            out[j] -= coupling[j] * beside[j]
-    if row + 1 < count or across:
-        coupling, beside = east[row], p[(row + 1) % count]
-        for j in range(last + 1):
-            out[j] -= coupling[j] * beside[j]
+def set_image_row(centre, east, north, p, row, out):  # type: ignore[no-untyped-def]
+    """Write a row of Ap; couplings out of the grid are 0."""
+    count, length = p.shape
+    last = length - 1
+    own, weight, along = p[row], centre[row], north[row]
+    previous, next_one = p[row - 1 if row else count - 1], p[row + 1 if row < count - 1 else 0]
+    back, forth = east[row - 1 if row else count - 1], east[row]
+    for j in range(length):
+        out[j] = weight[j] * own[j] - back[j] * previous[j] - forth[j] * next_one[j]
+    out[0] -= along[last] * own[last]
+    out[last] -= along[last] * own[0]
+    if last:
+        out[0] -= along[0] * own[1]
+        out[last] -= along[last - 1] * own[last - 1]
+    inside, left, right, coupling_left, coupling_right = (
+        out[1:last],
+        own[: last - 1],
+        own[2:],
+        along[: last - 1],
+        along[1:],
+    )
+    for j in range(last - 1):
+        inside[j] -= coupling_left[j] * left[j] + coupling_right[j] * right[j]
 
 
-@allocating
-def apply(centre, east, north, p, periodic):  # type: ignore[no-untyped-def]
+def apply(centre: Array, east: Array, north: Array, p: Array, periodic: tuple[bool, bool]) -> Array:
     """The product Ap, shape (nx, ny), with the operator of :class:`rom.multigrid.multigrid.Multigrid`."""
+    east, north = (np.array(part, dtype=np.float64) for part in (east, north))
+    if not periodic[0]:
+        east[-1] = 0
+    if not periodic[1]:
+        north[:, -1] = 0
     image = np.empty(p.shape)
-    for row in range(p.shape[0]):
-        set_image_row(centre, east, north, p, row, periodic[0], periodic[1], image[row])
+    set_image(np.ascontiguousarray(centre), east, north, np.ascontiguousarray(p), image, np.empty(p.shape[1]))
     return image
+
+
+@compiled
+def set_image(centre, east, north, p, image, work):  # type: ignore[no-untyped-def]
+    """Write Ap to ``image``, shape (nx, ny), and return Σ p Ap; ``work`` is (m,)."""
+    product = 0.0
+    for row in range(p.shape[0]):
+        set_image_row(centre, east, north, p, row, work)
+        own, out = p[row], image[row]
+        for j in range(work.size):
+            out[j] = work[j]
+            product += work[j] * own[j]
+    return product
 
 
 @compiled
@@ -55,19 +73,29 @@ def dot(first, second):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def set_residual(centre, east, north, b, p, across, along, residual, work):  # type: ignore[no-untyped-def]
-    """Write r = b − Ap, shape (nx, ny), and return Σr², Σ p(b + r) and Σ r²/centre; ``work`` is (m,)."""
-    square = energy = weighed = 0.0
+def set_residual(centre, east, north, b, p, residual, work):  # type: ignore[no-untyped-def]
+    """Write r = b − Ap, shape (nx, ny), and return Σr² and Σ p(b + r); ``work`` is (m,)."""
+    square = energy = 0.0
     for row in range(b.shape[0]):
-        set_image_row(centre, east, north, p, row, across, along, work)
-        want, own, weight, out = b[row], p[row], centre[row], residual[row]
+        set_image_row(centre, east, north, p, row, work)
+        want, own, out = b[row], p[row], residual[row]
         for j in range(work.size):
             left = want[j] - work[j]
             out[j] = left
             square += left * left
             energy += own[j] * (want[j] + left)
-            weighed += left * left / weight[j]
-    return square, energy, weighed
+    return square, energy
+
+
+@compiled
+def weighed(values, weights):  # type: ignore[no-untyped-def]
+    """The sum Σ values²/weights of arrays of shape (nx, ny)."""
+    total = 0.0
+    for row in range(values.shape[0]):
+        a, weight = values[row], weights[row]
+        for j in range(a.size):
+            total += np.float64(a[j]) * a[j] / weight[j]
+    return total
 
 
 @compiled
@@ -77,19 +105,6 @@ def turn(part, steepest, direction):  # type: ignore[no-untyped-def]
         d, z = direction[row], steepest[row]
         for j in range(d.size):
             d[j] = z[j] + part * d[j]
-
-
-@compiled
-def set_image(centre, east, north, p, across, along, image, work):  # type: ignore[no-untyped-def]
-    """Write Ap to ``image``, shape (nx, ny), and return Σ p Ap; ``work`` is (m,)."""
-    product = 0.0
-    for row in range(p.shape[0]):
-        set_image_row(centre, east, north, p, row, across, along, work)
-        own, out = p[row], image[row]
-        for j in range(work.size):
-            out[j] = work[j]
-            product += work[j] * own[j]
-    return product
 
 
 @compiled

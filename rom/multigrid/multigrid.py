@@ -237,9 +237,9 @@ class Multigrid:
         iterations, before = 0, np.inf
         while True:
             iterations += self._gradients(b, p, limit - iterations, enough)
-            square, energy, weighed = self._set_residual(b, p)
+            square, energy = self._set_residual(b, p)
             first = energy - sum(gains)
-            rest = max(left(), weighed / 2)
+            rest = max(left(), float(gradients.weighed(self._finest[0], self._matrix[0])) / 2)
             if len(gains) >= MIN_RECENT and rest <= tolerance * counts():
                 residual = math.sqrt(square) / norm
                 return Solved(solution=self._outer(p), iterations=iterations, residual=residual, left=rest)
@@ -311,12 +311,12 @@ class Multigrid:
     def _cycle(self) -> None:
         kernels.cycle(self._counts, self._rows, self._across, self._source, self._values, self._work)
 
-    def _set_residual(self, b: Array, p: Array) -> tuple[float, float, float]:
-        """Write r = b − Ap to the finest source, and return Σr², Σ p(b + r) and Σ r²/centre."""
+    def _set_residual(self, b: Array, p: Array) -> tuple[float, float]:
+        """Write r = b − Ap to the finest source, and return Σr² and Σ p(b + r)."""
         source, _ = self._finest
         work = np.zeros(b.shape[1])
-        square, energy, weighed = gradients.set_residual(*self._matrix, b, p, self._across, self._along, source, work)
-        return float(square), float(energy), float(weighed)
+        square, energy = gradients.set_residual(*self._matrix, b, p, source, work)
+        return float(square), float(energy)
 
     def _left_between_rows(self) -> float:
         """The energy gain of a p constant along rows or columns; 0 unless both directions are periodic."""
@@ -336,14 +336,14 @@ class Multigrid:
         updates of r accumulate round-off, so that r is computed anew when it has become much smaller.
         """
         residual, values = self._finest
-        slope, roundoff = np.inf, float(np.finfo(values.dtype).eps)
+        slope, roundoff = np.inf, math.sqrt(np.finfo(values.dtype).eps)
         small = roundoff * gradients.dot(residual, residual)
         direction, work = np.zeros_like(values), np.zeros(p.shape[1])
         for iteration in range(1, limit + 1):
             self._cycle()
             before, slope = slope, gradients.dot(residual, values)
             gradients.turn(slope / before, values, direction)
-            bend = gradients.set_image(*self._matrix, direction, self._across, self._along, values, work)
+            bend = gradients.set_image(*self._matrix, direction, values, work)
             if not (slope > 0 and bend > 0):
                 return iteration
             square = gradients.advance(slope / bend, direction, values, p, residual)

@@ -10,10 +10,9 @@ LEAK_ROUNDOFF = 4e-15
 
 @compiled
 def set_leak(centre, east, north, leak, seen, stack):  # type: ignore[no-untyped-def]
-    """Write the diagonal minus all couplings to ``leak``, and fix each part without a leak at its strongest node.
+    """Write the diagonal minus all couplings to ``leak``, and fix each part without a leak at one node.
 
-    Sources of a part whose sum is 0 except for round-off then shift its mean by the least. Conjugate gradients lose
-    only the free mean of the part. Arrays have the shape (n, m), ``stack`` (n m,).
+    Conjugate gradients lose only the free mean of the part. Arrays have the shape (n, m), ``stack`` (n m,).
     """
     count, length = centre.shape
     pending = np.int64(0)
@@ -27,26 +26,23 @@ def set_leak(centre, east, north, leak, seen, stack):  # type: ignore[no-untyped
             if leaky and couplings > 0:
                 stack[pending] = row * length + j
                 pending += 1
-    spread(centre, east, north, seen, stack, pending)
+    spread(east, north, seen, stack, pending)
     for row in range(count):
         for j in range(length):
             if not seen[row, j]:
+                leak[row, j] = centre[row, j]
                 seen[row, j] = True
                 stack[0] = row * length + j
-                strongest = spread(centre, east, north, seen, stack, np.int64(1))
-                leak[strongest // length, strongest % length] = centre[strongest // length, strongest % length]
+                spread(east, north, seen, stack, np.int64(1))
 
 
 @called
-def spread(centre, east, north, seen, stack, pending):  # type: ignore[no-untyped-def]
-    """Mark all nodes connected to those ``pending`` on the stack as seen; return the one of the largest diagonal."""
+def spread(east, north, seen, stack, pending):  # type: ignore[no-untyped-def]
+    """Mark all nodes connected to those ``pending`` on the stack as seen."""
     count, length = east.shape
-    strongest, largest = np.int64(0), 0.0
     while pending:
         pending -= 1
         row, j = stack[pending] // length, stack[pending] % length
-        if centre[row, j] > largest:
-            strongest, largest = stack[pending], centre[row, j]
         before, back = (row if row > 0 else count) - 1, (j if j > 0 else length) - 1
         after, on = row + 1 if row + 1 < count else 0, j + 1 if j + 1 < length else 0
         if not seen[after, j] and east[row, j] > 0:
@@ -65,4 +61,3 @@ def spread(centre, east, north, seen, stack, pending):  # type: ignore[no-untype
             seen[row, back] = True
             stack[pending] = row * length + back
             pending += 1
-    return strongest
