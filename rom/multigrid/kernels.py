@@ -57,48 +57,74 @@ def eliminate(rows, row, size, sums):  # type: ignore[no-untyped-def]
 
 
 @called
-def substitute(rows, row, size, total, values, place):  # type: ignore[no-untyped-def]
-    """Solve Tx = total for x, row ``place`` of ``values``, to the middle and back; ``total`` is overwritten."""
-    inverse, factor = rows.inverse, rows.factor
+def substitute(rows, first, second, size, totals, values, places):  # type: ignore[no-untyped-def]
+    """Solve Tx = totals[0] of the ``first`` row and Tx = totals[1] of the ``second`` one, and overwrite the totals.
+
+    Write the solutions to the two ``places``, rows of ``values``. Each solution goes from both ends to the middle and
+    back. An unknown waits for the one before it; four independent sequences at the same time hide this wait.
+    """
+    one, two = values[places[0]], values[places[1]]
+    inverse_one, inverse_two = rows.inverse[first], rows.inverse[second]
+    factor_one, factor_two = rows.factor[first], rows.factor[second]
+    total_one, total_two = totals[0], totals[1]
     middle = size // 2
     pairs = size - 1 - middle
-    left = right = before = after = total.dtype.type(0)
+    left_one = right_one = left_two = right_two = total_one.dtype.type(0)
+    before_one = after_one = before_two = after_two = left_one
     for j in range(pairs):
         end = size - 1 - j
-        left = total[j] + before * left
-        right = total[end] + after * right
-        before, after = factor[row, j], factor[row, end]
-        total[j], total[end] = left, right
+        left_one = total_one[j] + before_one * left_one
+        right_one = total_one[end] + after_one * right_one
+        left_two = total_two[j] + before_two * left_two
+        right_two = total_two[end] + after_two * right_two
+        before_one, after_one = factor_one[j], factor_one[end]
+        before_two, after_two = factor_two[j], factor_two[end]
+        total_one[j], total_one[end] = left_one, right_one
+        total_two[j], total_two[end] = left_two, right_two
     if pairs < middle:
-        left = total[pairs] + before * left
-        before = factor[row, pairs]
-        total[pairs] = left
-    left = right = (total[middle] + before * left + after * right) * inverse[row, middle]
-    values[place, middle] = left
+        left_one = total_one[pairs] + before_one * left_one
+        left_two = total_two[pairs] + before_two * left_two
+        before_one, before_two = factor_one[pairs], factor_two[pairs]
+        total_one[pairs], total_two[pairs] = left_one, left_two
+    left_one = right_one = (total_one[middle] + before_one * left_one + after_one * right_one) * inverse_one[middle]
+    left_two = right_two = (total_two[middle] + before_two * left_two + after_two * right_two) * inverse_two[middle]
+    one[middle], two[middle] = left_one, left_two
     if pairs < middle:
-        left = total[pairs] * inverse[row, pairs] + factor[row, pairs] * left
-        values[place, pairs] = left
+        left_one = total_one[pairs] * inverse_one[pairs] + factor_one[pairs] * left_one
+        left_two = total_two[pairs] * inverse_two[pairs] + factor_two[pairs] * left_two
+        one[pairs], two[pairs] = left_one, left_two
     for j in range(pairs - 1, -1, -1):
         end = size - 1 - j
-        left = total[j] * inverse[row, j] + factor[row, j] * left
-        right = total[end] * inverse[row, end] + factor[row, end] * right
-        values[place, j], values[place, end] = left, right
+        left_one = total_one[j] * inverse_one[j] + factor_one[j] * left_one
+        right_one = total_one[end] * inverse_one[end] + factor_one[end] * right_one
+        left_two = total_two[j] * inverse_two[j] + factor_two[j] * left_two
+        right_two = total_two[end] * inverse_two[end] + factor_two[end] * right_two
+        one[j], one[end] = left_one, right_one
+        two[j], two[end] = left_two, right_two
 
 
 @called
-def solve_row(rows, row, total, values, place):  # type: ignore[no-untyped-def]
-    """Solve Tx = total of a row for x, row ``place`` of ``values``; ``total`` is overwritten."""
+def close_ring(rows, row, total, values):  # type: ignore[no-untyped-def]
+    """Compute the last unknown of a periodic row and add its effect on the others, which ``substitute`` computed."""
     north, border = rows.north, rows.border
     last = total.size - 1
-    ring = border.shape[1] > 0
-    substitute(rows, row, last if ring else last + 1, total, values, place)
-    if not ring:
-        return
-    closing = total[last] + north[row, last] * values[place, 0] + north[row, last - 1] * values[place, last - 1]
+    closing = total[last] + north[row, last] * values[0] + north[row, last - 1] * values[last - 1]
     closing *= rows.inverse[row, last]
     for j in range(last):
-        values[place, j] += closing * border[row, j]
-    values[place, last] = closing
+        values[j] += closing * border[row, j]
+    values[last] = closing
+
+
+@called
+def solve_rows(rows, first, second, totals, values, places):  # type: ignore[no-untyped-def]
+    """Solve Tx = total of two rows, or of one row twice, as ``substitute``."""
+    ring = rows.border.shape[1] > 0
+    size = totals.shape[1]
+    substitute(rows, first, second, size - 1 if ring else size, totals, values, places)
+    if ring:
+        close_ring(rows, first, totals[0], values[places[0]])
+        if places[0] != places[1]:
+            close_ring(rows, second, totals[1], values[places[1]])
 
 
 @called
@@ -140,31 +166,32 @@ def add_previous(rows, row, values, place, total):  # type: ignore[no-untyped-de
 def factorise_row(rows, row, work):  # type: ignore[no-untyped-def]
     """Compute the diagonal and factorise T; for a periodic row ``border`` is the response to its last unknown."""
     north, border = rows.north, rows.border
-    sums, total = work[0], work[2]
+    totals, sums = work[2:4], work[4]
     last = sums.size - 1
     for j in range(last + 1):
         sums[j] = rows.leak[row, j]
-        work[3, j] = 1.0
-    add_previous(rows, row, work, np.int64(3), sums)
-    add_next(rows, row, work, np.int64(3), sums)
+        work[0, j] = 1.0
+    add_previous(rows, row, work, np.int64(0), sums)
+    add_next(rows, row, work, np.int64(0), sums)
     for j in range(last + 1):
         rows.centre[row, j] = sums[j] + north[row, j] + north[row, j - 1 if j else last]
     if border.shape[1] == 0:
         eliminate(rows, row, last + 1, sums)
         return
     for j in range(last + 1):
-        total[j] = sums[j]
+        totals[0, j] = sums[j]
+        totals[1, j] = 0.0
+    pivot = sums[last]
+    totals[1, 0] = north[row, last]
+    totals[1, last - 1] = north[row, last - 1]
     sums[0] += north[row, last]
     sums[last - 1] += north[row, last - 1]
     eliminate(rows, row, last, sums)
-    pivot = total[last]
-    substitute(rows, row, last, total, border, row)
-    pivot += north[row, last] * border[row, 0] + north[row, last - 1] * border[row, last - 1]
+    substitute(rows, row, row, last, totals, work, (np.int64(0), np.int64(1)))
+    pivot += north[row, last] * work[0, 0] + north[row, last - 1] * work[0, last - 1]
     rows.inverse[row, last] = 1 / pivot if pivot > MIN_PIVOT * rows.centre[row, last] else 0.0
-    total[:] = 0.0
-    total[0] = north[row, last]
-    total[last - 1] = north[row, last - 1]
-    substitute(rows, row, last, total, border, row)
+    for j in range(last):
+        border[row, j] = work[1, j]
 
 
 @called
@@ -222,31 +249,29 @@ def share(rows, row, work):  # type: ignore[no-untyped-def]
 
     A weight below ``MIN_HOLE_WEIGHT`` of a node outside the problem is set to 0, since it is round-off.
     """
-    total, centre = work[2], rows.centre
-    work[3, :] = 1.0
+    totals, centre = work[2:4], rows.centre
+    totals[:] = 0.0
+    work[4, :] = 1.0
+    add_previous(rows, row, work, np.int64(4), totals[0])
+    add_next(rows, row, work, np.int64(4), totals[1])
+    solve_rows(rows, row, row, totals, work, (np.int64(0), np.int64(1)))
     for side in range(2):
-        total[:] = 0.0
-        if side == 0:
-            add_previous(rows, row, work, np.int64(3), total)
-        else:
-            add_next(rows, row, work, np.int64(3), total)
-        solve_row(rows, row, total, work, side)
         beside = (row + 2 * side - 1) % centre.shape[0]
-        for j in range(total.size):
+        for j in range(totals.shape[1]):
             if abs(work[side, j]) < MIN_HOLE_WEIGHT and centre[beside, j] == 0.0:
                 work[side, j] = 0.0
 
 
 @called
 def leaks(rows, row, work):  # type: ignore[no-untyped-def]
-    """Whether an odd row leaks; ``work[3]`` is then the loss of its unknowns for ones in the rows beside it."""
-    total = work[2]
+    """Whether an odd row leaks; ``work[4]`` is then the loss of its unknowns for ones in the rows beside it."""
+    totals = work[2:4]
     any_leak = False
-    for j in range(total.size):
-        total[j] = rows.leak[row, j]
-        any_leak |= total[j] > 0
+    for j in range(totals.shape[1]):
+        totals[0, j] = totals[1, j] = rows.leak[row, j]
+        any_leak |= totals[0, j] > 0
     if any_leak:
-        solve_row(rows, row, total, work, np.int64(3))
+        solve_rows(rows, row, row, totals, work, (np.int64(4), np.int64(4)))
     return any_leak
 
 
@@ -272,8 +297,8 @@ def coarsen(fine, coarse, work):  # type: ignore[no-untyped-def]
         share(fine, row, work)
         left, right = row // 2, (row // 2 + 1) % coarse_count
         if leaks(fine, row, work):
-            add_next(fine, row - 1, work, np.int64(3), coarse.leak[left])
-            add_previous(fine, (row + 1) % count, work, np.int64(3), coarse.leak[right])
+            add_next(fine, row - 1, work, np.int64(4), coarse.leak[left])
+            add_previous(fine, (row + 1) % count, work, np.int64(4), coarse.leak[right])
         add_own(coarse.north[left], fine, row, row - 1, first, np.bool_(False))
         add_own(coarse.north[right], fine, row, row, second, np.bool_(True))
         set_coupling(coarse.east[left], coarse.up[left], coarse.down[left], fine, row, first, second)
@@ -296,7 +321,7 @@ def silence(rows):  # type: ignore[no-untyped-def]
 
 @compiled
 def set_up(counts, rows, work):  # type: ignore[no-untyped-def]
-    """Factorise all rows and compute the coarse levels; ``counts`` are the rows of each level, ``work`` is (4, m)."""
+    """Factorise all rows and compute the coarse levels; ``counts`` are the rows of each level, ``work`` is (5, m)."""
     start = np.int64(0)
     for level in range(counts.size):
         stop = start + counts[level]
@@ -311,8 +336,8 @@ def set_up(counts, rows, work):  # type: ignore[no-untyped-def]
 
 
 @called
-def relax(rows, row, previous, following, source, values, total):  # type: ignore[no-untyped-def]
-    """Solve the equations of a row; ``previous`` and ``following``: whether those rows have values."""
+def gather(rows, row, previous, following, source, values, total):  # type: ignore[no-untyped-def]
+    """Compute the right-hand side of a row; ``previous`` and ``following``: whether those rows have values."""
     count = values.shape[0]
     for j in range(total.size):
         total[j] = source[row, j]
@@ -320,7 +345,21 @@ def relax(rows, row, previous, following, source, values, total):  # type: ignor
         add_previous(rows, row, values, (row if row > 0 else count) - 1, total)
     if following:
         add_next(rows, row, values, row + 1 if row + 1 < count else 0, total)
-    solve_row(rows, row, total, values, row)
+
+
+@called
+def relax(rows, row, other, previous, following, source, values, totals):  # type: ignore[no-untyped-def]
+    """Solve the equations of a row as in ``gather`` and, if it is ``other``, of another row with both its neighbours.
+
+    No coupling leads from one row to the other.
+    """
+    gather(rows, row, previous, following, source, values, totals[0])
+    if row == other:
+        for j in range(totals.shape[1]):
+            totals[1, j] = totals[0, j]
+    else:
+        gather(rows, other, np.bool_(True), np.bool_(True), source, values, totals[1])
+    solve_rows(rows, row, other, totals, values, (row, other))
 
 
 @called
@@ -334,40 +373,43 @@ def bring_down(rows, row, values, left):  # type: ignore[no-untyped-def]
 
 
 @inlined
-def descend(rows, seam, source, values, remainder, total):  # type: ignore[no-untyped-def]
+def descend(rows, seam, source, values, remainder, totals):  # type: ignore[no-untyped-def]
     """Relax even rows from 0, then odd rows, and compute the residuals of even rows.
 
     At a ``seam`` the last row, an even one, is coupled to the first and follows it. The order keeps rows in the cache.
     """
     count = values.shape[0]
-    for row in range(0, count, 2):
-        relax(rows, row, np.bool_(False), seam and row + 1 == count, source, values, total)
-        if row > 0:
-            relax(rows, row - 1, np.bool_(True), np.bool_(True), source, values, total)
-        if row > 2:
-            bring_down(rows, row - 2, values, remainder[row // 2 - 1])
-    if count % 2 == 0:
-        relax(rows, count - 1, np.bool_(True), np.bool_(True), source, values, total)
-    if count > 2:
-        bring_down(rows, (count - 1) // 2 * 2, values, remainder[(count - 1) // 2])
+    for row in range(0, min(count, 4), 2):
+        relax(rows, row, row, np.bool_(False), seam and row + 1 == count, source, values, totals)
+    for odd in range(1, count, 2):
+        row = odd + 3
+        if row < count:
+            relax(rows, row, odd, np.bool_(False), seam and row + 1 == count, source, values, totals)
+        else:
+            relax(rows, odd, odd, np.bool_(True), np.bool_(True), source, values, totals)
+        if odd > 1:
+            bring_down(rows, odd - 1, values, remainder[odd // 2])
+    if count > 2 and count % 2:
+        bring_down(rows, count - 1, values, remainder[count // 2])
     bring_down(rows, np.int64(0), values, remainder[0])
 
 
 @inlined
-def ascend(rows, source, values, correction, total):  # type: ignore[no-untyped-def]
+def ascend(rows, source, values, correction, totals):  # type: ignore[no-untyped-def]
     """Add the correction to even rows, then relax odd rows and even rows, from the last to the first."""
     count, last = values.shape[0], (values.shape[0] - 1) // 2 * 2
     add_row(values[0], correction[0])
     if last > 0:
         add_row(values[last], correction[last // 2])
     if count % 2 == 0:
-        relax(rows, count - 1, np.bool_(True), np.bool_(True), source, values, total)
-    for row in range(last, -1, -2):
+        relax(rows, count - 1, count - 1, np.bool_(True), np.bool_(True), source, values, totals)
+    for row in range(last, 0, -2):
         if row > 2:
             add_row(values[row - 2], correction[row // 2 - 1])
-        if row > 0:
-            relax(rows, row - 1, np.bool_(True), np.bool_(True), source, values, total)
-        relax(rows, row, np.bool_(True), np.bool_(True), source, values, total)
+        solved = row + 2 if row < last else row - 1
+        relax(rows, solved, row - 1, np.bool_(True), np.bool_(True), source, values, totals)
+    for row in range(min(last, 2), -1, -2):
+        relax(rows, row, row, np.bool_(True), np.bool_(True), source, values, totals)
 
 
 @inlined
@@ -378,7 +420,7 @@ def add_row(values, correction):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def cycle(counts, rows, across, source, values, total):  # type: ignore[no-untyped-def]
+def cycle(counts, rows, across, source, values, totals):  # type: ignore[no-untyped-def]
     """Compute one V-cycle from 0: ``values`` of the finest level from its ``source``, arrays of all levels.
 
     Odd rows are solved exactly before and after the next level, so that their residual is 0 and they need no
@@ -390,13 +432,13 @@ def cycle(counts, rows, across, source, values, total):  # type: ignore[no-untyp
         stop = start + count
         end = stop + counts[level + 1]
         here = level_rows(rows, start, stop, counts[0])
-        descend(here, across and count % 2 == 1, source[start:stop], values[start:stop], source[stop:end], total)
+        descend(here, across and count % 2 == 1, source[start:stop], values[start:stop], source[stop:end], totals)
         start = stop
     last = level_rows(rows, start, start + 1, counts[0])
-    relax(last, np.int64(0), np.bool_(False), np.bool_(False), source[start:], values[start:], total)
+    relax(last, np.int64(0), np.int64(0), np.bool_(False), np.bool_(False), source[start:], values[start:], totals)
     for level in range(counts.size - 2, -1, -1):
         count = counts[level]
         stop, start = start, start - count
         end = stop + counts[level + 1]
         here = level_rows(rows, start, stop, counts[0])
-        ascend(here, source[start:stop], values[start:stop], values[stop:end], total)
+        ascend(here, source[start:stop], values[start:stop], values[stop:end], totals)

@@ -112,9 +112,8 @@ class Multigrid:
             border=np.zeros((total, length if ring else 0), kind),
         )
         self._source, self._values = np.zeros(full, kind), np.zeros(full, kind)
-        self._work = np.zeros(length, kind)
+        self._work = np.zeros((2, length), kind)
         self._matrix = self._set_up(matrix)
-        self._direction, self._image, self._residual = (np.zeros((count, length)) for _ in range(3))
 
     def cycle(self, residual: ArrayLike) -> Array:
         """One V(1,1) cycle from 0, M r ≈ A⁻¹ r, shape (nx, ny); M is linear, symmetric and positive definite.
@@ -164,13 +163,13 @@ class Multigrid:
             return Solved(solution=np.zeros(self.shape), iterations=0, residual=0.0)
         iterations, before, goal = 0, np.inf, (tolerance * norm) ** 2
         while True:
-            residual = self._set_residual(b, p) / norm
+            residual = math.sqrt(self._set_residual(b, p)[0]) / norm
             if residual <= tolerance:
                 return Solved(solution=self._outer(p), iterations=iterations, residual=residual)
             if iterations >= limit or not residual < before / 2:
                 break
             before = residual
-            iterations += self._gradients(p, limit - iterations, lambda square, _gain: square <= goal)
+            iterations += self._gradients(b, p, limit - iterations, lambda square, _gain: square <= goal)
         finished = iterations < limit
         remedy = (
             "round-off limits it, or sources of a part without a Dirichlet node do not sum to 0; loosen the tolerance"
@@ -220,8 +219,7 @@ class Multigrid:
         norm = math.sqrt(gradients.dot(b, b))
         if norm == 0:
             return Solved(solution=np.zeros(self.shape), iterations=0, residual=0.0)
-        self._set_residual(b, p)
-        first = float(gradients.dot(b, p) + gradients.dot(self._residual, p))
+        first = self._set_residual(b, p)[1]
         gains: list[float] = []
 
         def left() -> float:
@@ -238,11 +236,12 @@ class Multigrid:
 
         iterations, before = 0, np.inf
         while True:
-            iterations += self._gradients(p, limit - iterations, enough)
-            residual = self._set_residual(b, p) / norm
-            first = float(gradients.dot(b, p) + gradients.dot(self._residual, p)) - sum(gains)
-            rest = max(left(), float(gradients.weighed(self._residual, self._matrix[0])) / 2)
+            iterations += self._gradients(b, p, limit - iterations, enough)
+            square, energy = self._set_residual(b, p)
+            first = energy - sum(gains)
+            rest = max(left(), float(gradients.weighed(self._finest[0], self._matrix[0])) / 2)
             if len(gains) >= MIN_RECENT and rest <= tolerance * counts():
+                residual = math.sqrt(square) / norm
                 return Solved(solution=self._outer(p), iterations=iterations, residual=residual, left=rest)
             if iterations >= limit or not rest < before / 2:
                 break
@@ -304,7 +303,7 @@ class Multigrid:
         seen, stack = np.zeros((count, length), dtype=bool), np.zeros(count * length, dtype=np.int64)
         pieces.set_leak(centre, east, north, leak, seen, stack)
         self._rows.leak[:count], self._rows.east[:count], self._rows.north[:count] = leak, east, north
-        kernels.set_up(self._counts, self._rows, np.zeros((4, length)))
+        kernels.set_up(self._counts, self._rows, np.zeros((5, length), self._values.dtype))
         none = np.zeros((0, length), self._values.dtype)
         self._rows = self._rows._replace(leak=none, centre=none)
         return centre, east, north
@@ -312,40 +311,46 @@ class Multigrid:
     def _cycle(self) -> None:
         kernels.cycle(self._counts, self._rows, self._across, self._source, self._values, self._work)
 
-    def _apply(self, p: Array) -> float:
-        """Write Ap to the image, and return Σ p Ap."""
-        return float(gradients.set_image(*self._matrix, p, self._across, self._along, self._image))
-
-    def _set_residual(self, b: Array, p: Array) -> float:
-        """Write b − Ap to the residual and the finest source, and return its norm."""
-        self._apply(p)
-        return math.sqrt(gradients.leave(b, self._image, self._residual, self._finest[0]))
+    def _set_residual(self, b: Array, p: Array) -> tuple[float, float]:
+        """Write r = b − Ap to the finest source, and return Σr² and Σ p(b + r)."""
+        source, _ = self._finest
+        work = np.zeros(b.shape[1])
+        square, energy = gradients.set_residual(*self._matrix, b, p, source, work)
+        return float(square), float(energy)
 
     def _left_between_rows(self) -> float:
         """The energy gain of a p constant along rows or columns; 0 unless both directions are periodic."""
         if not (self._across and self._along):
             return 0.0
         _, east, north = self._matrix
+        residual, _ = self._finest
         return max(
-            _left_on_ring(self._residual.sum(axis=1 - axis), coupling.sum(axis=1 - axis))
+            _left_on_ring(residual.sum(axis=1 - axis, dtype=np.float64), coupling.sum(axis=1 - axis))
             for axis, coupling in enumerate((east, north))
         )
 
-    def _gradients(self, p: Array, limit: int, enough: Callable[[float, float], bool]) -> int:
-        """Iterate on p until ``enough(residual², gain)``, and return the number of iterations."""
-        source, steepest = self._finest
-        slope = np.inf
-        self._direction[:] = 0
+    def _gradients(self, b: Array, p: Array, limit: int, enough: Callable[[float, float], bool]) -> int:
+        """Iterate on p until ``enough(residual², gain)``, and return the number of iterations.
+
+        The finest source is the residual r, and the finest values are M r and then the image of the direction. The
+        updates of r accumulate round-off, so that r is computed anew when it has become much smaller.
+        """
+        residual, values = self._finest
+        slope, roundoff = np.inf, math.sqrt(np.finfo(values.dtype).eps)
+        small = roundoff * gradients.dot(residual, residual)
+        direction, work = np.zeros_like(values), np.zeros(p.shape[1])
         for iteration in range(1, limit + 1):
             self._cycle()
-            before, slope = slope, gradients.dot(self._residual, steepest)
-            gradients.turn(slope / before, steepest, self._direction)
-            bend = self._apply(self._direction)
+            before, slope = slope, gradients.dot(residual, values)
+            gradients.turn(slope / before, values, direction)
+            bend = gradients.set_image(*self._matrix, direction, values, work)
             if not (slope > 0 and bend > 0):
                 return iteration
-            square = gradients.advance(slope / bend, self._direction, self._image, p, self._residual, source)
+            square = gradients.advance(slope / bend, direction, values, p, residual)
             if enough(square, slope * slope / bend):
                 return iteration
+            if square < small:
+                small = roundoff * self._set_residual(b, p)[0]
         return limit
 
 
