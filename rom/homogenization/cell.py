@@ -69,8 +69,7 @@ def solve_cell(
         If none of the solvers meets the tolerance.
     """
     scale, (dx, dy) = float(gap.mean()), spacing
-    network = _network(gap / scale, rule, dy / dx)
-    units = dx * np.array([1.0, 1.0, scale**-2])
+    network, units = _network(gap / scale, rule, dy / dx), _units(scale, dx)
     tolerances = np.broadcast_to(tolerance, 3).tolist()
     wanted = [i for i in range(3) if i == 2 or not network.closed[i]]
 
@@ -99,6 +98,24 @@ def solve_cell(
         iterations=sum(one.iterations for one in solved.values()),
         residual=max(one.residual for one in solved.values()),
     )
+
+
+def factors_of_correctors(
+    gap: Array, spacing: tuple[float, float], correctors: Array, *, rule: FaceRule = FaceRule.LINEAR
+) -> FlowFactors:
+    """The factors of a gap with given correctors, which are those of a similar gap, without a solution.
+
+    The arguments are those of :func:`solve_cell`; the errors are quadratic in the error of the correctors. By
+    stationarity, the derivatives of A, B and e with respect to the gap are those at constant correctors.
+    """
+    scale, (dx, dy) = float(gap.mean()), spacing
+    network = _network(gap / scale, rule, dy / dx)
+    return network.factors(correctors / _units(scale, dx)[:, None, None]).scaled(scale)
+
+
+def _units(scale: float, dx: float) -> Array:
+    """The units of χ₁, χ₂ (m) and χ₃ (1/m) of a gap of mean 1 on the grid of a network."""
+    return dx * np.array([1.0, 1.0, scale**-2])
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -71,4 +71,4 @@ def sufficient(values: Sequence[Array], loosest: ArrayLike) -> Array:
         return limit
     before, last = values[-2:]
     expected = np.divide(np.abs(last - before), 4 * last, out=np.full(last.shape, np.inf), where=last > 0)
-    return np.clip(expected / DISCRETISATION_TO_SOLVER_ERROR, TIGHTEST_TOLERANCE, limit)
+    return np.asarray(np.clip(expected / DISCRETISATION_TO_SOLVER_ERROR, TIGHTEST_TOLERANCE, limit))
