@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.compiled import allocating
@@ -45,7 +46,7 @@ def solve_cell(
     spacing: tuple[float, float],
     *,
     rule: FaceRule = FaceRule.LINEAR,
-    tolerance: float = CELL_TOLERANCE,
+    tolerance: ArrayLike = CELL_TOLERANCE,
     start: Array | None = None,
     solvers: Sequence[str] = tuple(SOLVERS),
 ) -> Cell:
@@ -58,7 +59,7 @@ def solve_cell(
     ----------
     gap : h >= 0, shape (nx, ny), m; one period. Nodes where h = 0 are contact: nothing flows there.
     spacing : (dx, dy), m.
-    tolerance : largest relative solver error of A₁₁ and A₂₂, and of the contribution of χ₃ to e.
+    tolerance : largest relative solver error of A₁₁ and A₂₂, and of the contribution of χ₃ to e: one or three numbers.
     start : correctors of a similar gap, in the units of :class:`Cell`, on this grid or a coarser one.
     solvers : names in :data:`roughfilm.rom.homogenization.solvers.SOLVERS`, tried in this order.
 
@@ -68,20 +69,20 @@ def solve_cell(
         If none of the solvers meets the tolerance.
     """
     scale, (dx, dy) = float(gap.mean()), spacing
-    network = _network(gap / scale, rule, dy / dx)
-    units = dx * np.array([1.0, 1.0, scale**-2])
+    network, units = _network(gap / scale, rule, dy / dx), _units(scale, dx)
+    tolerances = np.broadcast_to(tolerance, 3).tolist()
     wanted = [i for i in range(3) if i == 2 or not network.closed[i]]
 
     def source(which: int) -> Source:
         values, whole = network.source(which)
         if start is None:
-            return Source(values=values, whole=whole, start=None)
+            return Source(values=values, whole=whole, start=None, tolerance=tolerances[which])
         begun = refined(start[which], gap.shape)
         begun /= units[which]
-        return Source(values=values, whole=whole, start=begun)
+        return Source(values=values, whole=whole, start=begun, tolerance=tolerances[which])
 
     def attempt(solve: Solver) -> dict[int, Solved]:
-        return dict(zip(wanted, solve(network.matrix, map(source, wanted), tolerance), strict=True))
+        return dict(zip(wanted, solve(network.matrix, map(source, wanted)), strict=True))
 
     solved, name = first_to_converge(solvers, attempt)
     chi = np.zeros((3, *gap.shape))
@@ -97,6 +98,24 @@ def solve_cell(
         iterations=sum(one.iterations for one in solved.values()),
         residual=max(one.residual for one in solved.values()),
     )
+
+
+def factors_of_correctors(
+    gap: Array, spacing: tuple[float, float], correctors: Array, *, rule: FaceRule = FaceRule.LINEAR
+) -> FlowFactors:
+    """The factors of a gap with given correctors, which are those of a similar gap, without a solution.
+
+    The arguments are those of :func:`solve_cell`; the errors are quadratic in the error of the correctors. By
+    stationarity, the derivatives of A, B and e with respect to the gap are those at constant correctors.
+    """
+    scale, (dx, dy) = float(gap.mean()), spacing
+    network = _network(gap / scale, rule, dy / dx)
+    return network.factors(correctors / _units(scale, dx)[:, None, None]).scaled(scale)
+
+
+def _units(scale: float, dx: float) -> Array:
+    """The units of χ₁, χ₂ (m) and χ₃ (1/m) of a gap of mean 1 on the grid of a network."""
+    return dx * np.array([1.0, 1.0, scale**-2])
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -13,12 +13,15 @@ from roughfilm.rom.homogenization.cell import Cell, solve_cell
 from roughfilm.rom.homogenization.conductance import CLOSED_CUBE, FaceRule, without_traces
 from roughfilm.rom.homogenization.factors import FlowFactors
 from roughfilm.rom.homogenization.grids import coarser_grids
-from roughfilm.rom.homogenization.richardson import sufficient, uncertainty_of
+from roughfilm.rom.homogenization.richardson import LOOSEST_TOLERANCE, sufficient, uncertainty_of
 from roughfilm.rom.homogenization.solvers import SOLVERS
 from roughfilm.rom.ladder.model import Progress, silent
 
 MAX_PIXEL_ASPECT = 1e4
 """Largest ratio of a pixel's sides."""
+
+LOOSEST_TOLERANCES = (LOOSEST_TOLERANCE, LOOSEST_TOLERANCE, 1e-3)
+"""Largest solver tolerances of A₁₁, A₂₂ and e that are chosen; in contact e depends on the grid by a tenth and more."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,8 +64,8 @@ def flow_factors(
     gap : h >= 0, m, shape (nx, ny); one period. Nodes where h = 0 are contact, whose faces are closed.
     spacing : (dx, dy), m; pixels need not be square.
     offset : length added to the gap everywhere, m; Sahlin 2008 uses 1e-8, which makes contact permeable.
-    tolerance : solver tolerance of each cell, as in ``solve_cell``; by default a hundredth of the discretisation error
-        that the coarser grids indicate.
+    tolerance : solver tolerance of each cell, as in ``solve_cell``; by default, for each of A₁₁, A₂₂ and e, a hundredth
+        of the discretisation error that the coarser grids indicate.
     solvers : names of solvers, as in ``solve_cell``.
 
     Raises
@@ -86,13 +89,13 @@ def flow_factors(
     work = [float(grid.size) for grid, _ in grids]
     for number, (grid, steps) in enumerate(grids):
         progress(sum(work[:number]) / sum(work), f"{grid.shape[0]} × {grid.shape[1]} nodes")
-        flows = [np.diag(cell.factors.pressure) for cell in cells]
+        energies = [np.array([*np.diag(one.pressure), one.shear_couette]) for one in (cell.factors for cell in cells)]
         cells.append(
             solve_cell(
                 grid,
                 steps,
                 rule=rule,
-                tolerance=sufficient(flows) if tolerance is None else tolerance,
+                tolerance=sufficient(energies, LOOSEST_TOLERANCES) if tolerance is None else tolerance,
                 start=cells[-1].correctors if cells else None,
                 solvers=solvers,
             )

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.homogenization.factors import FlowFactors
@@ -16,7 +17,7 @@ nodes and up, 64² and 128²) it covers 97 of 100 values of A₁₁, A₂₂ and
 """
 
 LOOSEST_TOLERANCE = 1e-4
-"""Largest solver tolerance that is chosen."""
+"""Largest solver tolerance of a pressure flow that is chosen."""
 
 TIGHTEST_TOLERANCE = 1e-10
 """Smallest solver tolerance that is chosen."""
@@ -59,15 +60,15 @@ def off(values: Sequence[Array]) -> Array:
     return np.asarray(SAFETY_FACTOR * np.maximum(last, before / 4) / (ratio - 1))
 
 
-def sufficient(flows: Sequence[Array]) -> float:
-    """A solver tolerance for the next finer grid: a hundredth of its expected discretisation error, 1e-10 to 1e-4.
+def sufficient(values: Sequence[Array], loosest: ArrayLike) -> Array:
+    """Solver tolerances for the next finer grid: a hundredth of the expected discretisation error of each value.
 
-    The error is extrapolated from the flows on the last two grids; with fewer grids the tolerance is 1e-4.
+    The error is extrapolated from the values on the last two grids; the tolerance is between 1e-10 and ``loosest``, of
+    the shape of a value, which it is with fewer grids, and for a value of 0.
     """
-    if len(flows) < 2:
-        return LOOSEST_TOLERANCE
-    before, last = flows[-2:]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        change = np.abs(last - before) / last
-    expected = float(np.min(change[last > 0], initial=np.inf)) / 4
-    return min(max(expected / DISCRETISATION_TO_SOLVER_ERROR, TIGHTEST_TOLERANCE), LOOSEST_TOLERANCE)
+    limit = np.asarray(loosest, dtype=float)
+    if len(values) < 2:
+        return limit
+    before, last = values[-2:]
+    expected = np.divide(np.abs(last - before), 4 * last, out=np.full(last.shape, np.inf), where=last > 0)
+    return np.asarray(np.clip(expected / DISCRETISATION_TO_SOLVER_ERROR, TIGHTEST_TOLERANCE, limit))

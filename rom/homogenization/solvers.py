@@ -37,30 +37,40 @@ class Matrix:
 
 @dataclass(frozen=True, kw_only=True)
 class Source:
-    """A right-hand side b, shape (nx, ny); ``whole`` is E if the energy of interest is E − b·χ, None if it is b·χ."""
+    """A right-hand side b, shape (nx, ny), and how its solution χ starts and ends.
+
+    Attributes
+    ----------
+    values : b.
+    whole : E if the energy of interest is E − b·χ, None if it is b·χ.
+    start : initial χ, shape (nx, ny); None for 0.
+    tolerance : largest relative error of the energy.
+    """
 
     values: Array
     whole: float | None
     start: Array | None
+    tolerance: float
 
 
 Solution = TypeVar("Solution")
 
-Solver = Callable[[Matrix, Iterable[Source], float], list[Solved]]
-"""solve(matrix, sources, tolerance) → solutions to a relative error of the energy, or ConvergenceError.
+Solver = Callable[[Matrix, Iterable[Source]], list[Solved]]
+"""solve(matrix, sources) → solutions to the tolerance of each source, or ConvergenceError.
 
 Sources are consumed one after the other, so that only one is in memory at a time."""
 
 
-def by_multigrid(matrix: Matrix, sources: Iterable[Source], tolerance: float, *, single: bool) -> list[Solved]:
+def by_multigrid(matrix: Matrix, sources: Iterable[Source], *, single: bool) -> list[Solved]:
     """Conjugate gradients, preconditioned by multigrid in single or double precision."""
     multigrid = Multigrid(matrix.centre, matrix.east, matrix.north, periodic=matrix.periodic, single=single)
     return [
-        multigrid.minimise(source.values, source.whole, tolerance=tolerance, start=source.start) for source in sources
+        multigrid.minimise(source.values, source.whole, tolerance=source.tolerance, start=source.start)
+        for source in sources
     ]
 
 
-def by_elimination(matrix: Matrix, sources: Iterable[Source], _tolerance: float) -> list[Solved]:
+def by_elimination(matrix: Matrix, sources: Iterable[Source]) -> list[Solved]:
     """Sparse elimination (SuperLU) with one refinement; one node of each floating piece is fixed."""
     count = matrix.centre.size
     if count > MAX_ELIMINATION_NODES:

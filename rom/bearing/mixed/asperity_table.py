@@ -17,7 +17,7 @@ HERTZ_POWER = 1.5
 """Power of the approach with which the load on a single asperity grows."""
 
 INTERPOLATION_SAFETY_FACTOR = 2.0
-"""Safety factor of the interpolation error that is measured half-way between loads."""
+"""Safety factor of the interpolation error of the separation between loads."""
 
 SEPARATION_TOLERANCE = 1e-12
 """Tolerated separation below the smallest one, over that of first contact (round-off)."""

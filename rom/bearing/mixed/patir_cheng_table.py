@@ -9,7 +9,7 @@ from roughfilm.contact.mechanics.press import Press
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.bearing.mixed.tabulate import gap_of
 from roughfilm.rom.homogenization.patir_cheng import patir_cheng
-from roughfilm.rom.homogenization.table.factor_table import Point
+from roughfilm.rom.homogenization.table.factor_table import UNKNOWN_SLOPES, Point
 from roughfilm.rom.ladder.model import Progress, silent
 
 
@@ -59,4 +59,4 @@ def _in_box(point: Point, press: Press) -> Point:
         shear=np.array([box.shear * scale, 0.0]),
         sealed=box.sealed,
     )
-    return replace(point, factors=factors, iterations=box.iterations, residual=box.residual)
+    return replace(point, factors=factors, slopes=UNKNOWN_SLOPES, iterations=box.iterations, residual=box.residual)

@@ -121,7 +121,7 @@ def tabulate_pressed(
         if not contact.gap.any():
             return None
         point = replace(
-            point_of(contact.gap, spacing, alpha, rule=rule),
+            point_of(contact.gap, spacing, alpha, rule=rule, deformed=True),
             load=load,
             area_fraction=contact.area_fraction,
             plastic_fraction=contact.plastic_fraction,
@@ -138,7 +138,8 @@ def tabulate_pressed(
         ordered = sorted((*open_table.points, *points), key=lambda point: point.mean_gap)
         return AsperityTable(factors=replace(open_table, points=tuple(ordered)))
 
-    def errors(table: AsperityTable, point: Point) -> tuple[float, float]:
+    def errors(others: Sequence[Point], point: Point) -> tuple[float, float]:
+        table = made(others)
         separation = table.separation_at(point.load)
         return table_error(table.factors, point), abs(separation - point.separation) / body.rms
 
@@ -147,9 +148,10 @@ def tabulate_pressed(
 
     points = bisected(
         _series(solve, press, loads, required_load, threads, later),
+        place=lambda point: math.log(point.load),
         half_way=half_way,
-        made=made,
         errors=errors,
+        order=3,
         tolerance=tolerance,
         threads=threads,
         progress=later,

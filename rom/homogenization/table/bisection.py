@@ -2,68 +2,106 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from itertools import pairwise, zip_longest
-from typing import TypeVar
 
+import numpy as np
+
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.threads import workers
 from roughfilm.rom.homogenization.table.factor_table import Point
 from roughfilm.rom.ladder.model import Progress
 
-Table = TypeVar("Table")
-
 MAX_POINTS = 400
 """Largest number of points of a table; where factors jump, as over a plateau, more do not reduce the error."""
+
+NEIGHBOURS = 3
+"""Number of points on each side from which a point is predicted; a monotone cubic depends on two on each side."""
+
+SAFETY_FACTOR = 2.0
+"""Safety factor of the error of an interval that is scaled from the errors of the predictions of its ends."""
+
+LEAST_ERROR = 1e-12
+"""Smallest estimated error to which a found error is compared."""
 
 
 def bisected(
     points: Sequence[Point],
     *,
+    place: Callable[[Point], float],
     half_way: Callable[[Point, Point], Point | None],
-    made: Callable[[Sequence[Point]], Table],
-    errors: Callable[[Table, Point], tuple[float, float]],
+    errors: Callable[[Sequence[Point], Point], tuple[float, float]],
+    order: int,
     tolerance: float,
     threads: int,
     progress: Progress,
 ) -> list[Point]:
-    """All points of the refined table, each with its last interpolation errors ``missed`` and ``separation_missed``.
+    """All points of the refined table in order, each with the errors ``missed`` and ``separation_missed`` beside it.
+
+    Every inner point is predicted from its neighbours. As an interpolation of order n has the error
+    C (x − x₁)^(n/2) (x₂ − x)^(n/2), that of the interval of length l before the point is estimated as the error of the
+    prediction times 2 (l/4r)^(n/2) with the length r of the interval after it, and at most the error of the prediction.
+    Where the middle of a bisected interval shows a larger error than had been estimated, as at a jump, the estimates
+    of both halves are larger by the same ratio. Intervals are bisected until their errors are below the tolerance,
+    there are 400 points, or neighbours almost coincide.
 
     Parameters
     ----------
     points : initial points in order.
-    half_way : half_way(one, two), the point between two points; None if they are adjacent.
-    made : made(points), the table of these points.
-    errors : errors(table, point), the interpolation errors at a point that the table lacks: factors, separation.
-    tolerance : largest of both errors for which the intervals on both sides of a point are not bisected.
+    place : place(point), the variable of the interpolation.
+    half_way : half_way(one, two), the point between two points; None if they almost coincide.
+    errors : errors(others, point), the interpolation errors of a table of others at a point: factors, separation.
+    order : n.
+    tolerance : largest of both errors of an interval that is not bisected.
     threads : number of threads that compute points.
     """
-    all_points = list(points)
-    missed = {point.mean_gap: (0.0, 0.0) for point in points}
-    intervals = [(one, two, (0.0, 0.0)) for one, two in pairwise(points)]
+    points, ratios = list(points), np.ones((len(points) - 1, 2))
+    ended = np.zeros(len(points) - 1, dtype=bool)
+    known: dict[tuple[float, ...], Array] = {}
+
+    def error_of(before: Sequence[Point], point: Point, after: Sequence[Point]) -> Array:
+        """The error of the prediction of a point from those before and after it."""
+        others = [*before[-NEIGHBOURS:], *after[:NEIGHBOURS]]
+        key = tuple(map(place, [point, *others]))
+        if key not in known:
+            known[key] = np.array(errors(others, point))
+        return known[key]
+
     with workers(threads) as pool:
-        while intervals:
-            table = made(all_points)
-            wider = []
-            begun = intervals[: max(0, MAX_POINTS - len(all_points))]
-            middles = pool.map(half_way, *zip(*((one, two) for one, two, _ in begun), strict=True)) if begun else ()
-            for (one, two, before), middle in zip_longest(intervals, middles):
-                progress(len(all_points) / (len(all_points) + len(intervals)), f"{len(all_points)} points")
+        while True:
+            predictions = [error_of(points[:i], points[i], points[i + 1 :]) for i in range(1, len(points) - 1)]
+            plain, largest = _estimates([*map(place, points)], predictions, order)
+            left = np.minimum(plain * ratios, largest)
+            wide = np.flatnonzero((left.max(axis=1) > tolerance) & ~ended)
+            wide = wide[np.argsort(-left[wide].max(axis=1), kind="stable")][: max(0, MAX_POINTS - len(points))]
+            if not wide.size:
+                break
+            found: dict[int, Point] = {}
+            pairs = ([points[i + end] for i in wide] for end in (0, 1))
+            for i, middle in zip(wide.tolist(), pool.map(half_way, *pairs), strict=True):
+                progress(len(points) / (len(points) + wide.size), f"{len(points) + len(found)} points")
                 if middle is None:
-                    for end in (one, two):
-                        missed[end.mean_gap] = _larger(missed[end.mean_gap], before)
+                    ended[i] = True
                     continue
-                all_points.append(middle)
-                error = errors(table, middle)
-                if max(error) > tolerance:
-                    wider += [(one, middle, error), (middle, two, error)]
-                    error = (0.0, 0.0)
-                missed[middle.mean_gap] = error
-            intervals = wider
+                found[i] = middle
+                error = error_of(points[: i + 1], middle, points[i + 1 :])
+                ratios[i] = np.maximum(1.0, error / np.maximum(plain[i], LEAST_ERROR))
+            repeats = np.array([2 if i in found else 1 for i in range(len(ratios))])
+            ratios, ended = np.repeat(ratios, repeats, axis=0), np.repeat(ended, repeats)
+            points = [point for i, own in enumerate(points) for point in ([own, found[i]] if i in found else [own])]
+    beside = np.maximum(np.vstack([left[:1], left]), np.vstack([left, left[-1:]])).tolist()
     return [
         replace(point, missed=factors, separation_missed=separation)
-        for point in all_points
-        for factors, separation in [missed[point.mean_gap]]
+        for point, (factors, separation) in zip(points, beside, strict=True)
     ]
 
 
-def _larger(one: tuple[float, float], other: tuple[float, float]) -> tuple[float, float]:
-    return max(one[0], other[0]), max(one[1], other[1])
+def _estimates(places: Sequence[float], predictions: Sequence[Array], order: int) -> tuple[Array, Array]:
+    """The estimated errors of intervals, and the largest errors of the predictions of their ends, shape (n, 2) each."""
+    if not predictions:
+        return np.full((1, 2), np.inf), np.full((1, 2), np.inf)
+    inner, lengths = np.array(predictions), np.abs(np.diff(places))
+    neighbour = (lengths[1:] / lengths[:-1])[:, None]
+    before, after = (SAFETY_FACTOR * inner * (ratio / 4) ** (order / 2) for ratio in (neighbour, 1 / neighbour))
+    plain, largest = np.zeros((2, lengths.size, 2))
+    plain[1:], largest[1:] = before, inner
+    plain[:-1], largest[:-1] = np.maximum(plain[:-1], after), np.maximum(largest[:-1], inner)
+    return plain, largest

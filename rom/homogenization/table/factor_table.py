@@ -1,7 +1,7 @@
 """Flow factors over the mean gap: points, interpolation between them and extrapolation to thick films."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Self
 
@@ -15,6 +15,9 @@ from roughfilm.rom.homogenization.gap_factors import FactorsOverGap, GapFactors
 
 SMOOTH_ROW = np.array([1.0, 1, 0, 1, 0, 1, 0])
 """The :func:`relative_row` of a smooth film."""
+
+UNKNOWN_SLOPES = np.full(SMOOTH_ROW.size, np.nan)
+"""The slopes of a point where they are unknown."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,9 +34,11 @@ class Point:
     load : mean pressure on the nominal area, Pa; 0 for undeformed walls.
     area_fraction, plastic_fraction : those of :class:`roughfilm.contact.mechanics.contact.Contact`.
     separation_uncertainty : discretisation uncertainty of the separation at the load, m.
-    missed : interpolation error of the factors here, or next to here, before the point was added, in the measure of
-        the tolerance of :func:`roughfilm.rom.homogenization.table.tabulate.tabulate`.
+    missed : estimated interpolation error of the factors next to here, in the measure of the tolerance of
+        :func:`roughfilm.rom.homogenization.table.tabulate.tabulate`.
     separation_missed : the same error of the separation at the load, over the rms height.
+    slopes : derivatives of :func:`relative_row` with respect to ln ĥ, shape (7,); NaN where they are unknown, as under
+        load, and for d and e where the gap is closed anywhere.
     """
 
     separation: float
@@ -50,6 +55,7 @@ class Point:
     separation_uncertainty: float = 0.0
     missed: float = 0.0
     separation_missed: float = 0.0
+    slopes: Array = field(default_factory=UNKNOWN_SLOPES.copy)
 
     @property
     def mean_gap(self) -> float:
@@ -59,11 +65,13 @@ class Point:
 
 @dataclass(frozen=True, kw_only=True)
 class FactorTable:
-    """Points in order of their mean gaps ĥ, with monotone cubic interpolation (Fritsch and Carlson) over ln ĥ.
+    """Points in order of their mean gaps ĥ, with piecewise cubic interpolation between them.
 
-    The table interpolates ∛A₁₁/ĥ, ∛A₂₂/ĥ, A₁₂/√(A₁₁A₂₂), B/ĥ, d ĥ and e ĥ, so that A is positive semidefinite and has
-    no extrema except at points. The friction of streamers is d − e, exact for ridges along and across the sliding.
-    Above the widest gap the effect of roughness decreases as ĥ⁻², the limit of perturbation theory.
+    The table interpolates ∛A₁₁ and ∛A₂₂ over ĥ, and A₁₂/√(A₁₁A₂₂), B/ĥ, d ĥ and e ĥ over ln ĥ, by Hermite's cubics
+    with the slopes of the points, or those of Fritsch and Carlson where the slopes are unknown. A is positive
+    semidefinite, and A₁₁ and A₂₂ have no extrema except at points (slopes are limited as by Fritsch and Carlson). The
+    friction of streamers is d − e, exact for ridges along and across the sliding. Above the widest gap the effect of
+    roughness decreases as ĥ⁻², the limit of perturbation theory.
 
     Attributes
     ----------
@@ -94,7 +102,7 @@ class FactorTable:
 
     @property
     def interpolation_error(self) -> float:
-        """The largest interpolation error half-way between points: of A and B, and without contact of d and e."""
+        """The largest interpolation error between points: of A and B, and without contact of d and e."""
         return max(point.missed for point in self.points)
 
     @property
@@ -139,9 +147,11 @@ class FactorTable:
             )
         inside = np.clip(h, self.narrowest, self.widest)
         decay = np.minimum(self.widest / np.maximum(h, self.widest), 1.0) ** 2
-        between = self._between(np.log(inside / self.scale))
+        along, across = np.moveaxis(self._roots(inside / self.scale) * (self.scale / inside)[..., None], -1, 0) ** 3
+        ratio, *others = np.moveaxis(self._others(np.log(inside / self.scale)), -1, 0)
+        between = np.stack([along, across, np.clip(ratio, -1.0, 1.0) * np.sqrt(along * across), *others], axis=-1)
         far = SMOOTH_ROW + (self._last - SMOOTH_ROW) * decay[..., None]
-        row = np.where((h > self.widest)[..., None], far, _uncubed(between))
+        row = np.where((h > self.widest)[..., None], far, between)
         along, across, cross, drag, drag_across, couette, shear_couette = np.moveaxis(row, -1, 0)
         return GapFactors(
             along=along * h**3,
@@ -160,13 +170,50 @@ class FactorTable:
         return relative_row(self.points[-1].factors)
 
     @cached_property
-    def _between(self) -> "scipy.interpolate.PchipInterpolator":
-        gaps = np.log([point.mean_gap for point in self.points])
-        rows = np.array([_cubed(relative_row(point.factors)) for point in self.points])
-        known = np.flatnonzero(np.isfinite(rows[:, 2]))
-        for row in np.flatnonzero(np.isnan(rows[:, 2])):
-            rows[row, 2] = rows[known[np.abs(known - row).argmin()], 2] if known.size else 0.0
-        return scipy.interpolate.PchipInterpolator(gaps, rows, axis=0)
+    def _rows(self) -> tuple[Array, Array, Array]:
+        """The mean gaps, m, shape (n,), and the numbers of :func:`relative_row` and their slopes, shape (n, 7)."""
+        gaps = np.array([point.mean_gap for point in self.points])
+        rows = np.array([relative_row(point.factors) for point in self.points])
+        return gaps, rows, np.array([point.slopes for point in self.points])
+
+    @cached_property
+    def _roots(self) -> "scipy.interpolate.CubicHermiteSpline":
+        """∛A₁₁ and ∛A₂₂, m, over ĥ, m."""
+        gaps, rows, slopes = self._rows
+        rows, slopes = rows[:, :2], slopes[:, :2]
+        relative = np.divide(slopes, rows, out=np.full(rows.shape, np.nan), where=rows > 0)
+        return _hermite(gaps, gaps[:, None] * np.cbrt(rows), np.cbrt(rows) * (1 + relative / 3), limited=True)
+
+    @cached_property
+    def _others(self) -> "scipy.interpolate.CubicHermiteSpline":
+        """A₁₂/√(A₁₁A₂₂), B₁/ĥ, B₂/ĥ, d ĥ and e ĥ over ln ĥ; the first is that of the nearest point where A is 0."""
+        gaps, rows, slopes = self._rows
+        values, changes = rows[:, 2:].copy(), slopes[:, 2:].copy()
+        mean = np.sqrt(rows[:, 0] * rows[:, 1])
+        known = np.flatnonzero(mean > 0)
+        if known.size:
+            nearest = known[np.abs(known - np.arange(mean.size)[:, None]).argmin(axis=1)]
+            values[:, 0] = rows[nearest, 2] / mean[nearest]
+            relative = (slopes[known, :2] / rows[known, :2]).mean(axis=1)
+            changes[known, 0] = slopes[known, 2] / mean[known] - values[known, 0] * relative
+        changes[mean == 0, 0] = 0.0
+        return _hermite(np.log(gaps), values, changes, limited=False)
+
+
+def _hermite(places: Array, values: Array, slopes: Array, *, limited: bool) -> "scipy.interpolate.CubicHermiteSpline":
+    """The piecewise cubic of values and slopes, shape (n, m); unknown slopes (NaN) are those of Fritsch and Carlson.
+
+    Limited slopes have the sign of the secants on both sides, and at most three times their size: then the cubic is
+    monotone between points (Fritsch and Carlson, SIAM J. Numer. Anal. 17 (1980) 238-246).
+    """
+    monotone = scipy.interpolate.PchipInterpolator(places, values, axis=0)(places, 1)
+    slopes = np.where(np.isfinite(slopes), slopes, monotone)
+    if limited:
+        secants = np.diff(values, axis=0) / np.diff(places)[:, None]
+        before, after = np.vstack([secants[:1], secants]), np.vstack([secants, secants[-1:]])
+        bound = np.where(before * after > 0, 3 * np.minimum(np.abs(before), np.abs(after)), 0.0)
+        slopes = np.sign(after) * np.clip(np.sign(after) * slopes, 0.0, bound)
+    return scipy.interpolate.CubicHermiteSpline(places, values, slopes, axis=0)
 
 
 def relative_row(factors: FlowFactors) -> Array:
@@ -182,15 +229,3 @@ def relative_rows(factors: FactorsOverGap, mean_gap: Array) -> Array:
     columns = (own.along, own.across, own.cross, own.drag, own.drag_across, own.couette, own.shear_couette)
     powers = (3, 3, 3, 1, 1, -1, -1)
     return np.stack([column / h**power for column, power in zip(columns, powers, strict=True)], axis=-1)
-
-
-def _cubed(row: Array) -> Array:
-    """The row with ∛A₁₁/ĥ, ∛A₂₂/ĥ and A₁₂/√(A₁₁A₂₂) instead of A; the last is NaN if A₁₁ or A₂₂ is 0."""
-    mean = np.sqrt(row[0] * row[1])
-    return np.array([np.cbrt(row[0]), np.cbrt(row[1]), row[2] / mean if mean > 0 else np.nan, *row[3:]])
-
-
-def _uncubed(rows: Array) -> Array:
-    """The inverse of :func:`_cubed`, shape (..., 7)."""
-    first, second = rows[..., :1] ** 3, rows[..., 1:2] ** 3
-    return np.concatenate([first, second, rows[..., 2:3] * np.sqrt(first * second), rows[..., 3:]], axis=-1)

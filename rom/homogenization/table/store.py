@@ -16,7 +16,7 @@ from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.rom.homogenization.factors import FlowFactors
 from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
 
-SCHEMA = 3
+SCHEMA = 4
 MARK = b"roughfilm factors, HDF5 behind 512 bytes, sha256 "
 REMEDY = "remove it or choose another place"
 FACTORS = {"mean_gap": "m", "pressure": "m^3", "shear": "m", "couette": "1/m", "shear_couette": "1/m"}
@@ -59,6 +59,7 @@ def save_table(path: Path, inputs: Inputs, table: FactorTable) -> None:
             for name, unit in FACTORS.items():
                 values = np.array([getattr(getattr(point, group), name) for point in points])
                 _write(file, f"{'points' if group == 'factors' else group}/{name}", values, unit)
+        _write(file, "points/slopes", np.array([point.slopes for point in points]), "1")
         _write(file, "points/sealed", np.array([point.factors.sealed for point in points]), "1")
 
     write_checked(path, MARK, fill)
@@ -127,13 +128,14 @@ def _write(file: h5py.File, name: str, values: Array, unit: str) -> None:
 
 def _table(file: h5py.File) -> FactorTable:
     numbers = {name: file[f"points/{name}"][()] for name in NUMBERS}
-    sealed = file["points/sealed"][()]
+    sealed, slopes = file["points/sealed"][()], file["points/slopes"][()]
     own, uncertainty = ({name: file[f"{group}/{name}"][()] for name in FACTORS} for group in ("points", "uncertainty"))
     points = [
         Point(
             factors=_factors(own, row, sealed[row]),
             uncertainty=_factors(uncertainty, row, sealed[row]),
             iterations=int(numbers["iterations"][row]),
+            slopes=slopes[row],
             **{name: float(numbers[name][row]) for name in NUMBERS if name != "iterations"},
         )
         for row in range(sealed.shape[0])

@@ -9,10 +9,17 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array, unmasked
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.threads import workers
+from roughfilm.rom.homogenization.cell import factors_of_correctors
 from roughfilm.rom.homogenization.conductance import FaceRule
-from roughfilm.rom.homogenization.flow_factors import checked_gap, flow_factors
+from roughfilm.rom.homogenization.flow_factors import Estimated, checked_gap, flow_factors
 from roughfilm.rom.homogenization.table.bisection import bisected
-from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point, relative_row, relative_rows
+from roughfilm.rom.homogenization.table.factor_table import (
+    UNKNOWN_SLOPES,
+    FactorTable,
+    Point,
+    relative_row,
+    relative_rows,
+)
 from roughfilm.rom.homogenization.table.separation import Separations
 from roughfilm.rom.ladder.model import Progress, silent
 
@@ -21,6 +28,9 @@ INTERPOLATION_TOLERANCE = 0.005
 
 FIRST_POINTS = 9
 """Number of points before the refinement."""
+
+SLOPE_STEP = 1e-5
+"""Step of the separation over the mean gap in the derivatives of factors."""
 
 MIN_GAP_RATIO = 1.001
 """Smallest ratio of the mean gaps of neighbouring points that is bisected."""
@@ -49,17 +59,17 @@ def tabulate(
 ) -> FactorTable:
     """The table of flow factors of an undeformed surface, from sealing to thick films.
 
-    The cell problem is solved half-way between two points. Where it differs from the interpolation by more than the
-    tolerance and its own uncertainty, both halves are bisected in turn, until there are 400 points or neighbours almost
-    coincide; the table's ``interpolation_error`` then exceeds the tolerance.
+    Each point is predicted from its neighbours; an error below its own uncertainty counts as 0. Intervals of which this
+    indicates an error above the tolerance are bisected, until there are 400 points or neighbours almost coincide; the
+    table's ``interpolation_error`` then exceeds the tolerance.
 
     Parameters
     ----------
     heights : heights of one period, m, shape (nx, ny), positive towards the flat wall.
     spacing : (dx, dy), m.
-    tolerance : largest interpolation error of A over √(A_ii A_jj) + 1e-4 ĥ³, of B over |B| + 0.01 ĥ, and without
-        contact of d and e over d. With contact d does not converge: at an edge <1/h> grows with the logarithm of the
-        number of nodes.
+    tolerance : largest interpolation error of A over √(A_ii A_jj) + 1e-4 ĥ³, of B over |B| + 0.01 ĥ, and between
+        points without contact of d and e over d. With contact d does not converge: at an edge <1/h> grows with the
+        logarithm of the number of nodes.
     narrowest : mean gap of the first point, m; by default that at which the surface seals in both directions.
     known : points that are not solved again.
     keep : called with every new point, one at a time.
@@ -85,7 +95,7 @@ def tabulate(
     def solve(separation: float) -> Point:
         point = before.get(separation)
         if point is None:
-            point = point_of(body.gap(separation), spacing, separation, rule=rule)
+            point = point_of(body.gap(separation), spacing, separation, rule=rule, deformed=False)
             with keeping:
                 keep(point)
         solved[separation] = point
@@ -110,9 +120,10 @@ def tabulate(
         progress(len(solved) / (len(solved) + 20), f"{len(solved)} points")
     points = bisected(
         made(solved.values()).points,
+        place=lambda point: float(np.log(point.mean_gap)),
         half_way=half_way,
-        made=made,
-        errors=lambda table, point: (table_error(table, point), 0.0),
+        errors=lambda others, point: (table_error(made(others), point), 0.0),
+        order=4,
         tolerance=tolerance,
         threads=threads,
         progress=progress,
@@ -121,10 +132,11 @@ def tabulate(
     return made(points)
 
 
-def point_of(gap: Array, spacing: tuple[float, float], separation: float, *, rule: FaceRule) -> Point:
-    """The point of a table for a gap, m, shape (nx, ny), at a separation, m."""
+def point_of(gap: Array, spacing: tuple[float, float], separation: float, *, rule: FaceRule, deformed: bool) -> Point:
+    """The point of a table for a gap, m, shape (nx, ny), at a separation, m; with slopes if it is not deformed."""
     cpu = time.thread_time()
     one = flow_factors(gap, spacing, rule=rule)
+    slopes = UNKNOWN_SLOPES if deformed else _slopes(gap, spacing, one, rule)
     return Point(
         separation=separation,
         contact=one.contact,
@@ -134,16 +146,34 @@ def point_of(gap: Array, spacing: tuple[float, float], separation: float, *, rul
         iterations=one.iterations,
         residual=one.residual,
         cpu_s=time.thread_time() - cpu,
+        slopes=slopes,
     )
 
 
+def _slopes(gap: Array, spacing: tuple[float, float], solved: Estimated, rule: FaceRule) -> Array:
+    """The derivatives of :func:`relative_row` with respect to ln ĥ of an undeformed surface, shape (7,).
+
+    A, B and e are stationary in the correctors, which therefore stay as they are. In contact d and e have no
+    derivatives: their integrals over the gap that opens at its edges diverge.
+    """
+    raised = np.where(gap > 0, gap + SLOPE_STEP * solved.factors.mean_gap, 0.0)
+    after = factors_of_correctors(raised, spacing, solved.correctors, rule=rule)
+    before = solved.factors
+    slopes = (relative_row(after) - relative_row(before)) / np.log(after.mean_gap / before.mean_gap)
+    flows = np.diag(before.pressure) > 0
+    known = np.array([*flows, flows.all(), *flows, *(2 * [solved.contact == 0])])
+    return np.asarray(np.where(known, slopes, np.nan))
+
+
 def table_error(table: FactorTable, point: Point) -> float:
-    """The interpolation error at a point that the table lacks, as the tolerance measures it; 0 within uncertainty."""
+    """The error of a table at a point that it lacks, beyond the point's uncertainty, as the tolerance measures it."""
     h, row = point.mean_gap, relative_row(point.factors)
-    a = point.uncertainty.pressure / h**3
-    uncertainty = np.array([a[0, 0], a[1, 1], a[0, 1], *(point.uncertainty.shear / h), 0, 0])
-    friction = np.inf if point.contact > 0 else row[5]
+    own = point.uncertainty
+    a = own.pressure / h**3
+    uncertainty = np.array([a[0, 0], a[1, 1], a[0, 1], *(own.shear / h), own.couette * h, own.shear_couette * h])
+    below = [other.contact for other in table.points if other.mean_gap < h][-1:]
+    friction = np.inf if any([point.contact, *below]) else row[5]
     sheared = np.hypot(row[3], row[4]) + NEGLIGIBLE_SHEAR_FLOW
     size = np.array([row[0], row[1], np.sqrt(row[0] * row[1]), sheared, sheared, friction, friction])
     error = np.abs(relative_rows(table, np.array([h]))[0] - row)
-    return float(np.max(np.where(error > uncertainty, error / (size + NEGLIGIBLE_PRESSURE_FLOW), 0.0)))
+    return float(np.max(np.maximum(error - uncertainty, 0.0) / (size + NEGLIGIBLE_PRESSURE_FLOW)))

@@ -13,7 +13,7 @@ from roughfilm.rom.homogenization.conductance import CLOSED_CUBE, FaceRule, face
 from roughfilm.rom.homogenization.flow_factors import checked_gap
 from roughfilm.rom.homogenization.grids import coarser_grids, refined
 from roughfilm.rom.homogenization.paths import sealed_between_ends
-from roughfilm.rom.homogenization.richardson import off, sufficient
+from roughfilm.rom.homogenization.richardson import LOOSEST_TOLERANCE, off, sufficient
 from roughfilm.rom.homogenization.solvers import SOLVERS, Solver, Source, first_to_converge
 from roughfilm.rom.multigrid.multigrid import Solved
 from roughfilm.rom.seal.leakage.passage import Leakage, Passage, shut
@@ -81,8 +81,8 @@ def direct_flow(
     scale = float(h.mean())
     solutions: list[_Solution] = []
     for grid, (dx, dy) in coarser_grids(h / scale, spacing):
-        flows = [np.array([one.permeability]) for one in solutions]
-        limit = sufficient(flows) if tolerance is None else tolerance
+        flows = [np.array(one.permeability) for one in solutions]
+        limit = float(sufficient(flows, LOOSEST_TOLERANCE)) if tolerance is None else tolerance
         coarser = solutions[-1] if solutions else None
         solutions.append(_solve(np.tile(grid, (periods, 1)), dy / dx, rule, limit, solvers, coarser))
     finest = solutions[-1]
@@ -122,11 +122,11 @@ def _solve(
     box = Box(east=parts.east * aspect, north=parts.north / aspect, joined=True)
     matrix = box.matrix()
     start = None if coarser is None else refined(coarser.corrector, h.shape)[1:] * (len(h) / len(coarser.corrector))
-    source = Source(values=box.source(), whole=box.whole(), start=start)
+    source = Source(values=box.source(), whole=box.whole(), start=start, tolerance=tolerance)
     per_width = 1 / (aspect * h.shape[1])
 
     def attempt(solve: Solver) -> tuple[Solved, float, float]:
-        (solved,) = solve(matrix, [source], tolerance)
+        (solved,) = solve(matrix, [source])
         flow = box.flow(solved.solution)
         left = max(solved.left / len(h), flow.uneven)
         if left > 2 * tolerance * flow.through:

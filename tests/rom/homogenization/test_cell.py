@@ -9,6 +9,7 @@ from roughfilm.rom.homogenization.conductance import FaceRule, faces
 from roughfilm.rom.homogenization.flow_factors import flow_factors
 from roughfilm.rom.homogenization.flux import flux
 from roughfilm.rom.homogenization.polar import in_polar
+from roughfilm.rom.homogenization.richardson import sufficient
 from roughfilm.rom.homogenization.solvers import SOLVERS
 
 
@@ -171,6 +172,21 @@ def test_faces_next_to_contact_are_closed(rule):
     part = faces(gap, rule)
     assert part.east[2, 1] == part.east[1, 1] == part.north[2, 1] == part.north[2, 0] == 0
     assert (part.east > 0).sum() == (part.north > 0).sum() == 18
+
+
+def test_each_problem_has_a_solver_tolerance_of_its_own():
+    grids = [np.array([1.0, 2.0, 5.0]), np.array([1.0 + 4e-5, 2.5, 10.0])]
+    expected = [4e-5 / (1 + 4e-5) / 400, 1e-4, 1e-3]  # a hundredth of a fourth of the change, at most the loosest
+    assert sufficient(grids, (1e-4, 1e-4, 1e-3)) == pytest.approx(expected, rel=1e-6)
+    assert sufficient(grids[:1], (1e-4, 1e-4, 1e-3)).tolist() == [1e-4, 1e-4, 1e-3]
+
+
+def test_friction_at_the_edges_of_contact_does_not_determine_the_effort():
+    gap = np.maximum(contact((128, 128), 23, 0.5), 0.0) ** 3  # narrow everywhere around contact
+    found, exact = flow_factors(gap, (1.0, 1.0)), flow_factors(gap, (1.0, 1.0), solvers=("elimination",))
+    assert found.iterations <= 20
+    error = abs(found.factors.shear_couette - exact.factors.shear_couette)
+    assert error <= 0.1 * found.uncertainty.shear_couette
 
 
 def test_a_tolerance_of_each_grid_follows_what_the_grids_leave():

@@ -8,7 +8,7 @@ import pytest
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.rom.homogenization.flow_factors import flow_factors
-from roughfilm.rom.homogenization.table.factor_table import relative_rows
+from roughfilm.rom.homogenization.table.factor_table import relative_row, relative_rows
 from roughfilm.rom.homogenization.table.separation import Separations
 from roughfilm.rom.homogenization.table.store import known_points, load_table, save_table
 from roughfilm.rom.homogenization.table.tabulate import tabulate
@@ -75,6 +75,20 @@ def test_interpolation_keeps_its_tolerance_between_points(table):
         assert (off <= allowed + uncertain).all()
 
 
+def test_slopes_are_the_derivatives_of_the_factors(table):
+    body = Separations(heights=HEIGHTS)
+    for point in (table.points[len(table.points) // 2], table.points[-3]):
+        rows = []
+        for step in (-2e-4, 2e-4):
+            gap = body.gap(point.separation + step * point.mean_gap)
+            rows.append((gap.mean(), relative_row(flow_factors(gap, SPACING, tolerance=1e-10).factors)))
+        (before, first), (after, last) = rows
+        found = (last - first) / np.log(after / before)
+        known = 7 if point.contact == 0 else 5
+        assert np.isfinite(point.slopes).sum() == known
+        assert point.slopes[:known] == pytest.approx(found[:known], rel=2e-3, abs=2e-4)
+
+
 def test_flow_falls_as_the_gap_closes_and_ends_where_it_is_sealed(table):
     gaps = np.geomspace(0.5 * table.narrowest, 3 * table.widest, 400)
     factors = table(gaps)
@@ -133,6 +147,8 @@ def test_a_file_gives_the_table_back(table, inputs, tmp_path):
     assert len(known) == len(table.points)
     pairs = zip(known, table.points, strict=True)
     assert all(one.uncertainty.shear[1] == other.uncertainty.shear[1] for one, other in pairs)
+    pairs = zip(known, table.points, strict=True)
+    assert all(np.array_equal(one.slopes, other.slopes, equal_nan=True) for one, other in pairs)
 
 
 def test_points_already_known_are_not_solved_again(table, inputs, tmp_path):
