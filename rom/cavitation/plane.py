@@ -1,20 +1,24 @@
-"""The Newton step in the plane: filling fractions eliminated along the flow, pressures by a Krylov method.
+"""The Newton step in the plane: pressures and filling fractions together, by a preconditioned Krylov method.
 
-With the unknowns of cavities (c) and film (f) separated, a step solves
+Film nodes have the unknown δp, cavity nodes δξ. BiCGSTAB solves the system of all balances. Its preconditioner has two
+stages:
 
-    A_ff δp + A_fc δξ = r_f,    A_cf δp + A_cc δξ = r_c.
+1. Multigrid on a symmetric operator for the pressures: the flow inside the film, with p = 0 behind the film. A cavity
+   returns the liquid that a film pushes into it against the flow, or from the side if its next node downstream is film:
+   such liquid is no loss. Other liquid is lost here, since the cavity releases it far downstream.
+2. One sweep downstream over whole rows across the flow, in which cavities carry all that they receive. A cavity node
+   before a film is eliminated: it returns to the film what the pressure of the film pushes into it.
 
-A_cc is bidiagonal along the flow, so one sweep applies its inverse; BiCGSTAB solves the Schur complement
-(A_ff − A_fc A_cc⁻¹ A_cf) δp. Its preconditioner is multigrid on a similar symmetric operator: the pressure flow inside
-the film, with p = 0 where the film ends and no flow condition where it begins, since the flow out of a cavity does not
-depend on the pressure. The flows of an oblique lay are in the operator, but not in its preconditioner.
+A sweep over a film that is periodic along the flow begins where the fewest cavities cross the first row. The
+preconditioner omits the flows that an oblique lay drives across.
 """
 
 import numpy as np
+from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.compiled import compiled
-from roughfilm.rom.cavitation.balance import CAVITY, FILM
+from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED
 from roughfilm.rom.cavitation.bicgstab import bicgstab
 from roughfilm.rom.cavitation.network import Network
 from roughfilm.rom.cavitation.newton import Linear
@@ -30,59 +34,63 @@ KRYLOV_ITERATIONS = 200
 
 def plane_step(network: Network, linear: Linear, accuracy: float) -> Array:
     """The change of every unknown, shape (nx, ny); ConvergenceError where the Krylov method stalls."""
-    parts = (linear.kind, linear.centre, linear.west, linear.east, linear.south, linear.north)
-    source, nothing = -linear.balance, np.zeros(network.shape)
+    matrix = (linear.kind, linear.centre, linear.west, linear.east, linear.south, linear.north)
+    inverse, factor, work = np.empty(network.shape), np.empty(network.shape), np.empty(network.shape[1])
+    factorise(*matrix, inverse, factor)
+    first = first_row(linear.kind) if network.periodic[0] else 0
+    conductance, scale = conductances(network, linear)
+    multigrid = Multigrid(*conductance, periodic=network.periodic, single=True)
 
-    lay = network.oblique
-    ways = (network.periodic[0], lay is not None)
-
-    def driven(pressure: Array) -> Array:
-        if lay is None:
-            return nothing
-        return lay.image(linear.mobility, np.where(linear.kind == FILM, pressure, 0.0))
-
-    def product(pressure: Array) -> Array:
-        slanting = driven(pressure)
-        carry(*parts, *ways, -slanting, pressure)
+    def product(values: Array) -> Array:
         image = np.empty(network.shape)
-        film_image(*parts, pressure, image)
-        return image if lay is None else np.where(linear.kind == FILM, image + slanting, 0.0)
+        multiply(*matrix, values, image)
+        if network.oblique is not None:
+            driven = network.oblique.image(linear.mobility, np.where(linear.kind == FILM, values, 0.0))
+            image += np.where(linear.kind < FIXED, driven, 0.0)
+        return image
 
-    values, image = np.zeros(network.shape), np.zeros(network.shape)
-    carry(*parts, *ways, source, values)
-    film_image(*parts, values, image)
-    wanted = np.where(linear.kind == FILM, source - image, 0.0)
-    inverse = Multigrid(*conductances(network, linear), periodic=network.periodic)
-    tolerance = max(STEP_REDUCTION * float(np.sqrt(dot(wanted, wanted))), accuracy / 10)
-    values = bicgstab(product, inverse.cycle, wanted, tolerance=tolerance, limit=KRYLOV_ITERATIONS)
-    values[linear.kind != FILM] = 0.0
-    carry(*parts, *ways, source - driven(values), values)
-    return values
+    def precondition(residual: Array) -> Array:
+        size = np.abs(residual).max() or 1.0
+        values = np.where(linear.kind == FILM, multigrid.cycle(residual / size) * (size / scale), 0.0)
+        sweep(*matrix, inverse, factor, first, residual, values, work)
+        return values
+
+    source = -linear.balance
+    start = np.zeros(network.shape)
+    sweep(*matrix, inverse, factor, first, source, start, work)
+    rest = source - product(start)
+    tolerance = max(STEP_REDUCTION * float(np.sqrt(dot(source, source))), accuracy / 10)
+    return start + bicgstab(product, precondition, rest, tolerance=tolerance, limit=KRYLOV_ITERATIONS)
 
 
-def conductances(network: Network, linear: Linear) -> tuple[Array, Array, Array]:
-    """The symmetric operator inside the film: centre, and couplings towards i+1 and j+1, each of shape (nx, ny)."""
+def conductances(network: Network, linear: Linear) -> tuple[tuple[Array, Array, Array], float]:
+    """The symmetric operator inside the film over its largest coupling, and that coupling, m³/(Pa s).
+
+    The operator is the centre and the couplings towards i+1 and j+1, each of shape (nx, ny).
+    """
     centre, east, north = (np.zeros(network.shape) for _ in range(3))
     to_east, to_north = network.conductance(linear.mobility)
+    scale = max(float(to_east.max()), float(to_north.max())) or 1.0
+    to_east /= scale
+    to_north /= scale
     slopes = (linear.centre, linear.south, linear.north)
-    feeds = np.zeros(network.shape, dtype=bool)
-    couple(linear.kind, to_east, to_north, *network.periodic, *slopes, feeds, centre, east, north)
-    return centre, east, north
+    couple(linear.kind, to_east, to_north, *network.periodic, *slopes, centre, east, north)
+    return (centre, east, north), scale
+
+
+def first_row(kind: NDArray[np.int8]) -> int:
+    """The row behind the one with the fewest cavity nodes."""
+    return int(np.count_nonzero(kind == CAVITY, axis=1).argmin() + 1) % kind.shape[0]
 
 
 @compiled
-def couple(kind, east, north, periodic_x, periodic_y, by_self, by_south, by_north, feeds, centre, to_east, to_north):  # type: ignore[no-untyped-def]  # fmt: skip
+def couple(kind, east, north, periodic_x, periodic_y, by_self, by_south, by_north, centre, to_east, to_north):  # type: ignore[no-untyped-def]  # fmt: skip
     """Compute the couplings of film nodes; all other nodes are decoupled.
 
     ``by_self``, ``by_south`` and ``by_north`` are derivatives of the balances; they account for liquid that drifts back
-    from a cavity beside the film. ``feeds`` is set to the cavities whose liquid drifts into the film.
+    from a cavity beside the film.
     """
     nx, ny = kind.shape
-    for _ in range(2 if periodic_x else 1):
-        for i in range(nx - 1 if periodic_x else nx - 2, -1, -1):
-            k = i + 1 if i + 1 < nx else 0
-            for j in range(ny):
-                feeds[i, j] = kind[i, j] == CAVITY and (kind[k, j] == FILM or feeds[k, j])
     for i in range(nx if periodic_x else nx - 1):
         k = i + 1 if i + 1 < nx else 0
         for j in range(ny):
@@ -95,13 +103,14 @@ def couple(kind, east, north, periodic_x, periodic_y, by_self, by_south, by_nort
             if here and there:
                 to_east[i, j] = g
     for i in range(nx):
+        after = i + 1 if i + 1 < nx else (0 if periodic_x else i)
         for j in range(ny if periodic_y else ny - 1):
             k = j + 1 if j + 1 < ny else 0
             g = north[i, j]
             here, there = kind[i, j] == FILM, kind[i, k] == FILM
-            if here and not feeds[i, k]:
+            if here and not (kind[i, k] == CAVITY and kind[after, k] == FILM):
                 centre[i, j] += g * (1.0 + by_north[i, j] / by_self[i, k] if kind[i, k] == CAVITY else 1.0)
-            if there and not feeds[i, j]:
+            if there and not (kind[i, j] == CAVITY and kind[after, j] == FILM):
                 centre[i, k] += g * (1.0 + by_south[i, k] / by_self[i, j] if kind[i, j] == CAVITY else 1.0)
             if here and there:
                 to_north[i, j] = g
@@ -112,38 +121,67 @@ def couple(kind, east, north, periodic_x, periodic_y, by_self, by_south, by_nort
 
 
 @compiled
-def carry(kind, centre, west, east, south, north, periodic_x, drifts, source, values):  # type: ignore[no-untyped-def]
-    """Compute the filling fractions that balance the cavities at given pressures beside them.
+def factorise(kind, centre, west, east, south, north, inverse, factor):  # type: ignore[no-untyped-def]
+    """Factorise the rows across the flow without the cavity nodes before a film, which are eliminated.
 
-    With drift across the sliding (``drifts``) every row is swept upwards and then downwards.
+    The change of a node without an unknown is 0.
     """
     nx, ny = kind.shape
-    for _ in range(2 if periodic_x else 1):
-        for i in range(nx):
-            before = i - 1 if i > 0 else nx - 1
-            after = i + 1 if i + 1 < nx else 0
-            for place in range(2 * ny if drifts else ny):
-                j = place if place < ny else 2 * ny - 1 - place
-                if kind[i, j] == CAVITY:
-                    below = j - 1 if j > 0 else ny - 1
-                    above = j + 1 if j + 1 < ny else 0
-                    rest = source[i, j] - east[i, j] * values[after, j] - west[i, j] * values[before, j]
-                    rest -= south[i, j] * values[i, below] + north[i, j] * values[i, above]
-                    values[i, j] = rest / centre[i, j]
+    for i in range(nx):
+        before = i - 1 if i > 0 else nx - 1
+        last = 0.0
+        for j in range(ny):
+            pivot = centre[i, j] - south[i, j] * last
+            if kind[i, j] == FILM and kind[before, j] == CAVITY:
+                pivot -= west[i, j] * east[before, j] / centre[before, j]
+            inverse[i, j] = 1.0 / pivot if kind[i, j] < FIXED else 0.0
+            last = north[i, j] * inverse[i, j]
+            factor[i, j] = last
 
 
 @compiled
-def film_image(kind, centre, west, east, south, north, values, image):  # type: ignore[no-untyped-def]
-    """Compute the matrix product A x at the film nodes; zero elsewhere."""
+def sweep(kind, centre, west, east, south, north, inverse, factor, first, source, values, work):  # type: ignore[no-untyped-def]  # fmt: skip
+    """Solve the rows across the flow one after the other downstream, from row ``first`` on, in place."""
+    nx, ny = kind.shape
+    for number in range(nx):
+        i = number + first
+        i = i if i < nx else i - nx
+        before = i - 1 if i > 0 else nx - 1
+        after = i + 1 if i + 1 < nx else 0
+        for j in range(ny):
+            rest = source[i, j] - west[i, j] * values[before, j]
+            ahead = east[i, j] * values[after, j]
+            eliminated = kind[i, j] == CAVITY and kind[after, j] == FILM and number + 1 < nx
+            work[j] = rest if eliminated else rest - ahead
+        last = 0.0
+        for j in range(ny):
+            last = (work[j] - south[i, j] * last) * inverse[i, j]
+            work[j] = last
+        last = 0.0
+        for j in range(ny - 1, -1, -1):
+            last = work[j] - factor[i, j] * last
+            work[j] = last
+        for j in range(ny):
+            values[i, j] = work[j]
+            if kind[i, j] == FILM and kind[before, j] == CAVITY and number > 0:
+                values[before, j] -= east[before, j] / centre[before, j] * work[j]
+
+
+@compiled
+def multiply(kind, centre, west, east, south, north, values, image):  # type: ignore[no-untyped-def]
+    """Compute the matrix product A x; zero at nodes without an unknown."""
     nx, ny = kind.shape
     for i in range(nx):
         before = i - 1 if i > 0 else nx - 1
         after = i + 1 if i + 1 < nx else 0
         for j in range(ny):
-            total = 0.0
-            if kind[i, j] == FILM:
-                below = j - 1 if j > 0 else ny - 1
-                above = j + 1 if j + 1 < ny else 0
-                total = centre[i, j] * values[i, j] + west[i, j] * values[before, j] + east[i, j] * values[after, j]
-                total += south[i, j] * values[i, below] + north[i, j] * values[i, above]
-            image[i, j] = total
+            image[i, j] = centre[i, j] * values[i, j] + west[i, j] * values[before, j] + east[i, j] * values[after, j]
+        for j in range(1, ny):
+            image[i, j] += south[i, j] * values[i, j - 1]
+        for j in range(ny - 1):
+            image[i, j] += north[i, j] * values[i, j + 1]
+        image[i, 0] += south[i, 0] * values[i, ny - 1]
+        image[i, ny - 1] += north[i, ny - 1] * values[i, 0]
+        for j in range(ny):
+            if kind[i, j] >= FIXED:
+                image[i, j] = 0.0
