@@ -176,10 +176,10 @@ class _Search:
             return worst
         return 0.0
 
-    def conjugate(self) -> bool:
+    def conjugate(self, iteration: int) -> bool:
         """Set ``move`` along z = |q| r made conjugate to the last step; false if this is not a descent direction."""
         half_space, pieces = self.half_space, self.pieces
-        self.extension.extend(self.index, self.residual, half_space.source)
+        self.extension.extend(self.index, self.residual, half_space.source, iteration=iteration)
         half_space.precondition()
         numbers = pieces.over_free(
             kernels.products,
@@ -327,7 +327,7 @@ def minimise(
             outcome = Outcome.STALLED
             break
         gradient = (iteration - since) // GRADIENT_ITERATIONS % 2 == 1
-        if gradient or not (search.conjugate() and search.step()):
+        if gradient or not (search.conjugate(iteration) and search.step()):
             search.descend()
             if not search.step():
                 outcome = Outcome.STALLED
