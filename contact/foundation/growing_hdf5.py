@@ -71,7 +71,7 @@ class Writer:
         """Add an array as a dataset; an array of zeros takes no space."""
         dataset = self.file.create_dataset(name, shape=values.shape, dtype=values.dtype)
         dataset.attrs["unit"] = unit
-        if values.any():
+        if values.flat[0] or values.any():
             data = np.ascontiguousarray(values)
             dataset[...] = data
             place = dataset.id.get_offset()

@@ -18,8 +18,10 @@ elastic contact without an upper bound.
 """
 
 import math
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
@@ -76,6 +78,10 @@ def violation_of(pressure: Array, gap: Array, plane: float, hardness: float) -> 
     return float(out[0])
 
 
+def _single(size: int) -> NDArray[Any]:
+    return np.empty(size, dtype=np.float32)
+
+
 class _Search:
     """State of one minimisation, and the steps of an iteration."""
 
@@ -117,10 +123,10 @@ class _Search:
         """Make lists for a number of free nodes in each range."""
         self.pieces.reserve(capacity)
         size = capacity * len(self.pieces.firsts)
-        self.index = np.empty(size, dtype=np.int32)
-        self.residual, self.move, self.move_image, self.taken = (np.empty(size, dtype=np.float32) for _ in range(4))
-        self.held = np.empty(size)
-        self.spare: tuple[Array, Array] = np.empty(size), np.empty(size, dtype=np.float32)
+        self.index: NDArray[Any] = np.empty(size, dtype=np.int32)
+        self.residual, self.move, self.move_image = (_single(size) for _ in range(3))
+        self.held, self.taken = np.empty(size), _single(size)
+        self.spare = np.empty(size), _single(size)
 
     def refresh(self) -> None:
         """Recompute the gap over its plane from the pressure in double precision and store it in single precision."""
@@ -170,10 +176,10 @@ class _Search:
             return worst
         return 0.0
 
-    def conjugate(self) -> bool:
+    def conjugate(self, iteration: int) -> bool:
         """Set ``move`` along z = |q| r made conjugate to the last step; false if this is not a descent direction."""
         half_space, pieces = self.half_space, self.pieces
-        self.extension.extend(self.index, self.residual, half_space.source)
+        self.extension.extend(self.index, self.residual, half_space.source, iteration=iteration)
         half_space.precondition()
         numbers = pieces.over_free(
             kernels.products,
@@ -321,7 +327,7 @@ def minimise(
             outcome = Outcome.STALLED
             break
         gradient = (iteration - since) // GRADIENT_ITERATIONS % 2 == 1
-        if gradient or not (search.conjugate() and search.step()):
+        if gradient or not (search.conjugate(iteration) and search.step()):
             search.descend()
             if not search.step():
                 outcome = Outcome.STALLED

@@ -8,6 +8,7 @@ import json
 import os
 import subprocess
 import sys
+import time
 from dataclasses import asdict, dataclass
 from functools import cache
 from pathlib import Path
@@ -18,6 +19,9 @@ from places import BENCHMARKS, ROOT
 
 from roughfilm.charts.peer_runs import PROGRAMS, TOLERANCES, VIOLATION
 from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.inputs import Inputs
+from roughfilm.contact.mechanics.press import Press
+from roughfilm.contact.mechanics.store import add, finished, row_of
 from roughfilm.contact.synthetic.self_affine import self_affine
 from roughfilm.rom.ladder.provenance import circumstances
 
@@ -25,11 +29,12 @@ PROGRAM = PROGRAMS / "run.py"
 RESULTS = BENCHMARKS / "contact.json"
 SIDE = 1e-3
 AREA, MEAN_GAP = 1e-5, 1e-6
+MODULUS = 2e11
 
 
 @dataclass(frozen=True, kw_only=True)
 class Case:
-    """Loads and hardness are over E*; slow peers take more than half a minute."""
+    """Loads and hardness are over E*; slow peers, and all solvers of a slow case, take more than half a minute."""
 
     name: str
     points: int
@@ -39,6 +44,7 @@ class Case:
     hardness: float | None = None
     threads: int = 1
     repeats: int = 1
+    slow: bool = False
 
 
 CASES = [
@@ -89,10 +95,14 @@ CASES = [
         slow_peers=("run_tamaas", "run_contact_mechanics"),
     ),
     Case(name="4096, 10 %", points=4096, loads=(0.00498,), slow_peers=("run_aspher",)),
+    Case(name="8192, 10 %", points=8192, loads=(0.00508,), slow=True),
 ]
 PAIRS = [
     pytest.param(
-        case, solver, id=f"{case.name}-{solver}", marks=[pytest.mark.slow] if solver in case.slow_peers else []
+        case,
+        solver,
+        id=f"{case.name}-{solver}",
+        marks=[pytest.mark.slow] if case.slow or solver in case.slow_peers else [],
     )
     for case in CASES
     for solver in ("run_roughfilm", *case.peers, *case.slow_peers)
@@ -108,16 +118,7 @@ def solved(tmp_path_factory):
 
     @cache
     def heights(points):
-        surface = self_affine(
-            size=(SIDE, SIDE),
-            points=(points, points),
-            seed=20071,
-            hurst=0.8,
-            roll_off=SIDE / 4,
-            cut_off=8 * SIDE / points,
-            rms_slope=0.1,
-        )
-        np.save(folder / f"{points}.npy", surface.heights)
+        np.save(folder / f"{points}.npy", rough(points))
         return folder / f"{points}.npy"
 
     def solve(case, solver):
@@ -144,6 +145,19 @@ def solved(tmp_path_factory):
         return rows[key]
 
     return solve
+
+
+def rough(points):
+    """Heights of the surface of every case, whose shortest wave has eight points."""
+    return self_affine(
+        size=(SIDE, SIDE),
+        points=(points, points),
+        seed=20071,
+        hurst=0.8,
+        roll_off=SIDE / 4,
+        cut_off=8 * SIDE / points,
+        rms_slope=0.1,
+    ).heights
 
 
 def python(solver):
@@ -199,3 +213,25 @@ def test_a_solver_keeps_the_conditions_of_contact_and_agrees_with_ours(solved, c
     assert differences["area_fraction"] <= AREA
     assert differences["plastic_fraction"] <= AREA
     assert differences["mean_gap_over_rms"] <= MEAN_GAP
+
+
+@pytest.mark.benchmark
+def test_the_time_of_writing_a_series_beside_that_of_its_contacts(tmp_path):
+    points, spent = 1024, dict.fromkeys(("contact", "writing"), 0.0)
+    heights = rough(points)
+    press = Press(heights, (SIDE / points,) * 2, MODULUS)
+    inputs = Inputs(heights=heights, spacing=press.spacing, settings={})
+    loads, contact = [float(load) * MODULUS for load in np.geomspace(0.00041, 0.0355, 20)], None
+    press.at(loads[0], tolerance=1e-2)
+    for load in loads:
+        begun = time.process_time()
+        contact = press.at(load, start=contact)
+        row = row_of(contact, 0.0)
+        solved = time.process_time()
+        add(tmp_path / "series.h5", inputs, [(row, contact)])
+        spent["contact"] += solved - begun
+        spent["writing"] += time.process_time() - solved
+    assert sorted(finished(tmp_path / "series.h5", inputs)) == loads
+    with replacing(RESULTS.with_name("contact_series.json")) as scratch:
+        fraction = spent["writing"] / sum(spent.values())
+        scratch.write_text(json.dumps({**circumstances(), "cpu_s": spent, "writing_fraction": fraction}, indent=1))
