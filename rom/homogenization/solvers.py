@@ -37,7 +37,10 @@ class Matrix:
 
 @dataclass(frozen=True, kw_only=True)
 class Source:
-    """A right-hand side b, shape (nx, ny); ``whole`` is E if the energy of interest is E − b·χ, None if it is b·χ."""
+    """A right-hand side b, shape (nx, ny); ``whole`` is E if the energy of interest is E − b·χ, None if it is b·χ.
+
+    A solver may overwrite ``start``.
+    """
 
     values: Array
     whole: float | None
@@ -55,9 +58,11 @@ Sources are consumed one after the other, so that only one is in memory at a tim
 def by_multigrid(matrix: Matrix, sources: Iterable[Source], tolerance: float, *, single: bool) -> list[Solved]:
     """Conjugate gradients, preconditioned by multigrid in single or double precision."""
     multigrid = Multigrid(matrix.centre, matrix.east, matrix.north, periodic=matrix.periodic, single=single)
-    return [
-        multigrid.minimise(source.values, source.whole, tolerance=tolerance, start=source.start) for source in sources
-    ]
+
+    def solve(source: Source) -> Solved:
+        return multigrid.minimise(source.values, source.whole, tolerance=tolerance, start=source.start)
+
+    return list(map(solve, sources))
 
 
 def by_elimination(matrix: Matrix, sources: Iterable[Source], _tolerance: float) -> list[Solved]:

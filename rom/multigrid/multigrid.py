@@ -145,7 +145,7 @@ class Multigrid:
             If the residual exceeds the tolerance after ``limit`` iterations, or because of round-off.
         """
         b = self._inner(right_hand_side)
-        p = self._first(b, start)
+        p = np.zeros(b.shape) if start is None else np.array(self._inner(start))
         norm = math.sqrt(gradients.dot(b, b))
         if norm == 0:
             return Solved(solution=np.zeros(self.shape), iterations=0, residual=0.0)
@@ -189,7 +189,7 @@ class Multigrid:
         Parameters
         ----------
         right_hand_side, start, limit
-            Arguments of :meth:`solve`.
+            Arguments of :meth:`solve`; ``start`` may be overwritten.
         whole
             W if the energy is W − G; None if it is G.
         tolerance
@@ -203,7 +203,7 @@ class Multigrid:
             If the tolerance is not met.
         """
         b = self._inner(right_hand_side)
-        p = self._first(b, start)
+        p = np.zeros(b.shape) if start is None else self._inner(start)
         norm = math.sqrt(gradients.dot(b, b))
         if norm == 0:
             return Solved(solution=np.zeros(self.shape), iterations=0, residual=0.0)
@@ -240,9 +240,6 @@ class Multigrid:
             outcome=Outcome.UNFINISHED if iterations >= limit else Outcome.STALLED,
             iterations=iterations,
         )
-
-    def _first(self, b: Array, start: ArrayLike | None) -> Array:
-        return np.zeros(b.shape) if start is None else np.array(self._inner(start), order="C")
 
     @property
     def _finest(self) -> tuple[Array, Array]:
