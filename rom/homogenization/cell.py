@@ -133,12 +133,14 @@ class _Network:
     def source(self, which: int) -> tuple[Array, float | None]:
         """The right-hand side for χ₁, χ₂ or χ₃, and the energy of the uniform gradient."""
         if which == 0:
-            flux, along, whole = self.matrix.east, 0, float(self.matrix.east.sum())
-        elif which == 1:
-            flux, along, whole = self.matrix.north * self.aspect, 1, float(self.matrix.north.sum()) * self.aspect**2
-        else:
-            flux, along, whole = self.drag * -self.aspect, 0, None
-        return _less_before(flux, along), whole
+            return _less_before(self.matrix.east, 0), float(self.matrix.east.sum())
+        if which == 1:
+            values = _less_before(self.matrix.north, 1)
+            values *= self.aspect
+            return values, float(self.matrix.north.sum()) * self.aspect**2
+        values = _less_before(self.drag, 0)
+        values *= -self.aspect
+        return values, None
 
     def factors(self, chi: Array) -> FlowFactors:
         """The factors of the correctors; A as an energy, so that no cancellation occurs near sealing."""

@@ -43,7 +43,7 @@ class Source:
     ----------
     values : b.
     whole : E if the energy of interest is E − b·χ, None if it is b·χ.
-    start : initial χ, shape (nx, ny); None for 0.
+    start : initial χ, shape (nx, ny), which a solver may overwrite; None for 0.
     tolerance : largest relative error of the energy.
     """
 
@@ -64,10 +64,11 @@ Sources are consumed one after the other, so that only one is in memory at a tim
 def by_multigrid(matrix: Matrix, sources: Iterable[Source], *, single: bool) -> list[Solved]:
     """Conjugate gradients, preconditioned by multigrid in single or double precision."""
     multigrid = Multigrid(matrix.centre, matrix.east, matrix.north, periodic=matrix.periodic, single=single)
-    return [
-        multigrid.minimise(source.values, source.whole, tolerance=source.tolerance, start=source.start)
-        for source in sources
-    ]
+
+    def solve(source: Source) -> Solved:
+        return multigrid.minimise(source.values, source.whole, tolerance=source.tolerance, start=source.start)
+
+    return list(map(solve, sources))
 
 
 def by_elimination(matrix: Matrix, sources: Iterable[Source]) -> list[Solved]:

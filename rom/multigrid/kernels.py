@@ -1,14 +1,15 @@
 """Loops over the rows of a multigrid hierarchy.
 
-The rows of all levels have the same length m and are stored in arrays of shape (rows of all levels, m), the finest
-level first. The couplings along a row form a tridiagonal matrix T, cyclic if the row is periodic. Couplings to the next
-row are ``east`` (same column), ``up`` (next column) and ``down`` (previous column). Couplings out of the grid are 0, so
-that indices may wrap everywhere.
+The rows of all levels have the same length m. Couplings along a row form a tridiagonal matrix T, cyclic if the row is
+periodic. Couplings to the next row are ``east`` (same column), ``up`` (next column) and ``down`` (previous column).
+Couplings out of the grid are 0, so that indices may wrap everywhere.
 
 All arrays of a hierarchy have the same precision, single or double.
 
 All loops that call each other are in this file, since the cache of a compiled loop depends on its own file alone.
-Constants are passed as np.int64(0) or np.bool_(True), since numba compiles another version for a plain 0 or True.
+Constants are passed as np.int64(0) or np.bool_(True), since numba compiles another version for a plain 0 or True. The
+rows of a level are two arrays with the places of its parts, and not one array for each part, since the time to compile
+grows with the number of arguments.
 """
 
 import numpy as np
@@ -18,18 +19,23 @@ from roughfilm.rom.multigrid.rows import MIN_HOLE_WEIGHT, MIN_PIVOT, Rows
 
 
 @called
-def level_rows(rows, start, stop, finest):  # type: ignore[no-untyped-def]
-    """The rows [start, stop) of one level; the ``finest`` first rows of the hierarchy have no up and down."""
+def level_rows(rows, start, count):  # type: ignore[no-untyped-def]
+    """The ``count`` rows of a level of which ``start`` rows are on finer levels; ``rows`` are those of the finest."""
+    coarse = np.int64(-1) if start == 0 else rows.up + start
+    down = np.int64(-1) if start == 0 else rows.down + start
     return Rows(
-        rows.leak[start:stop],
-        rows.centre[start:stop],
-        rows.north[start:stop],
-        rows.east[start:stop],
-        rows.up[max(start - finest, 0) : stop - finest],
-        rows.down[max(start - finest, 0) : stop - finest],
-        rows.inverse[start:stop],
-        rows.factor[start:stop],
-        rows.border[start:stop],
+        rows.base,
+        rows.solver,
+        count,
+        rows.leak + start,
+        rows.centre + start,
+        rows.north + start,
+        rows.east + start,
+        rows.inverse + start,
+        rows.factor + start,
+        rows.border if rows.border < 0 else rows.border + start,
+        coarse,
+        down,
     )
 
 
@@ -39,21 +45,22 @@ def eliminate(rows, row, size, sums):  # type: ignore[no-untyped-def]
 
     ``sums`` are the row sums t of T, and become those of the remaining matrix: a pivot is t plus the next coupling.
     """
-    centre, north, inverse, factor = rows.centre, rows.north, rows.inverse, rows.factor
+    centre, north = rows.base[rows.centre + row], rows.base[rows.north + row]
+    inverse, factor = rows.solver[rows.inverse + row], rows.solver[rows.factor + row]
     middle = size // 2
     for j in range(middle):
         end = size - 1 - j
-        pivot = sums[j] + north[row, j]
-        inverse[row, j] = 1 / pivot if pivot > MIN_PIVOT * centre[row, j] else 0.0
-        factor[row, j] = north[row, j] * inverse[row, j]
-        sums[j + 1] += factor[row, j] * sums[j]
+        pivot = sums[j] + north[j]
+        inverse[j] = 1 / pivot if pivot > MIN_PIVOT * centre[j] else 0.0
+        factor[j] = north[j] * inverse[j]
+        sums[j + 1] += factor[j] * sums[j]
         if end > middle:
-            pivot = sums[end] + north[row, end - 1]
-            inverse[row, end] = 1 / pivot if pivot > MIN_PIVOT * centre[row, end] else 0.0
-            factor[row, end] = north[row, end - 1] * inverse[row, end]
-            sums[end - 1] += factor[row, end] * sums[end]
-    inverse[row, middle] = 1 / sums[middle] if sums[middle] > MIN_PIVOT * centre[row, middle] else 0.0
-    factor[row, middle] = 0.0
+            pivot = sums[end] + north[end - 1]
+            inverse[end] = 1 / pivot if pivot > MIN_PIVOT * centre[end] else 0.0
+            factor[end] = north[end - 1] * inverse[end]
+            sums[end - 1] += factor[end] * sums[end]
+    inverse[middle] = 1 / sums[middle] if sums[middle] > MIN_PIVOT * centre[middle] else 0.0
+    factor[middle] = 0.0
 
 
 @called
@@ -64,8 +71,8 @@ def substitute(rows, first, second, size, totals, values, places):  # type: igno
     back. An unknown waits for the one before it; four independent sequences at the same time hide this wait.
     """
     one, two = values[places[0]], values[places[1]]
-    inverse_one, inverse_two = rows.inverse[first], rows.inverse[second]
-    factor_one, factor_two = rows.factor[first], rows.factor[second]
+    inverse_one, inverse_two = rows.solver[rows.inverse + first], rows.solver[rows.inverse + second]
+    factor_one, factor_two = rows.solver[rows.factor + first], rows.solver[rows.factor + second]
     total_one, total_two = totals[0], totals[1]
     middle = size // 2
     pairs = size - 1 - middle
@@ -104,110 +111,109 @@ def substitute(rows, first, second, size, totals, values, places):  # type: igno
 
 
 @called
-def close_ring(rows, row, total, values):  # type: ignore[no-untyped-def]
-    """Compute the last unknown of a periodic row and add its effect on the others, which ``substitute`` computed."""
-    north, border = rows.north, rows.border
-    last = total.size - 1
-    closing = total[last] + north[row, last] * values[0] + north[row, last - 1] * values[last - 1]
-    closing *= rows.inverse[row, last]
-    for j in range(last):
-        values[j] += closing * border[row, j]
-    values[last] = closing
-
-
-@called
 def solve_rows(rows, first, second, totals, values, places):  # type: ignore[no-untyped-def]
-    """Solve Tx = total of two rows, or of one row twice, as ``substitute``."""
-    ring = rows.border.shape[1] > 0
-    size = totals.shape[1]
-    substitute(rows, first, second, size - 1 if ring else size, totals, values, places)
-    if ring:
-        close_ring(rows, first, totals[0], values[places[0]])
-        if places[0] != places[1]:
-            close_ring(rows, second, totals[1], values[places[1]])
+    """Solve Tx = total of two rows, or of one row twice, as ``substitute``; the last unknown of a ring comes last."""
+    ring = rows.border >= 0
+    last = totals.shape[1] - 1
+    substitute(rows, first, second, last if ring else last + 1, totals, values, places)
+    if not ring:
+        return
+    for side in range(1 if places[0] == places[1] else 2):
+        row, x = second if side else first, values[places[side]]
+        border = rows.solver[rows.border + row]
+        closing = totals[side, last] + border[last] * x[0] + rows.solver[rows.factor + row, last] * x[last - 1]
+        closing *= rows.solver[rows.inverse + row, last]
+        for j in range(last):
+            x[j] += closing * border[j]
+        x[last] = closing
 
 
 @called
 def add_next(rows, row, values, place, total):  # type: ignore[no-untyped-def]
     """Add to a row the products of its couplings with the next row, whose values are in row ``place``."""
-    east, up, down = rows.east, rows.up, rows.down
+    east, beside = rows.solver[rows.east + row], values[place]
     last = total.size - 1
     for j in range(last + 1):
-        total[j] += east[row, j] * values[place, j]
-    if up.shape[0] == 0:
+        total[j] += east[j] * beside[j]
+    if rows.up < 0:
         return
+    up, down = rows.solver[rows.up + row], rows.solver[rows.down + row]
     for j in range(last):
-        total[j] += up[row, j] * values[place, j + 1]
+        total[j] += up[j] * beside[j + 1]
     for j in range(1, last + 1):
-        total[j] += down[row, j] * values[place, j - 1]
-    total[last] += up[row, last] * values[place, 0]
-    total[0] += down[row, 0] * values[place, last]
+        total[j] += down[j] * beside[j - 1]
+    total[last] += up[last] * beside[0]
+    total[0] += down[0] * beside[last]
 
 
 @called
 def add_previous(rows, row, values, place, total):  # type: ignore[no-untyped-def]
     """Add to a row the products of its couplings with the previous row, whose values are in row ``place``."""
-    east, up, down = rows.east, rows.up, rows.down
+    row = (row if row > 0 else rows.count) - 1
+    east, beside = rows.solver[rows.east + row], values[place]
     last = total.size - 1
-    row = (row if row > 0 else east.shape[0]) - 1
     for j in range(last + 1):
-        total[j] += east[row, j] * values[place, j]
-    if up.shape[0] == 0:
+        total[j] += east[j] * beside[j]
+    if rows.up < 0:
         return
+    up, down = rows.solver[rows.up + row], rows.solver[rows.down + row]
     for j in range(1, last + 1):
-        total[j] += up[row, j - 1] * values[place, j - 1]
+        total[j] += up[j - 1] * beside[j - 1]
     for j in range(last):
-        total[j] += down[row, j + 1] * values[place, j + 1]
-    total[0] += up[row, last] * values[place, last]
-    total[last] += down[row, 0] * values[place, 0]
+        total[j] += down[j + 1] * beside[j + 1]
+    total[0] += up[last] * beside[last]
+    total[last] += down[0] * beside[0]
 
 
-@called
+@inlined
 def factorise_row(rows, row, work):  # type: ignore[no-untyped-def]
     """Compute the diagonal and factorise T; for a periodic row ``border`` is the response to its last unknown."""
-    north, border = rows.north, rows.border
+    leak, centre, north = rows.base[rows.leak + row], rows.base[rows.centre + row], rows.base[rows.north + row]
     totals, sums = work[2:4], work[4]
     last = sums.size - 1
     for j in range(last + 1):
-        sums[j] = rows.leak[row, j]
+        sums[j] = leak[j]
         work[0, j] = 1.0
     add_previous(rows, row, work, np.int64(0), sums)
     add_next(rows, row, work, np.int64(0), sums)
     for j in range(last + 1):
-        rows.centre[row, j] = sums[j] + north[row, j] + north[row, j - 1 if j else last]
-    if border.shape[1] == 0:
+        centre[j] = sums[j] + north[j] + north[j - 1 if j else last]
+    if rows.border < 0:
         eliminate(rows, row, last + 1, sums)
         return
     for j in range(last + 1):
         totals[0, j] = sums[j]
         totals[1, j] = 0.0
     pivot = sums[last]
-    totals[1, 0] = north[row, last]
-    totals[1, last - 1] = north[row, last - 1]
-    sums[0] += north[row, last]
-    sums[last - 1] += north[row, last - 1]
+    totals[1, 0] = north[last]
+    totals[1, last - 1] = north[last - 1]
+    sums[0] += north[last]
+    sums[last - 1] += north[last - 1]
     eliminate(rows, row, last, sums)
     substitute(rows, row, row, last, totals, work, (np.int64(0), np.int64(1)))
-    pivot += north[row, last] * work[0, 0] + north[row, last - 1] * work[0, last - 1]
-    rows.inverse[row, last] = 1 / pivot if pivot > MIN_PIVOT * rows.centre[row, last] else 0.0
+    pivot += north[last] * work[0, 0] + north[last - 1] * work[0, last - 1]
+    border = rows.solver[rows.border + row]
     for j in range(last):
-        border[row, j] = work[1, j]
+        border[j] = work[1, j]
+    border[last] = north[last]
+    rows.solver[rows.factor + row, last] = north[last - 1]
+    rows.solver[rows.inverse + row, last] = 1 / pivot if pivot > MIN_PIVOT * centre[last] else 0.0
 
 
 @called
-def add_own(north, rows, row, between, share, forward):  # type: ignore[no-untyped-def]
+def add_own(coarse, place, rows, row, between, share, forward):  # type: ignore[no-untyped-def]
     """Add to the couplings along a coarse row those of STS − SB − BᵀS of an odd row with interpolation weights S.
 
     B are the couplings ``between`` two rows, from the odd row to the even one (``forward``) or the other way.
     """
-    along = rows.north[row]
+    north, along = rows.base[coarse.north + place], rows.base[rows.north + row]
     last = north.size - 1
     for j in range(last):
         north[j] += share[j] * along[j] * share[j + 1]
     north[last] += share[last] * along[last] * share[0]
-    if rows.up.shape[0] == 0:
+    if rows.up < 0:
         return
-    up, down = rows.up[between], rows.down[between]
+    up, down = rows.solver[rows.up + between], rows.solver[rows.down + between]
     if forward:
         for j in range(last):
             north[j] += share[j] * up[j] + share[j + 1] * down[j + 1]
@@ -218,12 +224,14 @@ def add_own(north, rows, row, between, share, forward):  # type: ignore[no-untyp
         north[last] += share[0] * up[last] + share[last] * down[0]
 
 
-@called
-def set_coupling(east, up, down, rows, row, first, second):  # type: ignore[no-untyped-def]
+@inlined
+def set_coupling(coarse, place, rows, row, first, second):  # type: ignore[no-untyped-def]
     """Compute a coarse row's couplings to the next, BS + FB − FTS, across an odd row of interpolation weights F, S."""
-    own, along = rows.centre[row], rows.north[row]
+    east, up = rows.solver[coarse.east + place], rows.solver[coarse.up + place]
+    down = rows.solver[coarse.down + place]
+    own, along = rows.base[rows.centre + row], rows.base[rows.north + row]
     last = east.size - 1
-    before, after = rows.east[row - 1], rows.east[row]
+    before, after = rows.solver[rows.east + row - 1], rows.solver[rows.east + row]
     for j in range(last + 1):
         east[j] = before[j] * second[j] + first[j] * (after[j] - own[j] * second[j])
     for j in range(last):
@@ -231,44 +239,44 @@ def set_coupling(east, up, down, rows, row, first, second):  # type: ignore[no-u
         down[j + 1] = first[j + 1] * along[j] * second[j]
     up[last] = first[last] * along[last] * second[0]
     down[0] = first[0] * along[last] * second[last]
-    if rows.up.shape[0] == 0:
+    if rows.up < 0:
         return
-    before, after = rows.up[row - 1], rows.up[row]
+    before, after = rows.solver[rows.up + row - 1], rows.solver[rows.up + row]
     for j in range(last):
         up[j] += before[j] * second[j + 1] + first[j] * after[j]
     up[last] += before[last] * second[0] + first[last] * after[last]
-    before, after = rows.down[row - 1], rows.down[row]
+    before, after = rows.solver[rows.down + row - 1], rows.solver[rows.down + row]
     for j in range(1, last + 1):
         down[j] += before[j] * second[j - 1] + first[j] * after[j]
     down[0] += before[0] * second[last] + first[0] * after[0]
 
 
-@called
+@inlined
 def share(rows, row, work):  # type: ignore[no-untyped-def]
     """Compute the interpolation weights T⁻¹B1 of an odd row from the previous and next rows in ``work[:2]``.
 
     A weight below ``MIN_HOLE_WEIGHT`` of a node outside the problem is set to 0, since it is round-off.
     """
-    totals, centre = work[2:4], rows.centre
+    totals = work[2:4]
     totals[:] = 0.0
     work[4, :] = 1.0
     add_previous(rows, row, work, np.int64(4), totals[0])
     add_next(rows, row, work, np.int64(4), totals[1])
     solve_rows(rows, row, row, totals, work, (np.int64(0), np.int64(1)))
     for side in range(2):
-        beside = (row + 2 * side - 1) % centre.shape[0]
+        centre = rows.base[rows.centre + (row + 2 * side - 1) % rows.count]
         for j in range(totals.shape[1]):
-            if abs(work[side, j]) < MIN_HOLE_WEIGHT and centre[beside, j] == 0.0:
+            if abs(work[side, j]) < MIN_HOLE_WEIGHT and centre[j] == 0.0:
                 work[side, j] = 0.0
 
 
-@called
+@inlined
 def leaks(rows, row, work):  # type: ignore[no-untyped-def]
     """Whether an odd row leaks; ``work[4]`` is then the loss of its unknowns for ones in the rows beside it."""
     totals = work[2:4]
     any_leak = False
     for j in range(totals.shape[1]):
-        totals[0, j] = totals[1, j] = rows.leak[row, j]
+        totals[0, j] = totals[1, j] = rows.base[rows.leak + row, j]
         any_leak |= totals[0, j] > 0
     if any_leak:
         solve_rows(rows, row, row, totals, work, (np.int64(4), np.int64(4)))
@@ -281,42 +289,46 @@ def coarsen(fine, coarse, work):  # type: ignore[no-untyped-def]
 
     P is the identity on even rows, and has the weights T⁻¹B1 (Schaffer) on odd rows.
     """
-    count, coarse_count = fine.centre.shape[0], coarse.centre.shape[0]
+    base, solver = fine.base, fine.solver
+    count, coarse_count = fine.count, coarse.count
     first, second = work[0], work[1]
-    length = fine.centre.shape[1]
+    length = base.shape[1]
     for row in range(coarse_count):
         for j in range(length):
-            coarse.leak[row, j] = fine.leak[2 * row, j]
-            coarse.north[row, j] = fine.north[2 * row, j]
+            base[coarse.leak + row, j] = base[fine.leak + 2 * row, j]
+            base[coarse.north + row, j] = base[fine.north + 2 * row, j]
     if count % 2:
         for j in range(length):
-            coarse.east[coarse_count - 1, j] = fine.east[count - 1, j]
-            coarse.up[coarse_count - 1, j] = fine.up[count - 1, j] if fine.up.shape[0] else 0.0
-            coarse.down[coarse_count - 1, j] = fine.down[count - 1, j] if fine.up.shape[0] else 0.0
+            solver[coarse.east + coarse_count - 1, j] = solver[fine.east + count - 1, j]
+            solver[coarse.up + coarse_count - 1, j] = solver[fine.up + count - 1, j] if fine.up >= 0 else 0.0
+            solver[coarse.down + coarse_count - 1, j] = solver[fine.down + count - 1, j] if fine.up >= 0 else 0.0
     for row in range(1, count, 2):
         share(fine, row, work)
         left, right = row // 2, (row // 2 + 1) % coarse_count
         if leaks(fine, row, work):
-            add_next(fine, row - 1, work, np.int64(4), coarse.leak[left])
-            add_previous(fine, (row + 1) % count, work, np.int64(4), coarse.leak[right])
-        add_own(coarse.north[left], fine, row, row - 1, first, np.bool_(False))
-        add_own(coarse.north[right], fine, row, row, second, np.bool_(True))
-        set_coupling(coarse.east[left], coarse.up[left], coarse.down[left], fine, row, first, second)
+            add_next(fine, row - 1, work, np.int64(4), base[coarse.leak + left])
+            add_previous(fine, (row + 1) % count, work, np.int64(4), base[coarse.leak + right])
+        add_own(coarse, left, fine, row, row - 1, first, np.bool_(False))
+        add_own(coarse, right, fine, row, row, second, np.bool_(True))
+        set_coupling(coarse, left, fine, row, first, second)
     if coarse_count == 1:
         for j in range(length):
-            coarse.north[0, j] += coarse.up[0, j] + coarse.down[0, j + 1 if j + 1 < length else 0]
-        coarse.east[0, :] = coarse.up[0, :] = coarse.down[0, :] = 0.0
+            after = j + 1 if j + 1 < length else 0
+            base[coarse.north, j] += solver[coarse.up, j] + solver[coarse.down, after]
+        for j in range(length):
+            solver[coarse.east, j] = solver[coarse.up, j] = solver[coarse.down, j] = 0.0
 
 
 @inlined
 def silence(rows):  # type: ignore[no-untyped-def]
     """Remove unknowns without couplings from the coarse levels, since the smoother alone solves them."""
-    north, east = rows.north, rows.east
-    for row in range(north.shape[0]):
-        for j in range(north.shape[1]):
-            if north[row, j] + north[row, j - 1] + east[row, j] + east[row - 1, j] == 0.0:
-                rows.leak[row, j] = 0.0
-                rows.centre[row, j] = 0.0
+    for row in range(rows.count):
+        north, east = rows.base[rows.north + row], rows.solver[rows.east + row]
+        before = rows.solver[rows.east + (row if row > 0 else rows.count) - 1]
+        for j in range(north.size):
+            if north[j] + north[j - 1] + east[j] + before[j] == 0.0:
+                rows.base[rows.leak + row, j] = 0.0
+                rows.base[rows.centre + row, j] = 0.0
 
 
 @compiled
@@ -324,41 +336,30 @@ def set_up(counts, rows, work):  # type: ignore[no-untyped-def]
     """Factorise all rows and compute the coarse levels; ``counts`` are the rows of each level, ``work`` is (5, m)."""
     start = np.int64(0)
     for level in range(counts.size):
-        stop = start + counts[level]
-        fine = level_rows(rows, start, stop, counts[0])
+        fine = level_rows(rows, start, counts[level])
+        start += counts[level]
         for row in range(counts[level]):
             factorise_row(fine, row, work)
         if level == 0:
             silence(fine)
         if level + 1 < counts.size:
-            coarsen(fine, level_rows(rows, stop, stop + counts[level + 1], counts[0]), work)
-        start = stop
-
-
-@called
-def gather(rows, row, previous, following, source, values, total):  # type: ignore[no-untyped-def]
-    """Compute the right-hand side of a row; ``previous`` and ``following``: whether those rows have values."""
-    count = values.shape[0]
-    for j in range(total.size):
-        total[j] = source[row, j]
-    if previous:
-        add_previous(rows, row, values, (row if row > 0 else count) - 1, total)
-    if following:
-        add_next(rows, row, values, row + 1 if row + 1 < count else 0, total)
+            coarsen(fine, level_rows(rows, start, counts[level + 1]), work)
 
 
 @called
 def relax(rows, row, other, previous, following, source, values, totals):  # type: ignore[no-untyped-def]
-    """Solve the equations of a row as in ``gather`` and, if it is ``other``, of another row with both its neighbours.
+    """Solve the equations of two rows without couplings between them, or of one row if ``other`` is the same one.
 
-    No coupling leads from one row to the other.
+    ``previous`` and ``following``: whether the rows beside ``row`` have values; those beside another row have.
     """
-    gather(rows, row, previous, following, source, values, totals[0])
-    if row == other:
-        for j in range(totals.shape[1]):
-            totals[1, j] = totals[0, j]
-    else:
-        gather(rows, other, np.bool_(True), np.bool_(True), source, values, totals[1])
+    for side in range(2):
+        place, total = other if side else row, totals[side]
+        for j in range(total.size):
+            total[j] = source[place, j]
+        if previous or place != row:
+            add_previous(rows, place, values, (place if place > 0 else rows.count) - 1, total)
+        if following or place != row:
+            add_next(rows, place, values, place + 1 if place + 1 < rows.count else 0, total)
     solve_rows(rows, row, other, totals, values, (row, other))
 
 
@@ -431,14 +432,14 @@ def cycle(counts, rows, across, source, values, totals):  # type: ignore[no-unty
         count = counts[level]
         stop = start + count
         end = stop + counts[level + 1]
-        here = level_rows(rows, start, stop, counts[0])
+        here = level_rows(rows, start, count)
         descend(here, across and count % 2 == 1, source[start:stop], values[start:stop], source[stop:end], totals)
         start = stop
-    last = level_rows(rows, start, start + 1, counts[0])
+    last = level_rows(rows, start, np.int64(1))
     relax(last, np.int64(0), np.int64(0), np.bool_(False), np.bool_(False), source[start:], values[start:], totals)
     for level in range(counts.size - 2, -1, -1):
         count = counts[level]
         stop, start = start, start - count
         end = stop + counts[level + 1]
-        here = level_rows(rows, start, stop, counts[0])
+        here = level_rows(rows, start, count)
         ascend(here, source[start:stop], values[start:stop], values[stop:end], totals)

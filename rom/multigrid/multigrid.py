@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.rom.multigrid import gradients, kernels, pieces
-from roughfilm.rom.multigrid.rows import Rows
+from roughfilm.rom.multigrid.rows import rows_of_zeros
 
 TRANSPOSED_RATIO = 2.0
 """Ratio of the couplings in the second to those in the first direction above which the arrays are transposed."""
@@ -97,21 +97,9 @@ class Multigrid:
             counts.append((counts[-1] + 1) // 2)
         self._counts = np.array(counts)
         total = sum(counts)
-        full, coarse = (total, length), (total - count, length)
-        ring = self._along and length > 2
         kind = np.float32 if single else np.float64
-        self._rows = Rows(
-            leak=np.zeros(full, kind),
-            centre=np.zeros(full, kind),
-            north=np.zeros(full, kind),
-            east=np.zeros(full, kind),
-            up=np.zeros(coarse, kind),
-            down=np.zeros(coarse, kind),
-            inverse=np.zeros(full, kind),
-            factor=np.zeros(full, kind),
-            border=np.zeros((total, length if ring else 0), kind),
-        )
-        self._source, self._values = np.zeros(full, kind), np.zeros(full, kind)
+        self._rows = rows_of_zeros(total, count, length, ring=self._along and length > 2, kind=kind)
+        self._source, self._values = np.zeros((total, length), kind), np.zeros((total, length), kind)
         self._work = np.zeros((2, length), kind)
         self._matrix = self._set_up(matrix)
 
@@ -157,7 +145,7 @@ class Multigrid:
             If the residual exceeds the tolerance after ``limit`` iterations, or because of round-off.
         """
         b = self._inner(right_hand_side)
-        p = self._first(b, start)
+        p = np.zeros(b.shape) if start is None else np.array(self._inner(start))
         norm = math.sqrt(gradients.dot(b, b))
         if norm == 0:
             return Solved(solution=np.zeros(self.shape), iterations=0, residual=0.0)
@@ -201,7 +189,7 @@ class Multigrid:
         Parameters
         ----------
         right_hand_side, start, limit
-            Arguments of :meth:`solve`.
+            Arguments of :meth:`solve`; ``start`` may be overwritten.
         whole
             W if the energy is W − G; None if it is G.
         tolerance
@@ -215,7 +203,7 @@ class Multigrid:
             If the tolerance is not met.
         """
         b = self._inner(right_hand_side)
-        p = self._first(b, start)
+        p = np.zeros(b.shape) if start is None else self._inner(start)
         norm = math.sqrt(gradients.dot(b, b))
         if norm == 0:
             return Solved(solution=np.zeros(self.shape), iterations=0, residual=0.0)
@@ -252,9 +240,6 @@ class Multigrid:
             outcome=Outcome.UNFINISHED if iterations >= limit else Outcome.STALLED,
             iterations=iterations,
         )
-
-    def _first(self, b: Array, start: ArrayLike | None) -> Array:
-        return np.zeros(b.shape) if start is None else np.array(self._inner(start), order="C")
 
     @property
     def _finest(self) -> tuple[Array, Array]:
@@ -302,10 +287,12 @@ class Multigrid:
         leak = np.zeros((count, length))
         seen, stack = np.zeros((count, length), dtype=bool), np.zeros(count * length, dtype=np.int64)
         pieces.set_leak(centre, east, north, leak, seen, stack)
-        self._rows.leak[:count], self._rows.east[:count], self._rows.north[:count] = leak, east, north
-        kernels.set_up(self._counts, self._rows, np.zeros((5, length), self._values.dtype))
-        none = np.zeros((0, length), self._values.dtype)
-        self._rows = self._rows._replace(leak=none, centre=none)
+        rows = self._rows
+        rows.base[rows.leak : rows.leak + count] = leak
+        rows.base[rows.north : rows.north + count] = north
+        rows.solver[rows.east : rows.east + count] = east
+        kernels.set_up(self._counts, rows, np.zeros((5, length), rows.base.dtype))
+        self._rows = rows._replace(base=np.zeros((0, length), rows.base.dtype))
         return centre, east, north
 
     def _cycle(self) -> None:

@@ -121,11 +121,11 @@ def _solve(
     parts = faces(counted, rule)
     box = Box(east=parts.east * aspect, north=parts.north / aspect, joined=True)
     matrix = box.matrix()
-    start = None if coarser is None else refined(coarser.corrector, h.shape)[1:] * (len(h) / len(coarser.corrector))
-    source = Source(values=box.source(), whole=box.whole(), start=start, tolerance=tolerance)
     per_width = 1 / (aspect * h.shape[1])
 
     def attempt(solve: Solver) -> tuple[Solved, float, float]:
+        start = None if coarser is None else refined(coarser.corrector, h.shape)[1:] * (len(h) / len(coarser.corrector))
+        source = Source(values=box.source(), whole=box.whole(), start=start, tolerance=tolerance)
         (solved,) = solve(matrix, [source])
         flow = box.flow(solved.solution)
         left = max(solved.left / len(h), flow.uneven)
