@@ -41,7 +41,8 @@ def bisected(
 
     Every inner point is predicted from its neighbours. As an interpolation of order n has the error
     C (x − x₁)^(n/2) (x₂ − x)^(n/2), that of the interval of length l before the point is estimated as the error of the
-    prediction times 2 (l/4r)^(n/2) with the length r of the interval after it, and at most the error of the prediction.
+    prediction times 2 (l/4r)^(n/2) with the length r of the interval after it, and at most the error of the prediction,
+    which counts in full at the ends of the table, where the course may be singular.
     Where the middle of a bisected interval shows a larger error than had been estimated, as at a jump, the estimates
     of both halves are larger by the same ratio. Intervals are bisected until their errors are below the tolerance,
     there are 400 points, or neighbours almost coincide.
@@ -104,4 +105,5 @@ def _estimates(places: Sequence[float], predictions: Sequence[Array], order: int
     plain, largest = np.zeros((2, lengths.size, len(ERRORS)))
     plain[1:], largest[1:] = before, inner
     plain[:-1], largest[:-1] = np.maximum(plain[:-1], after), np.maximum(largest[:-1], inner)
+    plain[[0, -1]] = largest[[0, -1]]
     return plain, largest
