@@ -82,9 +82,10 @@ class AsperityTable:
 
     def mean_gap(self, separation: Array) -> Array:
         """The mean gap ĥ, m; raises InputError below the smallest separation."""
-        alpha = self._checked(separation)
-        approach = np.clip(self.touching - alpha, 0.0, None)
-        return np.asarray(np.maximum(alpha + self._plastic(approach), self.factors.narrowest))
+        gap = np.array(self._checked(separation))
+        near = gap < self.touching
+        gap[near] += self._plastic(self.touching - gap[near])
+        return np.asarray(np.maximum(gap, self.factors.narrowest))
 
     def contact_pressure(self, separation: Array) -> Array:
         """The contact pressure p_c over the nominal area, Pa; raises InputError below the smallest separation."""

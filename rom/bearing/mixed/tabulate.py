@@ -18,7 +18,13 @@ from roughfilm.rom.homogenization.conductance import FaceRule
 from roughfilm.rom.homogenization.table.bisection import bisected
 from roughfilm.rom.homogenization.table.factor_table import Point
 from roughfilm.rom.homogenization.table.separation import Separations
-from roughfilm.rom.homogenization.table.tabulate import INTERPOLATION_TOLERANCE, point_of, table_error, tabulate
+from roughfilm.rom.homogenization.table.tabulate import (
+    INTERPOLATION_TOLERANCE,
+    point_of,
+    table_errors,
+    tabulate,
+    with_friction_errors,
+)
 from roughfilm.rom.ladder.model import Progress, silent
 
 CONTACT_TOLERANCE = 1e-6
@@ -138,10 +144,10 @@ def tabulate_pressed(
         ordered = sorted((*open_table.points, *points), key=lambda point: point.mean_gap)
         return AsperityTable(factors=replace(open_table, points=tuple(ordered)))
 
-    def errors(others: Sequence[Point], point: Point) -> tuple[float, float]:
+    def errors(others: Sequence[Point], point: Point) -> tuple[float, float, float]:
         table = made(others)
         separation = table.separation_at(point.load)
-        return table_error(table.factors, point), abs(separation - point.separation) / body.rms
+        return *table_errors(table.factors, point), abs(separation - point.separation) / body.rms
 
     def later(done: float, words: str) -> None:
         progress(0.4 + 0.6 * done, words)
@@ -157,7 +163,7 @@ def tabulate_pressed(
         progress=later,
     )
     progress(1.0, f"{len(points) + len(open_table.points)} points")
-    return made(points)
+    return made(with_friction_errors(points, lambda others: made(others).factors))
 
 
 def gap_of(point: Point, press: Press) -> Array:

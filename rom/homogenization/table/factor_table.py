@@ -3,18 +3,33 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from math import log, sqrt
 from typing import Self
 
 import numpy as np
 import scipy
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.compiled import compiled
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.homogenization.factors import FlowFactors
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap, GapFactors
 
 SMOOTH_ROW = np.array([1.0, 1, 0, 1, 0, 1, 0])
 """The :func:`relative_row` of a smooth film."""
+
+COEFFICIENTS = (
+    "along",
+    "across",
+    "cross",
+    "drag",
+    "drag_across",
+    "couette",
+    "shear_couette",
+    "streaming",
+    "least",
+)
+"""The attributes of :class:`GapFactors` in the order of :func:`relative_row`, and the two that follow from them."""
 
 UNKNOWN_SLOPES = np.full(SMOOTH_ROW.size, np.nan)
 """The slopes of a point where they are unknown."""
@@ -34,9 +49,9 @@ class Point:
     load : mean pressure on the nominal area, Pa; 0 for undeformed walls.
     area_fraction, plastic_fraction : those of :class:`roughfilm.contact.mechanics.contact.Contact`.
     separation_uncertainty : discretisation uncertainty of the separation at the load, m.
-    missed : estimated interpolation error of the factors next to here, in the measure of the tolerance of
-        :func:`roughfilm.rom.homogenization.table.tabulate.tabulate`.
-    separation_missed : the same error of the separation at the load, over the rms height.
+    missed, friction_missed : estimated interpolation errors of A and B and of d and e next to here, in the measure of
+        the tolerance of :func:`roughfilm.rom.homogenization.table.tabulate.tabulate`.
+    separation_missed : that of the separation at the load, over the rms height.
     slopes : derivatives of :func:`relative_row` with respect to ln ĥ, shape (7,); NaN where they are unknown, as under
         load, and for d and e where the gap is closed anywhere.
     """
@@ -54,6 +69,7 @@ class Point:
     plastic_fraction: float = 0.0
     separation_uncertainty: float = 0.0
     missed: float = 0.0
+    friction_missed: float = 0.0
     separation_missed: float = 0.0
     slopes: Array = field(default_factory=UNKNOWN_SLOPES.copy)
 
@@ -103,7 +119,7 @@ class FactorTable:
     @property
     def interpolation_error(self) -> float:
         """The largest interpolation error between points: of A and B, and without contact of d and e."""
-        return max(point.missed for point in self.points)
+        return max(max(point.missed, 0.0 if point.contact > 0 else point.friction_missed) for point in self.points)
 
     @property
     def relative_uncertainty(self) -> float:
@@ -122,14 +138,14 @@ class FactorTable:
         return max(point.missed for point in near) + worst
 
     def friction_uncertainty(self, mean_gap: float) -> float:
-        """The relative discretisation uncertainty of d + 3e at a mean gap, m; at most 1."""
+        """The relative uncertainty of d + 3e at a mean gap, m, interpolation plus discretisation; at most 1."""
         own, uncertainty = (
             np.array([part.couette + 3 * part.shear_couette for part in parts])
             for parts in zip(*((point.factors, point.uncertainty) for point in self.points), strict=True)
         )
-        gaps = [self.scale * point.mean_gap for point in self.points]
-        relative = np.divide(np.minimum(uncertainty, own), own, out=np.ones_like(own), where=own > 0)
-        return float(np.interp(mean_gap, gaps, relative))
+        relative = np.divide(uncertainty, own, out=np.ones_like(own), where=own > 0)
+        relative += [point.friction_missed for point in self.points]
+        return float(np.interp(mean_gap, self.scale * self._knots, np.minimum(relative, 1.0)))
 
     def __call__(self, mean_gap: Array, /) -> GapFactors:
         """The factors at mean gaps, m, of any shape; A = B = 0 below a narrowest gap that is sealed both ways.
@@ -145,49 +161,38 @@ class FactorTable:
                 f"mean gap: got {h.min():.4g} m, below the narrowest in the table, {self.narrowest:.4g} m; "
                 "make a table that reaches further"
             )
-        inside = np.clip(h, self.narrowest, self.widest)
-        decay = np.minimum(self.widest / np.maximum(h, self.widest), 1.0) ** 2
-        along, across = np.moveaxis(self._roots(inside / self.scale) * (self.scale / inside)[..., None], -1, 0) ** 3
-        ratio, *others = np.moveaxis(self._others(np.log(inside / self.scale)), -1, 0)
-        between = np.stack([along, across, np.clip(ratio, -1.0, 1.0) * np.sqrt(along * across), *others], axis=-1)
-        far = SMOOTH_ROW + (self._last - SMOOTH_ROW) * decay[..., None]
-        row = np.where((h > self.widest)[..., None], far, between)
-        along, across, cross, drag, drag_across, couette, shear_couette = np.moveaxis(row, -1, 0)
-        return GapFactors(
-            along=along * h**3,
-            across=across * h**3,
-            cross=cross * h**3,
-            drag=drag * h,
-            drag_across=drag_across * h,
-            couette=couette / h,
-            shear_couette=shear_couette / h,
-            streaming=(couette - shear_couette) / h,
-            least=np.maximum(h - self.scale * self.peak, 0.0),
-        )
+        found = np.empty((len(COEFFICIENTS), h.size))
+        knots, roots, others = self._knots, self._roots.c, self._others.c
+        _set_factors(h.ravel(), self.scale, self.peak, knots, np.log(knots), roots, others, self._last, found)
+        return GapFactors(**{name: one.reshape(h.shape) for name, one in zip(COEFFICIENTS, found, strict=True)})
 
     @cached_property
     def _last(self) -> Array:
         return relative_row(self.points[-1].factors)
 
     @cached_property
-    def _rows(self) -> tuple[Array, Array, Array]:
-        """The mean gaps, m, shape (n,), and the numbers of :func:`relative_row` and their slopes, shape (n, 7)."""
-        gaps = np.array([point.mean_gap for point in self.points])
+    def _knots(self) -> Array:
+        """The mean gaps, m, shape (n,)."""
+        return np.array([point.mean_gap for point in self.points])
+
+    @cached_property
+    def _rows(self) -> tuple[Array, Array]:
+        """The numbers of :func:`relative_row` and their slopes, shape (n, 7)."""
         rows = np.array([relative_row(point.factors) for point in self.points])
-        return gaps, rows, np.array([point.slopes for point in self.points])
+        return rows, np.array([point.slopes for point in self.points])
 
     @cached_property
     def _roots(self) -> "scipy.interpolate.CubicHermiteSpline":
         """∛A₁₁ and ∛A₂₂, m, over ĥ, m."""
-        gaps, rows, slopes = self._rows
-        rows, slopes = rows[:, :2], slopes[:, :2]
+        rows, slopes = (part[:, :2] for part in self._rows)
         relative = np.divide(slopes, rows, out=np.full(rows.shape, np.nan), where=rows > 0)
-        return _hermite(gaps, gaps[:, None] * np.cbrt(rows), np.cbrt(rows) * (1 + relative / 3), limited=True)
+        values = self._knots[:, None] * np.cbrt(rows)
+        return _hermite(self._knots, values, np.cbrt(rows) * (1 + relative / 3), limited=True)
 
     @cached_property
     def _others(self) -> "scipy.interpolate.CubicHermiteSpline":
         """A₁₂/√(A₁₁A₂₂), B₁/ĥ, B₂/ĥ, d ĥ and e ĥ over ln ĥ; the first is that of the nearest point where A is 0."""
-        gaps, rows, slopes = self._rows
+        rows, slopes = self._rows
         values, changes = rows[:, 2:].copy(), slopes[:, 2:].copy()
         mean = np.sqrt(rows[:, 0] * rows[:, 1])
         known = np.flatnonzero(mean > 0)
@@ -197,7 +202,7 @@ class FactorTable:
             relative = (slopes[known, :2] / rows[known, :2]).mean(axis=1)
             changes[known, 0] = slopes[known, 2] / mean[known] - values[known, 0] * relative
         changes[mean == 0, 0] = 0.0
-        return _hermite(np.log(gaps), values, changes, limited=False)
+        return _hermite(np.log(self._knots), values, changes, limited=False)
 
 
 def _hermite(places: Array, values: Array, slopes: Array, *, limited: bool) -> "scipy.interpolate.CubicHermiteSpline":
@@ -229,3 +234,42 @@ def relative_rows(factors: FactorsOverGap, mean_gap: Array) -> Array:
     columns = (own.along, own.across, own.cross, own.drag, own.drag_across, own.couette, own.shear_couette)
     powers = (3, 3, 3, 1, 1, -1, -1)
     return np.stack([column / h**power for column, power in zip(columns, powers, strict=True)], axis=-1)
+
+
+@compiled
+def _set_factors(mean_gap, scale, peak, knots, logs, roots, others, last, found):  # type: ignore[no-untyped-def]
+    """The ``COEFFICIENTS`` at mean gaps, shape (9, n), from the cubics of ∛A and of the other numbers."""
+    end = knots.size - 1
+    for i in range(mean_gap.size):
+        h = mean_gap[i]
+        x = min(max(h / scale, knots[0]), knots[end])
+        low, high = np.int64(0), end
+        while high - low > 1:
+            middle = (low + high) // 2
+            if knots[middle] <= x:
+                low = middle
+            else:
+                high = middle
+        step = x - knots[low]
+        for k in range(2):
+            root = ((roots[0, low, k] * step + roots[1, low, k]) * step + roots[2, low, k]) * step + roots[3, low, k]
+            found[k, i] = (root / x) ** 3
+        step = log(x) - logs[low]
+        for k in range(5):
+            found[2 + k, i] = (
+                (others[0, low, k] * step + others[1, low, k]) * step + others[2, low, k]
+            ) * step + others[3, low, k]
+        found[2, i] = min(max(found[2, i], -1.0), 1.0) * sqrt(found[0, i] * found[1, i])
+        if h > scale * knots[end]:
+            decay = (scale * knots[end] / h) ** 2
+            for k in range(7):
+                smooth = 1.0 if k < 2 or k == 3 or k == 5 else 0.0
+                found[k, i] = smooth + (last[k] - smooth) * decay
+        for k in range(3):
+            found[k, i] *= h * h * h
+        for k in range(3, 5):
+            found[k, i] *= h
+        for k in range(5, 7):
+            found[k, i] /= h
+        found[7, i] = found[5, i] - found[6, i]
+        found[8, i] = max(h - scale * peak, 0.0)

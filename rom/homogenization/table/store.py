@@ -32,6 +32,7 @@ NUMBERS = {
     "plastic_fraction": "1",
     "separation_uncertainty": "m",
     "missed": "1",
+    "friction_missed": "1",
     "separation_missed": "1",
 }
 

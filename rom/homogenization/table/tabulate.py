@@ -1,7 +1,8 @@
 """Tables of flow factors of an undeformed surface, refined where interpolation is not accurate enough."""
 
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from threading import Lock
 
 import numpy as np
@@ -11,6 +12,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.threads import workers
 from roughfilm.rom.homogenization.cell import factors_of_correctors
 from roughfilm.rom.homogenization.conductance import FaceRule
+from roughfilm.rom.homogenization.factors import FlowFactors
 from roughfilm.rom.homogenization.flow_factors import Estimated, checked_gap, flow_factors
 from roughfilm.rom.homogenization.table.bisection import bisected
 from roughfilm.rom.homogenization.table.factor_table import (
@@ -67,9 +69,9 @@ def tabulate(
     ----------
     heights : heights of one period, m, shape (nx, ny), positive towards the flat wall.
     spacing : (dx, dy), m.
-    tolerance : largest interpolation error of A over √(A_ii A_jj) + 1e-4 ĥ³, of B over |B| + 0.01 ĥ, and between
-        points without contact of d and e over d. With contact d does not converge: at an edge <1/h> grows with the
-        logarithm of the number of nodes.
+    tolerance : largest interpolation error of A over √(A_ii A_jj) + 1e-4 ĥ³, of B over |B| + 0.01 ĥ, and at points
+        without contact of d and e over d and of d + 3e, each beyond the uncertainty of the points. With contact d does
+        not converge: at an edge <1/h> grows with the logarithm of the number of nodes.
     narrowest : mean gap of the first point, m; by default that at which the surface seals in both directions.
     known : points that are not solved again.
     keep : called with every new point, one at a time.
@@ -116,20 +118,20 @@ def tabulate(
     with workers(threads) as pool:
         for _ in pool.map(solve, wanted):
             progress(len(solved) / 40, f"{len(solved)} points")
-    while table_error(table := made(solved.values()), solve(body.at_mean_gap(2 * table.widest))) > tolerance:
+    while max(table_errors(table := made(solved.values()), solve(body.at_mean_gap(2 * table.widest)))) > tolerance:
         progress(len(solved) / (len(solved) + 20), f"{len(solved)} points")
     points = bisected(
         made(solved.values()).points,
         place=lambda point: float(np.log(point.mean_gap)),
         half_way=half_way,
-        errors=lambda others, point: (table_error(made(others), point), 0.0),
+        errors=lambda others, point: (*table_errors(made(others), point), 0.0),
         order=4,
         tolerance=tolerance,
         threads=threads,
         progress=progress,
     )
     progress(1.0, f"{len(points)} points")
-    return made(points)
+    return made(with_friction_errors(points, made))
 
 
 def point_of(gap: Array, spacing: tuple[float, float], separation: float, *, rule: FaceRule, deformed: bool) -> Point:
@@ -165,15 +167,50 @@ def _slopes(gap: Array, spacing: tuple[float, float], solved: Estimated, rule: F
     return np.asarray(np.where(known, slopes, np.nan))
 
 
-def table_error(table: FactorTable, point: Point) -> float:
-    """The error of a table at a point that it lacks, beyond the point's uncertainty, as the tolerance measures it."""
+def table_errors(table: FactorTable, point: Point) -> tuple[float, float]:
+    """The errors of A and B, and of friction, of a table at a point that it lacks, in the measures of the tolerance.
+
+    They are the parts beyond the uncertainty of the point, for friction also beyond that of the points beside it.
+    Friction, which is d, e and d + 3e, counts where nothing touches.
+    """
     h, row = point.mean_gap, relative_row(point.factors)
-    own = point.uncertainty
-    a = own.pressure / h**3
-    uncertainty = np.array([a[0, 0], a[1, 1], a[0, 1], *(own.shear / h), own.couette * h, own.shear_couette * h])
-    below = [other.contact for other in table.points if other.mean_gap < h][-1:]
-    friction = np.inf if any([point.contact, *below]) else row[5]
-    sheared = np.hypot(row[3], row[4]) + NEGLIGIBLE_SHEAR_FLOW
-    size = np.array([row[0], row[1], np.sqrt(row[0] * row[1]), sheared, sheared, friction, friction])
     error = np.abs(relative_rows(table, np.array([h]))[0] - row)
-    return float(np.max(np.maximum(error - uncertainty, 0.0) / (size + NEGLIGIBLE_PRESSURE_FLOW)))
+    beyond = (error - relative_row(replace(point.uncertainty, mean_gap=h)))[:5]
+    sheared = np.hypot(row[3], row[4]) + NEGLIGIBLE_SHEAR_FLOW
+    size = np.array([row[0], row[1], np.sqrt(row[0] * row[1]), sheared, sheared]) + NEGLIGIBLE_PRESSURE_FLOW
+    flow = max(0.0, float(np.max(beyond / size)))
+    if point.contact > 0:
+        return flow, 0.0
+    after = sum(other.mean_gap < h for other in table.points)
+    near = (point, *table.points[max(0, after - 1) : after + 1])
+    uncertain = np.max([_friction_parts(other.uncertainty, other.factors) for other in near], axis=0)
+    return flow, max(0.0, float(np.max(_friction_errors(table, point) - uncertain)))
+
+
+def with_friction_errors(points: Sequence[Point], table_of: Callable[[Sequence[Point]], FactorTable]) -> list[Point]:
+    """The points in order, those in contact with the errors of friction of a table that lacks them or one beside them.
+
+    In contact d depends on single nodes that hardly touch; more points do not reduce its error.
+    """
+    errors = [
+        float(_friction_errors(table_of([*points[:i], *points[i + 1 :]]), point)[2]) if 0 < i < len(points) - 1 else 0.0
+        for i, point in enumerate(points)
+    ]
+    return [
+        replace(point, friction_missed=max(errors[max(0, i - 1) : i + 2])) if point.contact > 0 else point
+        for i, point in enumerate(points)
+    ]
+
+
+def _friction_errors(table: FactorTable, point: Point) -> Array:
+    """The errors of d, e and d + 3e of a table at a point that it lacks, over d, d and d + 3e, shape (3,)."""
+    h, row = point.mean_gap, relative_row(point.factors)
+    couette, shear_couette = np.abs(relative_rows(table, np.array([h]))[0] - row)[5:] / h
+    return _friction_parts(replace(point.factors, couette=couette, shear_couette=shear_couette), point.factors)
+
+
+def _friction_parts(part: FlowFactors, whole: FlowFactors) -> Array:
+    """The d and e of a part over the whole d, and its d + 3e over that of the whole; infinite where that is 0."""
+    parts = np.array([part.couette, part.shear_couette, part.couette + 3 * part.shear_couette])
+    d, e = whole.couette, whole.shear_couette
+    return np.asarray(np.divide(parts, [d, d, d + 3 * e], out=np.full(3, np.inf), where=d > 0))

@@ -41,7 +41,7 @@ def refined(function, *, tolerance, first=9, least=1e-6, slope=None):
         return scipy.interpolate.CubicHermiteSpline(x, function(x), slope(x))
 
     def errors(others, one):
-        return float(abs(interpolant(others)(one.separation) - function(one.separation))), 0.0
+        return float(abs(interpolant(others)(one.separation) - function(one.separation))), 0.0, 0.0
 
     points = bisected(
         [point(x) for x in np.linspace(0, 1, first)],

@@ -89,6 +89,19 @@ def test_slopes_are_the_derivatives_of_the_factors(table):
         assert point.slopes[:known] == pytest.approx(found[:known], rel=2e-3, abs=2e-4)
 
 
+def test_the_uncertainty_of_friction_includes_its_interpolation():
+    place = 2 * np.pi * np.arange(64) / 64
+    heights = 1e-6 * np.add.outer(np.sin(place), np.sin(2 * place))  # smooth: little error of the grid
+    table = tabulate(heights, (1e-6, 1e-6))
+    covered = []
+    for mean_gap in np.geomspace(1.02 * table.peak, table.widest, 31):
+        exact = flow_factors(mean_gap - heights, (1e-6, 1e-6), tolerance=1e-9).factors
+        found = table(np.array([mean_gap]))
+        error = abs((found.couette + 3 * found.shear_couette)[0] / (exact.couette + 3 * exact.shear_couette) - 1)
+        covered.append(error <= table.friction_uncertainty(float(mean_gap)))
+    assert np.mean(covered) >= 0.95
+
+
 def test_flow_falls_as_the_gap_closes_and_ends_where_it_is_sealed(table):
     gaps = np.geomspace(0.5 * table.narrowest, 3 * table.widest, 400)
     factors = table(gaps)
