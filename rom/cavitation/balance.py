@@ -61,9 +61,9 @@ def linearise(couette, upstream, east, north, part_couette, part_east, storage, 
             if kind[k, j] == FILM:
                 by_right = c * (1.0 - w) * excess_slope[k, j] - g * phi
                 by_right -= g * slope_of_mean(b, a, phi) * mobility_slope[k, j] * rise
+            phi = mean(a, 1.0)
             for part in range(part_couette.shape[0]):
                 c, g = part_couette[part, i, j], part_east[part, i, j]
-                phi = mean(a, 1.0)
                 least = c * (fill[i, j] + w * excess[i, j]) + g * phi * pressure[i, j]
                 if least < flow:
                     flow = least
