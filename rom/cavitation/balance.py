@@ -40,8 +40,6 @@ def linearise(couette, upstream, east, north, part_couette, part_east, storage, 
             balance[i, j] = storage[i, j] * (fill[i, j] + excess[i, j]) - stored[i, j]
             centre[i, j] = storage[i, j] * (excess_slope[i, j] if kind[i, j] == FILM else 1.0)
             to_west[i, j] = to_east[i, j] = to_south[i, j] = to_north[i, j] = 0.0
-    for j in range(supply.size):
-        balance[0, j] -= supply[j]
     for i in range(nx if periodic_x else nx - 1):
         k = i + 1 if i + 1 < nx else 0
         for j in range(ny):
@@ -80,6 +78,8 @@ def linearise(couette, upstream, east, north, part_couette, part_east, storage, 
             to_east[i, j] += by_right
             centre[k, j] -= by_right
             to_west[k, j] -= by_left
+    for j in range(supply.size):
+        balance[0, j] -= supply[j]
     for i in range(nx if ny > 1 else 0):
         for j in range(ny if periodic_y else ny - 1):
             k = j + 1 if j + 1 < ny else 0

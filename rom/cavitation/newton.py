@@ -22,10 +22,11 @@ ROUNDS = 5
 SWEEPS_AFTER_STEP = 2
 """Relaxation sweeps after a Newton step in the plane that changed the kind of a node.
 
-A step moves the boundary of a film by about one node; the sweeps move the rest of the boundary with it.
+A step moves the boundary of a film by about one node; the sweeps move the rest of the boundary with it. They follow a
+step only if it changed fewer nodes than all before, since steps and sweeps may otherwise move nodes to and fro.
 """
 
-STEP_REDUCTION = 1e-3
+STEP_REDUCTION = 1e-4
 """Reduction of the residual by the linear solver in a Newton step after which nodes may still change their kind."""
 
 SWEEPS_RATIO = 4
@@ -124,7 +125,7 @@ def newton(
     pressure, fill, kind = _begun(network, start)
     parts = [np.empty(network.shape) for _ in range(6)]
     balance = parts[0]
-    changed, residual, before = 1, np.inf, np.inf
+    changed, fewest, residual, before = 1, np.inf, np.inf, np.inf
     relaxes = ruptures and network.shape[1] > 1 and network.oblique is None and not network.storage.any()
     for iteration in range(limit + 1):
         mobility = fluid.mobility(pressure)
@@ -140,11 +141,12 @@ def newton(
             imbalance = float(np.abs(np.cumsum(balance, axis=0)).mean(axis=1).max()) / (largest or 1.0)
             return Settled(state=state, kind=kind, residual=residual, imbalance=imbalance, iterations=iteration)
         reduction = STEP_REDUCTION if changed else min(STEP_REDUCTION, 0.1 * (residual / before) ** 2)
-        accuracy = max(0.5 * tolerance * largest, reduction * float(np.sqrt((balance * balance).sum())))
+        accuracy = max(0.1 * tolerance * largest, reduction * float(np.sqrt((balance * balance).sum())))
         change = step(network, Linear(kind, mobility[0], *parts), accuracy)
         if ruptures:
             changed = advance(kind.reshape(-1), pressure.reshape(-1), fill.reshape(-1), change.reshape(-1))
-            if changed and relaxes:
+            if relaxes and 0 < changed < fewest:
+                fewest = changed
                 again = relaxed(network, fluid, State(pressure=pressure, fill=fill), SWEEPS_AFTER_STEP)
                 pressure, fill, kind = _begun(network, again)
         else:

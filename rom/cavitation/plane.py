@@ -14,8 +14,8 @@ BiCGSTAB solves the Schur complement (A_ff − A_fc A_cc⁻¹ A_cf) δp. Its pre
 
 Along a front oblique to the flow the pressure depends on that upstream along the front; only the sweep includes this.
 
-Cavities do not yet balance where liquid drifts between them, or where they cross the row at which the sweep of a
-periodic film begins; another sweep over the cavities alone applies A_cc⁻¹. The flows of an oblique lay are in the
+Cavities do not yet balance where liquid drifts between them, or where the sweep of a periodic film begins with a row
+that has cavities; another sweep over the cavities alone applies A_cc⁻¹. The flows of an oblique lay are in the
 operator, but not in its preconditioner.
 """
 
@@ -87,10 +87,10 @@ def conductances(network: Network, linear: Linear) -> tuple[tuple[Array, Array, 
 
 
 def first_row(kind: NDArray[np.int8]) -> tuple[int, bool]:
-    """The row behind the one with the fewest cavity nodes, and whether there are any in that one."""
+    """The row that has the fewest cavity nodes together with the row before it, and whether it has any."""
     cavities = np.count_nonzero(kind == CAVITY, axis=1)
-    last = int(cavities.argmin())
-    return (last + 1) % kind.shape[0], bool(cavities[last])
+    first = int((cavities + np.roll(cavities, 1)).argmin())
+    return first, bool(cavities[first])
 
 
 @compiled
