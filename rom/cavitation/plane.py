@@ -60,12 +60,13 @@ def plane_step(network: Network, linear: Linear, accuracy: float) -> Array:
             carry(*matrix, network.periodic[0], network.oblique is not None, held, values)
 
     def precondition(residual: Array) -> Array:
-        size = np.abs(residual).max() or 1.0
-        values = np.where(linear.kind == FILM, multigrid.cycle(residual / size) * (size / scale), 0.0)
+        np.divide(residual, size, out=scaled)
+        keep_film(linear.kind, multigrid.cycle(scaled), size / scale, values)
         improve(residual, values)
         return values
 
-    source, start = -linear.balance, np.zeros(network.shape)
+    source, start, values, scaled = -linear.balance, *(np.zeros(network.shape) for _ in range(3))
+    size = float(np.abs(source).max()) or 1.0
     improve(source, start)
     rest = np.where(linear.kind == FILM, source - product(start), 0.0)
     return start + bicgstab(product, precondition, rest, tolerance=accuracy, limit=KRYLOV_ITERATIONS)
@@ -174,6 +175,14 @@ def sweep(kind, centre, west, east, south, inverse, factor, first, source, value
             values[i, j] = work[j]
             if kind[i, j] == FILM and kind[before, j] == CAVITY and number > 0:
                 values[before, j] -= east[before, j] / centre[before, j] * work[j]
+
+
+@compiled
+def keep_film(kind, change, factor, values):  # type: ignore[no-untyped-def]
+    """Write the change of pressure times ``factor`` at film nodes, and zero elsewhere."""
+    for i in range(kind.shape[0]):
+        for j in range(kind.shape[1]):
+            values[i, j] = factor * change[i, j] if kind[i, j] == FILM else 0.0
 
 
 @compiled
