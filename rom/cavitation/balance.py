@@ -40,8 +40,6 @@ def linearise(couette, upstream, east, north, part_couette, part_east, storage, 
             balance[i, j] = storage[i, j] * (fill[i, j] + excess[i, j]) - stored[i, j]
             centre[i, j] = storage[i, j] * (excess_slope[i, j] if kind[i, j] == FILM else 1.0)
             to_west[i, j] = to_east[i, j] = to_south[i, j] = to_north[i, j] = 0.0
-    for j in range(supply.size):
-        balance[0, j] -= supply[j]
     for i in range(nx if periodic_x else nx - 1):
         k = i + 1 if i + 1 < nx else 0
         for j in range(ny):
@@ -61,9 +59,9 @@ def linearise(couette, upstream, east, north, part_couette, part_east, storage, 
             if kind[k, j] == FILM:
                 by_right = c * (1.0 - w) * excess_slope[k, j] - g * phi
                 by_right -= g * slope_of_mean(b, a, phi) * mobility_slope[k, j] * rise
+            phi = mean(a, 1.0)
             for part in range(part_couette.shape[0]):
                 c, g = part_couette[part, i, j], part_east[part, i, j]
-                phi = mean(a, 1.0)
                 least = c * (fill[i, j] + w * excess[i, j]) + g * phi * pressure[i, j]
                 if least < flow:
                     flow = least
@@ -80,6 +78,8 @@ def linearise(couette, upstream, east, north, part_couette, part_east, storage, 
             to_east[i, j] += by_right
             centre[k, j] -= by_right
             to_west[k, j] -= by_left
+    for j in range(supply.size):
+        balance[0, j] -= supply[j]
     for i in range(nx if ny > 1 else 0):
         for j in range(ny if periodic_y else ny - 1):
             k = j + 1 if j + 1 < ny else 0

@@ -21,7 +21,8 @@ def bicgstab(product: Operator, inverse: Operator, right_hand_side: Array, *, to
 
     Parameters
     ----------
-    product, inverse : x ↦ A x, and an approximation of x ↦ A⁻¹ x; each returns a new array of the shape of b, (nx, ny).
+    product, inverse : x ↦ A x, and an approximation of x ↦ A⁻¹ x, of the shape of b, (nx, ny); ``product`` returns a
+        new array, and ``inverse`` may overwrite the one that it returned before.
 
     Raises
     ------

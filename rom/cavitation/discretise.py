@@ -117,7 +117,10 @@ def _resistance(shape: Shape, x: Array, y: Array) -> tuple[Array, Array]:
 def _resistance_across(shape: Shape, x: Array, y: Array) -> Array:
     """h⁻³ at positions, or 1/A₂₂ with averaged roughness."""
     h = shape.thickness(x, y)
-    return np.asarray(h**-3 if shape.roughness is None else 1 / shape.roughness(h).across)
+    if shape.roughness is not None:
+        return np.asarray(1 / shape.roughness(h).across)
+    inverse = 1 / h
+    return np.asarray(inverse * inverse * inverse)
 
 
 def _towards(grid: Grid, part: float) -> Array:

@@ -10,15 +10,19 @@ from roughfilm.rom.cavitation.network import State
 
 def carried(state: State, coarse: Grid, fine: Grid, joined: tuple[bool, bool]) -> State:
     """The state on the fine grid, linear in pressure and filling fraction; nodes with pressure above zero are film."""
-    pressure, fill = (interpolated(values, coarse, fine, joined) for values in (state.pressure, state.fill))
+    pressure, fill = _interpolated((state.pressure, state.fill), coarse, fine, joined)
     return State(pressure=pressure, fill=np.where(pressure > 0, 1.0, fill))
 
 
 def interpolated(values: Array, known: Grid, wanted: Grid, joined: tuple[bool, bool]) -> Array:
     """Values interpolated linearly in x and y from the nodes of one grid to those of another."""
+    return _interpolated((values,), known, wanted, joined)[0]
+
+
+def _interpolated(fields: tuple[Array, ...], known: Grid, wanted: Grid, joined: tuple[bool, bool]) -> list[Array]:
     x = _between(known.x, known.spacing_x, wanted.x, joined=joined[0])
     y = _between(known.y, known.spacing_y, wanted.y, joined=joined[1])
-    return np.ascontiguousarray(_spread(_spread(values, *x).T, *y).T)
+    return [np.ascontiguousarray(_spread(_spread(values, *x).T, *y).T) for values in fields]
 
 
 def _between(

@@ -19,6 +19,16 @@ FIRST_ROUND_STEPS = 25
 ROUNDS = 5
 """Largest number of rounds of relaxation and Newton's method."""
 
+SWEEPS_AFTER_STEP = 2
+"""Relaxation sweeps after a Newton step in the plane that changed the kind of a node.
+
+A step moves the boundary of a film by about one node; the sweeps move the rest of the boundary with it. They follow a
+step only if it changed fewer nodes than all before, since steps and sweeps may otherwise move nodes to and fro.
+"""
+
+STEP_REDUCTION = 1e-4
+"""Reduction of the residual by the linear solver in a Newton step after which nodes may still change their kind."""
+
 SWEEPS_RATIO = 4
 """Ratio of the relaxation sweeps of two successive rounds."""
 
@@ -57,7 +67,10 @@ class Settled:
 
 
 Step = Callable[[Network, Linear, float], Array]
-"""step(network, linear, accuracy): the change of every unknown, shape (nx, ny)."""
+"""step(network, linear, accuracy): the change of every unknown, shape (nx, ny).
+
+``accuracy`` is the Euclidean norm of the linear residual at which an iterative solver stops, m³/s.
+"""
 
 
 def settle(
@@ -112,23 +125,30 @@ def newton(
     pressure, fill, kind = _begun(network, start)
     parts = [np.empty(network.shape) for _ in range(6)]
     balance = parts[0]
-    changed, residual = 0, np.inf
+    changed, fewest, residual, before = 1, np.inf, np.inf, np.inf
+    relaxes = ruptures and network.shape[1] > 1 and network.oblique is None and not network.storage.any()
     for iteration in range(limit + 1):
         mobility = fluid.mobility(pressure)
         largest = network.linearise(kind, pressure, fill, (*fluid.compression(pressure), *mobility), parts)
         for bank, rest in zip(network.banks(kind), network.banks(balance), strict=True):
             settle_bank(bank, rest)
         balance[kind >= FIXED] = 0
-        residual = float(np.abs(balance).max()) / (largest or 1.0)
+        before, residual = residual, float(np.abs(balance).max()) / (largest or 1.0)
         if not np.isfinite(residual):
             break
         if residual <= tolerance or _rounded(balance, parts[1] * pressure, tolerance * largest):
             state = State(pressure=pressure, fill=fill)
             imbalance = float(np.abs(np.cumsum(balance, axis=0)).mean(axis=1).max()) / (largest or 1.0)
             return Settled(state=state, kind=kind, residual=residual, imbalance=imbalance, iterations=iteration)
-        change = step(network, Linear(kind, mobility[0], *parts), tolerance * largest)
+        reduction = STEP_REDUCTION if changed else min(STEP_REDUCTION, 0.1 * (residual / before) ** 2)
+        accuracy = max(0.1 * tolerance * largest, reduction * float(np.sqrt((balance * balance).sum())))
+        change = step(network, Linear(kind, mobility[0], *parts), accuracy)
         if ruptures:
             changed = advance(kind.reshape(-1), pressure.reshape(-1), fill.reshape(-1), change.reshape(-1))
+            if relaxes and 0 < changed < fewest:
+                fewest = changed
+                again = relaxed(network, fluid, State(pressure=pressure, fill=fill), SWEEPS_AFTER_STEP)
+                pressure, fill, kind = _begun(network, again)
         else:
             pressure = pressure + change
     finite = np.isfinite(residual)

@@ -1,16 +1,22 @@
-"""The Newton step in the plane: pressures and filling fractions together, by a preconditioned Krylov method.
+"""The Newton step in the plane: filling fractions eliminated along the flow, pressures by a Krylov method.
 
-Film nodes have the unknown δp, cavity nodes δξ. BiCGSTAB solves the system of all balances. Its preconditioner has two
-stages:
+With the unknowns of cavities (c) and film (f) separated, a step solves
 
-1. Multigrid on a symmetric operator for the pressures: the flow inside the film, with p = 0 behind the film. A cavity
-   returns the liquid that a film pushes into it against the flow, or from the side if its next node downstream is film:
-   such liquid is no loss. Other liquid is lost here, since the cavity releases it far downstream.
-2. One sweep downstream over whole rows across the flow, in which cavities carry all that they receive. A cavity node
-   before a film is eliminated: it returns to the film what the pressure of the film pushes into it.
+    A_ff δp + A_fc δξ = r_f,    A_cf δp + A_cc δξ = r_c.
 
-A sweep over a film that is periodic along the flow begins where the fewest cavities cross the first row. The
-preconditioner omits the flows that an oblique lay drives across.
+BiCGSTAB solves the Schur complement (A_ff − A_fc A_cc⁻¹ A_cf) δp. Its preconditioner has two stages:
+
+1. Multigrid on a symmetric operator: the pressure flow inside the film, with p = 0 where the film ends. A cavity node
+   returns what the film behind it drives into it, and, if the next node is film, what the films beside it drive into
+   it; this is no loss. A cavity releases other liquid far downstream, which is a loss.
+2. One sweep downstream that solves the balances of one row across the flow after the other. Cavity nodes before a film
+   are eliminated. The rows carry what a cavity receives, so that all cavities balance after the sweep.
+
+Along a front oblique to the flow the pressure depends on that upstream along the front; only the sweep includes this.
+
+Cavities do not yet balance where liquid drifts between them, or where the sweep of a periodic film begins with a row
+that has cavities; another sweep over the cavities alone applies A_cc⁻¹. The flows of an oblique lay are in the
+operator, but not in its preconditioner.
 """
 
 import numpy as np
@@ -22,11 +28,7 @@ from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED
 from roughfilm.rom.cavitation.bicgstab import bicgstab
 from roughfilm.rom.cavitation.network import Network
 from roughfilm.rom.cavitation.newton import Linear
-from roughfilm.rom.multigrid.gradients import dot
 from roughfilm.rom.multigrid.multigrid import Multigrid
-
-STEP_REDUCTION = 1e-4
-"""Reduction of the linear residual in a Newton step; the film boundary still moves, so more accuracy has no use."""
 
 KRYLOV_ITERATIONS = 200
 """Largest number of BiCGSTAB iterations."""
@@ -37,30 +39,37 @@ def plane_step(network: Network, linear: Linear, accuracy: float) -> Array:
     matrix = (linear.kind, linear.centre, linear.west, linear.east, linear.south, linear.north)
     inverse, factor, work = np.empty(network.shape), np.empty(network.shape), np.empty(network.shape[1])
     factorise(*matrix, inverse, factor)
-    first = first_row(linear.kind) if network.periodic[0] else 0
+    first, crossed = first_row(linear.kind) if network.periodic[0] else (0, False)
     conductance, scale = conductances(network, linear)
     multigrid = Multigrid(*conductance, periodic=network.periodic, single=True)
 
+    def driven(values: Array) -> Array | float:
+        if network.oblique is None:
+            return 0.0
+        return network.oblique.image(linear.mobility, np.where(linear.kind == FILM, values, 0.0))
+
     def product(values: Array) -> Array:
         image = np.empty(network.shape)
-        multiply(*matrix, values, image)
-        if network.oblique is not None:
-            driven = network.oblique.image(linear.mobility, np.where(linear.kind == FILM, values, 0.0))
-            image += np.where(linear.kind < FIXED, driven, 0.0)
-        return image
+        film_image(*matrix, values, image)
+        return image if network.oblique is None else np.where(linear.kind == FILM, image + driven(values), 0.0)
+
+    def improve(source: Array, values: Array) -> None:
+        sweep(*matrix[:5], inverse, factor, first, source, values, work)
+        if crossed or network.oblique is not None:
+            held = np.asarray(source - driven(values))
+            carry(*matrix, network.periodic[0], network.oblique is not None, held, values)
 
     def precondition(residual: Array) -> Array:
-        size = np.abs(residual).max() or 1.0
-        values = np.where(linear.kind == FILM, multigrid.cycle(residual / size) * (size / scale), 0.0)
-        sweep(*matrix, inverse, factor, first, residual, values, work)
+        np.divide(residual, size, out=scaled)
+        keep_film(linear.kind, multigrid.cycle(scaled), size / scale, values)
+        improve(residual, values)
         return values
 
-    source = -linear.balance
-    start = np.zeros(network.shape)
-    sweep(*matrix, inverse, factor, first, source, start, work)
-    rest = source - product(start)
-    tolerance = max(STEP_REDUCTION * float(np.sqrt(dot(source, source))), accuracy / 10)
-    return start + bicgstab(product, precondition, rest, tolerance=tolerance, limit=KRYLOV_ITERATIONS)
+    source, start, values, scaled = -linear.balance, *(np.zeros(network.shape) for _ in range(3))
+    size = float(np.abs(source).max()) or 1.0
+    improve(source, start)
+    rest = np.where(linear.kind == FILM, source - product(start), 0.0)
+    return start + bicgstab(product, precondition, rest, tolerance=accuracy, limit=KRYLOV_ITERATIONS)
 
 
 def conductances(network: Network, linear: Linear) -> tuple[tuple[Array, Array, Array], float]:
@@ -78,9 +87,11 @@ def conductances(network: Network, linear: Linear) -> tuple[tuple[Array, Array, 
     return (centre, east, north), scale
 
 
-def first_row(kind: NDArray[np.int8]) -> int:
-    """The row behind the one with the fewest cavity nodes."""
-    return int(np.count_nonzero(kind == CAVITY, axis=1).argmin() + 1) % kind.shape[0]
+def first_row(kind: NDArray[np.int8]) -> tuple[int, bool]:
+    """The row that has the fewest cavity nodes together with the row before it, and whether it has any."""
+    cavities = np.count_nonzero(kind == CAVITY, axis=1)
+    first = int((cavities + np.roll(cavities, 1)).argmin())
+    return first, bool(cavities[first])
 
 
 @compiled
@@ -140,12 +151,11 @@ def factorise(kind, centre, west, east, south, north, inverse, factor):  # type:
 
 
 @compiled
-def sweep(kind, centre, west, east, south, north, inverse, factor, first, source, values, work):  # type: ignore[no-untyped-def]  # fmt: skip
+def sweep(kind, centre, west, east, south, inverse, factor, first, source, values, work):  # type: ignore[no-untyped-def]
     """Solve the rows across the flow one after the other downstream, from row ``first`` on, in place."""
     nx, ny = kind.shape
     for number in range(nx):
-        i = number + first
-        i = i if i < nx else i - nx
+        i = (first + number) % nx
         before = i - 1 if i > 0 else nx - 1
         after = i + 1 if i + 1 < nx else 0
         for j in range(ny):
@@ -168,8 +178,37 @@ def sweep(kind, centre, west, east, south, north, inverse, factor, first, source
 
 
 @compiled
-def multiply(kind, centre, west, east, south, north, values, image):  # type: ignore[no-untyped-def]
-    """Compute the matrix product A x; zero at nodes without an unknown."""
+def keep_film(kind, change, factor, values):  # type: ignore[no-untyped-def]
+    """Write the change of pressure times ``factor`` at film nodes, and zero elsewhere."""
+    for i in range(kind.shape[0]):
+        for j in range(kind.shape[1]):
+            values[i, j] = factor * change[i, j] if kind[i, j] == FILM else 0.0
+
+
+@compiled
+def carry(kind, centre, west, east, south, north, periodic_x, drifts, source, values):  # type: ignore[no-untyped-def]
+    """Compute the filling fractions that balance the cavities at given pressures beside them.
+
+    With drift across the sliding (``drifts``) every row is swept upwards and then downwards.
+    """
+    nx, ny = kind.shape
+    for _ in range(2 if periodic_x else 1):
+        for i in range(nx):
+            before = i - 1 if i > 0 else nx - 1
+            after = i + 1 if i + 1 < nx else 0
+            for place in range(2 * ny if drifts else ny):
+                j = place if place < ny else 2 * ny - 1 - place
+                if kind[i, j] == CAVITY:
+                    below = j - 1 if j > 0 else ny - 1
+                    above = j + 1 if j + 1 < ny else 0
+                    rest = source[i, j] - east[i, j] * values[after, j] - west[i, j] * values[before, j]
+                    rest -= south[i, j] * values[i, below] + north[i, j] * values[i, above]
+                    values[i, j] = rest / centre[i, j]
+
+
+@compiled
+def film_image(kind, centre, west, east, south, north, values, image):  # type: ignore[no-untyped-def]
+    """Compute the matrix product A x at the film nodes; zero elsewhere."""
     nx, ny = kind.shape
     for i in range(nx):
         before = i - 1 if i > 0 else nx - 1
@@ -183,5 +222,4 @@ def multiply(kind, centre, west, east, south, north, values, image):  # type: ig
         image[i, 0] += south[i, 0] * values[i, ny - 1]
         image[i, ny - 1] += north[i, ny - 1] * values[i, 0]
         for j in range(ny):
-            if kind[i, j] >= FIXED:
-                image[i, j] = 0.0
+            image[i, j] = image[i, j] if kind[i, j] == FILM else 0.0

@@ -26,12 +26,14 @@ def held(source, out, across, threshold):  # type: ignore[no-untyped-def]
 def relax(couette, upstream, east, north, part_couette, part_east, storage, stored, supply, periodic_x, periodic_y, drift, threshold, fixed, banks, kind, pressure, fill, excess, excess_slope, sweeps):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
     """Relax along the flow, with ``east`` and ``north`` the conductances Kφ, and ϑ (``excess``) linear in p.
 
+    Each sweep follows one row behind the one before, so that all sweeps use a row while it is in the cache.
+
     Every node takes the pressure that balances it or, if that is negative, the filling fraction: p >= 0, ξ <= 1.
     Source: Elrod and Adams 1975 for the two cases; Ortega and Rheinboldt 1970, theorem 13.5.9, for convergence.
     """
     nx, ny = couette.shape
-    for _ in range(sweeps):
-        for i in range(nx):
+    for front in range(nx + sweeps - 1):
+        for i in range(min(front, nx - 1), max(front - sweeps, -1), -1):
             before = i - 1 if i > 0 else (nx - 1 if periodic_x else -1)
             after = i + 1 if i + 1 < nx else (0 if periodic_x else -1)
             for place in range(2 * ny if drift.size else ny):

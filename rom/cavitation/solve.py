@@ -40,7 +40,10 @@ COLD_SWEEPS = 400
 """Relaxation sweeps before Newton's method without a start."""
 
 WARM_SWEEPS = 6
-"""Relaxation sweeps before Newton's method from the solution of a coarser grid or of a time step."""
+"""Relaxation sweeps before Newton's method from the solution of a coarser grid or of a time step, in the plane."""
+
+WARM_SWEEPS_OF_LINE = 1
+"""The same for an infinitely wide film, whose Newton step costs no more than a sweep."""
 
 NEAR_PRESSURE_LIMIT = 0.5
 """Reduced pressure on a grid over its limit above which the existence of a solution is checked for the finest grid."""
@@ -144,7 +147,7 @@ def solve(
                 problem,
                 nodes,
                 start=start,
-                sweeps=COLD_SWEEPS if cold else WARM_SWEEPS,
+                sweeps=COLD_SWEEPS if cold else WARM_SWEEPS_OF_LINE if wide else WARM_SWEEPS,
                 tolerance=tolerance,
                 ruptures=ruptures,
                 storage=storage and (storage[0], interpolated(storage[1], finest, nodes, problem.shape.joined)),

@@ -112,9 +112,10 @@ class Multigrid:
             If the residual has another shape.
         """
         source, values = self._finest
-        source[:] = self._inner(residual)
+        residual = self._checked(residual)
+        source[:] = residual.T if self._transposed else residual
         self._cycle()
-        return self._outer(values.copy())
+        return np.array(values.T if self._transposed else values, order="C")
 
     def solve(
         self,
@@ -256,10 +257,14 @@ class Multigrid:
 
     def _inner(self, values: ArrayLike) -> Array:
         """The values on the grid, transposed if the rows are columns."""
+        array = self._checked(values)
+        return np.ascontiguousarray(array.T if self._transposed else array)
+
+    def _checked(self, values: ArrayLike) -> Array:
         array = np.asarray(values, dtype=np.float64)
         if array.shape != self.shape:
             raise InputError(f"values on a grid: got the shape {array.shape}; give {self.shape}, that of the matrix")
-        return np.ascontiguousarray(array.T if self._transposed else array)
+        return array
 
     def _outer(self, values: Array) -> Array:
         return np.ascontiguousarray(values.T if self._transposed else values)
