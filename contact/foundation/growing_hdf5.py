@@ -33,6 +33,9 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
+SCRATCH = "undo-new"
+"""Part of the name of an undo file that is not complete yet, as long as that of other temporary files."""
+
 
 @dataclass(frozen=True)
 class Block:
@@ -255,17 +258,16 @@ def _undone_on_failure(path: Path, index: Index) -> Iterator[None]:
 
     The undo file is locked as long as this process writes.
     """
-    undo = undo_file(path)
-    with path.open("rb") as raw, replacing(undo) as scratch:
+    undo, scratch = undo_file(path), path.with_name(f".{path.stem}-{SCRATCH}{path.suffix}")
+    with path.open("rb") as raw, scratch.open("w+b") as guard:
+        fcntl.lockf(guard, fcntl.LOCK_EX)
         size = raw.seek(0, os.SEEK_END)
         places = [(0, HEADER_BYTES), *_gaps(index.blocks.values(), index.end), (index.end, size)]
-        guard = scratch.open("r+b")
-        fcntl.lockf(guard, fcntl.LOCK_EX)
         guard.write(json.dumps({"inode": path.stat().st_ino, "size": size, "places": places}).encode() + b"\n")
         guard.writelines(_piece(raw, low, high) for low, high in places)
         guard.flush()
         os.fsync(guard.fileno())
-    with guard:
+        scratch.replace(undo)
         try:
             yield
         except BaseException:

@@ -338,8 +338,8 @@ def _verdict(task: AdviceTask, model: Model, resolution: int, within: float, *, 
         return _as_verdict(task, model, resolution, Verdict.FAILED, str(failure), before)
     estimate = combined(before, after)
     if estimate is not None and _accepts(estimate, within):
-        checked = with_own_uncertainty(task, model, resolution, estimate)
-        estimate, after = checked, after if checked is estimate else checked
+        own = with_own_uncertainty(task, model, resolution, estimate)
+        estimate, after = own, after if own is estimate else own
     verdict = Verdict.CHOSEN if _accepts(estimate, within) else Verdict.NOT_ENOUGH
     return _as_verdict(task, model, resolution, verdict, _main(estimate), before, after)
 

@@ -99,7 +99,7 @@ def _reduced(before: Array, own: Array, after: Array, right: Array) -> Array:
     """
     groups, size, _ = own.shape
     if groups == 1:
-        return np.linalg.solve(before + own + after, right)
+        return np.asarray(np.linalg.solve(before + own + after, right), dtype=np.float64)
     odd = np.linalg.solve(own[1::2], np.concatenate([before[1::2], after[1::2], right[1::2]], axis=2))
     count = odd.shape[0]
     left, centre, right_of = before[::2].copy(), own[::2].copy(), after[::2].copy()

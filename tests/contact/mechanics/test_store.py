@@ -209,7 +209,8 @@ KILLED_AT = [
     (h5py.File, "close", 1),
     (os, "fsync", 1),
     (os, "fsync", 2),
-    (Path, "unlink", 2),
+    (Path, "replace", 1),
+    (Path, "unlink", 1),
 ]
 """Functions that a killed writer still enters, and the number of the call."""
 
