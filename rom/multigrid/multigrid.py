@@ -296,7 +296,7 @@ class Multigrid:
         rows.base[rows.leak : rows.leak + count] = leak
         rows.base[rows.north : rows.north + count] = north
         rows.solver[rows.east : rows.east + count] = east
-        kernels.set_up(self._counts, rows, np.zeros((5, length), rows.base.dtype))
+        kernels.set_up(self._counts, rows, np.zeros((5, length)))
         self._rows = rows._replace(base=np.zeros((0, length), rows.base.dtype))
         return centre, east, north
 
