@@ -20,8 +20,8 @@ from roughfilm.rom.ladder.model import Progress, silent
 MAX_PIXEL_ASPECT = 1e4
 """Largest ratio of a pixel's sides."""
 
-LOOSEST_TOLERANCES = (LOOSEST_TOLERANCE, LOOSEST_TOLERANCE, 1e-3)
-"""Largest solver tolerances of A₁₁, A₂₂ and e that are chosen; in contact e depends on the grid by a tenth and more."""
+SHARES = np.array([1.0, 1.0, 5.0])
+"""Solver tolerances of A₁₁, A₂₂ and e over :func:`sufficient`; in contact e depends on the grid by a tenth and more."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,8 +64,8 @@ def flow_factors(
     gap : h >= 0, m, shape (nx, ny); one period. Nodes where h = 0 are contact, whose faces are closed.
     spacing : (dx, dy), m; pixels need not be square.
     offset : length added to the gap everywhere, m; Sahlin 2008 uses 1e-8, which makes contact permeable.
-    tolerance : solver tolerance of each cell, as in ``solve_cell``; by default, for each of A₁₁, A₂₂ and e, a hundredth
-        of the discretisation error that the coarser grids indicate.
+    tolerance : solver tolerance of each cell, as in ``solve_cell``; by default, for A₁₁ and A₂₂ a hundredth and
+        for e a twentieth of the discretisation error that the coarser grids indicate.
     solvers : names of solvers, as in ``solve_cell``.
 
     Raises
@@ -95,7 +95,7 @@ def flow_factors(
                 grid,
                 steps,
                 rule=rule,
-                tolerance=sufficient(energies, LOOSEST_TOLERANCES) if tolerance is None else tolerance,
+                tolerance=SHARES * sufficient(energies, LOOSEST_TOLERANCE) if tolerance is None else tolerance,
                 start=cells[-1].correctors if cells else None,
                 solvers=solvers,
             )

@@ -4,7 +4,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.homogenization.factors import FlowFactors
@@ -17,7 +16,7 @@ nodes and up, 64² and 128²) it covers 97 of 100 values of A₁₁, A₂₂ and
 """
 
 LOOSEST_TOLERANCE = 1e-4
-"""Largest solver tolerance of a pressure flow that is chosen."""
+"""Largest solver tolerance that is chosen."""
 
 TIGHTEST_TOLERANCE = 1e-10
 """Smallest solver tolerance that is chosen."""
@@ -60,15 +59,14 @@ def off(values: Sequence[Array]) -> Array:
     return np.asarray(SAFETY_FACTOR * np.maximum(last, before / 4) / (ratio - 1))
 
 
-def sufficient(values: Sequence[Array], loosest: ArrayLike) -> Array:
+def sufficient(values: Sequence[Array], loosest: float) -> Array:
     """Solver tolerances for the next finer grid: a hundredth of the expected discretisation error of each value.
 
-    The error is extrapolated from the values on the last two grids; the tolerance is between 1e-10 and ``loosest``, of
-    the shape of a value, which it is with fewer grids, and for a value of 0.
+    The error is extrapolated from the values on the last two grids; the tolerance is 1e-10 to ``loosest``, which it is
+    with fewer grids, and for a value of 0.
     """
-    limit = np.asarray(loosest, dtype=float)
     if len(values) < 2:
-        return limit
+        return np.array(loosest)
     before, last = values[-2:]
     expected = np.divide(np.abs(last - before), 4 * last, out=np.full(last.shape, np.inf), where=last > 0)
-    return np.asarray(np.clip(expected / DISCRETISATION_TO_SOLVER_ERROR, TIGHTEST_TOLERANCE, limit))
+    return np.asarray(np.clip(expected / DISCRETISATION_TO_SOLVER_ERROR, TIGHTEST_TOLERANCE, loosest))

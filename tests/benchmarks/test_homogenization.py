@@ -27,9 +27,11 @@ from roughfilm.contact.preparation.prepare import prepare
 from roughfilm.contact.preparation.recipe import read_recipe
 from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.synthetic.self_affine import self_affine
+from roughfilm.rom.bearing.mixed.tabulate import tabulate_pressed
 from roughfilm.rom.homogenization.cell import solve_cell
 from roughfilm.rom.homogenization.conductance import FaceRule, faces
-from roughfilm.rom.homogenization.table.tabulate import tabulate
+from roughfilm.rom.homogenization.table.separation import Separations
+from roughfilm.rom.homogenization.table.tabulate import INTERPOLATION_TOLERANCE, point_of, table_errors, tabulate
 from roughfilm.rom.ladder.provenance import circumstances
 
 PROGRAM = PROGRAMS / "cells.py"
@@ -149,6 +151,9 @@ def note(entries):
 
 KEPT = {}
 
+CHECKED = 20
+"""Number of random gaps at which a table is compared with cells."""
+
 
 def python(solver):
     """Of the project, or of the peers' environment."""
@@ -205,20 +210,48 @@ def test_memory_grows_as_the_nodes_do(solved):
     assert max(each) <= CONSTANT * min(each)
 
 
-@pytest.mark.benchmark
-@pytest.mark.parametrize("name", ["milled_NT1100.opd", "isotropic.al3d"])
-def test_a_table_of_a_measured_surface(measured_file, name):
-    recipe = read_recipe({"grid": {"points": [512, 512]}})
-    surface = prepare(read_surface(measured_file(name)), recipe).joined
-    tabulate(surface.heights[::16, ::16], tuple(16 * step for step in surface.spacing), tolerance=0.1)
+TABLES = [("milled_NT1100.opd", (512, 1024)), ("milled_NT1100.opd", (512, 512)), ("isotropic.al3d", (512, 512))]
+"""Measured surfaces and the nodes of their cells."""
+
+
+def cell_of(file, points):
+    """The heights and spacing of the periodic cell of a measured surface."""
+    prepared = prepare(read_surface(file), read_recipe({"grid": {"points": list(points)}})).surface
+    return prepared.heights, prepared.spacing
+
+
+def timed(work):
+    """What a work returns, and its CPU and wall time; it has been done before on a coarse grid, to compile loops."""
     started = time.process_time(), time.perf_counter()
-    table = tabulate(surface.heights, surface.spacing)
-    spent = time.process_time() - started[0], time.perf_counter() - started[1]
-    row = {
-        "points": len(table.points),
-        "interpolation_error": table.interpolation_error,
-        "cpu_s": spent[0],
-        "wall_s": spent[1],
-    }
-    note({f"table of {name}": row})
-    assert len(table.points) >= 20
+    made = work()
+    return made, {"cpu_s": time.process_time() - started[0], "wall_s": time.perf_counter() - started[1]}
+
+
+@pytest.mark.benchmark
+@pytest.mark.parametrize(("name", "points"), TABLES)
+def test_a_table_of_a_measured_surface(measured_file, name, points):
+    """Also how many values of A and B at random gaps are within the tolerance beyond their own uncertainty."""
+    heights, spacing = cell_of(measured_file(name), points)
+    tabulate(heights[::16, ::16], tuple(16 * step for step in spacing), tolerance=0.1)
+    table, spent = timed(lambda: tabulate(heights, spacing))
+    body = Separations(heights=heights)
+    gaps = np.exp(np.random.default_rng(5).uniform(np.log(table.narrowest), np.log(table.widest), CHECKED))
+    separations = [body.at_mean_gap(float(gap)) for gap in gaps]
+    cells = [point_of(body.gap(one), spacing, one, rule=FaceRule.LINEAR, deformed=True) for one in separations]
+    within = float(np.mean([table_errors(table, one)[0] <= INTERPOLATION_TOLERANCE for one in cells]))
+    row = {"points": len(table.points), "interpolation_error": table.interpolation_error, "within": within, **spent}
+    note({f"table of {name}, {points[0]} x {points[1]}": row})
+    assert within >= 0.9
+
+
+@pytest.mark.benchmark
+@pytest.mark.parametrize(("name", "points"), TABLES)
+def test_a_table_of_a_pressed_surface(measured_file, name, points):
+    heights, spacing = cell_of(measured_file(name), points)
+    solids = {"composite_modulus": 210e9 / (1 - 0.3**2), "hardness": 5e9, "loads": np.geomspace(1e6, 3e9, 25)}
+    tabulate_pressed(heights[::16, ::16], tuple(16 * step for step in spacing), tolerance=0.1, **solids)
+    made, spent = timed(lambda: tabulate_pressed(heights, spacing, **solids))
+    table = made.factors
+    row = {"points": len(table.points), "interpolation_error": table.interpolation_error, **spent}
+    note({f"table of {name} pressed, {points[0]} x {points[1]}": row})
+    assert len(table.points) >= 25
