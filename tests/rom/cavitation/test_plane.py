@@ -73,7 +73,7 @@ def test_a_step_is_what_a_direct_solver_finds(theta, bulk, monkeypatch):
         return found
 
     monkeypatch.setattr("roughfilm.rom.cavitation.plane.plane_step", both)
-    monkeypatch.setattr("roughfilm.rom.cavitation.newton.STEP_REDUCTION", 1e-12)
+    monkeypatch.setattr("roughfilm.rom.cavitation.newton.STEP_REDUCTIONS", (1e-12, 1e-12))
     solve(film(theta=theta, bulk=bulk), (24, 20), tolerance=1e-12)
     assert steps
     assert all(error <= 1e-6 * size + 1e-6 for error, size in steps)
