@@ -67,13 +67,12 @@ def test_the_slider_of_another_discretisation():
 def test_a_step_is_what_a_direct_solver_finds(theta, bulk, monkeypatch):
     steps = []
 
-    def both(network, linear, accuracy):
-        found = plane_step(network, linear, accuracy)
+    def both(network, linear, _accuracy):
+        found = plane_step(network, linear, accurate(linear, 1e-12))
         steps.append((np.abs(found - direct(linear)).max(), np.abs(direct(linear)).max()))
         return found
 
     monkeypatch.setattr("roughfilm.rom.cavitation.plane.plane_step", both)
-    monkeypatch.setattr("roughfilm.rom.cavitation.newton.STEP_REDUCTIONS", (1e-12, 1e-12))
     solve(film(theta=theta, bulk=bulk), (24, 20), tolerance=1e-12)
     assert steps
     assert all(error <= 1e-6 * size + 1e-6 for error, size in steps)
@@ -106,14 +105,13 @@ def eccentric(place):
 def test_a_step_of_a_joined_film_is_what_a_direct_solver_finds(thickness, side, monkeypatch):
     errors = []
 
-    def both(network, linear, accuracy):
-        found, exact = plane_step(network, linear, accuracy), direct(linear)
+    def both(network, linear, _accuracy):
+        found, exact = plane_step(network, linear, accurate(linear, 1e-12)), direct(linear)
         if max(network.shape) > 20:
             errors.append(np.abs(found - exact).max() / np.abs(exact).max())
         return found
 
     monkeypatch.setattr("roughfilm.rom.cavitation.plane.plane_step", both)
-    monkeypatch.setattr("roughfilm.rom.cavitation.newton.STEP_REDUCTIONS", (1e-12, 1e-12))
     found = solve(joined(thickness, side), (24, 16), tolerance=1e-12)
     assert (found.kind == CAVITY).any()
     assert errors
@@ -140,12 +138,20 @@ def test_the_cycles_of_a_step_hardly_grow_with_the_grid(which, cells, monkeypatc
         return bicgstab(product, once, *arguments, **more)
 
     monkeypatch.setattr("roughfilm.rom.cavitation.plane.bicgstab", counted)
-    monkeypatch.setattr("roughfilm.rom.cavitation.newton.STEP_REDUCTIONS", (1e-4, 1e-4))
+    monkeypatch.setattr(
+        "roughfilm.rom.cavitation.plane.plane_step",
+        lambda network, linear, _accuracy: plane_step(network, linear, accurate(linear, 1e-4)),
+    )
     if which == "pocket":
         solve(film(pocket, ends=Ends(inlet=1e5, outlet=1e5, sides=(1e5, 1e5))), (cells, cells))
     else:
         solve(joined(eccentric(0.5)), (cells, cells))
     assert max(cycles) <= 30
+
+
+def accurate(linear, reduction):
+    """The norm of the balances times a reduction."""
+    return reduction * np.linalg.norm(linear.balance)
 
 
 def direct(linear):
