@@ -19,12 +19,17 @@ def mean(first, second):  # type: ignore[no-untyped-def]
 
 
 @inlined
-def slope_of_mean(first, second, between):  # type: ignore[no-untyped-def]
-    """The derivative of the logarithmic mean ``between`` by its first argument."""
+def mean_and_slopes(first, second):  # type: ignore[no-untyped-def]
+    """The logarithmic mean of two mobilities, and its derivatives by the first and the second."""
     total, difference = first + second, first - second
     if abs(difference) < 1e-3 * total:
-        return 0.5 - difference / total / 3.0
-    return (1.0 - between / first) / np.log(first / second) if first > 0.0 and second > 0.0 else 0.0
+        part = difference / total
+        return 0.5 * total * (1.0 - part * part / 3.0), 0.5 - part / 3.0, 0.5 + part / 3.0
+    if not (first > 0.0 and second > 0.0):
+        return 0.0, 0.0, 0.0
+    rate = 1.0 / np.log(first / second)
+    between = difference * rate
+    return between, (1.0 - between / first) * rate, (between / second - 1.0) * rate
 
 
 @compiled
@@ -47,19 +52,16 @@ def linearise(couette, upstream, east, north, part_couette, part_east, storage, 
             g = east[i, j]
             rise = pressure[k, j] - pressure[i, j]
             a, b = mobility[i, j], mobility[k, j]
-            phi = mean(a, b)
+            phi, by_a, by_b = mean_and_slopes(a, b)
             flow = c * (fill[i, j] + w * excess[i, j] + (1.0 - w) * excess[k, j]) - g * phi * rise
             by_left = by_right = 0.0
             if kind[i, j] == FILM:
-                by_left = (
-                    c * w * excess_slope[i, j] + g * phi - g * slope_of_mean(a, b, phi) * mobility_slope[i, j] * rise
-                )
+                by_left = c * w * excess_slope[i, j] + g * phi - g * by_a * mobility_slope[i, j] * rise
             elif kind[i, j] == CAVITY:
                 by_left = c
             if kind[k, j] == FILM:
-                by_right = c * (1.0 - w) * excess_slope[k, j] - g * phi
-                by_right -= g * slope_of_mean(b, a, phi) * mobility_slope[k, j] * rise
-            phi = mean(a, 1.0)
+                by_right = c * (1.0 - w) * excess_slope[k, j] - g * phi - g * by_b * mobility_slope[k, j] * rise
+            phi, by_a, _ = mean_and_slopes(a, 1.0)
             for part in range(part_couette.shape[0]):
                 c, g = part_couette[part, i, j], part_east[part, i, j]
                 least = c * (fill[i, j] + w * excess[i, j]) + g * phi * pressure[i, j]
@@ -68,7 +70,7 @@ def linearise(couette, upstream, east, north, part_couette, part_east, storage, 
                     by_left = by_right = 0.0
                     if kind[i, j] == FILM:
                         by_left = c * w * excess_slope[i, j] + g * phi
-                        by_left += g * slope_of_mean(a, 1.0, phi) * mobility_slope[i, j] * pressure[i, j]
+                        by_left += g * by_a * mobility_slope[i, j] * pressure[i, j]
                     elif kind[i, j] == CAVITY:
                         by_left = c
             largest = max(largest, abs(flow))
@@ -86,14 +88,14 @@ def linearise(couette, upstream, east, north, part_couette, part_east, storage, 
             g = north[i, j]
             rise = pressure[i, k] - pressure[i, j]
             a, b = mobility[i, j], mobility[i, k]
-            phi = mean(a, b)
+            phi, by_a, by_b = mean_and_slopes(a, b)
             flow = -g * phi * rise
             largest = max(largest, abs(flow))
             by_left = by_right = 0.0
             if kind[i, j] == FILM:
-                by_left = g * phi - g * slope_of_mean(a, b, phi) * mobility_slope[i, j] * rise
+                by_left = g * phi - g * by_a * mobility_slope[i, j] * rise
             if kind[i, k] == FILM:
-                by_right = -g * phi - g * slope_of_mean(b, a, phi) * mobility_slope[i, k] * rise
+                by_right = -g * phi - g * by_b * mobility_slope[i, k] * rise
             balance[i, j] += flow
             balance[i, k] -= flow
             centre[i, j] += by_left

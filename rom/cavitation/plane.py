@@ -39,7 +39,9 @@ def plane_step(network: Network, linear: Linear, accuracy: float) -> Array:
     matrix = (linear.kind, linear.centre, linear.west, linear.east, linear.south, linear.north)
     inverse, factor, work = np.empty(network.shape), np.empty(network.shape), np.empty(network.shape[1])
     factorise(*matrix, inverse, factor)
+    drifts = network.oblique is not None
     first, crossed = first_row(linear.kind) if network.periodic[0] else (0, False)
+    unbalanced = crossed or (drifts and bool((linear.kind == CAVITY).any()))
     conductance, scale = conductances(network, linear)
     multigrid = Multigrid(*conductance, periodic=network.periodic, single=True)
 
@@ -55,9 +57,8 @@ def plane_step(network: Network, linear: Linear, accuracy: float) -> Array:
 
     def improve(source: Array, values: Array) -> None:
         sweep(*matrix[:5], inverse, factor, first, source, values, work)
-        if crossed or network.oblique is not None:
-            held = np.asarray(source - driven(values))
-            carry(*matrix, network.periodic[0], network.oblique is not None, held, values)
+        if unbalanced:
+            carry(*matrix, network.periodic[0], drifts, np.asarray(source - driven(values)), values)
 
     def precondition(residual: Array) -> Array:
         np.divide(residual, size, out=scaled)

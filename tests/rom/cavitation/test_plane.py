@@ -23,10 +23,10 @@ def parabolic(x, y):
     return LEAST * (1 + (2 * x / LENGTH - 1) ** 2) + 0 * y
 
 
-def film(thickness=parabolic, theta=1.0, width=LENGTH, bulk=None, **more):
+def film(thickness=parabolic, theta=1.0, width=LENGTH, bulk=None, ends=None, **more):
     shape = Shape(thickness=thickness, breaks=(0.0, LENGTH), across=(0.0, width), wide=False)
     law = {} if bulk is None else {"compressibility": stiff(bulk)}
-    ends = Ends(theta=theta, sides=(0.0, 0.0))
+    ends = ends or Ends(theta=theta, sides=(0.0, 0.0))
     return Problem(shape=shape, ends=ends, speed=SPEED, viscosity=VISCOSITY, **law, **more)
 
 
@@ -67,16 +67,91 @@ def test_the_slider_of_another_discretisation():
 def test_a_step_is_what_a_direct_solver_finds(theta, bulk, monkeypatch):
     steps = []
 
-    def both(network, linear, accuracy):
-        found = plane_step(network, linear, accuracy)
+    def both(network, linear, _accuracy):
+        found = plane_step(network, linear, accurate(linear, 1e-12))
         steps.append((np.abs(found - direct(linear)).max(), np.abs(direct(linear)).max()))
         return found
 
     monkeypatch.setattr("roughfilm.rom.cavitation.plane.plane_step", both)
-    monkeypatch.setattr("roughfilm.rom.cavitation.newton.STEP_REDUCTION", 1e-12)
     solve(film(theta=theta, bulk=bulk), (24, 20), tolerance=1e-12)
     assert steps
     assert all(error <= 1e-6 * size + 1e-6 for error, size in steps)
+
+
+def joined(thickness, side=1e5):
+    """A film that is periodic along the sliding, with the pressure ``side`` at its sides."""
+    return Problem(
+        shape=Shape(
+            thickness=thickness, breaks=(0.0, LENGTH), across=(0.0, LENGTH / 2), wide=False, joined=(True, False)
+        ),
+        ends=Ends(sides=(side, side)),
+        speed=SPEED,
+        viscosity=VISCOSITY,
+    )
+
+
+def steep(x, y):
+    """A film that narrows along the sliding and widens again where it is joined: full in few rows only."""
+    return LEAST * (1.5 - x / LENGTH) + 0 * y
+
+
+def eccentric(place):
+    """A journal with its narrowest gap at a fraction ``place`` of the circumference."""
+    return lambda x, y: LEAST * (1.0 - 0.8 * np.cos(2 * np.pi * (x / LENGTH - place))) + 0 * y
+
+
+@pytest.mark.parametrize("thickness", [steep, eccentric(0.5), eccentric(0.9)])
+@pytest.mark.parametrize("side", [1e3, 1e5])
+def test_a_step_of_a_joined_film_is_what_a_direct_solver_finds(thickness, side, monkeypatch):
+    errors = []
+
+    def both(network, linear, _accuracy):
+        found, exact = plane_step(network, linear, accurate(linear, 1e-12)), direct(linear)
+        if max(network.shape) > 20:
+            errors.append(np.abs(found - exact).max() / np.abs(exact).max())
+        return found
+
+    monkeypatch.setattr("roughfilm.rom.cavitation.plane.plane_step", both)
+    found = solve(joined(thickness, side), (24, 16), tolerance=1e-12)
+    assert (found.kind == CAVITY).any()
+    assert errors
+    assert max(errors) < 1e-6
+
+
+def pocket(x, y):
+    """A wedge with a rectangular pocket, from whose upstream wall a cavity begins."""
+    inside = (np.abs(x / LENGTH - 0.35) < 0.15) & (np.abs(y / LENGTH - 0.5) < 0.35)
+    return LEAST * (1.1 - 0.1 * x / LENGTH) + 0.4 * LEAST * inside
+
+
+@pytest.mark.parametrize("cells", [64, 128, 256])
+@pytest.mark.parametrize("which", ["pocket", "journal"])
+def test_the_cycles_of_a_step_hardly_grow_with_the_grid(which, cells, monkeypatch):
+    cycles = []
+
+    def counted(product, inverse, *arguments, **more):
+        def once(residual):
+            cycles[-1] += 1
+            return inverse(residual)
+
+        cycles.append(0)
+        return bicgstab(product, once, *arguments, **more)
+
+    monkeypatch.setattr("roughfilm.rom.cavitation.plane.bicgstab", counted)
+    monkeypatch.setattr(
+        "roughfilm.rom.cavitation.plane.plane_step",
+        lambda network, linear, _accuracy: plane_step(network, linear, accurate(linear, 1e-4)),
+    )
+    if which == "pocket":
+        solve(film(pocket, ends=Ends(inlet=1e5, outlet=1e5, sides=(1e5, 1e5))), (cells, cells))
+    else:
+        solve(joined(eccentric(0.5)), (cells, cells))
+    assert max(cycles) <= 30
+
+
+def accurate(linear, reduction):
+    """The norm of the balances times a reduction."""
+    return reduction * np.linalg.norm(linear.balance)
 
 
 def direct(linear):
