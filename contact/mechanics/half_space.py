@@ -46,7 +46,7 @@ class HalfSpace:
         self._single = Filter(shape, "float32", team)
         self._double = Filter(shape, "float64", team, in_place=True)
         self.source, self.image = self._single.source.reshape(-1), self._single.result.reshape(-1)
-        self.grid = self._double.result
+        self.grid: Array = self._double.result
 
         response = periodic_response(shape, spacing)
         inverse = 1 / response

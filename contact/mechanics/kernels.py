@@ -141,40 +141,34 @@ def spread(first, end, index, held, columns, grid):  # type: ignore[no-untyped-d
 
 @compiled
 def load(low, high, state, hardness, grid):  # type: ignore[no-untyped-def]
-    """Set the pressure of the nodes that are not free, 0 or H, in rows of a grid; ``state`` may have longer rows."""
-    for row in range(low, min(high, grid.shape[0])):
+    """Set the pressure of the nodes that are not free, 0 or H, in rows of a grid."""
+    for row in range(low, high):
         for column in range(grid.shape[1]):
             grid[row, column] = hardness if state[row, column] == HARD else 0.0
 
 
 @compiled
-def inside_level(first, end, index, held, hardness, columns, heights, height, unit, displacement, out):  # type: ignore[no-untyped-def]  # fmt: skip
-    """Return Σ(h + u) over the nodes with 0 < p < H, and their number; h = (z̄ − z)/unit."""
+def deformed_levels(low, high, state, heights, height, unit, displacement, out):  # type: ignore[no-untyped-def]
+    """Return Σ(h + u) and the number of nodes where 0 < p < H, and the largest h + u at H and the smallest at 0.
+
+    The gap of the undeformed surface is h = (z̄ − z)/unit.
+    """
     total = 0.0
     count = 0
-    index, held = index[first:end], held[first:end]
-    for place in range(index.size):
-        if 0 < held[place] < hardness:
-            row, column = index[place] // columns, index[place] % columns
-            total += (height - heights[row, column]) / unit + displacement[row, column]
-            count += 1
-    out[0] = total
-    out[1] = count
-
-
-@compiled
-def outer_levels(low, high, state, heights, height, unit, displacement, out):  # type: ignore[no-untyped-def]
-    """Return the largest h + u of the nodes at H that are not free and the smallest of those at 0."""
     most = -np.inf
     least = np.inf
     for row in range(low, min(high, heights.shape[0])):
         for column in range(heights.shape[1]):
             value = (height - heights[row, column]) / unit + displacement[row, column]
             kind = state[row, column] & 3
+            total += value if kind == INSIDE else 0.0
+            count += kind == INSIDE
             most = max(most, value if kind == HARD else -np.inf)
             least = min(least, value if kind == OFF else np.inf)
-    out[0] = most
-    out[1] = least
+    out[0] = total
+    out[1] = count
+    out[2] = most
+    out[3] = least
 
 
 @compiled
@@ -345,13 +339,6 @@ def violation(pressure, gap, plane, hardness, out):  # type: ignore[no-untyped-d
         worst = max(worst, difference if p > 0 else 0.0)
         worst = max(worst, -difference if p < hardness else 0.0)
     out[0] = worst
-
-
-@compiled
-def dent(pressure, deformed, plane, hardness, plastic):  # type: ignore[no-untyped-def]
-    """Set the plastic displacement, g00 − h − u where p = H, at least 0."""
-    for node in range(deformed.size):
-        plastic[node] = max(plane - deformed[node], 0.0) if pressure[node] >= hardness else 0.0
 
 
 @compiled

@@ -228,8 +228,8 @@ class Press:
         plane = plane_of(pressure, gap, self.hardness)
         violation = violation_of(pressure, gap, plane, self.hardness)
         plastic = np.zeros(pressure.shape)
-        if math.isfinite(self.hardness):
-            kernels.dent(pressure.reshape(-1), gap.reshape(-1), plane, self.hardness, plastic.reshape(-1))
+        yielded = pressure >= self.hardness
+        plastic[yielded] = np.maximum(plane - gap[yielded], 0)
         kernels.separate(pressure.reshape(-1), gap.reshape(-1), plane)
         return Contact(
             load=load,

@@ -128,23 +128,23 @@ class _Search:
         self.held, self.taken = np.empty(size), _single(size)
         self.spare = np.empty(size), _single(size)
 
+    def _spread(self) -> Array:
+        """The grid in double precision, set to the pressure."""
+        half_space, pieces = self.half_space, self.pieces
+        pieces.over_rows(kernels.load, self.state.reshape(half_space.shape), self.hardness, half_space.grid)
+        pieces.over_free(kernels.spread, self.index, self.held, self.columns, half_space.grid)
+        return half_space.grid
+
     def refresh(self) -> None:
         """Recompute the gap over its plane from the pressure in double precision and store it in single precision."""
-        half_space, pieces = self.half_space, self.pieces
-        shape = half_space.shape
-        state = self.state.reshape(shape)
-        pieces.over_rows(kernels.load, state, self.hardness, half_space.grid)
-        pieces.over_free(kernels.spread, self.index, self.held, self.columns, half_space.grid)
-        half_space.convolve()
-        free = (self.index, self.held, self.hardness, self.columns)
-        numbers = pieces.over_free(kernels.inside_level, *free, *self.heights, half_space.grid, out=True)
-        total, count = map(sum, numbers[:2])
-        if count:
-            plane = total / count
-        else:
-            numbers = pieces.over_rows(kernels.outer_levels, state, *self.heights, half_space.grid, out=True)
-            plane = _middle(max(numbers[0]), min(numbers[1]))
-        pieces.over_rows(kernels.open_gap, plane, *self.heights, half_space.grid, self.gap.reshape(shape))
+        shape, pieces, grid = self.half_space.shape, self.pieces, self._spread()
+        self.half_space.convolve()
+        state, gap = self.state.reshape(shape), self.gap.reshape(shape)
+        totals, counts, most, least, *_ = pieces.over_rows(
+            kernels.deformed_levels, state, *self.heights, grid, out=True
+        )
+        plane = sum(totals) / sum(counts) if any(counts) else _middle(max(most), min(least))
+        pieces.over_rows(kernels.open_gap, plane, *self.heights, grid, gap)
         self.plane = self.fraction = 0.0
 
     def free_nodes(self) -> float:
@@ -239,10 +239,8 @@ class _Search:
 
     def pressure(self) -> Array:
         """The pressure at the nodes of the surface, shape (nx, ny)."""
-        pressure = np.empty(self.heights[0].shape)
-        self.pieces.over_rows(kernels.load, self.state.reshape(self.half_space.shape), self.hardness, pressure)
-        self.pieces.over_free(kernels.spread, self.index, self.held, self.columns, pressure)
-        return pressure
+        nx, ny = self.heights[0].shape
+        return self._spread()[:nx, :ny].copy()
 
     def _shift(self) -> tuple[float, bool]:
         """The shift λ with Σ clip(p + move + λ) = Σp over the free nodes, and whether a node is clipped.
