@@ -15,7 +15,14 @@ RESULTS = BENCHMARKS / "start.json"
 REPEATS = 5
 
 POCKET = ("solve", SCENES / "pocket.toml", "--model", "inertial_reynolds")
-JOURNAL = ("solve", SCENES / "journal.toml", "--model", "reynolds_cavitating")
+FIRST = {
+    "journal bearing": ("solve", SCENES / "journal.toml", "--model", "reynolds_cavitating"),
+    "rough gap": ("solve", SCENES / "rough_gap.toml", "--model", "homogenized"),
+    "seal": ("solve", SCENES / "seal.toml", "--model", "direct_leakage"),
+    "contact": ("solve", SCENES / "dry_contact.toml", "--model", "elastic"),
+    "pocket": ("solve", SCENES / "pocket.toml", "--model", "film_slope"),
+}
+"""A solve of each kind that compiles what it calls."""
 
 TARGETS = {
     ("--help",): 0.3,
@@ -26,7 +33,7 @@ TARGETS = {
 """CPU s, of Python and of what it starts."""
 
 IMPORT_S, COMPILE_S = 0.25, 8.0
-"""CPU s of ``import roughfilm`` beyond that of numpy, and of compiling what a journal bearing calls."""
+"""CPU s of ``import roughfilm`` beyond that of numpy, and of compiling what the first solve of a kind calls."""
 
 
 def cpu_s(*arguments, **more):
@@ -51,9 +58,10 @@ def test_commands_start_in_time(tmp_path):
         for arguments, target in TARGETS.items()
     }
     rows["import roughfilm"] = (least("-c", "import roughfilm") - least("-c", "import numpy"), IMPORT_S)
-    journal = ("-m", "roughfilm.cli.main", *JOURNAL)
-    cold = cpu_s(*journal, NUMBA_CACHE_DIR=str(tmp_path))
-    rows["first journal bearing"] = (cold - least(*journal), COMPILE_S)
+    for kind, arguments in FIRST.items():
+        solve = ("-m", "roughfilm.cli.main", *arguments)
+        cold = cpu_s(*solve, NUMBA_CACHE_DIR=str(tmp_path / kind))
+        rows[f"first {kind}"] = (cold - least(*solve), COMPILE_S)
     entries = [{"command": command, "cpu_s": cpu, "target_cpu_s": target} for command, (cpu, target) in rows.items()]
     with replacing(RESULTS) as scratch:
         scratch.write_text(json.dumps({**circumstances(), "rows": entries}, indent=1))
