@@ -32,9 +32,6 @@ STEP_REDUCTIONS = (1e-2, 1e-3)
 The residual after such a step comes from nodes that change their kind, so that more accuracy has no use.
 """
 
-WHOLE_FILM_REDUCTION = 1e-4
-"""Largest reduction of the residual by the linear solver in a Newton step where no node is expected to change."""
-
 SWEEPS_RATIO = 4
 """Ratio of the relaxation sweeps of two successive rounds."""
 
@@ -131,8 +128,7 @@ def newton(
     pressure, fill, kind = _begun(network, start)
     parts = [np.empty(network.shape) for _ in range(6)]
     balance = parts[0]
-    changed = int(np.count_nonzero(kind == CAVITY)) if ruptures else 0
-    fewest, residual, before = np.inf, np.inf, np.inf
+    changed, fewest, residual, before = 1, np.inf, np.inf, np.inf
     relaxes = ruptures and network.shape[1] > 1 and network.oblique is None and not network.storage.any()
     for iteration in range(limit + 1):
         mobility = fluid.mobility(pressure)
@@ -147,8 +143,8 @@ def newton(
             state = State(pressure=pressure, fill=fill)
             imbalance = float(np.abs(np.cumsum(balance, axis=0)).mean(axis=1).max()) / (largest or 1.0)
             return Settled(state=state, kind=kind, residual=residual, imbalance=imbalance, iterations=iteration)
-        reduction = STEP_REDUCTIONS[min(iteration, 1)] if changed else WHOLE_FILM_REDUCTION
-        if iteration and not changed:
+        reduction = STEP_REDUCTIONS[min(iteration, 1)]
+        if not changed:
             reduction = min(reduction, 0.1 * (residual / before) ** 2)
         accuracy = max(0.1 * tolerance * largest, reduction * float(np.sqrt((balance * balance).sum())))
         change = step(network, Linear(kind, mobility[0], *parts), accuracy)
