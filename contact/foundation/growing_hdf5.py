@@ -81,7 +81,7 @@ class Writer:
             self._blocks[dataset.name] = Block(place, data.nbytes, zlib.crc32(data.reshape(-1).data))
 
     def remove(self, name: str) -> None:
-        """Remove a group; its arrays keep their place in the file."""
+        """Remove a group. Nothing may be written after it: the undo file lacks arrays, whose place HDF5 uses again."""
         del self.file[name]
         for block in [block for block in self._blocks if block.startswith(f"/{name}/")]:
             del self._blocks[block]

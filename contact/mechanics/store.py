@@ -96,27 +96,33 @@ def add(path: Path, inputs: Inputs, contacts: Sequence[tuple[Row, Contact | None
         else:
             before = {}
             _begin(writer, inputs)
-        for row, contact in contacts:
-            _put(writer, row, contact)
+        names = [f"loads/{row.load!r}" for row, _ in contacts]
+        for name, (row, contact) in zip(names, contacts, strict=True):
+            _put(writer, _new(name), row, contact)
         _tabulate(writer.file, before | {row.load: row for row, _ in contacts})
+        for name in names:  # at the end, since HDF5 writes into the place of what was removed
+            if name in writer.file:
+                writer.remove(name)
+            writer.rename(_new(name), name)
 
     if _holds_data(path):
         _refuse_other(path)
     grow(path, MARK, REMEDY, fill)
 
 
-def _put(writer: Writer, row: Row, contact: Contact | None) -> None:
-    """Add a load; a group of the same load is removed after the new one is written, so that it is not overwritten."""
-    name, new = f"loads/{row.load!r}", "loads/new"
-    group = writer.file.create_group(new)
+def _new(name: str) -> str:
+    """The name of the group of a load while it is written."""
+    return f"{name} new"
+
+
+def _put(writer: Writer, name: str, row: Row, contact: Contact | None) -> None:
+    """Write the group of a load."""
+    group = writer.file.create_group(name)
     group.attrs.update(_numbers(row))
     if contact is not None:
         group.attrs["hardness"] = contact.hardness
         for field, values in _arrays(contact).items():
-            writer.write(f"{new}/{field}", values, "Pa" if field == "pressure" else "m")
-    if name in writer.file:
-        writer.remove(name)
-    writer.rename(new, name)
+            writer.write(f"{name}/{field}", values, "Pa" if field == "pressure" else "m")
 
 
 def finished(path: Path, inputs: Inputs) -> dict[float, Row]:

@@ -201,6 +201,20 @@ def test_a_writer_that_fails_leaves_the_loads_before(file, inputs, contacts, mon
     assert os.listdir(file.parent) == ["c.h5"]
 
 
+def test_a_writer_that_fails_leaves_the_arrays_that_it_was_to_replace(file, inputs, contacts, monkeypatch):
+    before = file.read_bytes()
+
+    def fail(*_arguments):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(contact_store, "_tabulate", fail)
+    again = row_of(contacts[0], 7.0), contacts[0]
+    other = replace(row_of(contacts[1], 0.5), load=1e9), contacts[1]
+    with pytest.raises(KeyboardInterrupt):
+        add(file, inputs, [again, other])
+    assert file.read_bytes() == before
+
+
 KILLED_AT = [
     (Writer, "write", 1),
     (Writer, "write", 3),
