@@ -26,11 +26,14 @@ A step moves the boundary of a film by about one node; the sweeps move the rest 
 step only if it changed fewer nodes than all before, since steps and sweeps may otherwise move nodes to and fro.
 """
 
-STEP_REDUCTIONS = (1e-2, 1e-3)
-"""Reduction of the residual by the linear solver in the first Newton step, and in steps that follow changes of kinds.
+MOVING_REDUCTIONS = (1e-2, 1e-3)
+"""Reduction of the residual by the linear solver in the first Newton step and in others, after changes of kinds.
 
 The residual after such a step comes from nodes that change their kind, so that more accuracy has no use.
 """
+
+STEP_REDUCTION = 1e-4
+"""Largest reduction in the last step. A small residual may belong to a large error of the pressure elsewhere."""
 
 SWEEPS_RATIO = 4
 """Ratio of the relaxation sweeps of two successive rounds."""
@@ -100,11 +103,20 @@ def settle(
     state, rounds, iterations = start, ROUNDS if ruptures else 1, 0
     failed = ConvergenceError("")
     for number in range(rounds):
+        before = state
         if ruptures:
             state = relaxed(network, fluid, state, sweeps * SWEEPS_RATIO**number)
+        moved = bool(((state.fill < 1) != (before.fill < 1)).any())
         try:
             settled = newton(
-                network, fluid, state, step, tolerance=tolerance, limit=FIRST_ROUND_STEPS * 2**number, ruptures=ruptures
+                network,
+                fluid,
+                state,
+                step,
+                tolerance=tolerance,
+                limit=FIRST_ROUND_STEPS * 2**number,
+                ruptures=ruptures,
+                moved=moved,
             )
         except ConvergenceError as error:
             iterations, failed = iterations + (error.iterations or 0), error
@@ -122,13 +134,24 @@ class UnsettledError(ConvergenceError):
 
 
 def newton(
-    network: Network, fluid: Fluid, start: State, step: Step, *, tolerance: float, limit: int, ruptures: bool
+    network: Network,
+    fluid: Fluid,
+    start: State,
+    step: Step,
+    *,
+    tolerance: float,
+    limit: int,
+    ruptures: bool,
+    moved: bool,
 ) -> Settled:
-    """The state after one round of Newton's method; ConvergenceError after ``limit`` steps or on overflow."""
+    """The state after one round of Newton's method; ConvergenceError after ``limit`` steps or on overflow.
+
+    ``moved`` is whether nodes changed their kind on the way to the start.
+    """
     pressure, fill, kind = _begun(network, start)
     parts = [np.empty(network.shape) for _ in range(6)]
     balance = parts[0]
-    changed, fewest, residual, before = 1, np.inf, np.inf, np.inf
+    changed, fewest, residual, before, reduction = int(moved), np.inf, np.inf, np.inf, 0.0
     relaxes = ruptures and network.shape[1] > 1 and network.oblique is None and not network.storage.any()
     for iteration in range(limit + 1):
         mobility = fluid.mobility(pressure)
@@ -139,13 +162,15 @@ def newton(
         before, residual = residual, float(np.abs(balance).max()) / (largest or 1.0)
         if not np.isfinite(residual):
             break
-        if residual <= tolerance or _rounded(balance, parts[1] * pressure, tolerance * largest):
+        settled = residual <= tolerance and reduction <= STEP_REDUCTION
+        if settled or _rounded(balance, parts[1] * pressure, tolerance * largest):
             state = State(pressure=pressure, fill=fill)
             imbalance = float(np.abs(np.cumsum(balance, axis=0)).mean(axis=1).max()) / (largest or 1.0)
             return Settled(state=state, kind=kind, residual=residual, imbalance=imbalance, iterations=iteration)
-        reduction = STEP_REDUCTIONS[min(iteration, 1)]
-        if not changed:
-            reduction = min(reduction, 0.1 * (residual / before) ** 2)
+        if changed:
+            reduction = MOVING_REDUCTIONS[min(iteration, 1)]
+        else:
+            reduction = min(STEP_REDUCTION, 0.1 * (residual / before) ** 2) if iteration else STEP_REDUCTION
         accuracy = max(0.1 * tolerance * largest, reduction * float(np.sqrt((balance * balance).sum())))
         change = step(network, Linear(kind, mobility[0], *parts), accuracy)
         if ruptures:

@@ -9,6 +9,7 @@ from places import SCENES
 from roughfilm import rom
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.ladder import find
+from roughfilm.rom.cavitation.solve import solve as balance
 from roughfilm.rom.ladder.kind import kinds
 from roughfilm.rom.ladder.model import Effect, best, ladder, of_kind, one_effect_away
 from roughfilm.rom.ladder.request import Request
@@ -320,3 +321,12 @@ def test_pressures_outside_the_range_of_a_law_are_reported():
     assert len(warning) == 1
     assert "the law tabulated is valid up to 2e+06 Pa" in warning[0]
     assert solve("parabolic_slider", resolution=256).warnings == ()
+
+
+def test_a_film_restarted_from_a_thicker_one_has_the_load_of_one_from_coarser_grids():
+    scene = load_scene(SCENES / "washer.toml")
+    thicker = scene.model_copy(update={"geometry": scene.geometry.at_film(scene.geometry.film * (1 + 1e-5))})
+    start = balance(thicker.problem(), (64, 64)).state
+    restarted = balance(scene.problem(), (64, 64), start=start)
+    fresh = balance(scene.problem(), (64, 64), tolerance=1e-13)
+    assert restarted.levels[-1].load == pytest.approx(fresh.levels[-1].load, rel=2e-9)
