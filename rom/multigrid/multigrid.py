@@ -158,7 +158,7 @@ class Multigrid:
             if iterations >= limit or not residual < before / 2:
                 break
             before = residual
-            iterations += self._gradients(b, p, limit - iterations, lambda square, _gain: square <= goal)
+            iterations += self._gradients(b, p, limit - iterations, lambda square, _gain, _energy: square <= goal)
         finished = iterations < limit
         remedy = (
             "round-off limits it, or sources of a part without a Dirichlet node do not sum to 0; loosen the tolerance"
@@ -219,8 +219,11 @@ class Multigrid:
             energy = first + sum(gains)
             return energy if whole is None else whole - energy
 
-        def enough(_square: float, gain: float) -> bool:
+        def enough(_square: float, gain: float, energy: float | None) -> bool:
+            nonlocal first
             gains.append(gain)
+            if energy is not None:
+                first = energy - sum(gains)
             return len(gains) >= MIN_RECENT and left() <= tolerance * counts()
 
         iterations, before = 0, np.inf
@@ -321,11 +324,12 @@ class Multigrid:
             for axis, coupling in enumerate((east, north))
         )
 
-    def _gradients(self, b: Array, p: Array, limit: int, enough: Callable[[float, float], bool]) -> int:
-        """Iterate on p until ``enough(residual², gain)``, and return the number of iterations.
+    def _gradients(self, b: Array, p: Array, limit: int, enough: Callable[[float, float, float | None], bool]) -> int:
+        """Iterate on p until ``enough(residual², gain, energy)``, and return the number of iterations.
 
         The finest source is the residual r, and the finest values are M r and then the image of the direction. The
-        updates of r accumulate round-off, so that r is computed anew when it has become much smaller.
+        updates of r accumulate round-off, so that r is computed anew when it has become much smaller; the energy is that
+        of p then, and None otherwise.
         """
         residual, values = self._finest
         slope, roundoff = np.inf, math.sqrt(np.finfo(values.dtype).eps)
@@ -339,10 +343,12 @@ class Multigrid:
             if not (slope > 0 and bend > 0):
                 return iteration
             square = gradients.advance(slope / bend, direction, values, p, residual)
-            if enough(square, slope * slope / bend):
-                return iteration
+            energy = None
             if square < small:
-                small = roundoff * self._set_residual(b, p)[0]
+                square, energy = self._set_residual(b, p)
+                small = roundoff * square
+            if enough(square, slope * slope / bend, energy):
+                return iteration
         return limit
 
 

@@ -249,6 +249,24 @@ def test_a_good_start_saves_iterations():
     assert multigrid.solve(source, start=first.solution).iterations == 0
 
 
+@pytest.mark.parametrize("single", [False, True])
+@pytest.mark.parametrize("size", [1e5, 1e8])
+def test_a_start_that_is_far_off_in_a_weakly_coupled_part_costs_few_iterations(single, size):
+    random = np.random.default_rng(20071)
+    gap = np.exp(0.3 * random.normal(size=(64, 64)))
+    east, north = ((gap + np.roll(gap, -1, axis)) / 2 for axis in (0, 1))
+    east[[15, 47]] *= 1e-3
+    centre = east + np.roll(east, 1, 0) + north + np.roll(north, 1, 1)
+    source = north - np.roll(north, 1, 1)
+    start = np.zeros((64, 64))
+    start[16:48] = size
+    multigrid = Multigrid(centre, east, north, periodic=(True, True), single=single)
+    fresh = multigrid.minimise(source, None, tolerance=1e-3)
+    started = multigrid.minimise(source, None, tolerance=1e-3, start=start)
+    assert started.iterations <= fresh.iterations + 5
+    assert (source * started.solution).sum() == pytest.approx((source * fresh.solution).sum(), rel=1e-6)
+
+
 def test_nothing_given_is_nothing_found_and_arguments_stay():
     matrix, source = masked_film(20, 83)
     before = [part.copy() for part in (*matrix, source)]
