@@ -328,8 +328,8 @@ class Multigrid:
         """Iterate on p until ``enough(residual², gain, energy)``, and return the number of iterations.
 
         The finest source is the residual r, and the finest values are M r and then the image of the direction. The
-        updates of r accumulate round-off, so that r is computed anew when it has become much smaller; the energy is that
-        of p then, and None otherwise.
+        updates of r accumulate round-off, so that r is computed anew when it has become much smaller. Then ``energy``
+        is that of p; otherwise it is None.
         """
         residual, values = self._finest
         slope, roundoff = np.inf, math.sqrt(np.finfo(values.dtype).eps)
