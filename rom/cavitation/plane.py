@@ -42,8 +42,7 @@ def plane_step(network: Network, linear: Linear, accuracy: float) -> Array:
     drifts = network.oblique is not None
     first, crossed = first_row(linear.kind) if network.periodic[0] else (0, False)
     unbalanced = crossed or (drifts and bool((linear.kind == CAVITY).any()))
-    conductance, scale = conductances(network, linear)
-    multigrid = Multigrid(*conductance, periodic=network.periodic, single=True)
+    multigrid = Multigrid(*conductances(network, linear), periodic=network.periodic)
 
     def driven(values: Array) -> Array | float:
         if network.oblique is None:
@@ -61,31 +60,23 @@ def plane_step(network: Network, linear: Linear, accuracy: float) -> Array:
             carry(*matrix, network.periodic[0], drifts, np.asarray(source - driven(values)), values)
 
     def precondition(residual: Array) -> Array:
-        np.divide(residual, size, out=scaled)
-        keep_film(linear.kind, multigrid.cycle(scaled), size / scale, values)
+        values = np.where(linear.kind == FILM, multigrid.cycle(residual), 0.0)
         improve(residual, values)
         return values
 
-    source, start, values, scaled = -linear.balance, *(np.zeros(network.shape) for _ in range(3))
-    size = float(np.abs(source).max()) or 1.0
+    source, start = -linear.balance, np.zeros(network.shape)
     improve(source, start)
     rest = np.where(linear.kind == FILM, source - product(start), 0.0)
     return start + bicgstab(product, precondition, rest, tolerance=accuracy, limit=KRYLOV_ITERATIONS)
 
 
-def conductances(network: Network, linear: Linear) -> tuple[tuple[Array, Array, Array], float]:
-    """The symmetric operator inside the film over its largest coupling, and that coupling, m³/(Pa s).
-
-    The operator is the centre and the couplings towards i+1 and j+1, each of shape (nx, ny).
-    """
+def conductances(network: Network, linear: Linear) -> tuple[Array, Array, Array]:
+    """The symmetric operator inside the film: centre, and couplings towards i+1 and j+1, each of shape (nx, ny)."""
     centre, east, north = (np.zeros(network.shape) for _ in range(3))
     to_east, to_north = network.conductance(linear.mobility)
-    scale = max(float(to_east.max()), float(to_north.max())) or 1.0
-    to_east /= scale
-    to_north /= scale
     slopes = (linear.centre, linear.south, linear.north)
     couple(linear.kind, to_east, to_north, *network.periodic, *slopes, centre, east, north)
-    return (centre, east, north), scale
+    return centre, east, north
 
 
 def first_row(kind: NDArray[np.int8]) -> tuple[int, bool]:
@@ -176,14 +167,6 @@ def sweep(kind, centre, west, east, south, inverse, factor, first, source, value
             values[i, j] = work[j]
             if kind[i, j] == FILM and kind[before, j] == CAVITY and number > 0:
                 values[before, j] -= east[before, j] / centre[before, j] * work[j]
-
-
-@compiled
-def keep_film(kind, change, factor, values):  # type: ignore[no-untyped-def]
-    """Write the change of pressure times ``factor`` at film nodes, and zero elsewhere."""
-    for i in range(kind.shape[0]):
-        for j in range(kind.shape[1]):
-            values[i, j] = factor * change[i, j] if kind[i, j] == FILM else 0.0
 
 
 @compiled
