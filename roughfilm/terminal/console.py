@@ -40,8 +40,20 @@ Spacing = Annotated[
     str | None, typer.Option(metavar="D", help="Distance between the points of an array of heights: 1um, or 1um,2um.")
 ]
 
+
+class Output(Console):
+    """Standard output. Where its reader ends early, as ``head`` does, the command ends too, without a message."""
+
+    def on_broken_pipe(self) -> None:
+        """End the command; nothing more is written."""
+        try:
+            super().on_broken_pipe()
+        except SystemExit as stop:
+            raise typer.Exit(1) from stop
+
+
 messages = Console(stderr=True, highlight=False)
-output = Console(highlight=False)
+output = Output(highlight=False)
 
 
 def fail(error: Exception, code: int, command: Callable[..., None] | None = None) -> typer.Exit:

@@ -195,6 +195,15 @@ def test_a_full_device_is_one_line(pocket_file):
     assert "standard output: cannot be written" in one_line(done.stderr)
 
 
+def test_a_reader_that_ends_early_gets_no_message():
+    reader, writer = os.pipe()
+    os.close(reader)
+    command = [sys.executable, "-m", "roughfilm.cli.main", "models"]
+    done = subprocess.run(command, stdout=writer, stderr=subprocess.PIPE, text=True, timeout=120)
+    os.close(writer)
+    assert (done.returncode, done.stderr) == (1, "")
+
+
 @pytest.mark.openfoam
 @pytest.mark.parametrize("processes", ["1", "2"])
 def test_a_terminated_solve_leaves_no_program_and_no_directory(pocket_file, tmp_path, processes):
