@@ -20,5 +20,5 @@ MODEL = bearing_model(
     applies=direct_applies,
     film=rough_film,
     resolutions=rough_resolutions,
-    in_plane=2e-5,
+    in_plane=6e-6,
 )

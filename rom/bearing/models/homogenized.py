@@ -11,5 +11,5 @@ MODEL = bearing_model(
     sources=(*SOURCES, "10.1016/j.jmaa.2005.09.036"),
     applies=homogenized_applies,
     film=averaged_film,
-    in_plane=4e-6,
+    in_plane=1e-5,
 )
