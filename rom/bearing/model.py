@@ -6,6 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Unpack
 
 from roughfilm.contact.foundation.deferred import deferred
+from roughfilm.rom.bearing.roughness import Sinusoid
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
 from roughfilm.rom.ladder.model import About, Applicability, Effect, Model, Resolutions
@@ -32,9 +33,12 @@ MAX_CELLS = {True: 4_000_000, False: 2048}
 _solve = deferred("rom.bearing.solve", "solve")
 
 
-def cost(scene: Bearing, cells: int, *, wide: bool, in_plane: float) -> float:
-    """The expected CPU seconds; ``in_plane`` is the time for each cell of a film with a width."""
-    return 4e-3 + 8e-7 * cells if wide or scene.wide else 1e-2 + in_plane * cells**2
+def cost(scene: Bearing, cells: int, *, wide: bool, in_plane: float, oblique: float) -> float:
+    """The expected CPU seconds; ``in_plane`` and ``oblique`` as in :func:`bearing_model`."""
+    if wide or scene.wide:
+        return 4e-3 + 8e-7 * cells
+    ridges = isinstance(scene.roughness, Sinusoid) and all(scene.roughness.waves)
+    return 1e-2 + in_plane * (oblique if ridges else 1.0) * cells**2
 
 
 def smooth_wall_applies(scene: Bearing, *, applies: Callable[[Bearing], Applicability]) -> Applicability:
@@ -67,6 +71,7 @@ def bearing_model(
     solve: Callable[..., Any] = _solve,
     wide: bool = False,
     in_plane: float = 2e-6,
+    oblique: float = 1.0,
     **about: Unpack[About],
 ) -> Model[Bearing]:
     """A model of a bearing.
@@ -80,6 +85,7 @@ def bearing_model(
     solve : the solver, as :func:`roughfilm.rom.bearing.solve.solve`.
     wide : whether the model solves a single line of any film.
     in_plane : expected CPU seconds for each cell of a film with a width.
+    oblique : factor of ``in_plane`` for ridges that run neither along nor across the sliding.
     about : name, summary, effects and sources of the model.
     """
 
@@ -97,7 +103,7 @@ def bearing_model(
         residual_meaning=RESIDUAL_MEANING,
         order=2,
         tolerance=RESIDUAL_TOLERANCE,
-        cost=partial(cost, wide=wide, in_plane=in_plane),
+        cost=partial(cost, wide=wide, in_plane=in_plane, oblique=oblique),
         applies=applies,
         compute=partial(solve, film=film, ruptures=ruptures),
     )

@@ -11,5 +11,6 @@ MODEL = bearing_model(
     sources=(*SOURCES, "10.1016/j.jmaa.2005.09.036"),
     applies=homogenized_applies,
     film=averaged_film,
-    in_plane=1e-5,
+    in_plane=4e-6,
+    oblique=4.0,
 )
