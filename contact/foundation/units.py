@@ -101,7 +101,7 @@ _MEANINGS: Mapping[str, tuple[str, tuple[str, ...]]] = {
 """The quantity that each SI unit measures, and common units of it, for messages."""
 
 _REMEDIES = {
-    ("Pa*s", "m^2/s"): "add the density beside it, or write mPa*s",
+    ("Pa*s", "m^2/s"): "add the key density beside it, or write mPa*s",
     ("m/s", "rad/s"): "no wall rotates here, write the sliding speed, in m/s",
     ("Pa*s", "K"): "no key takes a temperature, write the viscosity at that temperature, in mPa*s",
     ("Pa", "N"): "divide the force by the area, and write MPa or Pa",

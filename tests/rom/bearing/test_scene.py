@@ -203,5 +203,5 @@ def test_nothing_rotates_in_a_pad():
 def test_a_kinematic_viscosity_needs_the_density():
     scene = load_scene(SCENES / "journal.toml", ["lubricant.viscosity=46 cSt", "lubricant.density=870 kg/m3"])
     assert scene.lubricant.viscosity == pytest.approx(46e-6 * 870)
-    with pytest.raises(InputError, match=r"scene\.lubricant\.viscosity: got '46 cSt'.* add the density"):
+    with pytest.raises(InputError, match=r"scene\.lubricant\.viscosity: got '46 cSt'.* add the key density"):
         load_scene(SCENES / "journal.toml", ["lubricant.viscosity=46 cSt"])
