@@ -8,6 +8,7 @@ from typing import Any
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.toml import set_entry
+from roughfilm.contact.foundation.units import in_si
 from roughfilm.rom.ladder import scene as scenes
 from roughfilm.rom.ladder.kind import Scene
 
@@ -20,8 +21,8 @@ def load_scene(path: str | os.PathLike[str], *, set: Mapping[str, object] | None
     Parameters
     ----------
     path : the scene file; paths in it are relative to its directory.
-    set : new values by dotted key, such as ``{"geometry.depth": "22.5 um"}``; quantities are texts with a unit,
-        dimensionless values are numbers. Paths given here are relative to the current directory.
+    set : new values by dotted key, such as ``{"geometry.depth": "22.5 um"}``; a number is in the SI unit of its key.
+        Paths given here are relative to the current directory.
 
     Returns
     -------
@@ -44,7 +45,8 @@ def load_scene(path: str | os.PathLike[str], *, set: Mapping[str, object] | None
         raise InputError(f"path: got {type(path).__name__}; name a scene file, or give a dict to read_scene")
     if not isinstance(set, Mapping | None):
         raise InputError(f"set: got {set!r:.60}; give a dict such as {{'geometry.depth': '22.5 um'}}")
-    return scenes.load_scene(Path(path), [f"{key}={_text(value)}" for key, value in (set or {}).items()])
+    numbers = [key for key, value in (set or {}).items() if not isinstance(value, str)]
+    return scenes.load_scene(Path(path), [f"{key}={_text(value)}" for key, value in (set or {}).items()], numbers)
 
 
 def read_scene(entries: Mapping[str, Any]) -> Scene:
@@ -52,7 +54,8 @@ def read_scene(entries: Mapping[str, Any]) -> Scene:
 
     Parameters
     ----------
-    entries : tables by name: numbers, texts with a unit such as "30 um", lists and tables.
+    entries : tables by name: texts with a unit such as "30 um", numbers in the SI unit of their key, lists, arrays and
+        tables. A scene file takes no number without a unit where a quantity has one.
 
     Returns
     -------
@@ -70,7 +73,7 @@ def read_scene(entries: Mapping[str, Any]) -> Scene:
     >>> scene = rf.read_scene({
     ...     "name": "groove", "kind": "pocket",
     ...     "geometry": {
-    ...         "length": "1 mm", "film": "30 um", "profile": "cylindrical", "width": "0.3 mm", "depth": "9 um"},
+    ...         "length": "1 mm", "film": 30e-6, "profile": "cylindrical", "width": "0.3 mm", "depth": "9 um"},
     ...     "lubricant": {"viscosity": "0.01 Pa*s", "density": "1000 kg/m^3"},
     ...     "motion": {"reynolds_number": 40},
     ... })
@@ -79,7 +82,7 @@ def read_scene(entries: Mapping[str, Any]) -> Scene:
     """
     if not isinstance(entries, Mapping):
         raise InputError(f"scene: got {type(entries).__name__}; give a dict of tables, or a file name to load_scene")
-    return scenes.read_scene(entries)
+    return scenes.read_scene(in_si(entries))
 
 
 def with_entries(scene: Scene, values: Mapping[str, object]) -> Scene:
