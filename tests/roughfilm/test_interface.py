@@ -92,6 +92,41 @@ BAD = {
     "a tolerance out of range": (lambda scene, z: rf.advise(scene, within=2.0), "above 0 and below 1"),
     "a quantity that is unknown": (lambda scene, z: rf.advise(scene, within=0.1, quantity="lift"), "quantity: got"),
     "models as text": (lambda scene, z: rf.compare(scene, models="film"), "give a list of names"),
+    "a key to replace that is unknown": (
+        lambda scene, z: rf.replace(scene, "geometry.depht", "1 um"),
+        "scene.geometry.depht: unknown key; did you mean 'depth'",
+    ),
+    "a table to replace that is unknown": (
+        lambda scene, z: rf.replace(scene, "geometri.depth", "1 um"),
+        "did you mean 'geometry'",
+    ),
+    "a key to replace below a number": (
+        lambda scene, z: rf.replace(scene, "geometry.depth.more", "1 um"),
+        "'depth' is not a table",
+    ),
+    "a key to replace that is none": (lambda scene, z: rf.replace(scene, 3, "1 um"), "key: got 3"),
+    "a key to replace with a value in it": (lambda scene, z: rf.replace(scene, "a=b", "1 um"), "key: got 'a=b'"),
+    "a value to replace that is missing": (lambda scene, z: rf.replace(scene, "geometry.depth"), "value: missing"),
+    "a value to replace beside a dict": (lambda scene, z: rf.replace(scene, {"name": "a"}, "b"), "leave it out"),
+    "a value to replace that is none": (
+        lambda scene, z: rf.replace(scene, "geometry.depth", object()),
+        "geometry.depth: got <object",
+    ),
+    "a value to replace out of range": (
+        lambda scene, z: rf.replace(scene, "geometry.depth", "-1 um"),
+        "depth: got '-1 um'; it must be above zero",
+    ),
+    "a value to replace that excludes another": (
+        lambda scene, z: rf.replace(scene, {"motion.speed": "1 m/s", "motion.reynolds_number": 3}),
+        "takes the place of",
+    ),
+    "a required entry removed": (lambda scene, z: rf.replace(scene, "geometry.film", None), "film: missing"),
+    "a scene to replace that is none": (lambda scene, z: rf.replace("pocket.toml", "name", "b"), "scene: got str"),
+    "a dotted key of a copy": (
+        lambda scene, z: scene.model_copy(update={"geometry.depth": 7.5e-6}),
+        "geometry.depth: is no key of Pocket; make a changed scene with rf.replace",
+    ),
+    "an attribute that is set": (lambda scene, z: setattr(scene.geometry, "film", 1e-6), "rf.replace(scene, "),
     "a sweep over one value": (lambda scene, z: rf.sweep(scene, {"geometry.depth": "5 um"}), "give a list"),
     "a sweep over a list": (lambda scene, z: rf.sweep(scene, ["geometry.depth"]), "values: got"),
     "a sweep over no key": (lambda scene, z: rf.sweep(scene, {"geometry.dep": ["5 um"]}), "geometry.dep"),
@@ -145,6 +180,46 @@ def test_a_scene_may_be_changed_while_it_is_read(pocket):
     deep = rf.load_scene(SCENES / "pocket.toml", set={"geometry.depth": "22.5 um", "motion.reynolds_number": 40})
     assert deep.reynolds_number == 40
     assert deep.depth == pytest.approx(3 * pocket.depth)
+
+
+def test_a_replaced_value_changes_that_entry_alone(pocket):
+    before = pocket.model_dump()
+    deep = rf.replace(pocket, "geometry.depth", "15 um")
+    assert deep == rf.load_scene(SCENES / "pocket.toml", set={"geometry.depth": "15 um"})
+    assert deep.depth == pytest.approx(2 * pocket.depth)
+    assert pocket.model_dump() == before
+    assert rf.replace(deep, "geometry.depth", "7.5 um") == pocket
+
+
+def test_a_key_replaces_the_one_that_it_excludes(pocket):
+    slow = rf.replace(pocket, "motion.reynolds_number", 40)
+    assert slow.reynolds_number == 40
+    assert slow.speed == pytest.approx(pocket.speed / 4, rel=1e-4)
+    assert rf.replace(slow, "motion.speed", "1 m/s").speed == 1
+
+
+def test_values_of_every_kind_replace_entries(pocket):
+    renamed = rf.replace(pocket, {"name": "3", "motion.reynolds_number": np.float32(40)})
+    assert (renamed.name, renamed.reynolds_number) == ("3", 40)
+    washer = rf.load_scene(SCENES / "rough_washer.toml")
+    fine = rf.replace(washer, "roughness.surface.points", np.array([256, 512]))
+    assert fine.roughness.surface["points"] == [256, 512]
+    table = {"law": "barus", "pressure_coefficient": "15 GPa^-1"}
+    thick = rf.replace(washer, "lubricant.piezoviscosity", table)
+    assert thick.lubricant.piezoviscosity.pressure_coefficient == pytest.approx(15e-9)
+    assert rf.replace(thick, "lubricant.piezoviscosity", None) == washer
+    two = rf.load_scene(SCENES / "two_grooves.toml")
+    (left, right) = rf.replace(two, "geometry.grooves.1.depth", "5 um").grooves
+    assert (left, right.depth) == (two.grooves[0], pytest.approx(5e-6))
+
+
+def test_a_frozen_scene_keeps_its_values(pocket):
+    film = pocket.geometry.film
+    with pytest.raises(rf.InputError, match=r"film: PocketGeometry is immutable"):
+        pocket.geometry.film = 1.0
+    with pytest.raises(rf.InputError, match=r"speed: Pocket is immutable"):
+        pocket.speed = 1.0
+    assert pocket.geometry.film == film
 
 
 def test_the_uncertainty_of_flow_factors_covers_the_closed_form_of_ridges(ridges):
