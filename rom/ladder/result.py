@@ -8,7 +8,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.units import Quantity
+
+SHOWN = 6
+"""Number of quantities that the short text of a result shows."""
+
+WIDTH = 100
+"""Length at which a line of this text is cut."""
 
 NO_COARSER_GRID = "there is no coarser grid, so the discretisation error is unknown"
 """The warning of a result without uncertainty."""
@@ -27,6 +34,8 @@ class Field:
 
     values: NDArray[np.float64]
     unit: str
+
+    __repr__ = brief
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -113,6 +122,27 @@ class Result:
     provenance: Mapping[str, Any] = field(repr=False)
     warnings: tuple[str, ...] = ()
     expected_error: Mapping[str, float] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        """The main quantities with unit and uncertainty, the fields, the cost and the warnings, in about ten lines."""
+        scene = self.provenance.get("scene", {})
+        lines = [f"Result of {self.model} on {scene.get('name', 'a scene')!r} ({scene.get('kind', 'of unknown kind')})"]
+        shown, width = list(self.quantities)[:SHOWN], max(map(len, self.quantities), default=0)
+        for name in shown:
+            error = self.expected_error.get(name)
+            of_model = "" if error is None else f"  (error of the model: at most {100 * error:.2g} %)"
+            lines.append(f"  {name:<{width}}  {self.quantities[name]}{of_model}")
+        if others := len(self.quantities) - len(shown):
+            lines.append(f"  and {others} more in .quantities")
+        shapes = {name: "×".join(map(str, one.values.shape)) for name, one in self.fields.items()}
+        lines.append(f"fields: {', '.join(f'{name} {shape}' for name, shape in shapes.items()) or 'none'}")
+        lines.append(
+            f"cost: {self.numerics.cpu_s:.2g} s CPU, {self.numerics.degrees_of_freedom} unknowns, "
+            f"resolution {self.numerics.resolution}, residual {self.numerics.residual:.1e}"
+        )
+        first = f": {self.warnings[0]}" if self.warnings else ""
+        lines.append(f"warnings: {len(self.warnings)}{first}")
+        return "\n".join(line if len(line) <= WIDTH else f"{line[: WIDTH - 3]}..." for line in lines)
 
     def __getitem__(self, name: str) -> Quantity:
         """The quantity with a name, or with that name and ``_per_area`` or ``_per_width``.

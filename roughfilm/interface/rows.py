@@ -9,3 +9,8 @@ class Rows(list[dict[str, Any]]):
     def __init__(self) -> None:
         super().__init__()
         self.units: dict[str, str] = {}
+
+    def __repr__(self) -> str:
+        columns = list(dict.fromkeys(name for row in self for name in row))
+        named = [f"{name} ({unit})" if (unit := self.units.get(name, "1")) != "1" else name for name in columns]
+        return f"<{len(self)} rows of {len(columns)} columns: {', '.join(named)}>"

@@ -326,6 +326,46 @@ def test_a_stored_result_comes_back_as_it_was(pocket, tmp_path):
     assert np.array_equal(again.fields["pressure"].values, result.fields["pressure"].values)
 
 
+def test_a_result_is_shown_in_about_ten_lines(pocket, tmp_path):
+    result = rf.solve(pocket, model="reynolds")
+    lines = repr(result).splitlines()
+    assert lines[0] == "Result of reynolds on 'pocket' (pocket)"
+    assert len(lines) <= 12
+    assert max(map(len, lines)) <= 100
+    for name in list(result.quantities)[:4]:
+        assert any(line.startswith(f"  {name} ") and str(result.quantities[name]) in line for line in lines)
+    for word in ("fields: position 72", "cost: ", "s CPU", f"warnings: {len(result.warnings)}", "error of the model"):
+        assert word in repr(result)
+    rf.save(result, tmp_path / "result.h5")
+    assert repr(rf.load_result(tmp_path / "result.h5")) == repr(result)
+
+
+def test_a_quantity_is_shown_with_its_uncertainty_and_unit():
+    assert str(rf.Quantity(value=2.414, unit="N", uncertainty=0.13)) == "2.41 ± 0.13 N"
+    assert str(rf.Quantity(value=0.25, unit="1")) == "0.25"
+
+
+def test_what_functions_return_is_shown_without_its_arrays(pocket, ridges):
+    surface = rf.Surface(heights=ridges, spacing=(1e-6, 1e-6))
+    shown = {
+        "surface": surface,
+        "contact": rf.press(surface, modulus=1e9, load=1e5),
+        "advice": rf.advise(pocket, within=0.1),
+        "comparison": rf.compare(pocket, models=["reynolds", "film"]),
+        "sweep": rf.sweep(pocket, {"geometry.depth": ["5 um", "10 um"]}, models=["reynolds"]),
+        "study": rf.load_study(STUDIES / "pocket.toml"),
+        "model": rf.models("pocket")[0],
+        "effects": rf.effects(rf.load_scene(SCENES / "parabolic_slider.toml"), resolution=64),
+        "field": rf.Field(values=ridges, unit="m"),
+    }
+    for name, one in shown.items():
+        assert "\n" not in repr(one), name
+        assert len(repr(one)) < 600, name
+    assert "<array 64×64>" in repr(surface)
+    assert "2 rows of" in repr(shown["sweep"])
+    assert "geometry.depth (m)" in repr(shown["sweep"])
+
+
 @pytest.mark.openfoam
 def test_a_case_that_was_run_has_a_result_and_a_mesh(pocket, tmp_path):
     case = rf.write_case(pocket, tmp_path / "case", resolution=30)
