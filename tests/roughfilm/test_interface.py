@@ -2,6 +2,7 @@
 
 import ast
 import inspect
+import json
 import os
 import subprocess
 import sys
@@ -14,7 +15,7 @@ from places import ROOT, SCENES, STUDIES
 
 import roughfilm as rf
 
-HEAVY = ("matplotlib", "numba", "pandas", "pint", "pyvista", "scipy.interpolate", "typer")
+HEAVY = ("matplotlib", "numba", "pandas", "pint", "pyvista", "scipy.interpolate", "typer", "xarray")
 EXAMPLES = sorted((ROOT / "scripts" / "examples" / "python").glob("*.py"))
 NAMES = [name for name in rf.__all__ if name != "__version__"]
 
@@ -366,6 +367,73 @@ def test_what_functions_return_is_shown_without_its_arrays(pocket, ridges):
     assert "geometry.depth (m)" in repr(shown["sweep"])
 
 
+def test_the_dataset_of_a_result_has_its_fields_over_named_coordinates(pocket, tmp_path):
+    pytest.importorskip("xarray")
+    result = rf.solve(pocket, model="film_slope")
+    data = result.to_xarray()
+    assert data["pressure"].dims == ("position",)
+    assert data["pressure"].attrs["units"] == "Pa"
+    assert data["position"].attrs["units"] == "m"
+    assert np.array_equal(data["pressure"].values, result.fields["pressure"].values)
+    peak = data["pressure"].idxmax("position").item()
+    assert 0 < peak < pocket.grooves[0].width
+    assert data["cell_velocity"].dims == ("x_cell", "y_cell", "component")
+    middle = data["cell_x"].isel(y_cell=-1).values
+    assert middle == pytest.approx(data["position"].values, abs=1e-9)
+    assert float(data["load_per_area"]) == result["load"].value
+    assert data["load_plus"].attrs["expected_error"] == result.expected_error["load_plus"]
+    assert json.loads(data.attrs["provenance"])["scene"]["name"] == "pocket"
+    data.to_netcdf(tmp_path / "pocket.nc", engine="scipy")
+    assert (tmp_path / "pocket.nc").stat().st_size > data.nbytes
+
+
+def test_the_dataset_of_a_bearing_is_a_grid_along_and_across_the_sliding():
+    pytest.importorskip("xarray")
+    washer = rf.load_scene(SCENES / "washer.toml")
+    result = rf.solve(washer, model="reynolds", resolution=32)
+    data = result.to_xarray()
+    assert data["pressure"].dims == ("x", "y")
+    assert (data["x"].attrs["units"], data["y"].attrs["units"]) == ("rad", "m")
+    inner, outer = washer.geometry.inner_radius, washer.geometry.outer_radius
+    assert (data["y"].values[0], data["y"].values[-1]) == pytest.approx((inner, outer))
+    edge = data["pressure"].sel(y=inner, method="nearest").values
+    assert edge == pytest.approx(np.full(len(data["x"]), washer.boundary.sides.low))
+    assert data["load"].attrs["uncertainty"] == result["load"].uncertainty
+
+
+@pytest.mark.parametrize("name", ["dry_contact.toml", "seal.toml", "random_gap.toml"])
+def test_every_field_and_quantity_of_a_result_is_in_its_dataset(name):
+    pytest.importorskip("xarray")
+    scene = rf.load_scene(SCENES / name)
+    cheapest = min((one for one in rf.models(scene.kind)), key=lambda one: one.cost(scene, one.resolution_of(scene)))
+    result = rf.solve(scene, model=cheapest.name)
+    data = result.to_xarray()
+    assert {*result.fields, *result.quantities} <= {*data.variables}
+
+
+def test_the_table_of_a_sweep_has_a_row_for_every_row(pocket):
+    pytest.importorskip("pandas")
+    rows = rf.sweep(pocket, {"geometry.depth": ["5 um", "10 um"]}, models=["reynolds", "film"])
+    table = rows.to_dataframe()
+    assert len(table) == 4
+    assert table["geometry.depth"].tolist() == [5e-6, 5e-6, 1e-5, 1e-5]
+    assert table.attrs["units"]["geometry.depth"] == "m"
+    loads = table.pivot(index="geometry.depth", columns="model", values="load_per_area")
+    assert loads.loc[1e-5, "film"] == rows[-1]["load_per_area"]
+    assert {"cpu_s", "warnings", "outcome"} <= {*table}
+
+
+@pytest.mark.parametrize("library", ["xarray", "pandas"])
+def test_a_missing_library_is_named_with_its_installation(library, pocket, monkeypatch):
+    monkeypatch.setitem(sys.modules, library, None)
+    made = {
+        "xarray": rf.solve(pocket, model="reynolds").to_xarray,
+        "pandas": rf.sweep(pocket, {"geometry.depth": ["5 um"]}, models=["reynolds"]).to_dataframe,
+    }
+    with pytest.raises(rf.UnavailableError, match=rf"{library}: not installed; .*pip install 'roughfilm\[data\]'"):
+        made[library]()
+
+
 @pytest.mark.openfoam
 def test_a_case_that_was_run_has_a_result_and_a_mesh(pocket, tmp_path):
     case = rf.write_case(pocket, tmp_path / "case", resolution=30)
@@ -392,6 +460,8 @@ def test_an_example_takes_ten_lines_at_most(example):
     ids=lambda path: path.stem,
 )
 def test_an_example_runs_as_it_stands(example, tmp_path):
+    if "to_dataframe" in example.read_text(encoding="utf-8"):
+        pytest.importorskip("pandas")
     (tmp_path / "scripts").symlink_to(ROOT / "scripts")
     done = run(example, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
