@@ -1,5 +1,6 @@
 """Building blocks of tables in TOML files: numbers with units, and tables that refuse unknown keys."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, Self
@@ -43,18 +44,28 @@ def _positive(value: float) -> float:
 
 
 def plain_number(value: object) -> float:
-    """The number as a float; raises ValueError for anything that is not a plain number without unit."""
+    """The number as a float, also that of a percentage such as "60 %"; ValueError for anything else."""
+    if isinstance(value, str) and value.rstrip().endswith("%"):
+        return to_si(value, "%") / 100
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise ValueError(f"got {value!r}; write a plain number, without unit or quotes")
+        raise ValueError(f"got {value!r}; write a plain number, without unit or quotes{_unquoted(value)}")
     try:
         return float(value)
     except OverflowError:
         raise ValueError("got a number beyond 1e308; write a smaller one") from None
 
 
+def _unquoted(value: object) -> str:
+    """The number of a text that holds nothing else, as an example of how to write it."""
+    number = value.strip().replace(",", ".") if isinstance(value, str) else ""
+    return f": {number}" if re.fullmatch(r"[-+]?\d+(\.\d+)?(e[-+]?\d{1,3})?", number, re.IGNORECASE) else ""
+
+
 @dataclass(frozen=True)
 class InUnit:
     """Annotation of an SI number that is read from text with a unit and written back as such text.
+
+    A number that ``in_si`` marks is read as one in the SI unit.
 
     Attributes
     ----------
@@ -82,6 +93,10 @@ class InUnit:
 def _pair(given: object) -> object:
     """The values along x and y; a single value is used for both."""
     values = given.split(",") if isinstance(given, str) else given if isinstance(given, list | tuple) else [given]
+    if isinstance(given, str) and len(values) == 2 and re.fullmatch(r"\s*[-+]?\d+\s*", values[0]):
+        first, second = map(str.strip, values)
+        unit = re.sub(r"^[\d.]+\s*", "", second)
+        raise ValueError(f"got {given!r:.60}, with a comma; write '{first}.{second}' or '{first} {unit}, {second}'")
     if not 1 <= len(values) <= 2:
         raise ValueError(f"got {given!r:.60}; write one length or two, such as '1 um' or ['1 um', '2 um']")
     return values[0], values[-1]

@@ -9,7 +9,8 @@ from pydantic import ValidationError
 
 from roughfilm.contact.foundation.entries import Part
 from roughfilm.contact.foundation.errors import ConvergenceError
-from roughfilm.contact.foundation.toml import Location, in_one_line, known_keys, unknown_key
+from roughfilm.contact.foundation.faults import Fault, faults_of, known_keys, unknown_key
+from roughfilm.contact.foundation.line_numbers import Location
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.roughness import ROUGHNESSES
@@ -95,19 +96,17 @@ def _without_tags(path: Location) -> tuple[list[int | str], type[Part] | None]:
     return list(path), None
 
 
-def validation_message(error: ValidationError, _entries: Mapping[str, Any]) -> str:
-    """The first error of a scene in one line; keys of a shape or a law are compared with those of its class."""
-    first = sorted(error.errors(include_url=False), key=lambda entry: entry["type"] != "extra_forbidden")[0]
-    chosen = _without_tags(first["loc"])[1]
+def validation_faults(error: ValidationError, _entries: Mapping[str, Any]) -> list[Fault]:
+    """The faults of a scene; unknown keys of a shape or a law are compared with those of its class."""
 
-    def unknown(location: Location) -> str:
-        *path, key = location
+    def unknown(place: Location) -> tuple[str, str]:
+        (*path, key), chosen = _without_tags(place)
         inner = next((path[len(place) :] for place in CHOSEN if tuple(path[: len(place)]) == place), None)
         return unknown_key(
             key, known_keys(Bearing, path) if chosen is None or inner is None else known_keys(chosen, inner)
         )
 
-    return in_one_line(error, "scene", unknown, lambda path: _without_tags(path)[0])
+    return faults_of(error, unknown, lambda path: _without_tags(path)[0])
 
 
 NUMBERS = {
@@ -179,7 +178,7 @@ KIND = Kind(
     omitted=omitted,
     files=frozenset({"table", "surface", "thickness"}),
     lists=frozenset({("roughness", "spacing"), ("roughness", "surface", "size"), ("roughness", "surface", "points")}),
-    message=validation_message,
+    faults=validation_faults,
     replaces={
         "lubricant.compressibility.law": ("bulk_modulus", "c1", "c2", "table", "fit"),
         "lubricant.piezoviscosity.law": ("pressure_coefficient", "index"),

@@ -3,11 +3,11 @@
 import math
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
-from pydantic import BeforeValidator, Field, field_validator, model_validator
+from pydantic import BeforeValidator, Field, ValidationInfo, field_validator, model_validator
 
 from roughfilm.contact.foundation.entries import InUnit, Part, PositiveNumber
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.foundation.units import with_unit
+from roughfilm.contact.foundation.units import rotational_speed, with_unit
 from roughfilm.rom.bearing.asperity_contact import AsperityContact
 from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.roughness import AnyRoughness, RoughSurface, Sinusoid, StoredTable
@@ -16,6 +16,7 @@ from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.lubricants.compressibility import Incompressible
 from roughfilm.rom.lubricants.laws import Compressibility, Piezoviscosity
 from roughfilm.rom.lubricants.viscosity import LOG_VISCOSITY, ConstantViscosity, Roelands
+from roughfilm.rom.parts.fluid import Fluid
 from roughfilm.rom.parts.pressed_surface import Load
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ def _law(entries: Any) -> Any:
     return {"law": entries} if isinstance(entries, str) else entries
 
 
-class BearingLubricant(Part):
+class BearingLubricant(Fluid):
     """The lubricant of a bearing.
 
     Attributes
@@ -56,7 +57,10 @@ class BearingLubricant(Part):
 
 
 class BearingMotion(Part):
-    """The speed of the flat wall, m/s, on a ring at the mean radius; negative if the wall slides towards the inlet."""
+    """The speed of the flat wall, m/s, on a ring at the mean radius; negative if the wall slides towards the inlet.
+
+    In the file of a journal, a sector or a washer it may be a rotational speed, such as "3000 rpm".
+    """
 
     speed: Speed
 
@@ -127,6 +131,18 @@ class Bearing(Scene):
             got = f"got {named!r:.60}" if "shape" in entries else "is missing"
             raise ValueError(f"shape: {got}; it must be {', '.join(map(repr, SHAPES))}")
         return entries
+
+    @field_validator("motion", mode="before")
+    @classmethod
+    def _slides(cls, entries: Any, info: ValidationInfo) -> Any:
+        """The motion, with the sliding speed at the radius of the geometry in place of a rotational speed."""
+        turning = rotational_speed(entries.get("speed")) if isinstance(entries, dict) else None
+        geometry = info.data.get("geometry")
+        if turning is None or not isinstance(geometry, Journal | Ring | None):
+            return entries
+        # Without a geometry, which has a fault then, any speed will do.
+        sliding = turning if geometry is None else turning * geometry.radius
+        return {**entries, "speed": with_unit(sliding, "m/s")}
 
     @model_validator(mode="after")
     def _can_be_solved(self) -> Self:

@@ -198,7 +198,8 @@ def _case(base: Mapping[str, Any], values: Mapping[Key, Any], labels: Mapping[Ke
             entries["geometry"] = resolve_relative(entries["geometry"], "scene.geometry")
         scene = read_scene(entries)
     except InputError as error:
-        raise InputError(f"case {label}: {error}" if varied else str(error)) from None
+        faults = [f"case {label}: {line}" if varied else line for line in str(error).splitlines()]
+        raise InputError("\n".join(faults)) from None
     digest = hashlib.sha256(json.dumps(scene_entries(scene), sort_keys=True).encode()).hexdigest()[:16]
     return Case(name=f"{label}-{digest}", digest=digest, scene=scene, varied=varied)
 
