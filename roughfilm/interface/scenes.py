@@ -8,6 +8,7 @@ from typing import Any
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.toml import set_entry
+from roughfilm.contact.foundation.units import in_si
 from roughfilm.rom.ladder import scene as scenes
 from roughfilm.rom.ladder.kind import Scene, kind_of_name
 
@@ -52,7 +53,7 @@ def read_scene(entries: Mapping[str, Any]) -> Scene:
 
     Parameters
     ----------
-    entries : tables by name: numbers, texts with a unit such as "30 um", lists and tables.
+    entries : tables by name: numbers in SI units, texts with a unit such as "30 um", lists, arrays and tables.
 
     Returns
     -------
@@ -79,7 +80,7 @@ def read_scene(entries: Mapping[str, Any]) -> Scene:
     """
     if not isinstance(entries, Mapping):
         raise InputError(f"scene: got {type(entries).__name__}; give a dict of tables, or a file name to load_scene")
-    return scenes.read_scene(entries)
+    return scenes.read_scene(in_si(entries))
 
 
 def replace(scene: Scene, key: str | Mapping[str, object], value: object = ...) -> Scene:
@@ -90,7 +91,7 @@ def replace(scene: Scene, key: str | Mapping[str, object], value: object = ...) 
     scene : the scene, which is not changed.
     key : dotted key of a scene file, such as "geometry.depth"; or a dict of several with their values. A number selects
         a table from a list of tables. A key that excludes another takes its place: a speed that of a Reynolds number.
-    value : a number, a text with a unit, a truth value, a list, an array, or a dict for a table; None
+    value : a number in SI units, a text with a unit, a truth value, a list, an array, or a dict for a table; None
         removes the entry, which then has its default. Names of files are relative to the current directory.
 
     Returns
@@ -107,7 +108,7 @@ def replace(scene: Scene, key: str | Mapping[str, object], value: object = ...) 
     --------
     >>> import roughfilm as rf
     >>> scene = rf.load_scene("scripts/examples/scenes/pocket.toml")
-    >>> deep = rf.replace(scene, "geometry.depth", "22.5 um")
+    >>> deep = rf.replace(scene, "geometry.depth", 22.5e-6)
     >>> round(deep.depth / scene.depth, 12)
     3.0
     >>> slow = rf.replace(scene, {"motion.reynolds_number": 40, "lubricant.viscosity": "8 mPa*s"})

@@ -6,6 +6,7 @@ import json
 import os
 import subprocess
 import sys
+import tomllib
 from itertools import pairwise
 from pathlib import Path
 
@@ -17,6 +18,7 @@ import roughfilm as rf
 
 HEAVY = ("matplotlib", "numba", "pandas", "pint", "pyvista", "scipy.interpolate", "typer", "xarray")
 EXAMPLES = sorted((ROOT / "scripts" / "examples" / "python").glob("*.py"))
+KINDS = {model.kind for model in rf.models()}
 NAMES = [name for name in rf.__all__ if name != "__version__"]
 
 
@@ -212,6 +214,30 @@ def test_values_of_every_kind_replace_entries(pocket):
     two = rf.load_scene(SCENES / "two_grooves.toml")
     (left, right) = rf.replace(two, "geometry.grooves.1.depth", "5 um").grooves
     assert (left, right.depth) == (two.grooves[0], pytest.approx(5e-6))
+
+
+def test_numbers_are_in_si_units(pocket):
+    assert rf.replace(pocket, "geometry.depth", 15e-6) == rf.replace(pocket, "geometry.depth", "15 um")
+    assert rf.replace(pocket, "geometry.depth", np.float64(15e-6)) == rf.replace(pocket, "geometry.depth", 15e-6)
+    assert rf.replace(pocket, "motion.speed", 10) == rf.replace(pocket, "motion.speed", "10 m/s")
+    groove = {"length": 1e-3, "film": 30e-6, "profile": "cylindrical", "width": 0.3e-3, "depth": 9e-6}
+    assert rf.replace(pocket, "geometry", groove) == rf.replace(pocket, "geometry.depth", "9 um")
+    washer = rf.load_scene(SCENES / "rough_washer.toml")
+    shorter = rf.replace(washer, "roughness.surface.correlation_length", 50e-6)
+    assert shorter == rf.replace(washer, "roughness.surface.correlation_length", "50 um")
+    rows = rf.sweep(pocket, {"geometry.depth": np.array([5e-6, 10e-6])}, models=["reynolds"])
+    assert [row["geometry.depth"] for row in rows] == [5e-6, 1e-5]
+    with pytest.raises(rf.InputError, match="depth"):
+        rf.replace(pocket, "geometry.depth", -1e-6)
+    with pytest.raises(rf.InputError, match="without a unit"):
+        rf.load_scene(SCENES / "pocket.toml", set={"geometry.depth": "15e-6"})
+
+
+def test_every_scene_is_itself_when_nothing_is_replaced():
+    for path in sorted(SCENES.glob("*.toml")):
+        if tomllib.loads(path.read_text(encoding="utf-8"))["kind"] in KINDS:
+            scene = rf.load_scene(path)
+            assert rf.replace(scene, {}) == scene, path.name
 
 
 def test_a_frozen_scene_keeps_its_values(pocket):
