@@ -23,7 +23,7 @@ def inertia_omitted(scene: Bearing, quantity: str) -> Omission | None:
     ConvergenceError
         If the film does not converge.
     """
-    if inertia_obstacle(scene) is not None:
+    if inertia_obstacle(scene) is not None or quantity not in INERTIA_FIELDS:
         return None
     load_loops(scene.wide)
     solution = solve(scene.problem(), (CELLS[scene.wide],) * 2)

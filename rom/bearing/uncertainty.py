@@ -7,7 +7,7 @@ from scipy.optimize import brentq
 
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.corners import infinite_flows
-from roughfilm.rom.bearing.quantities import Outputs
+from roughfilm.rom.bearing.quantities import EXACT, Outputs
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.balance import FILM
 from roughfilm.rom.cavitation.solve import Solution
@@ -61,7 +61,9 @@ def uncertainties(
     for name, quantity in quantities.items():
         known = {count: level[name].value for count, level in zip(cells, values, strict=True) if name in level}
         size = largest_flow if quantity.unit == FLOW_UNIT else abs(quantity.value)
-        if name in unknown:
+        if name in EXACT:
+            result[name] = 0.0
+        elif name in unknown:
             result[name] = math.inf
         elif len(known) > 1:
             if name in POSITIONS:
