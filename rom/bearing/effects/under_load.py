@@ -11,7 +11,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.corners import infinite_flows
 from roughfilm.rom.bearing.effects.ablation import Variant, VariantSolution
-from roughfilm.rom.bearing.mixed.balance import FilmsAtSpeed, balanced
+from roughfilm.rom.bearing.equilibrium.balance import FilmsAtSpeed, balanced
 from roughfilm.rom.bearing.mixed.contact_load import asperity_load
 from roughfilm.rom.bearing.mixed.film import MixedFilm, widest_film
 from roughfilm.rom.bearing.mixed.wall import asperities_of
