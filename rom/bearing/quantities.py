@@ -10,11 +10,15 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shapes import Journal
+from roughfilm.rom.bearing.totals.least_film import least_film
 from roughfilm.rom.cavitation.averaged import Averaged
 from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED
 from roughfilm.rom.cavitation.grid import Grid
 from roughfilm.rom.cavitation.oblique import wetness
 from roughfilm.rom.cavitation.solve import Solution
+
+EXACT = ("film_min", "film_min_x", "film_min_y")
+"""Quantities that follow from the geometry alone and have no error of the grid."""
 
 MIN_MEAN_PRESSURE_RATIO = 1e-6
 """Mean pressure over the maximum pressure below which no friction coefficient is given."""
@@ -29,6 +33,10 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
     F = ∫(η ξ u/h + h/2 ∂p/∂x) dA, where a cavity has streamers from wall to wall over its filled fraction ξ;
     with averaged roughness it is F = ∫(ηu (g (d + 3e) + (ξ - g) B₁ <h⁻²>) + B·∇p/2) dA with the wetness g of the tips
     after :mod:`roughfilm.rom.cavitation.oblique`, which is 1 in a film.
+
+    ``film_min`` is the least thickness of the film between the mean planes of the walls, at ``film_min_x`` and
+    ``film_min_y`` (:func:`roughfilm.rom.bearing.totals.least_film.least_film`); ``specific_load`` is the load over the
+    nominal area.
 
     Parameters
     ----------
@@ -65,7 +73,12 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
             ratio = (scene.geometry.radius / scene.geometry.clearance) ** 2
             number = scene.lubricant.viscosity * scene.revolutions * diameter * width / load * ratio
             values["sommerfeld_number"] = (number, "1")
+    least = least_film(scene.geometry, turned=solution.turned)
+    values["film_min"] = (least.thickness, "m")
+    values["film_min_x"] = (least.x, "rad" if solution.problem.shape.polar else "m")
+    values["specific_load"] = (load / nominal_area(scene, grid), "Pa")
     if not solution.problem.shape.wide:
+        values["film_min_y"] = (least.y, "m")
         values["load"] = (load, "N")
         values["friction"] = (resistance, "N")
         values["side_leakage"] = (flows.side_leakage, "m^3/s")

@@ -13,6 +13,9 @@ from roughfilm.rom.cavitation.shape import Shape
 
 Angle = Annotated[float, InUnit("rad")]
 
+FITTING = 1e-4
+"""Relative difference of an angle up to which pads fill a ring: angles are given with a few digits."""
+
 
 def _fraction(value: object) -> float:
     number = plain_number(value)
@@ -27,7 +30,7 @@ Fraction = Annotated[float, BeforeValidator(_fraction)]
 class Ring(Part):
     """One of the equal pieces of a film between two radii, m; ``film`` is its minimum thickness, m.
 
-    Loads, friction and flows refer to one piece.
+    Loads, friction and flows refer to one piece; those of the whole bearing are ``pieces`` times as large.
     """
 
     inner_radius: Length
@@ -68,6 +71,11 @@ class Ring(Part):
         raise NotImplementedError
 
     @property
+    def pieces(self) -> int | None:
+        """The number of equal pieces of the whole bearing; None if it is unknown."""
+        raise NotImplementedError
+
+    @property
     def radius(self) -> float:
         """The mean radius, at which the sliding speed is given, m."""
         return (self.inner_radius + self.outer_radius) / 2
@@ -96,6 +104,8 @@ class Sector(Ring):
     rise : film thickness at the inlet minus that on the land, m.
     taper : fraction of the angle over which the film narrows.
     joined : whether the pads are joined without a groove between them.
+    pads : number of equal pads of the whole bearing; by default those that fill the ring if they are joined, and
+        otherwise unknown.
     """
 
     shape: Literal["sector"]
@@ -103,11 +113,18 @@ class Sector(Ring):
     rise: Length
     taper: Annotated[float, BeforeValidator(plain_number), Field(gt=0, le=1)] = 1.0
     joined: Annotated[bool, Field(strict=True)] = False
+    pads: Annotated[int, Field(strict=True, ge=1, le=10_000)] | None = None
 
     @model_validator(mode="after")
     def _is_thin(self) -> Self:
         if self.angle > 2 * math.pi * (1 + 1e-12):
             raise ValueError(f"angle: got {self.angle!r} rad; it must be at most 2π")
+        fitting = math.floor(2 * math.pi / self.angle * (1 + FITTING))
+        if self.pads is not None and self.pads > fitting:
+            raise ValueError(
+                f"pads: got {self.pads!r}; at most {fitting} pads of {self.angle!r} rad fit into a ring; reduce one of "
+                "the two"
+            )
         if self.rise > self.outer_radius:
             raise ValueError(f"rise: got {self.rise!r} m, more than the outer radius; check the units")
         return self
@@ -121,6 +138,13 @@ class Sector(Ring):
     def endless(self) -> bool:
         """Whether the pads are joined without a groove between them."""
         return self.joined
+
+    @property
+    def pieces(self) -> int | None:
+        """The number of pads of the whole bearing; None if it is unknown."""
+        count = 2 * math.pi / self.angle
+        filled = self.joined and abs(count - round(count)) <= FITTING * count
+        return round(count) if self.pads is None and filled else self.pads
 
     def film_shape(self) -> Shape:
         """The shape of the film over (angle, radius)."""
@@ -194,6 +218,11 @@ class Washer(Ring):
     def endless(self) -> bool:
         """True: the cells are joined without a groove between them."""
         return True
+
+    @property
+    def pieces(self) -> int:
+        """The number of cells of the whole washer, one for each pocket."""
+        return self.pockets
 
     def film_shape(self) -> Shape:
         """The shape of the film over (angle, radius)."""

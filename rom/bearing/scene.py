@@ -273,6 +273,11 @@ class Bearing(Scene):
         return self.geometry.radius if isinstance(self.geometry, Journal | Ring) else None
 
     @property
+    def pieces(self) -> int | None:
+        """The number of equal pieces of the whole bearing, of which this is one; None if it is unknown."""
+        return self.geometry.pieces if isinstance(self.geometry, Ring) else 1
+
+    @property
     def ends(self) -> "Ends":
         """The boundary conditions, with pressures above cavitation pressure."""
         from roughfilm.rom.cavitation.discretise import Ends  # slow to import

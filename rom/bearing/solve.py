@@ -93,7 +93,7 @@ def solve(
             films = partial(_films, among=among, ruptures=ruptures, tolerance=request.tolerance)
         found = _under_load(scene, cells, among, films, outputs, progress)
     solution, quantities = found.levels[0]
-    uncertainty = uncertainties(found.levels, found.of_factors, found.balance or 0.0)
+    uncertainty = uncertainties(found.levels, found.of_factors, found.balance)
     warnings = [
         *grid_warnings(solution),
         *pressure_warnings(solution),

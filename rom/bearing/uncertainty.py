@@ -7,6 +7,7 @@ from scipy.optimize import brentq
 
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.corners import infinite_flows
+from roughfilm.rom.bearing.quantities import EXACT
 from roughfilm.rom.cavitation.balance import FILM
 from roughfilm.rom.cavitation.solve import Solution
 
@@ -34,12 +35,17 @@ POSITIONS = ("film_start", "rupture")
 MIN_CELLS_OF_POSITIONS = 15
 """Number of cells along a side below which a grid does not show where a film begins or ends: it may lack the film."""
 
+LEAST_FILM = "film_min"
+"""Quantity that is exact for a given film, and uncertain for one that is sought."""
+
 FLOW_UNIT = "m^3/s"
 """Unit of the flows through the edges of a film with a width."""
 
 
 def uncertainties(
-    levels: Sequence[tuple[Solution, Mapping[str, Quantity]]], of_factors: Mapping[str, float], balance: float = 0.0
+    levels: Sequence[tuple[Solution, Mapping[str, Quantity]]],
+    of_factors: Mapping[str, float],
+    balance: float | None = None,
 ) -> dict[str, float]:
     """The uncertainty of each quantity in its unit, infinite if unknown; empty without a coarser grid.
 
@@ -51,7 +57,7 @@ def uncertainties(
     ----------
     levels : the film and its quantities, the finest grid first.
     of_factors : uncertainties that come from flow factors and contact pressures, by quantity.
-    balance : relative error of the load for which the film was sought.
+    balance : relative error of the load for which the film was sought; None for a given film, whose thickness is exact.
     """
     if len(levels) == 1:
         return {}
@@ -63,15 +69,16 @@ def uncertainties(
     for name, quantity in quantities.items():
         known = {count: level[name].value for count, level in zip(cells, values, strict=True) if name in level}
         size = largest_flow if quantity.unit == FLOW_UNIT else abs(quantity.value)
-        if name in unknown:
+        if name in EXACT and not (name == LEAST_FILM and balance is not None):
+            result[name] = 0.0
+        elif name in unknown:
             result[name] = math.inf
         elif len(known) > 1:
             if name in POSITIONS:
                 known = _positions(known, ring=solution.network.periodic[0])
             of_grid = grid_uncertainty([*known], [*known.values()])
-            result[name] = (
-                of_grid + size * (IMBALANCE_FACTOR * solution.imbalance + balance) + of_factors.get(name, 0.0)
-            )
+            of_balance = size * (IMBALANCE_FACTOR * solution.imbalance + (balance or 0.0))
+            result[name] = of_grid + of_balance + of_factors.get(name, 0.0)
     return result
 
 

@@ -18,6 +18,9 @@ from roughfilm.rom.bearing.solve import solve
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.solve import Solution
 
+_OF_LOAD = ("load", "load_per_width", "specific_load", "contact_share", "attitude_angle", "sommerfeld_number")
+"""Quantities whose uncertainty is that of film and contact load."""
+
 
 def mixed_quantities(scene: Bearing, solution: Solution) -> dict[str, Quantity]:
     """The quantities of :func:`roughfilm.rom.bearing.quantities.bearing_quantities` and those of the asperities.
@@ -64,7 +67,7 @@ def mixed_uncertainties(scene: Bearing, solution: Solution, quantities: Mapping[
     of_shear = of_film + asperities.friction_uncertainty(narrowest)
     of_friction = (of_shear * abs(friction - boundary) + of_contact * boundary) / (abs(friction) or 1.0)
     relative = {
-        **dict.fromkeys(("load", "load_per_width", "contact_share", "attitude_angle", "sommerfeld_number"), of_both),
+        **dict.fromkeys(_OF_LOAD, of_both),
         **dict.fromkeys(("friction", "friction_per_width"), of_friction),
         "friction_coefficient": of_friction + of_both,
         **dict.fromkeys(("contact_load", "contact_load_per_width", "contact_pressure_max", "contact_area"), of_contact),
