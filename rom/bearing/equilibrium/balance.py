@@ -312,7 +312,7 @@ def _load_too_high(at: FilmsAtSpeed[FilmT], pressure: float, largest: float) -> 
     place = max(carried, key=lambda separation: carried[separation], default=at.film.closest)
     largest = max(largest, carried.get(place, largest))
     return InputError(
-        f"load: got {pressure:.6g} Pa over the nominal area; at {at.speed:.4g} m/s the bearing carries at most "
+        f"load: got {pressure:.6g} Pa over the nominal area; at {at.speed:.4g} m/s film and walls carry at most "
         f"{largest / at.film.area:.6g} Pa, at a minimum film thickness of {place:.4g} m; {at.film.remedy}"
     )
 

@@ -153,7 +153,7 @@ class ElasticBodies:
     def begin(self, rigid: MixedState) -> float:
         """Deform the bodies under the pressures of a rigid film; return the α₀ with the same minimum film, m."""
         self.state = rigid.solution.state
-        pressure = self._on_elements(rigid.solution) + self._asperities(rigid.scene.geometry.thinnest_shape())
+        pressure = self._on_elements(rigid.solution) + self._asperities(rigid.scene.geometry.film_shape())
         self.displacement = self._deformation(pressure)
         return rigid.scene.geometry.thinnest - float(self.displacement.min())
 

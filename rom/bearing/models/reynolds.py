@@ -13,8 +13,10 @@ def applies(scene: Bearing) -> Applicability:
         return Applicability(
             applies=False, reason=f"the inlet is starved (theta = {theta:g}), which needs a model with cavitation"
         )
-    pressure = expected_scene(scene).pressure_unit
-    reason = f"leaves out cavitation: pressures of up to about {pressure:.3g} Pa, also below ambient; valid only if the film nowhere widens"
+    reason = (
+        f"leaves out cavitation: pressures of up to about {expected_scene(scene).pressure_unit:.3g} Pa, also below "
+        "ambient; valid only if the film nowhere widens"
+    )
     return Applicability(applies=True, reason=reason)
 
 
