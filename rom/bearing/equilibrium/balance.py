@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from math import exp, log
+from math import exp, inf, log
 from typing import Generic, Protocol, TypeVar
 
 import numpy as np
@@ -17,6 +17,9 @@ MAX_FILMS = 60
 
 STEEPNESS = 1.5
 """Initial exponent n of a film's load over the separation, load ~ separation⁻ⁿ."""
+
+STEEP = 20.0
+"""Absolute value of the exponent above which the load is interpolated linearly: it goes to 0, as of a centred shaft."""
 
 MAX_STEEPNESS = 1e3
 """Largest absolute value of the exponent between two films."""
@@ -44,6 +47,9 @@ SECANT_FILMS = 3
 
 BRACKET_MARGIN = 1e-3
 """That distance over the length of the bracket."""
+
+ROUNDING = 1e-9
+"""Largest load of a bearing over the wanted one that counts as none."""
 
 ORIGIN_DISTANCE = 0.1
 """Smallest distance from the origin of the power law, over the separation of first contact."""
@@ -139,14 +145,15 @@ class FilmsAtSpeed(Generic[FilmT]):
         return film
 
     def guess(self, near: float) -> Callable[[float], float]:
-        """The load over the distance as a power law through the two solved films nearest to ``near``."""
+        """The load over the distance through the two solved films nearest to ``near``, as a power law or linear."""
         known = sorted((abs(self.distance(at) - near), self.distance(at), load) for at, load in self.loads.items())
         _, one, load = known[0]
         if len(known) > 1:
             _, two, other = known[1]
-            if load > 0 and other > 0:
-                self.steepness = float(np.clip(-log(other / load) / (two - one), -MAX_STEEPNESS, MAX_STEEPNESS))
-            else:
+            steepness = -log(other / load) / (two - one) if load > 0 and other > 0 else inf
+            if abs(steepness) < inf:
+                self.steepness = float(np.clip(steepness, -MAX_STEEPNESS, MAX_STEEPNESS))
+            if abs(steepness) > STEEP:
                 return lambda place: load + (other - load) * (place - one) / (two - one)
         return lambda place: load * exp(min(-self.steepness * (place - one), MAX_EXPONENT))
 
@@ -311,6 +318,11 @@ def _load_too_high(at: FilmsAtSpeed[FilmT], pressure: float, largest: float) -> 
     carried = {place: load + at.film.contact_load(place) for place, load in at.loads.items()}
     place = max(carried, key=lambda separation: carried[separation], default=at.film.closest)
     largest = max(largest, carried.get(place, largest))
+    if largest <= ROUNDING * pressure * at.film.area:
+        return InputError(
+            f"load: got {pressure:.6g} Pa over the nominal area; no film carries a load at {at.speed:.4g} m/s, as the "
+            "walls are parallel or widen along the sliding; give the wall a rise or pockets, or turn the speed round"
+        )
     return InputError(
         f"load: got {pressure:.6g} Pa over the nominal area; at {at.speed:.4g} m/s film and walls carry at most "
         f"{largest / at.film.area:.6g} Pa, at a minimum film thickness of {place:.4g} m; {at.film.remedy}"

@@ -3,7 +3,7 @@
 import math
 from typing import Any
 
-from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.equilibrium.balance import FilmsAtSpeed, robustly_balanced
 from roughfilm.rom.bearing.equilibrium.expected import MIN_FILM_OVER_PEAK, closest_film, first_film
 from roughfilm.rom.bearing.equilibrium.films import ModelFilms
@@ -15,8 +15,8 @@ from roughfilm.rom.bearing.solve import load_loops
 CONTACT_FILM = 2.0
 """Expected film thickness over the rms height where asperities carry the load."""
 
-CELLS = {True: 64, False: 24}
-"""Number of cells along a side, for an infinitely wide film (True) and for others."""
+CELLS = {True: (64, 256), False: (24, 96)}
+"""Numbers of cells along a side, for an infinitely wide film (True) and for others; the second if the first fails."""
 
 LOAD_TOLERANCE = 1e-4
 """Relative error of the load at which the search stops."""
@@ -43,22 +43,27 @@ def estimate(scene: Bearing) -> tuple[float, float]:
         closest = max(closest, MIN_FILM_OVER_PEAK * (roughness.peak + scene.geometry.dip))
     elif roughness is not None and scene.asperities is not None:
         touching = CONTACT_FILM * roughness.rms
-    films = ModelFilms(
-        scene=scene,
-        film=averaged_film if isinstance(roughness, Sinusoid) else Bearing.problem,
-        ruptures=True,
-        cells=CELLS[scene.wide],
-        closest=closest,
-        touching=max(first_film(scene, closest), MIN_FILM_OVER_PEAK * closest),
-    )
-    at = FilmsAtSpeed(film=films, speed=scene.motion.speed)
-    try:
-        film = robustly_balanced(at, pressure, tolerance=LOAD_TOLERANCE).scene.geometry.thinnest
-    except InputError:
-        if touching == 0.0:
-            raise
-        return touching, at.steepness
-    return max(film, touching), steepness_of(at, film)
+    failure: InputError | ConvergenceError | None = None
+    for cells in CELLS[scene.wide]:
+        films = ModelFilms(
+            scene=scene,
+            film=averaged_film if isinstance(roughness, Sinusoid) else Bearing.problem,
+            ruptures=True,
+            cells=cells,
+            closest=closest,
+            touching=max(first_film(scene, closest), MIN_FILM_OVER_PEAK * closest),
+        )
+        at = FilmsAtSpeed(film=films, speed=scene.motion.speed)
+        try:
+            film = robustly_balanced(at, pressure, tolerance=LOAD_TOLERANCE).scene.geometry.thinnest
+        except (InputError, ConvergenceError) as error:
+            if touching > 0:
+                return touching, at.steepness
+            failure = error
+        else:
+            return max(film, touching), steepness_of(at, film)
+    assert failure is not None
+    raise failure
 
 
 def steepness_of(at: FilmsAtSpeed[Any], film: float) -> float:

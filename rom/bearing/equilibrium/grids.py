@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Generic, Protocol, TypeVar
 
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.equilibrium.balance import FilmsAtSpeed, SeparableBearing, balanced, robustly_balanced
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.grid import grid
@@ -97,6 +98,8 @@ def under_load(
 ) -> Equilibrium[StateT]:
     """Solve for the film thickness at which a bearing carries a load, on successively finer grids.
 
+    Grids that are too coarse to carry the load are left out.
+
     Parameters
     ----------
     bearing : bearing(cells), the films on a grid of so many cells along and across.
@@ -124,11 +127,21 @@ def under_load(
         at = FilmsAtSpeed(film=bearing(size), speed=speed)
         if states:
             at.steepness = searches[-1].steepness
-            near = extrapolated(sizes[: count + 1], [state.scene.geometry.thinnest for state in states])
+            known = sizes[count - len(states) : count + 1]
+            near = extrapolated(known, [state.scene.geometry.thinnest for state in states])
             guess = min(max(near, at.film.closest), at.film.widest)
             start = _on(states[-1].solution, size)
         search = balanced if states else robustly_balanced
-        states.append(search(at, pressure, tolerance=LOAD_TOLERANCE, guess=guess, start=start))
+        try:
+            state = search(at, pressure, tolerance=LOAD_TOLERANCE, guess=guess, start=start)
+        except (InputError, ConvergenceError):
+            if size == cells:
+                raise
+            states.clear()
+            searches.clear()
+            start = None
+            continue
+        states.append(state)
         searches.append(at)
     compared, thicker = min(1, len(states) - 1), None
     if sensitive:
