@@ -399,7 +399,7 @@ def journal_load(geometry: Journal, x: Array, force: Array) -> tuple[float, floa
 
 def factor_uncertainties(scene: Bearing, _solution: Solution, quantities: Mapping[str, Quantity]) -> dict[str, float]:
     """The uncertainty of each quantity that comes from the flow factors, in its unit."""
-    relative = 0.0 if scene.roughness is None else scene.roughness.factor_uncertainty(scene.geometry.film)
+    relative = 0.0 if scene.roughness is None else scene.roughness.factor_uncertainty(scene.geometry.thinnest)
     return {name: abs(quantity.value) * relative for name, quantity in quantities.items()}
 
 

@@ -8,6 +8,7 @@ from pydantic import BeforeValidator, Field, model_validator
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import InUnit, Length, Part, plain_number
+from roughfilm.rom.bearing.pad import known_film
 from roughfilm.rom.cavitation.shape import Shape
 
 Angle = Annotated[float, InUnit("rad")]
@@ -34,15 +35,30 @@ class Ring(Part):
 
     inner_radius: Length
     outer_radius: Length
-    film: Length
+    film: Length | None = None
 
     @model_validator(mode="after")
     def _is_a_ring(self) -> Self:
         if self.outer_radius <= self.inner_radius:
             raise ValueError(f"outer_radius: got {self.outer_radius!r} m; it must be above inner_radius")
-        if self.film > self.outer_radius:
+        if self.film is not None and self.film > self.outer_radius:
             raise ValueError(f"film: got {self.film!r} m, more than the outer radius; check the units")
         return self
+
+    @property
+    def thinnest(self) -> float:
+        """The minimum film thickness, m; InputError if a load determines it."""
+        return known_film(self.film)
+
+    @property
+    def widest(self) -> float:
+        """The largest minimum film thickness, m: the arc length."""
+        return self.length
+
+    @property
+    def dip(self) -> float:
+        """The depth to which waves of the wall reach below the minimum film thickness, m: 0."""
+        return 0.0
 
     @property
     def turn(self) -> float:
@@ -136,7 +152,7 @@ class Sector(Ring):
 
         def thickness(x: Array, y: Array) -> Array:
             within = np.mod(x, self.angle) if self.joined else x
-            return np.asarray(self.film + self.rise * np.clip(1 - within / end, 0, None) + 0 * y)
+            return np.asarray(self.thinnest + self.rise * np.clip(1 - within / end, 0, None) + 0 * y)
 
         return Shape(
             thickness=thickness,
@@ -215,11 +231,11 @@ class Washer(Ring):
 
         def thickness(x: Array, y: Array) -> Array:
             if pocket is None:
-                return np.asarray(self.film + 0 * (x + y))
+                return np.asarray(self.thinnest + 0 * (x + y))
             along = (np.mod(x, turn) - begins) / (ends - begins)
             across = (y - self.inner_radius) / pocket.extent
             floor = np.where(along >= 0, np.clip(1 - along, 0, None), 0.0) * np.clip(1 - across, 0, None)
-            return np.asarray(self.film + pocket.depth * floor)
+            return np.asarray(self.thinnest + pocket.depth * floor)
 
         slack = 1e-9 * turn
         inside = {place for place in (begins, ends) if slack < place < turn - slack}

@@ -6,8 +6,11 @@ from functools import partial
 import numpy as np
 
 from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.bearing.equilibrium.expected import expected_film
+from roughfilm.rom.bearing.equilibrium.grids import LOAD_TOLERANCE
+from roughfilm.rom.bearing.film import Searched
 from roughfilm.rom.bearing.mixed.contact_load import AsperityLoad, asperity_load
-from roughfilm.rom.bearing.mixed.film import mixed_problem
+from roughfilm.rom.bearing.mixed.film import MixedFilm, mixed_problem
 from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.quantities import Fields, Outputs, bearing_quantities, load_of, scene_positions
 from roughfilm.rom.bearing.scene import Bearing
@@ -109,5 +112,17 @@ def film_of_scene(scene: Bearing) -> Problem:
     return mixed_problem(scene, asperities_of(scene))
 
 
-solve_mixed = partial(solve, outputs=MIXED_OUTPUTS)
+def mixed_films(scene: Bearing, cells: int) -> MixedFilm:
+    """The mixed films of a scene on a grid, among which that under a load is sought."""
+    return MixedFilm(scene=scene, asperities=asperities_of(scene), cells=cells, accuracy=LOAD_TOLERANCE)
+
+
+def searched_films(scene: Bearing) -> Searched:
+    """The films averaged over the asperities; they begin where the asperities touch, or above it as expected."""
+    asperities = asperities_of(scene)
+    first = max(expected_film(scene).thickness, asperities.closest + scene.geometry.dip)
+    return Searched(film=film_of_scene, closest=asperities.closest, first=first, averaged=True)
+
+
+solve_mixed = partial(solve, outputs=MIXED_OUTPUTS, films=mixed_films)
 """The solver of the model ``mixed``."""
