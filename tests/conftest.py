@@ -1,5 +1,7 @@
 """Scenes that the tests share, and skips with a reason."""
 
+import signal
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -23,6 +25,21 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         for item in items:
             if item.get_closest_marker("openfoam"):
                 item.add_marker(pytest.mark.skip(reason=reason))
+
+
+@pytest.fixture(scope="session", autouse=True)
+def default_signals() -> Iterator[None]:
+    """Signals that the shell ignores or blocks (nohup, a command in the background) act here and in all children."""
+    inherited = {
+        number: signal.signal(number, signal.default_int_handler if number == signal.SIGINT else signal.SIG_DFL)
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGCHLD)
+        if signal.getsignal(number) is signal.SIG_IGN
+    }
+    mask = signal.pthread_sigmask(signal.SIG_SETMASK, set())
+    yield
+    signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+    for number, handler in inherited.items():
+        signal.signal(number, handler)
 
 
 @pytest.fixture(scope="session")
