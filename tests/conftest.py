@@ -1,5 +1,6 @@
 """Scenes that the tests share, and skips with a reason."""
 
+import os
 import signal
 from collections.abc import Iterator
 from pathlib import Path
@@ -13,6 +14,10 @@ from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.scene import load_scene
 
 POCKET = SCENES / "pocket.toml"
+
+for name in ("FORCE_COLOR", "NO_COLOR", "PY_COLORS", "GITHUB_ACTIONS", "TTY_COMPATIBLE", "TTY_INTERACTIVE", "LINES"):
+    os.environ.pop(name, None)  # what a terminal or a build service says about itself; typer reads some at its import
+os.environ["COLUMNS"] = "80"
 
 settings.register_profile("fixed", derandomize=True, database=None, deadline=None)
 settings.register_profile("long", max_examples=5000, deadline=None)
