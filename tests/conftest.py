@@ -1,6 +1,9 @@
 """Scenes that the tests share, and skips with a reason."""
 
+import os
 from pathlib import Path
+
+os.environ["COLUMNS"] = "400"  # before any console is made: no test of words depends on where a line is broken
 
 import pytest
 from hypothesis import settings
