@@ -17,7 +17,9 @@ def kinds_beginning_with(incomplete: str) -> list[str]:
 def models_beginning_with(ctx: typer.Context, incomplete: str) -> list[str]:
     """The models whose names begin with a text: those of the scene file before it, or of all kinds."""
     by_kind = _models_by_kind()
-    names = by_kind.get(_kind_of_file(ctx.params.get("scene")) or "", frozenset[str]().union(*by_kind.values()))
+    files = (ctx.params.get("scene"), *ctx.args)  # an option that lacks its value leaves the file in the latter
+    kind = next(filter(None, map(_kind_of_file, files)), "")
+    names = by_kind.get(kind, frozenset[str]().union(*by_kind.values()))
     return sorted(name for name in names if name.startswith(incomplete))
 
 

@@ -9,7 +9,8 @@ from rich.table import Table
 
 from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.terminal.console import messages, output, print_json, print_message
-from roughfilm.terminal.layout import FittedTable, wrapped
+from roughfilm.terminal.layout import wrapped
+from roughfilm.terminal.tables import FittedTable
 
 
 def table_of(heads: Sequence[str], rows: Iterable[Sequence[str]], *, title: str | None = None, left: int = 0) -> Table:
