@@ -1,18 +1,40 @@
 """Building blocks of tables in TOML files: numbers with units, and tables that refuse unknown keys."""
 
+import re
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Self
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, GetCoreSchemaHandler
 from pydantic_core import core_schema
 
+from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import to_si, with_unit
+
+REMEDY = "make a changed scene with rf.replace, such as rf.replace(scene, 'geometry.depth', '7.5 um')"
 
 
 class Part(BaseModel):
     """Base class of a table in a TOML file; it is immutable and refuses unknown keys."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
+        """A copy of this table with other values at some of its keys, which are not checked.
+
+        Raises
+        ------
+        InputError
+            If the table has no such key; :func:`roughfilm.replace` takes dotted keys and checks the values.
+        """
+        for name in (update or {}).keys() - type(self).model_fields:
+            raise InputError(f"{name}: is no key of {type(self).__name__}; {REMEDY}")
+        return super().model_copy(update=update, deep=deep)
+
+    if not TYPE_CHECKING:  # a checker of types finds assignments to an immutable model without it
+
+        def __setattr__(self, name: str, value: object) -> None:
+            raise InputError(f"{name}: {type(self).__name__} is immutable; {REMEDY}")
 
 
 def _positive(value: float) -> float:
@@ -22,18 +44,28 @@ def _positive(value: float) -> float:
 
 
 def plain_number(value: object) -> float:
-    """The number as a float; raises ValueError for anything that is not a plain number without unit."""
+    """The number as a float, also that of a percentage such as "60 %"; ValueError for anything else."""
+    if isinstance(value, str) and value.rstrip().endswith("%"):
+        return to_si(value, "%") / 100
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise ValueError(f"got {value!r}; write a plain number, without unit or quotes")
+        raise ValueError(f"got {value!r}; write a plain number, without unit or quotes{_unquoted(value)}")
     try:
         return float(value)
     except OverflowError:
         raise ValueError("got a number beyond 1e308; write a smaller one") from None
 
 
+def _unquoted(value: object) -> str:
+    """The number of a text that holds nothing else, as an example of how to write it."""
+    number = value.strip().replace(",", ".") if isinstance(value, str) else ""
+    return f": {number}" if re.fullmatch(r"[-+]?\d+(\.\d+)?(e[-+]?\d{1,3})?", number, re.IGNORECASE) else ""
+
+
 @dataclass(frozen=True)
 class InUnit:
     """Annotation of an SI number that is read from text with a unit and written back as such text.
+
+    A number that ``in_si`` marks is read as one in the SI unit.
 
     Attributes
     ----------
@@ -61,6 +93,10 @@ class InUnit:
 def _pair(given: object) -> object:
     """The values along x and y; a single value is used for both."""
     values = given.split(",") if isinstance(given, str) else given if isinstance(given, list | tuple) else [given]
+    if isinstance(given, str) and len(values) == 2 and re.fullmatch(r"\s*[-+]?\d+\s*", values[0]):
+        first, second = map(str.strip, values)
+        unit = re.sub(r"^[\d.]+\s*", "", second)
+        raise ValueError(f"got {given!r:.60}, with a comma; write '{first}.{second}' or '{first} {unit}, {second}'")
     if not 1 <= len(values) <= 2:
         raise ValueError(f"got {given!r:.60}; write one length or two, such as '1 um' or ['1 um', '2 um']")
     return values[0], values[-1]

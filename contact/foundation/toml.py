@@ -1,21 +1,21 @@
-"""TOML files: reading, replacing single entries, and one-line messages for every error."""
+"""TOML files: reading, with a message in one line for every error, and replacing single entries."""
 
-import difflib
 import json
+import re
 import tomllib
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, get_args
-
-from pydantic import BaseModel, ValidationError
+from typing import Any
 
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.units import in_si
 
 MAX_BYTES = 1_000_000
 """Largest size of a file that is read, bytes."""
 
-Location = Sequence[int | str]
-"""The location of an entry: the keys and list indices that lead to it, from the outermost."""
+_AT = re.compile(r"\(at line (\d+), column \d+\)")
+_UNQUOTED = re.compile(r"""\s*([\w.-]+)\s*=\s*([^"'\[{#=\s][^#"'=]*?)\s*(?:#.*)?""")
+_CURLED = "“”„«»‘’‚"
 
 
 def toml_value(value: Any) -> str:
@@ -43,20 +43,39 @@ def read_toml(path: Path, example: str) -> dict[str, Any]:
             raise InputError(f"{path}: {'is no' if path.exists() else 'no such'} file; name a TOML file")
         if path.stat().st_size > MAX_BYTES:
             raise InputError(f"{path}: larger than {MAX_BYTES} bytes; write a short TOML file")
-        return tomllib.loads(path.read_text(encoding="utf-8"))
+        text = path.read_text(encoding="utf-8-sig")
+        return tomllib.loads(text)
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror}); check its permissions") from error
     except UnicodeDecodeError as error:
-        raise InputError(f"{path}: byte {error.start} is not UTF-8; save the file as UTF-8 text") from error
+        line = error.object[: error.start].count(b"\n") + 1
+        raise InputError(f"{path}:{line}: byte {error.start} is not UTF-8; save the file as UTF-8 text") from error
     except InputError:
         raise
     except (ValueError, RecursionError) as error:
-        reason = str(error).splitlines()[0]
-        raise InputError(f"{path}: is not TOML ({reason}); write lines such as: {example}") from error
+        raise InputError(_not_toml(path, text, str(error).splitlines()[0], example)) from error
+
+
+def _not_toml(path: Path, text: str, reason: str, example: str) -> str:
+    """The message on a text that is not TOML: the reason, with line and column, and the remedy for that line."""
+    at = _AT.search(reason)
+    unquoted = None if at is None else _UNQUOTED.fullmatch([*text.splitlines(), ""][int(at[1]) - 1])
+    if "overwrite" in reason or "twice" in reason:
+        remedy = "a key or a table stands twice, remove one of the two"
+    elif unquoted is not None:
+        remedy = f'put the value in straight quotes: {unquoted[1]} = "{unquoted[2].strip(_CURLED)}"'
+    else:
+        remedy = f"write lines such as: {example}"
+    return f"{path}: is not TOML ({reason}); {remedy}"
 
 
 def set_entry(
-    entries: dict[str, Any], override: str, example: str, replaces: Mapping[str, Sequence[str]] | None = None
+    entries: dict[str, Any],
+    override: str,
+    example: str,
+    replaces: Mapping[str, Sequence[str]] | None = None,
+    *,
+    in_si_units: bool = False,
 ) -> None:
     """Set one key of nested entries in place, from a text such as ``geometry.depth=22.5um``.
 
@@ -68,6 +87,7 @@ def set_entry(
     override : the assignment, ``dotted.key=value``.
     example : a correct assignment, for messages.
     replaces : by dotted key, the keys of the same table that are removed when it is set.
+    in_si_units : whether a plain number is in SI units, where a number with a unit is asked.
 
     Raises
     ------
@@ -91,7 +111,8 @@ def set_entry(
         raise InputError(f"set {override}: {path[-1]!r} is not a table; write for example {example}")
     for other in (replaces or {}).get(key, ()):
         table.pop(other, None)
-    table[last] = _value(text.strip())
+    value = _value(text.strip())
+    table[last] = in_si(value) if in_si_units else value
 
 
 def _value(text: str) -> object:
@@ -99,65 +120,3 @@ def _value(text: str) -> object:
         return json.loads(text, parse_constant=lambda name: name)
     except (ValueError, RecursionError):
         return text
-
-
-def in_one_line(
-    error: ValidationError,
-    root: str,
-    unknown: Callable[[Location], str],
-    locate: Callable[[Location], Location] = tuple,
-) -> str:
-    """The first error of a pydantic validation as ``root.key: got value; remedy``; unknown keys come first.
-
-    Parameters
-    ----------
-    error : the error of the validation.
-    root : name of the outermost table, for the message.
-    unknown : unknown(location), the remedy for an unknown key at a location.
-    locate : locate(location), the location in the file that belongs to a location in the model.
-    """
-    faults = sorted(error.errors(include_url=False), key=lambda fault: fault["type"] != "extra_forbidden")
-    fault = faults[0]
-    location = locate(fault["loc"])
-    place = ".".join([root, *map(str, location)])
-    got = repr(fault["input"])
-    got = got if len(got) <= 60 else got[:57] + "..."
-    match fault["type"]:
-        case "extra_forbidden":
-            text = f"{place}: {unknown(location)}"
-        case "missing":
-            text = f"{place}: missing; add it"
-        case "literal_error":
-            text = f"{place}: got {got}; it must be {fault['ctx']['expected']}"
-        case "union_tag_invalid":
-            key = str(fault["ctx"]["discriminator"]).strip("'")
-            text = f"{place}.{key}: got {fault['ctx']['tag']!r}; it must be one of {fault['ctx']['expected_tags']}"
-        case "union_tag_not_found":
-            text = f"{place}.{str(fault['ctx']['discriminator']).strip(chr(39))}: missing; add it"
-        case "tuple_type":
-            text = f"{place}: got {got}; write a list in brackets"
-        case "value_error":
-            reason = str(fault["ctx"]["error"])
-            inner, colon, rest = reason.partition(": ")
-            inside = colon and inner.replace(".", "").isidentifier()
-            text = f"{place}.{inner}: {rest}" if inside else f"{place}: {reason}"
-        case _:
-            text = f"{place}: got {got}; {fault['msg'][0].lower()}{fault['msg'][1:]}"
-    others = len(faults) - 1
-    return " ".join(text.split()) + (f" (and {others} more error{'s' if others > 1 else ''})" if others else "")
-
-
-def known_keys(model: type[BaseModel], path: Location) -> list[str]:
-    """The keys of the table at ``path`` in a pydantic model; the fields on the path are models, optional or not."""
-    table: Any = model
-    for name in path:
-        annotation = table.model_fields[name].annotation
-        table = next(one for one in (annotation, *get_args(annotation)) if hasattr(one, "model_fields"))
-    return [*table.model_fields]
-
-
-def unknown_key(key: int | str, known: Iterable[str]) -> str:
-    """The remedy for an unknown key: the most similar known key, or a list of all known keys."""
-    names = list(known)
-    near = difflib.get_close_matches(str(key), names, n=1)
-    return "unknown key; " + (f"did you mean {near[0]!r}?" if near else f"known here: {', '.join(names)}")

@@ -9,7 +9,9 @@ from pydantic import Field, ValidationError
 
 from roughfilm.contact.foundation.entries import Coordinate, Length, LengthPair, Part
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.foundation.toml import Location, in_one_line, known_keys, read_toml, set_entry, unknown_key
+from roughfilm.contact.foundation.faults import faults_of, in_lines, known_keys, unknown_key
+from roughfilm.contact.foundation.line_numbers import Location
+from roughfilm.contact.foundation.toml import read_toml, set_entry
 from roughfilm.contact.preparation.edges import Direction
 from roughfilm.contact.preparation.form import Form
 from roughfilm.contact.preparation.grid import Method
@@ -108,7 +110,7 @@ def read_recipe(entries: Mapping[str, Any]) -> Recipe:
     try:
         return Recipe.model_validate(entries)
     except ValidationError as error:
-        raise InputError(in_one_line(error, "recipe", _unknown)) from None
+        raise InputError(in_lines(faults_of(error, _unknown), "recipe")) from None
 
 
 def recipe_entries(recipe: Recipe) -> dict[str, Any]:
@@ -116,6 +118,6 @@ def recipe_entries(recipe: Recipe) -> dict[str, Any]:
     return recipe.model_dump(mode="json", exclude_none=True)
 
 
-def _unknown(location: Location) -> str:
+def _unknown(location: Location) -> tuple[str, str]:
     *path, key = location
     return unknown_key(key, known_keys(Recipe, path))

@@ -8,7 +8,9 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, TypeAdapter,
 
 from roughfilm.contact.foundation.entries import Angle, Coordinate, Length, Part, PositiveNumber, plain_number
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.foundation.toml import Location, in_one_line, read_toml, unknown_key
+from roughfilm.contact.foundation.faults import faults_of, in_one_line, unknown_key
+from roughfilm.contact.foundation.line_numbers import Location
+from roughfilm.contact.foundation.toml import read_toml
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.cross_hatch import cross_hatch
 from roughfilm.contact.synthetic.distribution import rms_slope, with_skewness
@@ -158,12 +160,12 @@ def read_entries(entries: Mapping[str, Any]) -> Description:
         return _READER.validate_python(entries)
     except ValidationError as error:
 
-        def unknown(location: Location) -> str:
-            *table, key = location
+        def unknown(location: Location) -> tuple[str, str]:
+            _, *table, key = location
             known = HeightDistribution.model_fields if table else KINDS[entries["kind"]][0].model_fields
             return unknown_key(key, known)
 
-        raise InputError(in_one_line(error, "surface", unknown, lambda location: location[1:])) from None
+        raise InputError(in_one_line(faults_of(error, unknown, lambda location: location[1:]), "surface")) from None
 
 
 def description_entries(description: Description) -> dict[str, Any]:

@@ -9,8 +9,10 @@ from pydantic import ValidationError
 
 from roughfilm.contact.foundation.entries import Part
 from roughfilm.contact.foundation.errors import ConvergenceError
-from roughfilm.contact.foundation.toml import Location, in_one_line, known_keys, unknown_key
+from roughfilm.contact.foundation.faults import Fault, faults_of, known_keys, unknown_key
+from roughfilm.contact.foundation.line_numbers import Location
 from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.bearing.equilibrium.expected import expected_scene
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.roughness import ROUGHNESSES
 from roughfilm.rom.bearing.scene import Bearing
@@ -57,7 +59,7 @@ def columns(scene: Bearing) -> dict[str, Quantity | str]:
     numbers = bearing_numbers(scene)
     return {
         "shape": scene.geometry.shape,
-        "pressure_unit": Quantity(value=scene.pressure_unit, unit="Pa"),
+        "pressure_unit": Quantity(value=expected_scene(scene).pressure_unit, unit="Pa"),
         "inlet_theta": _one(numbers.get("starvation", 1.0)),
         **{name: _one(numbers[key]) for name, key in COLUMNS.items() if key in numbers},
     }
@@ -95,19 +97,17 @@ def _without_tags(path: Location) -> tuple[list[int | str], type[Part] | None]:
     return list(path), None
 
 
-def validation_message(error: ValidationError, _entries: Mapping[str, Any]) -> str:
-    """The first error of a scene in one line; keys of a shape or a law are compared with those of its class."""
-    first = sorted(error.errors(include_url=False), key=lambda entry: entry["type"] != "extra_forbidden")[0]
-    chosen = _without_tags(first["loc"])[1]
+def validation_faults(error: ValidationError, _entries: Mapping[str, Any]) -> list[Fault]:
+    """The faults of a scene; unknown keys of a shape or a law are compared with those of its class."""
 
-    def unknown(location: Location) -> str:
-        *path, key = location
+    def unknown(place: Location) -> tuple[str, str]:
+        (*path, key), chosen = _without_tags(place)
         inner = next((path[len(place) :] for place in CHOSEN if tuple(path[: len(place)]) == place), None)
         return unknown_key(
             key, known_keys(Bearing, path) if chosen is None or inner is None else known_keys(chosen, inner)
         )
 
-    return in_one_line(error, "scene", unknown, lambda path: _without_tags(path)[0])
+    return faults_of(error, unknown, lambda path: _without_tags(path)[0])
 
 
 NUMBERS = {
@@ -144,14 +144,14 @@ def omitted(scene: Bearing, quantity: str) -> Omission | None:
 
 
 def composed(scene: Bearing) -> tuple[str, ...]:
-    """A line for each effect with its model and the reason, and a note if the scene has a load."""
+    """A line for each effect with its model and the reason, and one for the film under a load."""
     from roughfilm.rom.bearing.effects.explanation import effect_models  # slow to import
 
     lines = [f"{one.effect}: {one.model}, {one.why}" for one in effect_models(scene)]
     if scene.load is not None:
-        lines.append(
-            "load: the numbers hold for the film as given; roughfilm effects solves for the film under the load"
-        )
+        film, given = expected_scene(scene).geometry.thinnest, scene.geometry.film
+        first = "" if given is None else f"; the given film of {given:.3g} m is the first value of the search"
+        lines.append(f"load: the film is sought that carries it, about {film:.2g} m{first}")
     return tuple(lines)
 
 
@@ -179,7 +179,7 @@ KIND = Kind(
     omitted=omitted,
     files=frozenset({"table", "surface", "thickness"}),
     lists=frozenset({("roughness", "spacing"), ("roughness", "surface", "size"), ("roughness", "surface", "points")}),
-    message=validation_message,
+    faults=validation_faults,
     replaces={
         "lubricant.compressibility.law": ("bulk_modulus", "c1", "c2", "table", "fit"),
         "lubricant.piezoviscosity.law": ("pressure_coefficient", "index"),
@@ -197,6 +197,9 @@ KIND = Kind(
         "roughness.surface": ("digest", "spacing"),
         "roughness.table": ("digest",),
         "geometry.thickness": ("digest",),
+        "load.pressure": ("force", "force_per_width"),
+        "load.force": ("pressure", "force_per_width"),
+        "load.force_per_width": ("pressure", "force"),
         "boundary.inlet.theta": ("pressure",),
         "boundary.inlet.pressure": ("theta",),
     },

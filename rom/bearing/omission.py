@@ -1,6 +1,7 @@
 """The first-order estimate of inertia, which all models of a bearing leave out."""
 
 from roughfilm.rom.bearing.effects.inertia import inertia_obstacle
+from roughfilm.rom.bearing.equilibrium.expected import expected_scene
 from roughfilm.rom.bearing.inertia import inertia
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.quantities import bearing_quantities
@@ -23,8 +24,9 @@ def inertia_omitted(scene: Bearing, quantity: str) -> Omission | None:
     ConvergenceError
         If the film does not converge.
     """
-    if inertia_obstacle(scene) is not None:
+    if inertia_obstacle(scene) is not None or quantity not in INERTIA_FIELDS:
         return None
+    scene = expected_scene(scene)
     load_loops(scene.wide)
     solution = solve(scene.problem(), (CELLS[scene.wide],) * 2)
     width = 1.0 if scene.geometry.width is None else scene.geometry.width

@@ -13,7 +13,8 @@ from pydantic import Field, ValidationError
 from roughfilm import rom
 from roughfilm.contact.foundation.entries import Part
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.foundation.toml import Location, in_one_line, known_keys, unknown_key
+from roughfilm.contact.foundation.faults import EntriesFile, Fault, faults_of, in_lines, known_keys, unknown_key
+from roughfilm.contact.foundation.line_numbers import Location
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.sweeping import Sweeping
@@ -39,14 +40,14 @@ class Scene(Part):
     kind: str
 
 
-def plain_fault(error: ValidationError, _entries: Mapping[str, Any], *, scene: type[Scene]) -> str:
-    """The first fault of a scene whose tables are all pydantic models, as a message in one line."""
+def plain_faults(error: ValidationError, _entries: Mapping[str, Any], *, scene: type[Scene]) -> Sequence[Fault]:
+    """The faults of a scene whose tables are all pydantic models."""
 
-    def unknown(location: Location) -> str:
+    def unknown(location: Location) -> tuple[str, str]:
         *path, key = location
         return unknown_key(key, known_keys(scene, path))
 
-    return in_one_line(error, "scene", unknown)
+    return faults_of(error, unknown)
 
 
 def nothing_omitted(_scene: Any, _quantity: str) -> None:
@@ -101,8 +102,7 @@ class Kind:
     omitted : omitted(scene, quantity), the effect that all models leave out; None if it is zero or unknown.
     outside_laws : outside_laws(scene, result, quantity), the reason for which a result shows that the error laws of a
         quantity do not hold; empty if it does not.
-    message : message(error, entries), the first fault of a scene in one line, from pydantic's error; None for
-        ``plain_fault``.
+    faults : faults(error, entries), the faults of a scene, from pydantic's error; None for ``plain_faults``.
     sweeping : the data for a report over many cases; None if the kind has no such report.
     """
 
@@ -122,7 +122,7 @@ class Kind:
     no_files: frozenset[str] = frozenset()
     replaces: Mapping[str, Sequence[str]] = field(default_factory=dict)
     lists: frozenset[tuple[str | int, ...]] = frozenset()
-    message: Callable[[ValidationError, Mapping[str, Any]], str] | None = None
+    faults: Callable[[ValidationError, Mapping[str, Any]], Sequence[Fault]] | None = None
     sweeping: Sweeping | None = None
 
     @property
@@ -130,12 +130,13 @@ class Kind:
         """The names in a sentence of all quantities, the compared ones first."""
         return {**self.compared, **self.others}
 
-    def read(self, entries: Mapping[str, Any]) -> Scene:
-        """Make a scene of this kind from nested entries; InputError in one line for the first fault."""
+    def read(self, entries: Mapping[str, Any], file: EntriesFile | None = None) -> Scene:
+        """Make a scene of this kind from nested entries of a file; InputError with a line for each fault."""
         try:
             return self.scene.model_validate(entries)
         except ValidationError as error:
-            raise InputError((self.message or partial(plain_fault, scene=self.scene))(error, entries)) from None
+            faults = (self.faults or partial(plain_faults, scene=self.scene))(error, entries)
+            raise InputError(in_lines(faults, "scene", file)) from None
 
     def scale_of(self, result: Result, quantity: str) -> float:
         """The size by which an error in a quantity is divided, if this result is the reference."""

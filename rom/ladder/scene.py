@@ -1,13 +1,14 @@
-"""Read scenes from TOML files into the class of their kind, and report a fault in one line."""
+"""Read scenes from TOML files into the class of their kind, and report each fault in one line."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
 from pydantic import ConfigDict, ValidationError, field_validator
 
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.foundation.toml import in_one_line, read_toml, set_entry
+from roughfilm.contact.foundation.faults import EntriesFile, faults_of, in_lines
+from roughfilm.contact.foundation.toml import read_toml, set_entry
 from roughfilm.rom.ladder.kind import Kind, Scene, kind_names, kind_of_name, kinds
 
 
@@ -41,7 +42,7 @@ def load_entries(path: Path) -> dict[str, Any]:
     return entries
 
 
-def load_scene(path: Path, overrides: Iterable[str] = ()) -> Scene:
+def load_scene(path: Path, overrides: Iterable[str] = (), in_si_units: Container[str] = ()) -> Scene:
     """Read a scene file and apply overrides such as ``geometry.depth=22.5um``.
 
     An override of a key may remove other keys of its table: the speed of a pocket replaces its Reynolds number. Names
@@ -51,25 +52,26 @@ def load_scene(path: Path, overrides: Iterable[str] = ()) -> Scene:
     ----------
     path : the TOML file of the scene.
     overrides : texts of the form ``key=value``.
+    in_si_units : keys of overrides whose plain numbers are in SI units; those of others need a unit.
 
     Raises
     ------
     InputError
-        One line with the key, its value and the allowed values.
+        A line for each fault, with file and line, the key, its value and the allowed values.
     """
     entries = load_entries(path)
     kind = kind_named(entries)
     replaces = kind.replaces if kind else {}
-    given: set[str] = set()
+    given: dict[str, tuple[int | str, ...]] = {}
     for override in overrides:
-        set_entry(entries, override, "geometry.depth=22.5um", replaces)
         key = override.partition("=")[0].strip()
+        set_entry(entries, override, "geometry.depth=22.5um", replaces, in_si_units=key in in_si_units)
         table = key.rpartition(".")[0]
         for other in replaces.get(key, ()):
             if (taken := f"{table}.{other}") in given:
                 raise InputError(f"set {override}: it takes the place of {taken}, which is set too; set one of them")
-        given.add(key)
-    return read_scene(entries)
+        given[key] = tuple(int(part) if part.isdigit() else part for part in key.split("."))
+    return read_scene(entries, EntriesFile(path=Path(path), changed=given.values()))
 
 
 def kind_named(entries: Mapping[str, Any]) -> Kind | None:
@@ -78,15 +80,18 @@ def kind_named(entries: Mapping[str, Any]) -> Kind | None:
     return kind_of_name(name) if isinstance(name, str) and name in kind_names() else None
 
 
-def read_scene(entries: Mapping[str, Any]) -> Scene:
-    """Make a scene from nested entries as in a TOML file; InputError as in ``load_scene``."""
+def read_scene(entries: Mapping[str, Any], file: EntriesFile | None = None) -> Scene:
+    """Make a scene from nested entries as in a TOML file; InputError as in ``load_scene``.
+
+    Numbers that ``in_si`` marks are in SI units; other numbers are dimensionless.
+    """
     kind = kind_named(entries)
     if kind is not None:
-        return kind.read(entries)
+        return kind.read(entries, file)
     try:
         return _OfNoKind.model_validate(entries)
     except ValidationError as error:
-        raise InputError(in_one_line(error, "scene", str)) from None
+        raise InputError(in_lines(faults_of(error, lambda place: (str(place), "")), "scene", file)) from None
 
 
 def scene_entries(scene: Scene) -> dict[str, Any]:

@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
-from roughfilm.contact.foundation.toml import Location, in_one_line, known_keys, unknown_key
+from roughfilm.contact.foundation.faults import Fault, faults_of, known_keys, unknown_key
+from roughfilm.contact.foundation.line_numbers import Location
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.ladder.kind import Kind, Omission
 from roughfilm.rom.ladder.result import Result
@@ -136,21 +137,19 @@ def _location(path: Location, entries: Mapping[str, Any]) -> tuple[list[int | st
     return location, profile
 
 
-def first_fault(error: ValidationError, entries: Mapping[str, Any]) -> str:
-    """The first fault in one line, with the keys of the groove's profile."""
-    fault = sorted(error.errors(include_url=False), key=lambda fault: fault["type"] != "extra_forbidden")[0]
-    _, profile = _location(fault["loc"], entries)
+def pocket_faults(error: ValidationError, entries: Mapping[str, Any]) -> list[Fault]:
+    """The faults, with the keys of the groove's profile."""
 
-    def unknown(location: Location) -> str:
-        *path, key = location
+    def unknown(place: Location) -> tuple[str, str]:
+        (*path, key), profile = _location(place, entries)
         known = [*PROFILES[profile].model_fields] if profile else known_keys(Pocket, path)
         if path == ["geometry"]:
             known = [*dict.fromkeys([*PocketGeometry.model_fields, *known])]
         if profile and any(key in other.model_fields for other in PROFILES.values()):
-            return f"no key of profile {profile!r}; known here: {', '.join(known)}"
+            return f"no key of profile {profile!r}; known here: {', '.join(known)}", ""
         return unknown_key(key, known)
 
-    return in_one_line(error, "scene", unknown, lambda path: _location(path, entries)[0])
+    return faults_of(error, unknown, lambda path: _location(path, entries)[0])
 
 
 KIND = Kind(
@@ -171,7 +170,7 @@ KIND = Kind(
         "motion.reynolds_number": ("speed",),
         "geometry.points": ("width", "depth", "shift"),
     },
-    message=first_fault,
+    faults=pocket_faults,
     sweeping=Sweeping(
         given={
             "profile": None,

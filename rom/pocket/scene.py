@@ -7,6 +7,7 @@ from pydantic import Field, model_validator
 from roughfilm.contact.foundation.entries import InUnit, Part, PositiveNumber
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.ladder.kind import Scene
+from roughfilm.rom.parts.fluid import Fluid
 from roughfilm.rom.parts.surroundings import GaugePressure, Surroundings
 from roughfilm.rom.pocket.gap import Gap
 from roughfilm.rom.pocket.geometry import AnyGroove, PocketGeometry
@@ -16,7 +17,7 @@ Density = Annotated[float, InUnit("kg/m^3")]
 Speed = Annotated[float, InUnit("m/s")]
 
 
-class NewtonianLubricant(Part):
+class NewtonianLubricant(Fluid):
     """An incompressible Newtonian liquid.
 
     Attributes

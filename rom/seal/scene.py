@@ -3,11 +3,12 @@
 from typing import Annotated, Literal
 
 from roughfilm.contact.foundation.entries import InUnit, Length, Part
+from roughfilm.rom.parts.fluid import Fluid
 from roughfilm.rom.parts.pressed_surface import RoughContact
 from roughfilm.rom.parts.solids import Pressure
 
 
-class Liquid(Part):
+class Liquid(Fluid):
     """A liquid of constant density, kg/m³, and viscosity, Pa s."""
 
     density: Annotated[float, InUnit("kg/m^3")]

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.toml import toml_value
 from roughfilm.rom.ladder.kind import Scene
@@ -62,6 +63,8 @@ class Study:
     keys: Mapping[str, Key]
     cases: tuple[Case, ...]
     settings: tuple[Setting, ...]
+
+    __repr__ = brief
 
 
 def load_study(path: Path, models: Sequence[Model]) -> Study:
@@ -195,7 +198,8 @@ def _case(base: Mapping[str, Any], values: Mapping[Key, Any], labels: Mapping[Ke
             entries["geometry"] = resolve_relative(entries["geometry"], "scene.geometry")
         scene = read_scene(entries)
     except InputError as error:
-        raise InputError(f"case {label}: {error}" if varied else str(error)) from None
+        faults = [f"case {label}: {line}" if varied else line for line in str(error).splitlines()]
+        raise InputError("\n".join(faults)) from None
     digest = hashlib.sha256(json.dumps(scene_entries(scene), sort_keys=True).encode()).hexdigest()[:16]
     return Case(name=f"{label}-{digest}", digest=digest, scene=scene, varied=varied)
 

@@ -96,13 +96,14 @@ output = Output(highlight=False, width=_width(sys.stdout))
 
 
 def fail(error: Exception, code: int, command: Callable[..., None] | None = None) -> typer.Exit:
-    """Print an error in one line, and the notes that it carries, and return the exit with this code.
+    """Print an error, a line for each fault, and the notes that it carries, and return the exit with this code.
 
-    Where the line begins with the name of a parameter of the command, its option takes the place of the name.
+    Where a line begins with the name of a parameter of the command, its option takes the place of the name.
     """
     options = {} if command is None else _options(command)
-    line = re.sub(r"^\w+(?=:? )", lambda place: options.get(place[0], place[0]), str(error))
-    messages.print(f"[bold red]error:[/] {escape(line)}", soft_wrap=True)
+    for fault in str(error).splitlines() or [""]:
+        line = re.sub(r"^\w+(?=:? )", lambda place: options.get(place[0], place[0]), fault)
+        messages.print(f"[bold red]error:[/] {escape(line)}", soft_wrap=True)
     print_notes(error, style="dim")
     return typer.Exit(code)
 

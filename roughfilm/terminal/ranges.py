@@ -1,12 +1,13 @@
-"""Loads and speeds as people write them: "1MPa..1GPa:25", "1MPa, 10MPa", "0, 30rpm, 2m/s"."""
+"""Loads and speeds as people write them: "1MPa..1GPa:25", "1MPa, 10MPa", "5kN", "0, 30rpm, 2m/s"."""
 
 import re
 from collections.abc import Callable, Sequence
+from functools import partial
 
 import numpy as np
 
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.foundation.units import to_si
+from roughfilm.contact.foundation.units import rotational_speed, to_si
 
 MAX_COUNT = 1000
 """The longest series of numbers."""
@@ -20,10 +21,15 @@ MAX_SPEED = 1e5
 _BEFORE_UNIT = re.compile(r"^\s*[-+.\d]*([eE][-+]?\d+)?\s*")
 
 
-def loads_of(text: str) -> tuple[float, ...]:
+def loads_of(text: str, area: float | None = None) -> tuple[float, ...]:
     """The loads of a range A..B:N (N loads by a constant factor), of a list, or of a single number, rising.
 
     A unit may be left out where the last load has one: it counts for all.
+
+    Parameters
+    ----------
+    text : pressures, or forces on the nominal area.
+    area : nominal area, m²; without it a force is refused.
 
     Returns
     -------
@@ -40,17 +46,30 @@ def loads_of(text: str) -> tuple[float, ...]:
     (1000000.0, 10000000.0, 100000000.0)
     >>> loads_of("2MPa, 500kPa")
     (500000.0, 2000000.0)
+    >>> loads_of("5kN", area=0.01)
+    (500000.0,)
     """
-    return _numbers_of(text, _pressure, option="--loads", what="load", example="1MPa..1GPa:25 or 1MPa,10MPa")
+    return _numbers_of(
+        text, partial(_pressure, area=area), option="--loads", what="load", example="1MPa..1GPa:25 or 1MPa,10MPa"
+    )
 
 
-def _pressure(text: str) -> float:
-    pressure = to_si(text, "Pa")
+def _pressure(text: str, area: float | None) -> float:
+    force = None if area is None else _force(text)
+    pressure = to_si(text, "Pa") if force is None or area is None else force / area
     if not pressure > 0:
         raise InputError(f"got {text}; a load must be above 0")
     if not MIN_LOAD <= pressure <= MAX_LOAD:
         raise InputError(f"got {text}; check the unit")
     return pressure
+
+
+def _force(text: str) -> float | None:
+    """The force of a text, N; None if it is none."""
+    try:
+        return to_si(text, "N")
+    except ValueError:
+        return None
 
 
 def speeds_of(text: str, radius: float | None) -> tuple[float, ...]:
@@ -79,16 +98,10 @@ def speeds_of(text: str, radius: float | None) -> tuple[float, ...]:
     def speed(text: str) -> float:
         if re.fullmatch(r"\s*0+(\.0*)?\s*", text):
             return 0.0
-        try:
-            sliding = to_si(text, "m/s")
-        except ValueError:
-            try:
-                turning = to_si(text, "rad/s")
-            except ValueError:
-                raise InputError(f"got {text!r}; write a speed, for example '1 m/s' or '30 rpm'") from None
-            if radius is None:
-                raise InputError(f"got {text!r}, but nothing turns here; write a speed, for example '1 m/s'") from None
-            sliding = turning * radius
+        turning = rotational_speed(text)
+        if turning is not None and radius is None:
+            raise InputError(f"got {text!r}, but nothing turns here; write a speed, for example '1 m/s'")
+        sliding = to_si(text, "m/s") if turning is None or radius is None else turning * radius
         if not 0 <= sliding <= MAX_SPEED:
             raise InputError(f"got {text}; a speed must be 0 or more, and {MAX_SPEED:g} m/s at most")
         return sliding

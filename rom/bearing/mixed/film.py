@@ -1,12 +1,12 @@
 """Mixed films: a film and the asperities in contact, at any separation of the walls and any speed."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.rom.bearing.film import FlooredFlowFactors
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.contact_load import AsperityLoad, asperity_load, quarters
 from roughfilm.rom.bearing.quantities import friction, load_of, nominal_area, scene_positions
@@ -17,11 +17,8 @@ from roughfilm.rom.cavitation.grid import Grid, grid
 from roughfilm.rom.cavitation.network import State
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
+from roughfilm.rom.cavitation.shape import Shape
 from roughfilm.rom.cavitation.solve import Solution, solve
-from roughfilm.rom.homogenization.gap_factors import FactorsOverGap, GapFactors
-
-MIN_FACTOR_RATIO = 1e-6
-"""Lower bound on flow factors over those of a smooth film, which keeps the matrix regular where the gap is sealed."""
 
 RESIDUAL_FRACTION = 0.1
 """Fraction of the error of the load that the residuals of the film may cause."""
@@ -83,7 +80,18 @@ class MixedFilm:
     @cached_property
     def grid(self) -> Grid:
         """The grid, the same at all separations."""
-        return grid(self.scene.geometry.film_shape(), (self.cells, self.cells))
+        return grid(self._shape, (self.cells, self.cells))
+
+    @property
+    def _reference(self) -> float:
+        """The film thickness at which the geometry is sampled, m."""
+        film = self.scene.geometry.film
+        return self.asperities.touching if film is None else film
+
+    @property
+    def _shape(self) -> Shape:
+        """The shape of the film at the reference film thickness."""
+        return self.scene.geometry.at_film(self._reference).film_shape()
 
     @property
     def boundary_friction(self) -> float:
@@ -99,9 +107,8 @@ class MixedFilm:
     @cached_property
     def dip(self) -> float:
         """The film thickness of the geometry minus its minimum on the grid, m; above 0 only for wavy walls."""
-        geometry = self.scene.geometry
-        thickness = geometry.film_shape().thickness(*np.meshgrid(self.grid.x, self.grid.y, indexing="ij"))
-        return max(0.0, geometry.film - float(thickness.min()))
+        thickness = self._shape.thickness(*np.meshgrid(self.grid.x, self.grid.y, indexing="ij"))
+        return max(0.0, self._reference - float(thickness.min()))
 
     @cached_property
     def closest(self) -> float:
@@ -121,12 +128,16 @@ class MixedFilm:
     @property
     def widest(self) -> float:
         """The largest film thickness of the geometry, m."""
-        return widest_film(self.scene)
+        return self.scene.geometry.widest
+
+    @property
+    def remedy(self) -> str:
+        """The remedy for a load that is too large."""
+        return "lower the load, or make a table with larger loads"
 
     def scene_at(self, film: float, speed: float) -> Bearing:
         """The scene at another film thickness, m, and speed, m/s."""
-        motion = self.scene.motion.model_copy(update={"speed": speed})
-        return self.scene.model_copy(update={"geometry": self.scene.geometry.at_film(film), "motion": motion})
+        return self.scene.at_speed(speed).at_film(film)
 
     def at(self, film: float, speed: float, start: State | None = None) -> MixedState:
         """Solve the film at a minimum thickness, m, and a speed, m/s, starting from the state of another film."""
@@ -139,9 +150,8 @@ class MixedFilm:
     @cached_property
     def _contact_heights(self) -> tuple[Array, Array]:
         """The distinct separations minus the film thickness where contact is possible, m, and their areas, m²."""
-        geometry = self.scene.geometry
-        points = list(quarters(geometry.film_shape(), self.grid))
-        above = np.concatenate([separation.ravel() for separation, _ in points]) - geometry.film
+        points = list(quarters(self._shape, self.grid))
+        above = np.concatenate([separation.ravel() for separation, _ in points]) - self._reference
         areas = np.concatenate([area.ravel() for _, area in points])
         low = above < self.asperities.touching - self.asperities.closest
         heights, which = np.unique(np.maximum(above[low], -self.dip), return_inverse=True)
@@ -156,11 +166,6 @@ class MixedFilm:
             return float((areas * self.asperities.contact_pressure(film + above)).sum())
         force = asperity_load(scene.geometry.film_shape(), self.grid, self.asperities).force
         return load_of(scene, self.grid.x, force)
-
-
-def widest_film(scene: Bearing) -> float:
-    """The largest film thickness of a geometry, m."""
-    return scene.geometry.clearance if isinstance(scene.geometry, Journal) else scene.geometry.length
 
 
 def mixed_problem(scene: Bearing, asperities: Asperities) -> Problem:
@@ -182,27 +187,3 @@ def mixed_state(scene: Bearing, solution: Solution, contact: AsperityLoad) -> Mi
         contact_load=load_of(scene, x, contact.force),
         friction=friction(solution) + scene.asperities.friction * float(contact.force.sum()),
     )
-
-
-@dataclass(frozen=True)
-class FlooredFlowFactors:
-    """Flow factors with a lower bound of ``MIN_FACTOR_RATIO`` times those of a smooth film.
-
-    ``mean_gap`` gives the mean gap over the separation, m; by default the two are equal.
-    """
-
-    factors: FactorsOverGap
-    mean_gap: Callable[[Array], Array] = np.asarray
-
-    def __call__(self, separation: Array, /) -> GapFactors:
-        """The flow factors, each of the shape of ``separation``."""
-        factors, h = self.factors(separation), self.mean_gap(separation)
-        floor = MIN_FACTOR_RATIO * h**3
-        sealed = (factors.along < floor) | (factors.across < floor)
-        return replace(
-            factors,
-            along=np.maximum(factors.along, floor),
-            across=np.maximum(factors.across, floor),
-            cross=np.where(sealed, 0.0, factors.cross),
-            drag=np.maximum(factors.drag, MIN_FACTOR_RATIO * h),
-        )

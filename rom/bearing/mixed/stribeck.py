@@ -8,9 +8,10 @@ from math import exp, inf
 import numpy as np
 import scipy
 
+from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.bearing.equilibrium.balance import STEEPNESS, FilmsAtSpeed, balanced
 from roughfilm.rom.bearing.mixed.asperities import Asperities
-from roughfilm.rom.bearing.mixed.balance import STEEPNESS, FilmsAtSpeed, balanced
 from roughfilm.rom.bearing.mixed.film import MixedFilm, MixedState
 from roughfilm.rom.bearing.mixed.lift_off import lift_off_speed
 from roughfilm.rom.bearing.mixed.wall import asperities_of
@@ -135,6 +136,8 @@ class StribeckCurve:
     points: tuple[StribeckPoint, ...]
     lift_off: LiftOff
 
+    __repr__ = brief
+
 
 def stribeck(
     scene: Bearing,
@@ -231,7 +234,7 @@ def mixed_film(scene: Bearing, asperities: Asperities | None, resolution: int, t
 
 def stribeck_point(state: MixedState, film: MixedFilm, pressure: float) -> StribeckPoint:
     """The point of a mixed film under a load over the nominal area, Pa, without its CPU time."""
-    separation = state.scene.geometry.film - film.dip
+    separation = state.scene.geometry.thinnest - film.dip
     load = pressure * film.area
     lowest = state.scene.lubricant.cavitation_pressure
     return StribeckPoint(

@@ -2,14 +2,16 @@
 
 import contextlib
 import itertools
+import math
 import random
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from roughfilm.contact.foundation import units
-from roughfilm.contact.foundation.units import to_si, with_unit
+from roughfilm.contact.foundation.units import dynamic_viscosity, in_si, rotational_speed, to_si, with_unit
 
 
 @pytest.mark.parametrize(
@@ -27,6 +29,28 @@ from roughfilm.contact.foundation.units import to_si, with_unit
         ("875 kg/m**3", "kg/m^3", 875.0),
         ("36 km/h", "m/s", 10.0),
         ("1 inch", "m", 0.0254),
+        ("1 in", "m", 0.0254),
+        ("1 mil", "m", 25.4e-6),
+        ("30 μm", "m", 3e-5),
+        ("10 mPas", "Pa*s", 0.01),
+        ("10 mPa.s", "Pa*s", 0.01),
+        ("0.01 N s/m2", "Pa*s", 0.01),
+        ("0.875 g/cm3", "kg/m^3", 875.0),
+        ("875 kg/m3", "kg/m^3", 875.0),
+        ("875 kg·m⁻³", "kg/m^3", 875.0),
+        ("20 1/GPa", "Pa^-1", 2e-8),
+        ("20 GPa⁻¹", "Pa^-1", 2e-8),
+        ("20e-9 1/Pa", "Pa^-1", 2e-8),
+        ("1 N/mm2", "Pa", 1e6),
+        ("1 ksi", "Pa", 6894757.293168361),
+        ("46 cSt", "m^2/s", 4.6e-5),
+        ("46 mm²/s", "m^2/s", 4.6e-5),
+        ("6 l/min", "m^3/s", 1e-4),
+        ("6 ml/min", "m^3/s", 1e-7),
+        ("180°", "rad", math.pi),
+        ("180 deg", "rad", math.pi),
+        ("20 °C", "K", 293.15),
+        ("5 %", "%", 5.0),
     ],
 )
 def test_units(text, base, value):
@@ -56,6 +80,17 @@ def test_units(text, base, value):
         ("1 ()", "not known"),
         ("", "write a number"),
         ("1 " + "m" * 500, "write a number|not known"),
+        ("7,5 um", r"write '7\.5 um'$"),
+        ("1.234,5 um", r"write '1234\.5 um'$"),
+        ("1,000 um", r"write '1\.000 um' or '1000 um'$"),
+        ("1 000 um", r"write '1000 um'$"),
+        ("2 x 10^-3 m", r"write a power of ten as '2e-3 m'$"),
+        ("7.5", r"'7\.5 m' or '7\.5 um'$"),
+        ("7.5 UM", r"did you mean '7\.5 um'\?$"),
+        ("7.5 µ", r"did you mean '7\.5 um'\?$"),
+        ("3000 rpm", "a rotational speed"),
+        ("5 %", "a percentage"),
+        ("5 kN", "a force"),
     ],
 )
 def test_refusals_name_what_was_got(text, words):
@@ -78,7 +113,7 @@ def test_written_numbers_are_read_back_to_the_last_bit(value):
 
 PREFIXES = ("", *units._PREFIXES)
 PRODUCTS = {
-    "m": ("{}m", "{}inch", "{}m^2/{}m", "{}l / {}m**2"),
+    "m": ("{}m", "{}inch", "{}in", "{}m^2/{}m", "{}l / {}m**2"),
     "Pa": ("{}Pa", "{}bar", "{}psi", "{}N/{}m^2", "{}J {}m^-3", "{}lbf/inch^2"),
     "Pa*s": ("{}Pa*{}s", "{}Pa {}s", "{}P", "{}N*{}s/{}m^2", "{}g/{}m/{}s", "{}psi*{}min"),
     "Pa^-1": ("{}Pa^-1", "{}m**2/{}N", "{}bar^-1"),
@@ -87,7 +122,7 @@ PRODUCTS = {
     "m/s": ("{}m/{}s", "{}m/h", "{}m / min", "{}m*{}Hz"),
     "m^2/s": ("{}St", "{}m^2/{}s", "{}l/{}m/{}s"),
     "rad": ("{}rad", "{}deg", "turn"),
-    "rad/s": ("{}rad/{}s", "rpm", "{}Hz", "deg/{}s"),
+    "rad/s": ("{}rad/{}s", "rpm", "{}Hz", "deg/{}s", "{}min^-1"),
     "N/m": ("{}N/{}m", "{}J/{}m^2", "{}W {}s/{}m**2", "{}lbf/yd"),
     "K": ("{}K", "{}m"),
 }
@@ -103,6 +138,48 @@ def test_the_table_of_units_agrees_with_pint_to_the_bit(base):
             powers = units._powers(unit)
             assert powers is not None, unit
             assert units._by_table(powers, units._powers(base)) == units._by_pint(unit, base), unit
+
+
+def test_a_suggested_text_has_the_value_that_was_written():
+    for text, base in [
+        ("30 mpas", "Pa*s"),
+        ("7,5 um", "m"),
+        ("12 mpa", "Pa"),
+        ("3 RPM", "rad/s"),
+        ("2 Kg/m3", "kg/m^3"),
+    ]:
+        with pytest.raises(ValueError, match="'") as caught:
+            to_si(text, base)
+        suggested = str(caught.value).rpartition("; ")[2].split("'")[1]
+        assert float(suggested.split()[0]) == float(text.split()[0].replace(",", "."))
+        assert to_si(suggested, base) > 0
+
+
+@pytest.mark.parametrize("text", ["3000 rpm", "50 Hz", "50 1/s", "3000 1/min", "3000/min", "50 rev/s", "18000 deg/s"])
+def test_a_rotational_speed_counts_revolutions_unless_it_names_an_angle(text):
+    assert rotational_speed(text) == pytest.approx(100 * math.pi, rel=1e-12)
+
+
+@pytest.mark.parametrize("text", ["5 m/s", "5", 5, None, "rpm", "5 rad"])
+def test_other_texts_are_no_rotational_speed(text):
+    assert rotational_speed(text) is None
+
+
+def test_a_kinematic_viscosity_times_the_density_is_the_dynamic_one():
+    assert to_si(dynamic_viscosity("46 cSt", "0.87 g/cm3"), "Pa*s") == pytest.approx(46e-6 * 870, rel=1e-14)
+    assert dynamic_viscosity("46 cSt", None) == "46 cSt"
+    assert dynamic_viscosity(7, "870 kg/m3") == 7
+
+
+def test_numbers_that_python_marks_are_in_si_units():
+    marked = in_si({"film": np.float64(3e-5), "size": (np.int32(2), 0.5), "kind": "pad", "joined": True})
+    assert to_si(marked["film"], "m") == 3e-5
+    assert [to_si(one, "m") for one in marked["size"]] == [2.0, 0.5]
+    assert (marked["kind"], marked["joined"]) == ("pad", True)
+    with pytest.raises(ValueError, match="not finite"):
+        to_si(in_si(float("nan")), "m")
+    with pytest.raises(ValueError, match="without a unit"):
+        to_si(3e-5, "m")
 
 
 def test_units_beyond_the_table_are_those_of_pint():

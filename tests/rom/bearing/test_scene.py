@@ -1,5 +1,7 @@
 """Scenes of bearings: what is in them, what is refused, and in which words."""
 
+import math
+
 import numpy as np
 import pytest
 from places import SCENES
@@ -183,3 +185,23 @@ def test_liquids_that_roelands_law_would_thin_are_refused():
 def test_inlet_and_outlet_of_a_journal_are_one_groove():
     scene = load_scene(SCENES / "journal.toml", ["boundary.inlet.pressure=1 bar"])
     assert (scene.ends.inlet, scene.ends.outlet) == (1e5, 1e5)
+
+
+@pytest.mark.parametrize("speed", ["3000 rpm", "50 Hz", "50 rev/s", "3000 1/min", "314.1592653589793 rad/s"])
+@pytest.mark.parametrize(("name", "radius"), [("journal", 0.025), ("washer", 0.165)])
+def test_a_rotational_speed_is_that_of_the_wall_at_the_radius(name, radius, speed):
+    scene = load_scene(SCENES / f"{name}.toml", [f"motion.speed={speed}"])
+    assert scene.turning_radius == pytest.approx(radius)
+    assert scene.motion.speed == pytest.approx(2 * math.pi * 50 * radius)
+
+
+def test_nothing_rotates_in_a_pad():
+    with pytest.raises(InputError, match=r"scene\.motion\.speed: got '3000 rpm'.* no wall rotates here"):
+        load_scene(SCENES / "pad.toml", ["motion.speed=3000 rpm"])
+
+
+def test_a_kinematic_viscosity_needs_the_density():
+    scene = load_scene(SCENES / "journal.toml", ["lubricant.viscosity=46 cSt", "lubricant.density=870 kg/m3"])
+    assert scene.lubricant.viscosity == pytest.approx(46e-6 * 870)
+    with pytest.raises(InputError, match=r"scene\.lubricant\.viscosity: got '46 cSt'.* add the key density"):
+        load_scene(SCENES / "journal.toml", ["lubricant.viscosity=46 cSt"])

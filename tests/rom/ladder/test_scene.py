@@ -40,7 +40,7 @@ def test_entries_are_complete_and_read_back_unchanged(pocket_file):
         ("geometry.depth=0 um", r"scene\.geometry\.depth: got '0 um'; it must be above zero"),
         ("geometry.depth=0.2 mm", r"scene\.geometry\.depth: .* half circle"),
         ("geometry.width=1 mm", r"scene\.geometry\.width: .* below length"),
-        ("geometry.width=0.1 um", r"scene\.geometry"),
+        ("geometry.width=0.1 um", r"pocket\.toml:10: geometry\.depth: .* half circle"),
         (
             "geometry.profile=square",
             r"scene\.geometry\.profile: got 'square'; it must be one of 'cylindrical', 'splined'",
@@ -49,14 +49,14 @@ def test_entries_are_complete_and_read_back_unchanged(pocket_file):
         ("name=7", r"scene\.name: got 7"),
         ("geometry=7", r"scene\.geometry: got 7"),
         ("lubricant.viscosity=-0.01 Pa*s", r"scene\.lubricant\.viscosity: .* above zero"),
-        ("lubricant.viscosity=0.01 m^2/s", r"scene\.lubricant\.viscosity: .* wrong dimension"),
+        ("lubricant.viscosity=0.01 m^2", r"scene\.lubricant\.viscosity: .* wrong dimension"),
         ("motion.reynolds_number=NaN", r"scene\.motion\.reynolds_number: got 'NaN'"),
         ("motion.reynolds_number=1e999", r"scene\.motion\.reynolds_number: got inf"),
         ("motion.reynolds_number=-4", r"scene\.motion\.reynolds_number: .* above zero"),
         ("motion.reynolds_number=4 m", r"scene\.motion\.reynolds_number: got '4 m'; write a plain number"),
         ("motion.reynolds_number=1e13", r"scene\.motion: got Reynolds number"),
         ("motion.reynolds_number=1" + "0" * 400, r"scene\.motion\.reynolds_number: got a number beyond"),
-        ("geometry.film=1 fm", r"scene\.geometry\.length: .* film thicknesses"),
+        ("geometry.film=1 fm", r"pocket\.toml:6: geometry\.length: .* film thicknesses"),
         ("geometry", r"^set geometry: got no key=value"),
         ("=5", r"^set =5: got no key=value"),
         ("name.x=5", r"'name' is not a table"),
@@ -87,8 +87,11 @@ def test_missing_keys_and_neither_motion(pocket_file):
     [
         (b"name = ", "is not TOML"),
         (b"\xff\xfe", "not UTF-8"),
-        (b"", r"scene\.name: missing"),
         (b"x = " + b"[" * 5000, "is not TOML"),
+        (b"depth = 7.5 um", r'line 1, column 13\)\); put the value in straight quotes: depth = "7\.5 um"$'),
+        (b"kind = pocket # a comment", r'put the value in straight quotes: kind = "pocket"$'),
+        (b"a = 1\na = 2", "remove one of the two"),
+        (b'name = "x"\nfilm = "30 \xb5m"', r"scene\.toml:2: byte .* is not UTF-8"),
         (b"#" * 1_000_001, "larger than"),
     ],
 )
@@ -106,6 +109,58 @@ def test_unreadable_files(tmp_path, content, words):
 def test_no_file(tmp_path, name, words):
     with pytest.raises(InputError, match=words):
         load_scene(tmp_path / name)
+
+
+def test_all_faults_of_a_file_come_at_once_with_their_lines(tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_text(
+        """name = "pocket"
+kind = "pocket"
+
+[geometry]
+length = "1 mm"
+film = '''
+30 umm'''
+profile = "cylindrical" # film = 1
+width = 0.3
+depht = "7,5 um"
+
+[lubricant]
+viscosity = "30 mPas"
+density = "1000 kg"
+
+[boundry]
+ambient_pressure = "1 bar"
+""",
+        encoding="utf-8",
+    )
+    with pytest.raises(InputError) as caught:
+        load_scene(path, ["lubricant.cavitation_pressure=1 m"])
+    lines = str(caught.value).splitlines()
+    places = [line.partition(": ")[0].removeprefix(str(tmp_path)) for line in lines]
+    keys = [line.split(": ")[1] for line in lines]
+    assert places == [
+        "scene.lubricant.cavitation_pressure",
+        "/scene.toml",
+        *(f"/scene.toml:{number}" for number in (6, 9, 10, 14, 16)),
+    ]
+    assert keys[1] == "motion"
+    assert keys[2:] == ["geometry.film", "geometry.width", "geometry.depht", "lubricant.density", "boundry"]
+
+
+def test_a_file_that_holds_nothing_lacks_name_and_kind(tmp_path):
+    (tmp_path / "scene.toml").write_text("")
+    with pytest.raises(InputError) as caught:
+        load_scene(tmp_path / "scene.toml")
+    assert [line.partition("scene.toml: ")[2] for line in str(caught.value).splitlines()] == [
+        "name: missing; add it",
+        "kind: missing; add it",
+    ]
+
+
+def test_a_byte_order_mark_is_no_fault(pocket_file, tmp_path):
+    (tmp_path / "scene.toml").write_bytes(b"\xef\xbb\xbf" + pocket_file.read_bytes())
+    assert load_scene(tmp_path / "scene.toml") == load_scene(pocket_file)
 
 
 json_values = st.recursive(

@@ -127,7 +127,7 @@ def test_npy_is_in_metres(scene_file, tmp_path, kind):
 )
 def test_every_fault_of_a_file_is_one_line_that_names_it(scene_file, tmp_path, content, words):
     (tmp_path / "groove.csv").write_bytes(content)
-    with pytest.raises(InputError, match=r"scene\.geometry\.\w+: .*" + words) as caught:
+    with pytest.raises(InputError, match=r"scene\.toml:\d+: geometry\.\w+: .*" + words) as caught:
         load_scene(scene_file)
     assert "\n" not in str(caught.value)
 

@@ -80,7 +80,7 @@ def test_solve(scene, tmp_path):
     [
         (["solve", "--model", "reynolds"], "--model: got 'reynolds'; it must be one of greenwood_williamson"),
         (["solve", "--model", "elastic", "--resolution", "65"], "--resolution: got 65; elastic takes 8 to 64 points"),
-        (["solve", "--model", "bearing_area", "--set", "solid.hardness=1 Pa"], "scene.load.pressure: got 1e+08 Pa"),
+        (["solve", "--model", "bearing_area", "--set", "solid.hardness=1 Pa"], "load.pressure: got 1e+08 Pa"),
         (["generate", "--out", "x"], "scene.kind: got 'dry_contact', which no model solves in OpenFOAM"),
     ],
 )

@@ -16,7 +16,7 @@ from roughfilm.rom.bearing.mixed import curves as stribeck_sweep
 from roughfilm.rom.bearing.mixed.store import NUMBERS
 from roughfilm.rom.homogenization.table.store import load_table
 from roughfilm.rom.ladder.scene import load_scene
-from roughfilm.terminal.ranges import speeds_of
+from roughfilm.terminal.ranges import loads_of, speeds_of
 
 SCENE = SCENES / "rough_washer.toml"
 COARSE = ("--set", "roughness.surface.points=[32, 32]", "--set", "roughness.surface.correlation_length=0.2 mm")
@@ -191,6 +191,10 @@ def test_ranges_of_speeds():
     assert speeds_of("0,30rpm, 2 m/s", 0.1) == (0.0, pytest.approx(30 * turn * 0.1), 2.0)
     assert speeds_of("1..100rpm:3", 1.0) == pytest.approx((turn, 10 * turn, 100 * turn))
     assert speeds_of("0..2m/s:3", None) == (0.0, 1.0, 2.0)
+    assert speeds_of("0.5 Hz, 60 1/min", 0.1) == pytest.approx((30 * turn * 0.1, 60 * turn * 0.1))
+    assert loads_of("2kN, 1MPa", area=0.001) == pytest.approx((1e6, 2e6))
+    with pytest.raises(InputError, match="force"):
+        loads_of("2kN")
     assert speeds_of("0", None) == (0.0,)
     with pytest.raises(InputError, match="nothing turns here"):
         speeds_of("30rpm", None)
