@@ -43,6 +43,11 @@ from roughfilm.terminal.console import (
 )
 from roughfilm.terminal.results import print_all, print_left_out, table_of
 
+EXAMPLES = (
+    "roughfilm compare scripts/examples/scenes/pocket.toml --out study",
+    "roughfilm compare scripts/examples/scenes/journal.toml --out journal",
+)
+
 RESULTS = "results"
 
 

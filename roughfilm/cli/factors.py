@@ -29,6 +29,8 @@ from roughfilm.rom.homogenization.table.separation import Separations
 from roughfilm.rom.homogenization.table.tabulate import INTERPOLATION_TOLERANCE, tabulate
 from roughfilm.rom.ladder.provenance import code
 from roughfilm.terminal.console import (
+    NUMERICS,
+    OUTPUT,
     AsJson,
     ReportFile,
     Spacing,
@@ -36,7 +38,12 @@ from roughfilm.terminal.console import (
     progress_bar,
 )
 from roughfilm.terminal.output_file import alone, refuse_same, refuse_unwritable
-from roughfilm.terminal.results import origin, show_result, table_of
+from roughfilm.terminal.results import origin, show_result, table_of, written
+
+EXAMPLES = (
+    "roughfilm factors scripts/examples/surfaces/milled.toml --gap 3um",
+    "roughfilm factors scripts/examples/surfaces/milled.toml --out table.h5",
+)
 
 SOURCES = ("10.1016/j.triboint.2007.02.021", "10.1016/j.triboint.2006.02.069", "Sahlin 2008, Papers C and E")
 TABLE_FACTORS = ("A11", "A12", "A22", "B1", "B2")
@@ -59,7 +66,10 @@ def command(
     spacing: Spacing = None,
     tolerance: Annotated[
         float | None,
-        typer.Option(help=f"Relative interpolation error of the table (default {INTERPOLATION_TOLERANCE:g})."),
+        typer.Option(
+            help=f"Relative interpolation error of the table (default {INTERPOLATION_TOLERANCE:g}).",
+            rich_help_panel=NUMERICS,
+        ),
     ] = None,
     rule: Annotated[FaceRule, typer.Option(help="Course of the gap between two nodes.")] = FaceRule.LINEAR,
     offset: Annotated[
@@ -69,7 +79,10 @@ def command(
         ),
     ] = None,
     out: Annotated[
-        Path | None, typer.Option(help="Write the table here (HDF5); points that it holds are not solved again.")
+        Path | None,
+        typer.Option(
+            help="Write the table here (HDF5); points that it holds are not solved again.", rich_help_panel=OUTPUT
+        ),
     ] = None,
     report: ReportFile = None,
     threads: Threads = None,
@@ -137,9 +150,9 @@ def command(
 
     def shown() -> Iterator[Table | str]:
         yield _table(surface.name, _points_of(entries))
-        yield from (f"written: {path}" for path in (out, report) if path is not None)
 
-    show_result(entries, shown(), as_json=as_json, reused="separations")
+    summary = written(_in_words(_points_of(entries)), out, report)
+    show_result(entries, shown(), as_json=as_json, reused="separations", summary=summary)
 
 
 def _length(option: str, text: str | None, least: float = MIN_SPACING) -> float | None:
@@ -284,6 +297,18 @@ def _points_of(entries: Mapping[str, Any]) -> list[Entries]:
     ]
 
 
+def _in_words(points: Sequence[Entries]) -> str:
+    """The flow factor along x of one gap, or the range of gaps of a table, as a sentence."""
+    if len(points) == 1:
+        factor = points[0]["A11"]
+        rounded = _rounded(factor["value"], factor["uncertainty"])
+        return (
+            f"a mean gap of {1e6 * points[0]['mean_gap']:.4g} µm carries {rounded} times the flow of a smooth one in x"
+        )
+    gaps = sorted(1e6 * point["mean_gap"] for point in points)
+    return f"flow factors at {len(points)} mean gaps of {gaps[0]:.4g} to {gaps[-1]:.4g} µm"
+
+
 def _table(name: str, points: Sequence[Entries]) -> Table:
     """The points as a table of factors over those of a smooth film of the same mean gap."""
     pressed = any(point.get("load") for point in points)
@@ -306,4 +331,4 @@ def _rounded(value: float, uncertainty: float | None) -> str:
     if uncertainty is None:
         return f"{value:.3g} ± ?"
     digits = max(0, min(5, math.ceil(-math.log10(uncertainty)))) if uncertainty else 5
-    return f"{value:.{digits}f}"
+    return f"{round(value, digits) + 0.0:.{digits}f}"

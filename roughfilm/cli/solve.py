@@ -20,6 +20,7 @@ from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.rom.ladder.store import as_entries, refuse_other_file, save
+from roughfilm.terminal.completion import models_beginning_with
 from roughfilm.terminal.console import (
     AsJson,
     Overrides,
@@ -35,10 +36,17 @@ from roughfilm.terminal.console import (
 from roughfilm.terminal.output_file import refuse_unwritable
 from roughfilm.terminal.results import print_all, table_of
 
+EXAMPLES = (
+    "roughfilm solve scripts/examples/scenes/pocket.toml --within 5%",
+    "roughfilm solve scripts/examples/scenes/pocket.toml --model film --out film.h5",
+)
+
 
 def command(
     scene: ScenePath,
-    model: Annotated[str | None, typer.Option(help="A name from 'roughfilm models'.")] = None,
+    model: Annotated[
+        str | None, typer.Option(help="A name from 'roughfilm models'.", autocompletion=models_beginning_with)
+    ] = None,
     within: Annotated[
         str | None, typer.Option(help="Instead of a model: take the cheapest within this error, for example 5%.")
     ] = None,

@@ -20,9 +20,11 @@ from roughfilm.rom.ladder.scene import load_scene, scene_entries
 from roughfilm.terminal.console import AsJson, OutDirectory, Overrides, ScenePath, make_directory, progress_bar
 from roughfilm.terminal.output_file import alone, refuse_unwritable
 from roughfilm.terminal.ranges import loads_of, speeds_of
-from roughfilm.terminal.results import origin, show_result, table_of
+from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.words.numbers import finite
 from roughfilm.words.stribeck import lift_off, speed_scale
+
+EXAMPLES = ("roughfilm stribeck scripts/examples/scenes/rough_washer.toml --out washer",)
 
 SOURCES = (
     "Sahlin 2008, Paper E",
@@ -108,9 +110,12 @@ def command(
                 for curve, least in lowest
             ],
         )
-        yield f"report: {page}"
 
-    show_result({**entries, "report": str(page)}, shown(), as_json=as_json, reused="points")
+    least = min(map(_least_friction, curves), key=lambda point: point.friction_coefficient)
+    at = f"{speed_scale(bearing).factor * least.speed:.4g} {speed_scale(bearing).unit}"
+    answer = f"least friction coefficient {least.friction_coefficient:.4f} at {at}"
+    summary = written(answer, page, stored.with_suffix(".csv"))
+    show_result({**entries, "report": str(page)}, shown(), as_json=as_json, reused="points", summary=summary)
 
 
 def _between(advance: Progress, first: float, last: float) -> Progress:

@@ -5,13 +5,14 @@ import io
 import json
 import os
 import re
+import shutil
 import signal
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from types import FrameType
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal, TextIO
 
 import typer
 from rich.console import Console
@@ -19,23 +20,51 @@ from rich.markup import escape
 from typer.exceptions import TyperException
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
+from roughfilm.terminal.layout import CHARSET_ERRORS, wrapped
 
 BAD_INPUT, NOT_CONVERGED, MISSING = 2, 3, 4
+
+NUMERICS, OUTPUT = "Numerics", "Output"
+"""Groups of options in the help of a command; options without a group describe what is computed."""
+
+EXIT_CODES = """Exit codes
+  0  success
+  2  invalid input
+  3  not converged, or no model is accurate enough
+  4  something is missing, such as OpenFOAM"""
+
+HELP_MODE: Literal["rich"] | None = "rich" if shutil.get_terminal_size().columns >= 72 else None
+"""The form of a command's help: with frames where these do not cut the names of options."""
 
 ScenePath = Annotated[Path, typer.Argument(metavar="SCENE", help="The scene file (TOML).")]
 Overrides = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="KEY=VALUE", help="Override a key, e.g. geometry.depth=22.5um; repeatable."),
 ]
-AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object on standard output and nothing else.")]
-OutDirectory = Annotated[Path, typer.Option("--out", help="Output directory; finished results in it are used again.")]
-ReportFile = Annotated[Path | None, typer.Option("--report", help="Write a page with figures here (HTML).")]
-Resolution = Annotated[int | None, typer.Option(help="Nodes or mesh columns; see 'roughfilm models'.")]
-Scheme = Annotated[str | None, typer.Option(help="Advection scheme; see 'roughfilm models'.")]
-Processes = Annotated[int, typer.Option(help="Processes of one OpenFOAM run (MPI).")]
-Jobs = Annotated[int | None, typer.Option(help="Processes (default: one for each core).")]
-Threads = Annotated[int | None, typer.Option(help="Gaps whose flow is solved at once (default: 2 on several cores).")]
-Tolerance = Annotated[float | None, typer.Option(help="Residual at which a solver stops.")]
+AsJson = Annotated[
+    bool,
+    typer.Option("--json", help="Print one JSON object on standard output and nothing else.", rich_help_panel=OUTPUT),
+]
+OutDirectory = Annotated[
+    Path,
+    typer.Option("--out", help="Output directory; finished results in it are used again.", rich_help_panel=OUTPUT),
+]
+ReportFile = Annotated[
+    Path | None, typer.Option("--report", help="Write a page with figures here (HTML).", rich_help_panel=OUTPUT)
+]
+Resolution = Annotated[
+    int | None, typer.Option(help="Nodes or mesh columns; see 'roughfilm models KIND'.", rich_help_panel=NUMERICS)
+]
+Scheme = Annotated[
+    str | None, typer.Option(help="Advection scheme; see 'roughfilm models KIND'.", rich_help_panel=NUMERICS)
+]
+Processes = Annotated[int, typer.Option(help="Processes of one OpenFOAM run (MPI).", rich_help_panel=NUMERICS)]
+Jobs = Annotated[int | None, typer.Option(help="Processes (default: one for each core).", rich_help_panel=NUMERICS)]
+Threads = Annotated[
+    int | None,
+    typer.Option(help="Gaps whose flow is solved at once (default: 2 on several cores).", rich_help_panel=NUMERICS),
+]
+Tolerance = Annotated[float | None, typer.Option(help="Residual at which a solver stops.", rich_help_panel=NUMERICS)]
 Spacing = Annotated[
     str | None, typer.Option(metavar="D", help="Distance between the points of an array of heights: 1um, or 1um,2um.")
 ]
@@ -52,8 +81,18 @@ class Output(Console):
             raise typer.Exit(1) from stop
 
 
-messages = Console(stderr=True, highlight=False)
-output = Output(highlight=False)
+FILE_WIDTH = 80
+"""Columns of what is not printed on a terminal, unless COLUMNS gives another number."""
+
+
+def _width(stream: TextIO | None) -> int | None:
+    """The columns of a stream that is no terminal; None where the console finds them."""
+    is_terminal = stream is not None and stream.isatty()
+    return None if is_terminal or os.environ.get("COLUMNS", "").isdigit() else FILE_WIDTH
+
+
+messages = Console(stderr=True, highlight=False, width=_width(sys.stderr))
+output = Output(highlight=False, width=_width(sys.stdout))
 
 
 def fail(error: Exception, code: int, command: Callable[..., None] | None = None) -> typer.Exit:
@@ -79,6 +118,12 @@ def print_notes(error: BaseException, style: str | None = None) -> None:
     """Print the notes that an exception carries."""
     for note in getattr(error, "__notes__", []):
         messages.print(escape(note), style=style, soft_wrap=True)
+
+
+def print_message(kind: str, text: str) -> None:
+    """Print a message of a kind, such as "warning", on standard error; it is broken between words."""
+    line = escape(wrapped(f"{kind}: {text}", messages.width)).removeprefix(f"{kind}:")
+    messages.print(f"[yellow]{kind}:[/]{line}", soft_wrap=True)
 
 
 def in_one_line(command: Callable[..., None]) -> Callable[..., None]:
@@ -118,15 +163,27 @@ def _what_is_left(out: Path | None, makes_out: bool) -> str:
     return "stopped; nothing is kept; give the same command to start again"
 
 
-def launch(app: typer.Typer, arguments: list[str]) -> None:
+def help_below(examples: Sequence[str], mode: str | None = HELP_MODE) -> str:
+    """The end of a command's help: examples, and the exit codes."""
+    paragraphs = [EXIT_CODES]
+    if examples:
+        paragraphs.insert(0, "\n".join(("Examples", *(f"  {one}" for one in examples))))
+    kept = "" if mode else "\b\n"  # click breaks the lines of a paragraph anew without it
+    return "\n\n".join(f"{kept}{escape(one) if mode else one}" for one in paragraphs)
+
+
+def launch(app: typer.Typer, arguments: list[str], name: str | None = None) -> None:
     """Run an application: one line for every error, and no program left running after a signal to stop."""
     signal.signal(signal.SIGTERM, _stop)
     if sys.stdout is None:
         sys.exit(BAD_INPUT)
-    if isinstance(sys.stdout, io.TextIOWrapper):
-        sys.stdout.reconfigure(errors="replace")
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors=CHARSET_ERRORS)
+    if _width(sys.stdout) is not None:
+        os.environ.setdefault("TERMINAL_WIDTH", str(FILE_WIDTH))  # of the help, which typer prints
     try:
-        sys.exit(app(args=arguments, standalone_mode=False))
+        sys.exit(app(args=arguments, prog_name=name, standalone_mode=False))
     except TyperException as error:
         message = error.format_message() if hasattr(error, "format_message") else str(error)
         sys.exit(fail(InputError(f"{message.rstrip('.')}; see --help"), BAD_INPUT).exit_code)
@@ -140,7 +197,7 @@ def run_alone(command: Callable[..., None]) -> None:
 
 
 def _app(command: Callable[..., None]) -> typer.Typer:
-    app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
+    app = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=HELP_MODE)
     app.command()(command)
     return app
 

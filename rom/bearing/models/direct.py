@@ -1,4 +1,4 @@
-"""The Reynolds equation with cavitation, with all waves of the roughness resolved."""
+"""The Reynolds equation with cavitation, all waves of the roughness resolved."""
 
 from roughfilm.rom.bearing.film import direct_applies, rough_film, rough_films, rough_resolutions
 from roughfilm.rom.bearing.model import SOURCES, bearing_model
@@ -6,7 +6,7 @@ from roughfilm.rom.ladder.model import Effect
 
 MODEL = bearing_model(
     name="direct",
-    summary="Reynolds equation with mass-conserving cavitation, with all waves of the roughness resolved",
+    summary="Reynolds equation with mass-conserving cavitation, all waves of the roughness resolved",
     keeps=frozenset(
         {
             Effect.SIDE_FLOW,
