@@ -88,6 +88,7 @@ class Kind:
     summary : a description of these scenes, in words.
     compared : the quantities by which models are compared, with their names in a sentence; the most important is first.
     others : the other quantities that models of the kind report, with their names in a sentence.
+    ratios : quantities that are the ratio of two others, with the names of these; their errors follow from those.
     scale : scale(values, quantity), the size by which an error in a compared quantity is divided. ``values`` are the
         values of the reference by quantity, as numbers or arrays.
     columns : columns(scene), dimensionless numbers and texts of a scene for a table of many cases.
@@ -115,6 +116,7 @@ class Kind:
     numbers: Callable[[Any], Mapping[str, float]]
     symbols: Mapping[str, str]
     others: Mapping[str, str] = field(default_factory=dict)
+    ratios: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     composed: Callable[[Any], Sequence[str]] = nothing_composed
     omitted: Callable[[Any, str], Omission | None] = nothing_omitted
     outside_laws: Callable[[Any, Any, str], str] = within_laws
