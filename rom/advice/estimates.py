@@ -319,10 +319,10 @@ def affordable(task: AdviceTask, pairs: Sequence[tuple[Model, int]]) -> set[tupl
 def with_own_uncertainty(task: AdviceTask, model: Model, resolution: int, estimate: Estimate) -> Estimate:
     """The estimate with the uncertainty that a model in this process states of its own run.
 
-    Where a law gives the error by the resolution, or a promise contains it, the error is at least this uncertainty. At
-    the full resolution of a rough surface without a promise, the uncertainty adds to the error. The estimate does not
-    change if the run fails or does not state an uncertainty. It is not sure where the run shows that the laws do not
-    hold.
+    In an estimate by the laws it replaces the law over resolutions, unless a promise contains that error. A measured
+    error is at least this uncertainty, which adds to it at the full resolution of a rough surface without a promise.
+    The estimate does not change if the run fails or does not state an uncertainty. It is not sure where the run shows
+    that the laws do not hold.
     """
     result = None if model.outside else _run(task, model, resolution)
     outside = "" if result is None else task.kind.outside_laws(task.scene, result, task.quantity)
@@ -331,6 +331,9 @@ def with_own_uncertainty(task: AdviceTask, model: Model, resolution: int, estima
     own = None if model.outside else _from_itself(task, model, resolution)
     if own is None or own.error == 0:
         return estimate
+    by_laws = a_priori(task, model, resolution, own.error) if estimate.source == BY_LAWS else None
+    if by_laws is not None and by_laws.sure:
+        return replace(by_laws, error=max(by_laws.error, own.error), sure=estimate.sure, decides=True)
     promised = task.quantity in task.table.promise(task.kind.name, model.name).laws
     adds = not promised and "waves" in task.numbers and task.at_full_resolution(model, resolution)
     error = math.hypot(estimate.error, own.error) if adds else max(estimate.error, own.error)
