@@ -4,10 +4,12 @@ import math
 import time
 from collections.abc import Callable
 from functools import cache
+from typing import Any
 
 import numpy as np
 
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.timing import one_time, working_time
 from roughfilm.rom.bearing.corners import infinite_flows
 from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Fields, Outputs, density_ratio
 from roughfilm.rom.bearing.scene import Bearing
@@ -24,6 +26,7 @@ from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.shape import Shape
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.cavitation.solve import solve as balance
+from roughfilm.rom.homogenization.gap_factors import FactorsOverGap
 from roughfilm.rom.ladder.model import Model, Progress
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.request import CheckedRequest
@@ -64,8 +67,9 @@ def solve(
     if not fits.applies:
         raise InputError(f"model: got {solver.name!r}; {fits.reason}")
     problem = film(scene)
-    load_loops(problem.shape.wide)
-    wall, cpu = time.perf_counter(), time.process_time()
+    with one_time("start"):
+        load_loops(problem.shape.wide)
+    wall, cpu = time.perf_counter(), working_time()
     solution = balance(problem, (cells, cells), tolerance=request.tolerance, ruptures=ruptures, progress=progress)
     quantities = outputs.quantities(scene, solution)
     uncertainty = uncertainties(scene, solution, quantities, outputs)
@@ -88,7 +92,7 @@ def solve(
         numerics=Numerics(
             residual=solution.residual,
             iterations=sum(level.iterations for level in solution.levels),
-            cpu_s=time.process_time() - cpu,
+            cpu_s=working_time() - cpu,
             wall_s=time.perf_counter() - wall,
             degrees_of_freedom=solution.state.pressure.size,
             resolution=cells,
@@ -99,9 +103,21 @@ def solve(
                 for level in solution.levels
             ),
         ),
-        provenance=provenance(scene, model=solver.name, keeps=tuple(solver.keeps), sources=solver.sources),
+        provenance=provenance(
+            scene,
+            model=solver.name,
+            keeps=tuple(solver.keeps),
+            sources=solver.sources,
+            **origin_of(problem.shape.roughness),
+        ),
         warnings=tuple(warnings),
     )
+
+
+def origin_of(roughness: FactorsOverGap | None) -> dict[str, Any]:
+    """The entry "table" of provenance for flow factors of a table that was made for the result or kept from others."""
+    origin = getattr(roughness, "origin", None)
+    return {"table": dict(origin)} if origin else {}
 
 
 @cache

@@ -1,8 +1,9 @@
 """Mixed films: a film and the asperities in contact, at any separation of the walls and any speed."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -193,6 +194,11 @@ class FlooredFlowFactors:
 
     factors: FactorsOverGap
     mean_gap: Callable[[Array], Array] = np.asarray
+
+    @property
+    def origin(self) -> Mapping[str, Any]:
+        """The entries for the provenance of a result; empty for factors without a table."""
+        return getattr(self.factors, "origin", {})
 
     def __call__(self, separation: Array, /) -> GapFactors:
         """The flow factors, each of the shape of ``separation``."""

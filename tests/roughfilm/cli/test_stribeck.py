@@ -196,3 +196,13 @@ def test_ranges_of_speeds():
         speeds_of("30rpm", None)
     with pytest.raises(InputError, match="first of a range must be below"):
         speeds_of("5..1rpm:3", 0.1)
+
+
+def test_a_second_sweep_elsewhere_takes_the_table_of_the_first(tmp_path, monkeypatch):
+    one = run("--out", tmp_path / "one", *SWEEP, "--json")
+    monkeypatch.setattr("roughfilm.rom.bearing.mixed.kept.tabulate_pressed", lambda *_, **__: pytest.fail("made again"))
+    other = run("--out", tmp_path / "two", *SWEEP, "--json")
+    first, second = (json.loads(done.stdout) for done in (one, other))
+    assert second["quantities"] == first["quantities"]
+    assert first["numerics"]["table_points_found"] == 0
+    assert second["numerics"]["table_points_found"] == second["numerics"]["table_points"]
