@@ -35,6 +35,7 @@ from roughfilm.terminal.console import (
 )
 from roughfilm.terminal.output_file import refuse_unwritable
 from roughfilm.terminal.results import print_all, table_of
+from roughfilm.words.cost import cost_in_words
 from roughfilm.words.summary import summary
 
 EXAMPLES = (
@@ -115,7 +116,7 @@ def _shown(scene: Scene, by: Model, result: Result, quantity: str, within: float
     numbers = result.numerics
     yield (
         f"residual {numbers.residual:.1e} ({by.residual_meaning}), {numbers.iterations} iterations, "
-        f"{numbers.degrees_of_freedom} unknowns, {numbers.cpu_s:.3g} CPU s"
+        f"{numbers.degrees_of_freedom} unknowns, {cost_in_words(numbers)}"
     )
     for run in numbers.runs:
         if run.recipe and not run.name:

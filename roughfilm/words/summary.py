@@ -5,6 +5,7 @@ import math
 from roughfilm.rom.advice.stated import percent, stated_errors
 from roughfilm.rom.ladder.kind import kind_of
 from roughfilm.rom.ladder.result import Result
+from roughfilm.words.cost import one_time_in_words
 from roughfilm.words.numbers import digits
 
 
@@ -42,5 +43,5 @@ def judgement(result: Result, quantity: str, within: float) -> str:
 
 
 def cost_of(result: Result) -> str:
-    """The CPU time of a result."""
-    return f"{result.numerics.cpu_s:.2g} s"
+    """The CPU time of a result, with its one-time costs."""
+    return f"{result.numerics.cpu_s:.2g} s{one_time_in_words(result.numerics.one_time)}"
