@@ -19,6 +19,7 @@ from roughfilm.rom.bearing.film import Searched, smooth_films
 from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Fields, Outputs, density_ratio
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shapes import Journal
+from roughfilm.rom.bearing.totals.whole import whole_bearing
 from roughfilm.rom.bearing.uncertainty import POSITIONS, grid_sequence, uncertainties
 from roughfilm.rom.bearing.warnings import (
     grid_warnings,
@@ -107,7 +108,7 @@ def solve(
         warnings.append(f"{', '.join(unknown)}: unknown uncertainty, as the roughness has too few points")
     return Result(
         model=solver.name,
-        quantities=with_uncertainties(quantities, uncertainty),
+        quantities=whole_bearing(scene, with_uncertainties(quantities, uncertainty)),
         fields=_fields(scene, solution, outputs.fields(found.scene, solution)),
         numerics=Numerics(
             residual=solution.residual,

@@ -33,7 +33,7 @@ from roughfilm.terminal.console import (
     progress_bar,
 )
 from roughfilm.terminal.output_file import refuse_unwritable
-from roughfilm.terminal.results import print_all, table_of
+from roughfilm.terminal.results import print_all, quantity_table
 
 
 def command(
@@ -104,18 +104,3 @@ def _shown(scene: Scene, by: Model, result: Result) -> Iterator[Table | str]:
         yield f"expected error of {by.name} by the fitted laws: {', '.join(errors)}"
     yield by.applies(scene).reason
     yield from (f"warning: {warning}" for warning in result.warnings)
-
-
-def quantity_table(result: Result) -> Table:
-    """The quantities of a result, with their uncertainties where any is known."""
-    known = any(quantity.uncertainty is not None for quantity in result.quantities.values())
-    rows = []
-    for name, quantity in result.quantities.items():
-        uncertainty = "" if quantity.uncertainty is None else f"{quantity.uncertainty:.1e}"
-        unit = "" if quantity.unit == "1" else quantity.unit
-        rows.append((name, f"{quantity.value:.5g}", *([uncertainty] if known else []), unit))
-    heads = ("quantity", "value", *(["±"] if known else []), "unit")
-    table = table_of(heads, rows, title=f"{result.provenance['scene']['name']} by {result.model}", left=1)
-    for column in table.columns[2:]:
-        column.justify = "left"
-    return table

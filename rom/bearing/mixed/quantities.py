@@ -18,8 +18,19 @@ from roughfilm.rom.bearing.solve import solve
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.solve import Solution
 
-_OF_LOAD = ("load", "load_per_width", "specific_load", "contact_share", "attitude_angle", "sommerfeld_number")
+_OF_LOAD = (
+    "load",
+    "load_per_width",
+    "specific_load",
+    "contact_share",
+    "attitude_angle",
+    "sommerfeld_number",
+    "hersey_number",
+)
 """Quantities whose uncertainty is that of film and contact load."""
+
+_OF_FRICTION = tuple(f"{name}{per}" for name in ("friction", "power_loss", "torque") for per in ("", "_per_width"))
+"""Quantities whose uncertainty is that of viscous and boundary friction."""
 
 
 def mixed_quantities(scene: Bearing, solution: Solution) -> dict[str, Quantity]:
@@ -68,7 +79,7 @@ def mixed_uncertainties(scene: Bearing, solution: Solution, quantities: Mapping[
     of_friction = (of_shear * abs(friction - boundary) + of_contact * boundary) / (abs(friction) or 1.0)
     relative = {
         **dict.fromkeys(_OF_LOAD, of_both),
-        **dict.fromkeys(("friction", "friction_per_width"), of_friction),
+        **dict.fromkeys(_OF_FRICTION, of_friction),
         "friction_coefficient": of_friction + of_both,
         **dict.fromkeys(("contact_load", "contact_load_per_width", "contact_pressure_max", "contact_area"), of_contact),
         "least_gap": 0.0,
