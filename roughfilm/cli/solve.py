@@ -34,7 +34,7 @@ from roughfilm.terminal.console import (
     progress_bar,
 )
 from roughfilm.terminal.output_file import refuse_unwritable
-from roughfilm.terminal.results import print_all, table_of
+from roughfilm.terminal.results import print_all, quantity_table
 from roughfilm.words.cost import cost_in_words
 from roughfilm.words.summary import summary
 
@@ -125,18 +125,3 @@ def _shown(scene: Scene, by: Model, result: Result, quantity: str, within: float
     yield from (f"errors of {by.name}: {line}" for line in error_lines(kind_of_scene(scene), result))
     yield from (f"warning: {warning}" for warning in result.warnings)
     yield summary(result, quantity, within)
-
-
-def quantity_table(result: Result) -> Table:
-    """The quantities of a result, with their uncertainties where any is known."""
-    known = any(quantity.uncertainty is not None for quantity in result.quantities.values())
-    rows = []
-    for name, quantity in result.quantities.items():
-        uncertainty = "" if quantity.uncertainty is None else f"{quantity.uncertainty:.1e}"
-        unit = "" if quantity.unit == "1" else quantity.unit
-        rows.append((name, f"{quantity.value:.5g}", *([uncertainty] if known else []), unit))
-    heads = ("quantity", "value", *(["±"] if known else []), "unit")
-    table = table_of(heads, rows, title=f"{result.provenance['scene']['name']} by {result.model}", left=1)
-    for column in table.columns[2:]:
-        column.justify = "left"
-    return table
