@@ -45,6 +45,12 @@ class SurfaceGeometry(Part):
     ``surface`` names a file of heights (HDF5 of roughfilm, NPY or CSV) or describes a synthetic surface; the
     description may be a TOML file. ``spacing`` is a length, or two along x and y, for files without it. ``digest`` is
     that of the heights in the file, so that a saved scene is not read with a changed surface.
+
+    Attributes
+    ----------
+    surface : name of a file of heights, or a table that describes a synthetic surface.
+    spacing : distance of the points, m, one or two along x and y; for files without it.
+    digest : digest of the heights in the file; a file that has changed since is rejected.
     """
 
     surface: Annotated[str | dict[str, Any], BeforeValidator(_described)]
