@@ -8,7 +8,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, TypeAdapter,
 
 from roughfilm.contact.foundation.entries import Angle, Coordinate, Length, Part, PositiveNumber, plain_number
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.foundation.faults import faults_of, in_one_line, unknown_key
+from roughfilm.contact.foundation.faults import faults_of, in_lines, unknown_key
 from roughfilm.contact.foundation.line_numbers import Location
 from roughfilm.contact.foundation.toml import read_toml
 from roughfilm.contact.surfaces.surface import Surface
@@ -25,7 +25,7 @@ from roughfilm.contact.synthetic.waves import Amplitudes
 
 def _whole(value: object) -> object:
     if isinstance(value, bool) or not isinstance(value, int):
-        raise ValueError(f"got {value!r}; write a whole number")
+        raise ValueError(f"got {value!r}; write a whole number, without quotes")
     return value
 
 
@@ -240,7 +240,7 @@ def read_entries(entries: Mapping[str, Any]) -> Description:
             known = HeightDistribution.model_fields if table else KINDS[entries["kind"]][0].model_fields
             return unknown_key(key, known)
 
-        raise InputError(in_one_line(faults_of(error, unknown, lambda location: location[1:]), "surface")) from None
+        raise InputError(in_lines(faults_of(error, unknown, lambda location: location[1:]), "surface")) from None
 
 
 def description_entries(description: Description) -> dict[str, Any]:

@@ -30,12 +30,15 @@ def _described(value: object) -> object:
         try:
             return description_entries(read_description(Path(value).expanduser()))
         except InputError as error:
-            raise ValueError(f"in {value}: {error}") from None
+            raise ValueError("\n".join(f"in {value}: {line}" for line in str(error).splitlines())) from None
     if isinstance(value, dict):
         try:
             return description_entries(read_entries(value))
         except InputError as error:
-            raise ValueError(str(error).removeprefix("surface.").removeprefix("surface: ")) from None
+            lines = str(error).splitlines()
+            raise ValueError(
+                "\n".join(one.removeprefix("surface.").removeprefix("surface: ") for one in lines)
+            ) from None
     raise ValueError(f"got {value!r:.60}; name a file of heights, or write a table that describes a surface")
 
 
