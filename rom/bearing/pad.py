@@ -20,9 +20,9 @@ class Pad(Part):
     Attributes
     ----------
     length : length along the sliding direction, m.
-    width : width across the sliding direction, m; without it infinitely wide.
+    width : width across the sliding direction, m; None if infinitely wide.
     film : minimum film thickness without texture, m.
-    texture : pockets in the still wall.
+    texture : pockets in the still wall; None without pockets.
     """
 
     length: Length

@@ -40,8 +40,13 @@ def meanings(model: type) -> dict[str, str]:
         section = (one.__doc__ or "").partition("Attributes\n    ----------\n")[2].partition("\n\n")[0]
         lines = re.sub(r"^ {4}", "", section, flags=re.MULTILINE)
         for names, text in _ENTRY.findall(lines):
-            found |= dict.fromkeys(names.split(", "), " ".join(text.replace("``", "").split()))
+            found |= dict.fromkeys(names.split(", "), _plain(text))
     return found
+
+
+def _plain(text: str) -> str:
+    """A sentence of a docstring in the words of a file, which has no None: "; None if wide" is "; left out if wide"."""
+    return " ".join(text.replace("``", "").replace("; None ", "; left out ").split())
 
 
 class _SceneSchema(GenerateJsonSchema):
@@ -60,7 +65,7 @@ class _SceneSchema(GenerateJsonSchema):
         made = super().model_schema(schema)
         texts = meanings(schema["cls"])
         first = (schema["cls"].__doc__ or "").strip().split("\n\n")[0]
-        made["description"] = " ".join(first.replace("``", "").split()).removesuffix(".")
+        made["description"] = _plain(first).removesuffix(".")
         properties = made.get("properties", {})
         for key in INTERNAL & properties.keys():
             del properties[key]
