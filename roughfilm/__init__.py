@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from roughfilm.interface.results import save as save
     from roughfilm.interface.scenes import load_scene as load_scene
     from roughfilm.interface.scenes import read_scene as read_scene
+    from roughfilm.interface.scenes import replace as replace
     from roughfilm.interface.solving import advise as advise
     from roughfilm.interface.solving import compare as compare
     from roughfilm.interface.solving import models as models
@@ -51,7 +52,7 @@ else:
         "interface.cases": ("write_case",),
         "interface.curves": ("effects", "leakage_curve", "stribeck"),
         "interface.results": ("load_result", "save"),
-        "interface.scenes": ("load_scene", "read_scene"),
+        "interface.scenes": ("load_scene", "read_scene", "replace"),
         "interface.solving": ("advise", "compare", "models", "solve"),
         "interface.studies": ("load_study", "read_table", "run_study"),
         "interface.surfaces": ("flow_factors", "parameters", "prepare", "press", "read_surface"),

@@ -1,19 +1,40 @@
 """Building blocks of tables in TOML files: numbers with units, and tables that refuse unknown keys."""
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Self
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, GetCoreSchemaHandler
 from pydantic_core import core_schema
 
+from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import to_si, with_unit
+
+REMEDY = "make a changed scene with rf.replace, such as rf.replace(scene, 'geometry.depth', '7.5 um')"
 
 
 class Part(BaseModel):
     """Base class of a table in a TOML file; it is immutable and refuses unknown keys."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
+        """A copy of this table with other values at some of its keys, which are not checked.
+
+        Raises
+        ------
+        InputError
+            If the table has no such key; :func:`roughfilm.replace` takes dotted keys and checks the values.
+        """
+        for name in (update or {}).keys() - type(self).model_fields:
+            raise InputError(f"{name}: is no key of {type(self).__name__}; {REMEDY}")
+        return super().model_copy(update=update, deep=deep)
+
+    if not TYPE_CHECKING:  # a checker of types finds assignments to an immutable model without it
+
+        def __setattr__(self, name: str, value: object) -> None:
+            raise InputError(f"{name}: {type(self).__name__} is immutable; {REMEDY}")
 
 
 def _positive(value: float) -> float:

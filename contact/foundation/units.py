@@ -10,6 +10,8 @@ from functools import cache
 from numbers import Integral, Real
 from typing import TYPE_CHECKING, Any
 
+from roughfilm.contact.foundation.rounding import with_error
+
 if TYPE_CHECKING:
     import pint
 
@@ -138,13 +140,17 @@ class Quantity:
     Examples
     --------
     >>> load = Quantity(value=120.0, unit="N", uncertainty=3.0)
-    >>> f"{load.value:.0f} ± {load.uncertainty:.0f} {load.unit}"
-    '120 ± 3 N'
+    >>> print(load)
+    120 ± 3 N
     """
 
     value: float
     unit: str
     uncertainty: float | None = None
+
+    def __str__(self) -> str:
+        """The value with its uncertainty, to the digits that this leaves, and the unit."""
+        return with_error(self.value, self.uncertainty) + (f" {self.unit}" if self.unit != "1" else "")
 
 
 @cache

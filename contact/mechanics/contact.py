@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array, Mask
+from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.mechanics import kernels
 
 PERIMETER_CORRECTION = (math.pi - 1 + math.log(2)) / 24
@@ -47,6 +48,8 @@ class Contact:
     gap: Array
     complementarity: float
     iterations: int
+
+    __repr__ = brief
 
     @property
     def in_contact(self) -> Mask:

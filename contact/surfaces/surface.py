@@ -7,6 +7,7 @@ from typing import Any, Self
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array, Mask
+from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import InputError
 
 MAX_LENGTH = 1e6
@@ -50,6 +51,8 @@ class Surface:
     invalid: Mask = field(default_factory=lambda: np.zeros((0, 0), dtype=bool))
     periodic: bool = False
     source: Mapping[str, Any] = field(default_factory=dict)
+
+    __repr__ = brief
 
     def __post_init__(self) -> None:
         heights = np.array(self.heights, dtype=np.float64)

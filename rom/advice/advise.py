@@ -108,6 +108,12 @@ class Advice:
     spent_cpu_s: float
     omitted: Omission | None = None
 
+    def __repr__(self) -> str:
+        taken = self.chosen
+        found = "none" if taken is None else f"{taken.model} at resolution {taken.resolution}"
+        error = "" if taken is None or taken.error is None else f" with an error of at most {100 * taken.error:.2g} %"
+        return f"<Advice for the {self.title} within {100 * self.within:g} %: {found}{error}>"
+
 
 def wanted(scene: Scene, name: str | None) -> str:
     """The name of the quantity with a given name or title; None means the first of the kind.

@@ -150,6 +150,9 @@ class Model(Generic[SceneT]):
     available: Callable[[], Availability] = always
     compute: "Callable[[Model[SceneT], SceneT, CheckedRequest, Progress], Result]"
 
+    def __repr__(self) -> str:
+        return f"Model(name={self.name!r}, kind={self.kind!r}, summary={self.summary!r})"
+
     def solve(self, scene: SceneT, request: Request = Request(), progress: Progress = silent) -> Result:
         """Solve a scene with the numerical options of a request, and the model's defaults where the request has None.
 

@@ -1,14 +1,27 @@
 """The result of a model: quantities with units, fields, numerics and provenance."""
 
+import json
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
-from typing import Any
+from dataclasses import asdict, dataclass, field, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from roughfilm.contact.foundation.brief import brief
+from roughfilm.contact.foundation.errors import UnavailableError
 from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.ladder.gridded import gridded
+
+if TYPE_CHECKING:
+    import xarray
+
+SHOWN = 6
+"""Number of quantities that the short text of a result shows."""
+
+WIDTH = 100
+"""Length at which a line of this text is cut."""
 
 NO_COARSER_GRID = "there is no coarser grid, so the discretisation error is unknown"
 """The warning of a result without uncertainty."""
@@ -27,6 +40,8 @@ class Field:
 
     values: NDArray[np.float64]
     unit: str
+
+    __repr__ = brief
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -114,6 +129,27 @@ class Result:
     warnings: tuple[str, ...] = ()
     expected_error: Mapping[str, float] = field(default_factory=dict)
 
+    def __repr__(self) -> str:
+        """The main quantities with unit and uncertainty, the fields, the cost and the warnings, in about ten lines."""
+        scene = self.provenance.get("scene", {})
+        lines = [f"Result of {self.model} on {scene.get('name', 'a scene')!r} ({scene.get('kind', 'of unknown kind')})"]
+        shown, width = list(self.quantities)[:SHOWN], max(map(len, self.quantities), default=0)
+        for name in shown:
+            error = self.expected_error.get(name)
+            of_model = "" if error is None else f"  (error of the model: at most {100 * error:.2g} %)"
+            lines.append(f"  {name:<{width}}  {self.quantities[name]}{of_model}")
+        if others := len(self.quantities) - len(shown):
+            lines.append(f"  and {others} more in .quantities")
+        shapes = {name: "×".join(map(str, one.values.shape)) for name, one in self.fields.items()}
+        lines.append(f"fields: {', '.join(f'{name} {shape}' for name, shape in shapes.items()) or 'none'}")
+        lines.append(
+            f"cost: {self.numerics.cpu_s:.2g} s CPU, {self.numerics.degrees_of_freedom} unknowns, "
+            f"resolution {self.numerics.resolution}, residual {self.numerics.residual:.1e}"
+        )
+        first = f": {self.warnings[0]}" if self.warnings else ""
+        lines.append(f"warnings: {len(self.warnings)}{first}")
+        return "\n".join(line if len(line) <= WIDTH else f"{line[: WIDTH - 3]}..." for line in lines)
+
     def __getitem__(self, name: str) -> Quantity:
         """The quantity with a name, or with that name and ``_per_area`` or ``_per_width``.
 
@@ -128,6 +164,41 @@ class Result:
             if known in self.quantities:
                 return self.quantities[known]
         raise KeyError(f"{name!r}: is no quantity of this result; it has {', '.join(self.quantities)}")
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """The result as a dataset of xarray, an optional library.
+
+        Fields and quantities are variables with the attribute ``units``. Quantities have no dimension, and the
+        attributes ``uncertainty`` (95 % half width, in the unit) and ``expected_error`` (of the model, over the size of
+        the quantity) where these are known. Positions are coordinates: ``position`` along a wall, ``x`` and ``y`` of a
+        grid, ``cell_x``, ``cell_y`` and ``cell_z`` of the centres of cells. The attributes ``model``, ``warnings``,
+        ``numerics`` and ``provenance`` of the dataset are texts, the last two as JSON; ``to_netcdf`` writes them all.
+
+        Raises
+        ------
+        UnavailableError
+            If xarray is not installed.
+        """
+        try:
+            import xarray
+        except ImportError:
+            raise UnavailableError("xarray: not installed; install it with: pip install 'roughfilm[data]'") from None
+        fields, coordinates = gridded({name: (one.values, one.unit) for name, one in self.fields.items()})
+        numbers = {}
+        for name, one in self.quantities.items():
+            known = {"uncertainty": one.uncertainty, "expected_error": self.expected_error.get(name)}
+            attributes = {"units": one.unit, **{key: value for key, value in known.items() if value is not None}}
+            numbers[name if name not in fields else f"{name}_quantity"] = ((), one.value, attributes)
+        return xarray.Dataset(
+            {**fields, **numbers},
+            coordinates,
+            {
+                "model": self.model,
+                "warnings": "; ".join(self.warnings),
+                "numerics": json.dumps(asdict(self.numerics), default=np.generic.item),
+                "provenance": json.dumps(dict(self.provenance), default=np.generic.item),
+            },
+        )
 
 
 def with_uncertainties(quantities: Mapping[str, Quantity], uncertainties: Mapping[str, float]) -> dict[str, Quantity]:

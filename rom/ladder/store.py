@@ -54,6 +54,8 @@ def as_bytes(result: Result) -> bytes:
         file.attrs["model"] = result.model
         for name in ENTRIES:
             file.attrs[name] = json.dumps(entries[name], default=np.generic.item)
+        for name in ("quantities", "fields"):
+            file.create_group(name, track_order=True)  # the first ones stay the first
         for name, quantity in result.quantities.items():
             attributes = file.create_dataset(f"quantities/{name}", data=quantity.value).attrs
             attributes["unit"] = quantity.unit

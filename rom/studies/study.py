@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.toml import toml_value
 from roughfilm.rom.ladder.kind import Scene
@@ -62,6 +63,8 @@ class Study:
     keys: Mapping[str, Key]
     cases: tuple[Case, ...]
     settings: tuple[Setting, ...]
+
+    __repr__ = brief
 
 
 def load_study(path: Path, models: Sequence[Model]) -> Study:

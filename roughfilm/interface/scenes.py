@@ -10,7 +10,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.toml import set_entry
 from roughfilm.contact.foundation.units import in_si
 from roughfilm.rom.ladder import scene as scenes
-from roughfilm.rom.ladder.kind import Scene
+from roughfilm.rom.ladder.kind import Scene, kind_of_name
 
 EXAMPLE = "geometry.depth=22.5um"
 
@@ -54,8 +54,7 @@ def read_scene(entries: Mapping[str, Any]) -> Scene:
 
     Parameters
     ----------
-    entries : tables by name: texts with a unit such as "30 um", numbers in the SI unit of their key, lists, arrays and
-        tables. A scene file takes no number without a unit where a quantity has one.
+    entries : tables by name: numbers in SI units, texts with a unit such as "30 um", lists, arrays and tables.
 
     Returns
     -------
@@ -73,7 +72,7 @@ def read_scene(entries: Mapping[str, Any]) -> Scene:
     >>> scene = rf.read_scene({
     ...     "name": "groove", "kind": "pocket",
     ...     "geometry": {
-    ...         "length": "1 mm", "film": 30e-6, "profile": "cylindrical", "width": "0.3 mm", "depth": "9 um"},
+    ...         "length": "1 mm", "film": "30 um", "profile": "cylindrical", "width": "0.3 mm", "depth": "9 um"},
     ...     "lubricant": {"viscosity": "0.01 Pa*s", "density": "1000 kg/m^3"},
     ...     "motion": {"reynolds_number": 40},
     ... })
@@ -85,13 +84,57 @@ def read_scene(entries: Mapping[str, Any]) -> Scene:
     return scenes.read_scene(in_si(entries))
 
 
+def replace(scene: Scene, key: str | Mapping[str, object], value: object = ...) -> Scene:
+    """Return a new, checked scene with another value at one dotted key or at several; the given one stays as it is.
+
+    Parameters
+    ----------
+    scene : the scene, which is not changed.
+    key : dotted key of a scene file, such as "geometry.depth"; or a dict of several with their values. A number selects
+        a table from a list of tables. A key that excludes another takes its place: a speed that of a Reynolds number.
+    value : a number in SI units, a text with a unit, a truth value, a list, an array, or a dict for a table; None
+        removes the entry, which then has its default. Names of files are relative to the current directory.
+
+    Returns
+    -------
+    Scene
+        A frozen model of the same kind, checked as a whole.
+
+    Raises
+    ------
+    InputError
+        If a key is unknown or a value is out of range: one line with place, value and remedy.
+
+    Examples
+    --------
+    >>> import roughfilm as rf
+    >>> scene = rf.load_scene("scripts/examples/scenes/pocket.toml")
+    >>> deep = rf.replace(scene, "geometry.depth", 22.5e-6)
+    >>> round(deep.depth / scene.depth, 12)
+    3.0
+    >>> slow = rf.replace(scene, {"motion.reynolds_number": 40, "lubricant.viscosity": "8 mPa*s"})
+    >>> slow.reynolds_number
+    40.0
+    """
+    several = isinstance(key, Mapping)
+    if several != (value is ...):
+        raise InputError(f"value: {'got one beside a dict of keys; leave it out' if several else 'missing; give one'}")
+    return with_entries(scene, key if isinstance(key, Mapping) else {key: value})
+
+
 def with_entries(scene: Scene, values: Mapping[str, object]) -> Scene:
     """The scene with new values at dotted keys; InputError if a key is unknown or a value is out of range."""
-    kind = scenes.kind_named({"kind": scene.kind})
+    replaces = kind_of_name(checked_scene(scene).kind).replaces
     entries = scenes.scene_entries(scene)
     for key, value in values.items():
-        set_entry(entries, f"{key}={_text(value)}", EXAMPLE, kind.replaces if kind else {})
-    return scenes.read_scene(entries)
+        if not isinstance(key, str) or "=" in key:
+            raise InputError(f"key: got {key!r:.60}; give a dotted key such as 'geometry.depth'")
+        table = key.rpartition(".")[0]
+        for other in replaces.get(key, ()):
+            if (taken := f"{table}.{other}") in values:
+                raise InputError(f"{key}: takes the place of {taken}, which is set too; set one of them")
+        set_entry(entries, f"{key}={_json(key, value)}", EXAMPLE, replaces)
+    return read_scene(_without_none(entries))
 
 
 def checked_scene(scene: object) -> Scene:
@@ -103,9 +146,21 @@ def checked_scene(scene: object) -> Scene:
 
 def _text(value: object) -> str:
     """The text of a value in an assignment ``key=value``."""
-    if isinstance(value, str):
-        return value
+    return value if isinstance(value, str) else _json("set", value)
+
+
+def _json(place: str, value: object) -> str:
+    """The value as JSON; InputError that names the place if it is nothing that a scene holds."""
     try:
         return json.dumps(value, default=lambda number: number.tolist())
     except (AttributeError, TypeError, ValueError):
-        raise InputError(f"set: got {value!r:.60}; give a number, a text with a unit, or a list of these") from None
+        raise InputError(f"{place}: got {value!r:.60}; give a number, a text with a unit, or a list of these") from None
+
+
+def _without_none(entries: dict[str, Any]) -> dict[str, Any]:
+    """The nested entries without those that are None, which have their defaults then."""
+    return {
+        key: _without_none(entry) if isinstance(entry, dict) else entry
+        for key, entry in entries.items()
+        if entry is not None
+    }

@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from roughfilm import ladder
+from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.interface.scenes import checked_scene
 from roughfilm.rom.advice import advise as advice
@@ -185,6 +186,8 @@ class Comparison:
     uncertainty: Mapping[str, float]
     undecided: Mapping[str, tuple[tuple[str, str], ...]]
     left_out: Mapping[str, str]
+
+    __repr__ = brief
 
 
 def compare(scene: Scene, *, models: Sequence[str] | None = None, progress: Progress = silent) -> Comparison:

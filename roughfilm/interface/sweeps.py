@@ -27,7 +27,8 @@ def sweep(
     Parameters
     ----------
     scene : the scene in which the entries vary.
-    values : list of values by dotted key, such as ``{"geometry.depth": ["5 um", "10 um"]}``.
+    values : list of values by dotted key, such as ``{"geometry.depth": ["5 um", "10 um"]}``; :func:`roughfilm.replace`
+        says what a value may be.
     models : names of the models; by default all for this kind of scene.
     progress : called with the done fraction and a few words.
 

@@ -2,9 +2,11 @@
 
 import ast
 import inspect
+import json
 import os
 import subprocess
 import sys
+import tomllib
 from itertools import pairwise
 from pathlib import Path
 
@@ -14,8 +16,9 @@ from places import ROOT, SCENES, STUDIES
 
 import roughfilm as rf
 
-HEAVY = ("matplotlib", "numba", "pandas", "pint", "pyvista", "scipy.interpolate", "typer")
+HEAVY = ("matplotlib", "numba", "pandas", "pint", "pyvista", "scipy.interpolate", "typer", "xarray")
 EXAMPLES = sorted((ROOT / "scripts" / "examples" / "python").glob("*.py"))
+KINDS = {model.kind for model in rf.models()}
 NAMES = [name for name in rf.__all__ if name != "__version__"]
 
 
@@ -92,6 +95,41 @@ BAD = {
     "a tolerance out of range": (lambda scene, z: rf.advise(scene, within=2.0), "above 0 and below 1"),
     "a quantity that is unknown": (lambda scene, z: rf.advise(scene, within=0.1, quantity="lift"), "quantity: got"),
     "models as text": (lambda scene, z: rf.compare(scene, models="film"), "give a list of names"),
+    "a key to replace that is unknown": (
+        lambda scene, z: rf.replace(scene, "geometry.depht", "1 um"),
+        "scene.geometry.depht: unknown key; did you mean 'depth'",
+    ),
+    "a table to replace that is unknown": (
+        lambda scene, z: rf.replace(scene, "geometri.depth", "1 um"),
+        "did you mean 'geometry'",
+    ),
+    "a key to replace below a number": (
+        lambda scene, z: rf.replace(scene, "geometry.depth.more", "1 um"),
+        "'depth' is not a table",
+    ),
+    "a key to replace that is none": (lambda scene, z: rf.replace(scene, 3, "1 um"), "key: got 3"),
+    "a key to replace with a value in it": (lambda scene, z: rf.replace(scene, "a=b", "1 um"), "key: got 'a=b'"),
+    "a value to replace that is missing": (lambda scene, z: rf.replace(scene, "geometry.depth"), "value: missing"),
+    "a value to replace beside a dict": (lambda scene, z: rf.replace(scene, {"name": "a"}, "b"), "leave it out"),
+    "a value to replace that is none": (
+        lambda scene, z: rf.replace(scene, "geometry.depth", object()),
+        "geometry.depth: got <object",
+    ),
+    "a value to replace out of range": (
+        lambda scene, z: rf.replace(scene, "geometry.depth", "-1 um"),
+        "depth: got '-1 um'; it must be above zero",
+    ),
+    "a value to replace that excludes another": (
+        lambda scene, z: rf.replace(scene, {"motion.speed": "1 m/s", "motion.reynolds_number": 3}),
+        "takes the place of",
+    ),
+    "a required entry removed": (lambda scene, z: rf.replace(scene, "geometry.film", None), "film: missing"),
+    "a scene to replace that is none": (lambda scene, z: rf.replace("pocket.toml", "name", "b"), "scene: got str"),
+    "a dotted key of a copy": (
+        lambda scene, z: scene.model_copy(update={"geometry.depth": 7.5e-6}),
+        "geometry.depth: is no key of Pocket; make a changed scene with rf.replace",
+    ),
+    "an attribute that is set": (lambda scene, z: setattr(scene.geometry, "film", 1e-6), "rf.replace(scene, "),
     "a sweep over one value": (lambda scene, z: rf.sweep(scene, {"geometry.depth": "5 um"}), "give a list"),
     "a sweep over a list": (lambda scene, z: rf.sweep(scene, ["geometry.depth"]), "values: got"),
     "a sweep over no key": (lambda scene, z: rf.sweep(scene, {"geometry.dep": ["5 um"]}), "geometry.dep"),
@@ -145,6 +183,70 @@ def test_a_scene_may_be_changed_while_it_is_read(pocket):
     deep = rf.load_scene(SCENES / "pocket.toml", set={"geometry.depth": "22.5 um", "motion.reynolds_number": 40})
     assert deep.reynolds_number == 40
     assert deep.depth == pytest.approx(3 * pocket.depth)
+
+
+def test_a_replaced_value_changes_that_entry_alone(pocket):
+    before = pocket.model_dump()
+    deep = rf.replace(pocket, "geometry.depth", "15 um")
+    assert deep == rf.load_scene(SCENES / "pocket.toml", set={"geometry.depth": "15 um"})
+    assert deep.depth == pytest.approx(2 * pocket.depth)
+    assert pocket.model_dump() == before
+    assert rf.replace(deep, "geometry.depth", "7.5 um") == pocket
+
+
+def test_a_key_replaces_the_one_that_it_excludes(pocket):
+    slow = rf.replace(pocket, "motion.reynolds_number", 40)
+    assert slow.reynolds_number == 40
+    assert slow.speed == pytest.approx(pocket.speed / 4, rel=1e-4)
+    assert rf.replace(slow, "motion.speed", "1 m/s").speed == 1
+
+
+def test_values_of_every_kind_replace_entries(pocket):
+    renamed = rf.replace(pocket, {"name": "3", "motion.reynolds_number": np.float32(40)})
+    assert (renamed.name, renamed.reynolds_number) == ("3", 40)
+    washer = rf.load_scene(SCENES / "rough_washer.toml")
+    fine = rf.replace(washer, "roughness.surface.points", np.array([256, 512]))
+    assert fine.roughness.surface["points"] == [256, 512]
+    table = {"law": "barus", "pressure_coefficient": "15 GPa^-1"}
+    thick = rf.replace(washer, "lubricant.piezoviscosity", table)
+    assert thick.lubricant.piezoviscosity.pressure_coefficient == pytest.approx(15e-9)
+    assert rf.replace(thick, "lubricant.piezoviscosity", None) == washer
+    two = rf.load_scene(SCENES / "two_grooves.toml")
+    (left, right) = rf.replace(two, "geometry.grooves.1.depth", "5 um").grooves
+    assert (left, right.depth) == (two.grooves[0], pytest.approx(5e-6))
+
+
+def test_numbers_are_in_si_units(pocket):
+    assert rf.replace(pocket, "geometry.depth", 15e-6) == rf.replace(pocket, "geometry.depth", "15 um")
+    assert rf.replace(pocket, "geometry.depth", np.float64(15e-6)) == rf.replace(pocket, "geometry.depth", 15e-6)
+    assert rf.replace(pocket, "motion.speed", 10) == rf.replace(pocket, "motion.speed", "10 m/s")
+    groove = {"length": 1e-3, "film": 30e-6, "profile": "cylindrical", "width": 0.3e-3, "depth": 9e-6}
+    assert rf.replace(pocket, "geometry", groove) == rf.replace(pocket, "geometry.depth", "9 um")
+    washer = rf.load_scene(SCENES / "rough_washer.toml")
+    shorter = rf.replace(washer, "roughness.surface.correlation_length", 50e-6)
+    assert shorter == rf.replace(washer, "roughness.surface.correlation_length", "50 um")
+    rows = rf.sweep(pocket, {"geometry.depth": np.array([5e-6, 10e-6])}, models=["reynolds"])
+    assert [row["geometry.depth"] for row in rows] == [5e-6, 1e-5]
+    with pytest.raises(rf.InputError, match="depth"):
+        rf.replace(pocket, "geometry.depth", -1e-6)
+    with pytest.raises(rf.InputError, match="without a unit"):
+        rf.load_scene(SCENES / "pocket.toml", set={"geometry.depth": "15e-6"})
+
+
+def test_every_scene_is_itself_when_nothing_is_replaced():
+    for path in sorted(SCENES.glob("*.toml")):
+        if tomllib.loads(path.read_text(encoding="utf-8"))["kind"] in KINDS:
+            scene = rf.load_scene(path)
+            assert rf.replace(scene, {}) == scene, path.name
+
+
+def test_a_frozen_scene_keeps_its_values(pocket):
+    film = pocket.geometry.film
+    with pytest.raises(rf.InputError, match=r"film: PocketGeometry is immutable"):
+        pocket.geometry.film = 1.0
+    with pytest.raises(rf.InputError, match=r"speed: Pocket is immutable"):
+        pocket.speed = 1.0
+    assert pocket.geometry.film == film
 
 
 def test_the_uncertainty_of_flow_factors_covers_the_closed_form_of_ridges(ridges):
@@ -251,6 +353,113 @@ def test_a_stored_result_comes_back_as_it_was(pocket, tmp_path):
     assert np.array_equal(again.fields["pressure"].values, result.fields["pressure"].values)
 
 
+def test_a_result_is_shown_in_about_ten_lines(pocket, tmp_path):
+    result = rf.solve(pocket, model="reynolds")
+    lines = repr(result).splitlines()
+    assert lines[0] == "Result of reynolds on 'pocket' (pocket)"
+    assert len(lines) <= 12
+    assert max(map(len, lines)) <= 100
+    for name in list(result.quantities)[:4]:
+        assert any(line.startswith(f"  {name} ") and str(result.quantities[name]) in line for line in lines)
+    for word in ("fields: position 72", "cost: ", "s CPU", f"warnings: {len(result.warnings)}", "error of the model"):
+        assert word in repr(result)
+    rf.save(result, tmp_path / "result.h5")
+    assert repr(rf.load_result(tmp_path / "result.h5")) == repr(result)
+
+
+def test_a_quantity_is_shown_with_its_uncertainty_and_unit():
+    assert str(rf.Quantity(value=2.414, unit="N", uncertainty=0.13)) == "2.41 ± 0.13 N"
+    assert str(rf.Quantity(value=0.25, unit="1")) == "0.25"
+
+
+def test_what_functions_return_is_shown_without_its_arrays(pocket, ridges):
+    surface = rf.Surface(heights=ridges, spacing=(1e-6, 1e-6))
+    shown = {
+        "surface": surface,
+        "contact": rf.press(surface, modulus=1e9, load=1e5),
+        "advice": rf.advise(pocket, within=0.1),
+        "comparison": rf.compare(pocket, models=["reynolds", "film"]),
+        "sweep": rf.sweep(pocket, {"geometry.depth": ["5 um", "10 um"]}, models=["reynolds"]),
+        "study": rf.load_study(STUDIES / "pocket.toml"),
+        "model": rf.models("pocket")[0],
+        "effects": rf.effects(rf.load_scene(SCENES / "parabolic_slider.toml"), resolution=64),
+        "field": rf.Field(values=ridges, unit="m"),
+    }
+    for name, one in shown.items():
+        assert "\n" not in repr(one), name
+        assert len(repr(one)) < 600, name
+    assert "<array 64×64>" in repr(surface)
+    assert "2 rows of" in repr(shown["sweep"])
+    assert "geometry.depth (m)" in repr(shown["sweep"])
+
+
+def test_the_dataset_of_a_result_has_its_fields_over_named_coordinates(pocket, tmp_path):
+    pytest.importorskip("xarray")
+    result = rf.solve(pocket, model="film_slope")
+    data = result.to_xarray()
+    assert data["pressure"].dims == ("position",)
+    assert data["pressure"].attrs["units"] == "Pa"
+    assert data["position"].attrs["units"] == "m"
+    assert np.array_equal(data["pressure"].values, result.fields["pressure"].values)
+    peak = data["pressure"].idxmax("position").item()
+    assert 0 < peak < pocket.grooves[0].width
+    assert data["cell_velocity"].dims == ("x_cell", "y_cell", "component")
+    middle = data["cell_x"].isel(y_cell=-1).values
+    assert middle == pytest.approx(data["position"].values, abs=1e-9)
+    assert float(data["load_per_area"]) == result["load"].value
+    assert data["load_plus"].attrs["expected_error"] == result.expected_error["load_plus"]
+    assert json.loads(data.attrs["provenance"])["scene"]["name"] == "pocket"
+    data.to_netcdf(tmp_path / "pocket.nc", engine="scipy")
+    assert (tmp_path / "pocket.nc").stat().st_size > data.nbytes
+
+
+def test_the_dataset_of_a_bearing_is_a_grid_along_and_across_the_sliding():
+    pytest.importorskip("xarray")
+    washer = rf.load_scene(SCENES / "washer.toml")
+    result = rf.solve(washer, model="reynolds", resolution=32)
+    data = result.to_xarray()
+    assert data["pressure"].dims == ("x", "y")
+    assert (data["x"].attrs["units"], data["y"].attrs["units"]) == ("rad", "m")
+    inner, outer = washer.geometry.inner_radius, washer.geometry.outer_radius
+    assert (data["y"].values[0], data["y"].values[-1]) == pytest.approx((inner, outer))
+    edge = data["pressure"].sel(y=inner, method="nearest").values
+    assert edge == pytest.approx(np.full(len(data["x"]), washer.boundary.sides.low))
+    assert data["load"].attrs["uncertainty"] == result["load"].uncertainty
+
+
+@pytest.mark.parametrize("name", ["dry_contact.toml", "seal.toml", "random_gap.toml"])
+def test_every_field_and_quantity_of_a_result_is_in_its_dataset(name):
+    pytest.importorskip("xarray")
+    scene = rf.load_scene(SCENES / name)
+    cheapest = min((one for one in rf.models(scene.kind)), key=lambda one: one.cost(scene, one.resolution_of(scene)))
+    result = rf.solve(scene, model=cheapest.name)
+    data = result.to_xarray()
+    assert {*result.fields, *result.quantities} <= {*data.variables}
+
+
+def test_the_table_of_a_sweep_has_a_row_for_every_row(pocket):
+    pytest.importorskip("pandas")
+    rows = rf.sweep(pocket, {"geometry.depth": ["5 um", "10 um"]}, models=["reynolds", "film"])
+    table = rows.to_dataframe()
+    assert len(table) == 4
+    assert table["geometry.depth"].tolist() == [5e-6, 5e-6, 1e-5, 1e-5]
+    assert table.attrs["units"]["geometry.depth"] == "m"
+    loads = table.pivot(index="geometry.depth", columns="model", values="load_per_area")
+    assert loads.loc[1e-5, "film"] == rows[-1]["load_per_area"]
+    assert {"cpu_s", "warnings", "outcome"} <= {*table}
+
+
+@pytest.mark.parametrize("library", ["xarray", "pandas"])
+def test_a_missing_library_is_named_with_its_installation(library, pocket, monkeypatch):
+    monkeypatch.setitem(sys.modules, library, None)
+    made = {
+        "xarray": rf.solve(pocket, model="reynolds").to_xarray,
+        "pandas": rf.sweep(pocket, {"geometry.depth": ["5 um"]}, models=["reynolds"]).to_dataframe,
+    }
+    with pytest.raises(rf.UnavailableError, match=rf"{library}: not installed; .*pip install 'roughfilm\[data\]'"):
+        made[library]()
+
+
 @pytest.mark.openfoam
 def test_a_case_that_was_run_has_a_result_and_a_mesh(pocket, tmp_path):
     case = rf.write_case(pocket, tmp_path / "case", resolution=30)
@@ -277,6 +486,8 @@ def test_an_example_takes_ten_lines_at_most(example):
     ids=lambda path: path.stem,
 )
 def test_an_example_runs_as_it_stands(example, tmp_path):
+    if "to_dataframe" in example.read_text(encoding="utf-8"):
+        pytest.importorskip("pandas")
     (tmp_path / "scripts").symlink_to(ROOT / "scripts")
     done = run(example, cwd=tmp_path)
     assert done.returncode == 0, done.stderr

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from roughfilm.contact.foundation.brief import brief
 from roughfilm.rom.bearing.effects.ablation import EFFECTS, Amount, Variant, at_film, effects_of
 from roughfilm.rom.bearing.effects.contributions import EffectStudy, study_effects
 from roughfilm.rom.bearing.effects.explanation import EffectModel, effect_models
@@ -34,6 +35,8 @@ class EffectAnalysis:
     under_load: EffectStudy | None = None
     loaded_inertia: InertiaAdded | None = None
     thicker: Amount | None = None
+
+    __repr__ = brief
 
     @property
     def left_out(self) -> list[str]:

@@ -8,6 +8,7 @@ from math import exp, inf
 import numpy as np
 import scipy
 
+from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.balance import STEEPNESS, FilmsAtSpeed, balanced
@@ -134,6 +135,8 @@ class StribeckCurve:
     pressure: float
     points: tuple[StribeckPoint, ...]
     lift_off: LiftOff
+
+    __repr__ = brief
 
 
 def stribeck(

@@ -1,0 +1,44 @@
+"""Numbers as text, to the digits that their uncertainty leaves."""
+
+import math
+
+DIGITS = 3
+"""Digits of a value without an uncertainty."""
+
+MIN_UNCERTAINTY = 1e-6
+"""Uncertainties below this fraction of the value are left out."""
+
+POWER_LIMIT = 1e6
+"""From this number on, and below its inverse, powers of ten are written."""
+
+TWO_DIGIT_MANTISSA = 2.0
+"""An uncertainty has two digits below this mantissa, else one."""
+
+
+def with_error(value: float, uncertainty: float | None) -> str:
+    """A value with its uncertainty, to the digits that the uncertainty leaves; "± ?" if the uncertainty is not finite.
+
+    A value without an uncertainty, or with a negligible one, has three digits.
+
+    Examples
+    --------
+    >>> with_error(97.77, 13.2), with_error(0.02142, 0.00034), with_error(5.27, math.inf)
+    ('98 ± 13', '0.0214 ± 0.0003', '5.27 ± ?')
+    """
+    if uncertainty is not None and not math.isfinite(uncertainty):
+        return f"{value:.{DIGITS}g} ± ?"
+    if not uncertainty or not math.isfinite(value) or uncertainty < MIN_UNCERTAINTY * abs(value):
+        return f"{value:.{DIGITS}g}"
+    mantissa, exponent = f"{uncertainty:.1e}".split("e")
+    last = int(exponent) - (float(mantissa) < TWO_DIGIT_MANTISSA)
+    size = max(abs(value), uncertainty)
+    if not 1 / POWER_LIMIT <= size < POWER_LIMIT:
+        power = math.floor(math.log10(size))
+        parts = [_rounded(number / 10.0**power, last - power) for number in (value, uncertainty)]
+        return f"({' ± '.join(parts)})e{power}"
+    return f"{_rounded(value, last)} ± {_rounded(uncertainty, last)}"
+
+
+def _rounded(value: float, last: int) -> str:
+    """A value rounded to 10 to the power of ``last``."""
+    return f"{round(value, -last):.{max(-last, 0)}f}"
