@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.units import in_si
 
 MAX_BYTES = 1_000_000
 """Largest size of a file that is read, bytes."""
@@ -69,7 +70,12 @@ def _not_toml(path: Path, text: str, reason: str, example: str) -> str:
 
 
 def set_entry(
-    entries: dict[str, Any], override: str, example: str, replaces: Mapping[str, Sequence[str]] | None = None
+    entries: dict[str, Any],
+    override: str,
+    example: str,
+    replaces: Mapping[str, Sequence[str]] | None = None,
+    *,
+    in_si_units: bool = False,
 ) -> None:
     """Set one key of nested entries in place, from a text such as ``geometry.depth=22.5um``.
 
@@ -81,6 +87,7 @@ def set_entry(
     override : the assignment, ``dotted.key=value``.
     example : a correct assignment, for messages.
     replaces : by dotted key, the keys of the same table that are removed when it is set.
+    in_si_units : whether a plain number is in SI units, where a number with a unit is asked.
 
     Raises
     ------
@@ -104,7 +111,8 @@ def set_entry(
         raise InputError(f"set {override}: {path[-1]!r} is not a table; write for example {example}")
     for other in (replaces or {}).get(key, ()):
         table.pop(other, None)
-    table[last] = _value(text.strip())
+    value = _value(text.strip())
+    table[last] = in_si(value) if in_si_units else value
 
 
 def _value(text: str) -> object:

@@ -1,6 +1,6 @@
 """Read scenes from TOML files into the class of their kind, and report each fault in one line."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -42,7 +42,7 @@ def load_entries(path: Path) -> dict[str, Any]:
     return entries
 
 
-def load_scene(path: Path, overrides: Iterable[str] = ()) -> Scene:
+def load_scene(path: Path, overrides: Iterable[str] = (), in_si_units: Container[str] = ()) -> Scene:
     """Read a scene file and apply overrides such as ``geometry.depth=22.5um``.
 
     An override of a key may remove other keys of its table: the speed of a pocket replaces its Reynolds number. Names
@@ -52,6 +52,7 @@ def load_scene(path: Path, overrides: Iterable[str] = ()) -> Scene:
     ----------
     path : the TOML file of the scene.
     overrides : texts of the form ``key=value``.
+    in_si_units : keys of overrides whose plain numbers are in SI units; those of others need a unit.
 
     Raises
     ------
@@ -63,8 +64,8 @@ def load_scene(path: Path, overrides: Iterable[str] = ()) -> Scene:
     replaces = kind.replaces if kind else {}
     given: dict[str, tuple[int | str, ...]] = {}
     for override in overrides:
-        set_entry(entries, override, "geometry.depth=22.5um", replaces)
         key = override.partition("=")[0].strip()
+        set_entry(entries, override, "geometry.depth=22.5um", replaces, in_si_units=key in in_si_units)
         table = key.rpartition(".")[0]
         for other in replaces.get(key, ()):
             if (taken := f"{table}.{other}") in given:
@@ -80,7 +81,10 @@ def kind_named(entries: Mapping[str, Any]) -> Kind | None:
 
 
 def read_scene(entries: Mapping[str, Any], file: EntriesFile | None = None) -> Scene:
-    """Make a scene from nested entries as in a TOML file; InputError as in ``load_scene``."""
+    """Make a scene from nested entries as in a TOML file; InputError as in ``load_scene``.
+
+    Numbers that ``in_si`` marks are in SI units; other numbers are dimensionless.
+    """
     kind = kind_named(entries)
     if kind is not None:
         return kind.read(entries, file)

@@ -9,14 +9,27 @@ from roughfilm.rom.parts.solids import Pressure
 
 
 class Liquid(Fluid):
-    """A liquid of constant density, kg/m³, and viscosity, Pa s."""
+    """A liquid of constant density, kg/m³, and viscosity, Pa s.
+
+    Attributes
+    ----------
+    density : density, kg/m³.
+    viscosity : viscosity, Pa s.
+    """
 
     density: Annotated[float, InUnit("kg/m^3")]
     viscosity: Annotated[float, InUnit("Pa*s")]
 
 
 class SealDrive(Part):
-    """A pressure drop, Pa, over a length, m, along x or y of the surface."""
+    """A pressure drop, Pa, over a length, m, along x or y of the surface.
+
+    Attributes
+    ----------
+    pressure_drop : pressure drop over the seal, Pa.
+    length : length of the seal along the flow, m.
+    direction : direction of the flow on the surface, "x" or "y".
+    """
 
     pressure_drop: Pressure
     length: Length

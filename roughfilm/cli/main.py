@@ -29,6 +29,8 @@ COMMANDS = {
     "the film.",
     "export": "Write a gap, a surface or a result as a mesh for other tools: lengths in metres, data named with "
     "their units.",
+    "new": "Print an annotated scene of a kind, with all its keys, to start from.",
+    "schema": "Print the JSON Schema of scene files, with which editors check and complete them.",
     "doctor": "Check Python, OpenFOAM, MPI, rendering and the reader of instrument files; give remedies.",
     "contact": "Press a rough surface against a flat plane: area, gap and pressures by load.",
 }

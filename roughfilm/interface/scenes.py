@@ -21,8 +21,8 @@ def load_scene(path: str | os.PathLike[str], *, set: Mapping[str, object] | None
     Parameters
     ----------
     path : the scene file; paths in it are relative to its directory.
-    set : new values by dotted key, such as ``{"geometry.depth": "22.5 um"}``; quantities are texts with a unit,
-        dimensionless values are numbers. Paths given here are relative to the current directory.
+    set : new values by dotted key, such as ``{"geometry.depth": "22.5 um"}``; a number is in the SI unit of its key.
+        Paths given here are relative to the current directory.
 
     Returns
     -------
@@ -45,7 +45,8 @@ def load_scene(path: str | os.PathLike[str], *, set: Mapping[str, object] | None
         raise InputError(f"path: got {type(path).__name__}; name a scene file, or give a dict to read_scene")
     if not isinstance(set, Mapping | None):
         raise InputError(f"set: got {set!r:.60}; give a dict such as {{'geometry.depth': '22.5 um'}}")
-    return scenes.load_scene(Path(path), [f"{key}={_text(value)}" for key, value in (set or {}).items()])
+    numbers = [key for key, value in (set or {}).items() if not isinstance(value, str)]
+    return scenes.load_scene(Path(path), [f"{key}={_text(value)}" for key, value in (set or {}).items()], numbers)
 
 
 def read_scene(entries: Mapping[str, Any]) -> Scene:
