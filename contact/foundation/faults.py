@@ -74,8 +74,11 @@ def faults_of(
     unknown : unknown(location), the remedy for an unknown key at a location in the model, and the key it means.
     locate : locate(location), the location in the file that belongs to a location in the model.
     """
-    given = sorted(error.errors(include_url=False), key=lambda fault: fault["type"] != "extra_forbidden")
-    faults = [_fault(dict(one), unknown, tuple(locate(one["loc"]))) for one in given]
+    given: list[Mapping[str, Any]] = sorted(
+        map(dict, error.errors(include_url=False)), key=lambda fault: fault["type"] != "extra_forbidden"
+    )
+    given = [part for one in given for part in _parts(one)]
+    faults = [_fault(one, unknown, tuple(locate(one["loc"]))) for one in given]
     meant = {(*fault.location[:-1], fault.replaced) for fault in faults if fault.replaced}
     missing = [one["type"] == "missing" for one in given]
     kept: dict[tuple[Any, ...], Fault] = {}
@@ -83,6 +86,13 @@ def faults_of(
         if not (gone and fault.location in meant):
             kept.setdefault(_same(fault, one["loc"]), fault)
     return list(kept.values())
+
+
+def _parts(given: Mapping[str, Any]) -> list[Mapping[str, Any]]:
+    """The fault, or one for each line of its reason."""
+    if given["type"] != "value_error":
+        return [given]
+    return [{**given, "ctx": {"error": line}} for line in str(given["ctx"]["error"]).splitlines()]
 
 
 def _same(fault: Fault, path: Location) -> tuple[Any, ...]:
@@ -112,6 +122,8 @@ def _fault(given: Mapping[str, Any], unknown: Callable[[Location], tuple[str, st
         case "union_tag_not_found":
             inner = (str(given["ctx"]["discriminator"]).strip("'"),)
             text = "missing; add it"
+        case "int_type" | "bool_type" if isinstance(given["input"], str):
+            text = f"got {got}; write it without quotes"
         case "tuple_type":
             text = f"got {got}; write a list in brackets"
         case "model_type" | "model_attributes_type" | "dict_type":
@@ -147,12 +159,6 @@ def _place(location: Location, root: str, file: EntriesFile | None, line: int | 
         return ".".join([root, *map(str, location)])
     place = str(file.path) if line is None else f"{file.path}:{line}"
     return ": ".join([place, *filter(None, [".".join(map(str, location))])])
-
-
-def in_one_line(faults: Sequence[Fault], root: str) -> str:
-    """The first fault as ``root.key: got value; remedy``, and how many others there are."""
-    others = len(faults) - 1
-    return in_lines(faults[:1], root) + (f" (and {others} more error{'s' if others > 1 else ''})" if others else "")
 
 
 def known_keys(model: type[BaseModel], path: Location) -> list[str]:

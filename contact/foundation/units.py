@@ -33,6 +33,7 @@ _SPELLINGS = (
     (re.compile("¹"), "1"),
     (re.compile("²"), "2"),
     (re.compile("³"), "3"),
+    (re.compile("^U/min$"), "rpm"),
     (re.compile(r"(?<=[A-Za-z])(-?\d)(?!\d)"), r"^\1"),
     (re.compile(r"(?<=[A-Za-z\d])\.(?=[A-Za-z])"), "*"),
     (re.compile(r"^1 ?/"), "/"),
@@ -82,7 +83,7 @@ _CELSIUS, _ZERO_CELSIUS = "degC", 273.15
 _MEANINGS: Mapping[str, tuple[str, tuple[str, ...]]] = {
     "m": ("a length", ("um", "mm", "m", "nm", "cm", "km", "in", "mil")),
     "Pa": ("a pressure", ("MPa", "kPa", "Pa", "GPa", "bar", "psi", "ksi", "N/mm^2")),
-    "Pa*s": ("a viscosity", ("mPa*s", "Pa*s", "cP", "mPas")),
+    "Pa*s": ("a viscosity", ("mPa*s", "Pa*s", "cP", "mPas", "cSt")),
     "kg/m^3": ("a density", ("kg/m^3", "g/cm^3")),
     "m/s": ("a speed", ("m/s", "mm/s", "km/h", "rpm")),
     "rad": ("an angle", ("deg", "rad")),

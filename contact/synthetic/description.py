@@ -8,7 +8,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, TypeAdapter,
 
 from roughfilm.contact.foundation.entries import Angle, Coordinate, Length, Part, PositiveNumber, plain_number
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.foundation.faults import faults_of, in_one_line, unknown_key
+from roughfilm.contact.foundation.faults import faults_of, in_lines, unknown_key
 from roughfilm.contact.foundation.line_numbers import Location
 from roughfilm.contact.foundation.toml import read_toml
 from roughfilm.contact.surfaces.surface import Surface
@@ -25,7 +25,7 @@ from roughfilm.contact.synthetic.waves import Amplitudes
 
 def _whole(value: object) -> object:
     if isinstance(value, bool) or not isinstance(value, int):
-        raise ValueError(f"got {value!r}; write a whole number")
+        raise ValueError(f"got {value!r}; write a whole number, without quotes")
     return value
 
 
@@ -34,19 +34,45 @@ Number = Annotated[float, BeforeValidator(plain_number)]
 
 
 class HeightDistribution(Part):
-    """Skewness Ssk of the heights, see ``roughfilm.contact.synthetic.distribution.with_skewness``."""
+    """Skewness Ssk of the heights, see ``roughfilm.contact.synthetic.distribution.with_skewness``.
+
+    Attributes
+    ----------
+    skewness : skewness Ssk of the heights.
+    """
 
     skewness: Number
 
 
 class _Described(Part):
+    """The entries of every description.
+
+    Attributes
+    ----------
+    kind : kind of the surface.
+    size : lengths of the period along x and y, m.
+    points : numbers of points along x and y.
+    """
+
     kind: str
     size: tuple[Length, Length]
     points: tuple[Whole, Whole]
 
 
 class SelfAffine(_Described):
-    """Arguments of ``roughfilm.contact.synthetic.self_affine``."""
+    """A self-affine surface, see ``roughfilm.contact.synthetic.self_affine``.
+
+    Attributes
+    ----------
+    seed : seed of the random numbers.
+    hurst : Hurst exponent.
+    roll_off : wavelength above which the spectrum is flat, m.
+    cut_off : shortest wavelength, m.
+    rms_height : rms height, m; or give rms_slope.
+    rms_slope : rms slope, in place of rms_height.
+    amplitudes : "fixed" or "random" amplitudes of the waves.
+    height_distribution : skewness of the heights; without it they are Gaussian.
+    """
 
     kind: Literal["self_affine"]
     seed: Whole
@@ -60,7 +86,19 @@ class SelfAffine(_Described):
 
 
 class Gaussian(_Described):
-    """Arguments of ``roughfilm.contact.synthetic.gaussian``."""
+    """A surface with a Gaussian or exponential autocorrelation, see ``roughfilm.contact.synthetic.gaussian``.
+
+    Attributes
+    ----------
+    seed : seed of the random numbers.
+    rms_height : rms height, m.
+    correlation_length : correlation length, m.
+    anisotropy : ratio of the correlation lengths along and across the lay.
+    lay_angle : angle of the lay, rad.
+    autocorrelation : shape of the autocorrelation.
+    amplitudes : "fixed" or "random" amplitudes of the waves.
+    height_distribution : skewness of the heights; without it they are Gaussian.
+    """
 
     kind: Literal["gaussian"]
     seed: Whole
@@ -74,7 +112,15 @@ class Gaussian(_Described):
 
 
 class Sinusoid(_Described):
-    """Arguments of ``roughfilm.contact.synthetic.sinusoids``."""
+    """Waves along x and y, see ``roughfilm.contact.synthetic.sinusoids``.
+
+    Attributes
+    ----------
+    amplitude : amplitude, m.
+    wavelength_x : wavelength along x, m; without it constant along x.
+    wavelength_y : wavelength along y, m; without it constant along y.
+    combination : product or sum of the waves along x and y.
+    """
 
     kind: Literal["sinusoid"]
     amplitude: Length
@@ -84,7 +130,15 @@ class Sinusoid(_Described):
 
 
 class CrossHatch(_Described):
-    """Arguments of ``roughfilm.contact.synthetic.cross_hatch``."""
+    """A cross-hatched surface, see ``roughfilm.contact.synthetic.cross_hatch``.
+
+    Attributes
+    ----------
+    spacing : distance of the grooves, m.
+    half_angle : angle between the grooves and the x axis, rad.
+    depth : depth of a groove, m.
+    width : width of a groove, m.
+    """
 
     kind: Literal["cross_hatch"]
     spacing: Length
@@ -94,7 +148,16 @@ class CrossHatch(_Described):
 
 
 class Milled(_Described):
-    """Arguments of ``roughfilm.contact.synthetic.milled``."""
+    """A milled surface, see ``roughfilm.contact.synthetic.milled``.
+
+    Attributes
+    ----------
+    radius : radius of the circle of the cutting edge, m.
+    feed : feed per revolution, m.
+    depth : depth from arc to cusp, m.
+    offset : distance of the centre from the middle of the width, m.
+    back_lift : height of the back of the mill above its front, m; 0 for equal crossing marks.
+    """
 
     kind: Literal["milled"]
     radius: Length
@@ -105,7 +168,19 @@ class Milled(_Described):
 
 
 class PlateauHoned(_Described):
-    """Arguments of ``roughfilm.contact.synthetic.plateau_honed``."""
+    """A plateau-honed surface, see ``roughfilm.contact.synthetic.plateau_honed``.
+
+    Attributes
+    ----------
+    seed : seed of the random numbers.
+    plateau_rms_height : rms height of the plateaus, m.
+    plateau_correlation_length : correlation length of the plateaus, m.
+    valley_rms_height : rms height of the valleys, m.
+    valley_correlation_length : correlation length of the valleys, m.
+    material_ratio : material ratio at which plateaus and valleys meet.
+    valley_anisotropy : ratio of the lengths of the valleys along and across.
+    half_angle : angle between the valleys and the x axis, rad.
+    """
 
     kind: Literal["plateau_honed"]
     seed: Whole
@@ -165,7 +240,7 @@ def read_entries(entries: Mapping[str, Any]) -> Description:
             known = HeightDistribution.model_fields if table else KINDS[entries["kind"]][0].model_fields
             return unknown_key(key, known)
 
-        raise InputError(in_one_line(faults_of(error, unknown, lambda location: location[1:]), "surface")) from None
+        raise InputError(in_lines(faults_of(error, unknown, lambda location: location[1:]), "surface")) from None
 
 
 def description_entries(description: Description) -> dict[str, Any]:

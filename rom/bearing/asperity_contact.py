@@ -21,8 +21,8 @@ class AsperityContact(Part):
     Attributes
     ----------
     friction : coefficient of boundary friction where asperities touch.
-    solid : solid of the rough wall, elastic if it has no hardness; None with a stored table, which has its own solids.
-    counter : solid of the smooth wall; None if that wall is rigid.
+    solid : solid of the rough wall, elastic if it has no hardness; left out with a stored table, which has its own.
+    counter : solid of the smooth wall; without it that wall is rigid.
     """
 
     friction: Annotated[float, BeforeValidator(_friction_coefficient)] = 0.1

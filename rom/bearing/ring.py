@@ -31,6 +31,12 @@ class Ring(Part):
     """One of the equal pieces of a film between two radii, m; ``film`` is its minimum thickness, m.
 
     Loads, friction and flows refer to one piece; those of the whole bearing are ``pieces`` times as large.
+
+    Attributes
+    ----------
+    inner_radius : inner radius, m.
+    outer_radius : outer radius, m.
+    film : minimum film thickness, m.
     """
 
     inner_radius: Length
@@ -194,6 +200,11 @@ class Washer(Ring):
     """One of the equal cells of a thrust washer, each with a pocket in a flat land.
 
     The source gives only a picture and the depth of its pocket (Sahlin 2008, E.4.3, Fig. E.24).
+
+    Attributes
+    ----------
+    pockets : number of equal cells of the washer.
+    pocket : the pocket of each cell; without it the washer is flat.
     """
 
     shape: Literal["washer"]

@@ -39,6 +39,13 @@ class Sinusoid(Part):
     """Ridges: h = h₀ + amplitude sin(2π (x cos β + y sin β)/wavelength + phase), β the ``direction``.
 
     x runs along the bearing from its inlet and y across, whichever way the wall slides; ridges with β = 0 run across.
+
+    Attributes
+    ----------
+    amplitude : amplitude of the ridges, m.
+    wavelength : distance of the ridges, m.
+    direction : angle β of the wave vector from x towards y, rad; 0 for ridges across the sliding.
+    phase : phase at the inlet, rad.
     """
 
     kind: Literal["sinusoid"]

@@ -42,9 +42,10 @@ class BearingLubricant(Fluid):
     Attributes
     ----------
     viscosity : viscosity at cavitation pressure, Pa s.
-    density : density, kg/m³, needed only to estimate the effect of inertia, which no model of a bearing includes.
+    density : density, kg/m³, needed only for the effect of inertia and for a kinematic viscosity.
     cavitation_pressure : cavitation pressure above ambient, Pa.
-    compressibility, piezoviscosity : laws of density and viscosity over pressure.
+    compressibility : law of the density over pressure.
+    piezoviscosity : law of the viscosity over pressure.
     """
 
     viscosity: Viscosity
@@ -62,6 +63,10 @@ class BearingMotion(Part):
     """The speed of the flat wall, m/s, on a ring at the mean radius; negative if the wall slides towards the inlet.
 
     In the file of a journal, a sector or a washer it may be a rotational speed, such as "3000 rpm".
+
+    Attributes
+    ----------
+    speed : sliding speed, m/s; of a journal, a sector or a washer also a rotational speed, "3000 rpm".
     """
 
     speed: Speed
@@ -71,6 +76,11 @@ class Inlet(Part):
     """The pressure above ambient, Pa, or the density ratio θ at the inlet; ambient pressure by default.
 
     θ < 1 is starved, θ = 1 flooded at cavitation pressure, and θ > 1 pressurised by the law of compressibility.
+
+    Attributes
+    ----------
+    theta : density ratio at the inlet; below 1 starved, 1 flooded, above 1 pressurised.
+    pressure : pressure at the inlet above ambient, Pa, in place of theta.
     """
 
     theta: PositiveNumber | None = None
@@ -84,13 +94,24 @@ class Inlet(Part):
 
 
 class Outlet(Part):
-    """The pressure at the outlet above ambient, Pa; by default ambient, in a journal bearing that of the inlet."""
+    """The pressure at the outlet above ambient, Pa; by default ambient, in a journal bearing that of the inlet.
+
+    Attributes
+    ----------
+    pressure : pressure at the outlet above ambient, Pa.
+    """
 
     pressure: GaugePressure = 0.0
 
 
 class Sides(Part):
-    """The pressures above ambient, Pa, at y = 0 or the inner radius, and at y = width or the outer radius."""
+    """The pressures above ambient, Pa, at y = 0 or the inner radius, and at y = width or the outer radius.
+
+    Attributes
+    ----------
+    low : pressure above ambient at y = 0 or the inner radius, Pa.
+    high : pressure above ambient at y = width or the outer radius, Pa.
+    """
 
     low: GaugePressure = 0.0
     high: GaugePressure = 0.0

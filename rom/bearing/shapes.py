@@ -37,7 +37,12 @@ class Parallel(Pad):
 
 
 class Linear(Pad):
-    """A film that narrows linearly from film + rise at the inlet to film at the outlet."""
+    """A film that narrows linearly from film + rise at the inlet to film at the outlet.
+
+    Attributes
+    ----------
+    rise : film thickness at the inlet minus that at the outlet, m.
+    """
 
     shape: Literal["linear"]
     rise: Length
@@ -48,7 +53,13 @@ class Linear(Pad):
 
 
 class Step(Pad):
-    """Rayleigh's step bearing: h = film + rise up to the distance ``step`` from the inlet, m, and film behind it."""
+    """Rayleigh's step bearing: h = film + rise up to the distance ``step`` from the inlet, m, and film behind it.
+
+    Attributes
+    ----------
+    rise : height of the step, m.
+    step : distance of the step from the inlet, m.
+    """
 
     shape: Literal["step"]
     rise: Length
@@ -70,7 +81,13 @@ class Step(Pad):
 
 
 class Parabolic(Pad):
-    """A row of ``count`` equal parabolas, each with h = film + rise at its ends and film in its middle."""
+    """A row of ``count`` equal parabolas, each with h = film + rise at its ends and film in its middle.
+
+    Attributes
+    ----------
+    rise : film thickness at the ends of a parabola minus that in its middle, m.
+    count : number of parabolas.
+    """
 
     shape: Literal["parabolic"]
     rise: Length
@@ -93,7 +110,14 @@ class Parabolic(Pad):
 
 
 class Wavy(Pad):
-    """A parallel film with waves from the inlet up to ``extent``, m; by default half of the length."""
+    """A parallel film with waves from the inlet up to ``extent``, m; by default half of the length.
+
+    Attributes
+    ----------
+    amplitude : amplitude of the waves, m.
+    wavelength : length of a wave, m.
+    extent : distance from the inlet at which the waves end, m; by default half of the length.
+    """
 
     amplitude: Length
     wavelength: Length
@@ -154,7 +178,16 @@ class SquaredCosineInlet(Wavy):
 
 
 class Journal(Part):
-    """A full journal bearing, unrolled from the widest place: h = clearance (1 + eccentricity cos φ), x = R φ."""
+    """A full journal bearing, unrolled from the widest place: h = clearance (1 + eccentricity cos φ), x = R φ.
+
+    Attributes
+    ----------
+    radius : radius of the shaft, m.
+    clearance : radial clearance, m.
+    eccentricity : distance of the axes over the clearance, 0 to 1.
+    width : width along the axis, m; without it infinitely wide.
+    texture : pockets in the still wall.
+    """
 
     shape: Literal["journal"]
     radius: Length

@@ -20,13 +20,16 @@ class Texture(Part):
 
     Attributes
     ----------
-    profile : "box" has a flat floor, "cylindrical" a parabolic floor along the sliding direction, "ellipsoidal" a floor
-        that is parabolic in both directions over an elliptical outline.
-    length, depth : length along the sliding direction and depth of one pocket, m.
-    width : width of one pocket, m; None for grooves over the whole width.
+    profile : "box" has a flat floor, "cylindrical" a parabola along the sliding direction, "ellipsoidal" one in both
+        directions over an elliptical outline.
+    length : length of one pocket along the sliding direction, m.
+    depth : depth of one pocket, m.
+    width : width of one pocket, m; without it grooves over the whole width.
     start : position where the first column begins, m.
-    pitch, columns : distance of the columns from centre to centre, m, and their number along the sliding direction.
-    pitch_across, rows : distance of the rows from centre to centre, m, and their number across.
+    pitch : distance of the columns from centre to centre, m.
+    columns : number of columns along the sliding direction.
+    pitch_across : distance of the rows from centre to centre, m.
+    rows : number of rows across.
     """
 
     profile: Literal["box", "cylindrical", "ellipsoidal"] = "cylindrical"

@@ -173,9 +173,6 @@ class Kind:
         ordered = dict.fromkeys((*first, *self.reported, *names))
         return {name: self.reported.get(name, name) for name in ordered if name in names and name not in whole}
 
-    def read(self, entries: Mapping[str, Any]) -> Scene:
-        """Make a scene of this kind from nested entries; InputError in one line for the first fault."""
-
     def read(self, entries: Mapping[str, Any], file: EntriesFile | None = None) -> Scene:
         """Make a scene of this kind from nested entries of a file; InputError with a line for each fault."""
         try:

@@ -31,7 +31,12 @@ class Incompressible(LubricantLaw):
 
 
 class ConstantBulkModulus(LubricantLaw):
-    """The law p = β ln θ, for pressures below about β/10, Pa. Source: Vijayaraghavan and Keith 1989."""
+    """The law p = β ln θ, for pressures below about β/10, Pa. Source: Vijayaraghavan and Keith 1989.
+
+    Attributes
+    ----------
+    bulk_modulus : bulk modulus β, Pa.
+    """
 
     law: Literal["constant_bulk_modulus"]
     bulk_modulus: Pressure
@@ -55,6 +60,11 @@ class DowsonHigginson(LubricantLaw):
     """The law θ = (C1 + C2 p)/(C1 + p), C1 in Pa; the default is Dowson and Higginson's mineral oil (1966).
 
     Another oil has C1 = 2.22 GPa and C2 = 1.66 (Sahlin 2008, Paper B).
+
+    Attributes
+    ----------
+    c1 : constant C1, Pa.
+    c2 : constant C2, the density ratio at high pressure.
     """
 
     law: Literal["dowson_higginson"]

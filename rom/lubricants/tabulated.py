@@ -57,6 +57,11 @@ class Tabulated(LubricantLaw):
 
     ``table`` names a CSV file (``pressure (MPa), density (kg/m^3)``) of pressures above cavitation pressure. Source:
     Fritsch and Carlson 1980, doi:10.1137/0717021.
+
+    Attributes
+    ----------
+    table : rows [pressure in Pa, density], or the name of a CSV file.
+    fit : the law that is fitted to the points.
     """
 
     law: Literal["tabulated"]

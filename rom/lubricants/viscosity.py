@@ -27,7 +27,12 @@ class ConstantViscosity(LubricantLaw):
 
 
 class Barus(LubricantLaw):
-    """The law η = η0 exp(α p), α in 1/Pa, for pressures below about 0.1 GPa. Source: Barus 1893."""
+    """The law η = η0 exp(α p), α in 1/Pa, for pressures below about 0.1 GPa. Source: Barus 1893.
+
+    Attributes
+    ----------
+    pressure_coefficient : coefficient α, 1/Pa.
+    """
 
     law: Literal["barus"]
     pressure_coefficient: PressureCoefficient
@@ -44,7 +49,12 @@ class Barus(LubricantLaw):
 
 
 class Roelands(LubricantLaw):
-    """The law η = η0 exp((ln η0 + 9.67) ((1 + p/0.196 GPa)^Z - 1)), η0 in Pa s, to 1 GPa. Source: Roelands 1966."""
+    """The law η = η0 exp((ln η0 + 9.67) ((1 + p/0.196 GPa)^Z - 1)), η0 in Pa s, to 1 GPa. Source: Roelands 1966.
+
+    Attributes
+    ----------
+    index : index Z, 0.4 to 0.8 for mineral oils.
+    """
 
     law: Literal["roelands"]
     index: PositiveNumber

@@ -20,7 +20,12 @@ COARSENING_RATIOS = (8, 4, 2, 1)
 
 
 class Load(Part):
-    """The mean pressure on the nominal area, Pa."""
+    """The mean pressure on the nominal area, Pa.
+
+    Attributes
+    ----------
+    pressure : mean pressure on the nominal area, Pa.
+    """
 
     pressure: Pressure
 

@@ -18,7 +18,13 @@ def _ratio(value: float) -> float:
 
 
 class Counter(Part):
-    """An elastic body with Young's modulus, Pa, and Poisson's ratio."""
+    """An elastic body with Young's modulus, Pa, and Poisson's ratio.
+
+    Attributes
+    ----------
+    modulus : Young's modulus, Pa.
+    poisson : Poisson's ratio, 0 to 0.5.
+    """
 
     modulus: Pressure
     poisson: Annotated[float, BeforeValidator(plain_number), AfterValidator(_ratio)]
@@ -30,7 +36,12 @@ class Counter(Part):
 
 
 class RoughBody(Counter):
-    """The rough body, plastic where the pressure reaches its hardness, Pa, and elastic without one."""
+    """The rough body, plastic where the pressure reaches its hardness, Pa, and elastic without one.
+
+    Attributes
+    ----------
+    hardness : pressure at which the body yields, Pa; without it the body is elastic.
+    """
 
     hardness: Pressure | None = None
 

@@ -31,12 +31,15 @@ def _described(value: object) -> object:
         try:
             return description_entries(read_description(Path(value).expanduser()))
         except InputError as error:
-            raise ValueError(f"in {value}: {error}") from None
+            raise ValueError("\n".join(f"in {value}: {line}" for line in str(error).splitlines())) from None
     if isinstance(value, dict):
         try:
             return description_entries(read_entries(value))
         except InputError as error:
-            raise ValueError(str(error).removeprefix("surface.").removeprefix("surface: ")) from None
+            lines = str(error).splitlines()
+            raise ValueError(
+                "\n".join(one.removeprefix("surface.").removeprefix("surface: ") for one in lines)
+            ) from None
     raise ValueError(f"got {value!r:.60}; name a file of heights, or write a table that describes a surface")
 
 
@@ -46,6 +49,12 @@ class SurfaceGeometry(Part):
     ``surface`` names a file of heights (HDF5 of roughfilm, NPY or CSV) or describes a synthetic surface; the
     description may be a TOML file. ``spacing`` is a length, or two along x and y, for files without it. ``digest`` is
     that of the heights in the file, so that a saved scene is not read with a changed surface.
+
+    Attributes
+    ----------
+    surface : name of a file of heights, or a table that describes a synthetic surface.
+    spacing : distance of the points, m, one or two along x and y; for files without it.
+    digest : digest of the heights in the file; a file that has changed since is rejected.
     """
 
     surface: Annotated[str | dict[str, Any], BeforeValidator(_described)]

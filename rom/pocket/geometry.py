@@ -22,13 +22,24 @@ MAX_GROOVES = 100
 
 
 class _Placed(Part):
-    """A groove at ``position``, m from the middle of the period."""
+    """A groove at ``position``, m from the middle of the period.
+
+    Attributes
+    ----------
+    position : distance of the middle of the groove from the middle of the period, m.
+    """
 
     position: Coordinate = 0.0
 
 
 class _Drawn(_Placed):
-    """A groove of given width and depth, m, with its middle at ``position``."""
+    """A groove of given width and depth, m, with its middle at ``position``.
+
+    Attributes
+    ----------
+    width : width along the sliding direction, m.
+    depth : greatest depth, m.
+    """
 
     width: Length
     depth: Length
@@ -45,7 +56,12 @@ class _Drawn(_Placed):
 
 
 class Cylindrical(_Drawn):
-    """A groove that is a circular arc through both edges."""
+    """A groove that is a circular arc through both edges.
+
+    Attributes
+    ----------
+    profile : "cylindrical", "splined" or "points".
+    """
 
     profile: Literal["cylindrical"]
 
@@ -64,7 +80,13 @@ class Cylindrical(_Drawn):
 
 
 class Splined(_Drawn):
-    """A groove of two cubics with zero slope at the edges and at the lowest point, ``shift`` ahead of the middle, m."""
+    """A groove of two cubics with zero slope at the edges and at the lowest point, ``shift`` ahead of the middle, m.
+
+    Attributes
+    ----------
+    profile : "cylindrical", "splined" or "points".
+    shift : distance of the lowest point from the middle, in the sliding direction, m.
+    """
 
     profile: Literal["splined"]
     shift: Coordinate = 0.0
@@ -89,7 +111,14 @@ class Splined(_Drawn):
 
 
 class Through(_Placed):
-    """A groove through points (distance from ``position``, depth), m, joined by straight lines or monotone cubics."""
+    """A groove through points (distance from ``position``, depth), m, joined by straight lines or monotone cubics.
+
+    Attributes
+    ----------
+    profile : "cylindrical", "splined" or "points".
+    interpolation : "linear" joins the points by straight lines, "monotone" by cubics.
+    points : rows [distance from position, depth], m, or the name of a CSV or NPY file.
+    """
 
     profile: Literal["points"]
     interpolation: Literal["linear", "monotone"] = "linear"
@@ -131,6 +160,12 @@ class PocketGeometry(Part):
     """One period of a channel whose fixed lower wall has grooves; lengths in m.
 
     The keys of a single groove may stand beside ``length`` and ``film``; they are then written there too.
+
+    Attributes
+    ----------
+    length : length of one period along the sliding direction, m.
+    film : film thickness outside the grooves, m.
+    grooves : the grooves, a table each.
     """
 
     length: Length

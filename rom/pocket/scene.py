@@ -22,8 +22,8 @@ class NewtonianLubricant(Fluid):
 
     Attributes
     ----------
-    viscosity : Pa s.
-    density : kg/m³.
+    viscosity : viscosity, Pa s.
+    density : density, kg/m³.
     cavitation_pressure : cavitation pressure above ambient, Pa, at most 0; by default zero absolute pressure.
     """
 
@@ -33,7 +33,13 @@ class NewtonianLubricant(Fluid):
 
 
 class PocketMotion(Part):
-    """The speed of the upper wall, m/s, or the Reynolds number from which it follows."""
+    """The speed of the upper wall, m/s, or the Reynolds number from which it follows.
+
+    Attributes
+    ----------
+    speed : sliding speed of the upper wall, m/s.
+    reynolds_number : Re = ρ u film/η, in place of the speed.
+    """
 
     speed: Speed | None = None
     reynolds_number: PositiveNumber | None = None

@@ -30,6 +30,11 @@ class RoughWall(SurfaceGeometry):
     """A periodic wall: a surface, or ``"sinusoid"`` with ``amplitude`` a and ``wavelength`` λ.
 
     The sinusoid is a cos(2π x/λ), one wave long, with ridges along y.
+
+    Attributes
+    ----------
+    amplitude : amplitude of a sinusoid, m.
+    wavelength : wavelength of a sinusoid, m.
     """
 
     amplitude: Length | None = None
@@ -83,6 +88,11 @@ class GapGeometry(RoughWall):
 
     Without ``mean_gap`` a load determines the gap. ``upper`` has the same period as the lower wall, and its heights are
     positive upward too; without it the upper wall is flat.
+
+    Attributes
+    ----------
+    mean_gap : distance of the mean planes, m; leave it out where a load presses the walls.
+    upper : the other wall; without it that wall is flat.
     """
 
     mean_gap: Length | None = None

@@ -46,6 +46,11 @@ class GapDrive(Part):
     """The mean pressure gradient G, Pa/m, or the Reynolds number from which it follows.
 
     Re = ρ q/η with the flow per width q = h̄³G/(12η) of a smooth gap with the thickness of the mean gap.
+
+    Attributes
+    ----------
+    pressure_gradient : mean pressure gradient, Pa/m.
+    reynolds_number : Re = ρ q/η of the smooth gap, in place of the gradient.
     """
 
     pressure_gradient: Annotated[float, InUnit("Pa/m")] | None = None
@@ -63,6 +68,11 @@ class GapMesh(Part):
     """The number of cells across the gap (by default a quarter of the columns), and the smallest open gap, m.
 
     In every model walls nearer than ``smallest_gap`` are in contact; the default is 0.01 of the mean gap.
+
+    Attributes
+    ----------
+    layers : number of cells across the gap in OpenFOAM; by default a quarter of the columns.
+    smallest_gap : gap below which the walls are in contact, m; by default 0.01 of the mean gap.
     """
 
     layers: Annotated[int, BeforeValidator(_layers), AfterValidator(_in_range)] | None = None

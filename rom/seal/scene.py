@@ -9,7 +9,13 @@ from roughfilm.rom.parts.solids import Pressure
 
 
 class Liquid(Fluid):
-    """A liquid of constant density, kg/m³, and viscosity, Pa s."""
+    """A liquid of constant density, kg/m³, and viscosity, Pa s.
+
+    Attributes
+    ----------
+    density : density, kg/m³.
+    viscosity : viscosity, Pa s.
+    """
 
     density: Annotated[float, InUnit("kg/m^3")]
     viscosity: Annotated[float, InUnit("Pa*s")]
@@ -18,8 +24,13 @@ class Liquid(Fluid):
 class SealDrive(Part):
     """A pressure drop, Pa, over a length, m, along x or y of the surface.
 
-    ``width`` is the width of the seal across the flow, m, such as the circumference of a ring; None if it is unknown,
-    and the leakage of the whole seal with it.
+    Attributes
+    ----------
+    pressure_drop : pressure drop over the seal, Pa.
+    length : length of the seal along the flow, m.
+    direction : direction of the flow on the surface, "x" or "y".
+    width : width of the seal across the flow, m, such as the circumference of a ring; None if it is unknown, and the
+        leakage of the whole seal with it.
     """
 
     pressure_drop: Pressure

@@ -11,6 +11,7 @@ from roughfilm.terminal.console import HELP_MODE, help_below, in_one_line, launc
 
 GROUPS = {
     "First steps": {
+        "new": "Print an annotated scene of a kind, with all its keys, to start from.",
         "models": "List the models of each kind of scene: what each keeps, its cost, and whether it can run here.",
         "advise": "Choose the cheapest model and resolution that are accurate enough, with their expected error and "
         "cost.",
@@ -40,6 +41,7 @@ GROUPS = {
         "their units.",
     },
     "Upkeep": {
+        "schema": "Print the JSON Schema of scene files, with which editors check and complete them.",
         "cache": "Show the tables of surfaces that are kept for later runs, or remove them.",
         "doctor": "Check Python, OpenFOAM, MPI, rendering and the reader of instrument files; give remedies.",
         "charts": "Chart CPU time against error for every model and resolution: charts.html, .json, .csv, .png and an "

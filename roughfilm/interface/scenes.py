@@ -73,7 +73,7 @@ def read_scene(entries: Mapping[str, Any]) -> Scene:
     >>> scene = rf.read_scene({
     ...     "name": "groove", "kind": "pocket",
     ...     "geometry": {
-    ...         "length": "1 mm", "film": 30e-6, "profile": "cylindrical", "width": "0.3 mm", "depth": "9 um"},
+    ...         "length": "1 mm", "film": "30 um", "profile": "cylindrical", "width": "0.3 mm", "depth": "9 um"},
     ...     "lubricant": {"viscosity": "0.01 Pa*s", "density": "1000 kg/m^3"},
     ...     "motion": {"reynolds_number": 40},
     ... })

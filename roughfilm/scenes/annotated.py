@@ -1,0 +1,152 @@
+"""Annotated scenes: every key of a kind with its meaning, its unit and its default, ready to be solved."""
+
+import textwrap
+import tomllib
+from collections.abc import Iterator, Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.toml import toml_value
+from roughfilm.rom.ladder.kind import kind_of_name
+from roughfilm.scenes.json_schema import UNIT, schema_of
+
+Node = Mapping[str, Any]
+"""A part of a JSON Schema."""
+
+COLUMN, WIDTH = 31, 116
+"""The column of the comments, and the longest line."""
+
+EXAMPLES = Path(__file__).with_name("examples.toml")
+
+
+@cache
+def _examples() -> dict[str, Any]:
+    return tomllib.loads(EXAMPLES.read_text(encoding="utf-8"))
+
+
+def variants() -> Mapping[str, tuple[str, ...]]:
+    """The variants of each kind for which there is an annotated scene; the first is the default.
+
+    Examples
+    --------
+    >>> variants()["rough_gap"]
+    ('sinusoid', 'self_affine')
+    """
+    return {kind: tuple(named) for kind, named in _examples().items() if kind != "optional"}
+
+
+def annotated_scene(kind: str, variant: str | None = None) -> str:
+    """The text of a scene file with all keys of a kind; those that may be left out are comments.
+
+    Parameters
+    ----------
+    kind : name of the kind of scene.
+    variant : shape of a bearing, profile of a pocket or kind of a surface; None for the default.
+
+    Raises
+    ------
+    InputError
+        If there is no such kind or variant.
+
+    Examples
+    --------
+    >>> print(annotated_scene("pocket").splitlines()[6])
+    length = "1 mm"                 # length of one period along the sliding direction, m
+    """
+    known = variants()
+    if kind not in known:
+        raise InputError(f"kind: got {kind!r:.60}; it must be one of {', '.join(known)}")
+    chosen = known[kind][0] if variant is None else variant
+    if chosen not in known[kind]:
+        raise InputError(
+            f"kind: got {f'{kind}/{chosen}'!r:.60}; it must be {kind}/ and one of {', '.join(known[kind])}"
+        )
+    schema = schema_of(kind)
+    example = {"name": f"{kind} {chosen}".replace("_", " "), "kind": kind, **_examples()[kind][chosen]}
+    others = [f"{kind}/{other}" for other in known[kind] if other != chosen]
+    head = f"{kind_of_name(kind).summary}. Lines behind # may be left out"
+    lines = [
+        *_wrapped("", f"{head[0].upper()}{head[1:]}."),
+        *(_wrapped("", f"Others: roughfilm new {', '.join(others)}.") if others else ()),
+        *_table((), schema, example, schema.get("$defs", {})),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _table(path: tuple[str, ...], node: Node, example: Node | None, definitions: Node) -> Iterator[str]:
+    """The lines of a table: its own keys, and then the tables in it; all are comments without an example."""
+    tables = []
+    for key, given in node["properties"].items():
+        ways = [*_ways(given, definitions)]
+        plain = [way for way in ways if "properties" not in way]
+        whole = [way for way in ways if "properties" in way]
+        value = None if example is None else example.get(key)
+        # A table shows all its forms, unless the entry is usually the name of a file.
+        if whole and (isinstance(value, dict) or (value is None and not (plain and key in _examples()["optional"]))):
+            tables.append((key, given, whole, value))
+        else:
+            yield from _line(key, {**plain[0], **given}, value)
+    for key, given, whole, value in tables:
+        for way in [max(whole, key=lambda way: _fit(way, value))] if value is not None else whole:
+            inner = (*path, key)
+            yield ""
+            header = f"{'# ' if value is None else ''}[{'.'.join(inner)}]"
+            meaning = way.get("description") if len(whole) > 1 else given.get("description", way.get("description"))
+            form = f"one of {len(whole)} forms: " if len(whole) > 1 and value is None else ""
+            yield from _wrapped(header, form + (meaning or ""))
+            yield from _table(inner, way, value, definitions)
+
+
+def _ways(node: Node, definitions: Node) -> Iterator[Node]:
+    """The forms that an entry may have."""
+    if "$ref" in node:
+        yield from _ways(definitions[node["$ref"].rpartition("/")[2]], definitions)
+    elif "anyOf" in node or "oneOf" in node:
+        for way in node.get("anyOf", node.get("oneOf", ())):
+            yield from _ways(way, definitions)
+    else:
+        yield node
+
+
+def _fit(way: Node, value: Node) -> tuple[bool, int]:
+    """How well a table fits an example: whether its fixed values agree, and how many of the keys it has."""
+    fixed = {key: one["const"] for key, one in way["properties"].items() if "const" in one}
+    agrees = all(value.get(key, const) == const for key, const in fixed.items())
+    return agrees, len(value.keys() & way["properties"].keys()) - len(value.keys() - way["properties"].keys()) * 100
+
+
+def _line(key: str, node: Node, value: object) -> Iterator[str]:
+    """The line of a key, as a comment if it has no value and may be left out, or its table is one."""
+    notes = [node.get("description", "")]
+    if "enum" in node and not all(str(one) in notes[0] for one in node["enum"]):
+        notes.append(" or ".join(map(toml_value, node["enum"])))
+    if value is None and "default" in node:
+        notes.append("default")
+    shown = toml_value(_sample(key, node) if value is None else value)
+    return _wrapped(f"{'# ' if value is None else ''}{key} = {shown}", "; ".join(filter(None, notes)))
+
+
+def _sample(key: str, node: Node) -> object:
+    """A value for a key without one: its default, or one that makes sense."""
+    if "default" in node:
+        return node["default"]
+    if "const" in node:
+        return node["const"]
+    optional = _examples()["optional"]
+    if key in optional:
+        return optional[key]
+    if "enum" in node:
+        return node["enum"][0]
+    return f"1 {node[UNIT]}" if UNIT in node else "..." if node.get("type") == "string" else 1
+
+
+def _wrapped(text: str, meaning: str) -> Iterator[str]:
+    """A text with a comment behind it, which goes on below where the line is too long."""
+    width = WIDTH - max(len(text), COLUMN) - 3 if text else WIDTH - 2
+    comments = textwrap.wrap(meaning, max(width, 40)) or [""]
+    for place, comment in enumerate(comments):
+        before = text if place == 0 else ""
+        yield f"{before:<{COLUMN if text else 0}}{' ' if text else ''}# {comment}".rstrip() if comment else before
+        text = text and " " * max(len(text), COLUMN)
