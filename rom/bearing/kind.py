@@ -192,17 +192,21 @@ def sought(entries: Mapping[str, Any]) -> tuple[str, ...]:
 
 def remarks(entries: Mapping[str, Any], quantities: Mapping[str, Quantity]) -> tuple[str, ...]:
     """The part of the whole bearing for which the quantities hold, if they do not hold for all of it."""
-    geometry = entries["geometry"]
-    if geometry["shape"] not in ("sector", "washer") or "load" not in quantities:
+    geometry, whole = entries["geometry"], quantities.get("bearing_load")
+    if geometry["shape"] not in ("sector", "washer"):
         return ()
-    if "bearing_load" in quantities:
-        one, whole = quantities["load"].value, quantities["bearing_load"].value
-        count = geometry.get("pockets") or geometry.get("pads") or round(whole / one)
-        carried = f"{whole / 1e3:.4g} kN" if abs(whole) >= 1e3 else f"{whole:.4g} N"
-        return (f"one of {count} equal pieces; the whole bearing carries {carried}",)
-    if geometry.get("pads", geometry.get("pockets")) == 1 or to_si(geometry["angle"], "rad") > math.pi:
+    count = geometry.get("pockets", geometry.get("pads"))
+    if count is None and whole is not None:
+        count = round(2 * math.pi / to_si(geometry["angle"], "rad"))  # joined pads fill the ring
+    if count is None and to_si(geometry["angle"], "rad") <= math.pi:
+        return ("one pad of the bearing; geometry.pads, their number, gives the numbers of the whole bearing",)
+    if count in (None, 1):
         return ()  # the piece is the whole bearing
-    return ("one pad of the bearing; geometry.pads, their number, gives the numbers of the whole bearing",)
+    line = f"one of {count} equal pieces"
+    if whole is None:
+        return (line,)
+    carried = f"{whole.value / 1e3:.4g} kN" if abs(whole.value) >= 1e3 else f"{whole.value:.4g} N"
+    return (f"{line}; the whole bearing carries {carried}",)
 
 
 def omitted(scene: Bearing, quantity: str) -> Omission | None:

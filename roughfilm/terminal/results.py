@@ -34,10 +34,9 @@ def quantity_table(result: Result) -> Table:
     kind = kind_of(result)
     rows = [(title, *in_engineering_unit(result.quantities[name])) for name, title in kind.listed(result).items()]
     known = any(row[2] not in (EXACT, UNKNOWN) for row in rows)
-    if not known:
-        rows = [(title, value, unit) for title, value, _, unit in rows]
+    shown = rows if known else [(title, value, unit) for title, value, _, unit in rows]
     heads = ("quantity", "value", *(["±"] if known else []), "unit")
-    table = table_of(heads, rows, title=f"{result.provenance['scene']['name']} by {result.model}", left=1)
+    table = table_of(heads, shown, title=f"{result.provenance['scene']['name']} by {result.model}", left=1)
     table.columns[-1].justify = "left"
     lines = list(kind.remarks(result.provenance["scene"], result.quantities))
     if not known:
