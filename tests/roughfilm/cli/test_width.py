@@ -12,8 +12,9 @@ from typer import rich_utils
 from typer.testing import CliRunner
 
 from roughfilm.cli.main import COMMANDS, app
-from roughfilm.cli.models import TYPICAL_CPU_S
+from roughfilm.cli.models import TYPICAL_CPU_S, overview, typical_cpu_s
 from roughfilm.ladder import models
+from roughfilm.rom.ladder.model import Availability
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.stability.form import table_of as table_of_outcomes
 from roughfilm.terminal import console
@@ -162,6 +163,14 @@ def test_the_list_of_models_is_one_screen_and_that_of_a_kind_less(monkeypatch):
     assert len(CliRunner().invoke(app, ["models"]).stdout.splitlines()) <= 40
     for kind in TYPICAL_CPU_S:
         assert len(CliRunner().invoke(app, ["models", kind]).stdout.splitlines()) <= 24
+
+
+def test_the_readme_shows_the_list_of_models(monkeypatch):
+    at_width(monkeypatch, 80)
+    here = Availability(available=True)
+    rows = [(one, here) for one in sorted(models(), key=lambda one: (one.kind, typical_cpu_s(one)))]
+    *lines, _, _ = overview(rows)
+    assert "\n".join(lines) in (ROOT / "README.md").read_text()
 
 
 def test_every_model_has_a_typical_cost_in_the_order_of_the_laws():
