@@ -1,8 +1,12 @@
 """Scenes that the tests share, and skips with a reason."""
 
 import os
+import signal
+from collections.abc import Iterator
 from pathlib import Path
 
+for name in ("FORCE_COLOR", "NO_COLOR", "PY_COLORS", "GITHUB_ACTIONS", "TTY_COMPATIBLE", "TTY_INTERACTIVE", "LINES"):
+    os.environ.pop(name, None)  # what a terminal or a build service says about itself; typer reads some at its import
 os.environ["COLUMNS"] = "400"  # before any console is made: no test of words depends on where a line is broken
 
 import pytest
@@ -26,6 +30,21 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         for item in items:
             if item.get_closest_marker("openfoam"):
                 item.add_marker(pytest.mark.skip(reason=reason))
+
+
+@pytest.fixture(scope="session", autouse=True)
+def default_signals() -> Iterator[None]:
+    """Signals that the shell ignores or blocks (nohup, a command in the background) act here and in all children."""
+    inherited = {
+        number: signal.signal(number, signal.default_int_handler if number == signal.SIGINT else signal.SIG_DFL)
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGCHLD)
+        if signal.getsignal(number) is signal.SIG_IGN
+    }
+    mask = signal.pthread_sigmask(signal.SIG_SETMASK, set())
+    yield
+    signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+    for number, handler in inherited.items():
+        signal.signal(number, handler)
 
 
 @pytest.fixture(scope="session")

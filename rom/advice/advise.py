@@ -16,8 +16,8 @@ from roughfilm.rom.advice.estimates import (
     percent,
     with_own_uncertainty,
 )
-from roughfilm.rom.advice.laws import Numbers, Table, table
-from roughfilm.rom.ladder.kind import Omission, Scene, kind_of_name
+from roughfilm.rom.advice.laws import Numbers, Table, lawful, table
+from roughfilm.rom.ladder.kind import Omission, Scene, kind_of_scene
 from roughfilm.rom.ladder.model import Model, Progress, silent
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
@@ -120,7 +120,7 @@ def wanted(scene: Scene, name: str | None) -> str:
 
     Raises InputError for a name that no quantity of the kind has.
     """
-    kind = kind_of_name(scene.kind)
+    kind = kind_of_scene(scene)
     if name is None:
         return next(iter(kind.compared))
     for quantity, title in kind.titles.items():
@@ -182,7 +182,7 @@ def advise(
     """
     if not 0 < within < 1:
         raise InputError(f"within: got {within!r}; it must be above 0 and below 1, for example 5%")
-    kind = kind_of_name(scene.kind)
+    kind = kind_of_scene(scene)
     known: dict[tuple[str, int], Result] = {}
     failed: dict[tuple[str, int], Exception] = {}
 
@@ -212,7 +212,7 @@ def advise(
         models=[model for model in models if fits[model.name].applies],
         quantity=quantity,
         title=kind.titles[quantity],
-        table=laws or table(),
+        table=lawful(laws or table(), kind.name, holds=kind.lawful),
         numbers=kind.numbers(scene),
         run=solved,
         failed=failed,

@@ -5,8 +5,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
-from roughfilm.rom.advice.laws import RESOLVING, Law, Numbers, Step, Table, on_grid, table
-from roughfilm.rom.ladder.kind import Kind, Scene, kind_of_name
+from roughfilm.rom.advice.laws import RESOLVING, Law, Numbers, Step, Table, lawful, on_grid, table
+from roughfilm.rom.ladder.kind import Kind, Scene, kind_of_scene
 from roughfilm.rom.ladder.model import Model, best, find
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
@@ -193,7 +193,7 @@ def expected_errors(scene: Scene, model: Model, result: Result, models: Sequence
     dict
         The error that 95 of 100 scenes do not exceed, for each quantity whose laws hold for the scene and the result.
     """
-    kind = kind_of_name(scene.kind)
+    kind = kind_of_scene(scene)
     applying = [other for other in models if other.applies(scene).applies]
     errors: dict[str, float] = {}
     for quantity, title in kind.titles.items() if any(other.name == model.name for other in applying) else ():
@@ -203,7 +203,7 @@ def expected_errors(scene: Scene, model: Model, result: Result, models: Sequence
             models=applying,
             quantity=quantity,
             title=title,
-            table=table(),
+            table=lawful(table(), kind.name, holds=kind.lawful),
             numbers=kind.numbers(scene),
             run=lambda other, grid: other.solve(scene, Request(resolution=grid)),
         )

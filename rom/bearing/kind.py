@@ -160,7 +160,9 @@ KIND = Kind(
     scene=Bearing,
     summary="a film between a shaped wall and a sliding one, with cavitation",
     compared={"load_per_width": "load", "friction_per_width": "friction"},
+    compared_with={"load": {"film_min": "least film thickness", "friction_per_width": "friction"}},
     others={
+        "film_min": "least film thickness",
         "pressure_max": "peak pressure",
         "inlet_flow_per_width": "flow in",
         "side_leakage": "side leakage",

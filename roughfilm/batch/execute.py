@@ -60,7 +60,7 @@ def run(jobs: Sequence[Job], executor: Executor) -> Iterator[tuple[Job, Answer]]
     Raises
     ------
     SystemExit
-        If the process receives SIGINT or SIGTERM.
+        If the process receives SIGINT or SIGTERM; a signal that it ignores, as with nohup, stays ignored.
     UnavailableError
         If the scheduler of the executor stops.
     """
@@ -100,7 +100,10 @@ def run(jobs: Sequence[Job], executor: Executor) -> Iterator[tuple[Job, Answer]]
 @contextmanager
 def _signals_to(queue: SimpleQueue[Any]) -> Iterator[None]:
     """Put the numbers of SIGINT and SIGTERM into a queue; exceptions from signal handlers could be lost."""
-    before = {number: signal.signal(number, lambda got, _: queue.put(got)) for number in (SIGINT, SIGTERM)}
+    before = {number: signal.getsignal(number) for number in (SIGINT, SIGTERM)}
+    for number, handler in before.items():
+        if handler is not signal.SIG_IGN:
+            signal.signal(number, lambda got, _: queue.put(got))
     try:
         yield
     finally:

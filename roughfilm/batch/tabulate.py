@@ -9,7 +9,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.ladder import models
 from roughfilm.rom.advice.estimates import expected_errors
-from roughfilm.rom.ladder.kind import kind_of_name
+from roughfilm.rom.ladder.kind import kind_of_name, kind_of_scene
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import scene_entries
 from roughfilm.rom.studies.study import Case, Key
@@ -66,7 +66,7 @@ def _uncertainties(answer: Result) -> dict[str, Cell]:
 
 def _expected_errors(case: Case, job: Job, answer: Result) -> dict[str, Cell]:
     """The errors by the fitted laws of compared quantities of unknown uncertainty, as <quantity>_expected_error."""
-    kind = kind_of_name(case.scene.kind)
+    kind = kind_of_scene(case.scene)
     unknown = [name for name in kind.shared(answer) if answer.quantities[name].uncertainty is None]
     if not unknown:
         return {}

@@ -18,7 +18,7 @@ from roughfilm.figures.view import views
 from roughfilm.ladder import models
 from roughfilm.pages.comparison import Report, cheapest_within, write_comparison
 from roughfilm.pages.render import write_figures
-from roughfilm.rom.ladder.kind import Scene, kind_of, kind_of_name
+from roughfilm.rom.ladder.kind import Scene, kind_of, kind_of_scene
 from roughfilm.rom.ladder.model import Model, best
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import load_scene
@@ -129,7 +129,7 @@ def _judge(
 ) -> Report:
     from roughfilm.figures.base import grid_convergence, speed_against_accuracy  # matplotlib is slow to import
 
-    view, titles = views()[scene.kind], kind_of_name(scene.kind).compared
+    view, titles = views()[scene.kind], kind_of_scene(scene).compared
     solved = [model for model in ladder if model.name in results]
     top = best(solved)
     grids = {model.name: convergence(model, runs) for model in solved}
@@ -145,7 +145,7 @@ def _judge(
     }
     report = Report(
         scene=scene,
-        kind=kind_of_name(scene.kind),
+        kind=kind_of_scene(scene),
         view=view,
         models=ladder,
         results=results,

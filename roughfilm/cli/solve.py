@@ -14,7 +14,7 @@ from roughfilm.interface.solving import with_expected_error
 from roughfilm.ladder import find
 from roughfilm.rom.advice.advise import shortfall
 from roughfilm.rom.advice.estimates import bounded
-from roughfilm.rom.ladder.kind import Scene, kind_of_name
+from roughfilm.rom.ladder.kind import Scene, kind_of_scene
 from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
@@ -107,7 +107,7 @@ def _shown(scene: Scene, by: Model, result: Result) -> Iterator[Table | str]:
         if run.recipe and not run.name:
             yield f"first run did not converge; second run succeeded with: {run.recipe}"
     if result.expected_error:
-        titles = kind_of_name(scene.kind).titles
+        titles = kind_of_scene(scene).titles
         errors = (f"{titles[name]} {bounded(error)}" for name, error in result.expected_error.items())
         yield f"expected error of {by.name} by the fitted laws: {', '.join(errors)}"
     yield by.applies(scene).reason

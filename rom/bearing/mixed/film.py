@@ -1,5 +1,6 @@
 """Mixed films: a film and the asperities in contact, at any separation of the walls and any speed."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -70,12 +71,16 @@ class MixedFilm:
     asperities : flow factors and contact pressures.
     cells : number of cells along and across.
     accuracy : relative error of the load, which determines the residual of the film.
+    film : film(scene), the problem of a film; None for that with the flow factors of the asperities.
+    first : film thickness at which a search begins, m; None for that of first contact.
     """
 
     scene: Bearing
     asperities: Asperities
     cells: int
     accuracy: float = 1e-6
+    film: Callable[[Bearing], Problem] | None = None
+    first: float | None = None
 
     @cached_property
     def grid(self) -> Grid:
@@ -95,9 +100,8 @@ class MixedFilm:
 
     @property
     def boundary_friction(self) -> float:
-        """The coefficient of boundary friction."""
-        assert self.scene.asperities is not None
-        return self.scene.asperities.friction
+        """The coefficient of boundary friction; 0 without asperities."""
+        return 0.0 if self.scene.asperities is None else self.scene.asperities.friction
 
     @cached_property
     def area(self) -> float:
@@ -117,8 +121,8 @@ class MixedFilm:
 
     @cached_property
     def touching(self) -> float:
-        """The film thickness at first contact, m."""
-        return self.asperities.touching + self.dip
+        """The film thickness at first contact, m, or at which the search begins."""
+        return self.asperities.touching + self.dip if self.first is None else self.first
 
     @property
     def residual(self) -> float:
@@ -133,7 +137,11 @@ class MixedFilm:
     @property
     def remedy(self) -> str:
         """The remedy for a load that is too large."""
-        return "lower the load, or make a table with larger loads"
+        if self.scene.asperities is not None:
+            return "lower the load, or make a table with larger loads"
+        if self.scene.roughness is None:
+            return "lower the load, or raise the speed or the viscosity"
+        return "lower the load, or add [asperities], so that the walls may touch"
 
     def scene_at(self, film: float, speed: float) -> Bearing:
         """The scene at another film thickness, m, and speed, m/s."""
@@ -142,7 +150,8 @@ class MixedFilm:
     def at(self, film: float, speed: float, start: State | None = None) -> MixedState:
         """Solve the film at a minimum thickness, m, and a speed, m/s, starting from the state of another film."""
         scene = self.scene_at(film, speed)
-        problem, cells = mixed_problem(scene, self.asperities), (self.cells, self.cells)
+        problem = mixed_problem(scene, self.asperities) if self.film is None else self.film(scene)
+        cells = (self.cells, self.cells)
         solution = solve(problem, cells, start=start, tolerance=self.residual)
         contact = asperity_load(solution.problem.shape, solution.grid, self.asperities)
         return mixed_state(scene, solution, contact)
@@ -176,7 +185,7 @@ def mixed_problem(scene: Bearing, asperities: Asperities) -> Problem:
 
 def mixed_state(scene: Bearing, solution: Solution, contact: AsperityLoad) -> MixedState:
     """The mixed film with its loads and friction, from the film and the contact of its asperities."""
-    assert scene.asperities is not None
+    boundary = 0.0 if scene.asperities is None else scene.asperities.friction
     x = scene_positions(solution)
     film = solution.grid.areas * (solution.state.pressure + scene.lubricant.cavitation_pressure)
     return MixedState(
@@ -185,5 +194,5 @@ def mixed_state(scene: Bearing, solution: Solution, contact: AsperityLoad) -> Mi
         contact=contact,
         load=load_of(scene, x, film + contact.force),
         contact_load=load_of(scene, x, contact.force),
-        friction=friction(solution) + scene.asperities.friction * float(contact.force.sum()),
+        friction=friction(solution) + boundary * float(contact.force.sum()),
     )

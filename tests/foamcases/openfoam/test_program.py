@@ -49,7 +49,7 @@ def test_a_signal_that_comes_while_a_program_is_started_ends_it_too(tmp_path, mo
     def stop(_number, _frame):
         raise KeyboardInterrupt
 
-    before = signal.signal(signal.SIGINT, stop)  # a shell may have left it ignored
+    before = signal.signal(signal.SIGINT, stop)
     try:
         monkeypatch.setattr(subprocess, "Popen", interrupted)
         with pytest.raises(KeyboardInterrupt):

@@ -53,7 +53,7 @@ def write_study(path, *, depths=("0.25 film",), numbers=(40,), models=("reynolds
 class Batch:
     """``roughfilm batch`` in a session of its own, found again by a mark that its children inherit."""
 
-    def __init__(self, study, out, tmp_path, *arguments, seconds=0.0, megabytes=0.0):
+    def __init__(self, study, out, tmp_path, *arguments, seconds=0.0, megabytes=0.0, ignored=None):
         self.mark = f"ROUGHFILM_TRIED={tmp_path}-{out}"
         name, value = self.mark.split("=", 1)
         notes = {
@@ -68,6 +68,7 @@ class Batch:
             stderr=subprocess.PIPE,
             text=True,
             start_new_session=True,
+            preexec_fn=None if ignored is None else partial(signal.signal, ignored, signal.SIG_IGN),
         )
 
     def end(self):
@@ -319,6 +320,18 @@ def test_stopped_it_ends_at_once_with_one_line_and_no_children(tmp_path, send, n
     stamps = same_later({}, out)
     assert Batch(study, out, tmp_path, "--jobs", 4).end()[0] == 0
     same_later(stamps, out)
+
+
+def test_a_signal_that_is_ignored_at_the_start_stays_ignored(tmp_path):
+    """A shell starts a command in the background with SIGINT ignored, so that Ctrl-C ends what is in front alone."""
+    out = tmp_path / "out"
+    study = write_study(tmp_path / "s.toml", models=["moody"], numbers=[10, 11, 12, 13])
+    batch = Batch(study, out, tmp_path, "--jobs", 2, seconds=0.5, ignored=signal.SIGINT)
+    wait_for(lambda: results(out))
+    os.killpg(batch.process.pid, signal.SIGINT)
+    code, _, error = batch.end()
+    assert code == 0, error
+    assert len(results(out)) == 4
 
 
 def test_two_batches_do_not_share_a_directory(tmp_path):

@@ -75,7 +75,7 @@ def test_a_sweep_that_does_the_opposite():
 def test_the_highest_point_of_a_parabola_and_of_a_slope():
     depths = np.array(DEPTHS)
     assert highest(depths, 1 - (depths - 0.6) ** 2) == pytest.approx(0.6)
-    assert highest(depths, depths) == 1.25
+    assert highest(depths, depths) == pytest.approx(1.25)
 
 
 def test_the_shear_on_an_inclined_wall_counts_along_and_away_from_it():
