@@ -1,9 +1,9 @@
 """Films with roughness, averaged or resolved, and the grids that resolve its waves."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -45,6 +45,11 @@ class FlooredFlowFactors:
 
     factors: FactorsOverGap
     mean_gap: Callable[[Array], Array] = np.asarray
+
+    @property
+    def origin(self) -> Mapping[str, Any]:
+        """The entries for the provenance of a result; empty for factors without a table."""
+        return getattr(self.factors, "origin", {})
 
     def __call__(self, separation: Array, /) -> GapFactors:
         """The flow factors, each of the shape of ``separation``."""

@@ -173,6 +173,7 @@ KIND = Kind(
         "film_load_per_width": "load by the film",
         "least_gap": "least gap",
     },
+    ratios={"friction_coefficient": ("friction_per_width", "load_per_width")},
     scale=scale,
     columns=columns,
     numbers=bearing_numbers,

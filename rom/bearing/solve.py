@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.timing import one_time, working_time
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.corners import infinite_flows
 from roughfilm.rom.bearing.equilibrium.balance import SeparableBearing
@@ -32,6 +33,7 @@ from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.shape import Shape
 from roughfilm.rom.cavitation.solve import Level, Solution
 from roughfilm.rom.cavitation.solve import solve as balance
+from roughfilm.rom.homogenization.gap_factors import FactorsOverGap
 from roughfilm.rom.ladder.model import Model, Progress
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.request import CheckedRequest
@@ -82,13 +84,15 @@ def solve(
         raise InputError(f"model: got {solver.name!r}; {fits.reason}")
     if scene.load is None:
         problem = film(scene)
-        load_loops(problem.shape.wide)
-        wall, cpu = time.perf_counter(), time.process_time()
+        with one_time("start"):
+            load_loops(problem.shape.wide)
+        wall, cpu = time.perf_counter(), working_time()
         found = _as_given(scene, problem, request, outputs, ruptures=ruptures, progress=progress)
     else:
-        load_loops(wide=True)
-        load_loops(scene.wide)
-        wall, cpu = time.perf_counter(), time.process_time()
+        with one_time("start"):
+            load_loops(wide=True)
+            load_loops(scene.wide)
+        wall, cpu = time.perf_counter(), working_time()
         among = (searched or partial(smooth_films, film=film))(scene)
         if films is None:
             films = partial(_films, among=among, ruptures=ruptures, tolerance=request.tolerance)
@@ -113,7 +117,7 @@ def solve(
         numerics=Numerics(
             residual=solution.residual,
             iterations=sum(level.iterations for level in found.solved),
-            cpu_s=time.process_time() - cpu,
+            cpu_s=working_time() - cpu,
             wall_s=time.perf_counter() - wall,
             degrees_of_freedom=solution.state.pressure.size,
             resolution=cells,
@@ -124,7 +128,13 @@ def solve(
             ),
             details={} if found.balance is None else {"balance": found.balance, "films": float(found.films)},
         ),
-        provenance=provenance(scene, model=solver.name, keeps=tuple(solver.keeps), sources=solver.sources),
+        provenance=provenance(
+            scene,
+            model=solver.name,
+            keeps=tuple(solver.keeps),
+            sources=solver.sources,
+            **origin_of(solution.problem.shape.roughness),
+        ),
         warnings=tuple(warnings),
     )
 
@@ -223,6 +233,12 @@ def _loaded(scene: Bearing, solution: Solution, outputs: Outputs) -> dict[str, Q
     if not isinstance(geometry, Journal):
         return quantities
     return quantities | {"eccentricity": Quantity(value=1 - geometry.thinnest / geometry.clearance, unit="1")}
+
+
+def origin_of(roughness: FactorsOverGap | None) -> dict[str, Any]:
+    """The entry "table" of provenance for flow factors of a table that was made for the result or kept from others."""
+    origin = getattr(roughness, "origin", None)
+    return {"table": dict(origin)} if origin else {}
 
 
 @cache

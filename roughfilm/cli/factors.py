@@ -1,5 +1,6 @@
 """roughfilm factors: flow factors of a rough surface, at one mean gap or as a table over the mean gap."""
 
+import hashlib
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
@@ -10,6 +11,7 @@ import typer
 from rich.table import Table
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.checked_hdf5 import HEADER_BYTES
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.threads import checked_threads
@@ -19,14 +21,16 @@ from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.store import is_series, load_contact, load_series
 from roughfilm.contact.read import HeightMap, parse_spacing, periodicity_warnings, read_height_map
 from roughfilm.contact.surfaces.surface import MAX_LENGTH, MIN_SPACING, Surface
-from roughfilm.rom.bearing.mixed.resume import resumed_table
 from roughfilm.rom.bearing.mixed.tabulate import gap_of, tabulate_pressed
 from roughfilm.rom.homogenization.conductance import FaceRule
 from roughfilm.rom.homogenization.factors import NAMES, FlowFactors, relative_quantities
 from roughfilm.rom.homogenization.flow_factors import Estimated, flow_factors
 from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
+from roughfilm.rom.homogenization.table.kept import kept_table, table_inputs
+from roughfilm.rom.homogenization.table.resume import Work, resumed_table
 from roughfilm.rom.homogenization.table.separation import Separations
 from roughfilm.rom.homogenization.table.tabulate import INTERPOLATION_TOLERANCE, tabulate
+from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.ladder.provenance import code
 from roughfilm.terminal.console import (
     NUMERICS,
@@ -132,7 +136,7 @@ def command(
                 settings |= {name: contacts[0].settings[name] for name in ("composite_modulus", "hardness")}
                 work = partial(_table_of_contacts, surface, *contacts, options)
             inputs = Inputs(heights=rough.heights, spacing=rough.spacing, settings=settings)
-            table, known = resumed_table(out, inputs, work)
+            table, known = resumed_table(out, inputs, partial(_kept, surface, inputs, accuracy, work, advance))
             settings = settings | {"tolerance": accuracy}
             entries = _table_entries(table)
             entries["numerics"]["separations_found"] = known
@@ -165,6 +169,32 @@ def _length(option: str, text: str | None, least: float = MIN_SPACING) -> float 
     if not least <= length <= MAX_LENGTH:
         raise InputError(f"{option} {text}: give a length above 0, of {MAX_LENGTH:g} m at most")
     return length
+
+
+def _kept(
+    surface: Path,
+    inputs: Inputs,
+    tolerance: float,
+    work: Work,
+    progress: Progress,
+    known: Sequence[Point],
+    keep: Callable[[Point], None],
+) -> FactorTable:
+    """The table from the cache, or made and kept there; a file of contacts is known by the bytes of its header."""
+    pressed = "composite_modulus" in inputs.settings
+    own = {name: value for name, value in inputs.settings.items() if name != "code"} | {"tolerance": tolerance}
+    if pressed:
+        with surface.open("rb") as file:
+            own["contacts"] = hashlib.sha256(file.read(HEADER_BYTES)).hexdigest()
+    module = "rom.bearing.mixed.tabulate" if pressed else "rom.homogenization.table.tabulate"
+    return kept_table(
+        table_inputs(inputs.heights, inputs.spacing, module, **own),
+        work,
+        about={"surface": surface.name, "kind": "flow factors and contact" if pressed else "flow factors"},
+        progress=progress,
+        foreign=known,
+        keep=keep,
+    )
 
 
 def _table_of_surface(

@@ -40,6 +40,7 @@ GROUPS = {
         "their units.",
     },
     "Upkeep": {
+        "cache": "Show the tables of surfaces that are kept for later runs, or remove them.",
         "doctor": "Check Python, OpenFOAM, MPI, rendering and the reader of instrument files; give remedies.",
         "charts": "Chart CPU time against error for every model and resolution: charts.html, .json, .csv, .png and an "
         ".svg each.",

@@ -8,6 +8,8 @@ import re
 import shutil
 import signal
 import sys
+import threading
+import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -20,6 +22,7 @@ from rich.markup import escape
 from typer.exceptions import TyperException
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
+from roughfilm.contact.foundation.timing import running_cost
 from roughfilm.terminal.layout import CHARSET_ERRORS, wrapped
 
 BAD_INPUT, NOT_CONVERGED, MISSING = 2, 3, 4
@@ -35,6 +38,15 @@ EXIT_CODES = """Exit codes
 
 HELP_MODE: Literal["rich"] | None = "rich" if shutil.get_terminal_size().columns >= 72 else None
 """The form of a command's help: with frames where these do not cut the names of options."""
+
+PROGRESS_VARIABLE = "ROUGHFILM_PROGRESS"
+"""Environment variable that, set to "off", leaves out bars and lines about progress."""
+
+FIRST_LINE_S, LINE_INTERVAL_S = 2.0, 10.0
+"""Time until the first line about progress, and between lines, s."""
+
+LEAST_DONE = 0.02
+"""Done fraction below which the time left is not estimated."""
 
 ScenePath = Annotated[Path, typer.Argument(metavar="SCENE", help="The scene file (TOML).")]
 Overrides = Annotated[
@@ -183,7 +195,8 @@ def launch(app: typer.Typer, arguments: list[str], name: str | None = None) -> N
     if _width(sys.stdout) is not None:
         os.environ.setdefault("TERMINAL_WIDTH", str(FILE_WIDTH))  # of the help, which typer prints
     try:
-        sys.exit(app(args=arguments, prog_name=name, standalone_mode=False))
+        with lines_of_progress():
+            sys.exit(app(args=arguments, prog_name=name, standalone_mode=False))
     except TyperException as error:
         message = error.format_message() if hasattr(error, "format_message") else str(error)
         sys.exit(fail(InputError(f"{message.rstrip('.')}; see --help"), BAD_INPUT).exit_code)
@@ -212,9 +225,79 @@ def print_json(entries: dict[str, Any]) -> None:
     sys.stdout.flush()
 
 
+class _Work:
+    """The work of the command that runs, as its lines on standard error describe it."""
+
+    def __init__(self, words: str) -> None:
+        self.words, self.done, self.since = words, 0.0, time.monotonic()
+        self.drawn = False
+
+    def advance(self, done: float, words: str) -> None:
+        """Note the done fraction, 0 to 1; where it falls to less than half, other work begins."""
+        if done < 0.5 * self.done:
+            self.since = time.monotonic()
+        self.done, self.words = done, words
+
+    def line(self) -> str:
+        """What is done, the fraction, the time spent and the time left, where it can be estimated."""
+        spent = time.monotonic() - self.since
+        if running_cost() == "compilation":
+            return f"compiling numerical kernels: {duration(spent)}"
+        if not LEAST_DONE < self.done < 1:
+            return f"{self.words}: {duration(spent)}"
+        left = duration(spent * (1 - self.done) / self.done)
+        return f"{self.words}: {100 * self.done:.0f} %, {duration(spent)}, about {left} left"
+
+
+_work = _Work("starting")
+
+
+def duration(seconds: float) -> str:
+    """A time in words such as "43 s", "12 min" or "3.2 h"."""
+    if seconds < 100:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 6000 else f"{seconds / 3600:.1f} h"
+
+
+@contextmanager
+def lines_of_progress() -> Iterator[None]:
+    """Print a line on standard error after 2 s and then every 10 s, unless a bar is shown there.
+
+    With ``ROUGHFILM_PROGRESS=off`` in the environment there are neither lines nor bars.
+    """
+    if os.environ.get(PROGRESS_VARIABLE) == "off":
+        yield
+        return
+    global _work
+    _work, ended = _Work("starting"), threading.Event()
+
+    def show() -> None:
+        wait = FIRST_LINE_S
+        while not ended.wait(wait):
+            wait = LINE_INTERVAL_S
+            if not _work.drawn:
+                messages.print(_work.line(), soft_wrap=True, markup=False)
+
+    thread = threading.Thread(target=show, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        ended.set()
+        thread.join()
+
+
 @contextmanager
 def progress_bar(total: float) -> Iterator[Callable[[float, str], None]]:
-    """Show a bar on standard error; yields advance(done, words), whose ``done`` grows to ``total``."""
+    """Show progress on standard error, as a bar on a terminal and in lines elsewhere.
+
+    It yields advance(done, words), whose ``done`` grows to ``total``.
+    """
+    whole = total or 1.0
+    if not messages.is_terminal or os.environ.get(PROGRESS_VARIABLE) == "off":
+        yield lambda done, words: _work.advance(done / whole, words)
+        _work.advance(0.0, "writing the results")
+        return
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
     columns = (
@@ -225,10 +308,14 @@ def progress_bar(total: float) -> Iterator[Callable[[float, str], None]]:
         TextColumn("left"),
         TimeRemainingColumn(),
     )
-    shown = messages.is_terminal
-    with Progress(*columns, console=messages, transient=True, disable=not shown, speed_estimate_period=3600) as bar:
+    with Progress(*columns, console=messages, transient=True, speed_estimate_period=3600) as bar:
         task = bar.add_task("starting", total=total)
-        yield lambda done, words: bar.update(task, completed=done, description=escape(words))
+        _work.drawn = True
+        try:
+            yield lambda done, words: bar.update(task, completed=done, description=escape(words))
+        finally:
+            _work.drawn = False
+            _work.advance(0.0, "writing the results")
 
 
 def make_directory(path: Path) -> None:

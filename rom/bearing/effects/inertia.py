@@ -179,7 +179,7 @@ def _solved_pocket(scene: Bearing, texture: Texture, density: float, models: Seq
     request = Request(resolution=verdict.resolution)
     result = advice.result or find(models, "pocket", verdict.model).solve(pocket, request)
     ratio = result.quantities["load_per_area"].value / first
-    return PocketInertia(model=verdict.model, why=verdict.reason, over_first_order=ratio, within=verdict.error)
+    return PocketInertia(model=verdict.model, why=verdict.why, over_first_order=ratio, within=verdict.error)
 
 
 def inertia_under_load(

@@ -224,3 +224,13 @@ def test_a_smooth_bearing_is_swept_under_its_own_load(tmp_path):
     page = (tmp_path / "out" / "report.html").read_text()
     assert "no asperities" in page
     assert page.count("<svg") == 2
+
+
+def test_a_second_sweep_elsewhere_takes_the_table_of_the_first(tmp_path, monkeypatch):
+    one = run("--out", tmp_path / "one", *SWEEP, "--json")
+    monkeypatch.setattr("roughfilm.rom.bearing.mixed.kept.tabulate_pressed", lambda *_, **__: pytest.fail("made again"))
+    other = run("--out", tmp_path / "two", *SWEEP, "--json")
+    first, second = (json.loads(done.stdout) for done in (one, other))
+    assert second["quantities"] == first["quantities"]
+    assert first["numerics"]["table_points_found"] == 0
+    assert second["numerics"]["table_points_found"] == second["numerics"]["table_points"]
