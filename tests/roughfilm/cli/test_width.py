@@ -67,8 +67,8 @@ COARSE = (
 )
 RUNS = {
     "models": ["models", *(f"models {kind}" for kind in ("bearing", "dry_contact", "pocket", "rough_gap", "seal"))],
-    "advise": ["advise pocket.toml --within 10%"],
-    "solve": ["solve pocket.toml --model inertial_reynolds"],
+    "advise": ["advise pocket.toml"],
+    "solve": ["solve pocket.toml", "solve pocket.toml --model inertial_reynolds"],
     "compare": ["compare contact.toml --out compared"],
     "stribeck": [f"stribeck rough_washer.toml {COARSE} --loads 1MPa --speeds 20rpm,500rpm --out washer"],
     "effects": ["effects parabolic_slider.toml --resolution 64 --out effects"],
