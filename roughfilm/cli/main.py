@@ -72,7 +72,7 @@ app = typer.Typer(
     epilog=help_below(
         [
             "roughfilm models pocket",
-            "roughfilm solve pocket.toml --within 5%",
+            "roughfilm solve pocket.toml",
             "roughfilm compare pocket.toml --out study",
             "roughfilm COMMAND --help",
         ],

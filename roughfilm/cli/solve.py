@@ -33,13 +33,15 @@ from roughfilm.terminal.console import (
     print_json,
     progress_bar,
 )
+from roughfilm.terminal.layout import wrapped
 from roughfilm.terminal.output_file import refuse_unwritable
 from roughfilm.terminal.results import print_all, quantity_table
 from roughfilm.words.cost import cost_in_words
 from roughfilm.words.summary import summary
 
 EXAMPLES = (
-    "roughfilm solve scripts/examples/scenes/pocket.toml --within 5%",
+    "roughfilm solve scripts/examples/scenes/pocket.toml",
+    "roughfilm solve scripts/examples/scenes/journal.toml --set load.force=5kN",
     "roughfilm solve scripts/examples/scenes/pocket.toml --model film --out film.h5",
 )
 
@@ -92,7 +94,7 @@ def command(
             request = {"resolution": resolution, "tolerance": tolerance, "scheme": scheme, "processes": processes}
             result, advice = solve(read, model=model, progress=advance, **request), None
     if advice is not None:
-        messages.print(_choice(advice), soft_wrap=True, markup=False)
+        messages.print(wrapped(_choice(advice), messages.width), soft_wrap=True, markup=False)
     if out is not None:
         save(result, out)
     if as_json:
