@@ -118,7 +118,7 @@ def _shown(scene: Scene, by: Model, result: Result, quantity: str, within: float
     numbers = result.numerics
     yield (
         f"residual {numbers.residual:.1e} ({by.residual_meaning}), {numbers.iterations} iterations, "
-        f"{numbers.degrees_of_freedom} unknowns, {cost_in_words(numbers)}"
+        f"{numbers.degrees_of_freedom} unknowns, {cost_in_words(result)}"
     )
     for run in numbers.runs:
         if run.recipe and not run.name:
