@@ -3,8 +3,8 @@
 import math
 from collections.abc import Mapping
 
+from roughfilm.contact.foundation.rounding import TWO_DIGIT_MANTISSA
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.words.numbers import TWO_DIGIT_MANTISSA
 
 EXACT, UNKNOWN = "exact", "unknown"
 """Words in the place of an uncertainty of zero, and of one that is not known."""
