@@ -17,7 +17,7 @@ POCKET = SCENES / "pocket.toml"
 
 for name in ("FORCE_COLOR", "NO_COLOR", "PY_COLORS", "GITHUB_ACTIONS", "TTY_COMPATIBLE", "TTY_INTERACTIVE", "LINES"):
     os.environ.pop(name, None)  # what a terminal or a build service says about itself; typer reads some at its import
-os.environ["COLUMNS"] = "80"
+os.environ["COLUMNS"] = "400"  # before any console is made: no test of words depends on where a line is broken
 
 settings.register_profile("fixed", derandomize=True, database=None, deadline=None)
 settings.register_profile("long", max_examples=5000, deadline=None)

@@ -7,9 +7,15 @@ keep their meaning.
 
 import gc
 import logging
+import time
 from collections.abc import Callable
 from functools import cache, cached_property, partial, update_wrapper
 from typing import Any
+
+from roughfilm.contact.foundation.timing import one_time
+
+COMPILATION_S = "10 to 30"
+"""Usual times in which the loops of a scene are compiled, s."""
 
 
 class Loop:
@@ -66,8 +72,9 @@ allocating: Any = partial(Loop, cache=True)
 def _njit() -> Any:
     """The decorator of numba with the options of all loops.
 
-    When numba compiles a loop of this package for the first time in a process, a warning is logged. Python does not
-    look for unused cycles of objects meanwhile, which takes a tenth of the time and frees little.
+    When numba compiles a loop of this package for the first time in a process, a warning is logged. The CPU time counts
+    as the one-time cost "compilation". Python does not look for unused cycles of objects meanwhile, which takes a tenth
+    of the time and frees little.
     """
     from numba import njit
     from numba.core import event
@@ -75,19 +82,24 @@ def _njit() -> Any:
     class Compilation(event.Listener):
         depth = 0
         collects = False
+        account: Any = None
 
         def on_start(self, started: Any) -> None:
             if self.depth == 0:
                 self.collects = gc.isenabled()
                 gc.disable()
+                self.account = one_time("compilation", time.thread_time)
+                self.account.__enter__()
             self.depth += 1
             if str(started.data["dispatcher"].py_func.__module__).startswith("roughfilm."):
                 _announce()
 
         def on_end(self, _ended: Any) -> None:
             self.depth -= 1
-            if self.depth == 0 and self.collects:
-                gc.enable()
+            if self.depth == 0:
+                self.account.__exit__(None, None, None)
+                if self.collects:
+                    gc.enable()
 
     event.register("numba:compile", Compilation())  # type: ignore[no-untyped-call]
     fast = {"reassoc", "contract", "nsz", "arcp"}
@@ -96,4 +108,4 @@ def _njit() -> Any:
 
 @cache
 def _announce() -> None:
-    logging.getLogger(__name__).warning("compiling numerical kernels; later runs use the compiled ones ...")
+    logging.getLogger(__name__).warning("compiling numerical kernels, about %s s, once per installation", COMPILATION_S)

@@ -1,8 +1,10 @@
-"""The measurement of CPU time and wall time."""
+"""The measurement of CPU time and wall time, and the account of costs that arise once."""
 
 import os
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from threading import Lock
 
 
 def stopwatch() -> Callable[[], dict[str, float]]:
@@ -22,3 +24,56 @@ def stopwatch() -> Callable[[], dict[str, float]]:
     """
     wall, cpu = time.perf_counter(), sum(os.times()[:4])
     return lambda: {"cpu_s": sum(os.times()[:4]) - cpu, "wall_s": time.perf_counter() - wall}
+
+
+_spent: dict[str, float] = {}
+_claimed: dict[str, float] = {}
+_running: list[str] = []
+_changing = Lock()
+
+
+@contextmanager
+def one_time(name: str, clock: Callable[[], float] = time.process_time) -> Iterator[None]:
+    """Add the CPU time of a block to the account of one-time costs.
+
+    A block within another counts under its own name only.
+
+    Parameters
+    ----------
+    name : name of the cost, such as "table".
+    clock : the clock that measures the block, s.
+
+    Examples
+    --------
+    >>> with one_time("example"):
+    ...     _ = sum(range(1000))
+    >>> "example" in claimed_costs()
+    True
+    """
+    started, before = clock(), sum(_spent.values())
+    _running.append(name)
+    try:
+        yield
+    finally:
+        with _changing:
+            _running.remove(name)
+            inner = sum(_spent.values()) - before
+            _spent[name] = _spent.get(name, 0.0) + max(clock() - started - inner, 0.0)
+
+
+def running_cost() -> str:
+    """The name of the one-time cost that arises now, of the innermost if there are several; "" if there is none."""
+    return next(reversed(_running), "")
+
+
+def working_time() -> float:
+    """The CPU time of this process without its one-time costs, s."""
+    return time.process_time() - sum(_spent.values())
+
+
+def claimed_costs() -> Mapping[str, float]:
+    """The one-time costs by name, s, that have arisen in this process since the last call; the largest first."""
+    with _changing:
+        new = {name: spent - _claimed.get(name, 0.0) for name, spent in _spent.items()}
+        _claimed.update(_spent)
+    return {name: new[name] for name in sorted(new, key=lambda name: -new[name]) if new[name] > 0}

@@ -12,18 +12,20 @@ from roughfilm.rom.advice.estimates import (
     a_priori,
     affordable,
     combined,
-    near,
-    percent,
     with_own_uncertainty,
 )
-from roughfilm.rom.advice.laws import Numbers, Table, table
-from roughfilm.rom.ladder.kind import Omission, Scene, kind_of_name
-from roughfilm.rom.ladder.model import Model, Progress, silent
+from roughfilm.rom.advice.laws import Numbers, Table, lawful, table
+from roughfilm.rom.advice.stated import StatedError, percent
+from roughfilm.rom.ladder.kind import Omission, Scene, kind_of_scene
+from roughfilm.rom.ladder.model import Model, Progress, best, silent
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 
 MAX_ERROR_RATIO = 5.0
 """Ratio of the error by the laws to the tolerance above which a model is not run as a check."""
+
+DEFAULT_TOLERANCE = 0.05
+"""Tolerated error over the size of a quantity where none is given."""
 
 
 class Verdict(StrEnum):
@@ -46,9 +48,10 @@ class ModelVerdict:
     model : name of the model.
     resolution : number of cells, points or nodes; None if the model does not apply.
     cpu_s : expected CPU time, s.
-    verdict, reason : the verdict and the reason for it.
+    verdict, reason : the verdict and the reason for it, without a number for the error.
     a_priori : estimate of the error by the laws; None if unknown.
     a_posteriori : estimate of the error from runs; None if the models were not run.
+    omitted : part of the effect that all models leave out, over the size of the quantity, which adds to the error.
     """
 
     model: str
@@ -58,6 +61,7 @@ class ModelVerdict:
     reason: str
     a_priori: Estimate | None = None
     a_posteriori: Estimate | None = None
+    omitted: float = 0.0
 
     @property
     def estimate(self) -> Estimate | None:
@@ -65,9 +69,19 @@ class ModelVerdict:
         return combined(self.a_priori, self.a_posteriori)
 
     @property
+    def stated(self) -> StatedError | None:
+        """The error of the model in the quantity as it is stated everywhere; None if it is unknown."""
+        return None if self.estimate is None or not self.sure else self.estimate.stated(self.omitted)
+
+    @property
     def error(self) -> float | None:
         """The largest expected error over the size of the quantity; None if unknown."""
-        return None if self.estimate is None else self.estimate.error
+        return None if self.estimate is None else self.estimate.error + self.omitted
+
+    @property
+    def why(self) -> str:
+        """The error with its source, and the reason for the verdict."""
+        return self.reason if self.stated is None else f"error {self.stated.words}; {self.reason}"
 
     @property
     def sure(self) -> bool:
@@ -86,11 +100,13 @@ class Advice:
     within : tolerated error over the size of the quantity.
     chosen : the cheapest model within the tolerance; None if none is known.
     nearest : the most accurate model if none is within the tolerance, otherwise None; also None if no error is known.
+    fallback : the verdict on the model to take if none is within the tolerance: ``nearest`` if its error is sure,
+        otherwise the most complete one that has not failed; None if there is none, and if a model is chosen.
     finer : the cheapest model at a resolution beyond its usual ones that the laws expect to be within the tolerance, if
         none is chosen; None if no resolution is expected to suffice.
     considered : the verdict on every model of the kind, cheapest first.
     numbers : the dimensionless numbers of the scene.
-    result : the result of the chosen model; None if the model was not run.
+    result : the result of the chosen model, or of ``fallback``; None if the model was not run.
     spent_cpu_s : CPU time of all runs, s.
     omitted : the effect that every model of the kind omits, whose part is subtracted from the tolerance; None if there
         is no such effect.
@@ -101,6 +117,7 @@ class Advice:
     within: float
     chosen: ModelVerdict | None
     nearest: ModelVerdict | None
+    fallback: ModelVerdict | None
     finer: ModelVerdict | None
     considered: tuple[ModelVerdict, ...]
     numbers: Numbers
@@ -120,7 +137,7 @@ def wanted(scene: Scene, name: str | None) -> str:
 
     Raises InputError for a name that no quantity of the kind has.
     """
-    kind = kind_of_name(scene.kind)
+    kind = kind_of_scene(scene)
     if name is None:
         return next(iter(kind.compared))
     for quantity, title in kind.titles.items():
@@ -140,8 +157,8 @@ def shortfall(advice: Advice) -> str:
         return f"{message}; {advice.finer.model} at resolution {advice.finer.resolution} is expected to ({cost})"
     if advice.nearest is None or advice.nearest.error is None:
         return message
-    if advice.nearest.sure:
-        return f"{message}; {advice.nearest.model} comes nearest, {near(advice.nearest.error)}"
+    if advice.nearest.stated is not None:
+        return f"{message}; {advice.nearest.model} comes nearest, error {advice.nearest.stated.words}"
     return f"{message}, as the scene is outside the fitted range; {advice.nearest.model} may come nearest"
 
 
@@ -182,7 +199,7 @@ def advise(
     """
     if not 0 < within < 1:
         raise InputError(f"within: got {within!r}; it must be above 0 and below 1, for example 5%")
-    kind = kind_of_name(scene.kind)
+    kind = kind_of_scene(scene)
     known: dict[tuple[str, int], Result] = {}
     failed: dict[tuple[str, int], Exception] = {}
 
@@ -212,10 +229,11 @@ def advise(
         models=[model for model in models if fits[model.name].applies],
         quantity=quantity,
         title=kind.titles[quantity],
-        table=laws or table(),
+        table=lawful(laws or table(), kind.name, holds=kind.lawful),
         numbers=kind.numbers(scene),
         run=solved,
         failed=failed,
+        omitted=omitted.part if omitted else 0.0,
     )
     if not task.models:
         raise InputError(f"scene: no model applies: {'; '.join(fit.reason for fit in fits.values())}")
@@ -226,17 +244,24 @@ def advise(
     ]
     judged = _judged(task, left)
     chosen = next((one for one in judged if one.verdict is Verdict.CHOSEN), None)
-    short = [one for one in judged if one.error is not None and one.verdict is Verdict.NOT_ENOUGH]
+    here = {model.name for model in task.models if model.available().available}
+    candidates = [one for one in judged if one.verdict is Verdict.NOT_ENOUGH and one.model in here]
+    short = [one for one in candidates if one.error is not None]
+    nearest = None if chosen else min(short, key=lambda one: (not one.sure, one.error or 0.0), default=None)
+    sure = nearest if nearest is not None and nearest.sure else None
+    fallback = None if chosen else sure or _most_complete(task, judged)
+    taken = chosen or fallback
     return Advice(
         quantity=quantity,
         title=task.title,
         within=within,
         chosen=chosen,
-        nearest=None if chosen else min(short, key=lambda one: (not one.sure, one.error or 0.0), default=None),
+        nearest=nearest,
+        fallback=fallback,
         finer=None if chosen else _finer(task, left),
         considered=(*does_not_apply, *judged),
         numbers=task.numbers,
-        result=known.get((chosen.model, chosen.resolution or 0)) if chosen else None,
+        result=known.get((taken.model, taken.resolution or 0)) if taken else None,
         spent_cpu_s=sum(result.numerics.cpu_s for result in known.values()),
         omitted=omitted,
     )
@@ -268,6 +293,14 @@ def _judged(task: AdviceTask, within: float) -> list[ModelVerdict]:
         ):
             hopeless.add(model.name)
     return sorted(verdicts.values(), key=lambda one: one.cpu_s)
+
+
+def _most_complete(task: AdviceTask, judged: Sequence[ModelVerdict]) -> ModelVerdict | None:
+    """The verdict on the most complete model that runs here and has not failed; None if there is none."""
+    failing = (Verdict.NOT_HERE, Verdict.FAILED)
+    by_name = {one.model: one for one in judged if one.verdict not in failing}
+    here = [model for model in task.models if model.name in by_name and model.available().available]
+    return by_name[best(here).name] if here else None
 
 
 def _better(one: ModelVerdict, other: ModelVerdict) -> bool:
@@ -309,6 +342,7 @@ def _as_verdict(
         reason=reason,
         a_priori=before,
         a_posteriori=after,
+        omitted=task.omitted,
     )
 
 
@@ -321,10 +355,8 @@ def _after(task: AdviceTask, model: Model, resolution: int, within: float) -> Mo
     if before is not None and not before.error <= within:
         return _as_verdict(task, model, resolution, Verdict.NOT_ENOUGH, _main(before), before)
     if before is None or (before.error == 0 and task.at_full_resolution(model, resolution)):
-        expected = "no law gives its error"
-    else:
-        expected = f"expected within {percent(before.error)}"
-    reason = f"{expected}, {task.cost(model, resolution):.2g} CPU s"
+        return _as_verdict(task, model, resolution, Verdict.NOT_NEEDED, "no law gives its error", None)
+    reason = f"{task.cost(model, resolution):.2g} CPU s"
     return _as_verdict(task, model, resolution, Verdict.NOT_NEEDED, reason, before)
 
 

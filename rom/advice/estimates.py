@@ -5,10 +5,10 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
-from roughfilm.rom.advice.laws import RESOLVING, Law, Numbers, Step, Table, on_grid, table
-from roughfilm.rom.ladder.kind import Kind, Scene, kind_of_name
+from roughfilm.rom.advice.laws import RESOLVING, Law, Numbers, Step, Table, on_grid
+from roughfilm.rom.advice.stated import BY_ITS_RUN, BY_LAWS, StatedError
+from roughfilm.rom.ladder.kind import Kind, Scene
 from roughfilm.rom.ladder.model import Model, best, find
-from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 
 MAX_COST_OF_BEST = 0.01
@@ -23,9 +23,6 @@ BUDGET = 0.5
 CHECK_FRACTION = 1 / 3
 """Largest ratio of the error by the resolution of a check to the error that the laws expect of the checked model."""
 
-MAX_STATED_ERROR = 3.0
-"""Largest relative error that is printed as a number; a larger error is printed as more than this value."""
-
 
 @dataclass(frozen=True, kw_only=True)
 class Estimate:
@@ -38,6 +35,8 @@ class Estimate:
     sure : whether the scene is within the range of the scenes to which the laws were fitted.
     least : the error that the model has at least, as runs show; 0 if they do not show any.
     decides : whether it replaces the estimate by laws: the most complete model states it for its own run.
+    source : origin of the error in words, see :class:`roughfilm.rom.advice.stated.StatedError`.
+    difference : signed difference from the model that was run too; None if the error is not measured.
     """
 
     error: float
@@ -45,6 +44,14 @@ class Estimate:
     sure: bool = True
     least: float = 0.0
     decides: bool = False
+    source: str = BY_LAWS
+    difference: float | None = None
+
+    def stated(self, omitted: float = 0.0) -> StatedError:
+        """The error as it is stated, with the part of the effect that all models leave out."""
+        error = self.error + omitted
+        beyond = None if self.difference is None else error - abs(self.difference)
+        return StatedError(error=error, source=self.source, difference=self.difference, uncertainty=beyond)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,6 +68,7 @@ class AdviceTask:
     numbers : dimensionless numbers of the scene.
     run : run(model, resolution), which returns a result.
     failed : error of every run that failed, by name of the model and resolution.
+    omitted : part of the effect that all models leave out, over the size of the quantity.
     """
 
     scene: Scene
@@ -72,6 +80,7 @@ class AdviceTask:
     numbers: Numbers
     run: Callable[[Model, int], Result]
     failed: Mapping[tuple[str, int], Exception] = field(default_factory=dict)
+    omitted: float = 0.0
 
     def step(self, model: Model) -> Step | None:
         """The step from a model to the next one that applies; None for the most complete model."""
@@ -139,10 +148,10 @@ class AdviceTask:
         return model.cost(self.scene, resolution)
 
     def difference(self, one: Result, other: Result) -> float:
-        """The difference of the quantity between two results over the smaller of its sizes in them."""
-        values = (one.quantities[self.quantity].value, other.quantities[self.quantity].value)
+        """The value of the quantity in one result minus that in another, over the smaller of its sizes in them."""
+        change = one.quantities[self.quantity].value - other.quantities[self.quantity].value
         size = min(self.kind.scale_of(result, self.quantity) for result in (one, other))
-        return over(abs(values[0] - values[1]), size)
+        return math.copysign(over(abs(change), size), change)
 
     def uncertainty(self, result: Result) -> float | None:
         """The numerical uncertainty of the quantity in a result over its size; None if it is unknown."""
@@ -156,65 +165,6 @@ def over(error: float, size: float) -> float:
         return 0.0
     fraction = error / size if size > 0 else math.inf
     return math.inf if math.isnan(fraction) else fraction
-
-
-def percent(fraction: float) -> str:
-    """The text of a fraction in per cent."""
-    if not fraction <= MAX_STATED_ERROR:
-        return f"more than {100 * MAX_STATED_ERROR:.0f} %"
-    return f"{100 * fraction:.2g} %" if fraction < 0.1 else f"{100 * fraction:.0f} %"
-
-
-def bounded(fraction: float) -> str:
-    """The text of the largest expected error for the end of a sentence, such as "up to 5 %"."""
-    return percent(fraction) if fraction > MAX_STATED_ERROR else f"up to {percent(fraction)}"
-
-
-def near(fraction: float) -> str:
-    """The text of the error of a model for the end of a sentence, such as "within 5 %"."""
-    return f"within {percent(fraction)}" if fraction <= MAX_STATED_ERROR else f"off by {percent(fraction)}"
-
-
-def expected_errors(scene: Scene, model: Model, result: Result, models: Sequence[Model]) -> dict[str, float]:
-    """The bounds by the fitted laws of the error of a result over the size of each quantity.
-
-    The uncertainty that the result states replaces the law of the error by the resolution, unless a promise contains
-    that error, and the bound is at least this uncertainty.
-
-    Parameters
-    ----------
-    scene : the scene.
-    model : the model of the result.
-    result : the result; only its quantities and its resolution are used.
-    models : all models for this kind of scene.
-
-    Returns
-    -------
-    dict
-        The error that 95 of 100 scenes do not exceed, for each quantity whose laws hold for the scene and the result.
-    """
-    kind = kind_of_name(scene.kind)
-    applying = [other for other in models if other.applies(scene).applies]
-    errors: dict[str, float] = {}
-    for quantity, title in kind.titles.items() if any(other.name == model.name for other in applying) else ():
-        task = AdviceTask(
-            scene=scene,
-            kind=kind,
-            models=applying,
-            quantity=quantity,
-            title=title,
-            table=table(),
-            numbers=kind.numbers(scene),
-            run=lambda other, grid: other.solve(scene, Request(resolution=grid)),
-        )
-        if quantity in result.quantities and kind.outside_laws(scene, result, quantity):
-            continue
-        own = task.uncertainty(result) if quantity in result.quantities else None
-        estimate, omitted = a_priori(task, model, result.numerics.resolution, own), kind.omitted(scene, quantity)
-        if estimate is not None and estimate.sure:
-            error = max(estimate.error + (omitted.part if omitted else 0.0), own or 0.0)
-            errors |= {quantity: error} if error < math.inf else {}
-    return errors
 
 
 def combined(before: Estimate | None, after: Estimate | None) -> Estimate | None:
@@ -246,14 +196,19 @@ def a_priori(task: AdviceTask, model: Model, resolution: int, stated: float | No
     parts, reasons, sure = left
     if grid > 0 and not by_law:
         parts = [*parts, grid]
-        reasons = [*reasons, (grid, f"at resolution {resolution} its own uncertainty is {percent(grid)}")]
+        reasons = [*reasons, (grid, f"uncertainty of its own at resolution {resolution}")]
     elif grid > 0:
         beyond = task.beyond_grids(model, resolution)
-        reason = f"a resolution of {resolution} costs {bounded(grid)}"
+        reason = f"error by the resolution of {resolution}"
         reasons = [*reasons, (grid, reason + _range_note(task, beyond, task.grid_law(model)))]
         parts, sure = [*parts, grid], sure and beyond is None
     largest_first = sorted(reasons, key=lambda pair: -pair[0])
-    return Estimate(error=math.hypot(*parts), reasons=tuple(reason for _, reason in largest_first), sure=sure)
+    return Estimate(
+        error=math.hypot(*parts),
+        reasons=tuple(reason for _, reason in largest_first),
+        sure=sure,
+        source=BY_LAWS if by_law or len(parts) > 1 else BY_ITS_RUN,
+    )
 
 
 def left_out(task: AdviceTask, chain: Sequence[Model]) -> tuple[list[float], list[tuple[float, str]], bool] | None:
@@ -275,7 +230,7 @@ def left_out(task: AdviceTask, chain: Sequence[Model]) -> tuple[list[float], lis
             error, beyond = law.error(own, RESOLVING), law.beyond(own, RESOLVING)
             names = [one.name for one in chain]
             contained = names.index(promise.towards) if promise.towards in names else len(chain)
-            reason = _promise_reason(task, chain[place:contained], error) + _range_note(task, beyond, law)
+            reason = _promise_reason(task, chain[place:contained]) + _range_note(task, beyond, law)
             parts, reasons = [*parts, error], [*reasons, (error, reason)]
             sure = sure and beyond is None
             continue
@@ -287,20 +242,20 @@ def left_out(task: AdviceTask, chain: Sequence[Model]) -> tuple[list[float], lis
         error, beyond = law.error(task.numbers, (step.tells,)), law.beyond(task.numbers, (step.tells,))
         parts.append(error)
         sure = sure and beyond is None
-        reasons.append((error, _reason(task, model, step, error) + _range_note(task, beyond, law)))
+        reasons.append((error, _reason(task, step) + _range_note(task, beyond, law)))
     return parts, reasons, sure
 
 
-def _promise_reason(task: AdviceTask, chain: Sequence[Model], error: float) -> str:
+def _promise_reason(task: AdviceTask, chain: Sequence[Model]) -> str:
     adds = [step.adds for model in chain if (step := task.step(model)) is not None]
     adds = [one for one in adds if one.partition(" beyond ")[0] == one or one.partition(" beyond ")[0] not in adds]
-    return f"{chain[0].name} leaves out {' and '.join(adds)}: its {task.title} is {near(error)}"
+    return f"leaves out {' and '.join(adds)}"
 
 
-def _reason(task: AdviceTask, model: Model, step: Step, error: float) -> str:
+def _reason(task: AdviceTask, step: Step) -> str:
     value = task.numbers.get(step.tells)
-    number = "" if value is None else f"{task.kind.symbols[step.tells]} = {value:.2g}: "
-    return f"{number}{step.adds} may change the {task.title} by {bounded(error)}; {model.name} would miss it"
+    number = "" if value is None else f", {task.kind.symbols[step.tells]} = {value:.2g}"
+    return f"leaves out {step.adds}{number}"
 
 
 def _range_note(task: AdviceTask, beyond: str | None, law: Law | None) -> str:
@@ -364,10 +319,10 @@ def affordable(task: AdviceTask, pairs: Sequence[tuple[Model, int]]) -> set[tupl
 def with_own_uncertainty(task: AdviceTask, model: Model, resolution: int, estimate: Estimate) -> Estimate:
     """The estimate with the uncertainty that a model in this process states of its own run.
 
-    Where a law gives the error by the resolution, or a promise contains it, the error is at least this uncertainty. At
-    the full resolution of a rough surface without a promise, the uncertainty adds to the error. The estimate does not
-    change if the run fails or does not state an uncertainty. It is not sure where the run shows that the laws do not
-    hold.
+    In an estimate by the laws it replaces the law over resolutions, unless a promise contains that error. A measured
+    error is at least this uncertainty, which adds to it at the full resolution of a rough surface without a promise.
+    The estimate does not change if the run fails or does not state an uncertainty. It is not sure where the run shows
+    that the laws do not hold.
     """
     result = None if model.outside else _run(task, model, resolution)
     outside = "" if result is None else task.kind.outside_laws(task.scene, result, task.quantity)
@@ -376,12 +331,15 @@ def with_own_uncertainty(task: AdviceTask, model: Model, resolution: int, estima
     own = None if model.outside else _from_itself(task, model, resolution)
     if own is None or own.error == 0:
         return estimate
+    by_laws = a_priori(task, model, resolution, own.error) if estimate.source == BY_LAWS else None
+    if by_laws is not None and by_laws.sure:
+        return replace(by_laws, error=max(by_laws.error, own.error), sure=estimate.sure, decides=True)
     promised = task.quantity in task.table.promise(task.kind.name, model.name).laws
     adds = not promised and "waves" in task.numbers and task.at_full_resolution(model, resolution)
     error = math.hypot(estimate.error, own.error) if adds else max(estimate.error, own.error)
-    first = own.reasons if own.error > estimate.error else ()
-    reasons = (*first, *estimate.reasons)
-    return Estimate(error=error, reasons=reasons, sure=estimate.sure, least=estimate.least, decides=True)
+    first = own if own.error > estimate.error else estimate
+    reasons = (*own.reasons, *estimate.reasons) if first is own else estimate.reasons
+    return replace(first, error=error, reasons=reasons, sure=estimate.sure, least=estimate.least, decides=True)
 
 
 def _cheap(task: AdviceTask, check: float, cost: float) -> bool:
@@ -404,8 +362,7 @@ def _from_itself(task: AdviceTask, model: Model, resolution: int) -> Estimate | 
     error = None if own is None else task.uncertainty(own)
     if error is None:
         return None
-    reason = f"at resolution {resolution} its own uncertainty is {percent(error)}"
-    return Estimate(error=error, reasons=(reason,), decides=True)
+    return Estimate(error=error, reasons=(f"run at resolution {resolution}",), decides=True, source=BY_ITS_RUN)
 
 
 def _from_above(task: AdviceTask, model: Model, resolution: int, above: Model, finer: int) -> Estimate | None:
@@ -416,11 +373,12 @@ def _from_above(task: AdviceTask, model: Model, resolution: int, above: Model, f
     if left is None:
         return None
     difference = task.difference(own, result)
-    reason = f"{above.name} was run too and differs by {percent(difference)}"
-    more = f", being itself {near(left.error)}" if left.error > 0 else ""
+    size = abs(difference)
     return Estimate(
-        error=difference + left.error,
-        reasons=(reason + more,),
+        error=size + left.error,
+        reasons=(f"{above.name} was run too at resolution {finer}",),
         sure=left.sure,
-        least=max(difference - left.error, 0.0) if left.sure else 0.0,
+        least=max(size - left.error, 0.0) if left.sure else 0.0,
+        source=f"measured against {above.name}",
+        difference=difference,
     )

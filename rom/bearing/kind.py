@@ -12,6 +12,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.foundation.faults import Fault, faults_of, known_keys, unknown_key
 from roughfilm.contact.foundation.line_numbers import Location
 from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.bearing.equilibrium.expected import expected_scene
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.roughness import ROUGHNESSES
 from roughfilm.rom.bearing.scene import Bearing
@@ -58,7 +59,7 @@ def columns(scene: Bearing) -> dict[str, Quantity | str]:
     numbers = bearing_numbers(scene)
     return {
         "shape": scene.geometry.shape,
-        "pressure_unit": Quantity(value=scene.pressure_unit, unit="Pa"),
+        "pressure_unit": Quantity(value=expected_scene(scene).pressure_unit, unit="Pa"),
         "inlet_theta": _one(numbers.get("starvation", 1.0)),
         **{name: _one(numbers[key]) for name, key in COLUMNS.items() if key in numbers},
     }
@@ -143,14 +144,14 @@ def omitted(scene: Bearing, quantity: str) -> Omission | None:
 
 
 def composed(scene: Bearing) -> tuple[str, ...]:
-    """A line for each effect with its model and the reason, and a note if the scene has a load."""
+    """A line for each effect with its model and the reason, and one for the film under a load."""
     from roughfilm.rom.bearing.effects.explanation import effect_models  # slow to import
 
     lines = [f"{one.effect}: {one.model}, {one.why}" for one in effect_models(scene)]
     if scene.load is not None:
-        lines.append(
-            "load: the numbers hold for the film as given; roughfilm effects solves for the film under the load"
-        )
+        film, given = expected_scene(scene).geometry.thinnest, scene.geometry.film
+        first = "" if given is None else f"; the given film of {given:.3g} m is the first value of the search"
+        lines.append(f"load: the film is sought that carries it, about {film:.2g} m{first}")
     return tuple(lines)
 
 
@@ -159,7 +160,9 @@ KIND = Kind(
     scene=Bearing,
     summary="a film between a shaped wall and a sliding one, with cavitation",
     compared={"load_per_width": "load", "friction_per_width": "friction"},
+    compared_with={"load": {"film_min": "least film thickness", "friction_per_width": "friction"}},
     others={
+        "film_min": "least film thickness",
         "pressure_max": "peak pressure",
         "inlet_flow_per_width": "flow in",
         "side_leakage": "side leakage",
@@ -170,6 +173,7 @@ KIND = Kind(
         "film_load_per_width": "load by the film",
         "least_gap": "least gap",
     },
+    ratios={"friction_coefficient": ("friction_per_width", "load_per_width")},
     scale=scale,
     columns=columns,
     numbers=bearing_numbers,
@@ -196,6 +200,9 @@ KIND = Kind(
         "roughness.surface": ("digest", "spacing"),
         "roughness.table": ("digest",),
         "geometry.thickness": ("digest",),
+        "load.pressure": ("force", "force_per_width"),
+        "load.force": ("pressure", "force_per_width"),
+        "load.force_per_width": ("pressure", "force"),
         "boundary.inlet.theta": ("pressure",),
         "boundary.inlet.pressure": ("theta",),
     },

@@ -16,6 +16,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap
 from roughfilm.rom.homogenization.ridges import sinusoidal_ridges
 from roughfilm.rom.homogenization.table.factor_table import FactorTable
+from roughfilm.rom.ladder.model import report
 from roughfilm.rom.parts.surface_geometry import SurfaceGeometry
 
 ZERO_COSINE = 1e-12
@@ -25,7 +26,10 @@ FACTOR_TOLERANCE = 5e-4
 """Tolerance of the interpolation between flow factors of a surface."""
 
 FIRST_GAP_RATIO = 0.999
-"""Mean gap of the first point of a table of flow factors, over that of the narrowest film."""
+"""Largest mean gap of the first point of a table of flow factors, over that of the narrowest film."""
+
+STEPS_PER_OCTAVE = 2
+"""Number of possible first mean gaps of a table for each factor of 2, so that films of many thicknesses share one."""
 
 PIXELS_PER_WAVE = 4
 """Length of the shortest wave of a surface that a grid resolves, in pixels; a cell is then half a pixel."""
@@ -155,13 +159,18 @@ class RoughSurface(SurfaceGeometry):
         return np.asarray(-scipy.ndimage.map_coordinates(heights, places, order=1, mode="grid-wrap"))
 
     def factors(self, narrowest: float) -> FactorTable:
-        """The flow factors at mean gaps of at least ``narrowest``, m; overlapping heights are truncated."""
+        """The flow factors at mean gaps of at least ``narrowest``, m; overlapping heights are truncated.
+
+        The table begins at the peak of the roughness times a power of √2.
+        """
         entries = self.model_dump_json(include={"surface", "spacing", "digest"}, exclude_none=True)
-        return _factors(entries, narrowest / self.scale).scaled(self.scale)
+        highest = self.peak / self.scale
+        steps = STEPS_PER_OCTAVE * math.log2(FIRST_GAP_RATIO * narrowest / self.scale / highest) if highest > 0 else 0.0
+        return _factors(entries, highest * 2 ** (math.floor(steps) / STEPS_PER_OCTAVE)).scaled(self.scale)
 
     def factor_uncertainty(self, narrowest: float) -> float:
-        """The largest relative uncertainty of the flow factors."""
-        return self.factors(narrowest).relative_uncertainty
+        """The largest relative uncertainty of the flow factors at mean gaps of at least ``narrowest``, m."""
+        return self.factors(narrowest).relative_uncertainty_above(narrowest)
 
     def scaled_heights(self) -> Array:
         """The heights above their mean, m, shape (nx, ny)."""
@@ -174,12 +183,24 @@ class RoughSurface(SurfaceGeometry):
         return dx * self.stretch, dy * self.stretch
 
 
-@lru_cache(maxsize=4)
-def _factors(surface: str, narrowest: float) -> FactorTable:
-    from roughfilm.rom.homogenization.table.tabulate import tabulate  # whose loops are slow to import
+@lru_cache(maxsize=16)
+def _factors(surface: str, first: float) -> FactorTable:
+    from roughfilm.rom.homogenization.table.kept import kept_table, table_inputs  # whose loops are slow to import
+    from roughfilm.rom.homogenization.table.tabulate import tabulate
 
-    read = SurfaceGeometry.model_validate_json(surface).read()
-    return tabulate(read.heights, read.spacing, tolerance=FACTOR_TOLERANCE, narrowest=FIRST_GAP_RATIO * narrowest)
+    geometry = SurfaceGeometry.model_validate_json(surface)
+    heights, spacing = geometry.read().heights, geometry.read().spacing
+    options = {"tolerance": FACTOR_TOLERANCE, "narrowest": first}
+
+    def progress(done: float, words: str) -> None:
+        report(done, f"table of {geometry.name}: {words}")
+
+    return kept_table(
+        table_inputs(heights, spacing, "rom.homogenization.table.tabulate", **options),
+        lambda known, keep: tabulate(heights, spacing, known=known, keep=keep, progress=progress, **options),
+        about={"surface": geometry.name, "kind": "flow factors"},
+        progress=progress,
+    )
 
 
 class StoredTable(Part):

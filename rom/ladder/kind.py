@@ -4,7 +4,7 @@ import importlib
 import importlib.util
 import pkgutil
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache, partial
 from typing import Annotated, Any
 
@@ -89,6 +89,10 @@ class Kind:
     summary : a description of these scenes, in words.
     compared : the quantities by which models are compared, with their names in a sentence; the most important is first.
     others : the other quantities that models of the kind report, with their names in a sentence.
+    compared_with : the compared quantities of scenes that have a table, by the name of the table; the error laws do not
+        hold for these scenes.
+    lawful : whether the error laws hold; False for the kind of a scene with such a table.
+    ratios : quantities that are the ratio of two others, with the names of these; their errors follow from those.
     scale : scale(values, quantity), the size by which an error in a compared quantity is divided. ``values`` are the
         values of the reference by quantity, as numbers or arrays.
     columns : columns(scene), dimensionless numbers and texts of a scene for a table of many cases.
@@ -115,6 +119,9 @@ class Kind:
     numbers: Callable[[Any], Mapping[str, float]]
     symbols: Mapping[str, str]
     others: Mapping[str, str] = field(default_factory=dict)
+    compared_with: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    lawful: bool = True
+    ratios: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     composed: Callable[[Any], Sequence[str]] = nothing_composed
     omitted: Callable[[Any, str], Omission | None] = nothing_omitted
     outside_laws: Callable[[Any, Any, str], str] = within_laws
@@ -129,6 +136,14 @@ class Kind:
     def titles(self) -> Mapping[str, str]:
         """The names in a sentence of all quantities, the compared ones first."""
         return {**self.compared, **self.others}
+
+    def of(self, entries: Mapping[str, Any]) -> "Kind":
+        """The kind with the compared quantities of a scene, from its entries by the names of their tables."""
+        for table, compared in self.compared_with.items():
+            if entries.get(table) is not None:
+                others = {name: title for name, title in self.titles.items() if name not in compared}
+                return replace(self, compared=compared, others=others, lawful=False)
+        return self
 
     def read(self, entries: Mapping[str, Any], file: EntriesFile | None = None) -> Scene:
         """Make a scene of this kind from nested entries of a file; InputError with a line for each fault."""
@@ -169,4 +184,10 @@ def kinds() -> Mapping[str, Kind]:
 
 def kind_of(result: Result) -> Kind:
     """The kind of scene that a result solves."""
-    return kind_of_name(result.provenance["scene"]["kind"])
+    entries = result.provenance["scene"]
+    return kind_of_name(entries["kind"]).of(entries)
+
+
+def kind_of_scene(scene: Scene) -> Kind:
+    """The kind of a scene, with the quantities that are compared for this scene."""
+    return kind_of_name(scene.kind).of(dict(scene))

@@ -3,8 +3,11 @@
 import importlib
 import importlib.util
 import pkgutil
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from numbers import Integral, Real
 from types import ModuleType
@@ -13,6 +16,7 @@ from typing import Any, Generic, NotRequired, TypedDict
 from typing_extensions import TypeVar
 
 from roughfilm.contact.foundation.errors import InputError, UnavailableError
+from roughfilm.contact.foundation.timing import claimed_costs
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.request import CheckedRequest, Request
 from roughfilm.rom.ladder.result import Result
@@ -70,6 +74,24 @@ Progress = Callable[[float, str], None]
 
 def silent(fraction: float, words: str) -> None:
     """Report no progress."""
+
+
+_reported: ContextVar[Progress] = ContextVar("_reported", default=silent)
+
+
+@contextmanager
+def reported_to(progress: Progress) -> Iterator[None]:
+    """Let :func:`report` call this function in the block, for work that is not handed a progress."""
+    before = _reported.set(progress)
+    try:
+        yield
+    finally:
+        _reported.reset(before)
+
+
+def report(fraction: float, words: str) -> None:
+    """Report progress to the function of the innermost :func:`reported_to`; a progress of its own."""
+    _reported.get()(fraction, words)
 
 
 SceneT = TypeVar("SceneT", bound=Scene, default=Any)
@@ -165,7 +187,8 @@ class Model(Generic[SceneT]):
         Returns
         -------
         Result
-            Quantities and fields of the scene, with a residual that is recomputed from the solution.
+            Quantities and fields of the scene, with a residual that is recomputed from the solution. Its numerics hold
+            the one-time costs of this process since the result before, such as a table or the surface of the scene.
 
         Raises
         ------
@@ -179,7 +202,11 @@ class Model(Generic[SceneT]):
         here = self.available()
         if not here.available:
             raise UnavailableError(f"{self.name}: {here.detail}")
-        return self.compute(self, scene, self.checked(scene, request), progress)
+        checked, started = self.checked(scene, request), time.perf_counter()
+        with reported_to(progress):
+            result = self.compute(self, scene, checked, progress)
+        waited = max(time.perf_counter() - started, result.numerics.wall_s)
+        return replace(result, numerics=replace(result.numerics, wall_s=waited, one_time=claimed_costs()))
 
     def checked(self, scene: SceneT, request: Request) -> CheckedRequest:
         """The request with the model's defaults filled in; InputError for an option that the model does not allow."""

@@ -4,6 +4,7 @@ import ast
 import hashlib
 import os
 import platform
+import re
 import subprocess
 from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
@@ -16,6 +17,9 @@ from roughfilm.rom.ladder.scene import scene_entries
 
 LIBRARY = Path(__file__).parents[2]
 """The folder of the package roughfilm, with contact, rom and foamcases in it."""
+
+DEFERRED = re.compile(rb'\bdeferred\(\s*"([\w.]+)"')
+"""Imports that wait until the first call, see ``roughfilm.contact.foundation.deferred``."""
 
 BLOCKS = (ast.stmt, ast.ExceptHandler, ast.match_case)
 """Classes of the nodes of a syntax tree that are statements or contain statements."""
@@ -60,11 +64,24 @@ def code() -> str:
 def model_code(kind: str, model: str) -> str:
     """A digest of the code that a model runs, 16 hexadecimal digits: equal digests give equal numbers.
 
-    It covers the model's module and all modules of this library that it imports, directly or through others, without
-    docstrings and comments. The digest of a model without a module of its own is :func:`code`.
+    It covers the model's module and all modules of this library that it imports, directly or through others, at once or
+    deferred, without docstrings and comments. The digest of a model without a module of its own is :func:`code`.
     """
+    return _code_of([f"roughfilm.{package}.{kind}.models.{model}" for package in ("rom", "foamcases")])
+
+
+@cache
+def imported_code(*modules: str) -> str:
+    """A digest of modules of this library, by their dotted names, and of all that they import, as :func:`model_code`.
+
+    The digest of modules that do not exist is :func:`code`.
+    """
+    return _code_of(modules)
+
+
+def _code_of(modules: Sequence[str]) -> str:
     statements: dict[str, bytes] = {}
-    pending = [f"roughfilm.{package}.{kind}.models.{model}" for package in ("rom", "foamcases")]
+    pending = [*modules]
     while pending:
         name = pending.pop()
         if name not in statements:
@@ -88,8 +105,9 @@ def _statements(path: Path) -> tuple[bytes, frozenset[str]]:
     """
     if not path.is_file():
         return b"", frozenset()
-    tree = ast.parse(path.read_bytes())
-    imports: set[str] = set()
+    text = path.read_bytes()
+    tree = ast.parse(text)
+    imports = {f"roughfilm.{module.decode()}" for module in DEFERRED.findall(text)}
     pending: list[ast.AST] = [tree]
     while pending:
         node = pending.pop()

@@ -74,8 +74,8 @@ class Numerics:
     ----------
     residual : residual recomputed after the solver has converged, in the sense of the model's ``residual_meaning``.
     iterations : number of iterations.
-    cpu_s : CPU time of this process and its children, s.
-    wall_s : wall-clock time, s.
+    cpu_s : CPU time of the solution, s, of this process and its children, without one-time costs.
+    wall_s : wall-clock time from the start to the end of the model, s, with the one-time costs in it.
     degrees_of_freedom : number of unknowns.
     resolution : number of cells, points or nodes that the model's ``resolution_meaning`` names.
     tolerance : residual at which the solver stops.
@@ -83,6 +83,8 @@ class Numerics:
     processes : number of processes.
     runs : the runs of the solver in their order; empty if the model does not report them.
     details : further numbers that describe the computation, by name.
+    one_time : CPU time of work that later runs do not repeat, s, by name: "table" of the surface, "compilation",
+        "surface" (read or made), and "start" (compiled loops read from disk).
     """
 
     residual: float
@@ -96,6 +98,7 @@ class Numerics:
     processes: int = 1
     runs: tuple[SolverRun, ...] = ()
     details: Mapping[str, float] = field(default_factory=dict)
+    one_time: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,6 +10,7 @@ from pydantic import BeforeValidator, PlainSerializer, model_validator
 
 from roughfilm.contact.foundation.entries import LengthPair, Part
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.timing import one_time
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.contact.mechanics.moments import WavePower, wave_power
 from roughfilm.contact.surfaces.files import read_surface
@@ -136,13 +137,15 @@ def digest_of(surface: Surface) -> str:
 def _made(description: str) -> Surface:
     from roughfilm.contact.synthetic.description import make, read_entries  # slow to import
 
-    return make(read_entries(json.loads(description)))
+    with one_time("surface"):
+        return make(read_entries(json.loads(description)))
 
 
 @lru_cache(maxsize=2)
 def _read(path: str, spacing: tuple[float, float] | None, _modified: int, _size: int) -> Surface:
     try:
-        return read_surface(Path(path), spacing=spacing)
+        with one_time("surface"):
+            return read_surface(Path(path), spacing=spacing)
     except InputError as error:
         raise InputError(f"in {error}") from None
 

@@ -3,6 +3,7 @@
 import time
 
 from roughfilm.contact.foundation.errors import ConvergenceError
+from roughfilm.contact.foundation.timing import working_time
 from roughfilm.rom.ladder.model import Effect, Model, Progress
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.request import CheckedRequest
@@ -28,7 +29,7 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
     ConvergenceError
         If the residual of the finest rule exceeds the tolerance.
     """
-    wall, cpu = time.perf_counter(), time.process_time()
+    wall, cpu = time.perf_counter(), working_time()
     model, keeps, sources = solver.name, solver.keeps, solver.sources
     tolerance, scheme = request.tolerance, request.scheme
     gap = scene.gap()
@@ -75,7 +76,7 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
         numerics=Numerics(
             residual=residual,
             iterations=tries,
-            cpu_s=time.process_time() - cpu,
+            cpu_s=working_time() - cpu,
             wall_s=time.perf_counter() - wall,
             degrees_of_freedom=film.x.size,
             resolution=order,

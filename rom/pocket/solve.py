@@ -6,6 +6,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
+from roughfilm.contact.foundation.timing import working_time
 from roughfilm.rom.ladder.model import Effect, Model, Progress
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.request import CheckedRequest
@@ -115,7 +116,7 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
     ConvergenceError
         If Newton's method does not converge to the tolerance.
     """
-    wall, cpu = time.perf_counter(), time.process_time()
+    wall, cpu = time.perf_counter(), working_time()
     model, keeps, sources = solver.name, solver.keeps, solver.sources
     resolution, tolerance, scheme = request.resolution, request.tolerance, request.scheme
     gap, reynolds_number = scene.gap(), scene.reynolds_number
@@ -163,7 +164,7 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
         numerics=Numerics(
             residual=residual,
             iterations=steps,
-            cpu_s=time.process_time() - cpu,
+            cpu_s=working_time() - cpu,
             wall_s=time.perf_counter() - wall,
             degrees_of_freedom=state.amplitudes.size + 1,
             resolution=resolution,

@@ -3,7 +3,8 @@
 import json
 import traceback
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -138,9 +139,7 @@ def solved_once(job: Job, step: Progress) -> Result:
     if answer is None:
         repeats = REPEATS if job.setting.cost(job.scene) < QUICK_S else 1
         try:
-            answer = min(
-                (job.setting.solve(job.scene, step) for _ in range(repeats)), key=lambda one: one.numerics.cpu_s
-            )
+            answer = _fastest([job.setting.solve(job.scene, step) for _ in range(repeats)])
         except ConvergenceError as error:
             store(job, failure_of(error))
             raise
@@ -148,6 +147,14 @@ def solved_once(job: Job, step: Progress) -> Result:
     if isinstance(answer, Failure):
         raise ConvergenceError(answer.message)
     return answer
+
+
+def _fastest(results: Sequence[Result]) -> Result:
+    """The result of the shortest run, with the one-time costs of all runs."""
+    fastest = min(results, key=lambda one: one.numerics.cpu_s)
+    costs = [one.numerics.one_time for one in results]
+    one_time = {name: sum(cost.get(name, 0.0) for cost in costs) for name in dict.fromkeys(chain(*costs))}
+    return replace(fastest, numerics=replace(fastest.numerics, one_time=one_time))
 
 
 def jobs_of(scene: Scene, models: Sequence[Model], directory: Path, grids: int = GRIDS) -> list[Job]:

@@ -8,8 +8,8 @@ from roughfilm.batch.jobs import Failure, Job
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.ladder import models
-from roughfilm.rom.advice.estimates import expected_errors
-from roughfilm.rom.ladder.kind import kind_of_name
+from roughfilm.rom.advice.expected import with_errors
+from roughfilm.rom.ladder.kind import kind_of_name, kind_of_scene
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import scene_entries
 from roughfilm.rom.studies.study import Case, Key
@@ -42,12 +42,12 @@ def row_of(keys: Mapping[str, Key], case: Case, job: Job, answer: Result | Failu
     }
     if isinstance(answer, Failure):
         return requested, {"outcome": f"{answer.kind}: {answer.message}"}
-    numbers = answer.numerics
+    numbers, answer = answer.numerics, _with_errors(case, job, answer)
     return requested, {
         "outcome": "solved",
         **dict(sorted(answer.quantities.items())),
         **_uncertainties(answer),
-        **_expected_errors(case, job, answer),
+        **_expected_errors(case, answer),
         "residual": _number(numbers.residual),
         "iterations": _number(numbers.iterations),
         "cpu_s": Quantity(value=numbers.cpu_s, unit="s"),
@@ -64,17 +64,18 @@ def _uncertainties(answer: Result) -> dict[str, Cell]:
     }
 
 
-def _expected_errors(case: Case, job: Job, answer: Result) -> dict[str, Cell]:
-    """The errors by the fitted laws of compared quantities of unknown uncertainty, as <quantity>_expected_error."""
-    kind = kind_of_name(case.scene.kind)
-    unknown = [name for name in kind.shared(answer) if answer.quantities[name].uncertainty is None]
-    if not unknown:
-        return {}
-    model = job.setting.model
+def _with_errors(case: Case, job: Job, answer: Result) -> Result:
+    """The answer with its errors by the fitted laws; without them if the numbers of the scene cannot be found."""
     try:
-        errors = expected_errors(case.scene, model, answer, models(case.scene.kind))
+        return with_errors(answer, case.scene, job.setting.model, models(case.scene.kind))
     except (InputError, ConvergenceError):
-        return {}
+        return answer
+
+
+def _expected_errors(case: Case, answer: Result) -> dict[str, Cell]:
+    """The errors by the fitted laws of compared quantities of unknown uncertainty, as <quantity>_expected_error."""
+    unknown = [name for name in kind_of_scene(case.scene).shared(answer) if answer.quantities[name].uncertainty is None]
+    errors = answer.expected_error
     return {f"{name}_expected_error": _number(errors[name]) for name in unknown if name in errors}
 
 

@@ -9,10 +9,11 @@ from rich.table import Table
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.ladder import models
-from roughfilm.rom.advice.advise import Advice, ModelVerdict, Verdict, advise, shortfall, wanted
-from roughfilm.rom.advice.estimates import Estimate, percent
+from roughfilm.rom.advice.advise import DEFAULT_TOLERANCE, Advice, ModelVerdict, Verdict, advise, shortfall, wanted
+from roughfilm.rom.advice.estimates import Estimate
 from roughfilm.rom.advice.laws import table as laws_table
-from roughfilm.rom.ladder.kind import Scene, kind_of_name
+from roughfilm.rom.advice.stated import entries_of_errors, percent
+from roughfilm.rom.ladder.kind import Scene, kind_of_scene
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.terminal.console import (
     NOT_CONVERGED,
@@ -25,6 +26,11 @@ from roughfilm.terminal.console import (
 from roughfilm.terminal.results import print_all, table_of
 from roughfilm.words.numbers import finite
 
+EXAMPLES = (
+    "roughfilm advise scripts/examples/scenes/pocket.toml --within 5%",
+    "roughfilm advise scripts/examples/scenes/journal.toml --within 10%",
+)
+
 Want = Annotated[
     str | None,
     typer.Option(
@@ -32,19 +38,23 @@ Want = Annotated[
     ),
 ]
 
+DEFAULT_WITHIN = f"{100 * DEFAULT_TOLERANCE:g}%"
+
 
 def command(
     scene: ScenePath,
-    within: Annotated[str, typer.Option(help="Tolerated error, for example 5%.")],
+    within: Annotated[str, typer.Option(help="Tolerated error, for example 2%.")] = DEFAULT_WITHIN,
     quantity: Want = None,
     set_: Overrides = None,
     as_json: AsJson = False,
 ) -> None:
     """Choose the cheapest model and resolution that are accurate enough, with their expected error and cost."""
     read = load_scene(scene, set_ or ())
-    advice = advice_for(read, quantity, within)
+    compared, fraction = wanted(read, quantity), tolerance_of(within)
+    with progress_bar(1.0) as advance:
+        advice = advise(read, models(read.kind), quantity=compared, within=fraction, progress=advance)
     if as_json:
-        print_json({**entries_of(advice), "composition": list(kind_of_name(read.kind).composed(read))})
+        print_json({**entries_of(advice), "composition": list(kind_of_scene(read).composed(read))})
     else:
         print_all(_shown(read, advice))
     if advice.chosen is None:
@@ -60,43 +70,22 @@ def tolerance_of(text: str) -> float:
         raise InputError(f"--within: got {text!r}; write a fraction such as 5% or 0.05") from None
 
 
-def advice_for(scene: Scene, quantity: str | None, within: str) -> Advice:
-    """The advice for a quantity of a scene, with a progress bar; InputError for an unknown quantity or tolerance."""
-    compared, fraction = wanted(scene, quantity), tolerance_of(within)
-    with progress_bar(1.0) as advance:
-        return advise(scene, models(scene.kind), quantity=compared, within=fraction, progress=advance)
-
-
 def _shown(scene: Scene, advice: Advice) -> Iterator[Table | str]:
     """The advice for people."""
-    kind, chosen = kind_of_name(scene.kind), advice.chosen
-    if chosen is None:
-        yield f"{scene.name}: {shortfall(advice)}"
-    else:
-        yield (
-            f"{scene.name}: {advice.title} within {percent(advice.within)} by {chosen.model}, "
-            f"resolution {chosen.resolution}: expected within {percent(chosen.error or 0.0)}, {chosen.cpu_s:.2g} CPU s"
-        )
+    kind = kind_of_scene(scene)
     judged = [one for one in advice.considered if one.resolution is not None]
     table = table_of(
-        ("model", "resolution", "CPU s", "error, by the laws", "error, by the next model", ""),
-        [
-            (
-                one.model,
-                str(one.resolution),
-                f"{one.cpu_s:.2g}",
-                *map(_short, (one.a_priori, one.a_posteriori)),
-                one.verdict,
-            )
-            for one in judged
-        ],
+        ("model", "resolution", "CPU s", "error", ""),
+        [(one.model, str(one.resolution), f"{one.cpu_s:.2g}", _short(one), one.verdict) for one in judged],
+        title=f"{scene.name}: error in {advice.title}",
         left=1,
     )
-    table.columns[5].justify = "left"
+    table.columns[0].no_wrap = True
+    table.columns[4].justify = "left"
     for row, one in zip(table.rows, judged, strict=True):
         row.style = "green" if one.verdict is Verdict.CHOSEN else "default"
     yield table
-    yield from (f"{one.model}: {one.verdict}: {one.reason}" for one in advice.considered)
+    yield from (f"{one.model}: {one.verdict}: {one.why}" for one in advice.considered)
     yield from (f"  {line}" for line in kind.composed(scene))
     if advice.omitted is not None:
         yield f"all of them: {advice.omitted.reason}"
@@ -106,12 +95,24 @@ def _shown(scene: Scene, advice: Advice) -> Iterator[Table | str]:
     laws = laws_table().provenance
     count = laws["fits"][kind.name]["scenes"]
     yield f"{advice.spent_cpu_s:.2g} CPU s spent on the advice; laws: {count} random scenes, {laws['command']}"
+    yield f"{scene.name}: {in_one_line(advice)}"
 
 
-def _short(estimate: Estimate | None) -> str:
-    if estimate is None:
-        return ""
-    return percent(estimate.error) + ("" if estimate.sure else ", outside the fitted range")
+def in_one_line(advice: Advice) -> str:
+    """The advice in one line: the model, its error and cost, or that no model is known to be accurate enough."""
+    chosen = advice.chosen
+    if chosen is None or chosen.stated is None:
+        return shortfall(advice)
+    return (
+        f"{advice.title} within {percent(advice.within)} by {chosen.model}, resolution {chosen.resolution}: "
+        f"error {chosen.stated.words}; {chosen.cpu_s:.2g} CPU s"
+    )
+
+
+def _short(one: ModelVerdict) -> str:
+    if one.estimate is None:
+        return "unknown"
+    return "outside the fitted range" if one.stated is None else one.stated.amount
 
 
 def entries_of(advice: Advice) -> dict[str, Any]:
@@ -121,13 +122,14 @@ def entries_of(advice: Advice) -> dict[str, Any]:
         "model": chosen.model if chosen else None,
         "resolution": chosen.resolution if chosen else None,
         "expected_error": chosen.error if chosen else None,
+        "error_source": chosen.stated.source if chosen and chosen.stated else None,
         "expected_cpu_s": chosen.cpu_s if chosen else None,
         "enough": chosen is not None,
         "want": advice.quantity,
         "within": advice.within,
         "nearest": advice.nearest.model if advice.nearest else None,
         "finer": {"model": advice.finer.model, "resolution": advice.finer.resolution} if advice.finer else None,
-        "reasons": [f"{one.model}: {one.verdict}: {one.reason}" for one in advice.considered],
+        "reasons": [f"{one.model}: {one.verdict}: {one.why}" for one in advice.considered],
         "omitted": {**asdict(advice.omitted), "part": finite(advice.omitted.part)} if advice.omitted else None,
         "considered": [_entries(one) for one in advice.considered],
         "numbers": {name: finite(value) for name, value in advice.numbers.items()},
@@ -143,6 +145,7 @@ def _entries(one: ModelVerdict) -> dict[str, Any]:
         "expected_cpu_s": one.cpu_s,
         "verdict": one.verdict.value,
         "reason": one.reason,
+        "error": entries_of_errors({one.model: one.stated}).get(one.model) if one.stated else None,
         "a_priori": _estimate(one.a_priori),
         "a_posteriori": _estimate(one.a_posteriori),
     }

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from rich.markup import escape
 from rich.table import Table
 
 from roughfilm.batch.directory import alone
@@ -24,12 +23,17 @@ from roughfilm.terminal.console import (
     Jobs,
     OutDirectory,
     make_directory,
-    messages,
     print_json,
+    print_message,
     process_count,
     progress_bar,
 )
-from roughfilm.terminal.results import print_all, table_of
+from roughfilm.terminal.results import print_all, table_of, written
+
+EXAMPLES = (
+    "roughfilm batch scripts/examples/studies/pocket.toml --out sweep --dry-run",
+    "roughfilm batch scripts/examples/studies/pocket.toml --out sweep",
+)
 
 LISTED = 5
 """Cases and failures that are listed; the others are counted."""
@@ -91,12 +95,13 @@ def _plan_entries(study: Study, progress: BatchProgress, processes: int) -> dict
 
 
 def _shown_plan(study: Study, progress: BatchProgress, processes: int) -> Iterator[Table | str]:
-    table = Table(*study.keys, title=f"{escape(study.name)}: {len(study.cases)} cases")
-    for case in study.cases[:LISTED]:
-        table.add_row(*(escape(str(case.varied.get(key, "-"))) for key in study.keys))
+    rows = [
+        [str(number), *(str(case.varied.get(key, "-")) for key in study.keys)]
+        for number, case in enumerate(study.cases[:LISTED], start=1)
+    ]
     if len(study.cases) > LISTED:
-        table.add_row(*("..." for _ in study.keys))
-    yield table
+        rows.append(["...", *("" for _ in study.keys)])
+    yield table_of(("case", *study.keys), rows, title=f"{study.name}: {len(study.cases)} cases", left=1)
     yield _state_table(progress)
     wall = _duration(progress.wall_s(processes))
     yield f"to come: {_duration(progress.cpu_s)} of CPU time, {wall} with {processes} processes"
@@ -111,15 +116,20 @@ def _show_outcome(study: Study, progress: BatchProgress, out: Path, as_json: boo
         tables = [str(out / name) for name in ("table.csv", "table.h5")]
         print_json({**_entries(study, progress), "failures": failures, "tables": tables})
     else:
-        print_all((_state_table(progress), f"table: {out / 'table.csv'} (.h5)"))
+        print_all([_state_table(progress)])
     if progress.warned:
         results = "1 result has" if progress.warned == 1 else f"{progress.warned} results have"
-        messages.print(f"[yellow]warning:[/] {results} warnings; see the column warnings of the table", soft_wrap=True)
+        print_message("warning", f"{results} warnings; see the column warnings of the table")
     for job, failure in progress.failures[:LISTED]:
         message = f"{job.path.parent.name} by {job.setting.name}: {failure.kind}: {failure.message}"
-        messages.print(f"[yellow]failed:[/] {escape(message)}", soft_wrap=True)
+        print_message("failed", message)
     if len(progress.failures) > LISTED:
-        messages.print(f"[yellow]failed:[/] {len(progress.failures) - LISTED} more; see the table", soft_wrap=True)
+        print_message("failed", f"{len(progress.failures) - LISTED} more; see the table")
+    if not as_json:
+        failed = f", {len(progress.failures)} jobs failed" if progress.failures else ""
+        solved = sum(progress.total(state) for state in (State.FINISHED, State.SOLVED))
+        answer = f"{solved} results by {len(progress.accounts)} models and resolutions{failed}"
+        print_all([f"{written(answer, out / 'table.csv', out / 'table.h5')}; 'roughfilm report {out}' draws them"])
 
 
 def _entries(study: Study, progress: BatchProgress) -> dict[str, Any]:
@@ -139,9 +149,7 @@ def _state_table(progress: BatchProgress) -> Table:
         [name, *(str(one.jobs[state]) for state in states), *([_duration(one.remaining)] if to_come else [])]
         for name, one in progress.accounts.items()
     ]
-    table = table_of(["setting", *states, *to_come], rows, left=1)
-    table.columns[0].no_wrap = True
-    return table
+    return table_of(["setting", *states, *to_come], rows, left=1)
 
 
 def _duration(seconds: float) -> str:

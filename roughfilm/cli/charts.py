@@ -18,7 +18,12 @@ from roughfilm.pages.render import render, write_figures
 from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.rom.studies.table import write_csv
 from roughfilm.terminal.console import AsJson, OutDirectory, make_directory, print_json, progress_bar
-from roughfilm.terminal.results import print_all, print_left_out, table_of
+from roughfilm.terminal.results import print_all, print_left_out, table_of, written
+
+EXAMPLES = (
+    "roughfilm charts --out charts",
+    "roughfilm charts --family cells --out cells",
+)
 
 
 def command(
@@ -59,11 +64,15 @@ def command(
     if as_json:
         print_json(entries)
     else:
-        print_all((*map(_table, charts), f"page: {out / 'charts.html'}"))
+        print_all(map(_table, charts))
     print_left_out(without)
     for chart in charts:
         reasons = {**chart.absent, **chart.answers.failed}
         print_left_out({f"{chart.family.name}: {name}": reason for name, reason in reasons.items()})
+    if not as_json:
+        count = sum(len(chart.points) for chart in charts)
+        answer = f"{count} points of speed against accuracy, in {len(charts)} of {len(names)} families"
+        print_all([written(answer, out / "charts.html", out / "charts.csv")])
 
 
 def measured(names: list[str], out: Path) -> tuple[list[Chart], dict[str, str]]:

@@ -18,7 +18,10 @@ from roughfilm.figures.view import views
 from roughfilm.ladder import models
 from roughfilm.pages.comparison import Report, cheapest_within, write_comparison
 from roughfilm.pages.render import write_figures
-from roughfilm.rom.ladder.kind import Scene, kind_of, kind_of_name
+from roughfilm.rom.advice.advise import DEFAULT_TOLERANCE
+from roughfilm.rom.advice.measured import with_measured_errors
+from roughfilm.rom.advice.stated import percent, stated_errors
+from roughfilm.rom.ladder.kind import Scene, kind_of, kind_of_scene
 from roughfilm.rom.ladder.model import Model, best
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import load_scene
@@ -42,6 +45,12 @@ from roughfilm.terminal.console import (
     print_json,
 )
 from roughfilm.terminal.results import print_all, print_left_out, table_of
+from roughfilm.words.summary import cost_of, judgement, value_of
+
+EXAMPLES = (
+    "roughfilm compare scripts/examples/scenes/pocket.toml --out study",
+    "roughfilm compare scripts/examples/scenes/journal.toml --out journal",
+)
 
 RESULTS = "results"
 
@@ -80,8 +89,11 @@ def command(
             for one, other in found
         ]
         tables_of_results = map(quantity_table, report.results.values())
-        print_all((*tables_of_results, *tables, *pairs, f"report: {out / 'report.html'}"))
+        warnings = [f"warning: {warning}" for result in report.results.values() for warning in result.warnings]
+        print_all((*tables_of_results, *tables, _error_table(report), *dict.fromkeys(warnings), *pairs))
     print_left_out(absent)
+    if not as_json:
+        print_all((_summary(report, out),))
     if failed:
         raise typer.Exit(NOT_CONVERGED)
 
@@ -105,6 +117,32 @@ def _finest(runs: Sequence[tuple[Job, Result]]) -> dict[str, Result]:
     }
 
 
+def _error_table(report: Report) -> Table:
+    """The cost and the errors of every model in the compared quantities, cheapest first."""
+    compared = [name for name in report.kind.compared if name in report.results[report.best].quantities]
+    rows = []
+    for name, result in report.results.items():
+        errors = stated_errors(result)
+        amounts = [errors[one].amount if one in errors else "unknown" for one in compared]
+        rows.append((name, f"{result.numerics.cpu_s:.2g}", *amounts))
+    heads = ("model", "CPU s", *(f"error in {report.kind.compared[one]}" for one in compared))
+    table = table_of(heads, rows, title=f"errors measured against {report.best}, ± its own error", left=1)
+    table.columns[0].no_wrap = True
+    return table
+
+
+def _summary(report: Report, out: Path) -> str:
+    """The last line: the value of the best model, the cheapest model that is accurate enough, and the page."""
+    first, top = next(iter(report.kind.compared)), report.results[report.best]
+    cheapest = report.results[cheapest_within(report, DEFAULT_TOLERANCE)]
+    tolerance, page = percent(DEFAULT_TOLERANCE), out / "report.html"
+    value = f"{value_of(top, first)} by {top.model}"
+    if cheapest is top:
+        return f"{value}; no cheaper model is known to be within {tolerance}; {cost_of(top)}; page: {page}"
+    error = judgement(cheapest, first, DEFAULT_TOLERANCE)
+    return f"{value}; {cheapest.model} is {error}; {cost_of(cheapest)} instead of {cost_of(top)}; page: {page}"
+
+
 def _convergence_table(model: str, study: Mapping[str, Convergence]) -> Table:
     title = f"{model} on grids {', '.join(map(str, next(iter(study.values())).grids))}"
     rows = [
@@ -124,11 +162,13 @@ def _judge(
 ) -> Report:
     from roughfilm.figures.base import grid_convergence, speed_against_accuracy  # matplotlib is slow to import
 
-    view, titles = views()[scene.kind], kind_of_name(scene.kind).compared
+    view, titles = views()[scene.kind], kind_of_scene(scene).compared
     solved = [model for model in ladder if model.name in results]
     top = best(solved)
     grids = {model.name: convergence(model, runs) for model in solved}
     results = {name: _with_grids(result, grids[name]) for name, result in results.items()}
+    results = with_measured_errors(scene, ladder, results)
+    results = dict(sorted(results.items(), key=lambda item: item[1].numerics.cpu_s))
     chart = points(results[top.name], runs)
     studies = {model.name: grids[model.name] for model in solved if model.order and grids[model.name]}
     extrapolated = any(one.kind is ConvergenceKind.MONOTONE for study in studies.values() for one in study.values())
@@ -140,7 +180,7 @@ def _judge(
     }
     report = Report(
         scene=scene,
-        kind=kind_of_name(scene.kind),
+        kind=kind_of_scene(scene),
         view=view,
         models=ladder,
         results=results,
@@ -179,6 +219,7 @@ def _entries(report: Report, out: Path) -> dict[str, Any]:
         **as_entries(report.results[report.best]),
         "models": [as_entries(result) for result in report.results.values()],
         "differences": [asdict(difference) for difference in report.to_best + report.effects],
+        "cheapest_within_5_percent": cheapest_within(report, 0.05),
         "cheapest_within_10_percent": cheapest_within(report, 0.10),
         "undecided": {quantity: [*pairs] for quantity, pairs in report.undecided.items()},
         "convergence": {

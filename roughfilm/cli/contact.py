@@ -30,17 +30,23 @@ from roughfilm.contact.mechanics.solid import Solid, composite_modulus
 from roughfilm.contact.mechanics.store import UNITS, Row
 from roughfilm.contact.read import HeightMap, parse_spacing, read_height_map
 from roughfilm.rom.ladder.provenance import code
-from roughfilm.terminal.console import AsJson, ReportFile, Spacing, progress_bar
+from roughfilm.terminal.console import NUMERICS, OUTPUT, AsJson, ReportFile, Spacing, progress_bar
 from roughfilm.terminal.output_file import alone, refuse_same, refuse_unwritable
 from roughfilm.terminal.ranges import loads_of
-from roughfilm.terminal.results import origin, show_result, table_of
+from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.words.numbers import digits
+
+EXAMPLES = (
+    "roughfilm surface scripts/examples/surfaces/milled.toml --out cell.h5",
+    "roughfilm contact cell.h5 --modulus 210GPa --poisson 0.3 --loads 1MPa",
+    "roughfilm contact cell.h5 --modulus 210GPa --poisson 0.3 --loads 1MPa,9MPa",
+)
 
 DRAWN_LOADS = 5
 """Loads whose pressures are drawn."""
 
 MIN_TOLERANCE = 1e-13
-NUMERICS = ("complementarity", "iterations", "cpu_s")
+ROW_NUMERICS = ("complementarity", "iterations", "cpu_s")
 COLUMNS = {
     "load, MPa": ("load", 1e-6),
     "area, %": ("area_fraction", 100),
@@ -78,15 +84,20 @@ def command(
     ] = None,
     spacing: Spacing = None,
     model: Annotated[
-        ContactModel | None, typer.Option(help="The model (default: the best that --hardness allows).")
+        ContactModel | None,
+        typer.Option(metavar="MODEL", help=f"{', '.join(ContactModel)} (default: the best that --hardness allows)."),
     ] = None,
     boundary: Annotated[Boundary, typer.Option(help="Periodic surface, or one that stands alone.")] = Boundary.PERIODIC,
     tolerance: Annotated[
-        float, typer.Option(help="Largest violation of the contact conditions over the rms height.")
+        float,
+        typer.Option(help="Largest violation of the contact conditions over the rms height.", rich_help_panel=NUMERICS),
     ] = COMPLEMENTARITY_TOLERANCE,
-    threads: Annotated[int, typer.Option(help="Threads that share the work.")] = 1,
+    threads: Annotated[int, typer.Option(help="Threads that share the work.", rich_help_panel=NUMERICS)] = 1,
     out: Annotated[
-        Path | None, typer.Option(help="Write the series here (HDF5); loads that it holds are not solved again.")
+        Path | None,
+        typer.Option(
+            help="Write the series here (HDF5); loads that it holds are not solved again.", rich_help_panel=OUTPUT
+        ),
     ] = None,
     report: ReportFile = None,
     as_json: AsJson = False,
@@ -148,9 +159,9 @@ def command(
 
     def shown() -> Iterator[Table | str]:
         yield table_of([*COLUMNS], map(_cells, series.rows), title=surface.name)
-        yield from (f"written: {path}" for path in (out, report) if path is not None)
 
-    show_result(entries, shown(), as_json=as_json, reused="loads")
+    summary = written(_in_words(chosen, series.rows[-1]), out, report)
+    show_result(entries, shown(), as_json=as_json, reused="loads", summary=summary)
 
 
 def _solid(prefix: str, modulus: str, poisson: float, hardness: str | None = None) -> Solid:
@@ -198,7 +209,9 @@ def _entries(model: ContactModel, rough: HeightMap, settings: dict[str, Any], se
     """The object of ``--json``, without the cost."""
     last = asdict(series.rows[-1])
     units = {name: UNITS.get(name, "1") for name in last}
-    quantities = {name: {"value": value, "unit": units[name]} for name, value in last.items() if name not in NUMERICS}
+    quantities = {
+        name: {"value": value, "unit": units[name]} for name, value in last.items() if name not in ROW_NUMERICS
+    }
     quantities["plasticity_index"] = {"value": _plasticity_index(series.rows[-1]), "unit": "1"}
     quantities["composite_modulus"] = {"value": settings["composite_modulus"], "unit": "Pa"}
     violations = [row.complementarity for row in series.rows if row.complementarity is not None]
@@ -225,6 +238,12 @@ def _entries(model: ContactModel, rough: HeightMap, settings: dict[str, Any], se
 def _plasticity_index(row: Row) -> float:
     pixels = row.area_fraction if row.area_fraction_pixel is None else row.area_fraction_pixel
     return row.plastic_fraction / pixels if pixels else 0.0
+
+
+def _in_words(model: ContactModel, row: Row) -> str:
+    """The contact under one load, as a sentence."""
+    gap = "" if row.mean_gap is None else f", mean gap {digits(1e6 * row.mean_gap)} µm"
+    return f"under {digits(row.load / 1e6)} MPa {digits(100 * row.area_fraction)} % of the area touch{gap}, by {model}"
 
 
 def _cells(row: Row) -> list[str]:

@@ -6,13 +6,14 @@ import subprocess
 from collections.abc import Callable
 from importlib import metadata
 
-from rich.table import Table
-
 from roughfilm.figures.rendering import probe
 from roughfilm.foamcases.openfoam.installation import availability
 from roughfilm.rom.ladder.model import Availability
 from roughfilm.rom.ladder.provenance import versions
-from roughfilm.terminal.console import AsJson, output, print_json
+from roughfilm.terminal.console import AsJson, print_json
+from roughfilm.terminal.results import print_all, table_of
+
+EXAMPLES = ("roughfilm doctor",)
 
 
 def _python() -> Availability:
@@ -53,7 +54,10 @@ def command(as_json: AsJson = False) -> None:
     if as_json:
         print_json({name: {"available": part.available, "detail": part.detail} for name, part in parts.items()})
         return
-    table = Table("part", "available", "version, or remedy")
-    for name, part in parts.items():
-        table.add_row(name, "[green]yes[/]" if part.available else "[red]no[/]", part.detail)
-    output.print(table)
+    rows = [(name, "yes" if part.available else "no", part.detail) for name, part in parts.items()]
+    table = table_of(("part", "here", "version, or remedy"), rows, left=3)
+    for row, part in zip(table.rows, parts.values(), strict=True):
+        row.style = "default" if part.available else "red"
+    missing = [name for name, part in parts.items() if not part.available]
+    others = f"{len(parts) - len(missing)} of {len(parts)} parts are here"
+    print_all([table, f"{others}; missing: {', '.join(missing)}" if missing else f"{others}: every model can run"])

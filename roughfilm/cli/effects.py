@@ -20,9 +20,11 @@ from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.scene import load_scene, scene_entries
 from roughfilm.terminal.console import AsJson, Overrides, ScenePath, make_directory, progress_bar
 from roughfilm.terminal.output_file import refuse_unwritable
-from roughfilm.terminal.results import origin, show_result, table_of
+from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.words.effects import AT_FILM, UNDER_LOAD, cell, sentences, shown_quantities
 from roughfilm.words.numbers import finite
+
+EXAMPLES = ("roughfilm effects scripts/examples/scenes/pad.toml --out pad",)
 
 SOURCES = (
     "10.1098/rstl.1886.0005",
@@ -70,7 +72,8 @@ def command(
     from roughfilm.pages.effects import write_page  # matplotlib is slow to import
 
     write_page(analysis, entries, out)
-    show_result({**entries, "report": str(page)}, _shown(analysis, page), as_json=as_json)
+    summary = written(_in_words(analysis), page, out / "effects.json")
+    show_result({**entries, "report": str(page)}, _shown(analysis), as_json=as_json, summary=summary)
 
 
 def _studies(analysis: EffectAnalysis) -> list[EffectStudy]:
@@ -108,10 +111,20 @@ def _study_entries(study: EffectStudy) -> dict[str, Any]:
     }
 
 
-def _shown(analysis: EffectAnalysis, page: Path) -> Iterator[Table | str]:
+def _in_words(analysis: EffectAnalysis) -> str:
+    """The load with all effects, and the effect that changes it most, as a sentence."""
+    study = analysis.at_film
+    name, how = next(iter(shown_quantities(study, ("load",)).items()))
+    known = [one for one in study.contributions if name in one.on]
+    most = max(known, key=lambda one: abs(one.on[name].value), default=None)
+    part = "" if most is None else f"; {most.name} changes it most, by {cell(most.on[name], how, sign=True)} {how.unit}"
+    return f"load {cell(study.full[name], how)} {how.unit} at the film of the scene{part}"
+
+
+def _shown(analysis: EffectAnalysis) -> Iterator[Table | str]:
     views = [("at the film of the scene", analysis.at_film, AT_FILM)]
-    if analysis.under_load is not None and analysis.scene.load is not None:
-        views.append((f"under {analysis.scene.load.pressure / 1e6:.4g} MPa", analysis.under_load, UNDER_LOAD))
+    if analysis.under_load is not None and analysis.scene.load_pressure is not None:
+        views.append((f"under {analysis.scene.load_pressure / 1e6:.4g} MPa", analysis.under_load, UNDER_LOAD))
     for title, study, names in views:
         columns = shown_quantities(study, names)
         rows = [
@@ -136,4 +149,3 @@ def _shown(analysis: EffectAnalysis, page: Path) -> Iterator[Table | str]:
     yield from (f"{treated.effect} by {treated.model}: {treated.why}" for treated in analysis.treated)
     if analysis.left_out:
         yield f"left out, because the scene does not have them: {', '.join(analysis.left_out)}"
-    yield f"report: {page}"

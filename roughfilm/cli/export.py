@@ -20,9 +20,14 @@ from roughfilm.rom.meshes.result_mesh import PLACES, labelled, result_mesh
 from roughfilm.rom.meshes.walls_mesh import GapPart, gap_mesh, wall_mesh
 from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.rough_gap.walls import Walls
-from roughfilm.terminal.console import AsJson, Overrides, messages, print_json
+from roughfilm.terminal.console import OUTPUT, AsJson, Overrides, print_json, print_message
 from roughfilm.terminal.output_file import refuse_same
-from roughfilm.terminal.results import print_all
+from roughfilm.terminal.results import print_all, written
+
+EXAMPLES = (
+    "roughfilm export scripts/examples/scenes/random_gap.toml --out gap.vtu",
+    "roughfilm export scripts/examples/surfaces/milled.toml --out milled.stl",
+)
 
 RESOLUTION, LAYERS = 64, 8
 MAX_CELLS = 20_000_000
@@ -34,7 +39,7 @@ def command(
         Path,
         typer.Argument(metavar="FILE", help="A scene of a rough gap, a surface, or a stored result."),
     ],
-    out: Annotated[Path, typer.Option(help="Write the mesh here: .vtu, .stl or .msh (Gmsh).")],
+    out: Annotated[Path, typer.Option(help="Write the mesh here: .vtu, .stl or .msh (Gmsh).", rich_help_panel=OUTPUT)],
     what: Annotated[GapPart | None, typer.Option(help="Part of a rough gap: the liquid (default), or a wall.")] = None,
     resolution: Annotated[int | None, typer.Option(help="Columns along the longer side of a rough gap.")] = None,
     layers: Annotated[int | None, typer.Option(help="Layers of cells between the walls of a rough gap.")] = None,
@@ -48,26 +53,33 @@ def command(
     refuse_same({"FILE": file, "--out": out})
     mesh_format(out)
     mesh, origin = _mesh(file, what, resolution, layers, _metres(spacing), set_)
-    written = write_mesh(mesh, out)
-    name, unit = CONTENT.get(written.cell_type, ("area", "m^2"))
-    origin["left_out"] = sorted({*origin["left_out"], *_data(mesh)} - set(_data(written)))
+    mesh_out = write_mesh(mesh, out)
+    name, unit = CONTENT.get(mesh_out.cell_type, ("area", "m^2"))
+    origin["left_out"] = sorted({*origin["left_out"], *_data(mesh)} - set(_data(mesh_out)))
     if as_json:
         print_json(
             {
-                "quantities": {name: {"value": written.content, "unit": unit}},
+                "quantities": {name: {"value": mesh_out.content, "unit": unit}},
                 "numerics": {
-                    "cells": len(written.cells),
-                    "points": len(written.points),
-                    "sort": str(written.cell_type),
+                    "cells": len(mesh_out.cells),
+                    "points": len(mesh_out.points),
+                    "sort": str(mesh_out.cell_type),
                 },
-                "provenance": {"file": str(file), "out": str(out), "data": _data(written), **origin, **circumstances()},
+                "provenance": {
+                    "file": str(file),
+                    "out": str(out),
+                    "data": _data(mesh_out),
+                    **origin,
+                    **circumstances(),
+                },
             }
         )
         return
-    content = f"{len(written.cells)} cells ({written.cell_type}), {name} {written.content:.6g} {unit}"
-    print_all((f"written: {out}: {content}", *(f"  data: {known}" for known in _data(written))))
+    print_all(f"data: {known}" for known in _data(mesh_out))
     if origin["left_out"]:
-        messages.print(f"left out: {', '.join(origin['left_out'])}", soft_wrap=True, markup=False)
+        print_message("left out", ", ".join(origin["left_out"]))
+    content = f"{len(mesh_out.cells)} cells ({mesh_out.cell_type}), {name} {mesh_out.content:.6g} {unit}"
+    print_all([written(content, out)])
 
 
 def _mesh(

@@ -1,5 +1,6 @@
 """roughfilm factors: flow factors of a rough surface, at one mean gap or as a table over the mean gap."""
 
+import hashlib
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
@@ -10,6 +11,7 @@ import typer
 from rich.table import Table
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.checked_hdf5 import HEADER_BYTES
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.threads import checked_threads
@@ -19,16 +21,20 @@ from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.store import is_series, load_contact, load_series
 from roughfilm.contact.read import HeightMap, parse_spacing, periodicity_warnings, read_height_map
 from roughfilm.contact.surfaces.surface import MAX_LENGTH, MIN_SPACING, Surface
-from roughfilm.rom.bearing.mixed.resume import resumed_table
 from roughfilm.rom.bearing.mixed.tabulate import gap_of, tabulate_pressed
 from roughfilm.rom.homogenization.conductance import FaceRule
 from roughfilm.rom.homogenization.factors import NAMES, FlowFactors, relative_quantities
 from roughfilm.rom.homogenization.flow_factors import Estimated, flow_factors
 from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
+from roughfilm.rom.homogenization.table.kept import kept_table, table_inputs
+from roughfilm.rom.homogenization.table.resume import Work, resumed_table
 from roughfilm.rom.homogenization.table.separation import Separations
 from roughfilm.rom.homogenization.table.tabulate import INTERPOLATION_TOLERANCE, tabulate
+from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.ladder.provenance import code
 from roughfilm.terminal.console import (
+    NUMERICS,
+    OUTPUT,
     AsJson,
     ReportFile,
     Spacing,
@@ -36,7 +42,12 @@ from roughfilm.terminal.console import (
     progress_bar,
 )
 from roughfilm.terminal.output_file import alone, refuse_same, refuse_unwritable
-from roughfilm.terminal.results import origin, show_result, table_of
+from roughfilm.terminal.results import origin, show_result, table_of, written
+
+EXAMPLES = (
+    "roughfilm factors scripts/examples/surfaces/milled.toml --gap 3um",
+    "roughfilm factors scripts/examples/surfaces/milled.toml --out table.h5",
+)
 
 SOURCES = ("10.1016/j.triboint.2007.02.021", "10.1016/j.triboint.2006.02.069", "Sahlin 2008, Papers C and E")
 TABLE_FACTORS = ("A11", "A12", "A22", "B1", "B2")
@@ -59,7 +70,10 @@ def command(
     spacing: Spacing = None,
     tolerance: Annotated[
         float | None,
-        typer.Option(help=f"Relative interpolation error of the table (default {INTERPOLATION_TOLERANCE:g})."),
+        typer.Option(
+            help=f"Relative interpolation error of the table (default {INTERPOLATION_TOLERANCE:g}).",
+            rich_help_panel=NUMERICS,
+        ),
     ] = None,
     rule: Annotated[FaceRule, typer.Option(help="Course of the gap between two nodes.")] = FaceRule.LINEAR,
     offset: Annotated[
@@ -69,7 +83,10 @@ def command(
         ),
     ] = None,
     out: Annotated[
-        Path | None, typer.Option(help="Write the table here (HDF5); points that it holds are not solved again.")
+        Path | None,
+        typer.Option(
+            help="Write the table here (HDF5); points that it holds are not solved again.", rich_help_panel=OUTPUT
+        ),
     ] = None,
     report: ReportFile = None,
     threads: Threads = None,
@@ -119,7 +136,7 @@ def command(
                 settings |= {name: contacts[0].settings[name] for name in ("composite_modulus", "hardness")}
                 work = partial(_table_of_contacts, surface, *contacts, options)
             inputs = Inputs(heights=rough.heights, spacing=rough.spacing, settings=settings)
-            table, known = resumed_table(out, inputs, work)
+            table, known = resumed_table(out, inputs, partial(_kept, surface, inputs, accuracy, work, advance))
             settings = settings | {"tolerance": accuracy}
             entries = _table_entries(table)
             entries["numerics"]["separations_found"] = known
@@ -137,9 +154,9 @@ def command(
 
     def shown() -> Iterator[Table | str]:
         yield _table(surface.name, _points_of(entries))
-        yield from (f"written: {path}" for path in (out, report) if path is not None)
 
-    show_result(entries, shown(), as_json=as_json, reused="separations")
+    summary = written(_in_words(_points_of(entries)), out, report)
+    show_result(entries, shown(), as_json=as_json, reused="separations", summary=summary)
 
 
 def _length(option: str, text: str | None, least: float = MIN_SPACING) -> float | None:
@@ -152,6 +169,32 @@ def _length(option: str, text: str | None, least: float = MIN_SPACING) -> float 
     if not least <= length <= MAX_LENGTH:
         raise InputError(f"{option} {text}: give a length above 0, of {MAX_LENGTH:g} m at most")
     return length
+
+
+def _kept(
+    surface: Path,
+    inputs: Inputs,
+    tolerance: float,
+    work: Work,
+    progress: Progress,
+    known: Sequence[Point],
+    keep: Callable[[Point], None],
+) -> FactorTable:
+    """The table from the cache, or made and kept there; a file of contacts is known by the bytes of its header."""
+    pressed = "composite_modulus" in inputs.settings
+    own = {name: value for name, value in inputs.settings.items() if name != "code"} | {"tolerance": tolerance}
+    if pressed:
+        with surface.open("rb") as file:
+            own["contacts"] = hashlib.sha256(file.read(HEADER_BYTES)).hexdigest()
+    module = "rom.bearing.mixed.tabulate" if pressed else "rom.homogenization.table.tabulate"
+    return kept_table(
+        table_inputs(inputs.heights, inputs.spacing, module, **own),
+        work,
+        about={"surface": surface.name, "kind": "flow factors and contact" if pressed else "flow factors"},
+        progress=progress,
+        foreign=known,
+        keep=keep,
+    )
 
 
 def _table_of_surface(
@@ -284,6 +327,18 @@ def _points_of(entries: Mapping[str, Any]) -> list[Entries]:
     ]
 
 
+def _in_words(points: Sequence[Entries]) -> str:
+    """The flow factor along x of one gap, or the range of gaps of a table, as a sentence."""
+    if len(points) == 1:
+        factor = points[0]["A11"]
+        rounded = _rounded(factor["value"], factor["uncertainty"])
+        return (
+            f"a mean gap of {1e6 * points[0]['mean_gap']:.4g} µm carries {rounded} times the flow of a smooth one in x"
+        )
+    gaps = sorted(1e6 * point["mean_gap"] for point in points)
+    return f"flow factors at {len(points)} mean gaps of {gaps[0]:.4g} to {gaps[-1]:.4g} µm"
+
+
 def _table(name: str, points: Sequence[Entries]) -> Table:
     """The points as a table of factors over those of a smooth film of the same mean gap."""
     pressed = any(point.get("load") for point in points)
@@ -306,4 +361,4 @@ def _rounded(value: float, uncertainty: float | None) -> str:
     if uncertainty is None:
         return f"{value:.3g} ± ?"
     digits = max(0, min(5, math.ceil(-math.log10(uncertainty)))) if uncertainty else 5
-    return f"{value:.{digits}f}"
+    return f"{round(value, digits) + 0.0:.{digits}f}"

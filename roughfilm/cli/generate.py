@@ -13,6 +13,7 @@ from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.terminal.console import (
+    OUTPUT,
     AsJson,
     Overrides,
     Processes,
@@ -23,12 +24,16 @@ from roughfilm.terminal.console import (
     make_directory,
     print_json,
 )
-from roughfilm.terminal.results import print_all
+from roughfilm.terminal.results import print_all, written
+
+EXAMPLES = ("roughfilm generate scripts/examples/scenes/pocket.toml --out cases",)
 
 
 def command(
     scene: ScenePath,
-    out: Annotated[Path, typer.Option(help="One case directory for each OpenFOAM model is made here.")],
+    out: Annotated[
+        Path, typer.Option(help="One case directory for each OpenFOAM model is made here.", rich_help_panel=OUTPUT)
+    ],
     set_: Overrides = None,
     resolution: Resolution = None,
     tolerance: Tolerance = None,
@@ -53,4 +58,5 @@ def command(
     if as_json:
         print_json({"cases": cases, "provenance": provenance(read, keeps=(), sources=())})
     else:
-        print_all(f"{case['model']}: {case['directory']}/Allrun" for case in cases)
+        scripts = [f"{case['model']}: {case['directory']}/Allrun" for case in cases]
+        print_all([*scripts, written(f"{len(cases)} OpenFOAM cases, each is run by its Allrun", out)])

@@ -32,9 +32,14 @@ from roughfilm.terminal.console import (
 )
 from roughfilm.terminal.output_file import alone, refuse_unwritable
 from roughfilm.terminal.ranges import loads_of
-from roughfilm.terminal.results import origin, show_result, table_of
+from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.words.leakage import WORDS, in_words, leaks, scatter_in_words
 from roughfilm.words.numbers import digits, finite
+
+EXAMPLES = (
+    "roughfilm leakage scripts/examples/scenes/seal.toml --out seal",
+    "roughfilm leakage scripts/examples/scenes/seal.toml --out seal --loads 1MPa",
+)
 
 SOURCES = ("Sahlin 2008, Paper F", "10.1016/S0043-1648(99)00113-1", "10.1016/j.triboint.2006.02.069")
 HEADS = ("load, MPa", "area, %", "mean gap, µm", "x, direct", "y, direct", "x, averaged", "y, averaged")
@@ -98,9 +103,10 @@ def command(
         yield from (f"{WORDS[name]}: {in_words(threshold)}" for name, threshold in thresholds.items())
         if np.ptp(body.surface.heights) > 0:
             yield scatter_in_words(body.spread)
-        yield f"report: {page}"
 
-    show_result(entries, shown(), as_json=as_json, reused="loads")
+    name = f"direct_{seal.flow.direction}"
+    summary = written(f"{WORDS[name]}: {in_words(thresholds[name])}", page, out / "table.csv")
+    show_result(entries, shown(), as_json=as_json, reused="loads", summary=summary)
 
 
 def _entries(

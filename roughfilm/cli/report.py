@@ -24,6 +24,11 @@ from roughfilm.terminal.console import AsJson, make_directory, print_json
 from roughfilm.terminal.results import print_all, table_of
 from roughfilm.words.numbers import finite, span
 
+EXAMPLES = (
+    "roughfilm batch scripts/examples/studies/pocket.toml --out sweep",
+    "roughfilm report sweep",
+)
+
 TOLERANCES = (0.01, 0.02, 0.05, 0.10)
 
 EQUAL_ERRORS = 0.01

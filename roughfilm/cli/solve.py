@@ -8,18 +8,19 @@ from typing import Annotated
 import typer
 from rich.table import Table
 
-from roughfilm.cli.advise import Want, advice_for, entries_of
-from roughfilm.contact.foundation.errors import ConvergenceError, InputError
-from roughfilm.interface.solving import with_expected_error
+from roughfilm.cli.advise import Want, entries_of, tolerance_of
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.interface.solving import solve, solve_as_advised
 from roughfilm.ladder import find
-from roughfilm.rom.advice.advise import shortfall
-from roughfilm.rom.advice.estimates import bounded
-from roughfilm.rom.ladder.kind import Scene, kind_of_name
+from roughfilm.rom.advice.advise import DEFAULT_TOLERANCE, Advice, shortfall, wanted
+from roughfilm.rom.advice.expected import error_lines
+from roughfilm.rom.advice.stated import percent
+from roughfilm.rom.ladder.kind import Scene, kind_of_scene
 from roughfilm.rom.ladder.model import Model
-from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.rom.ladder.store import as_entries, refuse_other_file, save
+from roughfilm.terminal.completion import models_beginning_with
 from roughfilm.terminal.console import (
     AsJson,
     Overrides,
@@ -34,13 +35,30 @@ from roughfilm.terminal.console import (
 )
 from roughfilm.terminal.output_file import refuse_unwritable
 from roughfilm.terminal.results import print_all, table_of
+from roughfilm.words.cost import cost_in_words
+from roughfilm.words.summary import summary
+
+EXAMPLES = (
+    "roughfilm solve scripts/examples/scenes/pocket.toml --within 5%",
+    "roughfilm solve scripts/examples/scenes/pocket.toml --model film --out film.h5",
+)
 
 
 def command(
     scene: ScenePath,
-    model: Annotated[str | None, typer.Option(help="A name from 'roughfilm models'.")] = None,
+    model: Annotated[
+        str | None,
+        typer.Option(
+            help="A name from 'roughfilm models' (default: the advised one, see --within).",
+            autocompletion=models_beginning_with,
+        ),
+    ] = None,
     within: Annotated[
-        str | None, typer.Option(help="Instead of a model: take the cheapest within this error, for example 5%.")
+        str | None,
+        typer.Option(
+            help="Take the cheapest model within this error, for example 2%, and fail if there is none (default: 5%, "
+            "else the most accurate model)."
+        ),
     ] = None,
     quantity: Want = None,
     out: Annotated[Path | None, typer.Option(help="Write the result with its fields here (HDF5).")] = None,
@@ -51,59 +69,62 @@ def command(
     processes: Processes = 1,
     as_json: AsJson = False,
 ) -> None:
-    """Solve a scene by one model, or by the cheapest that is accurate enough."""
+    """Solve a scene by the cheapest model that is accurate enough, or by a given one."""
     read = load_scene(scene, set_ or ())
     if out is not None:
         refuse_other_file(out)
         refuse_unwritable(out)
-    result, advice = None, None
-    if within is not None:
-        own = {"model": model, "resolution": resolution, "tolerance": tolerance, "scheme": scheme}
-        own["processes"] = processes if processes != 1 else None
-        if given := [name for name, value in own.items() if value is not None]:
-            raise InputError(f"--{given[0]}: --within chooses the model and how it is run; leave one of them out")
-        advice = advice_for(read, quantity, within)
-        if advice.chosen is None:
-            raise ConvergenceError(f"--within: {shortfall(advice)}")
-        model, resolution, result = advice.chosen.model, advice.chosen.resolution, advice.result
-        messages.print(f"{model} at resolution {resolution}: {advice.chosen.reason}", soft_wrap=True, markup=False)
-    elif quantity is not None:
-        raise InputError("--want: names the quantity of --within; give that too")
-    if model is None:
-        raise InputError("--model: is missing; name one from 'roughfilm models', or give --within 5%")
-    by = find(read.kind, model)
-    if result is None:
-        request = Request(resolution=resolution, tolerance=tolerance, scheme=scheme, processes=processes)
-        with progress_bar(1.0) as advance:
-            result = by.solve(read, request, progress=advance)
-    result = with_expected_error(result, read, by)
+    asked, fraction = wanted(read, quantity), DEFAULT_TOLERANCE if within is None else tolerance_of(within)
+    own = {"resolution": resolution, "tolerance": tolerance, "scheme": scheme}
+    own["processes"] = processes if processes != 1 else None
+    given = [name for name, value in own.items() if value is not None]
+    if model is None and given:
+        raise InputError(f"--{given[0]}: needs --model, as its meaning depends on it; name one from 'roughfilm models'")
+    if model is not None and (within is not None or quantity is not None):
+        option = "--want" if within is None else "--within"
+        raise InputError(f"--model: {option} is for the choice of a model; leave one of them out")
+    with progress_bar(1.0) as advance:
+        if model is None:
+            tolerated = None if within is None else fraction
+            result, advice = solve_as_advised(read, within=tolerated, quantity=asked, progress=advance)
+            result = replace(result, provenance={**result.provenance, "advice": entries_of(advice)})
+        else:
+            request = {"resolution": resolution, "tolerance": tolerance, "scheme": scheme, "processes": processes}
+            result, advice = solve(read, model=model, progress=advance, **request), None
     if advice is not None:
-        result = replace(result, provenance={**result.provenance, "advice": entries_of(advice)})
+        messages.print(_choice(advice), soft_wrap=True, markup=False)
     if out is not None:
         save(result, out)
     if as_json:
         print_json(as_entries(result))
     else:
-        print_all(_shown(read, by, result))
+        print_all(_shown(read, find(read.kind, result.model), result, asked, fraction))
 
 
-def _shown(scene: Scene, by: Model, result: Result) -> Iterator[Table | str]:
+def _choice(advice: Advice) -> str:
+    """The line on the model that is taken, and why."""
+    taken = advice.chosen or advice.fallback
+    if taken is None:
+        return shortfall(advice)
+    why = f"cheapest within {percent(advice.within)} in {advice.title}" if advice.chosen else "most accurate one known"
+    return f"{taken.model} at resolution {taken.resolution}: {why}, {taken.why}"
+
+
+def _shown(scene: Scene, by: Model, result: Result, quantity: str, within: float) -> Iterator[Table | str]:
     """The result for people."""
     yield quantity_table(result)
     numbers = result.numerics
     yield (
         f"residual {numbers.residual:.1e} ({by.residual_meaning}), {numbers.iterations} iterations, "
-        f"{numbers.degrees_of_freedom} unknowns, {numbers.cpu_s:.3g} CPU s"
+        f"{numbers.degrees_of_freedom} unknowns, {cost_in_words(numbers)}"
     )
     for run in numbers.runs:
         if run.recipe and not run.name:
             yield f"first run did not converge; second run succeeded with: {run.recipe}"
-    if result.expected_error:
-        titles = kind_of_name(scene.kind).titles
-        errors = (f"{titles[name]} {bounded(error)}" for name, error in result.expected_error.items())
-        yield f"expected error of {by.name} by the fitted laws: {', '.join(errors)}"
-    yield by.applies(scene).reason
+    yield f"{by.name} {by.applies(scene).reason}"
+    yield from (f"errors of {by.name}: {line}" for line in error_lines(kind_of_scene(scene), result))
     yield from (f"warning: {warning}" for warning in result.warnings)
+    yield summary(result, quantity, within)
 
 
 def quantity_table(result: Result) -> Table:

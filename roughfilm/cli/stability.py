@@ -16,12 +16,17 @@ from roughfilm.rom.studies.table import write_csv
 from roughfilm.stability.cavitation import CAVITATION
 from roughfilm.stability.cell import CELL
 from roughfilm.stability.contact import CONTACT
-from roughfilm.stability.form import BAD, MEANING, MapOutcome, StabilityMap, columns_of, table_of
+from roughfilm.stability.form import BAD, GOOD, MEANING, MapOutcome, StabilityMap, columns_of, table_of
 from roughfilm.stability.gap import GAP
 from roughfilm.stability.laws import MIXED, SEAL
 from roughfilm.stability.pocket import POCKET
-from roughfilm.terminal.console import AsJson, Jobs, OutDirectory, make_directory, print_json, process_count
-from roughfilm.terminal.results import print_all, print_left_out
+from roughfilm.terminal.console import NUMERICS, AsJson, Jobs, OutDirectory, make_directory, print_json, process_count
+from roughfilm.terminal.results import print_all, print_left_out, written
+
+EXAMPLES = (
+    "roughfilm stability cell --out stability",
+    "roughfilm stability all --out stability",
+)
 
 FAMILIES: dict[str, StabilityMap] = {one.name: one for one in (POCKET, CAVITATION, CONTACT, CELL, SEAL, MIXED, GAP)}
 
@@ -38,7 +43,10 @@ def command(
     out: OutDirectory,
     resolution: Annotated[
         int | None,
-        typer.Option(help="; ".join(f"{name}: {one.resolution_meaning}" for name, one in FAMILIES.items()) + "."),
+        typer.Option(
+            help="; ".join(f"{name}: {one.resolution_meaning}" for name, one in FAMILIES.items()) + ".",
+            rich_help_panel=NUMERICS,
+        ),
     ] = None,
     jobs: Jobs = None,
     as_json: AsJson = False,
@@ -57,12 +65,17 @@ def command(
         maps = [known or _mapped(name, out / name, None, processes) for name, known in _known(out).items()]
         entries = {"family": ALL, "maps": maps}
         _write(maps, {one["family"]: out / one["family"] for one in maps}, entries, out)
+    absent = {name: reason for one in maps for name, reason in one["absent"].items()}
     if as_json:
         print_json(entries)
         return
     counted = {one["family"]: one["runs"] for one in maps} if family == ALL else _by_group(maps[0])
-    print_all((table_of(counted, "family" if family == ALL else "group"), f"page: {out / 'report.html'}"))
-    print_left_out({name: reason for one in maps for name, reason in one["absent"].items()})
+    print_all([table_of(counted, "family" if family == ALL else "group")])
+    print_left_out(absent)
+    runs = [run for one in maps for run in one["runs"]]
+    good, bad = (sum(run["outcome"] in outcomes for run in runs) for outcomes in (GOOD, BAD))
+    answer = f"{good} of {len(runs)} runs converge, {bad} stall or are wrong"
+    print_all([written(answer, out / "report.html", out / "stability.csv")])
 
 
 def _by_group(one: Entries) -> dict[str, list[Entries]]:

@@ -19,11 +19,13 @@ from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.store import save_surface
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.description import make, read_description
-from roughfilm.terminal.console import AsJson, ReportFile, progress_bar
+from roughfilm.terminal.console import OUTPUT, AsJson, ReportFile, progress_bar
 from roughfilm.terminal.output_file import refuse_same
-from roughfilm.terminal.results import origin, show_result, table_of
+from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.words.numbers import in_unit
 from roughfilm.words.surface import preparation_steps
+
+EXAMPLES = ("roughfilm surface scripts/examples/surfaces/milled.toml --out cell.h5",)
 
 SOURCES = ("ISO 25178-2:2021", "F. Sahlin, Luleå University of Technology 2008:26, sections E.3.1 and F.3")
 STEP_COUNT = 5
@@ -36,7 +38,9 @@ def command(
         list[str] | None,
         typer.Option("--set", metavar="KEY=VALUE", help="Override a key, e.g. edges.direction=x; repeatable."),
     ] = None,
-    out: Annotated[Path | None, typer.Option(help="Write the prepared surface here (HDF5).")] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="Write the prepared surface here (HDF5).", rich_help_panel=OUTPUT)
+    ] = None,
     report: ReportFile = None,
     as_json: AsJson = False,
 ) -> None:
@@ -79,10 +83,11 @@ def command(
     def shown() -> Iterator[Table | str]:
         yield _table(file.name, quantities)
         yield from preparation_steps(prepared)
-        yield from (f"written: {path}" for path in (out, report) if path is not None)
 
     entries = {"quantities": values, "numerics": numerics, "provenance": provenance}
-    show_result(entries, shown(), as_json=as_json)
+    points, rms = " x ".join(map(str, prepared.surface.heights.shape)), " ".join(in_unit(quantities["Sq"]))
+    summary = written(f"{file.name}: a cell of {points} points, rms height {rms}", out, report)
+    show_result(entries, shown(), as_json=as_json, summary=summary)
 
 
 def _read(file: Path, recipe: Recipe) -> Surface:
@@ -118,7 +123,6 @@ def _table(name: str, quantities: Mapping[str, Quantity]) -> Table:
     for key, quantity in quantities.items():
         if not key.startswith("raw_"):
             raw = quantities.get(f"raw_{key}")
-            rows.append((key, "" if raw is None else in_unit(raw)[0], *in_unit(quantity)))
-    table = table_of(("parameter", "measured", "prepared", "unit"), rows, title=name, left=1)
-    table.columns[3].justify = "left"
-    return table
+            value, unit = in_unit(quantity)
+            rows.append((f"{key}, {unit}" if unit else key, "" if raw is None else in_unit(raw)[0], value))
+    return table_of(("parameter", "measured", "prepared"), rows, title=name, left=1)

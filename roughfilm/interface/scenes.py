@@ -54,7 +54,8 @@ def read_scene(entries: Mapping[str, Any]) -> Scene:
 
     Parameters
     ----------
-    entries : tables by name: numbers in SI units, texts with a unit such as "30 um", lists, arrays and tables.
+    entries : tables by name: texts with a unit such as "30 um", numbers in the SI unit of their key, lists, arrays and
+        tables. A scene file takes no number without a unit where a quantity has one.
 
     Returns
     -------

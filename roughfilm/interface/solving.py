@@ -8,7 +8,8 @@ from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.interface.scenes import checked_scene
 from roughfilm.rom.advice import advise as advice
-from roughfilm.rom.advice.estimates import expected_errors
+from roughfilm.rom.advice.expected import with_errors
+from roughfilm.rom.advice.measured import with_measured_errors
 from roughfilm.rom.ladder.kind import Scene, kind_names
 from roughfilm.rom.ladder.model import Model, Progress, best, silent
 from roughfilm.rom.ladder.request import Request
@@ -45,7 +46,9 @@ def models(kind: str | None = None) -> tuple[Model, ...]:
     return ladder.models(kind)
 
 
-def advise(scene: Scene, *, within: float, quantity: str | None = None, progress: Progress = silent) -> advice.Advice:
+def advise(
+    scene: Scene, *, within: float = advice.DEFAULT_TOLERANCE, quantity: str | None = None, progress: Progress = silent
+) -> advice.Advice:
     """Choose the cheapest model, at the coarsest resolution, whose error in a quantity stays within a tolerance.
 
     The error of each model is estimated by laws C Π number^power in the dimensionless numbers of the scene, which were
@@ -55,7 +58,7 @@ def advise(scene: Scene, *, within: float, quantity: str | None = None, progress
     Parameters
     ----------
     scene : the scene.
-    within : tolerated error over the size of the quantity, above 0 and below 1.
+    within : tolerated error over the size of the quantity, above 0 and below 1; by default 5 %.
     quantity : name such as "load" or "load_plus"; by default the first quantity that the kind of scene compares.
     progress : called with the done fraction and a few words.
 
@@ -98,13 +101,18 @@ def solve(
 ) -> Result:
     """Solve a scene by one model, or by the cheapest whose error in a quantity stays within a tolerance.
 
+    Without ``model`` and ``within`` the scene is solved by the cheapest model within 5 %, or by the most accurate one
+    that is known if none is; a warning of the result then says so.
+
     Parameters
     ----------
     scene : the scene.
     model : name of a model for this kind of scene, see :func:`roughfilm.models`; give either this or ``within``.
-    within : tolerated error over the size of the quantity, above 0 and below 1, as :func:`roughfilm.advise` takes it.
-    quantity : the quantity to which ``within`` applies, such as "load".
+    within : tolerated error over the size of the quantity, above 0 and below 1, as :func:`roughfilm.advise` takes it;
+        no model within it is an error.
+    quantity : the quantity to which the tolerance applies, such as "load"; by default the first of the kind.
     resolution : number of cells, points or nodes, see ``resolution_meaning`` of the model; the model has a default.
+        This and the next three options need ``model``.
     tolerance : residual at which the solver stops, see ``residual_meaning`` of the model; the model has a default.
     scheme : advection scheme, one of ``schemes`` of the model.
     processes : number of MPI processes of an OpenFOAM run.
@@ -135,34 +143,53 @@ def solve(
     ('Pa', 'Pa', ['friction_plus', 'load_plus', 'pressure_max_plus', 'pressure_min_plus'])
     """
     kind = checked_scene(scene).kind
-    if within is not None:
-        chosen = {"model": model, "resolution": resolution, "tolerance": tolerance, "scheme": scheme}
-        for name in (name for name, value in chosen.items() if value is not None):
-            raise InputError(f"{name}: got {chosen[name]!r}, but within chooses how to solve; leave one of them out")
-        advised = advise(scene, within=within, quantity=quantity, progress=progress)
-        if advised.chosen is None:
-            raise ConvergenceError(f"within: {advice.shortfall(advised)}")
-        model, resolution, result = advised.chosen.model, advised.chosen.resolution, advised.result
-    elif model is None:
-        raise InputError("model: missing; name one of models(scene.kind), or give within=0.05")
-    elif quantity is not None:
-        raise InputError(f"quantity: got {quantity!r} without within; give within=0.05 too, or leave it out")
-    else:
-        result = None
+    if model is None:
+        own = {"resolution": resolution, "tolerance": tolerance, "scheme": scheme}
+        own["processes"] = processes if processes != 1 else None
+        for name in (name for name, value in own.items() if value is not None):
+            raise InputError(f"{name}: got {own[name]!r} without a model; name one of models(scene.kind)")
+        return solve_as_advised(scene, within=within, quantity=quantity, progress=progress)[0]
+    for name, value in {"within": within, "quantity": quantity}.items():
+        if value is not None:
+            raise InputError(f"{name}: got {value!r}, but model names how to solve; leave one of them out")
     by = ladder.find(kind, model)
-    if result is None:
-        request = Request(resolution=resolution, tolerance=tolerance, scheme=scheme, processes=processes)
-        result = by.solve(scene, request, progress)
-    return with_expected_error(result, scene, by)
+    request = Request(resolution=resolution, tolerance=tolerance, scheme=scheme, processes=processes)
+    return with_errors(by.solve(scene, request, progress), scene, by, ladder.models(kind))
 
 
-def with_expected_error(result: Result, scene: Scene, model: Model) -> Result:
-    """The result of a model with the errors that the fitted laws predict for this scene and resolution.
+def solve_as_advised(
+    scene: Scene, *, within: float | None = None, quantity: str | None = None, progress: Progress = silent
+) -> tuple[Result, advice.Advice]:
+    """Solve a scene by the advised model and return the result and the advice; a run of the advice is not repeated.
 
-    An error is at least the numerical uncertainty that the result states.
+    Parameters
+    ----------
+    scene : the scene.
+    within : tolerated error over the size of the quantity; None means 5 %, and the most accurate model if none is
+        known to be within it.
+    quantity : the quantity to which the tolerance applies; by default the first of the kind.
+    progress : called with the done fraction and a few words.
+
+    Raises
+    ------
+    InputError
+        For a tolerance out of range, a quantity that the scene does not have, or a scene to which no model applies.
+    ConvergenceError
+        If no model is known to be within the given tolerance, or the solver stops above its own.
+    UnavailableError
+        If a program that the model needs is not installed.
     """
-    errors = expected_errors(scene, model, result, ladder.models(scene.kind))
-    return replace(result, expected_error=errors)
+    tolerance = advice.DEFAULT_TOLERANCE if within is None else within
+    advised = advise(scene, within=tolerance, quantity=quantity, progress=progress)
+    taken = advised.chosen or (advised.fallback if within is None else None)
+    if taken is None:
+        raise ConvergenceError(f"within: {advice.shortfall(advised)}")
+    by = ladder.find(scene.kind, taken.model)
+    result = advised.result or by.solve(scene, Request(resolution=taken.resolution), progress)
+    if advised.chosen is None:
+        result = replace(result, warnings=(*result.warnings, advice.shortfall(advised)))
+    known = {} if taken.stated is None else {advised.quantity: taken.stated}
+    return with_errors(result, scene, by, ladder.models(scene.kind), known=known), advised
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -171,7 +198,8 @@ class Comparison:
 
     Attributes
     ----------
-    results : results by the name of the model, from the simplest model to the one with the most effects.
+    results : results by the name of the model, from the simplest model to the one with the most effects; their expected
+        errors are measured against the best model, in the quantities that are compared.
     best : name of the solved model with the most effects.
     errors : by model and quantity, the signed difference from the best model over the size of the quantity.
     uncertainty : by quantity, the uncertainty of these differences, which is that of the best model: its numerical one,
@@ -234,6 +262,7 @@ def compare(scene: Scene, *, models: Sequence[str] | None = None, progress: Prog
         reasons = "; ".join(f"{name}: {reason}" for name, reason in left_out.items())
         raise ConvergenceError(f"models: none of them solves the scene: {reasons}")
     top = best([model for model in known if model.name in results]).name
+    results = with_measured_errors(scene, ladder.models(scene.kind), results)
     carried = {**results, top: _with_expected_uncertainty(results[top])}
     errors: dict[str, dict[str, float]] = {}
     uncertainty = {}

@@ -7,6 +7,9 @@ from pathlib import Path
 
 from roughfilm.figures.view import View
 from roughfilm.pages.render import render
+from roughfilm.rom.advice.advise import DEFAULT_TOLERANCE
+from roughfilm.rom.advice.expected import error_lines
+from roughfilm.rom.advice.stated import stated_errors
 from roughfilm.rom.ladder.kind import Kind, Scene
 from roughfilm.rom.ladder.model import Model, best
 from roughfilm.rom.ladder.result import Result
@@ -19,7 +22,7 @@ LINKS = "https://doi.org/"
 
 @dataclass(frozen=True, kw_only=True)
 class Report:
-    """The content of the page."""
+    """The content of the page; ``results`` have their errors and are in order of their CPU time."""
 
     scene: Scene
     kind: Kind
@@ -38,21 +41,24 @@ class Report:
     pictures: Mapping[str, tuple[str, str]]
 
 
-def cheapest_within(report: Report, fraction: float) -> str:
-    """The model with the least CPU time whose error in all compared quantities is at most a fraction.
+TOLERANCES = (0.01, DEFAULT_TOLERANCE, 0.10)
+"""Tolerances for which the page names the cheapest model."""
 
-    The error is |difference| + uncertainty of the reference, which is the best model. Without such a model it is the
-    reference itself, whatever its uncertainty.
+
+def cheapest_within(report: Report, fraction: float) -> str:
+    """The model with the least CPU time whose stated error in all compared quantities is at most a fraction.
+
+    Without such a model it is the reference itself, whatever its error.
     """
-    top = report.results[report.best]
-    compared = report.kind.shared(top)
-    floor = {name: report.uncertainty.get(name, math.inf) for name in compared}
-    worst = {
-        name: 0.0 if compared == report.kind.shared(top, result) else math.inf
-        for name, result in report.results.items()
-    }
-    for one in report.to_best:
-        worst[one.model] = max(worst[one.model], abs(one.relative) + floor[one.quantity])
+    compared = report.kind.shared(report.results[report.best])
+    worst = {report.best: 0.0}
+    for name, result in report.results.items():
+        if name != report.best:
+            errors = stated_errors(result)
+            worst[name] = max(
+                (errors[one].error if one in errors else math.inf for one in compared),
+                default=math.inf,
+            )
     enough = [name for name, error in worst.items() if error <= fraction]
     return min(enough, key=lambda name: report.results[name].numerics.cpu_s)
 
@@ -69,20 +75,12 @@ def write_comparison(report: Report, path: Path) -> None:
         reduced=report.best != best([model for model in report.models if model.applies(report.scene).applies]).name,
         best=report.results[report.best],
         entries=scene_entries(report.scene),
-        cheapest={fraction: cheapest_within(report, fraction) for fraction in (0.01, 0.10)},
-        known=max(report.uncertainty.get(name, math.inf) for name in report.kind.shared(report.results[report.best])),
-        infinity=math.inf,
+        cheapest={fraction: cheapest_within(report, fraction) for fraction in TOLERANCES},
+        errors={name: stated_errors(result) for name, result in report.results.items()},
+        error_lines={name: error_lines(report.kind, result) for name, result in report.results.items()},
         grouped=_by_quantity(report),
-        differences=_by_model(report.to_best),
         sources=[(doi, LINKS + doi) for doi in sorted(sources)],
     )
-
-
-def _by_model(differences: tuple[Difference, ...]) -> dict[str, dict[str, Difference]]:
-    table: dict[str, dict[str, Difference]] = {}
-    for difference in differences:
-        table.setdefault(difference.model, {})[difference.quantity] = difference
-    return table
 
 
 def _by_quantity(report: Report) -> dict[str, list[str]]:

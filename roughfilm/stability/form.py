@@ -15,6 +15,7 @@ from roughfilm.batch.jobs import Failure
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
 from roughfilm.rom.ladder.provenance import code, commit, machine, versions
 from roughfilm.rom.studies.table import Column
+from roughfilm.terminal import results
 from roughfilm.terminal.console import progress_bar
 
 SLOW_ITERATIONS = 100
@@ -348,9 +349,9 @@ def columns_of(maps: Sequence[Mapping[str, Any]]) -> dict[str, Column]:
 def table_of(counted: Mapping[str, Sequence[Mapping[str, Any]]], title: str) -> Table:
     """A table of the number of runs by name and outcome, for the terminal."""
     met = [one for one in MapOutcome if any(run["outcome"] == one for runs in counted.values() for run in runs)]
-    table = Table(title, *(outcome.value for outcome in met), "most iterations", "CPU s")
+    rows = []
     for name, runs in counted.items():
         counts = (str(sum(run["outcome"] == outcome for run in runs)) for outcome in met)
         most = max((run["iterations"] or 0 for run in runs), default=0)
-        table.add_row(name, *counts, str(most), f"{sum(run['cpu_s'] for run in runs):.3g}")
-    return table
+        rows.append((name, *counts, str(most), f"{sum(run['cpu_s'] for run in runs):.3g}"))
+    return results.table_of((title, *(outcome.value for outcome in met), "most iterations", "CPU s"), rows, left=1)

@@ -5,13 +5,16 @@ import io
 import json
 import os
 import re
+import shutil
 import signal
 import sys
-from collections.abc import Callable, Iterator
+import threading
+import time
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from types import FrameType
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal, TextIO
 
 import typer
 from rich.console import Console
@@ -19,23 +22,61 @@ from rich.markup import escape
 from typer.exceptions import TyperException
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
+from roughfilm.contact.foundation.timing import running_cost
+from roughfilm.terminal.layout import CHARSET_ERRORS, wrapped
 
 BAD_INPUT, NOT_CONVERGED, MISSING = 2, 3, 4
+
+NUMERICS, OUTPUT = "Numerics", "Output"
+"""Groups of options in the help of a command; options without a group describe what is computed."""
+
+EXIT_CODES = """Exit codes
+  0  success
+  2  invalid input
+  3  not converged, or no model is accurate enough
+  4  something is missing, such as OpenFOAM"""
+
+HELP_MODE: Literal["rich"] | None = "rich" if shutil.get_terminal_size().columns >= 72 else None
+"""The form of a command's help: with frames where these do not cut the names of options."""
+
+PROGRESS_VARIABLE = "ROUGHFILM_PROGRESS"
+"""Environment variable that, set to "off", leaves out bars and lines about progress."""
+
+FIRST_LINE_S, LINE_INTERVAL_S = 2.0, 10.0
+"""Time until the first line about progress, and between lines, s."""
+
+LEAST_DONE = 0.02
+"""Done fraction below which the time left is not estimated."""
 
 ScenePath = Annotated[Path, typer.Argument(metavar="SCENE", help="The scene file (TOML).")]
 Overrides = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="KEY=VALUE", help="Override a key, e.g. geometry.depth=22.5um; repeatable."),
 ]
-AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object on standard output and nothing else.")]
-OutDirectory = Annotated[Path, typer.Option("--out", help="Output directory; finished results in it are used again.")]
-ReportFile = Annotated[Path | None, typer.Option("--report", help="Write a page with figures here (HTML).")]
-Resolution = Annotated[int | None, typer.Option(help="Nodes or mesh columns; see 'roughfilm models'.")]
-Scheme = Annotated[str | None, typer.Option(help="Advection scheme; see 'roughfilm models'.")]
-Processes = Annotated[int, typer.Option(help="Processes of one OpenFOAM run (MPI).")]
-Jobs = Annotated[int | None, typer.Option(help="Processes (default: one for each core).")]
-Threads = Annotated[int | None, typer.Option(help="Gaps whose flow is solved at once (default: 2 on several cores).")]
-Tolerance = Annotated[float | None, typer.Option(help="Residual at which a solver stops.")]
+AsJson = Annotated[
+    bool,
+    typer.Option("--json", help="Print one JSON object on standard output and nothing else.", rich_help_panel=OUTPUT),
+]
+OutDirectory = Annotated[
+    Path,
+    typer.Option("--out", help="Output directory; finished results in it are used again.", rich_help_panel=OUTPUT),
+]
+ReportFile = Annotated[
+    Path | None, typer.Option("--report", help="Write a page with figures here (HTML).", rich_help_panel=OUTPUT)
+]
+Resolution = Annotated[
+    int | None, typer.Option(help="Nodes or mesh columns; see 'roughfilm models KIND'.", rich_help_panel=NUMERICS)
+]
+Scheme = Annotated[
+    str | None, typer.Option(help="Advection scheme; see 'roughfilm models KIND'.", rich_help_panel=NUMERICS)
+]
+Processes = Annotated[int, typer.Option(help="Processes of one OpenFOAM run (MPI).", rich_help_panel=NUMERICS)]
+Jobs = Annotated[int | None, typer.Option(help="Processes (default: one for each core).", rich_help_panel=NUMERICS)]
+Threads = Annotated[
+    int | None,
+    typer.Option(help="Gaps whose flow is solved at once (default: 2 on several cores).", rich_help_panel=NUMERICS),
+]
+Tolerance = Annotated[float | None, typer.Option(help="Residual at which a solver stops.", rich_help_panel=NUMERICS)]
 Spacing = Annotated[
     str | None, typer.Option(metavar="D", help="Distance between the points of an array of heights: 1um, or 1um,2um.")
 ]
@@ -52,8 +93,18 @@ class Output(Console):
             raise typer.Exit(1) from stop
 
 
-messages = Console(stderr=True, highlight=False)
-output = Output(highlight=False)
+FILE_WIDTH = 80
+"""Columns of what is not printed on a terminal, unless COLUMNS gives another number."""
+
+
+def _width(stream: TextIO | None) -> int | None:
+    """The columns of a stream that is no terminal; None where the console finds them."""
+    is_terminal = stream is not None and stream.isatty()
+    return None if is_terminal or os.environ.get("COLUMNS", "").isdigit() else FILE_WIDTH
+
+
+messages = Console(stderr=True, highlight=False, width=_width(sys.stderr))
+output = Output(highlight=False, width=_width(sys.stdout))
 
 
 def fail(error: Exception, code: int, command: Callable[..., None] | None = None) -> typer.Exit:
@@ -79,6 +130,12 @@ def print_notes(error: BaseException, style: str | None = None) -> None:
     """Print the notes that an exception carries."""
     for note in getattr(error, "__notes__", []):
         messages.print(escape(note), style=style, soft_wrap=True)
+
+
+def print_message(kind: str, text: str) -> None:
+    """Print a message of a kind, such as "warning", on standard error; it is broken between words."""
+    line = escape(wrapped(f"{kind}: {text}", messages.width)).removeprefix(f"{kind}:")
+    messages.print(f"[yellow]{kind}:[/]{line}", soft_wrap=True)
 
 
 def in_one_line(command: Callable[..., None]) -> Callable[..., None]:
@@ -118,15 +175,28 @@ def _what_is_left(out: Path | None, makes_out: bool) -> str:
     return "stopped; nothing is kept; give the same command to start again"
 
 
-def launch(app: typer.Typer, arguments: list[str]) -> None:
+def help_below(examples: Sequence[str], mode: str | None = HELP_MODE) -> str:
+    """The end of a command's help: examples, and the exit codes."""
+    paragraphs = [EXIT_CODES]
+    if examples:
+        paragraphs.insert(0, "\n".join(("Examples", *(f"  {one}" for one in examples))))
+    kept = "" if mode else "\b\n"  # click breaks the lines of a paragraph anew without it
+    return "\n\n".join(f"{kept}{escape(one) if mode else one}" for one in paragraphs)
+
+
+def launch(app: typer.Typer, arguments: list[str], name: str | None = None) -> None:
     """Run an application: one line for every error, and no program left running after a signal to stop."""
     signal.signal(signal.SIGTERM, _stop)
     if sys.stdout is None:
         sys.exit(BAD_INPUT)
-    if isinstance(sys.stdout, io.TextIOWrapper):
-        sys.stdout.reconfigure(errors="replace")
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors=CHARSET_ERRORS)
+    if _width(sys.stdout) is not None:
+        os.environ.setdefault("TERMINAL_WIDTH", str(FILE_WIDTH))  # of the help, which typer prints
     try:
-        sys.exit(app(args=arguments, standalone_mode=False))
+        with lines_of_progress():
+            sys.exit(app(args=arguments, prog_name=name, standalone_mode=False))
     except TyperException as error:
         message = error.format_message() if hasattr(error, "format_message") else str(error)
         sys.exit(fail(InputError(f"{message.rstrip('.')}; see --help"), BAD_INPUT).exit_code)
@@ -140,7 +210,7 @@ def run_alone(command: Callable[..., None]) -> None:
 
 
 def _app(command: Callable[..., None]) -> typer.Typer:
-    app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
+    app = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=HELP_MODE)
     app.command()(command)
     return app
 
@@ -155,9 +225,79 @@ def print_json(entries: dict[str, Any]) -> None:
     sys.stdout.flush()
 
 
+class _Work:
+    """The work of the command that runs, as its lines on standard error describe it."""
+
+    def __init__(self, words: str) -> None:
+        self.words, self.done, self.since = words, 0.0, time.monotonic()
+        self.drawn = False
+
+    def advance(self, done: float, words: str) -> None:
+        """Note the done fraction, 0 to 1; where it falls to less than half, other work begins."""
+        if done < 0.5 * self.done:
+            self.since = time.monotonic()
+        self.done, self.words = done, words
+
+    def line(self) -> str:
+        """What is done, the fraction, the time spent and the time left, where it can be estimated."""
+        spent = time.monotonic() - self.since
+        if running_cost() == "compilation":
+            return f"compiling numerical kernels: {duration(spent)}"
+        if not LEAST_DONE < self.done < 1:
+            return f"{self.words}: {duration(spent)}"
+        left = duration(spent * (1 - self.done) / self.done)
+        return f"{self.words}: {100 * self.done:.0f} %, {duration(spent)}, about {left} left"
+
+
+_work = _Work("starting")
+
+
+def duration(seconds: float) -> str:
+    """A time in words such as "43 s", "12 min" or "3.2 h"."""
+    if seconds < 100:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 6000 else f"{seconds / 3600:.1f} h"
+
+
+@contextmanager
+def lines_of_progress() -> Iterator[None]:
+    """Print a line on standard error after 2 s and then every 10 s, unless a bar is shown there.
+
+    With ``ROUGHFILM_PROGRESS=off`` in the environment there are neither lines nor bars.
+    """
+    if os.environ.get(PROGRESS_VARIABLE) == "off":
+        yield
+        return
+    global _work
+    _work, ended = _Work("starting"), threading.Event()
+
+    def show() -> None:
+        wait = FIRST_LINE_S
+        while not ended.wait(wait):
+            wait = LINE_INTERVAL_S
+            if not _work.drawn:
+                messages.print(_work.line(), soft_wrap=True, markup=False)
+
+    thread = threading.Thread(target=show, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        ended.set()
+        thread.join()
+
+
 @contextmanager
 def progress_bar(total: float) -> Iterator[Callable[[float, str], None]]:
-    """Show a bar on standard error; yields advance(done, words), whose ``done`` grows to ``total``."""
+    """Show progress on standard error, as a bar on a terminal and in lines elsewhere.
+
+    It yields advance(done, words), whose ``done`` grows to ``total``.
+    """
+    whole = total or 1.0
+    if not messages.is_terminal or os.environ.get(PROGRESS_VARIABLE) == "off":
+        yield lambda done, words: _work.advance(done / whole, words)
+        _work.advance(0.0, "writing the results")
+        return
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
     columns = (
@@ -168,10 +308,14 @@ def progress_bar(total: float) -> Iterator[Callable[[float, str], None]]:
         TextColumn("left"),
         TimeRemainingColumn(),
     )
-    shown = messages.is_terminal
-    with Progress(*columns, console=messages, transient=True, disable=not shown, speed_estimate_period=3600) as bar:
+    with Progress(*columns, console=messages, transient=True, speed_estimate_period=3600) as bar:
         task = bar.add_task("starting", total=total)
-        yield lambda done, words: bar.update(task, completed=done, description=escape(words))
+        _work.drawn = True
+        try:
+            yield lambda done, words: bar.update(task, completed=done, description=escape(words))
+        finally:
+            _work.drawn = False
+            _work.advance(0.0, "writing the results")
 
 
 def make_directory(path: Path) -> None:

@@ -179,7 +179,7 @@ def _solved_pocket(scene: Bearing, texture: Texture, density: float, models: Seq
     request = Request(resolution=verdict.resolution)
     result = advice.result or find(models, "pocket", verdict.model).solve(pocket, request)
     ratio = result.quantities["load_per_area"].value / first
-    return PocketInertia(model=verdict.model, why=verdict.reason, over_first_order=ratio, within=verdict.error)
+    return PocketInertia(model=verdict.model, why=verdict.why, over_first_order=ratio, within=verdict.error)
 
 
 def inertia_under_load(
@@ -193,7 +193,7 @@ def inertia_under_load(
     pressure : the load over the nominal area, Pa.
     """
     scene = variant.scene
-    loaded = scene.model_copy(update={"geometry": scene.geometry.at_film(whole.values["film"])})
+    loaded = scene.at_film(whole.values["film"])
     changes = inertia_added(replace(variant, scene=loaded), cells, models)
     load = changes.amounts["load"]
     fraction = load.value / whole.values["load_per_width" if scene.wide else "load"]

@@ -1,9 +1,10 @@
 """Tables of flow factors and contact pressures of a rough surface over the separation of its walls."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import scipy
@@ -52,6 +53,11 @@ class AsperityTable:
                 f"table: has {len(self._pressed)} points under load; contact pressures need at least 2, make it with "
                 "more loads"
             )
+
+    @property
+    def origin(self) -> Mapping[str, Any]:
+        """The entries for the provenance of a result."""
+        return self.factors.origin
 
     @property
     def touching(self) -> float:

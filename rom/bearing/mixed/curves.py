@@ -14,7 +14,7 @@ from roughfilm.contact.foundation.threads import checked_threads
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.bearing.mixed.film import MixedFilm
-from roughfilm.rom.bearing.mixed.resume import regular_saves, resumed_table
+from roughfilm.rom.bearing.mixed.kept import kept_asperities
 from roughfilm.rom.bearing.mixed.store import known_points, save_points
 from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve, StribeckPoint, stribeck
 from roughfilm.rom.bearing.mixed.tabulate import tabulate_pressed
@@ -23,6 +23,7 @@ from roughfilm.rom.bearing.roughness import RoughSurface
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.homogenization.conductance import FaceRule
 from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
+from roughfilm.rom.homogenization.table.resume import regular_saves, resumed_table
 from roughfilm.rom.homogenization.table.store import load_table_and_source
 from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.ladder.provenance import code
@@ -41,7 +42,7 @@ MAX_EXTENSIONS = 12
 CLOSURE_RATIO = 1.02
 """Ratio of the load that closes the gap to the largest load of the table below which the table is not extended."""
 
-IRRELEVANT = ("name", "motion.speed", "geometry.film", "geometry.eccentricity", "lubricant.density", "load.pressure")
+IRRELEVANT = ("name", "motion.speed", "geometry.film", "geometry.eccentricity", "lubricant.density")
 """Entries of a scene on which the curves do not depend."""
 
 
@@ -51,14 +52,14 @@ class Wall:
 
     Attributes
     ----------
-    asperities : flow factors and contact pressures over the separation.
+    asperities : flow factors and contact pressures over the separation; None of walls without asperities.
     warnings : sentences about an extended table or a surface that is not periodic.
     points : number of points of the table.
     known_points : number of those that were already in a file.
     source : input of the table as JSON entries.
     """
 
-    asperities: AsperityTable
+    asperities: AsperityTable | None
     warnings: tuple[str, ...]
     points: int
     known_points: int
@@ -84,6 +85,10 @@ def wall_of(scene: Bearing, largest: float, table: Path | None, out: Path, progr
     """
     surface = scene.roughness if isinstance(scene.roughness, RoughSurface) else None
     warnings: list[str] = []
+    if scene.asperities is None:
+        if table is not None:
+            raise InputError(f"table: got {table}, but the scene has no [asperities]; add them or leave the table out")
+        return Wall(asperities=None, warnings=(), points=0, known_points=0, source={})
     if surface is not None and not surface.read().periodic:
         mismatch = periodicity_mismatch(surface.read())
         if mismatch > MISMATCH_THRESHOLD:
@@ -132,30 +137,43 @@ def _tabulated(
     }
     heights, spacing = surface.scaled_heights(), surface.scaled_spacing()
     inputs = Inputs(heights=heights, spacing=spacing, settings=settings)
-    before = () if given is None else tuple(given.factors.points)
-
-    def up_to(load: float, known: Sequence[Point], keep: Callable[[Point], None]) -> AsperityTable:
-        return tabulate_pressed(
-            heights,
-            spacing,
-            stiffness,
-            hardness=bound,
-            required_load=load,
-            known=known,
-            keep=keep,
-            threads=checked_threads(None),
-            progress=progress,
-        )
 
     def work(known: Sequence[Point], keep: Callable[[Point], None]) -> FactorTable:
-        made, closing = up_to(0.0, [*before, *known], keep), bound
+        def up_to(load: float, made: AsperityTable | None) -> AsperityTable:
+            own = () if made is None else made.factors.points
+            if given is None:
+                return kept_asperities(
+                    heights,
+                    spacing,
+                    stiffness,
+                    bound,
+                    surface=surface.name,
+                    required_load=load,
+                    known=own,
+                    foreign=known,
+                    keep=keep,
+                    progress=progress,
+                )
+            return tabulate_pressed(
+                heights,
+                spacing,
+                stiffness,
+                hardness=bound,
+                required_load=load,
+                known=[*given.factors.points, *known, *own],
+                keep=keep,
+                threads=checked_threads(None),
+                progress=progress,
+            )
+
+        made, closing = up_to(0.0, None), bound
         for _ in range(MAX_EXTENSIONS):
             capacity = _capacity(scene, made, cells)
             if capacity >= largest or closing < CLOSURE_RATIO * made.largest_pressure:
                 break
             load = min(EXTENSION_FACTOR * made.largest_pressure * largest / capacity, closing)
             try:
-                made = up_to(load, made.factors.points, keep)
+                made = up_to(load, made)
             except InputError:  # the load closes the gap everywhere
                 closing = math.sqrt(made.largest_pressure * load)
         _check_capacity(scene, made, largest, cells)
@@ -243,7 +261,8 @@ def resumed_curves(
     ConvergenceError
         If a film does not converge.
     """
-    settings = {**_flat(scene_entries(scene)), **wall.source, "resolution": resolution, "code": code()}
+    entries = {name: entry for name, entry in scene_entries(scene).items() if name != "load"}
+    settings = {**_flat(entries), **wall.source, "resolution": resolution, "code": code()}
     for name in IRRELEVANT:
         settings.pop(name, None)
     inputs = Inputs(heights=np.zeros((0, 0)), spacing=(1.0, 1.0), settings=settings)

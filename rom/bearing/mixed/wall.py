@@ -8,11 +8,11 @@ from roughfilm.rom.bearing.asperity_contact import AsperityContact
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.bearing.roughness import RoughSurface, StoredTable
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.ladder.model import Progress, silent
+from roughfilm.rom.ladder.model import Progress, report
 from roughfilm.rom.parts.solids import composite_modulus, hardness
 
 
-def asperities_of(scene: Bearing, progress: Progress = silent) -> AsperityTable:
+def asperities_of(scene: Bearing, progress: Progress = report) -> AsperityTable:
     """The flow factors and contact pressures of a scene's roughness, from a stored table or computed.
 
     Raises
@@ -45,15 +45,11 @@ class _TableInput:
 
 @lru_cache(maxsize=4)
 def _tabulated(order: _TableInput) -> AsperityTable:
-    from roughfilm.rom.bearing.mixed.tabulate import tabulate_pressed  # whose solvers are slow to import
+    from roughfilm.rom.bearing.mixed.kept import kept_asperities  # whose solvers are slow to import
 
     roughness = RoughSurface.model_validate_json(order.roughness)
     contact = AsperityContact.model_validate_json(order.asperities)
     assert contact.solid is not None
-    return tabulate_pressed(
-        roughness.scaled_heights(),
-        roughness.scaled_spacing(),
-        composite_modulus(contact.solid, contact.counter),
-        hardness=hardness(contact.solid),
-        progress=order.progress,
-    )
+    heights, spacing = roughness.scaled_heights(), roughness.scaled_spacing()
+    stiffness, bound = composite_modulus(contact.solid, contact.counter), hardness(contact.solid)
+    return kept_asperities(heights, spacing, stiffness, bound, surface=roughness.name, progress=order.progress)

@@ -1,12 +1,12 @@
-"""The Reynolds equation with cavitation, with all waves of the roughness resolved."""
+"""The Reynolds equation with cavitation, all waves of the roughness resolved."""
 
-from roughfilm.rom.bearing.film import direct_applies, rough_film, rough_resolutions
+from roughfilm.rom.bearing.film import direct_applies, rough_film, rough_films, rough_resolutions
 from roughfilm.rom.bearing.model import SOURCES, bearing_model
 from roughfilm.rom.ladder.model import Effect
 
 MODEL = bearing_model(
     name="direct",
-    summary="Reynolds equation with mass-conserving cavitation, with all waves of the roughness resolved",
+    summary="Reynolds equation with mass-conserving cavitation, all waves of the roughness resolved",
     keeps=frozenset(
         {
             Effect.SIDE_FLOW,
@@ -19,6 +19,7 @@ MODEL = bearing_model(
     sources=SOURCES,
     applies=direct_applies,
     film=rough_film,
+    searched=rough_films,
     resolutions=rough_resolutions,
     in_plane=6e-6,
 )

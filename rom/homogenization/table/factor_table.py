@@ -1,10 +1,10 @@
 """Flow factors over the mean gap: points, interpolation between them and extrapolation to thick films."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import log, sqrt
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 import scipy
@@ -95,12 +95,14 @@ class FactorTable:
     peak : highest point of the roughness above its mean, m.
     rms : rms height, m.
     scale : factor that multiplies the heights of the surface and all gaps.
+    origin : entries for the provenance of a result; empty for a table that was not made for the result.
     """
 
     points: Sequence[Point]
     peak: float
     rms: float
     scale: float = 1.0
+    origin: Mapping[str, Any] = field(default_factory=dict, compare=False)
 
     def scaled(self, factor: float) -> Self:
         """The table of the surface with its heights multiplied by ``factor``."""

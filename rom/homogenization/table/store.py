@@ -37,8 +37,15 @@ NUMBERS = {
 }
 
 
-def save_table(path: Path, inputs: Inputs, table: FactorTable) -> None:
+def save_table(path: Path, inputs: Inputs, table: FactorTable, making: Mapping[str, Any] | None = None) -> None:
     """Write a table: ``points/`` has one column per number, narrowest gap first; ``uncertainty/`` has their errors.
+
+    Parameters
+    ----------
+    path : the file.
+    inputs : the surface and the settings of the table.
+    table : the table.
+    making : entries for JSON on how it was made, which :func:`kept_part` returns.
 
     Raises
     ------
@@ -54,6 +61,8 @@ def save_table(path: Path, inputs: Inputs, table: FactorTable) -> None:
         file.attrs["spacing"] = inputs.spacing
         file.attrs["peak"] = table.peak
         file.attrs["rms"] = table.rms
+        if making is not None:
+            file.attrs["making"] = json.dumps(making, allow_nan=False)
         for name, unit in NUMBERS.items():
             _write(file, f"points/{name}", np.array([getattr(point, name) for point in points]), unit)
         for group in ("factors", "uncertainty"):
@@ -116,6 +125,16 @@ def known_points(path: Path, inputs: Inputs) -> Sequence[Point]:
         return ()
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror or error}); choose another place") from error
+
+
+def kept_part(path: Path) -> tuple[FactorTable, Mapping[str, Any]]:
+    """The points of a file so far, and the entries on how they were made; errors are those of :func:`load_table`."""
+    try:
+        _refuse_others(path)
+        with open_checked(path, MARK, SCHEMA, REMEDY) as file:
+            return _table(file), json.loads(file.attrs["making"])
+    except (OSError, LookupError) as error:
+        raise InputError(f"{path}: cannot be read ({error}); {REMEDY}") from error
 
 
 def _refuse_others(path: Path) -> None:

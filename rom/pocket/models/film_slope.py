@@ -3,12 +3,11 @@
 from roughfilm.rom.ladder.model import Applicability, Effect
 from roughfilm.rom.pocket.model import film_model
 from roughfilm.rom.pocket.scene import Pocket
-from roughfilm.rom.pocket.validity.promise import applicability
 
 
-def applies(scene: Pocket) -> Applicability:
-    """The expected errors; the model applies to every pocket."""
-    return applicability(scene, "film_slope", "keeps all of inertia, and slope to second order")
+def applies(_scene: Pocket) -> Applicability:
+    """The effects that the model keeps; it applies to every pocket."""
+    return Applicability(applies=True, reason="keeps all of inertia, and slope to second order")
 
 
 MODEL = film_model(

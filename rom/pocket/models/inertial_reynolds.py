@@ -3,13 +3,12 @@
 from roughfilm.rom.ladder.model import Applicability, Effect
 from roughfilm.rom.pocket.model import quadrature_model
 from roughfilm.rom.pocket.scene import Pocket
-from roughfilm.rom.pocket.validity.promise import applicability
 
 
 def applies(scene: Pocket) -> Applicability:
-    """The expected errors; the model applies to every pocket."""
-    return applicability(
-        scene, "inertial_reynolds", f"keeps inertia to first order, leaves out slope (2d/w = {scene.slope:.3g})"
+    """The effects that the model keeps and leaves out; it applies to every pocket."""
+    return Applicability(
+        applies=True, reason=f"keeps inertia to first order, leaves out slope (2d/w = {scene.slope:.3g})"
     )
 
 

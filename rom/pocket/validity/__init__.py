@@ -1,1 +1,1 @@
-"""Where the models of a pocket hold: the numbers of a scene, promised errors, and warnings."""
+"""Where the models of a pocket hold: the numbers of a scene, and warnings."""

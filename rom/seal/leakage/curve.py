@@ -26,6 +26,7 @@ from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.rom.ladder.provenance import code
 from roughfilm.rom.seal.leakage.direct import direct_leakage
 from roughfilm.rom.seal.leakage.homogenized import homogenized_leakage
+from roughfilm.rom.seal.leakage.kept import kept_series
 from roughfilm.rom.seal.leakage.percolation import Threshold, thresholds
 from roughfilm.rom.seal.leakage.pixels import with_pixels
 from roughfilm.rom.seal.leakage.series import SOUGHT, UNITS, LeakageSeries, Row, save_series, stored_series
@@ -65,6 +66,7 @@ class SealSetup:
     contacts, series : files of the contacts and of the leakage.
     spread : E* g' with the rms slope g', Pa; E* for a flat surface.
     most : largest load, Pa.
+    name : name of the surface for people.
     """
 
     surface: Surface
@@ -74,9 +76,10 @@ class SealSetup:
     series: Path
     spread: float
     most: float
+    name: str = ""
 
 
-def setup(surface: Surface, press: Press, inputs: Inputs, directory: Path) -> SealSetup:
+def setup(surface: Surface, press: Press, inputs: Inputs, directory: Path, name: str = "") -> SealSetup:
     """The setup of a surface with result files in a directory; the largest load is the smaller of hardness and E*."""
     flat = float(np.ptp(surface.heights)) == 0
     slope = 1.0 if flat else wave_power(surface.heights, surface.spacing).moments.rms_slope
@@ -88,6 +91,7 @@ def setup(surface: Surface, press: Press, inputs: Inputs, directory: Path) -> Se
         series=directory / "leakage.h5",
         spread=press.composite_modulus * slope,
         most=min(press.hardness, press.composite_modulus),
+        name=name,
     )
 
 
@@ -107,17 +111,22 @@ def seal_setup(scene: Seal, directory: Path) -> SealSetup:
         "code": code(),
     }
     press = Press(surface.heights, surface.spacing, scene.composite_modulus, hardness=scene.hardness)
-    return setup(surface, press, Inputs(heights=surface.heights, spacing=surface.spacing, settings=settings), directory)
+    inputs = Inputs(heights=surface.heights, spacing=surface.spacing, settings=settings)
+    return setup(surface, press, inputs, directory, scene.geometry.name)
 
 
 def sealing(body: SealSetup, advance: Advance) -> dict[str, Threshold]:
-    """The sealing thresholds by the names in ``SOUGHT``, read from the file or computed and written to it."""
+    """The sealing thresholds by the names in ``SOUGHT``, from the file, the cache or computed, then kept in both."""
     stored = stored_series(body.series, body.inputs)
     if stored.thresholds:
         return dict(stored.thresholds)
-    begin = min(START_AREA / LIGHT_CONTACT_RATIO * body.spread, body.most / 2)
-    by_case = thresholds(_pressed(body), begin, body.most, progress=advance)
-    named = dict(zip(SOUGHT, by_case, strict=True))
+    kept = kept_series(body.inputs, (), body.name)
+    named = dict(kept.series.thresholds)
+    if not named:
+        begin = min(START_AREA / LIGHT_CONTACT_RATIO * body.spread, body.most / 2)
+        by_case = thresholds(_pressed(body), begin, body.most, progress=advance)
+        named = dict(zip(SOUGHT, by_case, strict=True))
+        kept.save({}, named)
     save_series(body.series, body.inputs, LeakageSeries(rows=stored.rows, thresholds=named))
     return named
 
@@ -164,9 +173,10 @@ def _pressed(body: SealSetup) -> Callable[[float, Contact | None], Contact]:
 
 
 def solved(body: SealSetup, loads: tuple[float, ...], threads: int, advance: Advance) -> tuple[dict[float, Row], int]:
-    """The rows by load, and the number of rows that the file held already.
+    """The rows by load, and the number of rows that were known already.
 
-    Finished rows are saved even if the computation is interrupted.
+    Rows of the same surface, solids and loads are taken from the cache, where all are kept; their contacts are solved
+    again if the file of contacts lacks them. Finished rows are saved even if the computation is interrupted.
 
     Parameters
     ----------
@@ -184,7 +194,9 @@ def solved(body: SealSetup, loads: tuple[float, ...], threads: int, advance: Adv
     """
     stored = stored_series(body.series, body.inputs)
     pressed = finished(body.contacts, body.inputs)
-    rows = {load: row for load, row in stored.rows.items() if load in pressed}
+    kept = kept_series(body.inputs, loads, body.name)
+    pure = all(load in kept.series.rows for load in stored.rows)
+    rows = dict(kept.series.rows) | {load: row for load, row in stored.rows.items() if load in pressed}
     known = sum(load in rows for load in loads)
     fresh: list[tuple[ContactRow, Contact | None]] = []
     pending: dict[Future[Row], float] = {}
@@ -198,6 +210,8 @@ def solved(body: SealSetup, loads: tuple[float, ...], threads: int, advance: Adv
             add(body.contacts, body.inputs, fresh)
             fresh.clear()
         save_series(body.series, body.inputs, LeakageSeries(rows=rows, thresholds=stored.thresholds))
+        if pure and len(rows) > len(kept.series.rows):
+            kept.save({load: rows[load] for load in loads if load in rows}, {})
         saved = time.monotonic()
 
     def collect(limit: int) -> None:
@@ -212,13 +226,17 @@ def solved(body: SealSetup, loads: tuple[float, ...], threads: int, advance: Adv
         with workers(threads) as pool:
             before: Contact | None = None
             flow = _flow_of(body)
-            for load in (one for one in loads if one not in rows):
+            for load in (one for one in loads if one not in rows or one not in pressed):
                 if load in pressed:
                     before = load_contact(body.contacts, load)
                 else:
                     cpu = time.process_time()
                     before = _pressed(body)(load, before)
                     fresh.append((row_of(before, time.process_time() - cpu), before))
+                    advance(sum(one in rows for one in loads) / len(loads), f"contact at {load / 1e6:.4g} MPa")
+                if load in rows:
+                    save(SAVE_INTERVAL_S)
+                    continue
                 collect(threads)
                 pending[pool.submit(flow, before)] = load
             collect(0)

@@ -74,8 +74,8 @@ class LeakageSeries:
     thresholds: Mapping[str, Threshold]
 
 
-def save_series(path: Path, inputs: Inputs, series: LeakageSeries) -> None:
-    """Write a series to an HDF5 file.
+def save_series(path: Path, inputs: Inputs, series: LeakageSeries, surface: str = "") -> None:
+    """Write a series to an HDF5 file, with the name of its surface if it is given.
 
     The group ``series`` has a column for each number, by increasing load; ``thresholds`` has the brackets.
 
@@ -90,6 +90,8 @@ def save_series(path: Path, inputs: Inputs, series: LeakageSeries) -> None:
         file.attrs["schema"] = SCHEMA
         file.attrs["digest"] = inputs.digest
         file.attrs["settings"] = json.dumps(inputs.settings, sort_keys=True, allow_nan=False)
+        if surface:
+            file.attrs["surface"] = surface
         for name in NUMBERS:
             column = np.array([getattr(row, name) for row in rows], dtype=float)
             file.create_dataset(f"series/{name}", data=column).attrs["unit"] = UNITS.get(name, "1")

@@ -17,10 +17,10 @@ from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.bearing.mixed.curves import Wall, resumed_curves, wall_of
 from roughfilm.rom.bearing.mixed.patir_cheng_table import patir_cheng_table
-from roughfilm.rom.bearing.mixed.resume import resumed_table
 from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
+from roughfilm.rom.homogenization.table.resume import resumed_table
 from roughfilm.rom.ladder.provenance import code
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.terminal.console import make_directory

@@ -11,6 +11,7 @@ from places import SCENES
 from roughfilm import rom
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.ladder import find
+from roughfilm.rom.bearing.roughness import _factors
 from roughfilm.rom.cavitation.oblique import wetness
 from roughfilm.rom.homogenization.ridges import sinusoidal_ridges
 from roughfilm.rom.ladder.model import ladder, of_kind
@@ -418,3 +419,43 @@ def test_friction_where_a_film_begins_inside_a_cell_is_of_second_order():
     ]
     assert frictions == sorted(frictions)
     assert max(frictions) / min(frictions) - 1 < 4e-5
+
+
+def small_pad(film: str):
+    """A pad with a rough surface in a film of this thickness."""
+    entries = {
+        "name": "pad",
+        "kind": "bearing",
+        "geometry": {"shape": "parabolic", "length": "2 mm", "width": "2 mm", "film": film, "rise": "4 um"},
+        "lubricant": {"viscosity": "0.1 Pa*s"},
+        "motion": {"speed": "1 m/s"},
+        "roughness": {
+            "kind": "surface",
+            "surface": {
+                "kind": "gaussian",
+                "size": ["1 mm", "1 mm"],
+                "points": [16, 16],
+                "seed": 3,
+                "rms_height": "0.5 um",
+                "correlation_length": "0.25 mm",
+            },
+        },
+    }
+    return read_scene(entries)
+
+
+def test_the_first_result_has_the_cost_of_the_table_and_later_ones_of_the_same_surface_have_none():
+    _factors.cache_clear()
+    first, second = (HOMOGENIZED.solve(small_pad(film), Request(resolution=16)) for film in ("4 um", "4.01 um"))
+    assert first.provenance["table"]["digest"] == second.provenance["table"]["digest"]
+    assert first.numerics.one_time["table"] > 0
+    assert "table" not in second.numerics.one_time
+    assert first.numerics.wall_s > 0
+
+
+def test_films_of_any_thickness_are_in_the_range_of_their_table():
+    roughness = small_pad("4 um").roughness
+    for film in (0.9 * roughness.peak, roughness.peak, 1.001 * roughness.peak, 3e-6, 1e-4):
+        table = roughness.factors(film)
+        assert film / 2 < table.narrowest < film
+        assert table(np.array([film])).along[0] > 0

@@ -57,6 +57,11 @@ def test_a_change_of_what_is_imported_directly_or_not_counts(digest, changes):
     assert digest(changes) != digest({})
 
 
+def test_a_change_of_what_is_imported_at_the_first_call_counts(digest):
+    thin = {"rom/gap/models/thin.py": 'MODEL = deferred("contact.unrelated", "OTHER")\n'}
+    assert digest(thin | {"contact/unrelated.py": "OTHER = 2"}) != digest(thin)
+
+
 def test_every_model_has_a_digest_of_its_own():
     models = ladder(rom, foamcases)
     digests = {model_code(model.kind, model.name) for model in models}

@@ -191,3 +191,14 @@ def test_an_empty_hdf5_file_is_refused(tmp_path):
     h5py.File(tmp_path / "r.h5", "w").close()
     with pytest.raises(InputError, match="is not a result"):
         load(tmp_path / "r.h5")
+
+
+def test_one_time_costs_are_read_back_and_older_files_have_none(result, tmp_path):
+    dear = replace(result, numerics=replace(result.numerics, one_time={"table": 187.0, "compilation": 4.0}))
+    save(dear, tmp_path / "dear.h5")
+    assert load(tmp_path / "dear.h5").numerics.one_time == {"table": 187.0, "compilation": 4.0}
+    with h5py.File(tmp_path / "dear.h5", "r+") as file:
+        numerics = json.loads(file.attrs["numerics"])
+        del numerics["one_time"]
+        file.attrs["numerics"] = json.dumps(numerics)
+    assert load(tmp_path / "dear.h5").numerics.one_time == {}

@@ -236,3 +236,24 @@ def test_joints_that_seal_are_warned_of(place):
     told = asked("leakage", place / "seal.toml", "--out", place / "joint", *bad)
     warnings = " ".join(told["provenance"]["warnings"])
     assert "seals first at the edge in x" in warnings
+
+
+def test_a_second_series_elsewhere_takes_the_flows_of_the_first(place, tmp_path, monkeypatch):
+    """The cache keeps the sealing loads and the rows, for another liquid too; contacts are solved again."""
+    loads = ("--loads", "1kPa,3kPa,10kPa")
+    first = asked("leakage", place / "seal.toml", "--out", tmp_path / "one", *loads)
+
+    def refused(*_):
+        raise AssertionError("a flow is solved again")
+
+    monkeypatch.setattr(leakage_run, "direct_leakage", refused)
+    monkeypatch.setattr(leakage_run, "homogenized_leakage", refused)
+    monkeypatch.setattr(leakage_run, "thresholds", refused)
+    thicker = ("--set", "liquid.viscosity=2 mPa*s")
+    second = asked("leakage", place / "seal.toml", "--out", tmp_path / "two", *loads, *thicker)
+    assert second["thresholds"] == first["thresholds"]
+    for one, other in zip(first["series"], second["series"], strict=True):
+        assert one["direct_x"] == other["direct_x"]
+        assert one["mean_gap"] == other["mean_gap"]
+        assert other["leakage_direct_x"] == pytest.approx(one["leakage_direct_x"] / 2)
+    assert (tmp_path / "two" / "contacts.h5").stat().st_size == (tmp_path / "one" / "contacts.h5").stat().st_size

@@ -200,3 +200,37 @@ def test_ranges_of_speeds():
         speeds_of("30rpm", None)
     with pytest.raises(InputError, match="first of a range must be below"):
         speeds_of("5..1rpm:3", 0.1)
+
+
+def test_a_smooth_bearing_is_swept_under_its_own_load(tmp_path):
+    """Without asperities the film carries all; the default load is that of the scene."""
+    scene = tmp_path / "journal.toml"
+    scene.write_text((SCENES / "journal.toml").read_text() + '\n[load]\nforce = "2.5 kN"\n')
+    arguments = [
+        "stribeck",
+        str(scene),
+        "--speeds",
+        "50rpm,500rpm",
+        "--resolution",
+        "16",
+        "--out",
+        str(tmp_path / "out"),
+    ]
+    done = CliRunner().invoke(app, [*arguments, "--json"], catch_exceptions=False)
+    assert done.exit_code == 0, done.stderr
+    (curve,) = json.loads(done.stdout)["curves"]
+    assert curve["pressure"] == pytest.approx(2.5e3 / (50e-3 * 50e-3))
+    assert all(point["contact_share"] == 0 for point in curve["points"])
+    page = (tmp_path / "out" / "report.html").read_text()
+    assert "no asperities" in page
+    assert page.count("<svg") == 2
+
+
+def test_a_second_sweep_elsewhere_takes_the_table_of_the_first(tmp_path, monkeypatch):
+    one = run("--out", tmp_path / "one", *SWEEP, "--json")
+    monkeypatch.setattr("roughfilm.rom.bearing.mixed.kept.tabulate_pressed", lambda *_, **__: pytest.fail("made again"))
+    other = run("--out", tmp_path / "two", *SWEEP, "--json")
+    first, second = (json.loads(done.stdout) for done in (one, other))
+    assert second["quantities"] == first["quantities"]
+    assert first["numerics"]["table_points_found"] == 0
+    assert second["numerics"]["table_points_found"] == second["numerics"]["table_points"]

@@ -1,12 +1,16 @@
 """What the terminal makes of exceptions that end a command."""
 
+import threading
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 import typer
 
 from roughfilm.cli.advise import Want
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.timing import one_time
+from roughfilm.terminal import console
 from roughfilm.terminal.console import Overrides, Tolerance, in_one_line
 
 
@@ -70,3 +74,47 @@ def test_an_error_that_begins_with_a_parameter_begins_with_its_option(capsys, me
         in_one_line(command)("film.toml", None, None, None)
     assert stop.value.exit_code == 2
     assert capsys.readouterr().err == f"error: {line}\n"
+
+
+def test_work_is_described_by_words_fraction_time_spent_and_time_left(monkeypatch):
+    now = [100.0]
+    monkeypatch.setattr(console.time, "monotonic", lambda: now[0])
+    work = console._Work("starting")
+    now[0] = 103.0
+    assert work.line() == "starting: 3 s"
+    work.advance(0.25, "12 points")
+    now[0] = 130.0
+    assert work.line() == "12 points: 25 %, 30 s, about 90 s left"
+    work.advance(0.0, "film")
+    now[0] = 134.0
+    assert work.line() == "film: 4 s"
+    with one_time("compilation"):
+        assert work.line() == "compiling numerical kernels: 4 s"
+
+
+def test_long_work_prints_lines_where_no_bar_is_shown(monkeypatch):
+    printed, shown = [], threading.Event()
+
+    def write(line: str, **_: object) -> None:
+        printed.append(line)
+        if len(printed) > 2:
+            shown.set()
+
+    monkeypatch.setattr(console, "FIRST_LINE_S", 0.0)
+    monkeypatch.setattr(console, "LINE_INTERVAL_S", 0.001)
+    monkeypatch.setattr(console, "messages", SimpleNamespace(print=write, is_terminal=False))
+    monkeypatch.delenv("ROUGHFILM_PROGRESS")
+    with console.lines_of_progress(), console.progress_bar(4.0) as advance:
+        advance(1.0, "contact at 2 MPa")
+        assert shown.wait(60)
+    assert printed[-1].startswith("contact at 2 MPa: 25 %, ")
+
+
+def test_progress_can_be_switched_off(monkeypatch, capsys):
+    monkeypatch.setattr(console, "FIRST_LINE_S", 0.0)
+    monkeypatch.setenv("ROUGHFILM_PROGRESS", "off")
+    threads = threading.active_count()
+    with console.lines_of_progress(), console.progress_bar(1.0) as advance:
+        advance(0.5, "contact")
+        assert threading.active_count() == threads
+    assert capsys.readouterr().err == ""

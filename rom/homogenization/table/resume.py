@@ -1,7 +1,7 @@
 """Files of unfinished work: regular saves, and tables of flow factors that are completed from their file."""
 
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -24,7 +24,7 @@ def regular_saves(save: Callable[[], None], note: Callable[[], str]) -> Iterator
     Parameters
     ----------
     save : save(), writes the file.
-    note : note(), the text that an interruption adds to its exception.
+    note : note(), the text that an interruption adds to its exception if that has none.
     """
     last = time.monotonic()
 
@@ -41,12 +41,13 @@ def regular_saves(save: Callable[[], None], note: Callable[[], str]) -> Iterator
         raise
     except (KeyboardInterrupt, SystemExit) as stop:
         save()
-        stop.add_note(note())
+        if not hasattr(stop, "__notes__"):
+            stop.add_note(note())
         raise
 
 
 def resumed_table(out: Path | None, inputs: Inputs, work: Work) -> tuple[FactorTable, int]:
-    """The table that ``work(known, keep)`` makes, and the number of its points that were in the file.
+    """The table that ``work(known, keep)`` makes, and the number of its points that it did not solve.
 
     Parameters
     ----------
@@ -59,32 +60,55 @@ def resumed_table(out: Path | None, inputs: Inputs, work: Work) -> tuple[FactorT
     InputError
         If the file cannot be read or written, is damaged, or holds something else.
     """
-    body = Separations(heights=inputs.heights)
     known = () if out is None else known_points(out, inputs)
-    points = {_key(point): point for point in known}
 
-    def save() -> None:
-        if out is not None and len(points) > 1:
-            ordered = tuple(sorted(points.values(), key=lambda point: point.mean_gap))
-            save_table(out, inputs, FactorTable(points=ordered, peak=body.peak, rms=body.rms))
+    def save(points: Sequence[Point]) -> None:
+        if out is not None:
+            save_table(out, inputs, table_of(points, inputs))
 
-    def note() -> str:
-        end = "; the same command goes on" if out is not None else ", none kept, as no file was named"
-        return f"stopped: {len(points)} points{end}"
+    end = "; the same command goes on" if out is not None else ", none kept, as no file was named"
+    table, new = grown_table(known, work, save, f"points{end}")
+    return table, len(table.points) - len(new & {key_of(point) for point in table.points})
 
-    with regular_saves(save, note) as save_regularly:
+
+def grown_table(
+    known: Sequence[Point], work: Work, save: Callable[[Sequence[Point]], None], note: str
+) -> tuple[FactorTable, set[tuple[float, float]]]:
+    """The table that ``work(known, keep)`` makes, and the keys of the points that it solved.
+
+    Parameters
+    ----------
+    known : points that are not solved again.
+    work : makes the table.
+    save : save(points), called with two or more points regularly, at the end, and if the work is stopped or fails.
+    note : text that an interruption adds to its exception, behind the number of points.
+    """
+    points = {key_of(point): point for point in known}
+    new: set[tuple[float, float]] = set()
+
+    def save_all() -> None:
+        if len(points) > 1:
+            save(sorted(points.values(), key=lambda point: point.mean_gap))
+
+    with regular_saves(save_all, lambda: f"stopped: {len(points)} {note}") as save_regularly:
 
         def keep(point: Point) -> None:
-            points[_key(point)] = point
+            points[key_of(point)] = point
+            new.add(key_of(point))
             save_regularly()
 
         table = work(known, keep)
-    points |= {_key(point): point for point in table.points}
-    save()
-    before = {_key(point) for point in known}
-    return table, sum(_key(point) in before for point in table.points)
+    points |= {key_of(point): point for point in table.points}
+    save_all()
+    return table, new
 
 
-def _key(point: Point) -> tuple[float, float]:
+def table_of(points: Iterable[Point], inputs: Inputs) -> FactorTable:
+    """A table of points in order of the mean gap, of the surface of the inputs."""
+    body = Separations(heights=inputs.heights)
+    return FactorTable(points=tuple(points), peak=body.peak, rms=body.rms)
+
+
+def key_of(point: Point) -> tuple[float, float]:
     """The load of a point in contact, or the separation of a point without contact."""
     return point.load, 0.0 if point.load else point.separation

@@ -1,0 +1,108 @@
+"""The ``roughfilm`` command: one subcommand a file, imported when it is called."""
+
+import importlib
+import sys
+from typing import Annotated, Any
+
+import typer
+from typer.core import TyperGroup
+
+from roughfilm.terminal.console import HELP_MODE, help_below, in_one_line, launch
+
+GROUPS = {
+    "First steps": {
+        "models": "List the models of each kind of scene: what each keeps, its cost, and whether it can run here.",
+        "new": "Print an annotated scene of a kind, with all its keys, to start from.",
+        "advise": "Choose the cheapest model and resolution that are accurate enough, with their expected error and "
+        "cost.",
+        "solve": "Solve a scene by one model, or by the cheapest that is accurate enough.",
+        "compare": "Run every model that applies and write report.html, results (.h5) and figures.",
+    },
+    "Bearings and seals": {
+        "stribeck": "Sweep speed and load of a bearing whose walls may touch, to Stribeck curves.",
+        "effects": "Switch the effects of a bearing on one at a time: what each adds to load, friction and flow, and "
+        "to the film.",
+        "leakage": "Compute contact, gap and leakage of a seal, directly and averaged, from the first touch until it "
+        "is sealed.",
+    },
+    "Surfaces": {
+        "surface": "Read a surface, prepare it as a periodic cell, and show it before and after.",
+        "contact": "Press a rough surface against a flat plane: area, gap and pressures by load.",
+        "factors": "Compute pressure, shear and friction flow factors of a rough surface.",
+    },
+    "Many cases": {
+        "batch": "Solve every case of a study by every model and write table.csv and table.h5.",
+        "report": "Write the report of a sweep: errors of every model, the number that orders them, speed and "
+        "accuracy.",
+    },
+    "OpenFOAM and other tools": {
+        "generate": "Write the OpenFOAM cases alone; run each with its ./Allrun.",
+        "schema": "Print the JSON Schema of scene files, with which editors check and complete them.",
+        "export": "Write a gap, a surface or a result as a mesh for other tools: lengths in metres, data named with "
+        "their units.",
+    },
+    "Upkeep": {
+        "cache": "Show the tables of surfaces that are kept for later runs, or remove them.",
+        "doctor": "Check Python, OpenFOAM, MPI, rendering and the reader of instrument files; give remedies.",
+        "charts": "Chart CPU time against error for every model and resolution: charts.html, .json, .csv, .png and an "
+        ".svg each.",
+        "stability": "Map where solvers converge, and write stability.csv, .json and report.html.",
+    },
+}
+"""The commands by their use, each with its help in one line; ``roughfilm/cli/<command>.py`` has the command."""
+
+COMMANDS = {name: line for group in GROUPS.values() for name, line in group.items()}
+
+
+class _Commands(TyperGroup):
+    """The commands as their help shows them, until one is called."""
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
+        name, _, rest = super().resolve_command(ctx, args)
+        module = importlib.import_module(f"roughfilm.cli.{name}")
+        alone = typer.Typer(add_completion=False, rich_markup_mode=HELP_MODE)
+        alone.command(name, epilog=help_below(getattr(module, "EXAMPLES", ())))(in_one_line(module.command))
+        return name, typer.main.get_command(alone), rest
+
+
+app = typer.Typer(
+    name="roughfilm",
+    cls=_Commands,
+    help="Thin lubricant films by a ladder of models, from Reynolds to Navier-Stokes in OpenFOAM.",
+    epilog=help_below(
+        [
+            "roughfilm models pocket",
+            "roughfilm solve pocket.toml --within 5%",
+            "roughfilm compare pocket.toml --out study",
+            "roughfilm COMMAND --help",
+        ],
+        "rich",
+    ),
+    pretty_exceptions_enable=False,
+    rich_markup_mode="rich",
+)
+for group, commands in GROUPS.items():
+    for command, line in commands.items():
+        app.command(command, help=line, rich_help_panel=group)(lambda: None)
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        from importlib import metadata  # no other command pays for it
+
+        typer.echo(f"roughfilm {metadata.version('roughfilm')}")
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_show_version, is_eager=True, help="Show the version and exit.")
+    ] = False,
+) -> None:
+    """Options that stand before a command."""
+
+
+def main() -> None:
+    """Run the command line; alone it shows the help."""
+    launch(app, sys.argv[1:] or ["--help"], "roughfilm")

@@ -1,0 +1,47 @@
+"""The last line of a command that solves a scene: the value, whether its error is small enough, and the cost."""
+
+import math
+
+from roughfilm.rom.advice.stated import percent, stated_errors
+from roughfilm.rom.ladder.kind import kind_of
+from roughfilm.rom.ladder.result import Result
+from roughfilm.words.cost import one_time_in_words
+from roughfilm.words.numbers import digits
+
+
+def summary(result: Result, quantity: str, within: float) -> str:
+    """The value of a quantity, its error compared with a tolerance, and the cost, in one line.
+
+    Parameters
+    ----------
+    result : the result, with its errors.
+    quantity : name of a quantity of the kind.
+    within : tolerated error over the size of the quantity.
+    """
+    return f"{value_of(result, quantity)} by {result.model}; {judgement(result, quantity, within)}; {cost_of(result)}"
+
+
+def value_of(result: Result, quantity: str) -> str:
+    """The value of a quantity with its unit and numerical uncertainty in per cent, such as "load 12.3 N/m ± 0.5 %"."""
+    title = kind_of(result).titles[quantity]
+    if quantity not in result.quantities:
+        return f"no {title}"
+    plain = quantity.removesuffix("_plus")
+    shown = result[plain] if plain != quantity and f"{plain}_per_area" in result.quantities else result[quantity]
+    unit = "" if shown.unit == "1" else f" {shown.unit}"
+    own = result[quantity]
+    bar = "" if own.uncertainty is None or own.value == 0 else f" ± {percent(own.uncertainty / abs(own.value))}"
+    return f"{title} {digits(shown.value)}{unit}{bar}"
+
+
+def judgement(result: Result, quantity: str, within: float) -> str:
+    """Whether the error of a quantity is within a tolerance, with the error and its source."""
+    error = stated_errors(result).get(quantity)
+    if error is None or not math.isfinite(error.error):
+        return f"error unknown, not known to be enough for {percent(within)}"
+    return f"{'' if error.error <= within else 'not '}enough for {percent(within)}: error {error.words}"
+
+
+def cost_of(result: Result) -> str:
+    """The CPU time of a result, with its one-time costs."""
+    return f"{result.numerics.cpu_s:.2g} s{one_time_in_words(result.numerics.one_time)}"

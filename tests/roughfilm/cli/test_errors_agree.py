@@ -1,0 +1,152 @@
+"""Every statement about the error of a model in a quantity agrees with every other one, over text, JSON and page."""
+
+import json
+import re
+from collections import defaultdict
+from functools import partial
+
+import numpy as np
+import pytest
+from places import SCENES
+from typer.testing import CliRunner
+
+from roughfilm.cli import compare
+from roughfilm.cli.main import app
+from roughfilm.ladder import models
+from roughfilm.rom.advice.stated import StatedError
+from roughfilm.rom.ladder.kind import kind_of_name
+from roughfilm.rom.ladder.model import of_kind
+from roughfilm.terminal.console import NOT_CONVERGED
+
+AMOUNT = r"(?:above 100 %|unknown|[+−]?[\d.e-]+ %(?: ± [\d.e-]+ %)?)"
+SOURCE = r"\((?:expected by the laws|its own uncertainty|measured against \w+)\)"
+
+SMOOTH = ("pocket", "splined", "two_grooves", "parabolic_slider")
+ROUGH = ("dry_contact", "seal", "rough_gap")
+
+
+@pytest.fixture
+def scene(request, tmp_path):
+    """The arguments of a command for an example scene; a rough surface is replaced by waves on 24 points a side."""
+    if request.param in SMOOTH:
+        return [f"{SCENES}/{request.param}.toml"]
+    x = 2 * np.pi * np.arange(24) / 24
+    np.save(tmp_path / "waves.npy", 1e-7 * (np.cos(x)[:, None] * np.cos(x) + 0.3 * np.cos(3 * x + 1)))
+    sets = [f"geometry.surface={tmp_path / 'waves.npy'}", "geometry.spacing=1um"]
+    return [f"{SCENES}/{request.param}.toml", *(word for text in sets for word in ("--set", text))]
+
+
+def run(*arguments):
+    found = CliRunner().invoke(app, [str(argument) for argument in arguments])
+    assert found.exit_code in (0, NOT_CONVERGED), found.output
+    return found.output
+
+
+def statements(text, titles):
+    """The amounts that a text states, by model and title."""
+    found = defaultdict(set)
+    any_title = "|".join(map(re.escape, sorted(titles, key=len, reverse=True)))
+    for model, rest in re.findall(r"(?:errors of |warning: |⚠ \w+: )(\w+)(?: has a large error here)?: (.*)", text):
+        for title, amount in re.findall(rf"\b({any_title}) ({AMOUNT})", rest):
+            found[model, title].add(amount)
+    for title, model, amount in re.findall(
+        rf"^(?:warning: )?({any_title}) \S.*? by (\w+); (?:not )?enough for [^:]*: error ({AMOUNT})", text, re.MULTILINE
+    ):
+        found[model, title].add(amount)
+    for title, model, amount in re.findall(
+        rf"^({any_title}) \S.*?; (\w+) is (?:not )?enough for [^:]*: error ({AMOUNT})", text, re.MULTILINE
+    ):
+        found[model, title].add(amount)
+    return found
+
+
+def merged(*parts):
+    found = defaultdict(set)
+    for part in parts:
+        for key, amounts in part.items():
+            found[key] |= amounts
+    return found
+
+
+def of_result(entries, titles):
+    """The amounts of a result as JSON holds it, checked against its plain numbers."""
+    stated = {name: StatedError(**one) for name, one in entries["provenance"]["errors"].items()}
+    assert entries["expected_error"] == pytest.approx({name: one.error for name, one in stated.items()})
+    return {(entries["model"], titles[name]): {one.amount} for name, one in stated.items()}
+
+
+def contradictions(found):
+    return {key: amounts for key, amounts in found.items() if len(amounts) != 1}
+
+
+@pytest.mark.parametrize("scene", [*SMOOTH, *ROUGH], indirect=True)
+def test_advice_and_solution_state_one_error_for_a_model_and_a_quantity(scene):
+    advised, told = run("advise", *scene), json.loads(run("advise", *scene, "--json"))
+    entries = json.loads(run("solve", *scene, "--json").splitlines()[-1])
+    titles = kind_of_name(entries["provenance"]["scene"]["kind"]).titles
+    title = titles[told["want"]]
+    by_lines = re.findall(
+        rf"^(\w+): (?:chosen|not enough|not needed): error ({AMOUNT}) {SOURCE}", advised, re.MULTILINE
+    )
+    by_rows = re.findall(rf"^│ (\w+) +│ +\d+ │ +\S+ │ +({AMOUNT}) │", advised, re.MULTILINE)
+    last = re.findall(
+        rf"(\w+)(?:, resolution \d+:| comes nearest,) error ({AMOUNT}) {SOURCE}", advised.splitlines()[-1]
+    )
+    by_json = {(one["model"], StatedError(**one["error"]).amount) for one in told["considered"] if one["error"]}
+    assert last
+    found = defaultdict(set)
+    for model, amount in [*by_lines, *by_rows, *last, *by_json]:
+        found[model, title].add(amount)
+    found = {key: amounts for key, amounts in found.items() if amounts != {"unknown"}}
+    found = merged(found, of_result(entries, titles), statements(run("solve", *scene), titles))
+    assert (entries["model"], title) in found
+    assert contradictions(found) == {}
+
+
+@pytest.mark.parametrize("scene", ["pocket", "parabolic_slider", *ROUGH], indirect=True)
+def test_table_page_and_json_of_a_comparison_state_one_error_for_a_model_and_a_quantity(scene, tmp_path, monkeypatch):
+    inside = tuple(model for model in models() if not model.outside)
+    monkeypatch.setattr(compare, "models", partial(of_kind, inside))
+    text = run("compare", *scene, "--out", tmp_path / "study")
+    told = json.loads(run("compare", *scene, "--out", tmp_path / "study", "--json").splitlines()[-1])
+    kind = kind_of_name(told["provenance"]["scene"]["kind"])
+    page = (tmp_path / "study" / "report.html").read_text(encoding="utf-8")
+    found = merged(*(of_result(entries, kind.titles) for entries in told["models"]), statements(text, kind.titles))
+    rows = defaultdict(set)
+    for row in re.findall(r"^│ .* │$", text[text.index("errors measured against") :], re.MULTILINE):
+        model, _cpu, *amounts = (cell.strip() for cell in row.strip("│").split("│"))
+        for title, amount in zip(kind.compared.values(), amounts, strict=False):
+            rows[model, title].add(amount)
+    lines = re.sub(r"<[^>]*>", "", page)
+    found = merged(found, rows, statements(lines, kind.titles))
+    assert contradictions(found) == {}
+    for model, title in rows:
+        for amount in found[model, title] - {"unknown"}:
+            cells = re.search(rf"<td>{model}</td>.*?</tr>", page, re.DOTALL)[0]
+            assert f"{amount}</small>" in cells, (model, title)
+
+
+def bound(amount):
+    """The bound in per cent of an amount |difference| ± uncertainty."""
+    return sum(abs(float(part)) for part in re.findall(r"[\d.e-]+(?= %)", amount))
+
+
+def test_the_tile_names_the_cheapest_model_whose_row_is_within_the_tolerance(pocket_file, tmp_path, monkeypatch):
+    inside = tuple(model for model in models() if not model.outside)
+    monkeypatch.setattr(compare, "models", partial(of_kind, inside))
+    told = json.loads(run("compare", pocket_file, "--out", tmp_path / "study", "--json").splitlines()[-1])
+    page = (tmp_path / "study" / "report.html").read_text(encoding="utf-8")
+    tile = re.search(r"<b>([^/]*)</b><span>cheapest model within 5 %", page)[1].replace("<wbr>", "")
+    assert tile == told["cheapest_within_5_percent"]
+    order = re.findall(r"<tr(?: class=\"best\")?>\s*<td>(\w+)</td><td class=\"left\">(?!load|friction)", page)
+    costs = {one["model"]: one["numerics"]["cpu_s"] for one in told["models"]}
+    assert [model for model in order if model in costs] == sorted(costs, key=costs.get)
+    within = [
+        one["model"]
+        for one in told["models"]
+        if all(
+            bound(StatedError(**one["provenance"]["errors"][name]).amount) <= 5
+            for name in ("load_plus", "friction_plus")
+        )
+    ]
+    assert tile == min(within, key=costs.get)
