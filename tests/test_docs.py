@@ -2,12 +2,16 @@
 
 import pkgutil
 import re
+import shlex
 import tomllib
 from pathlib import Path
 
 import pytest
+import typer
 from places import ROOT
+from typer.core import TyperGroup
 
+from roughfilm.cli.main import app
 from roughfilm.rom.ladder.scene import read_scene
 
 PAGES = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -70,6 +74,26 @@ def test_commands_and_names_exist(page: Path) -> None:
     assert [path for path in modules if not (path.is_dir() or path.with_suffix(".py").is_file())] == []
     for name in NAME.findall(code):
         pkgutil.resolve_name(name)
+
+
+TYPED = [
+    pytest.param(line, id=f"{_named(page)}: {line.partition('#')[0].strip()}")
+    for page in PAGES
+    for block in _blocks(page, "sh")
+    for line in block.splitlines()
+    if re.match(r"roughfilm [a-z]+ ", f"{line} ") and page.name != "CHANGELOG.md" and not line.endswith("\\")
+]
+
+
+@pytest.mark.parametrize("line", TYPED)
+def test_commands_can_be_typed(line: str) -> None:
+    _, *words = shlex.split(line.partition(">")[0], comments=True)
+    assert [word for word in words if word.startswith("scripts/") and not (ROOT / word).exists()] == []
+    group = typer.main.get_command(app)
+    assert isinstance(group, TyperGroup)
+    called, command, rest = group.resolve_command(group.make_context("roughfilm", [*words]), words)
+    assert called is not None
+    command.make_context(called, rest)
 
 
 @pytest.mark.parametrize("text", SCENES)

@@ -151,11 +151,12 @@ def alone_with(path: Path, waiting: Callable[[], object]) -> Iterator[None]:
     except OSError:
         yield
         return
+    held = False
     try:
-        while True:
+        while not held:
             try:
                 fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                break
+                held = True
             except BlockingIOError:
                 waiting()
                 time.sleep(WAIT_S)
@@ -163,6 +164,7 @@ def alone_with(path: Path, waiting: Callable[[], object]) -> Iterator[None]:
                 break
         yield
     finally:
-        with suppress(OSError):
-            path.with_suffix(".lock").unlink(missing_ok=True)
+        if held:
+            with suppress(OSError):
+                path.with_suffix(".lock").unlink()
         os.close(descriptor)

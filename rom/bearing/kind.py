@@ -1,5 +1,6 @@
 """The kind of scene "bearing": load and friction of a film with cavitation."""
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -11,7 +12,7 @@ from roughfilm.contact.foundation.entries import Part
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.foundation.faults import Fault, faults_of, known_keys, unknown_key
 from roughfilm.contact.foundation.line_numbers import Location
-from roughfilm.contact.foundation.units import Quantity
+from roughfilm.contact.foundation.units import Quantity, to_si
 from roughfilm.rom.bearing.equilibrium.expected import expected_scene
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.roughness import ROUGHNESSES
@@ -133,6 +134,81 @@ NUMBERS = {
 """The symbols of the dimensionless numbers; p = 6ηuL/h², p_B = p/(1 + (L/B)²) plus the largest pressure at an edge."""
 
 
+REPORTED = {
+    "load": "load",
+    "bearing_load": "load, whole bearing",
+    "load_per_width": "load per width",
+    "film_min": "least film thickness",
+    "friction_coefficient": "friction coefficient",
+    "power_loss": "power loss",
+    "bearing_power_loss": "power loss, whole bearing",
+    "power_loss_per_width": "power loss per width",
+    "pressure_max": "peak pressure",
+    "inlet_flow": "flow in",
+    "bearing_inlet_flow": "flow in, whole bearing",
+    "inlet_flow_per_width": "flow in per width",
+    "outlet_flow": "flow out",
+    "bearing_outlet_flow": "flow out, whole bearing",
+    "outlet_flow_per_width": "flow out per width",
+    "side_leakage": "side leakage",
+    "bearing_side_leakage": "side leakage, whole bearing",
+    "side_leakage_low": "side leakage, low side",
+    "side_leakage_high": "side leakage, high side",
+    "friction": "friction",
+    "bearing_friction": "friction, whole bearing",
+    "friction_per_width": "friction per width",
+    "torque": "torque",
+    "bearing_torque": "torque, whole bearing",
+    "torque_per_width": "torque per width",
+    "specific_load": "specific load",
+    "contact_share": "share of the load by contact",
+    "contact_load": "load by contact",
+    "bearing_contact_load": "load by contact, whole bearing",
+    "contact_load_per_width": "load by contact per width",
+    "film_load": "load by the film",
+    "bearing_film_load": "load by the film, whole bearing",
+    "film_load_per_width": "load by the film per width",
+    "contact_area": "contact area over nominal area",
+    "contact_pressure_max": "peak contact pressure",
+    "least_gap": "least mean gap",
+    "eccentricity": "eccentricity",
+    "attitude_angle": "attitude angle",
+    "film_min_x": "place of the least film along",
+    "film_min_y": "place of the least film across",
+    "cavitated_fraction": "cavitated fraction",
+    "film_start": "film begins at x/L",
+    "rupture": "film ruptures at x/L",
+    "theta_min": "least density ratio",
+    "sommerfeld_number": "Sommerfeld number",
+    "hersey_number": "Hersey number",
+}
+"""The titles of the quantities of a bearing, in the order of tables."""
+
+
+def sought(entries: Mapping[str, Any]) -> tuple[str, ...]:
+    """The least film stands first if the scene has a load."""
+    return ("film_min",) if "load" in entries else ()
+
+
+def remarks(entries: Mapping[str, Any], quantities: Mapping[str, Quantity]) -> tuple[str, ...]:
+    """The part of the whole bearing for which the quantities hold, if they do not hold for all of it."""
+    geometry, whole = entries["geometry"], quantities.get("bearing_load")
+    if geometry["shape"] not in ("sector", "washer"):
+        return ()
+    count = geometry.get("pockets", geometry.get("pads"))
+    if count is None and whole is not None:
+        count = round(2 * math.pi / to_si(geometry["angle"], "rad"))  # joined pads fill the ring
+    if count is None and to_si(geometry["angle"], "rad") <= math.pi:
+        return ("one pad of the bearing; geometry.pads, their number, gives the numbers of the whole bearing",)
+    if count in (None, 1):
+        return ()  # the piece is the whole bearing
+    line = f"one of {count} equal pieces"
+    if whole is None:
+        return (line,)
+    carried = f"{whole.value / 1e3:.4g} kN" if abs(whole.value) >= 1e3 else f"{whole.value:.4g} N"
+    return (f"{line}; the whole bearing carries {carried}",)
+
+
 def omitted(scene: Bearing, quantity: str) -> Omission | None:
     """The first-order effect of inertia; None without a density, or if the film does not converge."""
     from roughfilm.rom.bearing.omission import inertia_omitted  # slow to import
@@ -174,6 +250,9 @@ KIND = Kind(
         "least_gap": "least gap",
     },
     ratios={"friction_coefficient": ("friction_per_width", "load_per_width")},
+    reported=REPORTED,
+    sought=sought,
+    remarks=remarks,
     scale=scale,
     columns=columns,
     numbers=bearing_numbers,

@@ -190,14 +190,23 @@ def _factors(surface: str, first: float) -> FactorTable:
 
     geometry = SurfaceGeometry.model_validate_json(surface)
     heights, spacing = geometry.read().heights, geometry.read().spacing
-    options = {"tolerance": FACTOR_TOLERANCE, "narrowest": first}
 
     def progress(done: float, words: str) -> None:
         report(done, f"table of {geometry.name}: {words}")
 
     return kept_table(
-        table_inputs(heights, spacing, "rom.homogenization.table.tabulate", **options),
-        lambda known, keep: tabulate(heights, spacing, known=known, keep=keep, progress=progress, **options),
+        table_inputs(
+            heights, spacing, "rom.homogenization.table.tabulate", tolerance=FACTOR_TOLERANCE, narrowest=first
+        ),
+        lambda known, keep: tabulate(
+            heights,
+            spacing,
+            tolerance=FACTOR_TOLERANCE,
+            narrowest=first,
+            known=known,
+            keep=keep,
+            progress=progress,
+        ),
         about={"surface": geometry.name, "kind": "flow factors"},
         progress=progress,
     )

@@ -36,8 +36,8 @@ def gridded(fields: Mapping[str, tuple[NDArray[Any], str]]) -> tuple[dict[str, V
     coordinates = {name: variables.pop(name) for name in fields if name == "position" or name.endswith("_edges")}
     if all(axis in fields and arrays[axis].ndim == 2 for axis in ("x", "y")):
         for number, axis in enumerate(("x", "y")):
-            _, values, unit = variables.pop(axis)
-            coordinates[axis] = ((axis,), values.take(0, axis=1 - number), unit)
+            _, values, attributes = variables.pop(axis)
+            coordinates[axis] = ((axis,), values.take(0, axis=1 - number), attributes)
     if "vertices" in fields:
         vertices, unit = fields["vertices"]
         centres = _centres(vertices)

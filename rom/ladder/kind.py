@@ -64,6 +64,16 @@ def nothing_composed(_scene: Any) -> tuple[str, ...]:
     return ()
 
 
+def nothing_sought(_entries: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return no quantities, for kinds whose scenes all have the same order of quantities."""
+    return ()
+
+
+def nothing_remarked(_entries: Mapping[str, Any], _quantities: Mapping[str, Quantity]) -> tuple[str, ...]:
+    """Return no sentences, for kinds whose quantities need none."""
+    return ()
+
+
 @dataclass(frozen=True, kw_only=True)
 class Omission:
     """An effect that every model of a kind leaves out.
@@ -93,6 +103,10 @@ class Kind:
         hold for these scenes.
     lawful : whether the error laws hold; False for the kind of a scene with such a table.
     ratios : quantities that are the ratio of two others, with the names of these; their errors follow from those.
+    reported : the titles of all quantities in tables and pages, in their order there.
+    sought : sought(entries), the quantities that stand before these for a scene, given as its entries.
+    remarks : remarks(entries, quantities), sentences that belong to the quantities of a result, such as for which part
+        of the whole they hold.
     scale : scale(values, quantity), the size by which an error in a compared quantity is divided. ``values`` are the
         values of the reference by quantity, as numbers or arrays.
     columns : columns(scene), dimensionless numbers and texts of a scene for a table of many cases.
@@ -122,6 +136,9 @@ class Kind:
     compared_with: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     lawful: bool = True
     ratios: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+    reported: Mapping[str, str] = field(default_factory=dict)
+    sought: Callable[[Mapping[str, Any]], Sequence[str]] = nothing_sought
+    remarks: Callable[[Mapping[str, Any], Mapping[str, Quantity]], Sequence[str]] = nothing_remarked
     composed: Callable[[Any], Sequence[str]] = nothing_composed
     omitted: Callable[[Any, str], Omission | None] = nothing_omitted
     outside_laws: Callable[[Any, Any, str], str] = within_laws
@@ -144,6 +161,17 @@ class Kind:
                 others = {name: title for name, title in self.titles.items() if name not in compared}
                 return replace(self, compared=compared, others=others, lawful=False)
         return self
+
+    def listed(self, result: Result) -> dict[str, str]:
+        """The names and titles of the quantities of a result that people read, in the order in which they read them.
+
+        A quantity per width is left out where that of the whole width is there. Quantities without a title have their
+        name as the title, and come last.
+        """
+        first = self.sought(result.provenance["scene"])
+        names, whole = result.quantities, {f"{name}_per_width" for name in result.quantities}
+        ordered = dict.fromkeys((*first, *self.reported, *names))
+        return {name: self.reported.get(name, name) for name in ordered if name in names and name not in whole}
 
     def read(self, entries: Mapping[str, Any], file: EntriesFile | None = None) -> Scene:
         """Make a scene of this kind from nested entries of a file; InputError with a line for each fault."""

@@ -29,10 +29,13 @@ class SealDrive(Part):
     pressure_drop : pressure drop over the seal, Pa.
     length : length of the seal along the flow, m.
     direction : direction of the flow on the surface, "x" or "y".
+    width : width of the seal across the flow, m, such as the circumference of a ring; None if it is unknown, and the
+        leakage of the whole seal with it.
     """
 
     pressure_drop: Pressure
     length: Length
+    width: Length | None = None
     direction: Literal["x", "y"] = "x"
 
 

@@ -27,7 +27,7 @@ from roughfilm.terminal.results import print_all, table_of
 from roughfilm.words.numbers import finite
 
 EXAMPLES = (
-    "roughfilm advise scripts/examples/scenes/pocket.toml --within 5%",
+    "roughfilm advise scripts/examples/scenes/pocket.toml",
     "roughfilm advise scripts/examples/scenes/journal.toml --within 10%",
 )
 

@@ -15,6 +15,8 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.terminal.console import AsJson, print_json
 from roughfilm.terminal.results import print_all, table_of
 
+EXAMPLES = ("roughfilm cache", "roughfilm cache --limit 500MB", "roughfilm cache --clear")
+
 PREFIXES = {"": 1, "k": 10**3, "M": 10**6, "G": 10**9}
 """Factors of the prefixes of a size."""
 

@@ -10,7 +10,6 @@ import typer
 from rich.table import Table
 
 from roughfilm.batch.jobs import Job, jobs_of, run_all
-from roughfilm.cli.solve import quantity_table
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.foundation.files import write_json
 from roughfilm.figures.rendering import draw_apart, embedded
@@ -44,7 +43,7 @@ from roughfilm.terminal.console import (
     make_directory,
     print_json,
 )
-from roughfilm.terminal.results import print_all, print_left_out, table_of
+from roughfilm.terminal.results import print_all, print_left_out, quantity_table, table_of
 from roughfilm.words.summary import cost_of, judgement, value_of
 
 EXAMPLES = (

@@ -84,7 +84,7 @@ def command(
     if as_json:
         print_json({"models": [_entries(model, here) for model, here in rows]})
     elif kind is None:
-        print_all(_overview(rows))
+        print_all(overview(rows))
     else:
         print_all(_explained(kind, rows))
 
@@ -110,7 +110,7 @@ def _entries(model: Model, here: Availability) -> dict[str, object]:
     }
 
 
-def _overview(rows: Sequence[tuple[Model, Availability]]) -> Iterator[str]:
+def overview(rows: Sequence[tuple[Model, Availability]]) -> Iterator[str]:
     """The models of all kinds, a line each."""
     names = max(len(model.name) for model, _ in rows)
     room = output.width - names - 14

@@ -33,13 +33,15 @@ from roughfilm.terminal.console import (
     print_json,
     progress_bar,
 )
+from roughfilm.terminal.layout import wrapped
 from roughfilm.terminal.output_file import refuse_unwritable
-from roughfilm.terminal.results import print_all, table_of
+from roughfilm.terminal.results import print_all, quantity_table
 from roughfilm.words.cost import cost_in_words
 from roughfilm.words.summary import summary
 
 EXAMPLES = (
-    "roughfilm solve scripts/examples/scenes/pocket.toml --within 5%",
+    "roughfilm solve scripts/examples/scenes/pocket.toml",
+    "roughfilm solve scripts/examples/scenes/journal.toml --set load.force=5kN",
     "roughfilm solve scripts/examples/scenes/pocket.toml --model film --out film.h5",
 )
 
@@ -92,7 +94,7 @@ def command(
             request = {"resolution": resolution, "tolerance": tolerance, "scheme": scheme, "processes": processes}
             result, advice = solve(read, model=model, progress=advance, **request), None
     if advice is not None:
-        messages.print(_choice(advice), soft_wrap=True, markup=False)
+        messages.print(wrapped(_choice(advice), messages.width), soft_wrap=True, markup=False)
     if out is not None:
         save(result, out)
     if as_json:
@@ -116,7 +118,7 @@ def _shown(scene: Scene, by: Model, result: Result, quantity: str, within: float
     numbers = result.numerics
     yield (
         f"residual {numbers.residual:.1e} ({by.residual_meaning}), {numbers.iterations} iterations, "
-        f"{numbers.degrees_of_freedom} unknowns, {cost_in_words(numbers)}"
+        f"{numbers.degrees_of_freedom} unknowns, {cost_in_words(result)}"
     )
     for run in numbers.runs:
         if run.recipe and not run.name:
@@ -125,18 +127,3 @@ def _shown(scene: Scene, by: Model, result: Result, quantity: str, within: float
     yield from (f"errors of {by.name}: {line}" for line in error_lines(kind_of_scene(scene), result))
     yield from (f"warning: {warning}" for warning in result.warnings)
     yield summary(result, quantity, within)
-
-
-def quantity_table(result: Result) -> Table:
-    """The quantities of a result, with their uncertainties where any is known."""
-    known = any(quantity.uncertainty is not None for quantity in result.quantities.values())
-    rows = []
-    for name, quantity in result.quantities.items():
-        uncertainty = "" if quantity.uncertainty is None else f"{quantity.uncertainty:.1e}"
-        unit = "" if quantity.unit == "1" else quantity.unit
-        rows.append((name, f"{quantity.value:.5g}", *([uncertainty] if known else []), unit))
-    heads = ("quantity", "value", *(["±"] if known else []), "unit")
-    table = table_of(heads, rows, title=f"{result.provenance['scene']['name']} by {result.model}", left=1)
-    for column in table.columns[2:]:
-        column.justify = "left"
-    return table

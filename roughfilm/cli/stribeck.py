@@ -24,7 +24,10 @@ from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.words.numbers import finite
 from roughfilm.words.stribeck import lift_off, speed_scale
 
-EXAMPLES = ("roughfilm stribeck scripts/examples/scenes/rough_washer.toml --out washer",)
+EXAMPLES = (
+    "roughfilm stribeck scripts/examples/scenes/rough_washer.toml --out rough",
+    "roughfilm stribeck scripts/examples/scenes/washer.toml --out smooth",
+)
 
 SOURCES = (
     "Sahlin 2008, Paper E",

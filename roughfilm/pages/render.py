@@ -10,6 +10,7 @@ from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.studies.comparison import Difference
 from roughfilm.words.numbers import MIN_UNCERTAINTY, percent, share, span
+from roughfilm.words.units import scale_of
 
 TEMPLATES = Path(__file__).parent / "templates"
 
@@ -66,14 +67,11 @@ def _digits(value: float) -> str:
 
 
 def _quantity(quantity: Quantity) -> str:
-    """A quantity with its unit, in µm and MPa where these fit."""
+    """A quantity with its unit, in µm, MPa, kN or ml/min where these fit."""
     known = {"1": _number, "m": _micro, "Pa": _si}
-    value, unit = quantity.value, quantity.unit
-    return (known[unit](value) if unit in known else f"{value:.4g} {_typeset(unit)}").replace("-", "−")
-
-
-def _typeset(unit: str) -> str:
-    return unit.replace("^2", "²").replace("^3", "³").replace("*", " ")
+    value, (size, name) = quantity.value, scale_of(quantity.unit, abs(quantity.value))
+    shown = known[quantity.unit](value) if quantity.unit in known else f"{value / size:.4g} {name}"
+    return shown.replace("-", "−")
 
 
 def _difference(value: float, unit: str) -> str:

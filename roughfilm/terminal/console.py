@@ -291,8 +291,25 @@ def lines_of_progress() -> Iterator[None]:
 def progress_bar(total: float) -> Iterator[Callable[[float, str], None]]:
     """Show progress on standard error, as a bar on a terminal and in lines elsewhere.
 
-    It yields advance(done, words), whose ``done`` grows to ``total``.
+    It yields advance(done, words), whose ``done`` grows to ``total``. Work that is not handed this function, such as a
+    table of a surface, shows its words without a fraction.
     """
+    from roughfilm.rom.ladder.model import reported_to  # no other use of this module needs it
+
+    with _shown_progress(total) as show:
+        last = 0.0
+
+        def advance(done: float, words: str) -> None:
+            nonlocal last
+            last = done
+            show(done, words)
+
+        with reported_to(lambda _, words: show(last, words)):
+            yield advance
+
+
+@contextmanager
+def _shown_progress(total: float) -> Iterator[Callable[[float, str], None]]:
     whole = total or 1.0
     if not messages.is_terminal or os.environ.get(PROGRESS_VARIABLE) == "off":
         yield lambda done, words: _work.advance(done / whole, words)

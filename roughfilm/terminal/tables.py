@@ -57,6 +57,8 @@ class FittedTable(Table):
                 continue
             part = Table(box=ruled, show_edge=False, pad_edge=False, padding=(0, 0, 0, GAP - 1))
             yield self._filled(part, block, heads, cells, needs, width)
+        if self.caption is not None:
+            yield Text(wrapped(in_charset(_plain(console, self.caption), console.encoding), width))
 
     def _filled(
         self,

@@ -16,8 +16,6 @@ ADDED = (
     "inlet_flow",
     "outlet_flow",
     "side_leakage",
-    "side_leakage_low",
-    "side_leakage_high",
     "contact_load",
     "film_load",
 )

@@ -78,7 +78,7 @@ def kept_table(
         if (found := _complete(path, inputs)) is not None:
             return found
         if path is None:
-            return _with_origin(work([*known, *foreign], keep), inputs, kept=False, cpu_s=None)
+            return _with_origin(work([*known, *foreign], keep), inputs, kept=False, stored=False)
         with alone_with(path, lambda: progress(0.0, "waiting for another process that makes it")):
             return _complete(path, inputs) or _made(path, inputs, work, about, known, foreign, keep)
 
@@ -89,7 +89,7 @@ def _complete(path: Path | None, inputs: Inputs) -> FactorTable | None:
     if path is None or table is None or not making["complete"]:
         return None
     use(path)
-    return _with_origin(table, inputs, kept=True, cpu_s=making["cpu_s"])
+    return _with_origin(table, inputs, kept=True, stored=True, cpu_s=making["cpu_s"])
 
 
 def _part(path: Path | None) -> tuple[FactorTable | None, Mapping[str, Any]]:
@@ -150,10 +150,9 @@ def _made(
     save(table, True)
     with suppress(InputError):
         trim()
-    return _with_origin(table, inputs, kept=False, cpu_s=cpu_s())
+    return _with_origin(table, inputs, kept=False, stored=writable, cpu_s=cpu_s())
 
 
-def _with_origin(table: FactorTable, inputs: Inputs, *, kept: bool, cpu_s: float | None) -> FactorTable:
-    """The table with the entries for provenance."""
-    origin = {"digest": inputs.digest[:SHOWN_DIGITS], "kept": kept, "points": len(table.points)}
-    return replace(table, origin=origin if cpu_s is None else {**origin, "cpu_s": cpu_s})
+def _with_origin(table: FactorTable, inputs: Inputs, **entries: Any) -> FactorTable:
+    """The table with the entries for provenance: whether it was ``kept`` before, is ``stored`` now, and its cost."""
+    return replace(table, origin={"digest": inputs.digest[:SHOWN_DIGITS], "points": len(table.points), **entries})

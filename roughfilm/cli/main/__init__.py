@@ -11,8 +11,8 @@ from roughfilm.terminal.console import HELP_MODE, help_below, in_one_line, launc
 
 GROUPS = {
     "First steps": {
-        "models": "List the models of each kind of scene: what each keeps, its cost, and whether it can run here.",
         "new": "Print an annotated scene of a kind, with all its keys, to start from.",
+        "models": "List the models of each kind of scene: what each keeps, its cost, and whether it can run here.",
         "advise": "Choose the cheapest model and resolution that are accurate enough, with their expected error and "
         "cost.",
         "solve": "Solve a scene by one model, or by the cheapest that is accurate enough.",
@@ -37,11 +37,11 @@ GROUPS = {
     },
     "OpenFOAM and other tools": {
         "generate": "Write the OpenFOAM cases alone; run each with its ./Allrun.",
-        "schema": "Print the JSON Schema of scene files, with which editors check and complete them.",
         "export": "Write a gap, a surface or a result as a mesh for other tools: lengths in metres, data named with "
         "their units.",
     },
     "Upkeep": {
+        "schema": "Print the JSON Schema of scene files, with which editors check and complete them.",
         "cache": "Show the tables of surfaces that are kept for later runs, or remove them.",
         "doctor": "Check Python, OpenFOAM, MPI, rendering and the reader of instrument files; give remedies.",
         "charts": "Chart CPU time against error for every model and resolution: charts.html, .json, .csv, .png and an "
@@ -72,7 +72,7 @@ app = typer.Typer(
     epilog=help_below(
         [
             "roughfilm models pocket",
-            "roughfilm solve pocket.toml --within 5%",
+            "roughfilm solve pocket.toml",
             "roughfilm compare pocket.toml --out study",
             "roughfilm COMMAND --help",
         ],

@@ -90,6 +90,8 @@ VIEW = View(
         "film_min": "least<br>film",
         "load_per_width": "load<br>per width",
         "friction_per_width": "friction<br>per width",
+        "friction_coefficient": "friction<br>coefficient",
+        "power_loss_per_width": "power loss<br>per width",
         "pressure_max": "greatest<br>pressure",
         "film_start": "first film<br>begins, x/L",
         "rupture": "last film<br>ends, x/L",

@@ -453,6 +453,16 @@ def test_the_first_result_has_the_cost_of_the_table_and_later_ones_of_the_same_s
     assert first.numerics.wall_s > 0
 
 
+def test_a_solve_reports_the_progress_of_the_table_before_that_of_the_film():
+    _factors.cache_clear()
+    words: list[str] = []
+    HOMOGENIZED.solve(small_pad("4 um"), Request(resolution=16), progress=lambda _, said: words.append(said))
+    of_table = ["table of gaussian" in said for said in words]
+    assert of_table[0]
+    assert of_table == sorted(of_table, reverse=True)
+    assert not of_table[-1]
+
+
 def test_films_of_any_thickness_are_in_the_range_of_their_table():
     roughness = small_pad("4 um").roughness
     for film in (0.9 * roughness.peak, roughness.peak, 1.001 * roughness.peak, 3e-6, 1e-4):

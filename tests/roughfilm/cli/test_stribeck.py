@@ -180,10 +180,10 @@ def test_curves_of_another_scene_are_not_mixed_with_these(swept):
     assert "holds other curves, with lubricant.viscosity 0.14 Pa*s, not 0.2 Pa*s" in done.stderr
 
 
-def test_a_scene_without_asperities_is_told_what_it_lacks(tmp_path):
-    done = CliRunner().invoke(app, ["stribeck", str(SCENE.parent / "washer.toml"), "--out", str(tmp_path)])
+def test_another_kind_of_scene_is_refused(tmp_path):
+    done = CliRunner().invoke(app, ["stribeck", str(SCENE.parent / "pocket.toml"), "--out", str(tmp_path)])
     assert done.exit_code == 2
-    assert "asperities: are missing" in done.stderr
+    assert "curves over speed are those of a bearing" in done.stderr
 
 
 def test_ranges_of_speeds():

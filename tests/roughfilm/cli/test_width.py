@@ -12,8 +12,9 @@ from typer import rich_utils
 from typer.testing import CliRunner
 
 from roughfilm.cli.main import COMMANDS, app
-from roughfilm.cli.models import TYPICAL_CPU_S
+from roughfilm.cli.models import TYPICAL_CPU_S, overview, typical_cpu_s
 from roughfilm.ladder import models
+from roughfilm.rom.ladder.model import Availability
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.stability.form import table_of as table_of_outcomes
 from roughfilm.terminal import console
@@ -66,8 +67,8 @@ COARSE = (
 )
 RUNS = {
     "models": ["models", *(f"models {kind}" for kind in ("bearing", "dry_contact", "pocket", "rough_gap", "seal"))],
-    "advise": ["advise pocket.toml --within 10%"],
-    "solve": ["solve pocket.toml --model inertial_reynolds"],
+    "advise": ["advise pocket.toml"],
+    "solve": ["solve pocket.toml", "solve pocket.toml --model inertial_reynolds"],
     "compare": ["compare contact.toml --out compared"],
     "stribeck": [f"stribeck rough_washer.toml {COARSE} --loads 1MPa --speeds 20rpm,500rpm --out washer"],
     "effects": ["effects parabolic_slider.toml --resolution 64 --out effects"],
@@ -83,6 +84,9 @@ RUNS = {
     "cache": ["cache"],
 }
 """Small examples of the commands; report needs the sweep of batch before it."""
+
+ONE_WIDTH = {"compare", "leakage", "report", "stribeck"}
+"""Commands that take seconds, which are run in the narrower terminal alone."""
 
 FILES = {"new", "schema"}
 """Commands that print a file, which has its own width."""
@@ -125,7 +129,7 @@ def test_a_command_fits_the_terminal_and_ends_with_its_answer(name, place, monke
     monkeypatch.chdir(place)
     if name == "report" and not (place / "sweep").exists():
         CliRunner().invoke(app, shlex.split(RUNS["batch"][0]))
-    for width in WIDTHS:
+    for width in WIDTHS[-1:] if name in ONE_WIDTH else WIDTHS:
         at_width(monkeypatch, width)
         for line in RUNS[name]:
             done = CliRunner().invoke(app, shlex.split(line.format(width=width)))
@@ -162,6 +166,14 @@ def test_the_list_of_models_is_one_screen_and_that_of_a_kind_less(monkeypatch):
     assert len(CliRunner().invoke(app, ["models"]).stdout.splitlines()) <= 40
     for kind in TYPICAL_CPU_S:
         assert len(CliRunner().invoke(app, ["models", kind]).stdout.splitlines()) <= 24
+
+
+def test_the_readme_shows_the_list_of_models(monkeypatch):
+    at_width(monkeypatch, 80)
+    here = Availability(available=True)
+    rows = [(one, here) for one in sorted(models(), key=lambda one: (one.kind, typical_cpu_s(one)))]
+    *lines, _, _ = overview(rows)
+    assert "\n".join(lines) in (ROOT / "README.md").read_text()
 
 
 def test_every_model_has_a_typical_cost_in_the_order_of_the_laws():

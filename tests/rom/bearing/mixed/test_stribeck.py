@@ -275,12 +275,6 @@ def test_invalid_speeds_and_loads_are_refused(tips, speeds, pressures, resolutio
         stribeck(tips.scene(PAD), speeds, pressures, resolution=resolution)
 
 
-def test_a_bearing_without_asperities_is_refused(tips):
-    scene = tips.scene(PAD).model_copy(update={"asperities": None})
-    with pytest.raises(InputError, match=r"scene\.asperities: is missing"):
-        stribeck(scene, [1.0], [1e6])
-
-
 def test_separations_may_be_negative(tips):
     """A table whose separations go below 0: the walls are in equilibrium there too."""
     table = tips.table()

@@ -66,6 +66,7 @@ def test_a_kept_table_is_the_same_to_the_last_bit_and_solves_nothing(heights):
     assert second == []
     assert numbers(one) == numbers(other) == numbers(alone)
     assert (one.origin["kept"], other.origin["kept"]) == (False, True)
+    assert (one.origin["stored"], other.origin["stored"]) == (True, True)
     assert one.origin["digest"] == other.origin["digest"]
 
 
@@ -109,7 +110,7 @@ def test_without_a_directory_the_table_is_made(heights, monkeypatch, tmp_path):
     solved = []
     table = made(heights, solved)
     assert len(solved) >= len(table.points)
-    assert table.origin["kept"] is False
+    assert (table.origin["kept"], table.origin["stored"]) == (False, False)
 
 
 def test_a_full_disk_costs_the_entry_and_not_the_table(heights, monkeypatch, caplog):
