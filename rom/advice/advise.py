@@ -14,9 +14,9 @@ from roughfilm.rom.advice.estimates import (
     combined,
     with_own_uncertainty,
 )
-from roughfilm.rom.advice.laws import Numbers, Table, table
+from roughfilm.rom.advice.laws import Numbers, Table, lawful, table
 from roughfilm.rom.advice.stated import StatedError, percent
-from roughfilm.rom.ladder.kind import Omission, Scene, kind_of_name
+from roughfilm.rom.ladder.kind import Omission, Scene, kind_of_scene
 from roughfilm.rom.ladder.model import Model, Progress, best, silent
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
@@ -131,7 +131,7 @@ def wanted(scene: Scene, name: str | None) -> str:
 
     Raises InputError for a name that no quantity of the kind has.
     """
-    kind = kind_of_name(scene.kind)
+    kind = kind_of_scene(scene)
     if name is None:
         return next(iter(kind.compared))
     for quantity, title in kind.titles.items():
@@ -193,7 +193,7 @@ def advise(
     """
     if not 0 < within < 1:
         raise InputError(f"within: got {within!r}; it must be above 0 and below 1, for example 5%")
-    kind = kind_of_name(scene.kind)
+    kind = kind_of_scene(scene)
     known: dict[tuple[str, int], Result] = {}
     failed: dict[tuple[str, int], Exception] = {}
 
@@ -223,7 +223,7 @@ def advise(
         models=[model for model in models if fits[model.name].applies],
         quantity=quantity,
         title=kind.titles[quantity],
-        table=laws or table(),
+        table=lawful(laws or table(), kind.name, holds=kind.lawful),
         numbers=kind.numbers(scene),
         run=solved,
         failed=failed,

@@ -5,9 +5,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from roughfilm.rom.advice.estimates import AdviceTask, a_priori
-from roughfilm.rom.advice.laws import table
+from roughfilm.rom.advice.laws import lawful, table
 from roughfilm.rom.advice.stated import BY_LAWS, ENTRY, StatedError, entries_of_errors, stated_errors
-from roughfilm.rom.ladder.kind import Kind, Scene, kind_of_name
+from roughfilm.rom.ladder.kind import Kind, Scene, kind_of_scene
 from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
@@ -37,7 +37,7 @@ def with_errors(
     models : all models for this kind of scene.
     known : by quantity, the errors that other runs or the advice give.
     """
-    kind = kind_of_name(scene.kind)
+    kind = kind_of_scene(scene)
     errors = expected_errors(scene, model, result, models)
     errors |= {name: error for name, error in (known or {}).items() if math.isfinite(error.error)}
     errors = _with_ratios(kind, result, errors)
@@ -71,7 +71,7 @@ def expected_errors(scene: Scene, model: Model, result: Result, models: Sequence
     dict
         The error that 95 of 100 scenes do not exceed, for each quantity whose laws hold for the scene and the result.
     """
-    kind = kind_of_name(scene.kind)
+    kind = kind_of_scene(scene)
     applying = [other for other in models if other.applies(scene).applies]
     errors: dict[str, StatedError] = {}
     for quantity, title in kind.titles.items() if any(other.name == model.name for other in applying) else ():
@@ -81,7 +81,7 @@ def expected_errors(scene: Scene, model: Model, result: Result, models: Sequence
             models=applying,
             quantity=quantity,
             title=title,
-            table=table(),
+            table=lawful(table(), kind.name, holds=kind.lawful),
             numbers=kind.numbers(scene),
             run=lambda other, grid: other.solve(scene, Request(resolution=grid)),
         )

@@ -3,7 +3,7 @@
 import math
 import tomllib
 from collections.abc import Container, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from importlib.resources import files
 from typing import Any
@@ -184,6 +184,18 @@ class Table:
         """The law of the error by the resolution of a model; None if it is unknown."""
         own = (one.laws.get(quantity) for one in self.grids if (one.kind, one.model) == (kind, model))
         return next(own, None)
+
+
+def lawful(base: Table, kind: str, *, holds: bool) -> Table:
+    """The table, without the laws of a kind where they do not hold: of scenes whose film is sought under a load."""
+    if holds:
+        return base
+    return replace(
+        base,
+        steps=tuple(replace(step, left_out={}) if step.kind == kind else step for step in base.steps),
+        grids=tuple(grid for grid in base.grids if grid.kind != kind),
+        promises=tuple(promise for promise in base.promises if promise.kind != kind),
+    )
 
 
 def _law(entries: Mapping[str, Any]) -> Law:

@@ -1,17 +1,21 @@
 """Films with roughness, averaged or resolved, and the grids that resolve its waves."""
 
 import math
-from dataclasses import replace
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.bearing.equilibrium.expected import MIN_FILM_OVER_PEAK, closest_film, expected_film
 from roughfilm.rom.bearing.model import MAX_CELLS, smooth_resolutions
 from roughfilm.rom.bearing.pad import CELLS_PER_FEATURE
 from roughfilm.rom.bearing.ring import Ring
-from roughfilm.rom.bearing.roughness import StoredTable
+from roughfilm.rom.bearing.roughness import RoughSurface, Sinusoid, StoredTable
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.homogenization.gap_factors import FactorsOverGap, GapFactors
 from roughfilm.rom.ladder.model import Applicability
 
 if TYPE_CHECKING:
@@ -25,6 +29,100 @@ REFINED_CELLS = {True: 4_000_000, False: 512}
 """Number of cells along a side up to which refinements above 2 are used, for an infinitely wide film and for others."""
 
 
+MAX_EXPECTED_RATIO = 3.0
+"""The film thickness that is expected for smooth walls over the smallest one with flow factors."""
+
+MIN_FACTOR_RATIO = 1e-6
+"""Lower bound on flow factors over those of a smooth film, which keeps the matrix regular where the gap is sealed."""
+
+
+@dataclass(frozen=True)
+class FlooredFlowFactors:
+    """Flow factors with a lower bound of ``MIN_FACTOR_RATIO`` times those of a smooth film.
+
+    ``mean_gap`` gives the mean gap over the separation, m; by default the two are equal.
+    """
+
+    factors: FactorsOverGap
+    mean_gap: Callable[[Array], Array] = np.asarray
+
+    def __call__(self, separation: Array, /) -> GapFactors:
+        """The flow factors, each of the shape of ``separation``."""
+        factors, h = self.factors(separation), self.mean_gap(separation)
+        floor = MIN_FACTOR_RATIO * h**3
+        sealed = (factors.along < floor) | (factors.across < floor)
+        return replace(
+            factors,
+            along=np.maximum(factors.along, floor),
+            across=np.maximum(factors.across, floor),
+            cross=np.where(sealed, 0.0, factors.cross),
+            drag=np.maximum(factors.drag, MIN_FACTOR_RATIO * h),
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Searched:
+    """The films of a model among which the one under a load is sought.
+
+    Attributes
+    ----------
+    film : film(scene), the problem of a film.
+    closest : the smallest film thickness that is tried, m.
+    first : the film thickness at which the search begins, m.
+    averaged : whether the roughness is averaged.
+    known_from : the film thickness from which the flow factors are known, m; None if they are known for any.
+    """
+
+    film: "Callable[[Bearing], Problem]"
+    closest: float
+    first: float
+    averaged: bool = False
+    known_from: float | None = None
+
+
+def smooth_films(scene: Bearing, *, film: "Callable[[Bearing], Problem]") -> Searched:
+    """The films of a smooth wall."""
+    closest = closest_film(scene)
+    return Searched(film=film, closest=closest, first=max(expected_film(scene).thickness, closest))
+
+
+def rough_films(scene: Bearing) -> Searched:
+    """The films with all waves of the roughness, whose walls do not touch."""
+    assert scene.roughness is not None
+    closest = max(closest_film(scene), MIN_FILM_OVER_PEAK * (scene.roughness.peak + scene.geometry.dip))
+    return Searched(film=rough_film, closest=closest, first=max(expected_film(scene).thickness, 1.1 * closest))
+
+
+def averaged_films(scene: Bearing) -> Searched:
+    """The films averaged over the roughness, with flow factors down to one film thickness.
+
+    Sinusoidal ridges do not touch; tips of a surface are truncated down to its rms height, or to a third of the
+    expected film thickness.
+    """
+    roughness, expected, smooth = scene.roughness, expected_film(scene).thickness, closest_film(scene)
+    assert roughness is not None
+    if isinstance(roughness, Sinusoid):
+        closest = max(smooth, MIN_FILM_OVER_PEAK * (roughness.peak + scene.geometry.dip))
+        first = max(expected, 1.1 * closest)
+        return Searched(film=averaged_film, closest=closest, first=first, averaged=True)
+    least = max(roughness.rms, expected / MAX_EXPECTED_RATIO, smooth)
+    factors = roughness.factors(least)
+    least = max(least, factors.narrowest)
+    floored = FlooredFlowFactors(factors)
+
+    def film(one: Bearing) -> "Problem":
+        problem = one.problem()
+        return replace(problem, shape=replace(problem.shape, roughness=floored))
+
+    return Searched(
+        film=film,
+        closest=least + scene.geometry.dip,
+        first=max(expected, 1.1 * (least + scene.geometry.dip)),
+        averaged=True,
+        known_from=least if isinstance(roughness, RoughSurface) else None,
+    )
+
+
 def averaged_film(scene: Bearing) -> "Problem":
     """The problem of the mean gap with the flow factors of the roughness.
 
@@ -34,7 +132,7 @@ def averaged_film(scene: Bearing) -> "Problem":
         If the roughness seals the film.
     """
     assert scene.roughness is not None
-    problem, film = scene.problem(), scene.geometry.film
+    problem, film = scene.problem(), scene.geometry.thinnest
     factors = scene.roughness.factors(film)
     narrowest = factors(np.array([film]))
     sealed = [
@@ -119,10 +217,10 @@ def direct_applies(scene: Bearing) -> Applicability:
         why = "a lay that rotates with the sliding direction cannot be resolved on a ring"
     elif scene.wide and not math.isinf(roughness.finest[1]):
         why = "the roughness varies across the infinitely wide film; give the bearing a width"
-    elif roughness.peak >= scene.geometry.film:
+    elif scene.load is None and roughness.peak >= scene.geometry.thinnest:
         why = (
-            f"the walls touch: the roughness is {roughness.peak:.3g} m high in a film of {scene.geometry.film:.3g} m; "
-            "this model has no contact"
+            f"the walls touch: the roughness is {roughness.peak:.3g} m high in a film of "
+            f"{scene.geometry.thinnest:.3g} m; this model has no contact"
         )
     elif resolving_cells(scene) > MAX_CELLS[scene.wide]:
         why = f"the waves need {resolving_cells(scene)} cells along a side; at most {MAX_CELLS[scene.wide]} are allowed"

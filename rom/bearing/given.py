@@ -67,7 +67,7 @@ class Given(Pad):
 
         def thickness(x: Array, y: Array) -> Array:
             places = np.array(np.broadcast_arrays(x / pixels[0], y / pixels[1]))
-            return np.asarray(self.film + scipy.ndimage.map_coordinates(above, places, order=1, mode="nearest"))
+            return np.asarray(self.thinnest + scipy.ndimage.map_coordinates(above, places, order=1, mode="nearest"))
 
         smooth = Shape(
             thickness=thickness,

@@ -1,5 +1,6 @@
 """The kind of scene "bearing": load and friction of a film with cavitation."""
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -10,7 +11,8 @@ from pydantic import ValidationError
 from roughfilm.contact.foundation.entries import Part
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.foundation.toml import Location, in_one_line, known_keys, unknown_key
-from roughfilm.contact.foundation.units import Quantity
+from roughfilm.contact.foundation.units import Quantity, to_si
+from roughfilm.rom.bearing.equilibrium.expected import expected_scene
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.roughness import ROUGHNESSES
 from roughfilm.rom.bearing.scene import Bearing
@@ -57,7 +59,7 @@ def columns(scene: Bearing) -> dict[str, Quantity | str]:
     numbers = bearing_numbers(scene)
     return {
         "shape": scene.geometry.shape,
-        "pressure_unit": Quantity(value=scene.pressure_unit, unit="Pa"),
+        "pressure_unit": Quantity(value=expected_scene(scene).pressure_unit, unit="Pa"),
         "inlet_theta": _one(numbers.get("starvation", 1.0)),
         **{name: _one(numbers[key]) for name, key in COLUMNS.items() if key in numbers},
     }
@@ -133,6 +135,77 @@ NUMBERS = {
 """The symbols of the dimensionless numbers; p = 6ηuL/h², p_B = p/(1 + (L/B)²) plus the largest pressure at an edge."""
 
 
+REPORTED = {
+    "load": "load",
+    "bearing_load": "load, whole bearing",
+    "load_per_width": "load per width",
+    "film_min": "least film thickness",
+    "friction_coefficient": "friction coefficient",
+    "power_loss": "power loss",
+    "bearing_power_loss": "power loss, whole bearing",
+    "power_loss_per_width": "power loss per width",
+    "pressure_max": "peak pressure",
+    "inlet_flow": "flow in",
+    "bearing_inlet_flow": "flow in, whole bearing",
+    "inlet_flow_per_width": "flow in per width",
+    "outlet_flow": "flow out",
+    "bearing_outlet_flow": "flow out, whole bearing",
+    "outlet_flow_per_width": "flow out per width",
+    "side_leakage": "side leakage",
+    "bearing_side_leakage": "side leakage, whole bearing",
+    "side_leakage_low": "side leakage, low side",
+    "side_leakage_high": "side leakage, high side",
+    "friction": "friction",
+    "bearing_friction": "friction, whole bearing",
+    "friction_per_width": "friction per width",
+    "torque": "torque",
+    "bearing_torque": "torque, whole bearing",
+    "torque_per_width": "torque per width",
+    "specific_load": "specific load",
+    "contact_share": "share of the load by contact",
+    "contact_load": "load by contact",
+    "bearing_contact_load": "load by contact, whole bearing",
+    "contact_load_per_width": "load by contact per width",
+    "film_load": "load by the film",
+    "bearing_film_load": "load by the film, whole bearing",
+    "film_load_per_width": "load by the film per width",
+    "contact_area": "contact area over nominal area",
+    "contact_pressure_max": "peak contact pressure",
+    "least_gap": "least mean gap",
+    "eccentricity": "eccentricity",
+    "attitude_angle": "attitude angle",
+    "film_min_x": "place of the least film along",
+    "film_min_y": "place of the least film across",
+    "cavitated_fraction": "cavitated fraction",
+    "film_start": "film begins at x/L",
+    "rupture": "film ruptures at x/L",
+    "theta_min": "least density ratio",
+    "sommerfeld_number": "Sommerfeld number",
+    "hersey_number": "Hersey number",
+}
+"""The titles of the quantities of a bearing, in the order of tables."""
+
+
+def sought(entries: Mapping[str, Any]) -> tuple[str, ...]:
+    """The least film stands first if the scene has a load."""
+    return ("film_min",) if "load" in entries else ()
+
+
+def remarks(entries: Mapping[str, Any], quantities: Mapping[str, Quantity]) -> tuple[str, ...]:
+    """The part of the whole bearing for which the quantities hold, if they do not hold for all of it."""
+    geometry = entries["geometry"]
+    if geometry["shape"] not in ("sector", "washer") or "load" not in quantities:
+        return ()
+    if "bearing_load" in quantities:
+        one, whole = quantities["load"].value, quantities["bearing_load"].value
+        count = geometry.get("pockets") or geometry.get("pads") or round(whole / one)
+        carried = f"{whole / 1e3:.4g} kN" if abs(whole) >= 1e3 else f"{whole:.4g} N"
+        return (f"one of {count} equal pieces; the whole bearing carries {carried}",)
+    if geometry.get("pads", geometry.get("pockets")) == 1 or to_si(geometry["angle"], "rad") > math.pi:
+        return ()  # the piece is the whole bearing
+    return ("one pad of the bearing; geometry.pads, their number, gives the numbers of the whole bearing",)
+
+
 def omitted(scene: Bearing, quantity: str) -> Omission | None:
     """The first-order effect of inertia; None without a density, or if the film does not converge."""
     from roughfilm.rom.bearing.omission import inertia_omitted  # slow to import
@@ -144,14 +217,14 @@ def omitted(scene: Bearing, quantity: str) -> Omission | None:
 
 
 def composed(scene: Bearing) -> tuple[str, ...]:
-    """A line for each effect with its model and the reason, and a note if the scene has a load."""
+    """A line for each effect with its model and the reason, and one for the film under a load."""
     from roughfilm.rom.bearing.effects.explanation import effect_models  # slow to import
 
     lines = [f"{one.effect}: {one.model}, {one.why}" for one in effect_models(scene)]
     if scene.load is not None:
-        lines.append(
-            "load: the numbers hold for the film as given; roughfilm effects solves for the film under the load"
-        )
+        film, given = expected_scene(scene).geometry.thinnest, scene.geometry.film
+        first = "" if given is None else f"; the given film of {given:.3g} m is the first value of the search"
+        lines.append(f"load: the film is sought that carries it, about {film:.2g} m{first}")
     return tuple(lines)
 
 
@@ -160,7 +233,9 @@ KIND = Kind(
     scene=Bearing,
     summary="a film between a shaped wall and a sliding one, with cavitation",
     compared={"load_per_width": "load", "friction_per_width": "friction"},
+    compared_with={"load": {"film_min": "least film thickness", "friction_per_width": "friction"}},
     others={
+        "film_min": "least film thickness",
         "pressure_max": "peak pressure",
         "inlet_flow_per_width": "flow in",
         "side_leakage": "side leakage",
@@ -172,6 +247,9 @@ KIND = Kind(
         "least_gap": "least gap",
     },
     ratios={"friction_coefficient": ("friction_per_width", "load_per_width")},
+    reported=REPORTED,
+    sought=sought,
+    remarks=remarks,
     scale=scale,
     columns=columns,
     numbers=bearing_numbers,
@@ -198,6 +276,9 @@ KIND = Kind(
         "roughness.surface": ("digest", "spacing"),
         "roughness.table": ("digest",),
         "geometry.thickness": ("digest",),
+        "load.pressure": ("force", "force_per_width"),
+        "load.force": ("pressure", "force_per_width"),
+        "load.force_per_width": ("pressure", "force"),
         "boundary.inlet.theta": ("pressure",),
         "boundary.inlet.pressure": ("theta",),
     },

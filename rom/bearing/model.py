@@ -6,6 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Unpack
 
 from roughfilm.contact.foundation.deferred import deferred
+from roughfilm.rom.bearing.equilibrium.expected import expected_scene
 from roughfilm.rom.bearing.roughness import Sinusoid
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
@@ -30,15 +31,19 @@ MIN_CELLS = 8
 MAX_CELLS = {True: 4_000_000, False: 2048}
 """Largest number of cells along a side, for an infinitely wide film (True) and for others."""
 
+FILMS_UNDER_LOAD = 2.0
+"""CPU time of the search for the film under a load over that of one film."""
+
 _solve = deferred("rom.bearing.solve", "solve")
 
 
 def cost(scene: Bearing, cells: int, *, wide: bool, in_plane: float, oblique: float) -> float:
     """The expected CPU seconds; ``in_plane`` and ``oblique`` as in :func:`bearing_model`."""
+    films = 1.0 if scene.load is None else FILMS_UNDER_LOAD
     if wide or scene.wide:
-        return 4e-3 + 8e-7 * cells
+        return films * (4e-3 + 8e-7 * cells)
     ridges = isinstance(scene.roughness, Sinusoid) and all(scene.roughness.waves)
-    return 1e-2 + in_plane * (oblique if ridges else 1.0) * cells**2
+    return films * (1e-2 + in_plane * (oblique if ridges else 1.0) * cells**2)
 
 
 def smooth_wall_applies(scene: Bearing, *, applies: Callable[[Bearing], Applicability]) -> Applicability:
@@ -46,7 +51,7 @@ def smooth_wall_applies(scene: Bearing, *, applies: Callable[[Bearing], Applicab
     fits = applies(scene)
     if not fits.applies or scene.roughness is None:
         return fits
-    ratio = scene.roughness.rms / scene.geometry.film
+    ratio = scene.roughness.rms / expected_scene(scene).geometry.thinnest
     return replace(fits, reason=f"{fits.reason}; treats the wall as smooth: rms height over film = {ratio:.2g}")
 
 
@@ -69,6 +74,7 @@ def bearing_model(
     resolutions: Callable[[Bearing], tuple[int, ...]] = smooth_resolutions,
     ruptures: bool = True,
     solve: Callable[..., Any] = _solve,
+    searched: Callable[[Bearing], Any] | None = None,
     wide: bool = False,
     in_plane: float = 2e-6,
     oblique: float = 1.0,
@@ -83,6 +89,7 @@ def bearing_model(
     resolutions : numbers of cells from coarse to fine, the finest of which is the default.
     ruptures : whether the film cavitates.
     solve : the solver, as :func:`roughfilm.rom.bearing.solve.solve`.
+    searched : searched(scene), the films among which that under a load is sought; None for a smooth wall.
     wide : whether the model solves a single line of any film.
     in_plane : expected CPU seconds for each cell of a film with a width.
     oblique : factor of ``in_plane`` for ridges that run neither along nor across the sliding.
@@ -105,5 +112,5 @@ def bearing_model(
         tolerance=RESIDUAL_TOLERANCE,
         cost=partial(cost, wide=wide, in_plane=in_plane, oblique=oblique),
         applies=applies,
-        compute=partial(solve, film=film, ruptures=ruptures),
+        compute=partial(solve, film=film, ruptures=ruptures, searched=searched),
     )

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.rom.bearing.equilibrium.expected import expected_scene
 from roughfilm.rom.bearing.ring import Ring, Washer
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shapes import AnyShape
@@ -18,6 +19,8 @@ SAMPLES = 129
 
 def bearing_numbers(scene: Bearing) -> Mapping[str, float]:
     """The dimensionless numbers of a scene by name; h is the minimum film thickness without texture and waves.
+
+    Under a load the film is the expected one (:func:`roughfilm.rom.bearing.equilibrium.expected.expected_film`).
 
     slenderness : width over length, if the bearing has a width.
     convergence : maximum film thickness without texture over h, minus 1.
@@ -37,8 +40,9 @@ def bearing_numbers(scene: Bearing) -> Mapping[str, float]:
     reynolds_number : ρuh/η, if the density is given.
     reduced_reynolds_number : ρuh²/(ηl), if the density is given; l is the shortest feature along the sliding direction.
     """
+    scene = expected_scene(scene)
     geometry, lubricant, roughness = scene.geometry, scene.lubricant, scene.roughness
-    film, length, speed = geometry.film, geometry.length, abs(scene.motion.speed)
+    film, length, speed = geometry.thinnest, geometry.length, abs(scene.motion.speed)
     numbers = {"convergence": _convergence(scene), "divergence": _divergence(scene)}
     finest = _finest(scene)
     if geometry.width is not None:
@@ -108,13 +112,13 @@ def _sampled_thickness(shape: Shape) -> Array:
 
 def _convergence(scene: Bearing) -> float:
     thickness = _sampled_thickness(without_texture(scene).geometry.film_shape())
-    return float(thickness.max()) / scene.geometry.film - 1
+    return float(thickness.max()) / scene.geometry.thinnest - 1
 
 
 def _divergence(scene: Bearing) -> float:
     thickness = _sampled_thickness(scene.geometry.film_shape())
     ahead = thickness if scene.motion.speed >= 0 else thickness[::-1]
-    return float((ahead - np.minimum.accumulate(ahead, axis=0)).max()) / scene.geometry.film
+    return float((ahead - np.minimum.accumulate(ahead, axis=0)).max()) / scene.geometry.thinnest
 
 
 def _texture(scene: Bearing) -> dict[str, float]:
@@ -125,7 +129,7 @@ def _texture(scene: Bearing) -> dict[str, float]:
             return {}
         inner, outer = geometry.inner_radius, geometry.outer_radius
         covered = pocket.share * ((inner + pocket.extent) ** 2 - inner**2) / (outer**2 - inner**2)
-        ratios = {"pocket_depth_ratio": pocket.depth / geometry.film, "pocket_length_ratio": pocket.share}
+        ratios = {"pocket_depth_ratio": pocket.depth / geometry.thinnest, "pocket_length_ratio": pocket.share}
         return {"texture_density": covered, **ratios}
     texture: Texture | None = getattr(geometry, "texture", None)
     if texture is None:
@@ -134,6 +138,6 @@ def _texture(scene: Bearing) -> dict[str, float]:
     filled = math.pi / 4 if texture.profile == "ellipsoidal" else 1.0
     return {
         "texture_density": filled * texture.columns * texture.length / geometry.length * across,
-        "pocket_depth_ratio": texture.depth / geometry.film,
+        "pocket_depth_ratio": texture.depth / geometry.thinnest,
         "pocket_length_ratio": texture.length / geometry.length,
     }

@@ -7,11 +7,19 @@ from pydantic import model_validator
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import Length, Part
+from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.bearing.texture import Texture, pocketed
 from roughfilm.rom.cavitation.shape import Shape
 
 CELLS_PER_FEATURE = 8
 """Number of cells over a wave or a pocket at which the error of the load is a few per cent."""
+
+
+def known_film(film: float | None) -> float:
+    """The film thickness, m, or eccentricity; InputError if it is missing, because the load determines it."""
+    if film is None:
+        raise InputError("geometry.film: is missing; give it, or solve for the film under the load")
+    return film
 
 
 class Pad(Part):
@@ -21,14 +29,29 @@ class Pad(Part):
     ----------
     length : length along the sliding direction, m.
     width : width across the sliding direction, m; None if infinitely wide.
-    film : minimum film thickness without texture, m.
+    film : minimum film thickness without texture, m; None if a load determines it.
     texture : pockets in the still wall; None without pockets.
     """
 
     length: Length
     width: Length | None = None
-    film: Length
+    film: Length | None = None
     texture: Texture | None = None
+
+    @property
+    def thinnest(self) -> float:
+        """The minimum film thickness without texture, m; InputError if a load determines it."""
+        return known_film(self.film)
+
+    @property
+    def widest(self) -> float:
+        """The largest minimum film thickness, m: the length."""
+        return self.length
+
+    @property
+    def dip(self) -> float:
+        """The depth to which waves of the wall reach below the minimum film thickness, m."""
+        return 0.0
 
     def breaks(self) -> tuple[float, ...]:
         """The positions where h or its slope jumps, m."""
@@ -61,9 +84,9 @@ class Pad(Part):
 
     @model_validator(mode="after")
     def _is_thin(self) -> Self:
-        if self.film > self.length:
+        if self.film is not None and self.film > self.length:
             raise ValueError(f"film: got {self.film!r} m, more than the length of the bearing; check the units")
-        if self.width is not None and self.width < self.film:
+        if self.width is not None and self.film is not None and self.width < self.film:
             raise ValueError(f"width: got {self.width!r} m, less than the film thickness; check the units")
         for name in ("rise", "amplitude"):
             height = getattr(self, name, 0.0)

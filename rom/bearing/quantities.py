@@ -10,18 +10,22 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shapes import Journal
+from roughfilm.rom.bearing.totals.least_film import least_film
 from roughfilm.rom.cavitation.averaged import Averaged
 from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED
 from roughfilm.rom.cavitation.grid import Grid
 from roughfilm.rom.cavitation.oblique import wetness
 from roughfilm.rom.cavitation.solve import Solution
 
+EXACT = ("film_min", "film_min_x", "film_min_y")
+"""Quantities that follow from the geometry alone and have no error of the grid."""
+
 MIN_MEAN_PRESSURE_RATIO = 1e-6
 """Mean pressure over the maximum pressure below which no friction coefficient is given."""
 
 
 def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None = None) -> dict[str, Quantity]:
-    """The load, friction on the sliding wall, maximum pressure, flows and extent of a converged film.
+    """The load, friction, power and torque of the sliding wall, pressures, flows and extent of a converged film.
 
     Pressures are above ambient. ``film_start`` and ``rupture`` are the positions x/L from the inlet, on the line of the
     maximum pressure, where the first film begins and the last one ruptures; both are 1 without a film. Of joined pieces
@@ -30,55 +34,85 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
     with averaged roughness it is F = ∫(ηu (g (d + 3e) + (ξ - g) B₁ <h⁻²>) + B·∇p/2) dA with the wetness g of the tips
     after :mod:`roughfilm.rom.cavitation.oblique`, which is 1 in a film.
 
+    ``power_loss`` is the power that the sliding wall takes, F u, on a ring ω M with the torque M = ∫ r dF; what a
+    pressure pumps through the film, p Q, is not in it. ``torque`` is F R of a journal and M of a ring.
+    ``film_min`` is the least thickness of the film between the mean planes of the walls, at ``film_min_x`` and
+    ``film_min_y`` (:func:`roughfilm.rom.bearing.totals.least_film.least_film`), and ``specific_load`` the load over the
+    nominal area, p. ``hersey_number`` is ηN/p of a wall that turns N times a second, and ηu/(pL) of one that slides;
+    ``sommerfeld_number`` of a journal is ηN/p (R/c)².
+
     Parameters
     ----------
     pressed : contact force of asperities on each node, N, shape (nx, ny); boundary friction is then added.
+
+    Sources: Hersey 1914, J. Wash. Acad. Sci. 4, 542, for ηN/p; Raimondi and Boyd 1958,
+    doi:10.1080/05698195808972328, for ηN/p (R/c)².
     """
-    grid, pc = solution.grid, scene.lubricant.cavitation_pressure
+    grid, pc, problem = solution.grid, scene.lubricant.cavitation_pressure, solution.problem
     pressure = solution.state.pressure + pc
-    width = 1.0 if solution.problem.shape.wide else scene.geometry.width or 1.0
+    width = 1.0 if problem.shape.wide else scene.geometry.width or 1.0
     force = grid.areas * pressure if pressed is None else grid.areas * pressure + pressed
-    load, resistance = float(force.sum()), friction(solution)
-    if pressed is not None and scene.asperities is not None:
-        resistance += scene.asperities.friction * float(pressed.sum())
+    boundary = 0.0 if pressed is None or scene.asperities is None else scene.asperities.friction * pressed.sum(axis=0)
+    drag = drag_of_rows(solution)
+    rows = drag.rows + boundary
+    load, resistance = load_of(scene, scene_positions(solution), force), float(rows.sum() + drag.between.sum())
     row = int(np.argmax(np.where(solution.kind == FILM, solution.state.pressure, -1.0).max(axis=0)))
     start, end = film_ends(solution, row)
     flows = boundary_flows(solution)
-    values: dict[str, tuple[float, str]] = {
-        "load_per_width": (load / width, "N/m"),
-        "friction_per_width": (resistance / width, "N/m"),
-        "pressure_max": (peak_pressure(solution) + pc, "Pa"),
-        "film_start": (start, "1"),
-        "rupture": (end, "1"),
-        "cavitated_fraction": (
-            float(grid.areas[solution.kind == CAVITY].sum() / grid.areas.sum()),
-            "1",
-        ),
-        "theta_min": (float(density_ratio(solution).min()), "1"),
-    }
-    if isinstance(scene.geometry, Journal):
-        angle, load = journal_load(scene.geometry, scene_positions(solution), force)
-        values["load_per_width"] = (load / width, "N/m")
-        values["attitude_angle"] = (angle, "deg")
-        if load > 0:
-            diameter = 2 * scene.geometry.radius
-            ratio = (scene.geometry.radius / scene.geometry.clearance) ** 2
-            number = scene.lubricant.viscosity * scene.revolutions * diameter * width / load * ratio
-            values["sommerfeld_number"] = (number, "1")
-    if not solution.problem.shape.wide:
-        values["load"] = (load, "N")
-        values["friction"] = (resistance, "N")
-        values["side_leakage"] = (flows.side_leakage, "m^3/s")
-        values["side_leakage_low"] = (flows.low, "m^3/s")
-        values["side_leakage_high"] = (flows.high, "m^3/s")
+    specific, least = load / nominal_area(scene, grid), least_film(scene.geometry, turned=solution.turned)
+    extensive: dict[str, tuple[float, str, str]] = {"load": (load, "N", "N/m"), "friction": (resistance, "N", "N/m")}
+    torque = _torque(scene, drag.between, rows, grid)
+    power = abs(problem.speed) * (torque if torque is not None and problem.shape.polar else resistance)
+    extensive["power_loss"] = (power, "W", "W/m")
+    if torque is not None:
+        extensive["torque"] = (torque, "N*m", "N")
     for name, flow in (("inlet_flow", flows.inlet), ("outlet_flow", flows.outlet)):
         if flow is not None:
-            values[f"{name}_per_width"] = (flow / width, "m^2/s")
-        if flow is not None and not solution.problem.shape.wide:
-            values[name] = (flow, "m^3/s")
+            extensive[name] = (flow, "m^3/s", "m^2/s")
+    values: dict[str, tuple[float, str]] = {
+        "pressure_max": (peak_pressure(solution) + pc, "Pa"),
+        "specific_load": (specific, "Pa"),
+        "film_min": (least.thickness, "m"),
+        "film_min_x": (least.x, "rad" if problem.shape.polar else "m"),
+        "film_start": (start, "1"),
+        "rupture": (end, "1"),
+        "cavitated_fraction": (float(grid.areas[solution.kind == CAVITY].sum() / grid.areas.sum()), "1"),
+        "theta_min": (float(density_ratio(solution).min()), "1"),
+    }
+    if not problem.shape.wide:
+        values |= {
+            "film_min_y": (least.y, "m"),
+            "side_leakage": (flows.side_leakage, "m^3/s"),
+            "side_leakage_low": (flows.low, "m^3/s"),
+            "side_leakage_high": (flows.high, "m^3/s"),
+        }
+        values |= {name: (value, unit) for name, (value, unit, _) in extensive.items()}
+    values |= {f"{name}_per_width": (value / width, unit) for name, (value, _, unit) in extensive.items()}
+    if isinstance(scene.geometry, Journal):
+        values["attitude_angle"] = (journal_load(scene.geometry, scene_positions(solution), force)[0], "deg")
     if load > MIN_MEAN_PRESSURE_RATIO * float(grid.areas.sum()) * float(np.abs(force / grid.areas).max()):
         values["friction_coefficient"] = (resistance / load, "1")
+        values |= {name: (number, "1") for name, number in _numbers_of_load(scene, specific).items()}
     return {name: Quantity(value=value, unit=unit) for name, (value, unit) in values.items()}
+
+
+def _torque(scene: Bearing, between: Array, rows: Array, grid: Grid) -> float | None:
+    """The torque on a wall that turns, N m (N if infinitely wide); None of a wall that slides."""
+    if isinstance(scene.geometry, Journal):
+        return scene.geometry.radius * float(rows.sum() + between.sum())
+    if scene.turning_radius is None:
+        return None
+    return float((rows * grid.radius).sum() + (between * _towards(grid)).sum())
+
+
+def _numbers_of_load(scene: Bearing, specific: float) -> dict[str, float]:
+    """The Hersey number of a specific load, Pa, and the Sommerfeld number of a journal."""
+    geometry, radius, speed = scene.geometry, scene.turning_radius, abs(scene.motion.speed)
+    frequency = speed / geometry.length if radius is None else speed / (2 * math.pi * radius)
+    hersey = scene.lubricant.viscosity * frequency / specific
+    if not isinstance(geometry, Journal):
+        return {"hersey_number": hersey}
+    return {"hersey_number": hersey, "sommerfeld_number": hersey * (geometry.radius / geometry.clearance) ** 2}
 
 
 def peak_pressure(solution: Solution) -> float:
@@ -147,6 +181,27 @@ def _carried(solution: Solution) -> Array:
 
 def friction(solution: Solution) -> float:
     """The force on the sliding wall against its motion, N (N/m if infinitely wide)."""
+    drag = drag_of_rows(solution)
+    return float(drag.rows.sum() + drag.between.sum())
+
+
+@dataclass(frozen=True, kw_only=True)
+class Drag:
+    """The force of the liquid on the sliding wall against its motion, N (N/m if infinitely wide).
+
+    Attributes
+    ----------
+    rows : the part of the shear and of the pressure gradient along the sliding, for each row of nodes, shape (ny,).
+    between : that of the pressure gradient across the sliding, between neighbouring rows, shape (ny - 1,); only an
+        averaged oblique lay has one.
+    """
+
+    rows: Array
+    between: Array
+
+
+def drag_of_rows(solution: Solution) -> Drag:
+    """The friction of the liquid, row by row."""
     grid, mean, problem = solution.grid, solution.faces.mean, solution.problem
     fluidity = problem.piezoviscosity.fluidity(solution.state.pressure, problem.viscosity)[0]
     stretch = grid.spacing_x[:, None] * grid.radius
@@ -160,11 +215,12 @@ def friction(solution: Solution) -> float:
         shear = np.where(mean > 0, problem.viscosity * speed * gradient, 0.0)
     shear = shear * (1 / fluidity + np.roll(1 / fluidity, -1, axis=0)) / 2
     rise = np.roll(solution.state.pressure, -1, axis=0) - solution.state.pressure
-    along = float((grid.volume_y * (shear * stretch + mean / 2 * rise)).sum())
+    along = (grid.volume_y * (shear * stretch + mean / 2 * rise)).sum(axis=0)
     if rough is None or grid.shape[1] == 1:
-        return along
+        return Drag(rows=along, between=np.zeros(grid.shape[1] - 1))
     climb = solution.state.pressure[:, 1:] - solution.state.pressure[:, :-1]
-    return along + float((grid.volume_x[:, None] * _towards(grid) * rough.drag_across[:, :-1] / 2 * climb).sum())
+    across = grid.volume_x[:, None] * _towards(grid) * rough.drag_across[:, :-1] / 2 * climb
+    return Drag(rows=along, between=across.sum(axis=0))
 
 
 def _shear_factor(solution: Solution, rough: Averaged, fill: Array) -> Array:
@@ -343,7 +399,7 @@ def journal_load(geometry: Journal, x: Array, force: Array) -> tuple[float, floa
 
 def factor_uncertainties(scene: Bearing, _solution: Solution, quantities: Mapping[str, Quantity]) -> dict[str, float]:
     """The uncertainty of each quantity that comes from the flow factors, in its unit."""
-    relative = 0.0 if scene.roughness is None else scene.roughness.factor_uncertainty(scene.geometry.film)
+    relative = 0.0 if scene.roughness is None else scene.roughness.factor_uncertainty(scene.geometry.thinnest)
     return {name: abs(quantity.value) * relative for name, quantity in quantities.items()}
 
 

@@ -8,9 +8,13 @@ from pydantic import BeforeValidator, Field, model_validator
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import InUnit, Length, Part, plain_number
+from roughfilm.rom.bearing.pad import known_film
 from roughfilm.rom.cavitation.shape import Shape
 
 Angle = Annotated[float, InUnit("rad")]
+
+FITTING = 1e-4
+"""Relative difference of an angle up to which pads fill a ring: angles are given with a few digits."""
 
 
 def _fraction(value: object) -> float:
@@ -26,20 +30,35 @@ Fraction = Annotated[float, BeforeValidator(_fraction)]
 class Ring(Part):
     """One of the equal pieces of a film between two radii, m; ``film`` is its minimum thickness, m.
 
-    Loads, friction and flows refer to one piece.
+    Loads, friction and flows refer to one piece; those of the whole bearing are ``pieces`` times as large.
     """
 
     inner_radius: Length
     outer_radius: Length
-    film: Length
+    film: Length | None = None
 
     @model_validator(mode="after")
     def _is_a_ring(self) -> Self:
         if self.outer_radius <= self.inner_radius:
             raise ValueError(f"outer_radius: got {self.outer_radius!r} m; it must be above inner_radius")
-        if self.film > self.outer_radius:
+        if self.film is not None and self.film > self.outer_radius:
             raise ValueError(f"film: got {self.film!r} m, more than the outer radius; check the units")
         return self
+
+    @property
+    def thinnest(self) -> float:
+        """The minimum film thickness, m; InputError if a load determines it."""
+        return known_film(self.film)
+
+    @property
+    def widest(self) -> float:
+        """The largest minimum film thickness, m: the arc length."""
+        return self.length
+
+    @property
+    def dip(self) -> float:
+        """The depth to which waves of the wall reach below the minimum film thickness, m: 0."""
+        return 0.0
 
     @property
     def turn(self) -> float:
@@ -49,6 +68,11 @@ class Ring(Part):
     @property
     def endless(self) -> bool:
         """Whether the pieces are joined without a groove between them."""
+        raise NotImplementedError
+
+    @property
+    def pieces(self) -> int | None:
+        """The number of equal pieces of the whole bearing; None if it is unknown."""
         raise NotImplementedError
 
     @property
@@ -80,6 +104,8 @@ class Sector(Ring):
     rise : film thickness at the inlet minus that on the land, m.
     taper : fraction of the angle over which the film narrows.
     joined : whether the pads are joined without a groove between them.
+    pads : number of equal pads of the whole bearing; by default those that fill the ring if they are joined, and
+        otherwise unknown.
     """
 
     shape: Literal["sector"]
@@ -87,11 +113,18 @@ class Sector(Ring):
     rise: Length
     taper: Annotated[float, BeforeValidator(plain_number), Field(gt=0, le=1)] = 1.0
     joined: Annotated[bool, Field(strict=True)] = False
+    pads: Annotated[int, Field(strict=True, ge=1, le=10_000)] | None = None
 
     @model_validator(mode="after")
     def _is_thin(self) -> Self:
         if self.angle > 2 * math.pi * (1 + 1e-12):
             raise ValueError(f"angle: got {self.angle!r} rad; it must be at most 2π")
+        fitting = math.floor(2 * math.pi / self.angle * (1 + FITTING))
+        if self.pads is not None and self.pads > fitting:
+            raise ValueError(
+                f"pads: got {self.pads!r}; at most {fitting} pads of {self.angle!r} rad fit into a ring; reduce one of "
+                "the two"
+            )
         if self.rise > self.outer_radius:
             raise ValueError(f"rise: got {self.rise!r} m, more than the outer radius; check the units")
         return self
@@ -106,13 +139,20 @@ class Sector(Ring):
         """Whether the pads are joined without a groove between them."""
         return self.joined
 
+    @property
+    def pieces(self) -> int | None:
+        """The number of pads of the whole bearing; None if it is unknown."""
+        count = 2 * math.pi / self.angle
+        filled = self.joined and abs(count - round(count)) <= FITTING * count
+        return round(count) if self.pads is None and filled else self.pads
+
     def film_shape(self) -> Shape:
         """The shape of the film over (angle, radius)."""
         end = self.taper * self.angle
 
         def thickness(x: Array, y: Array) -> Array:
             within = np.mod(x, self.angle) if self.joined else x
-            return np.asarray(self.film + self.rise * np.clip(1 - within / end, 0, None) + 0 * y)
+            return np.asarray(self.thinnest + self.rise * np.clip(1 - within / end, 0, None) + 0 * y)
 
         return Shape(
             thickness=thickness,
@@ -179,6 +219,11 @@ class Washer(Ring):
         """True: the cells are joined without a groove between them."""
         return True
 
+    @property
+    def pieces(self) -> int:
+        """The number of cells of the whole washer, one for each pocket."""
+        return self.pockets
+
     def film_shape(self) -> Shape:
         """The shape of the film over (angle, radius)."""
         turn, pocket = self.turn, self.pocket
@@ -186,11 +231,11 @@ class Washer(Ring):
 
         def thickness(x: Array, y: Array) -> Array:
             if pocket is None:
-                return np.asarray(self.film + 0 * (x + y))
+                return np.asarray(self.thinnest + 0 * (x + y))
             along = (np.mod(x, turn) - begins) / (ends - begins)
             across = (y - self.inner_radius) / pocket.extent
             floor = np.where(along >= 0, np.clip(1 - along, 0, None), 0.0) * np.clip(1 - across, 0, None)
-            return np.asarray(self.film + pocket.depth * floor)
+            return np.asarray(self.thinnest + pocket.depth * floor)
 
         slack = 1e-9 * turn
         inside = {place for place in (begins, ends) if slack < place < turn - slack}

@@ -16,7 +16,6 @@ from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.lubricants.compressibility import Incompressible
 from roughfilm.rom.lubricants.laws import Compressibility, Piezoviscosity
 from roughfilm.rom.lubricants.viscosity import LOG_VISCOSITY, ConstantViscosity, Roelands
-from roughfilm.rom.parts.pressed_surface import Load
 
 if TYPE_CHECKING:
     from roughfilm.rom.cavitation.discretise import Ends
@@ -26,6 +25,9 @@ GaugePressure = Annotated[float, InUnit("Pa", any_sign=True)]
 Speed = Annotated[float, InUnit("m/s", any_sign=True)]
 Viscosity = Annotated[float, InUnit("Pa*s")]
 Density = Annotated[float, InUnit("kg/m^3")]
+Pressure = Annotated[float, InUnit("Pa")]
+Force = Annotated[float, InUnit("N")]
+ForcePerWidth = Annotated[float, InUnit("N/m")]
 
 
 def _law(entries: Any) -> Any:
@@ -98,13 +100,37 @@ class BearingBoundary(Part):
     sides: Sides = Field(default_factory=Sides)
 
 
+class BearingLoad(Part):
+    """The load that the bearing carries; exactly one entry is given.
+
+    Attributes
+    ----------
+    pressure : load over the nominal area (of a journal bearing: diameter times width), Pa.
+    force : load of the whole bearing, of a ring with all of its pieces, N.
+    force_per_width : load over the width of an infinitely wide bearing, N/m.
+    """
+
+    pressure: Pressure | None = None
+    force: Force | None = None
+    force_per_width: ForcePerWidth | None = None
+
+    @model_validator(mode="after")
+    def _one_of_three(self) -> Self:
+        given = [name for name in type(self).model_fields if getattr(self, name) is not None]
+        if not given:
+            raise ValueError("is empty; give pressure, force or force_per_width")
+        if len(given) > 1:
+            raise ValueError(f"got {' and '.join(given)}; give one of them")
+        return self
+
+
 class Bearing(Scene):
     """A bearing: steady isothermal flow in a thin film with cavitation; pressures are above ambient.
 
     If the fixed wall is rough, the geometry describes the mean gap. With ``asperities`` it describes the separation α
-    of the mean planes of the undeformed walls, which equals the mean gap until the walls touch. The load is the
-    pressure over the nominal area (of a journal bearing: diameter times width). Models solve the film as given;
-    :mod:`roughfilm.rom.bearing.effects.under_load` solves for the film under the load.
+    of the mean planes of the undeformed walls, which equals the mean gap until the walls touch. With a load every model
+    solves for the film that carries it (:mod:`roughfilm.rom.bearing.equilibrium`); the film of the geometry, if it is
+    given, is then the first value of the search.
 
     Fields of the results, of the shape of the grid: ``x``, ``y`` (m, or rad and m), ``film_thickness`` (m),
     ``pressure`` (Pa), ``density_ratio`` θ (1), which below 1 is the fraction of the gap filled with liquid.
@@ -117,7 +143,7 @@ class Bearing(Scene):
     boundary: BearingBoundary = Field(default_factory=BearingBoundary)
     roughness: AnyRoughness | None = None
     asperities: AsperityContact | None = None
-    load: Load | None = None
+    load: BearingLoad | None = None
 
     @field_validator("geometry", mode="before")
     @classmethod
@@ -158,13 +184,37 @@ class Bearing(Scene):
             )
         if self.asperities is not None:
             self._can_touch(self.asperities)
-        if isinstance(self.roughness, Sinusoid) and self.roughness.amplitude >= self.geometry.film:
+        film = self.geometry.film
+        if self.load is not None:
+            self._can_be_loaded(self.load)
+        elif film is None:
+            key = "eccentricity" if isinstance(self.geometry, Journal) else "film"
+            raise ValueError(f"geometry.{key}: is missing; give it, or a load ([load] force or pressure)")
+        elif isinstance(self.roughness, Sinusoid) and self.roughness.amplitude >= film:
             raise ValueError(
                 f"roughness.amplitude: got {self.roughness.amplitude!r} m; it must be below film, "
-                f"{self.geometry.film!r} m, or the walls touch"
+                f"{film!r} m, or the walls touch"
             )
-        self.geometry.film_shape()
+        (self.geometry if film is not None else self.geometry.at_film(self.geometry.widest)).film_shape()
         return self
+
+    def _can_be_loaded(self, load: BearingLoad) -> None:
+        if load.force is not None and self.wide:
+            raise ValueError(
+                "load.force: got a force for an infinitely wide bearing; give force_per_width or pressure, or a width"
+            )
+        if load.force_per_width is not None and not self.wide:
+            raise ValueError("load.force_per_width: got one for a bearing with a width; give force or pressure")
+        if load.force is not None and self.pieces is None:
+            raise ValueError(
+                "load.force: is that of the whole bearing, whose number of pads is unknown; give geometry.pads, or "
+                "load.pressure"
+            )
+        if self.motion.speed == 0 and self.asperities is None:
+            raise ValueError(
+                "motion.speed: got 0 m/s under a load; a film without sliding carries none by its thickness, give a "
+                "speed, or [asperities] that touch"
+            )
 
     def _can_touch(self, asperities: AsperityContact) -> None:
         if not isinstance(self.roughness, RoughSurface | StoredTable):
@@ -191,9 +241,41 @@ class Bearing(Scene):
         return self.geometry.width is None
 
     @property
+    def nominal_area(self) -> float:
+        """The area of the film of one piece, m² (m if infinitely wide); of a journal bearing diameter times width."""
+        geometry = self.geometry
+        length = 2 * geometry.radius if isinstance(geometry, Journal) else geometry.length
+        return length * (1.0 if geometry.width is None else geometry.width)
+
+    @property
+    def load_pressure(self) -> float | None:
+        """The load over the nominal area, Pa; None without a load."""
+        load = self.load
+        if load is None:
+            return None
+        if load.force is not None:
+            return load.force / (self.nominal_area * (self.pieces or 1))
+        if load.force_per_width is not None:
+            return load.force_per_width / self.nominal_area
+        return load.pressure
+
+    def at_film(self, film: float) -> Self:
+        """The bearing with a given minimum film thickness, m, and without a load."""
+        return self.model_copy(update={"geometry": self.geometry.at_film(film), "load": None})
+
+    def at_speed(self, speed: float) -> Self:
+        """The bearing at another speed, m/s."""
+        return self.model_copy(update={"motion": BearingMotion.model_construct(speed=speed)})
+
+    @property
     def turning_radius(self) -> float | None:
         """The radius at which the speed of a rotating wall is given, m; None if the wall does not rotate."""
         return self.geometry.radius if isinstance(self.geometry, Journal | Ring) else None
+
+    @property
+    def pieces(self) -> int | None:
+        """The number of equal pieces of the whole bearing, of which this is one; None if it is unknown."""
+        return self.geometry.pieces if isinstance(self.geometry, Ring) else 1
 
     @property
     def ends(self) -> "Ends":
@@ -236,7 +318,7 @@ class Bearing(Scene):
     def pressure_unit(self) -> float:
         """The pressure scale of sliding, 6 η u L / h², Pa, with the minimum film thickness h."""
         geometry = self.geometry
-        return 6 * self.lubricant.viscosity * abs(self.motion.speed) * geometry.length / geometry.film**2
+        return 6 * self.lubricant.viscosity * abs(self.motion.speed) * geometry.length / geometry.thinnest**2
 
     @property
     def revolutions(self) -> float:

@@ -9,7 +9,7 @@ from pydantic import BeforeValidator, Field, model_validator
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import Length, Part, plain_number
 from roughfilm.rom.bearing.given import Given
-from roughfilm.rom.bearing.pad import Pad
+from roughfilm.rom.bearing.pad import Pad, known_film
 from roughfilm.rom.bearing.ring import Sector, Washer
 from roughfilm.rom.bearing.texture import Texture, pocketed
 from roughfilm.rom.cavitation.shape import Shape
@@ -33,7 +33,7 @@ class Parallel(Pad):
 
     def smooth_thickness(self, x: Array) -> Array:
         """The film thickness h(x) without texture, m."""
-        return np.full_like(x, self.film)
+        return np.full_like(x, self.thinnest)
 
 
 class Linear(Pad):
@@ -44,7 +44,7 @@ class Linear(Pad):
 
     def smooth_thickness(self, x: Array) -> Array:
         """The film thickness h(x) without texture, m."""
-        return np.asarray(self.film + self.rise * (1 - x / self.length))
+        return np.asarray(self.thinnest + self.rise * (1 - x / self.length))
 
 
 class Step(Pad):
@@ -66,7 +66,7 @@ class Step(Pad):
 
     def smooth_thickness(self, x: Array) -> Array:
         """The film thickness h(x) without texture, m."""
-        return np.where(x < self.step, self.film + self.rise, self.film)
+        return np.where(x < self.step, self.thinnest + self.rise, self.thinnest)
 
 
 class Parabolic(Pad):
@@ -89,7 +89,7 @@ class Parabolic(Pad):
         """The film thickness h(x) without texture, m."""
         period = self.length / self.count
         along = x - period * np.clip(np.floor(x / period), 0, self.count - 1)
-        return np.asarray(self.film + self.rise * (2 * along / period - 1) ** 2)
+        return np.asarray(self.thinnest + self.rise * (2 * along / period - 1) ** 2)
 
 
 class Wavy(Pad):
@@ -125,16 +125,21 @@ class SinusoidalInlet(Wavy):
 
     shape: Literal["sinusoidal_inlet"]
 
+    @property
+    def dip(self) -> float:
+        """The depth to which waves of the wall reach below the minimum film thickness, m: the amplitude."""
+        return self.amplitude
+
     @model_validator(mode="after")
     def _open(self) -> Self:
-        if self.amplitude >= self.film:
+        if self.film is not None and self.amplitude >= self.film:
             raise ValueError(f"amplitude: got {self.amplitude!r} m; it must be below film, or the walls touch")
         return self
 
     def smooth_thickness(self, x: Array) -> Array:
         """The film thickness h(x) without texture, m."""
         wave = self.amplitude * np.sin(2 * np.pi * x / self.wavelength)
-        return np.asarray(self.film + np.where(x < self.end, wave, 0.0))
+        return np.asarray(self.thinnest + np.where(x < self.end, wave, 0.0))
 
 
 class SquaredCosineInlet(Wavy):
@@ -145,7 +150,7 @@ class SquaredCosineInlet(Wavy):
     def smooth_thickness(self, x: Array) -> Array:
         """The film thickness h(x) without texture, m."""
         wave = self.amplitude * np.cos(np.pi * x / self.wavelength) ** 2
-        return np.asarray(self.film + np.where(x < self.end, wave, 0.0))
+        return np.asarray(self.thinnest + np.where(x < self.end, wave, 0.0))
 
 
 class Journal(Part):
@@ -154,14 +159,29 @@ class Journal(Part):
     shape: Literal["journal"]
     radius: Length
     clearance: Length
-    eccentricity: Ratio
+    eccentricity: Ratio | None = None
     width: Length | None = None
     texture: Texture | None = None
 
     @property
-    def film(self) -> float:
-        """The minimum film thickness, m."""
-        return self.clearance * (1 - self.eccentricity)
+    def film(self) -> float | None:
+        """The minimum film thickness, m; None if a load determines it."""
+        return None if self.eccentricity is None else self.clearance * (1 - self.eccentricity)
+
+    @property
+    def thinnest(self) -> float:
+        """The minimum film thickness, m; InputError if a load determines it."""
+        return known_film(self.film)
+
+    @property
+    def widest(self) -> float:
+        """The largest minimum film thickness, m: the clearance."""
+        return self.clearance
+
+    @property
+    def dip(self) -> float:
+        """The depth to which waves of the wall reach below the minimum film thickness, m: 0."""
+        return 0.0
 
     @property
     def length(self) -> float:
@@ -180,8 +200,9 @@ class Journal(Part):
 
     def film_shape(self) -> Shape:
         """The shape of the film, with its texture."""
+        off_centre = known_film(self.eccentricity)
         smooth = Shape(
-            thickness=lambda x, y: self.clearance * (1 + self.eccentricity * np.cos(x / self.radius)) + 0 * y,
+            thickness=lambda x, y: self.clearance * (1 + off_centre * np.cos(x / self.radius)) + 0 * y,
             breaks=(0.0, self.length),
             across=(0.0, self.length if self.width is None else self.width),
             wide=self.width is None,

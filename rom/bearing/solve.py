@@ -2,19 +2,27 @@
 
 import math
 import time
-from collections.abc import Callable
-from functools import cache
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache, partial
+from typing import Any
 
 import numpy as np
 
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.corners import infinite_flows
+from roughfilm.rom.bearing.equilibrium.balance import SeparableBearing
+from roughfilm.rom.bearing.equilibrium.films import ModelFilms
+from roughfilm.rom.bearing.equilibrium.grids import FILM_RESIDUAL, FILM_STEP, converted, under_load
+from roughfilm.rom.bearing.film import Searched, smooth_films
 from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Fields, Outputs, density_ratio
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.uncertainty import POSITIONS, uncertainties
+from roughfilm.rom.bearing.shapes import Journal
+from roughfilm.rom.bearing.totals.whole import whole_bearing
+from roughfilm.rom.bearing.uncertainty import POSITIONS, grid_sequence, uncertainties
 from roughfilm.rom.bearing.warnings import (
     grid_warnings,
-    load_warnings,
     pressure_warnings,
     rupture_warnings,
     scene_warnings,
@@ -22,7 +30,7 @@ from roughfilm.rom.bearing.warnings import (
 from roughfilm.rom.cavitation.discretise import Ends
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.shape import Shape
-from roughfilm.rom.cavitation.solve import Solution
+from roughfilm.rom.cavitation.solve import Level, Solution
 from roughfilm.rom.cavitation.solve import solve as balance
 from roughfilm.rom.ladder.model import Model, Progress
 from roughfilm.rom.ladder.provenance import provenance
@@ -31,6 +39,9 @@ from roughfilm.rom.ladder.result import NO_COARSER_GRID, Field, Numerics, Result
 
 WARM_UP_CELLS = 40
 """Number of cells of a film on which every compiled loop runs once."""
+
+FilmsOnGrid = Callable[[Bearing, int], SeparableBearing[Any]]
+"""films(scene, cells), the films of a model on a grid of so many cells along and across."""
 
 
 def solve(
@@ -42,8 +53,12 @@ def solve(
     film: Callable[[Bearing], Problem],
     ruptures: bool,
     outputs: Outputs = FILM_OUTPUTS,
+    searched: Callable[[Bearing], Searched] | None = None,
+    films: FilmsOnGrid | None = None,
 ) -> Result:
     """Solve the film of a bearing on successively finer grids and estimate the uncertainty of its quantities.
+
+    With a load the film thickness is sought at which the film carries it, on each of the grids.
 
     Parameters
     ----------
@@ -51,30 +66,40 @@ def solve(
     film : film(scene), the problem that the model solves.
     ruptures : whether the film cavitates.
     outputs : the functions that evaluate the film.
+    searched : searched(scene), the films among which that under a load is sought; by default those of a smooth wall.
+    films : films(scene, cells), the films on a grid, of models with a contact load.
 
     Raises
     ------
     InputError
-        If the model does not apply to the scene.
+        If the model does not apply to the scene, or no film carries its load.
     ConvergenceError
-        If the film does not converge.
+        If the film or its load does not converge.
     """
     cells = request.resolution
     fits = solver.applies(scene)
     if not fits.applies:
         raise InputError(f"model: got {solver.name!r}; {fits.reason}")
-    problem = film(scene)
-    load_loops(problem.shape.wide)
-    wall, cpu = time.perf_counter(), time.process_time()
-    solution = balance(problem, (cells, cells), tolerance=request.tolerance, ruptures=ruptures, progress=progress)
-    quantities = outputs.quantities(scene, solution)
-    uncertainty = uncertainties(scene, solution, quantities, outputs)
+    if scene.load is None:
+        problem = film(scene)
+        load_loops(problem.shape.wide)
+        wall, cpu = time.perf_counter(), time.process_time()
+        found = _as_given(scene, problem, request, outputs, ruptures=ruptures, progress=progress)
+    else:
+        load_loops(wide=True)
+        load_loops(scene.wide)
+        wall, cpu = time.perf_counter(), time.process_time()
+        among = (searched or partial(smooth_films, film=film))(scene)
+        if films is None:
+            films = partial(_films, among=among, ruptures=ruptures, tolerance=request.tolerance)
+        found = _under_load(scene, cells, among, films, outputs, progress)
+    solution, quantities = found.levels[0]
+    uncertainty = uncertainties(found.levels, found.of_factors, found.balance)
     warnings = [
         *grid_warnings(solution),
         *pressure_warnings(solution),
         *rupture_warnings(solution),
         *scene_warnings(scene, solution),
-        *load_warnings(scene, solution, quantities),
     ]
     if not uncertainty:
         warnings.append(NO_COARSER_GRID)
@@ -83,11 +108,11 @@ def solve(
         warnings.append(f"{', '.join(unknown)}: unknown uncertainty, as the roughness has too few points")
     return Result(
         model=solver.name,
-        quantities=with_uncertainties(quantities, uncertainty),
-        fields=_fields(scene, solution, outputs.fields(scene, solution)),
+        quantities=whole_bearing(scene, with_uncertainties(quantities, uncertainty)),
+        fields=_fields(scene, solution, outputs.fields(found.scene, solution)),
         numerics=Numerics(
             residual=solution.residual,
-            iterations=sum(level.iterations for level in solution.levels),
+            iterations=sum(level.iterations for level in found.solved),
             cpu_s=time.process_time() - cpu,
             wall_s=time.perf_counter() - wall,
             degrees_of_freedom=solution.state.pressure.size,
@@ -95,13 +120,109 @@ def solve(
             tolerance=request.tolerance,
             scheme=request.scheme,
             runs=tuple(
-                SolverRun(name=" x ".join(map(str, level.shape)), iterations=level.iterations)
-                for level in solution.levels
+                SolverRun(name=" x ".join(map(str, level.shape)), iterations=level.iterations) for level in found.solved
             ),
+            details={} if found.balance is None else {"balance": found.balance, "films": float(found.films)},
         ),
         provenance=provenance(scene, model=solver.name, keeps=tuple(solver.keeps), sources=solver.sources),
         warnings=tuple(warnings),
     )
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Found:
+    """A film on its grids.
+
+    Attributes
+    ----------
+    scene : the scene at the film thickness of the finest grid.
+    levels : the film and its quantities, the finest grid first.
+    of_factors : uncertainties that come from flow factors and contact pressures, by quantity.
+    solved : cells and iterations of all solves.
+    balance : relative error of the load; None if the film was given.
+    films : number of films that were solved.
+    """
+
+    scene: Bearing
+    levels: tuple[tuple[Solution, Mapping[str, Quantity]], ...]
+    of_factors: Mapping[str, float]
+    solved: tuple[Level, ...]
+    balance: float | None = None
+    films: int = 1
+
+
+def _as_given(
+    scene: Bearing, problem: Problem, request: CheckedRequest, outputs: Outputs, *, ruptures: bool, progress: Progress
+) -> _Found:
+    """The film of a given thickness."""
+    cells = (request.resolution, request.resolution)
+    solution = balance(problem, cells, tolerance=request.tolerance, ruptures=ruptures, progress=progress)
+    levels = tuple((grid, outputs.quantities(scene, grid)) for grid in grid_sequence(solution))
+    averaged = problem.shape.roughness is not None
+    return _Found(
+        scene=scene,
+        levels=levels,
+        of_factors=outputs.factor_uncertainties(scene, solution, levels[0][1]) if averaged else {},
+        solved=solution.levels,
+    )
+
+
+def _films(scene: Bearing, cells: int, *, among: Searched, ruptures: bool, tolerance: float) -> ModelFilms:
+    return ModelFilms(
+        scene=scene,
+        film=among.film,
+        ruptures=ruptures,
+        cells=cells,
+        closest=among.closest,
+        touching=among.first,
+        residual=min(tolerance, FILM_RESIDUAL),
+    )
+
+
+def _under_load(
+    scene: Bearing, cells: int, among: Searched, films: FilmsOnGrid, outputs: Outputs, progress: Progress
+) -> _Found:
+    """The film that carries the load of the scene."""
+    assert scene.load_pressure is not None
+    found = under_load(
+        partial(films, scene),
+        scene.load_pressure,
+        cells,
+        speed=scene.motion.speed,
+        guess=among.first,
+        sensitive=scene.roughness is not None and among.averaged,
+        progress=progress,
+    )
+    levels = tuple((state.solution, _loaded(state.scene, state.solution, outputs)) for state in found.states)
+    of_factors: Mapping[str, float] = {}
+    if found.thicker is not None:
+        state, thicker = found.states[found.compared], found.thicker
+        solution, quantities = levels[found.compared]
+        known = state.scene if among.known_from is None else state.scene.at_film(among.known_from)
+        others = _loaded(thicker.scene, thicker.solution, outputs)
+        of_factors = converted(
+            outputs.factor_uncertainties(known, solution, quantities),
+            {name: one.value for name, one in quantities.items()},
+            {name: one.value for name, one in others.items()},
+            FILM_STEP * state.scene.geometry.thinnest,
+        )
+    return _Found(
+        scene=found.states[0].scene,
+        levels=levels,
+        of_factors=of_factors,
+        solved=found.solved,
+        balance=found.balance,
+        films=sum(found.films),
+    )
+
+
+def _loaded(scene: Bearing, solution: Solution, outputs: Outputs) -> dict[str, Quantity]:
+    """The quantities of a film whose thickness was sought, with the eccentricity of a journal bearing."""
+    quantities = outputs.quantities(scene, solution)
+    geometry = scene.geometry
+    if not isinstance(geometry, Journal):
+        return quantities
+    return quantities | {"eccentricity": Quantity(value=1 - geometry.thinnest / geometry.clearance, unit="1")}
 
 
 @cache

@@ -7,8 +7,7 @@ from scipy.optimize import brentq
 
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.corners import infinite_flows
-from roughfilm.rom.bearing.quantities import Outputs
-from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.quantities import EXACT
 from roughfilm.rom.cavitation.balance import FILM
 from roughfilm.rom.cavitation.solve import Solution
 
@@ -36,38 +35,50 @@ POSITIONS = ("film_start", "rupture")
 MIN_CELLS_OF_POSITIONS = 15
 """Number of cells along a side below which a grid does not show where a film begins or ends: it may lack the film."""
 
+LEAST_FILM = "film_min"
+"""Quantity that is exact for a given film, and uncertain for one that is sought."""
+
 FLOW_UNIT = "m^3/s"
 """Unit of the flows through the edges of a film with a width."""
 
 
 def uncertainties(
-    scene: Bearing, solution: Solution, quantities: Mapping[str, Quantity], outputs: Outputs
+    levels: Sequence[tuple[Solution, Mapping[str, Quantity]]],
+    of_factors: Mapping[str, float],
+    balance: float | None = None,
 ) -> dict[str, float]:
     """The uncertainty of each quantity in its unit, infinite if unknown; empty without a coarser grid.
 
     It is the sum of that of the grid, ``IMBALANCE_FACTOR`` times the relative error of the flow along the film (of a
-    flow, relative to the largest flow), and the contribution of the flow factors. Positions without a film are unknown.
+    flow, relative to the largest flow), the relative error of the load, and the contribution of the flow factors.
+    Positions without a film are unknown.
+
+    Parameters
+    ----------
+    levels : the film and its quantities, the finest grid first.
+    of_factors : uncertainties that come from flow factors and contact pressures, by quantity.
+    balance : relative error of the load for which the film was sought; None for a given film, whose thickness is exact.
     """
-    grids = grid_sequence(solution)
-    if len(grids) == 1:
+    if len(levels) == 1:
         return {}
-    cells = [cells_of(grid) for grid in grids]
-    values = [quantities, *(outputs.quantities(scene, grid) for grid in grids[1:])]
-    averaged = solution.problem.shape.roughness is not None
-    of_factors = outputs.factor_uncertainties(scene, solution, quantities) if averaged else {}
+    solution, quantities = levels[0]
+    cells, values = [cells_of(grid) for grid, _ in levels], [level for _, level in levels]
     unknown = infinite_flows(solution) | (frozenset() if (solution.kind == FILM).any() else frozenset(POSITIONS))
     largest_flow = max((abs(one.value) for one in quantities.values() if one.unit == FLOW_UNIT), default=0.0)
     result = {}
     for name, quantity in quantities.items():
         known = {count: level[name].value for count, level in zip(cells, values, strict=True) if name in level}
         size = largest_flow if quantity.unit == FLOW_UNIT else abs(quantity.value)
-        if name in unknown:
+        if name in EXACT and not (name == LEAST_FILM and balance is not None):
+            result[name] = 0.0
+        elif name in unknown:
             result[name] = math.inf
         elif len(known) > 1:
             if name in POSITIONS:
                 known = _positions(known, ring=solution.network.periodic[0])
             of_grid = grid_uncertainty([*known], [*known.values()])
-            result[name] = of_grid + IMBALANCE_FACTOR * size * solution.imbalance + of_factors.get(name, 0.0)
+            of_balance = size * (IMBALANCE_FACTOR * solution.imbalance + (balance or 0.0))
+            result[name] = of_grid + of_balance + of_factors.get(name, 0.0)
     return result
 
 

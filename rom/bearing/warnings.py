@@ -1,21 +1,14 @@
 """Warnings about films outside the range of their grid, their lubricant laws or their scene."""
 
 import math
-from collections.abc import Mapping
 
 import numpy as np
 
-from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.corners import jumps
 from roughfilm.rom.bearing.pad import CELLS_PER_FEATURE
-from roughfilm.rom.bearing.quantities import nominal_area
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.balance import CAVITY, FILM
 from roughfilm.rom.cavitation.solve import Solution
-
-LOAD_WARNING_LEVEL = 0.01
-"""Relative difference between the load of a given film and that of the scene up to which no warning is given."""
-
 
 MAX_SIDE_PRESSURE = 0.01
 """Largest pressure at a side over the largest pressure of the film that a model without sides leaves out unwarned."""
@@ -90,17 +83,3 @@ def scene_warnings(scene: Bearing, solution: Solution) -> list[str]:
         for jump in jumps(solution)
     ]
     return warnings
-
-
-def load_warnings(scene: Bearing, solution: Solution, quantities: Mapping[str, Quantity]) -> list[str]:
-    """A warning if the load of the given film differs from the load of the scene."""
-    if scene.load is None:
-        return []
-    width = 1.0 if solution.problem.shape.wide else scene.geometry.width or 1.0
-    pressure = quantities["load_per_width"].value * width / nominal_area(scene, solution.grid)
-    if abs(pressure - scene.load.pressure) <= LOAD_WARNING_LEVEL * scene.load.pressure:
-        return []
-    return [
-        f"load: the film as given carries {pressure:.4g} Pa over the nominal area, not the {scene.load.pressure:.4g} "
-        "Pa of the scene; roughfilm effects solves for the film under the load"
-    ]

@@ -4,7 +4,7 @@ import importlib
 import importlib.util
 import pkgutil
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache, partial
 from typing import Annotated, Any
 
@@ -63,6 +63,16 @@ def nothing_composed(_scene: Any) -> tuple[str, ...]:
     return ()
 
 
+def nothing_sought(_entries: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return no quantities, for kinds whose scenes all have the same order of quantities."""
+    return ()
+
+
+def nothing_remarked(_entries: Mapping[str, Any], _quantities: Mapping[str, Quantity]) -> tuple[str, ...]:
+    """Return no sentences, for kinds whose quantities need none."""
+    return ()
+
+
 @dataclass(frozen=True, kw_only=True)
 class Omission:
     """An effect that every model of a kind leaves out.
@@ -89,6 +99,13 @@ class Kind:
     compared : the quantities by which models are compared, with their names in a sentence; the most important is first.
     others : the other quantities that models of the kind report, with their names in a sentence.
     ratios : quantities that are the ratio of two others, with the names of these; their errors follow from those.
+    compared_with : the compared quantities of scenes that have a table, by the name of the table; the error laws do not
+        hold for these scenes.
+    lawful : whether the error laws hold; False for the kind of a scene with such a table.
+    reported : the titles of all quantities in tables and pages, in their order there.
+    sought : sought(entries), the quantities that stand before these for a scene, given as its entries.
+    remarks : remarks(entries, quantities), sentences that belong to the quantities of a result, such as for which part
+        of the whole they hold.
     scale : scale(values, quantity), the size by which an error in a compared quantity is divided. ``values`` are the
         values of the reference by quantity, as numbers or arrays.
     columns : columns(scene), dimensionless numbers and texts of a scene for a table of many cases.
@@ -117,6 +134,11 @@ class Kind:
     symbols: Mapping[str, str]
     others: Mapping[str, str] = field(default_factory=dict)
     ratios: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+    compared_with: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    lawful: bool = True
+    reported: Mapping[str, str] = field(default_factory=dict)
+    sought: Callable[[Mapping[str, Any]], Sequence[str]] = nothing_sought
+    remarks: Callable[[Mapping[str, Any], Mapping[str, Quantity]], Sequence[str]] = nothing_remarked
     composed: Callable[[Any], Sequence[str]] = nothing_composed
     omitted: Callable[[Any, str], Omission | None] = nothing_omitted
     outside_laws: Callable[[Any, Any, str], str] = within_laws
@@ -131,6 +153,25 @@ class Kind:
     def titles(self) -> Mapping[str, str]:
         """The names in a sentence of all quantities, the compared ones first."""
         return {**self.compared, **self.others}
+
+    def of(self, entries: Mapping[str, Any]) -> "Kind":
+        """The kind with the compared quantities of a scene, from its entries by the names of their tables."""
+        for table, compared in self.compared_with.items():
+            if entries.get(table) is not None:
+                others = {name: title for name, title in self.titles.items() if name not in compared}
+                return replace(self, compared=compared, others=others, lawful=False)
+        return self
+
+    def listed(self, result: Result) -> dict[str, str]:
+        """The names and titles of the quantities of a result that people read, in the order in which they read them.
+
+        A quantity per width is left out where that of the whole width is there. Quantities without a title have their
+        name as the title, and come last.
+        """
+        first = self.sought(result.provenance["scene"])
+        names, whole = result.quantities, {f"{name}_per_width" for name in result.quantities}
+        ordered = dict.fromkeys((*first, *self.reported, *names))
+        return {name: self.reported.get(name, name) for name in ordered if name in names and name not in whole}
 
     def read(self, entries: Mapping[str, Any]) -> Scene:
         """Make a scene of this kind from nested entries; InputError in one line for the first fault."""
@@ -170,4 +211,10 @@ def kinds() -> Mapping[str, Kind]:
 
 def kind_of(result: Result) -> Kind:
     """The kind of scene that a result solves."""
-    return kind_of_name(result.provenance["scene"]["kind"])
+    entries = result.provenance["scene"]
+    return kind_of_name(entries["kind"]).of(entries)
+
+
+def kind_of_scene(scene: Scene) -> Kind:
+    """The kind of a scene, with the quantities that are compared for this scene."""
+    return kind_of_name(scene.kind).of(dict(scene))

@@ -23,6 +23,14 @@ COMPARED = ("load_plus", "friction_plus")
 FULL_INERTIA = ("film", "film_slope")
 """The thin-film models whose load shows whether effects cancel that the laws, to first order in Re, add."""
 
+REPORTED = {
+    "load_per_area": "load per area",
+    "friction_per_area": "friction per area",
+    **{name: f"{title}, dimensionless" for name, title in TITLES.items() if name != "backflow"},
+    "backflow": "reverse flow over sliding speed",
+}
+"""The titles of the quantities of a pocket, in the order of tables."""
+
 EXTREMES = ("pressure_min_plus", "pressure_max_plus")
 
 MIN_JUDGED_LOAD = 0.05
@@ -159,6 +167,7 @@ KIND = Kind(
     summary="a groove under a sliding wall",
     compared={name: TITLES[name] for name in COMPARED},
     others={name: title for name, title in TITLES.items() if name not in COMPARED},
+    reported=REPORTED,
     scale=scale,
     columns=columns,
     numbers=numbers,

@@ -47,12 +47,31 @@ def numbers(scene: Seal) -> dict[str, float]:
     return {**own, "length": scene.flow.length / scene.surface().size[scene.axis]} if own else {}
 
 
+def remarks(entries: Mapping[str, Any], _quantities: Mapping[str, Quantity]) -> tuple[str, ...]:
+    """The key that the leakage of the whole seal needs, if it is missing."""
+    if "width" in entries["flow"]:
+        return ()
+    return ("flow.width, the circumference of a ring, gives the leakage of the whole seal",)
+
+
 KIND = Kind(
     name="seal",
     scene=Seal,
     summary="a liquid that leaks between a rough surface and a flat one",
     compared={"leakage_per_width": "leakage", "area_fraction": "contact area"},
     others={"mean_gap": "mean gap", "permeability": "permeability"},
+    remarks=remarks,
+    reported={
+        "leakage": "leakage, whole seal",
+        "leakage_per_width": "leakage per width",
+        "sealed": "sealed: 1, open: 0",
+        "area_fraction": "contact area over nominal area",
+        "mean_gap": "mean gap",
+        "permeability": "permeability",
+        "smooth_leakage": "smooth gap of the rms height",
+        "dimensionless_leakage": "dimensionless leakage",
+        "rms_height": "rms height",
+    },
     scale=scale,
     columns=columns,
     numbers=numbers,

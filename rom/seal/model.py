@@ -62,8 +62,7 @@ def leak(task: Task, *, flow: FlowSolver) -> Answer:
                 scene, passage.permeability, passage.sealed, contact.area_fraction, contact.mean_gap, task.heights.std()
             ),
             {
-                "permeability": uncertainty,
-                "leakage_per_width": leakage_of(scene, uncertainty),
+                **leakage_uncertainties(scene, uncertainty),
                 **{name: by_pixels[name] for name in ("area_fraction", "mean_gap") if name in by_pixels},
             },
         ),
@@ -129,10 +128,20 @@ def leakage_of(scene: Seal, permeability: float) -> float:
     )
 
 
+def leakage_uncertainties(scene: Seal, uncertainty: float) -> dict[str, float]:
+    """The uncertainties of permeability and leakage, in their units, from that of the permeability, m³."""
+    leakage = leakage_of(scene, uncertainty)
+    whole = {} if scene.flow.width is None else {"leakage": scene.flow.width * leakage}
+    return {"permeability": uncertainty, "leakage_per_width": leakage, **whole}
+
+
 def quantities(
     scene: Seal, permeability: float, sealed: bool, area: float, mean_gap: float | None, rms: float
 ) -> dict[str, Quantity]:
-    """The quantities of all models; ``smooth_leakage`` is that of a smooth gap of the rms height."""
+    """The quantities of all models; ``smooth_leakage`` is that of a smooth gap of the rms height.
+
+    ``leakage`` of the whole seal, kg/s, is the leakage per width times the width of the seal, if that is known.
+    """
     values = {
         "leakage_per_width": Quantity(value=leakage_of(scene, permeability), unit="kg/(m*s)"),
         "sealed": one(float(sealed)),
@@ -140,6 +149,8 @@ def quantities(
         "area_fraction": one(area),
         "smooth_leakage": Quantity(value=leakage_of(scene, float(rms) ** 3), unit="kg/(m*s)"),
     }
+    if scene.flow.width is not None:
+        values["leakage"] = Quantity(value=scene.flow.width * leakage_of(scene, permeability), unit="kg/s")
     if rms > 0:
         values["dimensionless_leakage"] = one(dimensionless(permeability, float(rms)))
     if mean_gap is not None:

@@ -15,10 +15,15 @@ class Liquid(Part):
 
 
 class SealDrive(Part):
-    """A pressure drop, Pa, over a length, m, along x or y of the surface."""
+    """A pressure drop, Pa, over a length, m, along x or y of the surface.
+
+    ``width`` is the width of the seal across the flow, m, such as the circumference of a ring; None if it is unknown,
+    and the leakage of the whole seal with it.
+    """
 
     pressure_drop: Pressure
     length: Length
+    width: Length | None = None
     direction: Literal["x", "y"] = "x"
 
 

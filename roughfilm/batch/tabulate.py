@@ -9,7 +9,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.ladder import models
 from roughfilm.rom.advice.expected import with_errors
-from roughfilm.rom.ladder.kind import kind_of_name
+from roughfilm.rom.ladder.kind import kind_of_name, kind_of_scene
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import scene_entries
 from roughfilm.rom.studies.study import Case, Key
@@ -74,9 +74,7 @@ def _with_errors(case: Case, job: Job, answer: Result) -> Result:
 
 def _expected_errors(case: Case, answer: Result) -> dict[str, Cell]:
     """The errors by the fitted laws of compared quantities of unknown uncertainty, as <quantity>_expected_error."""
-    unknown = [
-        name for name in kind_of_name(case.scene.kind).shared(answer) if answer.quantities[name].uncertainty is None
-    ]
+    unknown = [name for name in kind_of_scene(case.scene).shared(answer) if answer.quantities[name].uncertainty is None]
     errors = answer.expected_error
     return {f"{name}_expected_error": _number(errors[name]) for name in unknown if name in errors}
 

@@ -13,7 +13,7 @@ from roughfilm.rom.advice.advise import DEFAULT_TOLERANCE, Advice, ModelVerdict,
 from roughfilm.rom.advice.estimates import Estimate
 from roughfilm.rom.advice.laws import table as laws_table
 from roughfilm.rom.advice.stated import entries_of_errors, percent
-from roughfilm.rom.ladder.kind import Scene, kind_of_name
+from roughfilm.rom.ladder.kind import Scene, kind_of_scene
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.terminal.console import (
     NOT_CONVERGED,
@@ -49,7 +49,7 @@ def command(
     with progress_bar(1.0) as advance:
         advice = advise(read, models(read.kind), quantity=compared, within=fraction, progress=advance)
     if as_json:
-        print_json({**entries_of(advice), "composition": list(kind_of_name(read.kind).composed(read))})
+        print_json({**entries_of(advice), "composition": list(kind_of_scene(read).composed(read))})
     else:
         print_all(_shown(read, advice))
     if advice.chosen is None:
@@ -67,7 +67,7 @@ def tolerance_of(text: str) -> float:
 
 def _shown(scene: Scene, advice: Advice) -> Iterator[Table | str]:
     """The advice for people."""
-    kind = kind_of_name(scene.kind)
+    kind = kind_of_scene(scene)
     judged = [one for one in advice.considered if one.resolution is not None]
     table = table_of(
         ("model", "resolution", "CPU s", "error", ""),

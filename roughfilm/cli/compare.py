@@ -10,7 +10,6 @@ import typer
 from rich.table import Table
 
 from roughfilm.batch.jobs import Job, jobs_of, run_all
-from roughfilm.cli.solve import quantity_table
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.foundation.files import write_json
 from roughfilm.figures.rendering import draw_apart, embedded
@@ -21,7 +20,7 @@ from roughfilm.pages.render import write_figures
 from roughfilm.rom.advice.advise import DEFAULT_TOLERANCE
 from roughfilm.rom.advice.measured import with_measured_errors
 from roughfilm.rom.advice.stated import percent, stated_errors
-from roughfilm.rom.ladder.kind import Scene, kind_of, kind_of_name
+from roughfilm.rom.ladder.kind import Scene, kind_of, kind_of_scene
 from roughfilm.rom.ladder.model import Model, best
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import load_scene
@@ -44,7 +43,7 @@ from roughfilm.terminal.console import (
     make_directory,
     print_json,
 )
-from roughfilm.terminal.results import print_all, print_left_out, table_of
+from roughfilm.terminal.results import print_all, print_left_out, quantity_table, table_of
 from roughfilm.words.summary import cost_of, judgement, value_of
 
 RESULTS = "results"
@@ -157,7 +156,7 @@ def _judge(
 ) -> Report:
     from roughfilm.figures.base import grid_convergence, speed_against_accuracy  # matplotlib is slow to import
 
-    view, titles = views()[scene.kind], kind_of_name(scene.kind).compared
+    view, titles = views()[scene.kind], kind_of_scene(scene).compared
     solved = [model for model in ladder if model.name in results]
     top = best(solved)
     grids = {model.name: convergence(model, runs) for model in solved}
@@ -175,7 +174,7 @@ def _judge(
     }
     report = Report(
         scene=scene,
-        kind=kind_of_name(scene.kind),
+        kind=kind_of_scene(scene),
         view=view,
         models=ladder,
         results=results,

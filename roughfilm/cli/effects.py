@@ -110,8 +110,8 @@ def _study_entries(study: EffectStudy) -> dict[str, Any]:
 
 def _shown(analysis: EffectAnalysis, page: Path) -> Iterator[Table | str]:
     views = [("at the film of the scene", analysis.at_film, AT_FILM)]
-    if analysis.under_load is not None and analysis.scene.load is not None:
-        views.append((f"under {analysis.scene.load.pressure / 1e6:.4g} MPa", analysis.under_load, UNDER_LOAD))
+    if analysis.under_load is not None and analysis.scene.load_pressure is not None:
+        views.append((f"under {analysis.scene.load_pressure / 1e6:.4g} MPa", analysis.under_load, UNDER_LOAD))
     for title, study, names in views:
         columns = shown_quantities(study, names)
         rows = [

@@ -15,7 +15,7 @@ from roughfilm.ladder import find
 from roughfilm.rom.advice.advise import DEFAULT_TOLERANCE, Advice, shortfall, wanted
 from roughfilm.rom.advice.expected import error_lines
 from roughfilm.rom.advice.stated import percent
-from roughfilm.rom.ladder.kind import Scene, kind_of_name
+from roughfilm.rom.ladder.kind import Scene, kind_of_scene
 from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import load_scene
@@ -33,7 +33,7 @@ from roughfilm.terminal.console import (
     progress_bar,
 )
 from roughfilm.terminal.output_file import refuse_unwritable
-from roughfilm.terminal.results import print_all, table_of
+from roughfilm.terminal.results import print_all, quantity_table
 from roughfilm.words.summary import summary
 
 
@@ -111,21 +111,6 @@ def _shown(scene: Scene, by: Model, result: Result, quantity: str, within: float
         if run.recipe and not run.name:
             yield f"first run did not converge; second run succeeded with: {run.recipe}"
     yield f"{by.name} {by.applies(scene).reason}"
-    yield from (f"errors of {by.name}: {line}" for line in error_lines(kind_of_name(scene.kind), result))
+    yield from (f"errors of {by.name}: {line}" for line in error_lines(kind_of_scene(scene), result))
     yield from (f"warning: {warning}" for warning in result.warnings)
     yield summary(result, quantity, within)
-
-
-def quantity_table(result: Result) -> Table:
-    """The quantities of a result, with their uncertainties where any is known."""
-    known = any(quantity.uncertainty is not None for quantity in result.quantities.values())
-    rows = []
-    for name, quantity in result.quantities.items():
-        uncertainty = "" if quantity.uncertainty is None else f"{quantity.uncertainty:.1e}"
-        unit = "" if quantity.unit == "1" else quantity.unit
-        rows.append((name, f"{quantity.value:.5g}", *([uncertainty] if known else []), unit))
-    heads = ("quantity", "value", *(["±"] if known else []), "unit")
-    table = table_of(heads, rows, title=f"{result.provenance['scene']['name']} by {result.model}", left=1)
-    for column in table.columns[2:]:
-        column.justify = "left"
-    return table

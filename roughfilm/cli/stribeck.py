@@ -38,9 +38,13 @@ def command(
     scene: ScenePath,
     out: OutDirectory,
     loads: Annotated[
-        str,
-        typer.Option(metavar="LOADS", help="Mean pressures: a list, a range such as 0.5MPa..2MPa:3, or one."),
-    ] = LOADS,
+        str | None,
+        typer.Option(
+            metavar="LOADS",
+            help="Mean pressures: a list, a range such as 0.5MPa..2MPa:3, or one "
+            f"(default: the scene's load, or {LOADS}).",
+        ),
+    ] = None,
     speeds: Annotated[
         str | None,
         typer.Option(
@@ -57,15 +61,16 @@ def command(
     set_: Overrides = None,
     as_json: AsJson = False,
 ) -> None:
-    """Sweep speed and load of a bearing whose walls may touch, to Stribeck curves."""
+    """Sweep speed and load of a bearing, smooth or with walls that may touch, to Stribeck curves."""
     spent, bearing = stopwatch(), load_scene(scene, set_ or ())
-    if not isinstance(bearing, Bearing) or bearing.asperities is None:
+    if not isinstance(bearing, Bearing):
         raise InputError(
-            f"{scene}: asperities: are missing; add [roughness] with a surface, and [asperities] with the solids "
+            f"{scene}: kind: got {bearing.kind!r}; curves over speed are those of a bearing "
             "(scripts/examples/scenes/rough_washer.toml)"
         )
     default = SLIDING_SPEEDS if bearing.turning_radius is None else ROTATIONAL_SPEEDS
-    pressures, sliding = loads_of(loads), speeds_of(speeds or default, bearing.turning_radius)
+    sliding, own = speeds_of(speeds or default, bearing.turning_radius), bearing.load_pressure
+    pressures = (own,) if loads is None and own is not None else loads_of(loads or LOADS)
     if not MIN_CELLS <= resolution <= MAX_CELLS:
         raise InputError(f"--resolution: got {resolution}; it must be {MIN_CELLS} to {MAX_CELLS} cells along a side")
     page, stored = out / "report.html", out / "stribeck.h5"
@@ -76,7 +81,7 @@ def command(
         curves, known = resumed_curves(
             bearing, sliding, pressures, wall, stored, resolution, _between(advance, 0.5, 0.95)
         )
-        entries = curve_entries(bearing, curves, wall)
+        entries = curve_entries(bearing, curves, wall, sliding)
         entries["numerics"] |= {"points_found": known, "resolution": resolution, **spent()}
         write_csv(stored.with_suffix(".csv"), curves)
         write_json(entries, stored.with_suffix(".json"))
@@ -88,16 +93,17 @@ def command(
     def shown() -> Iterator[Table | str]:
         scale = speed_scale(bearing)
         heads = ("load, MPa", f"lift-off, {scale.unit}", "least μ", f"at, {scale.unit}", "μ at the lowest speed")
+        parted = bearing.asperities is None
         lowest = [(curve, _least_friction(curve)) for curve in curves]
         yield table_of(
             heads,
             [
                 (
                     f"{curve.pressure / 1e6:.4g}",
-                    lift_off(curve, scale, named=False),
-                    f"{least.friction_coefficient:.4f}",
+                    "no asperities" if parted else lift_off(curve, scale, named=False),
+                    f"{least.friction_coefficient:.3g}",
                     f"{scale.factor * least.speed:.4g}",
-                    f"{curve.points[0].friction_coefficient:.4f}",
+                    f"{curve.points[0].friction_coefficient:.3g}",
                 )
                 for curve, least in lowest
             ],
@@ -116,7 +122,9 @@ def _least_friction(curve: StribeckCurve) -> StribeckPoint:
     return min(curve.points, key=lambda point: point.friction_coefficient)
 
 
-def curve_entries(scene: Bearing, curves: Sequence[StribeckCurve], wall: Wall) -> dict[str, Any]:
+def curve_entries(
+    scene: Bearing, curves: Sequence[StribeckCurve], wall: Wall, speeds: Sequence[float]
+) -> dict[str, Any]:
     """The object of ``--json``, without the cost."""
     quantities: dict[str, Any] = {}
     for curve in curves:
@@ -133,6 +141,12 @@ def curve_entries(scene: Bearing, curves: Sequence[StribeckCurve], wall: Wall) -
     points = [point for curve in curves for point in curve.points]
     never = [curve.pressure for curve in curves if math.isnan(curve.lift_off.speed)]
     warnings = [f"{pressure / 1e6:g} MPa: the walls part at none of the speeds" for pressure in never]
+    warnings += [
+        f"{curve.pressure / 1e6:g} MPa: no film carries it at {missing} of {len(speeds)} speeds, below "
+        f"{curve.points[0].speed:.4g} m/s; the curve leaves them out"
+        for curve in curves
+        if (missing := len(speeds) - len(curve.points))
+    ]
     return {
         "curves": [
             {

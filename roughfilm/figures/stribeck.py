@@ -43,14 +43,21 @@ class Drawn:
     contact: Array
 
 
-def curves(drawn: Sequence[StribeckCurve], scale: SpeedScale, touching: float) -> Figure:
-    """Friction coefficient, separation over that of the first touch, and load on the asperities, over speed."""
+def curves(drawn: Sequence[StribeckCurve], scale: SpeedScale, touching: float | None) -> Figure:
+    """Friction coefficient, separation over that of the first touch, and load on the asperities, over speed.
+
+    Without asperities, ``touching`` is None, and the panels show the least film and the peak pressure.
+    """
     figure, (friction, gap, share) = new_figure((11.4, 4.0), 1, 3)
-    panels: tuple[tuple[Axes, str, float, str, float], ...] = (
-        (friction, "friction_coefficient", 0.0, "coefficient of friction", 1),
-        (gap, "separation", touching, "least separation over the first touch, µm", 1e6),
-        (share, "contact_share", 0.0, "load carried by asperities, %", 100),
-    )
+    panels: list[tuple[Axes, str, float, str, float]] = [
+        (friction, "friction_coefficient", 0.0, "coefficient of friction", 1)
+    ]
+    if touching is None:
+        panels.append((gap, "separation", 0.0, "least film thickness, µm", 1e6))
+        panels.append((share, "pressure_max", 0.0, "peak pressure, MPa", 1e-6))
+    else:
+        panels.append((gap, "separation", touching, "least separation over the first touch, µm", 1e6))
+        panels.append((share, "contact_share", 0.0, "load carried by asperities, %", 100))
     for curve, colour in zip(drawn, itertools.cycle(COLOURS), strict=False):
         speeds = np.array([point.speed for point in curve.points]) * scale.factor
         for axes, name, zero, label, factor in panels:
@@ -69,7 +76,7 @@ def curves(drawn: Sequence[StribeckCurve], scale: SpeedScale, touching: float) -
             )
             axes.set(ylabel=label, xlabel=f"speed, {scale.unit}")
             lift = curve.lift_off.speed * scale.factor
-            if np.isfinite(lift) and lift <= speeds.max():
+            if touching is not None and np.isfinite(lift) and lift <= speeds.max():
                 axes.axvline(lift, color=colour, linewidth=0.8, linestyle=":")
     swept = [point.speed for curve in drawn for point in curve.points]
     if min(swept) > 0 and max(swept) > LOGARITHMIC_RATIO * min(swept):
@@ -77,7 +84,8 @@ def curves(drawn: Sequence[StribeckCurve], scale: SpeedScale, touching: float) -
             axes.set_xscale("log")
     friction.set_yscale("log")
     friction.legend(fontsize=8, title="load", loc="upper right")
-    gap.axhline(0, color="black", linewidth=0.8, linestyle="--")
+    if touching is not None:
+        gap.axhline(0, color="black", linewidth=0.8, linestyle="--")
     return figure
 
 

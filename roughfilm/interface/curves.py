@@ -30,21 +30,22 @@ FEWEST_CELLS, MOST_WIDE_CELLS, MOST_CELLS = 16, 65_536, 1024
 def stribeck(
     scene: Scene,
     speeds: Sequence[float],
-    loads: Sequence[float],
+    loads: Sequence[float] | None = None,
     *,
     resolution: int = mixed.RESOLUTION,
     progress: Progress = silent,
 ) -> tuple[mixed.StribeckCurve, ...]:
-    """Compute Stribeck curves, friction and film over speed at given loads, of a bearing with rough walls.
+    """Compute Stribeck curves, friction and film over speed at given loads, of a bearing.
 
     At each speed u the separation of the walls is computed at which the film and the asperities together carry the
-    load, W = W_film + W_contact. The friction coefficient is (F_film + μ W_contact)/W.
+    load, W = W_film + W_contact. The friction coefficient is (F_film + μ W_contact)/W. Without asperities the film
+    carries the load alone, and speeds at which none does are left out.
 
     Parameters
     ----------
-    scene : a bearing with roughness and asperities; its own speed, film and load are ignored.
-    speeds : speeds u of the sliding wall, m/s, 0 or more.
-    loads : mean pressures over the nominal area, Pa.
+    scene : a bearing; its own speed and film are ignored.
+    speeds : speeds u of the sliding wall, m/s, 0 or more, without asperities above 0.
+    loads : mean pressures over the nominal area, Pa; by default the load of the scene.
     resolution : number of cells along and across the bearing, 16 to 1024.
     progress : called with the done fraction and a few words.
 
@@ -58,7 +59,7 @@ def stribeck(
     Raises
     ------
     InputError
-        For a scene without asperities, or speeds and loads out of range.
+        For another kind of scene, speeds and loads out of range, or no loads where the scene has none.
     ConvergenceError
         If no separation balances the load.
 
@@ -78,11 +79,15 @@ def stribeck(
     (True, True)
     """
     if not isinstance(scene, Bearing):
-        raise InputError(f"scene: got {_kind(scene)}; give a bearing with roughness and asperities")
+        raise InputError(f"scene: got {_kind(scene)}; give a bearing")
+    own = scene.load_pressure
+    if loads is None and own is None:
+        raise InputError("loads: are missing; give them, or a scene with a load")
+    given = [own] if loads is None and own is not None else [positive("loads", load) for load in loads or ()]
     return mixed.stribeck(
         scene,
         [not_negative("speeds", speed) for speed in speeds],
-        [positive("loads", load) for load in loads],
+        given,
         resolution=resolution,
         progress=progress,
     )

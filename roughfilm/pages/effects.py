@@ -19,10 +19,10 @@ LAST_COLUMN = "contact_share"
 
 def write_page(analysis: EffectAnalysis, entries: Mapping[str, Any], out: Path) -> None:
     """Write the page and its figures; InputError if a file cannot be written."""
-    film = analysis.scene.geometry.film
+    film = analysis.film
     views = [_view(f"At the film of the scene, {film * 1e6:.4g} µm", analysis.at_film, AT_FILM, _beside(analysis))]
-    if analysis.under_load is not None and analysis.scene.load is not None:
-        title = f"Under {analysis.scene.load.pressure / 1e6:.4g} MPa over the nominal area"
+    if analysis.under_load is not None and analysis.scene.load_pressure is not None:
+        title = f"Under {analysis.scene.load_pressure / 1e6:.4g} MPa over the nominal area"
         beside = {} if analysis.thicker is None else {"film": analysis.thicker}
         views.append(_view(title, analysis.under_load, UNDER_LOAD, beside))
     names = ("effects_at_film", "effects_under_load")

@@ -13,7 +13,7 @@ from roughfilm.figures.stribeck import Drawn
 from roughfilm.pages.render import render
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.film import MixedFilm
-from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve, StribeckPoint
+from roughfilm.rom.bearing.mixed.stribeck import LOAD_TOLERANCE, StribeckCurve, StribeckPoint, curve_film
 from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.words.numbers import with_error
@@ -30,7 +30,7 @@ def write_page(
     scene: Bearing,
     entries: Mapping[str, Any],
     curves: Sequence[StribeckCurve],
-    asperities: Asperities,
+    asperities: Asperities | None,
     resolution: int,
     path: Path,
 ) -> None:
@@ -38,7 +38,8 @@ def write_page(
     scale = speed_scale(scene)
     unit, factor = scale.unit, scale.factor
     middle = curves[len(curves) // 2]
-    film = MixedFilm(scene=scene, asperities=asperities, cells=resolution)
+    speeds, pressures = [point.speed for point in middle.points], [curve.pressure for curve in curves]
+    film = curve_film(scene, asperities, speeds, pressures, resolution, LOAD_TOLERANCE)
     drawn = [drawn_film(film, point, f"{factor * point.speed:.3g} {unit}") for point in shown_points(middle)]
     render(
         "stribeck.html.j2",
@@ -52,10 +53,10 @@ def write_page(
         lifts=[(curve, lift_off(curve, scale)) for curve in curves],
         shown=f"{middle.pressure / 1e6:.4g} MPa",
         rows=[_row(point, factor) for curve in curves for point in _few(curve.points)],
-        curves=svg(stribeck_figures.curves(curves, scale, asperities.touching)),
+        curves=svg(stribeck_figures.curves(curves, scale, None if asperities is None else asperities.touching)),
         films=svg(stribeck_figures.films(drawn)),
-        table=svg(stribeck_figures.asperity_table(asperities)),
-        touching=asperities.touching,
+        table=None if asperities is None else svg(stribeck_figures.asperity_table(asperities)),
+        touching=None if asperities is None else asperities.touching,
     )
 
 

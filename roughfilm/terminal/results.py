@@ -6,8 +6,11 @@ from typing import Any
 from rich.markup import escape
 from rich.table import Table
 
+from roughfilm.rom.ladder.kind import kind_of
 from roughfilm.rom.ladder.provenance import circumstances
+from roughfilm.rom.ladder.result import Result
 from roughfilm.terminal.console import messages, output, print_json
+from roughfilm.words.units import EXACT, UNKNOWN, in_engineering_unit
 
 
 def table_of(heads: Sequence[str], rows: Iterable[Sequence[str]], *, title: str | None = None, left: int = 0) -> Table:
@@ -17,6 +20,27 @@ def table_of(heads: Sequence[str], rows: Iterable[Sequence[str]], *, title: str 
         table.add_column(head, justify="left" if number < left else "right")
     for row in rows:
         table.add_row(*row)
+    return table
+
+
+def quantity_table(result: Result) -> Table:
+    """The quantities of a result, those first that are sought most, in units of engineers, with their uncertainties.
+
+    What belongs to them, such as the part of the bearing for which they hold, stands below.
+    """
+    kind = kind_of(result)
+    rows = [(title, *in_engineering_unit(result.quantities[name])) for name, title in kind.listed(result).items()]
+    known = any(row[2] not in (EXACT, UNKNOWN) for row in rows)
+    if not known:
+        rows = [(title, value, unit) for title, value, _, unit in rows]
+    heads = ("quantity", "value", *(["±"] if known else []), "unit")
+    table = table_of(heads, rows, title=f"{result.provenance['scene']['name']} by {result.model}", left=1)
+    table.columns[-1].justify = "left"
+    lines = list(kind.remarks(result.provenance["scene"], result.quantities))
+    if not known:
+        lines.append("uncertainties: unknown")
+    table.caption = escape("\n".join(lines)) or None
+    table.caption_justify, table.caption_style = "left", ""
     return table
 
 

@@ -9,8 +9,8 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.corners import infinite_flows
-from roughfilm.rom.bearing.film import averaged_film
-from roughfilm.rom.bearing.mixed.film import FlooredFlowFactors, mixed_problem
+from roughfilm.rom.bearing.film import FlooredFlowFactors, averaged_film
+from roughfilm.rom.bearing.mixed.film import mixed_problem
 from roughfilm.rom.bearing.mixed.quantities import MIXED_OUTPUTS
 from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.numbers import without_texture

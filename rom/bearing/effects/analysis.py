@@ -8,6 +8,7 @@ from roughfilm.rom.bearing.effects.contributions import EffectStudy, study_effec
 from roughfilm.rom.bearing.effects.explanation import EffectModel, effect_models
 from roughfilm.rom.bearing.effects.inertia import InertiaAdded, inertia_added, inertia_obstacle, inertia_under_load
 from roughfilm.rom.bearing.effects.under_load import under_load
+from roughfilm.rom.bearing.equilibrium.expected import expected_film
 from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.model import Model, Progress, silent
@@ -19,8 +20,9 @@ class EffectAnalysis:
 
     Attributes
     ----------
+    film : film thickness of the scene; if it is not given, that under the load, m.
     treated : the model of each effect.
-    at_film : contributions at the film thickness of the scene.
+    at_film : contributions at this film thickness.
     inertia : changes by inertia at that film thickness; None if they cannot be estimated.
     under_load : contributions under the load of the scene; None without a load.
     loaded_inertia : changes by inertia under that load; None if they cannot be estimated.
@@ -28,6 +30,7 @@ class EffectAnalysis:
     """
 
     scene: Bearing
+    film: float
     treated: tuple[EffectModel, ...]
     at_film: EffectStudy
     inertia: InertiaAdded | None
@@ -59,26 +62,32 @@ def analyse_effects(scene: Bearing, cells: int, models: Sequence[Model], progres
     """
     if scene.asperities is not None:
         asperities_of(scene, lambda done, words: progress(0.4 * done, f"asperities: {words}"))
-    fraction = 0.6 if scene.load is None else 0.3
+    pressure, loaded = scene.load_pressure, None
+    base = scene if pressure is None else scene.at_film(scene.geometry.film or expected_film(scene).thickness)
+    fraction = 0.6 if pressure is None else 0.3
+    if pressure is not None:
+        load = pressure
+        loaded = study_effects(
+            base,
+            lambda variant, inner: under_load(variant, load, cells, inner),
+            lambda done, words: progress(0.4 + fraction * done, f"under load, {words}"),
+        )
+        if scene.geometry.film is None:
+            base = scene.at_film(loaded.whole.values["film"])
     at = study_effects(
-        scene,
+        base,
         lambda variant, inner: at_film(variant, cells, inner),
-        lambda done, words: progress(0.4 + fraction * done, words),
+        lambda done, words: progress(1 - fraction + fraction * done, words),
     )
-    whole, has_inertia = Variant(scene=scene), inertia_obstacle(scene) is None
+    whole, has_inertia = Variant(scene=base), inertia_obstacle(scene) is None
     analysis = EffectAnalysis(
         scene=scene,
+        film=base.geometry.thinnest,
         treated=effect_models(scene),
         at_film=at,
         inertia=inertia_added(whole, cells, models) if has_inertia else None,
     )
-    if scene.load is None:
+    if pressure is None or loaded is None:
         return analysis
-    pressure = scene.load.pressure
-    loaded = study_effects(
-        scene,
-        lambda variant, inner: under_load(variant, pressure, cells, inner),
-        lambda done, words: progress(0.7 + fraction * done, f"under load, {words}"),
-    )
     there, thicker = inertia_under_load(whole, loaded.whole, pressure, cells, models) if has_inertia else (None, None)
     return replace(analysis, under_load=loaded, loaded_inertia=there, thicker=thicker)

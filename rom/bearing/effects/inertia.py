@@ -193,7 +193,7 @@ def inertia_under_load(
     pressure : the load over the nominal area, Pa.
     """
     scene = variant.scene
-    loaded = scene.model_copy(update={"geometry": scene.geometry.at_film(whole.values["film"])})
+    loaded = scene.at_film(whole.values["film"])
     changes = inertia_added(replace(variant, scene=loaded), cells, models)
     load = changes.amounts["load"]
     fraction = load.value / whole.values["load_per_width" if scene.wide else "load"]

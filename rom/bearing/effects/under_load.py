@@ -1,6 +1,5 @@
 """Variants of a bearing under a load: the film thickness at which they carry it."""
 
-import math
 import time
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -11,9 +10,10 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.corners import infinite_flows
 from roughfilm.rom.bearing.effects.ablation import Variant, VariantSolution
-from roughfilm.rom.bearing.mixed.balance import FilmsAtSpeed, balanced
+from roughfilm.rom.bearing.equilibrium.grids import FILM_RESIDUAL, FILM_STEP, converted
+from roughfilm.rom.bearing.equilibrium.grids import under_load as equilibria
 from roughfilm.rom.bearing.mixed.contact_load import asperity_load
-from roughfilm.rom.bearing.mixed.film import MixedFilm, widest_film
+from roughfilm.rom.bearing.mixed.film import MixedFilm
 from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.quantities import load_of, nominal_area, scene_positions
 from roughfilm.rom.bearing.roughness import Sinusoid
@@ -22,7 +22,7 @@ from roughfilm.rom.bearing.solve import load_loops
 from roughfilm.rom.bearing.uncertainty import cells_of
 from roughfilm.rom.cavitation.grid import Grid, grid
 from roughfilm.rom.cavitation.network import State
-from roughfilm.rom.cavitation.solve import Solution, coarsening, solve
+from roughfilm.rom.cavitation.solve import Solution, solve
 from roughfilm.rom.ladder.model import Progress, silent
 
 MAX_THINNING = 30.0
@@ -30,27 +30,6 @@ MAX_THINNING = 30.0
 
 MIN_FILM_OVER_AMPLITUDE = 1.001
 """Smallest mean gap over the amplitude of sinusoidal ridges."""
-
-LOAD_TOLERANCE = 1e-7
-"""Relative error of the load at which the search stops."""
-
-FILM_RESIDUAL = 1e-11
-"""Residual at which a film solve stops."""
-
-GRIDS = 4
-"""Largest number of grids, the coarser ones for the uncertainty."""
-
-MIN_GRID_CELLS = 16
-"""Smallest number of cells along a side of a coarser grid."""
-
-PRESCRIBED = ("load", "load_per_width")
-"""Quantities that the load prescribes."""
-
-LOAD_RATIOS = {"friction_coefficient": "friction_per_width", "contact_share": "contact_load_per_width"}
-"""Quantities over the load, by the quantity in their numerator."""
-
-FILM_STEP = 1e-3
-"""Relative change of the film thickness over which derivatives are variant."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,9 +43,13 @@ class VariantState:
     @cached_property
     def quantities(self) -> dict[str, Quantity]:
         """The quantities, with the film thickness as ``film``."""
-        scene = self.variant.scene
-        film = Quantity(value=scene.geometry.film, unit="m")
-        return self.variant.outputs.quantities(scene, self.solution) | {"film": film}
+        film = Quantity(value=self.scene.geometry.thinnest, unit="m")
+        return self.variant.outputs.quantities(self.scene, self.solution) | {"film": film}
+
+    @property
+    def scene(self) -> Bearing:
+        """The scene with the film thickness."""
+        return self.variant.scene
 
     @property
     def values(self) -> dict[str, float]:
@@ -106,7 +89,7 @@ class VariantFilm:
     @cached_property
     def min_gap(self) -> float:
         """The smallest mean gap with known flow factors, m."""
-        thinnest, roughness = self.scene.geometry.film / MAX_THINNING, self.scene.roughness
+        thinnest, roughness = self.scene.geometry.thinnest / MAX_THINNING, self.scene.roughness
         if not self.variant.rough or roughness is None:
             return thinnest
         if isinstance(roughness, Sinusoid):
@@ -119,26 +102,30 @@ class VariantFilm:
         if self.mixed is not None:
             return self.mixed.closest
         thickness = self.scene.geometry.film_shape().thickness(*np.meshgrid(self.grid.x, self.grid.y, indexing="ij"))
-        return self.min_gap + max(0.0, self.scene.geometry.film - float(thickness.min()))
+        return self.min_gap + max(0.0, self.scene.geometry.thinnest - float(thickness.min()))
 
     @property
     def touching(self) -> float:
         """The film thickness at which a search begins, m."""
-        return self.scene.geometry.film if self.mixed is None else self.mixed.touching
+        return self.scene.geometry.thinnest if self.mixed is None else self.mixed.touching
 
     @property
     def widest(self) -> float:
         """The largest film thickness of the geometry, m."""
-        return widest_film(self.scene)
+        return self.scene.geometry.widest
 
     def contact_load(self, film: float) -> float:
         """The load of the asperities at a film thickness, N."""
         return 0.0 if self.mixed is None else self.mixed.contact_load(film)
 
+    @property
+    def remedy(self) -> str:
+        """The remedy for a load that is too large."""
+        return "lower the load" if self.mixed is None else self.mixed.remedy
+
     def at(self, film: float, speed: float, start: State | None = None) -> VariantState:
         """Solve the film at a minimum thickness, m, and a speed, m/s, starting from the state of another film."""
-        motion = self.scene.motion.model_copy(update={"speed": speed})
-        scene = self.scene.model_copy(update={"geometry": self.scene.geometry.at_film(film), "motion": motion})
+        scene = self.scene.at_speed(speed).at_film(film)
         variant = replace(self.variant, scene=scene)
         problem, cells = variant.problem(self.min_gap), (self.cells, self.cells)
         solution = solve(problem, cells, start=start, tolerance=FILM_RESIDUAL, ruptures=variant.ruptures)
@@ -167,50 +154,31 @@ def under_load(variant: Variant, pressure: float, cells: int, progress: Progress
     if not 0 < pressure < float("inf"):
         raise InputError(f"pressure: got {pressure!r} Pa; it must be above 0 and finite")
     load_loops(variant.scene.wide)
-    cpu, guess, speed = time.process_time(), variant.scene.geometry.film, variant.scene.motion.speed
-    states: list[VariantState] = []
-    grids = [size for size, _ in coarsening((cells, cells), wide=True)][-GRIDS:]
-    sizes = [size for size in grids if size >= MIN_GRID_CELLS or size == cells]
-    for count, size in enumerate(sizes):
-        progress(count / len(sizes), f"{size} cells along a side")
-        film = VariantFilm(variant=variant, cells=size)
-        films = FilmsAtSpeed(film=film, speed=speed)
-        states.append(balanced(films, pressure, tolerance=LOAD_TOLERANCE, guess=guess))
-        guess = states[-1].variant.scene.geometry.film
-    here = states[-1]
-    thicker = film.at((1 + FILM_STEP) * guess, speed, here.solution.state)
+    cpu = time.process_time()
+    averaged = variant.scene.asperities is not None or variant.rough
+    found = equilibria(
+        lambda size: VariantFilm(variant=variant, cells=size),
+        pressure,
+        cells,
+        speed=variant.scene.motion.speed,
+        guess=variant.scene.geometry.thinnest,
+        sensitive=averaged,
+        progress=progress,
+    )
+    here, of_factors = found.states[0], {}
+    if found.thicker is not None:
+        state = found.states[found.compared]
+        own = state.variant.outputs.factor_uncertainties(state.scene, state.solution, state.quantities)
+        step = FILM_STEP * state.scene.geometry.thinnest
+        of_factors = converted(own, state.values, found.thicker.values, step)
     return VariantSolution(
-        levels=tuple(state.values for state in reversed(states)),
-        cells=tuple(cells_of(state.solution) for state in reversed(states)),
+        levels=tuple(state.values for state in found.states),
+        cells=tuple(cells_of(state.solution) for state in found.states),
         units={name: quantity.unit for name, quantity in here.quantities.items()},
-        factor_uncertainties=_factor_uncertainties(here, thicker),
+        factor_uncertainties=of_factors,
         residual=here.solution.residual,
         imbalance=here.solution.imbalance,
         unknown=infinite_flows(here.solution),
-        balance=abs(here.load / (pressure * film.area) - 1),
+        balance=found.balance,
         cpu_s=time.process_time() - cpu,
     )
-
-
-def _factor_uncertainties(here: VariantState, thicker: VariantState) -> dict[str, float]:
-    """The uncertainties under a load that come from flow factors and contact pressures.
-
-    An error δW of the load at constant film thickness changes the film thickness by δW/(-dW/dh). The uncertainty of a
-    quantity is its own one at constant film thickness, with its sign, plus its change with the film thickness.
-    """
-    if here.solution.problem.shape.roughness is None:
-        return {}
-    values, others, variant = here.values, thicker.values, here.variant
-    own = variant.outputs.factor_uncertainties(variant.scene, here.solution, here.quantities)
-    step = FILM_STEP * values["film"]
-    slope = (values["load_per_width"] - others["load_per_width"]) / step
-    of_film = own["load_per_width"] / slope if slope > 0 else float("inf")
-    uncertainties = {
-        name: abs(math.copysign(own[name], values[name]) + (others[name] - values[name]) / step * of_film)
-        for name in own
-        if name in others and name not in PRESCRIBED
-    }
-    for ratio, name in LOAD_RATIOS.items():
-        if ratio in values and name in uncertainties:
-            uncertainties[ratio] = uncertainties[name] / values["load_per_width"]
-    return uncertainties | {"film": of_film}

@@ -41,7 +41,7 @@ MAX_EXTENSIONS = 12
 CLOSURE_RATIO = 1.02
 """Ratio of the load that closes the gap to the largest load of the table below which the table is not extended."""
 
-IRRELEVANT = ("name", "motion.speed", "geometry.film", "geometry.eccentricity", "lubricant.density", "load.pressure")
+IRRELEVANT = ("name", "motion.speed", "geometry.film", "geometry.eccentricity", "lubricant.density")
 """Entries of a scene on which the curves do not depend."""
 
 
@@ -51,14 +51,14 @@ class Wall:
 
     Attributes
     ----------
-    asperities : flow factors and contact pressures over the separation.
+    asperities : flow factors and contact pressures over the separation; None of walls without asperities.
     warnings : sentences about an extended table or a surface that is not periodic.
     points : number of points of the table.
     known_points : number of those that were already in a file.
     source : input of the table as JSON entries.
     """
 
-    asperities: AsperityTable
+    asperities: AsperityTable | None
     warnings: tuple[str, ...]
     points: int
     known_points: int
@@ -84,6 +84,10 @@ def wall_of(scene: Bearing, largest: float, table: Path | None, out: Path, progr
     """
     surface = scene.roughness if isinstance(scene.roughness, RoughSurface) else None
     warnings: list[str] = []
+    if scene.asperities is None:
+        if table is not None:
+            raise InputError(f"table: got {table}, but the scene has no [asperities]; add them or leave the table out")
+        return Wall(asperities=None, warnings=(), points=0, known_points=0, source={})
     if surface is not None and not surface.read().periodic:
         mismatch = periodicity_mismatch(surface.read())
         if mismatch > MISMATCH_THRESHOLD:
@@ -243,7 +247,8 @@ def resumed_curves(
     ConvergenceError
         If a film does not converge.
     """
-    settings = {**_flat(scene_entries(scene)), **wall.source, "resolution": resolution, "code": code()}
+    entries = {name: entry for name, entry in scene_entries(scene).items() if name != "load"}
+    settings = {**_flat(entries), **wall.source, "resolution": resolution, "code": code()}
     for name in IRRELEVANT:
         settings.pop(name, None)
     inputs = Inputs(heights=np.zeros((0, 0)), spacing=(1.0, 1.0), settings=settings)

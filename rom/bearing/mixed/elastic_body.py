@@ -9,7 +9,7 @@ import scipy
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.contact.mechanics.half_space import HalfSpace
-from roughfilm.rom.bearing.mixed.balance import FilmsAtSpeed, balanced
+from roughfilm.rom.bearing.equilibrium.balance import FilmsAtSpeed, balanced
 from roughfilm.rom.bearing.mixed.contact_load import asperity_load
 from roughfilm.rom.bearing.mixed.film import MixedFilm, MixedState, mixed_problem, mixed_state
 from roughfilm.rom.bearing.ring import Ring
@@ -118,7 +118,7 @@ def elastic_equilibrium(
     bodies = ElasticBodies(film, composite_modulus, pressure, accuracy=DISPLACEMENT_FRACTION * tolerance)
     guess = bodies.begin(start)
     at = FilmsAtSpeed(film=bodies, speed=speed)
-    at.steepness *= exp(at.distance(guess)) / start.scene.geometry.film
+    at.steepness *= exp(at.distance(guess)) / start.scene.geometry.thinnest
     state = balanced(at, pressure, tolerance=tolerance, guess=guess)
     closest = film.asperities.closest
     if state.separation.min() <= closest:
@@ -147,6 +147,7 @@ class ElasticBodies:
         self.state: State | None = None
         self.films = 0
         self.area, self.touching, self.widest = film.area, film.touching, film.widest
+        self.remedy = film.remedy
         self.closest = film.closest - MAX_DISPLACEMENT_RATIO * pressure / composite_modulus * float(sides.max())
 
     def begin(self, rigid: MixedState) -> float:
@@ -154,7 +155,7 @@ class ElasticBodies:
         self.state = rigid.solution.state
         pressure = self._on_elements(rigid.solution) + self._asperities(rigid.scene.geometry.film_shape())
         self.displacement = self._deformation(pressure)
-        return rigid.scene.geometry.film - float(self.displacement.min())
+        return rigid.scene.geometry.thinnest - float(self.displacement.min())
 
     def contact_load(self, _separation: float) -> float:
         """0, because no part of the load is known without solving a film."""

@@ -4,8 +4,8 @@ import time
 from dataclasses import replace
 
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.bearing.equilibrium.balance import FilmsAtSpeed, balanced
 from roughfilm.rom.bearing.mixed.asperities import Asperities
-from roughfilm.rom.bearing.mixed.balance import FilmsAtSpeed, balanced
 from roughfilm.rom.bearing.mixed.stribeck import LOAD_TOLERANCE, RESOLUTION, StribeckPoint, mixed_film, stribeck_point
 from roughfilm.rom.bearing.scene import Bearing
 

@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.rom.bearing.film import FlooredFlowFactors
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.contact_load import AsperityLoad, asperity_load, quarters
 from roughfilm.rom.bearing.quantities import friction, load_of, nominal_area, scene_positions
@@ -17,11 +18,8 @@ from roughfilm.rom.cavitation.grid import Grid, grid
 from roughfilm.rom.cavitation.network import State
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
+from roughfilm.rom.cavitation.shape import Shape
 from roughfilm.rom.cavitation.solve import Solution, solve
-from roughfilm.rom.homogenization.gap_factors import FactorsOverGap, GapFactors
-
-MIN_FACTOR_RATIO = 1e-6
-"""Lower bound on flow factors over those of a smooth film, which keeps the matrix regular where the gap is sealed."""
 
 RESIDUAL_FRACTION = 0.1
 """Fraction of the error of the load that the residuals of the film may cause."""
@@ -73,23 +71,37 @@ class MixedFilm:
     asperities : flow factors and contact pressures.
     cells : number of cells along and across.
     accuracy : relative error of the load, which determines the residual of the film.
+    film : film(scene), the problem of a film; None for that with the flow factors of the asperities.
+    first : film thickness at which a search begins, m; None for that of first contact.
     """
 
     scene: Bearing
     asperities: Asperities
     cells: int
     accuracy: float = 1e-6
+    film: Callable[[Bearing], Problem] | None = None
+    first: float | None = None
 
     @cached_property
     def grid(self) -> Grid:
         """The grid, the same at all separations."""
-        return grid(self.scene.geometry.film_shape(), (self.cells, self.cells))
+        return grid(self._shape, (self.cells, self.cells))
+
+    @property
+    def _reference(self) -> float:
+        """The film thickness at which the geometry is sampled, m."""
+        film = self.scene.geometry.film
+        return self.asperities.touching if film is None else film
+
+    @property
+    def _shape(self) -> Shape:
+        """The shape of the film at the reference film thickness."""
+        return self.scene.geometry.at_film(self._reference).film_shape()
 
     @property
     def boundary_friction(self) -> float:
-        """The coefficient of boundary friction."""
-        assert self.scene.asperities is not None
-        return self.scene.asperities.friction
+        """The coefficient of boundary friction; 0 without asperities."""
+        return 0.0 if self.scene.asperities is None else self.scene.asperities.friction
 
     @cached_property
     def area(self) -> float:
@@ -99,9 +111,8 @@ class MixedFilm:
     @cached_property
     def dip(self) -> float:
         """The film thickness of the geometry minus its minimum on the grid, m; above 0 only for wavy walls."""
-        geometry = self.scene.geometry
-        thickness = geometry.film_shape().thickness(*np.meshgrid(self.grid.x, self.grid.y, indexing="ij"))
-        return max(0.0, geometry.film - float(thickness.min()))
+        thickness = self._shape.thickness(*np.meshgrid(self.grid.x, self.grid.y, indexing="ij"))
+        return max(0.0, self._reference - float(thickness.min()))
 
     @cached_property
     def closest(self) -> float:
@@ -110,8 +121,8 @@ class MixedFilm:
 
     @cached_property
     def touching(self) -> float:
-        """The film thickness at first contact, m."""
-        return self.asperities.touching + self.dip
+        """The film thickness at first contact, m, or at which the search begins."""
+        return self.asperities.touching + self.dip if self.first is None else self.first
 
     @property
     def residual(self) -> float:
@@ -121,17 +132,26 @@ class MixedFilm:
     @property
     def widest(self) -> float:
         """The largest film thickness of the geometry, m."""
-        return widest_film(self.scene)
+        return self.scene.geometry.widest
+
+    @property
+    def remedy(self) -> str:
+        """The remedy for a load that is too large."""
+        if self.scene.asperities is not None:
+            return "lower the load, or make a table with larger loads"
+        if self.scene.roughness is None:
+            return "lower the load, or raise the speed or the viscosity"
+        return "lower the load, or add [asperities], so that the walls may touch"
 
     def scene_at(self, film: float, speed: float) -> Bearing:
         """The scene at another film thickness, m, and speed, m/s."""
-        motion = self.scene.motion.model_copy(update={"speed": speed})
-        return self.scene.model_copy(update={"geometry": self.scene.geometry.at_film(film), "motion": motion})
+        return self.scene.at_speed(speed).at_film(film)
 
     def at(self, film: float, speed: float, start: State | None = None) -> MixedState:
         """Solve the film at a minimum thickness, m, and a speed, m/s, starting from the state of another film."""
         scene = self.scene_at(film, speed)
-        problem, cells = mixed_problem(scene, self.asperities), (self.cells, self.cells)
+        problem = mixed_problem(scene, self.asperities) if self.film is None else self.film(scene)
+        cells = (self.cells, self.cells)
         solution = solve(problem, cells, start=start, tolerance=self.residual)
         contact = asperity_load(solution.problem.shape, solution.grid, self.asperities)
         return mixed_state(scene, solution, contact)
@@ -139,9 +159,8 @@ class MixedFilm:
     @cached_property
     def _contact_heights(self) -> tuple[Array, Array]:
         """The distinct separations minus the film thickness where contact is possible, m, and their areas, m²."""
-        geometry = self.scene.geometry
-        points = list(quarters(geometry.film_shape(), self.grid))
-        above = np.concatenate([separation.ravel() for separation, _ in points]) - geometry.film
+        points = list(quarters(self._shape, self.grid))
+        above = np.concatenate([separation.ravel() for separation, _ in points]) - self._reference
         areas = np.concatenate([area.ravel() for _, area in points])
         low = above < self.asperities.touching - self.asperities.closest
         heights, which = np.unique(np.maximum(above[low], -self.dip), return_inverse=True)
@@ -158,11 +177,6 @@ class MixedFilm:
         return load_of(scene, self.grid.x, force)
 
 
-def widest_film(scene: Bearing) -> float:
-    """The largest film thickness of a geometry, m."""
-    return scene.geometry.clearance if isinstance(scene.geometry, Journal) else scene.geometry.length
-
-
 def mixed_problem(scene: Bearing, asperities: Asperities) -> Problem:
     """The problem of a film with the flow factors of its asperities."""
     problem = scene.problem()
@@ -171,7 +185,7 @@ def mixed_problem(scene: Bearing, asperities: Asperities) -> Problem:
 
 def mixed_state(scene: Bearing, solution: Solution, contact: AsperityLoad) -> MixedState:
     """The mixed film with its loads and friction, from the film and the contact of its asperities."""
-    assert scene.asperities is not None
+    boundary = 0.0 if scene.asperities is None else scene.asperities.friction
     x = scene_positions(solution)
     film = solution.grid.areas * (solution.state.pressure + scene.lubricant.cavitation_pressure)
     return MixedState(
@@ -180,29 +194,5 @@ def mixed_state(scene: Bearing, solution: Solution, contact: AsperityLoad) -> Mi
         contact=contact,
         load=load_of(scene, x, film + contact.force),
         contact_load=load_of(scene, x, contact.force),
-        friction=friction(solution) + scene.asperities.friction * float(contact.force.sum()),
+        friction=friction(solution) + boundary * float(contact.force.sum()),
     )
-
-
-@dataclass(frozen=True)
-class FlooredFlowFactors:
-    """Flow factors with a lower bound of ``MIN_FACTOR_RATIO`` times those of a smooth film.
-
-    ``mean_gap`` gives the mean gap over the separation, m; by default the two are equal.
-    """
-
-    factors: FactorsOverGap
-    mean_gap: Callable[[Array], Array] = np.asarray
-
-    def __call__(self, separation: Array, /) -> GapFactors:
-        """The flow factors, each of the shape of ``separation``."""
-        factors, h = self.factors(separation), self.mean_gap(separation)
-        floor = MIN_FACTOR_RATIO * h**3
-        sealed = (factors.along < floor) | (factors.across < floor)
-        return replace(
-            factors,
-            along=np.maximum(factors.along, floor),
-            across=np.maximum(factors.across, floor),
-            cross=np.where(sealed, 0.0, factors.cross),
-            drag=np.maximum(factors.drag, MIN_FACTOR_RATIO * h),
-        )

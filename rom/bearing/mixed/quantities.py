@@ -6,14 +6,31 @@ from functools import partial
 import numpy as np
 
 from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.bearing.equilibrium.expected import expected_film
+from roughfilm.rom.bearing.equilibrium.grids import LOAD_TOLERANCE
+from roughfilm.rom.bearing.film import Searched
 from roughfilm.rom.bearing.mixed.contact_load import AsperityLoad, asperity_load
-from roughfilm.rom.bearing.mixed.film import mixed_problem
+from roughfilm.rom.bearing.mixed.film import MixedFilm, mixed_problem
 from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.quantities import Fields, Outputs, bearing_quantities, load_of, scene_positions
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.solve import solve
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.solve import Solution
+
+_OF_LOAD = (
+    "load",
+    "load_per_width",
+    "specific_load",
+    "contact_share",
+    "attitude_angle",
+    "sommerfeld_number",
+    "hersey_number",
+)
+"""Quantities whose uncertainty is that of film and contact load."""
+
+_OF_FRICTION = tuple(f"{name}{per}" for name in ("friction", "power_loss", "torque") for per in ("", "_per_width"))
+"""Quantities whose uncertainty is that of viscous and boundary friction."""
 
 
 def mixed_quantities(scene: Bearing, solution: Solution) -> dict[str, Quantity]:
@@ -61,8 +78,8 @@ def mixed_uncertainties(scene: Bearing, solution: Solution, quantities: Mapping[
     of_shear = of_film + asperities.friction_uncertainty(narrowest)
     of_friction = (of_shear * abs(friction - boundary) + of_contact * boundary) / (abs(friction) or 1.0)
     relative = {
-        **dict.fromkeys(("load", "load_per_width", "contact_share", "attitude_angle", "sommerfeld_number"), of_both),
-        **dict.fromkeys(("friction", "friction_per_width"), of_friction),
+        **dict.fromkeys(_OF_LOAD, of_both),
+        **dict.fromkeys(_OF_FRICTION, of_friction),
         "friction_coefficient": of_friction + of_both,
         **dict.fromkeys(("contact_load", "contact_load_per_width", "contact_pressure_max", "contact_area"), of_contact),
         "least_gap": 0.0,
@@ -95,5 +112,17 @@ def film_of_scene(scene: Bearing) -> Problem:
     return mixed_problem(scene, asperities_of(scene))
 
 
-solve_mixed = partial(solve, outputs=MIXED_OUTPUTS)
+def mixed_films(scene: Bearing, cells: int) -> MixedFilm:
+    """The mixed films of a scene on a grid, among which that under a load is sought."""
+    return MixedFilm(scene=scene, asperities=asperities_of(scene), cells=cells, accuracy=LOAD_TOLERANCE)
+
+
+def searched_films(scene: Bearing) -> Searched:
+    """The films averaged over the asperities; they begin where the asperities touch, or above it as expected."""
+    asperities = asperities_of(scene)
+    first = max(expected_film(scene).thickness, asperities.closest + scene.geometry.dip)
+    return Searched(film=film_of_scene, closest=asperities.closest, first=first, averaged=True)
+
+
+solve_mixed = partial(solve, outputs=MIXED_OUTPUTS, films=mixed_films)
 """The solver of the model ``mixed``."""

@@ -8,9 +8,9 @@ from math import exp, inf
 import numpy as np
 import scipy
 
-from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.rom.bearing.equilibrium.balance import STEEPNESS, FilmsAtSpeed, balanced, robustly_balanced
 from roughfilm.rom.bearing.mixed.asperities import Asperities
-from roughfilm.rom.bearing.mixed.balance import STEEPNESS, FilmsAtSpeed, balanced
 from roughfilm.rom.bearing.mixed.film import MixedFilm, MixedState
 from roughfilm.rom.bearing.mixed.lift_off import lift_off_speed
 from roughfilm.rom.bearing.mixed.wall import asperities_of
@@ -127,6 +127,10 @@ class LiftOff:
     uncertainty: float
 
 
+NEVER_TOUCHING = LiftOff(speed=0.0, uncertainty=0.0)
+"""The lift-off speed of walls without asperities, whose load the film carries at any speed of the curve."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class StribeckCurve:
     """The points of a load over the nominal area, ``pressure``, Pa, in order of speed, and the lift-off speed."""
@@ -148,12 +152,15 @@ def stribeck(
     keep: Callable[[StribeckPoint], object] = lambda _point: None,
     progress: Progress = silent,
 ) -> tuple[StribeckCurve, ...]:
-    """Compute Stribeck curves of a bearing with asperities at several loads.
+    """Compute Stribeck curves of a bearing at several loads.
+
+    Without asperities the film alone carries the load, the contact share is 0, and the curve leaves out the speeds at
+    which no film carries it.
 
     Parameters
     ----------
-    scene : scene with roughness and asperities; its speed and film thickness have no effect.
-    speeds : sliding speeds, m/s, 0 or more, in any order without repetition.
+    scene : the bearing; its speed and film thickness have no effect.
+    speeds : sliding speeds, m/s, 0 or more, without asperities above 0, in any order without repetition.
     pressures : loads over the nominal area, Pa.
     asperities : asperities of the rough wall; by default those of the scene.
     resolution : number of cells along and across.
@@ -164,18 +171,20 @@ def stribeck(
     Raises
     ------
     InputError
-        If the asperities cannot carry a load, if the pressures at the sides alone carry more than a load, or if the
-        scene has no asperities.
+        If the asperities cannot carry a load, if the pressures at the sides alone carry more than a load, or if no
+        speed of a bearing without asperities carries a load.
     ConvergenceError
         If a film or the load does not converge.
     """
-    film = mixed_film(scene, asperities, resolution, tolerance)
     ordered = _checked(speeds, pressures)
+    film = curve_film(scene, asperities, ordered, pressures, resolution, tolerance)
+    touches = scene.asperities is not None
     done = {(point.pressure, point.speed): point for point in known}
     coarse = replace(film, cells=resolution // 2)
     estimated = {ordered[i] for i in np.linspace(0, len(ordered) - 1, UNCERTAINTY_SPEEDS).round().astype(int)}
     states: dict[float, State] = {}
     curves: dict[float, list[StribeckPoint]] = {pressure: [] for pressure in sorted(pressures)}
+    refused: dict[float, InputError | ConvergenceError] = {}
     load_loops(scene.wide)
     for number, speed in enumerate(ordered):
         fine, half = FilmsAtSpeed(film=film, speed=speed), FilmsAtSpeed(film=coarse, speed=speed)
@@ -187,19 +196,29 @@ def stribeck(
             if point is None:
                 guess, start = _extrapolated(points, film, fine), states.get(pressure)
                 fine.steepness = half.steepness = STEEPNESS if number == 0 else fine.steepness
-                state = balanced(fine, pressure, tolerance=tolerance, guess=guess, start=start)
+                try:
+                    search = balanced if touches or start is not None else robustly_balanced
+                    state = search(fine, pressure, tolerance=tolerance, guess=guess, start=start)
+                except (InputError, ConvergenceError) as error:
+                    if touches:
+                        raise
+                    refused[pressure] = error
+                    continue
                 states[pressure] = state.solution.state
                 point = stribeck_point(state, film, pressure)
             if speed in estimated and not point.uncertainty:
-                near = balanced(half, pressure, tolerance=tolerance, guess=point.separation + film.dip)
-                other = stribeck_point(near, coarse, pressure)
-                point = replace(point, uncertainty=uncertainties(point, other, film, fine))
+                point = replace(point, uncertainty=_uncertainty(point, film, half, fine, tolerance))
             if point is not before:
                 point = replace(point, cpu_s=point.cpu_s + time.process_time() - cpu)
                 keep(point)
             points.append(point)
     finished = []
     for pressure, points in curves.items():
+        if not points:
+            raise refused[pressure]
+        if not touches:
+            finished.append(StribeckCurve(pressure=pressure, points=tuple(points), lift_off=NEVER_TOUCHING))
+            continue
         progress(1.0, f"lift-off at {pressure * 1e-6:.4g} MPa")
         near_speed = _lift_off_guess(points, film)
         speed, coarse_speed = (lift_off_speed(one, pressure, near_speed, tolerance=tolerance) for one in (film, coarse))
@@ -207,6 +226,63 @@ def stribeck(
         lift_off = LiftOff(speed=speed, uncertainty=abs(speed - coarse_speed) + of_factors)
         finished.append(StribeckCurve(pressure=pressure, points=tuple(points), lift_off=lift_off))
     return tuple(finished)
+
+
+def curve_film(
+    scene: Bearing,
+    asperities: Asperities | None,
+    speeds: Sequence[float],
+    pressures: Sequence[float],
+    resolution: int,
+    tolerance: float,
+) -> MixedFilm:
+    """The films of a curve: mixed ones of a scene with asperities, and those of walls that never touch of others.
+
+    Raises
+    ------
+    InputError
+        If the resolution or tolerance is out of range, or a speed is 0 without asperities.
+    """
+    if scene.asperities is not None:
+        return mixed_film(scene, asperities, resolution, tolerance)
+    _check_range(resolution, tolerance)
+    if min(speeds) == 0:
+        raise InputError(
+            "speeds: got 0; without sliding a film without asperities carries no load, give speeds above 0 or add "
+            "[asperities] to the scene"
+        )
+    from roughfilm.rom.bearing.mixed.parted import parted_film  # only curves without asperities need it
+
+    return parted_film(scene, speeds, pressures, resolution, tolerance)
+
+
+def _uncertainty(
+    point: StribeckPoint,
+    film: MixedFilm,
+    half: FilmsAtSpeed[MixedState],
+    fine: FilmsAtSpeed[MixedState],
+    tolerance: float,
+) -> dict[str, float]:
+    """The uncertainty of a point from a grid with half as many cells; empty if that grid does not carry the load."""
+    coarse = half.film
+    assert isinstance(coarse, MixedFilm)
+    try:
+        near = balanced(half, point.pressure, tolerance=tolerance, guess=point.separation + film.dip)
+    except (InputError, ConvergenceError):
+        if film.scene.asperities is not None:
+            raise
+        return {}
+    return uncertainties(point, stribeck_point(near, coarse, point.pressure), film, fine)
+
+
+def _check_range(resolution: int, tolerance: float) -> None:
+    """Raise InputError if the resolution or the tolerance is out of range."""
+    if not MIN_CELLS <= resolution <= MAX_CELLS:
+        raise InputError(f"resolution: got {resolution}; it must be {MIN_CELLS} to {MAX_CELLS} cells along a side")
+    if not MIN_TOLERANCE <= tolerance < MAX_TOLERANCE:
+        raise InputError(
+            f"tolerance: got {tolerance!r}; it must be at least {MIN_TOLERANCE:g} and below {MAX_TOLERANCE:g}"
+        )
 
 
 def mixed_film(scene: Bearing, asperities: Asperities | None, resolution: int, tolerance: float) -> MixedFilm:
@@ -219,19 +295,14 @@ def mixed_film(scene: Bearing, asperities: Asperities | None, resolution: int, t
     """
     if scene.asperities is None:
         raise InputError("scene.asperities: is missing; give the solids of the walls")
-    if not MIN_CELLS <= resolution <= MAX_CELLS:
-        raise InputError(f"resolution: got {resolution}; it must be {MIN_CELLS} to {MAX_CELLS} cells along a side")
-    if not MIN_TOLERANCE <= tolerance < MAX_TOLERANCE:
-        raise InputError(
-            f"tolerance: got {tolerance!r}; it must be at least {MIN_TOLERANCE:g} and below {MAX_TOLERANCE:g}"
-        )
+    _check_range(resolution, tolerance)
     wall = asperities_of(scene) if asperities is None else asperities
     return MixedFilm(scene=scene, asperities=wall, cells=resolution, accuracy=tolerance)
 
 
 def stribeck_point(state: MixedState, film: MixedFilm, pressure: float) -> StribeckPoint:
     """The point of a mixed film under a load over the nominal area, Pa, without its CPU time."""
-    separation = state.scene.geometry.film - film.dip
+    separation = state.scene.geometry.thinnest - film.dip
     load = pressure * film.area
     lowest = state.scene.lubricant.cavitation_pressure
     return StribeckPoint(

@@ -1,6 +1,6 @@
 """The Reynolds equation with cavitation, with all waves of the roughness resolved."""
 
-from roughfilm.rom.bearing.film import direct_applies, rough_film, rough_resolutions
+from roughfilm.rom.bearing.film import direct_applies, rough_film, rough_films, rough_resolutions
 from roughfilm.rom.bearing.model import SOURCES, bearing_model
 from roughfilm.rom.ladder.model import Effect
 
@@ -19,6 +19,7 @@ MODEL = bearing_model(
     sources=SOURCES,
     applies=direct_applies,
     film=rough_film,
+    searched=rough_films,
     resolutions=rough_resolutions,
     in_plane=6e-6,
 )

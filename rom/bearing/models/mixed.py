@@ -30,6 +30,7 @@ MODEL = bearing_model(
     sources=(*SOURCES, "Sahlin 2008, Paper E"),
     applies=applies,
     film=deferred("rom.bearing.mixed.quantities", "film_of_scene"),
+    searched=deferred("rom.bearing.mixed.quantities", "searched_films"),
     solve=deferred("rom.bearing.mixed.quantities", "solve_mixed"),
     in_plane=6e-6,
 )

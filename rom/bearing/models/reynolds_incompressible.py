@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from roughfilm.rom.bearing.equilibrium.expected import expected_scene
 from roughfilm.rom.bearing.model import SOURCES, bearing_model, incompressible_film
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.model import Applicability, Effect
@@ -9,6 +10,7 @@ from roughfilm.rom.ladder.model import Applicability, Effect
 
 def applies(scene: Bearing) -> Applicability:
     """Always, with the changes of density and viscosity that are left out."""
+    scene = expected_scene(scene)
     problem = scene.problem()
     pressure = np.array([scene.pressure_unit / 10])
     with np.errstate(all="ignore"):

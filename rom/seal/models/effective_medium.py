@@ -9,7 +9,7 @@ from roughfilm.rom.dry_contact.model import Answer, Task, contact_model
 from roughfilm.rom.ladder.model import Applicability, Effect
 from roughfilm.rom.ladder.result import with_uncertainties
 from roughfilm.rom.seal.leakage.scatter import MEAN_SEALING_LOAD, SEALING_LOADS
-from roughfilm.rom.seal.model import gap_distribution, leakage_of, quantities
+from roughfilm.rom.seal.model import gap_distribution, leakage_uncertainties, quantities
 from roughfilm.rom.seal.scene import Seal
 
 RELATIVE_UNCERTAINTY = 0.75
@@ -40,7 +40,7 @@ def work(task: Task) -> Answer:
     return Answer(
         quantities=with_uncertainties(
             quantities(scene, medium.permeability, medium.sealed, medium.area_fraction, medium.mean_gap, rms),
-            {"permeability": uncertainty, "leakage_per_width": leakage_of(scene, uncertainty)},
+            leakage_uncertainties(scene, uncertainty),
         ),
         fields=gap_distribution(rms, medium.gaps, medium.fractions),
         residual=medium.residual,

@@ -85,8 +85,9 @@ def plots(scene: Bearing, results: Mapping[str, Result]) -> dict[str, str]:
 VIEW = View(
     page="bearing.html.j2",
     styles=STYLES,
-    labels={"load_per_width": "load per width", "friction_per_width": "friction per width"},
+    labels={"film_min": "least film", "load_per_width": "load per width", "friction_per_width": "friction per width"},
     headings={
+        "film_min": "least<br>film",
         "load_per_width": "load<br>per width",
         "friction_per_width": "friction<br>per width",
         "pressure_max": "greatest<br>pressure",

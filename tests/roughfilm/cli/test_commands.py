@@ -89,7 +89,7 @@ def test_solve_does_not_write_over_its_scene(pocket_file):
 
 def test_solve_shows_a_table(pocket_file):
     shown = run("solve", pocket_file, "--model", "reynolds").stdout
-    assert "friction_plus" in shown
+    assert "friction, dimensionless" in shown
     assert "2.9167" in shown
     assert "residual" in shown
 

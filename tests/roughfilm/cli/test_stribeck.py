@@ -180,10 +180,10 @@ def test_curves_of_another_scene_are_not_mixed_with_these(swept):
     assert "holds other curves, with lubricant.viscosity 0.14 Pa*s, not 0.2 Pa*s" in done.stderr
 
 
-def test_a_scene_without_asperities_is_told_what_it_lacks(tmp_path):
-    done = CliRunner().invoke(app, ["stribeck", str(SCENE.parent / "washer.toml"), "--out", str(tmp_path)])
+def test_another_kind_of_scene_is_refused(tmp_path):
+    done = CliRunner().invoke(app, ["stribeck", str(SCENE.parent / "pocket.toml"), "--out", str(tmp_path)])
     assert done.exit_code == 2
-    assert "asperities: are missing" in done.stderr
+    assert "curves over speed are those of a bearing" in done.stderr
 
 
 def test_ranges_of_speeds():
@@ -196,3 +196,27 @@ def test_ranges_of_speeds():
         speeds_of("30rpm", None)
     with pytest.raises(InputError, match="first of a range must be below"):
         speeds_of("5..1rpm:3", 0.1)
+
+
+def test_a_smooth_bearing_is_swept_under_its_own_load(tmp_path):
+    """Without asperities the film carries all; the default load is that of the scene."""
+    scene = tmp_path / "journal.toml"
+    scene.write_text((SCENES / "journal.toml").read_text() + '\n[load]\nforce = "2.5 kN"\n')
+    arguments = [
+        "stribeck",
+        str(scene),
+        "--speeds",
+        "50rpm,500rpm",
+        "--resolution",
+        "16",
+        "--out",
+        str(tmp_path / "out"),
+    ]
+    done = CliRunner().invoke(app, [*arguments, "--json"], catch_exceptions=False)
+    assert done.exit_code == 0, done.stderr
+    (curve,) = json.loads(done.stdout)["curves"]
+    assert curve["pressure"] == pytest.approx(2.5e3 / (50e-3 * 50e-3))
+    assert all(point["contact_share"] == 0 for point in curve["points"])
+    page = (tmp_path / "out" / "report.html").read_text()
+    assert "no asperities" in page
+    assert page.count("<svg") == 2

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.rom.bearing.mixed.balance import FilmsAtSpeed, balanced
+from roughfilm.rom.bearing.equilibrium.balance import FilmsAtSpeed, balanced
 from roughfilm.rom.bearing.mixed.elastic_body import elastic_equilibrium
 from roughfilm.rom.bearing.mixed.film import MixedFilm
 

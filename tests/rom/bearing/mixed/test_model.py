@@ -67,6 +67,16 @@ def test_a_washer_presses_on_all_of_its_land(tips):
     assert 1 - 1e-9 <= pressed <= 1 + edge
     whole = MIXED.solve(tips.scene(WASHER, **sides), Request(resolution=32))
     assert value(whole, "contact_load") == pytest.approx(float(tips.pressure(1e-6)) * 2 * land)
+    assert value(whole, "bearing_contact_load") == pytest.approx(30 * value(whole, "contact_load"))
+
+
+def test_boundary_friction_takes_torque_and_power(tips):
+    tables = {"boundary": {"sides": {"low": "0.1 MPa"}}, "motion": {"speed": "1e-9 m/s"}}
+    result = MIXED.solve(tips.scene(WASHER, **tables), Request(resolution=32))
+    turn = 2 * math.pi / 30
+    torque = tips.friction * float(tips.pressure(1e-6)) * turn * (0.18**3 - 0.15**3) / 3
+    assert value(result, "torque") == pytest.approx(torque, rel=1e-3)
+    assert value(result, "power_loss") == pytest.approx(torque * 1e-9 / 0.165, rel=1e-3)
 
 
 def test_film_and_asperities_of_a_wedge_are_each_as_if_alone(tips):

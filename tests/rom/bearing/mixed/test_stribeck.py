@@ -10,8 +10,8 @@ from scipy.optimize import brentq
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.ladder import find
 from roughfilm.rom.bearing.closed_forms import linear_slider
+from roughfilm.rom.bearing.equilibrium.balance import FilmsAtSpeed, balanced
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
-from roughfilm.rom.bearing.mixed.balance import FilmsAtSpeed, balanced
 from roughfilm.rom.bearing.mixed.equilibrium import equilibrium
 from roughfilm.rom.bearing.mixed.film import MixedFilm
 from roughfilm.rom.bearing.mixed.lift_off import lift_off_speed
@@ -273,12 +273,6 @@ def test_a_film_given_by_points_has_the_same_curve(tips, tmp_path):
 def test_invalid_speeds_and_loads_are_refused(tips, speeds, pressures, resolution, words):
     with pytest.raises(InputError, match=words):
         stribeck(tips.scene(PAD), speeds, pressures, resolution=resolution)
-
-
-def test_a_bearing_without_asperities_is_refused(tips):
-    scene = tips.scene(PAD).model_copy(update={"asperities": None})
-    with pytest.raises(InputError, match=r"scene\.asperities: is missing"):
-        stribeck(scene, [1.0], [1e6])
 
 
 def test_separations_may_be_negative(tips):

@@ -1,8 +1,8 @@
-"""The separation at which film and asperities carry a load: a bracketed root from few film solves."""
+"""The film thickness at which a bearing carries a load: a bracketed root from few film solves."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from math import exp, log
+from math import exp, inf, log
 from typing import Generic, Protocol, TypeVar
 
 import numpy as np
@@ -10,13 +10,16 @@ import scipy
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.rom.cavitation.network import State
-from roughfilm.rom.cavitation.solve import Solution
+from roughfilm.rom.cavitation.solve import Level, Solution
 
 MAX_FILMS = 60
 """Largest number of film solves for one load; three or four are usual."""
 
 STEEPNESS = 1.5
 """Initial exponent n of a film's load over the separation, load ~ separation⁻ⁿ."""
+
+STEEP = 20.0
+"""Absolute value of the exponent above which the load is interpolated linearly: it goes to 0, as of a centred shaft."""
 
 MAX_STEEPNESS = 1e3
 """Largest absolute value of the exponent between two films."""
@@ -27,6 +30,15 @@ MAX_EXPONENT = 600.0
 MAX_EXTENSION = 4.0
 """Largest factor of the separation in a step without an upper bracket."""
 
+MAX_REDUCTION = 16.0
+"""Largest factor by which the separation is reduced in a step without a lower bracket."""
+
+SCAN_RATIO = 2.0
+"""Ratio of successive separations where the load is sampled, if the search without a bracket fails."""
+
+MAX_SCANNED = 30
+"""Largest number of these separations."""
+
 BISECTION_INTERVAL = 8
 """Number of films after which the bracket is halved."""
 
@@ -35,6 +47,9 @@ SECANT_FILMS = 3
 
 BRACKET_MARGIN = 1e-3
 """That distance over the length of the bracket."""
+
+ROUNDING = 1e-9
+"""Largest load of a bearing over the wanted one that counts as none."""
 
 ORIGIN_DISTANCE = 0.1
 """Smallest distance from the origin of the power law, over the separation of first contact."""
@@ -88,6 +103,11 @@ class SeparableBearing(Protocol[FilmT]):
         """The part of the load that is known without solving a film, N."""
         ...
 
+    @property
+    def remedy(self) -> str:
+        """The remedy for a load that is too large, as the end of a sentence."""
+        ...
+
 
 @dataclass(kw_only=True)
 class FilmsAtSpeed(Generic[FilmT]):
@@ -98,6 +118,7 @@ class FilmsAtSpeed(Generic[FilmT]):
     film : the bearing.
     speed : sliding speed, m/s.
     loads : load of each solved film without its contact load, N, by the separation, m.
+    solved : number of cells along and across, and of iterations, of each solved film.
     steepness : last exponent n of the load over the distance, load ~ distance⁻ⁿ; separations may be negative where
         asperities are flattened or bodies bend.
     """
@@ -105,6 +126,7 @@ class FilmsAtSpeed(Generic[FilmT]):
     film: SeparableBearing[FilmT]
     speed: float
     loads: dict[float, float] = field(default_factory=dict)
+    solved: list[Level] = field(default_factory=list)
     steepness: float = STEEPNESS
 
     def distance(self, separation: float) -> float:
@@ -119,17 +141,19 @@ class FilmsAtSpeed(Generic[FilmT]):
         """Solve the film at a separation, m, and store its load."""
         film = self.film.at(separation, self.speed, start)
         self.loads[separation] = film.load - self.film.contact_load(separation)
+        self.solved.extend(film.solution.levels)
         return film
 
     def guess(self, near: float) -> Callable[[float], float]:
-        """The load over the distance as a power law through the two solved films nearest to ``near``."""
+        """The load over the distance through the two solved films nearest to ``near``, as a power law or linear."""
         known = sorted((abs(self.distance(at) - near), self.distance(at), load) for at, load in self.loads.items())
         _, one, load = known[0]
         if len(known) > 1:
             _, two, other = known[1]
-            if load > 0 and other > 0:
-                self.steepness = float(np.clip(-log(other / load) / (two - one), -MAX_STEEPNESS, MAX_STEEPNESS))
-            else:
+            steepness = -log(other / load) / (two - one) if load > 0 and other > 0 else inf
+            if abs(steepness) < inf:
+                self.steepness = float(np.clip(steepness, -MAX_STEEPNESS, MAX_STEEPNESS))
+            if abs(steepness) > STEEP:
                 return lambda place: load + (other - load) * (place - one) / (two - one)
         return lambda place: load * exp(min(-self.steepness * (place - one), MAX_EXPONENT))
 
@@ -141,6 +165,7 @@ def balanced(
     tolerance: float,
     guess: float | None = None,
     start: State | None = None,
+    bracket: tuple[float, float] | None = None,
 ) -> FilmT:
     """Solve for the film whose load, together with that of the asperities, equals a pressure over the nominal area.
 
@@ -154,6 +179,7 @@ def balanced(
     tolerance : relative error of the load at which the search stops.
     guess : initial separation, m.
     start : state of a film near the guess.
+    bracket : a separation that carries more than the load and a larger one that carries less, m, if they are known.
 
     Raises
     ------
@@ -163,8 +189,8 @@ def balanced(
         If a film or the load does not converge.
     """
     film, load = at.film, pressure * at.film.area
-    low, high = film.closest, film.widest
-    has_lower, has_upper = False, False
+    low, high = bracket or (film.closest, film.widest)
+    has_lower = has_upper = bracket is not None
     separation = min(max(film.touching if guess is None else guess, low), high)
     for count in range(MAX_FILMS):
         solved = at.at(separation, start)
@@ -182,7 +208,7 @@ def balanced(
                 raise _load_too_high(at, pressure, solved.load)
         separation = _next(at, load, low, high, separation, bracketed=(has_lower, has_upper), count=count)
     raise ConvergenceError(
-        f"mixed film: the relative error of the load is {abs(error):.1e} after {MAX_FILMS} films, above the tolerance "
+        f"load: the relative error of the load is {abs(error):.1e} after {MAX_FILMS} films, above the tolerance "
         f"of {tolerance:.1e}; take more cells or a larger tolerance",
         outcome=Outcome.STALLED,
         iterations=MAX_FILMS,
@@ -211,6 +237,9 @@ def _next(
         return at.separation((below + above) / 2)
     if not bracketed[1]:
         above = min(above, here + log(MAX_EXTENSION))
+    if not bracketed[0] and here - log(MAX_REDUCTION) > below:
+        below = here - log(MAX_REDUCTION)
+        low = at.separation(below)
     if excess(above) >= 0:
         return at.separation((here + above) / 2) if bracketed[1] else min(at.separation(above), high)
     if excess(below) <= 0:
@@ -222,11 +251,81 @@ def _next(
     return min(max(at.separation(root), low), high)
 
 
+def robustly_balanced(
+    at: FilmsAtSpeed[FilmT],
+    pressure: float,
+    *,
+    tolerance: float,
+    guess: float | None = None,
+    start: State | None = None,
+) -> FilmT:
+    """Solve as :func:`balanced`, also for films whose load has a maximum over the separation.
+
+    If the search fails, or ends where the load grows with the separation, so that the film is unstable, the load is
+    sampled from large to small separations, and the largest separation that carries the load is taken.
+
+    Parameters
+    ----------
+    at, pressure, tolerance, guess, start : parameters of :func:`balanced`.
+
+    Raises
+    ------
+    InputError
+        If no separation carries the load, or all carry more.
+    ConvergenceError
+        If a film or the load does not converge.
+    """
+    failure: InputError | ConvergenceError | None = None
+    film: FilmT | None = None
+    try:
+        film = balanced(at, pressure, tolerance=tolerance, guess=guess, start=start)
+        if len(at.loads) == 1 or _falls(at):
+            return film
+    except (InputError, ConvergenceError) as error:
+        failure = error
+    load, place = pressure * at.film.area, at.film.widest
+    known = [
+        separation for separation, carried in at.loads.items() if carried + at.film.contact_load(separation) < load
+    ]
+    place = min(place, SCAN_RATIO**MAX_EXTENSION * max(known)) if known else place
+    above = place
+    for _ in range(MAX_SCANNED):
+        try:
+            carried = at.at(place, None).load
+        except ConvergenceError:
+            break
+        if carried >= load and place < above:
+            return balanced(at, pressure, tolerance=tolerance, guess=place, bracket=(place, above))
+        if carried < load:
+            above = place
+        if place <= at.film.closest:
+            break
+        place = max(place / SCAN_RATIO, at.film.closest)
+    if failure is not None:
+        raise failure
+    assert film is not None
+    return film
+
+
+def _falls(at: FilmsAtSpeed[FilmT]) -> bool:
+    """Whether the load falls with the separation between the last two solved films."""
+    (one, load), (two, other) = list(at.loads.items())[-2:]
+    load, other = load + at.film.contact_load(one), other + at.film.contact_load(two)
+    return (load - other) * (two - one) >= 0
+
+
 def _load_too_high(at: FilmsAtSpeed[FilmT], pressure: float, largest: float) -> InputError:
+    carried = {place: load + at.film.contact_load(place) for place, load in at.loads.items()}
+    place = max(carried, key=lambda separation: carried[separation], default=at.film.closest)
+    largest = max(largest, carried.get(place, largest))
+    if largest <= ROUNDING * pressure * at.film.area:
+        return InputError(
+            f"load: got {pressure:.6g} Pa over the nominal area; no film carries a load at {at.speed:.4g} m/s, as the "
+            "walls are parallel or widen along the sliding; give the wall a rise or pockets, or turn the speed round"
+        )
     return InputError(
-        f"load: got {pressure:.6g} Pa over the nominal area; at {at.speed:.4g} m/s film and asperities carry at most "
-        f"{largest / at.film.area:.6g} Pa, at the smallest known separation of {at.film.closest:.4g} m; lower the "
-        "load, or make a table with larger loads"
+        f"load: got {pressure:.6g} Pa over the nominal area; at {at.speed:.4g} m/s film and walls carry at most "
+        f"{largest / at.film.area:.6g} Pa, at a minimum film thickness of {place:.4g} m; {at.film.remedy}"
     )
 
 

@@ -1,0 +1,124 @@
+"""Quantities in the units of engineers, films in µm and flows in ml/min, rounded to their uncertainty."""
+
+import math
+from collections.abc import Mapping
+
+from roughfilm.contact.foundation.units import Quantity
+from roughfilm.words.numbers import TWO_DIGIT_MANTISSA
+
+EXACT, UNKNOWN = "exact", "unknown"
+"""Words in the place of an uncertainty of zero, and of one that is not known."""
+
+MAX_DIGITS = 6
+"""Largest number of digits of a value with an uncertainty."""
+
+DIGITS = 5
+"""Digits of a value without an uncertainty."""
+
+Scales = tuple[tuple[float, str], ...]
+
+_MINUTE = 1 / 60
+
+
+_CUBES = ("⁻²⁷", "⁻²⁴", "⁻²¹", "⁻¹⁸", "⁻¹⁵", "⁻¹²", "⁻⁹")
+
+
+def _prefixed(unit: str, *powers: int) -> Scales:
+    """The multiples of a unit by powers of ten."""
+    names = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
+    return tuple((10.0**power, f"{names[power]}{unit}") for power in powers)
+
+
+SCALES: Mapping[str, Scales] = {
+    "1": ((1e-12, "10⁻¹²"), (1e-9, "10⁻⁹"), (1e-6, "10⁻⁶"), (1e-4, ""), (1e6, "10⁶"), (1e9, "10⁹")),
+    "m": _prefixed("m", -12, -9, -6, -3, 0),
+    "m^2": ((1e-12, "µm²"), (1e-6, "mm²"), (1.0, "m²")),
+    "m^3": tuple((10.0**power, f"10{exponent} m³") for power, exponent in zip(range(-27, -8, 3), _CUBES, strict=True)),
+    "m^2/s": ((1e-18, "nm²/s"), (1e-12, "µm²/s"), (1e-6, "mm²/s"), (1.0, "m²/s")),
+    "m^3/s": (
+        (_MINUTE * 1e-15, "pl/min"),
+        (_MINUTE * 1e-12, "nl/min"),
+        (_MINUTE * 1e-9, "µl/min"),
+        (_MINUTE * 1e-6, "ml/min"),
+        (_MINUTE * 1e-3, "l/min"),
+    ),
+    "m/s": _prefixed("m/s", -9, -6, -3, 0),
+    "Pa": _prefixed("Pa", 0, 3, 6, 9),
+    "N": _prefixed("N", -9, -6, -3, 0, 3, 6),
+    "N/m": _prefixed("N/m", -6, -3, 0, 3, 6),
+    "N*m": _prefixed("N·m", -9, -6, -3, 0, 3, 6),
+    "W": _prefixed("W", -9, -6, -3, 0, 3, 6),
+    "W/m": _prefixed("W/m", -6, -3, 0, 3, 6),
+    "kg/s": ((1e-15, "pg/s"), (1e-12, "ng/s"), (1e-9, "µg/s"), (1e-6, "mg/s"), (1e-3, "g/s"), (1.0, "kg/s")),
+    "kg/(m*s)": (
+        (1e-15, "pg/(m·s)"),
+        (1e-12, "ng/(m·s)"),
+        (1e-9, "µg/(m·s)"),
+        (1e-6, "mg/(m·s)"),
+        (1e-3, "g/(m·s)"),
+        (1.0, "kg/(m·s)"),
+    ),
+    "rad": ((math.pi / 180, "°"),),
+    "deg": ((1.0, "°"),),
+}
+"""Sizes of the units in which a quantity is shown, in its SI unit, with their names; the smallest first."""
+
+BARE = 1e-4
+"""Size of the unit of plain dimensionless numbers above this; it only chooses the unit."""
+
+
+def scale_of(unit: str, size: float) -> tuple[float, str]:
+    """The largest unit that is not larger than a size in an SI unit, as its size there and its name.
+
+    Examples
+    --------
+    >>> scale_of("Pa", 2.5e6), scale_of("m", 4e-6), scale_of("K", 300.0)
+    ((1000000.0, 'MPa'), (1e-06, 'µm'), (1.0, 'K'))
+    """
+    scales = SCALES.get(unit)
+    if scales is None:
+        return 1.0, unit.replace("*", "·").replace("^2", "²").replace("^3", "³")
+    neutral = next((one for one in scales if one[1] == "" or one[0] == 1.0), scales[-1])
+    chosen = next((one for one in reversed(scales) if one[0] <= size * (1 + 1e-9)), scales[0]) if size > 0 else neutral
+    return (1.0, "") if chosen == (BARE, "") else chosen
+
+
+def in_engineering_unit(quantity: Quantity) -> tuple[str, str, str]:
+    """The value, the uncertainty and the unit of a quantity, as texts; both numbers are in that unit.
+
+    The value is rounded to its uncertainty, and has ``MAX_DIGITS`` digits at most; an uncertainty below the last of
+    them is given as a bound. An uncertainty of zero is "exact", and one that is not known "unknown".
+
+    Examples
+    --------
+    >>> in_engineering_unit(Quantity(value=2.0272e6, unit="Pa", uncertainty=300.0))
+    ('2.0272', '0.0003', 'MPa')
+    >>> in_engineering_unit(Quantity(value=5e-6, unit="m", uncertainty=0.0))
+    ('5', 'exact', 'µm')
+    """
+    value, uncertainty = quantity.value, quantity.uncertainty
+    known = uncertainty is not None and math.isfinite(uncertainty)
+    if not math.isfinite(value):
+        return str(value), UNKNOWN, scale_of(quantity.unit, 0.0)[1]
+    size, unit = scale_of(quantity.unit, abs(value) or (uncertainty if known and uncertainty else 0.0))
+    value /= size
+    if not known or not uncertainty:
+        return _plain(value), EXACT if known else UNKNOWN, unit
+    uncertainty /= size
+    mantissa, exponent = f"{uncertainty:.1e}".split("e")
+    last = int(exponent) - (float(mantissa) < TWO_DIGIT_MANTISSA)
+    least = math.floor(math.log10(max(abs(value), uncertainty))) + 1 - MAX_DIGITS
+    bound = f"<{10.0**least:.{max(-least, 0)}f}" if last < least and uncertainty < 10.0**least else ""
+    last = max(last, least)
+    return _rounded(value, last), bound or _rounded(uncertainty, last), unit
+
+
+def _plain(value: float) -> str:
+    """A value with ``DIGITS`` digits, without a power of ten where that is short."""
+    return f"{value:.0f}" if 10.0**DIGITS <= abs(value) < 1e7 else f"{value:.{DIGITS}g}"
+
+
+def _rounded(value: float, last: int) -> str:
+    """A value rounded to 10 to the power of ``last``, without a minus sign before zero."""
+    text = f"{round(value, -last):.{max(-last, 0)}f}"
+    return text.removeprefix("-") if not text.strip("-0.") else text
