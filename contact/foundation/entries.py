@@ -93,7 +93,7 @@ class InUnit:
 def _pair(given: object) -> object:
     """The values along x and y; a single value is used for both."""
     values = given.split(",") if isinstance(given, str) else given if isinstance(given, list | tuple) else [given]
-    if isinstance(given, str) and len(values) == 2 and re.fullmatch(r"\s*[-+]?\d+\s*", values[0]):
+    if isinstance(given, str) and len(values) == 2 and re.fullmatch(r"\s*[-+]?\d+\s*", str(values[0])):
         first, second = map(str.strip, values)
         unit = re.sub(r"^[\d.]+\s*", "", second)
         raise ValueError(f"got {given!r:.60}, with a comma; write '{first}.{second}' or '{first} {unit}, {second}'")

@@ -366,7 +366,7 @@ def _number_and_unit(text: str, base: str) -> tuple[str, str]:
     if len(text) > 80:
         raise ValueError(f"got {_brief(text)}; write a number and a unit, {_example(base)}")
     if comma := _COMMA.fullmatch(text):
-        raise ValueError(f"got {text!r}, with a comma; {_without_comma(*comma.groups(), base)}")
+        raise ValueError(f"got {text!r}, with a comma; {_without_comma(comma[1], comma[2], base)}")
     match = _NUMBER.fullmatch(text)
     if match is None:
         raise ValueError(f"got {_brief(text)}; write a number and a unit, {_example(base)}")

@@ -36,7 +36,7 @@ class Ring(Part):
     ----------
     inner_radius : inner radius, m.
     outer_radius : outer radius, m.
-    film : minimum film thickness, m.
+    film : minimum film thickness, m; None if a load determines it.
     """
 
     inner_radius: Length

@@ -46,7 +46,7 @@ def command(
         str | None,
         typer.Option(
             metavar="LOADS",
-            help="Mean pressures: a list, a range such as 0.5MPa..2MPa:3, or one "
+            help="Mean pressures or forces on the bearing (5kN): a list, a range 0.5MPa..2MPa:3, or one "
             f"(default: the scene's load, or {LOADS}).",
         ),
     ] = None,
@@ -75,7 +75,9 @@ def command(
         )
     default = SLIDING_SPEEDS if bearing.turning_radius is None else ROTATIONAL_SPEEDS
     sliding, own = speeds_of(speeds or default, bearing.turning_radius), bearing.load_pressure
-    pressures = (own,) if loads is None and own is not None else loads_of(loads or LOADS)
+    pieces = None if bearing.wide else bearing.pieces
+    area = None if pieces is None else pieces * bearing.nominal_area
+    pressures = (own,) if loads is None and own is not None else loads_of(loads or LOADS, area)
     if not MIN_CELLS <= resolution <= MAX_CELLS:
         raise InputError(f"--resolution: got {resolution}; it must be {MIN_CELLS} to {MAX_CELLS} cells along a side")
     page, stored = out / "report.html", out / "stribeck.h5"

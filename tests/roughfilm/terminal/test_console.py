@@ -118,3 +118,16 @@ def test_progress_can_be_switched_off(monkeypatch, capsys):
         advance(0.5, "contact")
         assert threading.active_count() == threads
     assert capsys.readouterr().err == ""
+
+
+def test_every_fault_of_an_input_is_a_line_of_its_own(capsys):
+    def command() -> None:
+        raise InputError("pocket.toml:6: geometry.film: got 1\npocket.toml:9: geometry.depth: got 2")
+
+    with pytest.raises(typer.Exit) as stop:
+        in_one_line(command)()
+    assert stop.value.exit_code == 2
+    assert capsys.readouterr().err.splitlines() == [
+        "error: pocket.toml:6: geometry.film: got 1",
+        "error: pocket.toml:9: geometry.depth: got 2",
+    ]

@@ -106,7 +106,3 @@ def options(
 def main() -> None:
     """Run the command line; alone it shows the help."""
     launch(app, sys.argv[1:] or ["--help"], "roughfilm")
-
-
-if __name__ == "__main__":
-    main()
