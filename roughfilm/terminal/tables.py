@@ -59,8 +59,8 @@ class FittedTable(Table):
             part = Table(box=ruled, show_edge=False, pad_edge=False, padding=(0, 0, 0, GAP - 1))
             yield self._filled(part, block, heads, cells, needs, width)
         if self.caption is not None:
-            lines = in_charset(_plain(console, self.caption), console.encoding).splitlines()
-            yield Text("\n".join(wrapped(line, width) for line in lines))
+            caption = in_charset(_plain(console, self.caption), console.encoding)
+            yield Text("\n".join(wrapped(line, width) for line in caption.splitlines()))
 
     def _filled(
         self,
