@@ -185,11 +185,6 @@ REPORTED = {
 """The titles of the quantities of a bearing, in the order of tables."""
 
 
-def sought(entries: Mapping[str, Any]) -> tuple[str, ...]:
-    """The least film stands first if the scene has a load."""
-    return ("film_min",) if "load" in entries else ()
-
-
 def remarks(entries: Mapping[str, Any], quantities: Mapping[str, Quantity]) -> tuple[str, ...]:
     """The part of the whole bearing for which the quantities hold, if they do not hold for all of it."""
     geometry, whole = entries["geometry"], quantities.get("bearing_load")
@@ -249,10 +244,9 @@ KIND = Kind(
         "film_load_per_width": "load by the film",
         "least_gap": "least gap",
     },
-    ratios={"friction_coefficient": ("friction_per_width", "load_per_width")},
     reported=REPORTED,
-    sought=sought,
     remarks=remarks,
+    ratios={"friction_coefficient": ("friction_per_width", "load_per_width")},
     scale=scale,
     columns=columns,
     numbers=bearing_numbers,

@@ -64,11 +64,6 @@ def nothing_composed(_scene: Any) -> tuple[str, ...]:
     return ()
 
 
-def nothing_sought(_entries: Mapping[str, Any]) -> tuple[str, ...]:
-    """Return no quantities, for kinds whose scenes all have the same order of quantities."""
-    return ()
-
-
 def nothing_remarked(_entries: Mapping[str, Any], _quantities: Mapping[str, Quantity]) -> tuple[str, ...]:
     """Return no sentences, for kinds whose quantities need none."""
     return ()
@@ -99,14 +94,13 @@ class Kind:
     summary : a description of these scenes, in words.
     compared : the quantities by which models are compared, with their names in a sentence; the most important is first.
     others : the other quantities that models of the kind report, with their names in a sentence.
+    reported : the titles of all quantities in tables and pages, in their order there.
+    remarks : remarks(entries, quantities), sentences that belong to the quantities of a result, such as for which part
+        of the whole they hold.
     compared_with : the compared quantities of scenes that have a table, by the name of the table; the error laws do not
         hold for these scenes.
     lawful : whether the error laws hold; False for the kind of a scene with such a table.
     ratios : quantities that are the ratio of two others, with the names of these; their errors follow from those.
-    reported : the titles of all quantities in tables and pages, in their order there.
-    sought : sought(entries), the quantities that stand before these for a scene, given as its entries.
-    remarks : remarks(entries, quantities), sentences that belong to the quantities of a result, such as for which part
-        of the whole they hold.
     scale : scale(values, quantity), the size by which an error in a compared quantity is divided. ``values`` are the
         values of the reference by quantity, as numbers or arrays.
     columns : columns(scene), dimensionless numbers and texts of a scene for a table of many cases.
@@ -133,12 +127,11 @@ class Kind:
     numbers: Callable[[Any], Mapping[str, float]]
     symbols: Mapping[str, str]
     others: Mapping[str, str] = field(default_factory=dict)
+    reported: Mapping[str, str] = field(default_factory=dict)
+    remarks: Callable[[Mapping[str, Any], Mapping[str, Quantity]], Sequence[str]] = nothing_remarked
     compared_with: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     lawful: bool = True
     ratios: Mapping[str, tuple[str, str]] = field(default_factory=dict)
-    reported: Mapping[str, str] = field(default_factory=dict)
-    sought: Callable[[Mapping[str, Any]], Sequence[str]] = nothing_sought
-    remarks: Callable[[Mapping[str, Any], Mapping[str, Quantity]], Sequence[str]] = nothing_remarked
     composed: Callable[[Any], Sequence[str]] = nothing_composed
     omitted: Callable[[Any, str], Omission | None] = nothing_omitted
     outside_laws: Callable[[Any, Any, str], str] = within_laws
@@ -154,6 +147,19 @@ class Kind:
         """The names in a sentence of all quantities, the compared ones first."""
         return {**self.compared, **self.others}
 
+    def listed(self, result: Result) -> dict[str, str]:
+        """The names and titles of the quantities of a result that people read, in the order in which they read them.
+
+        The first is the one that a scene asks for by a table of its own, such as the film under a load. A quantity per
+        width is left out where that of the whole width is there. Quantities without a title have their name as the
+        title, and come last.
+        """
+        own = self.of(result.provenance["scene"])
+        first = () if own is self else tuple(own.compared)[:1]
+        names, whole = result.quantities, {f"{name}_per_width" for name in result.quantities}
+        ordered = dict.fromkeys((*first, *self.reported, *names))
+        return {name: self.reported.get(name, name) for name in ordered if name in names and name not in whole}
+
     def of(self, entries: Mapping[str, Any]) -> "Kind":
         """The kind with the compared quantities of a scene, from its entries by the names of their tables."""
         for table, compared in self.compared_with.items():
@@ -161,17 +167,6 @@ class Kind:
                 others = {name: title for name, title in self.titles.items() if name not in compared}
                 return replace(self, compared=compared, others=others, lawful=False)
         return self
-
-    def listed(self, result: Result) -> dict[str, str]:
-        """The names and titles of the quantities of a result that people read, in the order in which they read them.
-
-        A quantity per width is left out where that of the whole width is there. Quantities without a title have their
-        name as the title, and come last.
-        """
-        first = self.sought(result.provenance["scene"])
-        names, whole = result.quantities, {f"{name}_per_width" for name in result.quantities}
-        ordered = dict.fromkeys((*first, *self.reported, *names))
-        return {name: self.reported.get(name, name) for name in ordered if name in names and name not in whole}
 
     def read(self, entries: Mapping[str, Any], file: EntriesFile | None = None) -> Scene:
         """Make a scene of this kind from nested entries of a file; InputError with a line for each fault."""

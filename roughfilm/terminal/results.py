@@ -29,7 +29,7 @@ def table_of(heads: Sequence[str], rows: Iterable[Sequence[str]], *, title: str 
 def quantity_table(result: Result) -> Table:
     """The quantities of a result, those first that are sought most, in units of engineers, with their uncertainties.
 
-    What belongs to them, such as the part of the bearing for which they hold, stands below.
+    Below it stand remarks, such as for which part of the bearing the quantities hold.
     """
     kind = kind_of(result)
     rows = [(title, *in_engineering_unit(result.quantities[name])) for name, title in kind.listed(result).items()]

@@ -25,7 +25,8 @@ class FittedTable(Table):
     """A table that keeps to the width of the terminal.
 
     Heads take several lines, and so do words in the columns after the first that are aligned to the left. Where this
-    is not enough, the columns that have no room follow in a second table with the first column again.
+    is not enough, the columns that have no room follow in a second table with the first column again. The caption
+    stands below the last one.
     """
 
     def __init__(self, *, title: str | None = None) -> None:
@@ -58,7 +59,8 @@ class FittedTable(Table):
             part = Table(box=ruled, show_edge=False, pad_edge=False, padding=(0, 0, 0, GAP - 1))
             yield self._filled(part, block, heads, cells, needs, width)
         if self.caption is not None:
-            yield Text(wrapped(in_charset(_plain(console, self.caption), console.encoding), width))
+            lines = in_charset(_plain(console, self.caption), console.encoding).splitlines()
+            yield Text("\n".join(wrapped(line, width) for line in lines))
 
     def _filled(
         self,

@@ -20,9 +20,6 @@ Scales = tuple[tuple[float, str], ...]
 _MINUTE = 1 / 60
 
 
-_CUBES = ("⁻²⁷", "⁻²⁴", "⁻²¹", "⁻¹⁸", "⁻¹⁵", "⁻¹²", "⁻⁹")
-
-
 def _prefixed(unit: str, *powers: int) -> Scales:
     """The multiples of a unit by powers of ten."""
     names = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
@@ -30,10 +27,10 @@ def _prefixed(unit: str, *powers: int) -> Scales:
 
 
 SCALES: Mapping[str, Scales] = {
-    "1": ((1e-12, "10⁻¹²"), (1e-9, "10⁻⁹"), (1e-6, "10⁻⁶"), (1e-4, ""), (1e6, "10⁶"), (1e9, "10⁹")),
+    "1": ((1e-12, "1e-12"), (1e-9, "1e-9"), (1e-6, "1e-6"), (1e-4, ""), (1e6, "1e6"), (1e9, "1e9")),
     "m": _prefixed("m", -12, -9, -6, -3, 0),
     "m^2": ((1e-12, "µm²"), (1e-6, "mm²"), (1.0, "m²")),
-    "m^3": tuple((10.0**power, f"10{exponent} m³") for power, exponent in zip(range(-27, -8, 3), _CUBES, strict=True)),
+    "m^3": tuple((10.0**power, f"1e{power} m³") for power in range(-27, -8, 3)),
     "m^2/s": ((1e-18, "nm²/s"), (1e-12, "µm²/s"), (1e-6, "mm²/s"), (1.0, "m²/s")),
     "m^3/s": (
         (_MINUTE * 1e-15, "pl/min"),

@@ -1,1 +1,1 @@
-"""What a bearing reports beside its film: the least film, and the numbers of the whole bearing."""
+"""The least film of a bearing, and the numbers of the whole bearing of several pieces."""

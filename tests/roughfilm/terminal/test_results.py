@@ -33,7 +33,9 @@ def printed(result, width=80):
 
 
 def titles(result):
-    return [line.split("│")[1].strip() for line in printed(result).splitlines() if line.startswith("│")]
+    lines = printed(result).splitlines()
+    below = lines[next(number for number, line in enumerate(lines) if "──" in line) + 1 :]
+    return [line.split("  ")[0].strip() for line in below][: len(kind_of(result).listed(result))]
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -69,9 +71,9 @@ def test_a_bearing_with_a_width_shows_nothing_per_width():
 
 
 def test_under_a_load_the_film_stands_first():
-    quantities = solved("journal").quantities
-    assert kind_of_name("bearing").sought({"load": {"pressure": "1 MPa"}}) == ("film_min",)
-    assert "film_min" in quantities
+    scene = rf.load_scene(SCENES / "journal.toml", set={"load.force": "2 kN"})
+    loaded = rf.solve(scene, model="reynolds_cavitating", resolution=32)
+    assert titles(loaded)[:2] == ["least film thickness", "load"]
 
 
 def test_a_cell_of_a_washer_says_of_how_many_it_is_one_and_what_the_whole_carries():
@@ -99,7 +101,7 @@ def test_a_pad_without_the_number_of_pads_says_that_it_is_one():
 def test_an_exact_place_is_exact_and_no_uncertainty_is_written_as_zero():
     text = printed(solved("journal"))
     row = next(line for line in text.splitlines() if "least film thickness" in line)
-    assert [cell.strip() for cell in row.strip("│").split("│")[1:]] == ["15", "exact", "µm"]
+    assert row.split()[-3:] == ["15", "exact", "µm"]
     assert "e+00" not in text
 
 
