@@ -111,7 +111,7 @@ def _show_outcome(study: Study, progress: BatchProgress, out: Path, as_json: boo
         tables = [str(out / name) for name in ("table.csv", "table.h5")]
         print_json({**_entries(study, progress), "failures": failures, "tables": tables})
     else:
-        print_all((_state_table(progress), f"table: {out / 'table.csv'} (.h5)"))
+        print_all((_state_table(progress), f"table: {out / 'table.csv'} (.h5); page: roughfilm report {out}"))
     if progress.warned:
         results = "1 result has" if progress.warned == 1 else f"{progress.warned} results have"
         messages.print(f"[yellow]warning:[/] {results} warnings; see the column warnings of the table", soft_wrap=True)

@@ -15,7 +15,7 @@ COMMANDS = {
     "solve": "Solve a scene by one model, or by the cheapest that is accurate enough.",
     "compare": "Run every model that applies and write report.html, results (.h5) and figures.",
     "batch": "Solve every case of a study by every model and write table.csv and table.h5.",
-    "report": "Write the report of a sweep: errors of every model, the number that orders them, speed and accuracy.",
+    "report": "Write the page of a study: the best case and curves, the models that would have done, and cost.",
     "charts": "Chart CPU time against error for every model and resolution: charts.html, .json, .csv, .png and an "
     ".svg each.",
     "stability": "Map where solvers converge, and write stability.csv, .json and report.html.",
