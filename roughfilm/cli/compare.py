@@ -140,7 +140,9 @@ def _summary(report: Report, out: Path) -> str:
     if cheapest is top:
         return f"{value}; no cheaper model is known to be within {tolerance}; {cost_in_words(top)}; page: {page}"
     error = judgement(cheapest, first, DEFAULT_TOLERANCE)
-    return f"{value}; {cheapest.model} is {error}; {cost_in_words(cheapest)} instead of {cost_in_words(top)}; page: {page}"
+    return (
+        f"{value}; {cheapest.model} is {error}; {cost_in_words(cheapest)} instead of {cost_in_words(top)}; page: {page}"
+    )
 
 
 def _convergence_table(model: str, study: Mapping[str, Convergence]) -> Table:

@@ -19,7 +19,8 @@ def summary(result: Result, quantity: str, within: float) -> str:
     quantity : name of a quantity of the kind.
     within : tolerated error over the size of the quantity.
     """
-    return f"{value_of(result, quantity)} by {result.model}; {judgement(result, quantity, within)}; {cost_in_words(result)}"
+    value, error = value_of(result, quantity), judgement(result, quantity, within)
+    return f"{value} by {result.model}; {error}; {cost_in_words(result)}"
 
 
 def value_of(result: Result, quantity: str) -> str:
