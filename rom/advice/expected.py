@@ -24,7 +24,7 @@ def with_errors(
     *,
     known: Mapping[str, StatedError] | None = None,
 ) -> Result:
-    """The result with the error of its model in each quantity, and a warning where the error is large.
+    """The result with the errors of its model in its quantities, and a warning where one is large.
 
     An error is that of ``known`` where it has one, such as a measured one, otherwise that of the fitted laws. Every
     command, page and file takes the errors from the result, so that they agree.
@@ -38,7 +38,8 @@ def with_errors(
     known : by quantity, the errors that other runs or the advice give.
     """
     kind = kind_of_scene(scene)
-    errors = expected_errors(scene, model, result, models)
+    expected = expected_errors(scene, model, result, models)
+    errors = {name: error for name, error in expected.items() if name in result.quantities}
     errors |= {name: error for name, error in (known or {}).items() if math.isfinite(error.error)}
     errors = _with_ratios(kind, result, errors)
     before = error_warnings(kind, model.name, stated_errors(result))

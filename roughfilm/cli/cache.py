@@ -98,9 +98,8 @@ def _described(entry: Entry) -> Described:
                 return Described(surface=making.get("surface", ""), kind=kind, points=points, cpu_s=making["cpu_s"])
             rows = file["series/cpu_s"][()]
             kind = "leakage by load" if rows.size else "sealing loads"
-            return Described(
-                surface=file.attrs.get("surface", ""), kind=kind, points=rows.size, cpu_s=float(rows.sum())
-            )
+            surface = str(file.attrs.get("surface", ""))
+            return Described(surface=surface, kind=kind, points=rows.size, cpu_s=float(rows.sum()) or None)
     except (OSError, LookupError, ValueError):
         return Described(surface="", kind="damaged")
 

@@ -90,11 +90,20 @@ def command(
             tolerated = None if within is None else fraction
             result, advice = solve_as_advised(read, within=tolerated, quantity=asked, progress=advance)
             result = replace(result, provenance={**result.provenance, "advice": entries_of(advice)})
+            choice = _choice(advice)
         else:
-            request = {"resolution": resolution, "tolerance": tolerance, "scheme": scheme, "processes": processes}
-            result, advice = solve(read, model=model, progress=advance, **request), None
-    if advice is not None:
-        messages.print(wrapped(_choice(advice), messages.width), soft_wrap=True, markup=False)
+            result = solve(
+                read,
+                model=model,
+                resolution=resolution,
+                tolerance=tolerance,
+                scheme=scheme,
+                processes=processes,
+                progress=advance,
+            )
+            choice = ""
+    if choice:
+        messages.print(wrapped(choice, messages.width), soft_wrap=True, markup=False)
     if out is not None:
         save(result, out)
     if as_json:

@@ -45,7 +45,7 @@ PROGRESS_VARIABLE = "ROUGHFILM_PROGRESS"
 FIRST_LINE_S, LINE_INTERVAL_S = 2.0, 10.0
 """Time until the first line about progress, and between lines, s."""
 
-LEAST_DONE = 0.02
+LEAST_DONE = 0.05
 """Done fraction below which the time left is not estimated."""
 
 ScenePath = Annotated[Path, typer.Argument(metavar="SCENE", help="The scene file (TOML).")]

@@ -7,6 +7,7 @@ from roughfilm.rom.ladder.kind import kind_of
 from roughfilm.rom.ladder.result import Result
 from roughfilm.words.cost import one_time_in_words
 from roughfilm.words.numbers import digits
+from roughfilm.words.units import scale_of
 
 
 def summary(result: Result, quantity: str, within: float) -> str:
@@ -28,10 +29,10 @@ def value_of(result: Result, quantity: str) -> str:
         return f"no {title}"
     plain = quantity.removesuffix("_plus")
     shown = result[plain] if plain != quantity and f"{plain}_per_area" in result.quantities else result[quantity]
-    unit = "" if shown.unit == "1" else f" {shown.unit}"
+    size, unit = scale_of(shown.unit, abs(shown.value))
     own = result[quantity]
     bar = "" if own.uncertainty is None or own.value == 0 else f" ± {percent(own.uncertainty / abs(own.value))}"
-    return f"{title} {digits(shown.value)}{unit}{bar}"
+    return f"{title} {digits(shown.value / size)}{unit and f' {unit}'}{bar}"
 
 
 def judgement(result: Result, quantity: str, within: float) -> str:

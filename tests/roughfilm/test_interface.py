@@ -84,9 +84,9 @@ BAD = {
     "entries that are none": (lambda scene, z: rf.read_scene([1]), "scene: got list"),
     "a kind that is unknown": (lambda scene, z: rf.models("pockets"), "it must be one of"),
     "a scene that is none": (lambda scene, z: rf.solve("pocket.toml", model="film"), "scene: got str"),
-    "neither model nor tolerance": (lambda scene, z: rf.solve(scene), "model: missing"),
+    "a resolution without model": (lambda scene, z: rf.solve(scene, resolution=50), "resolution: got 50 without"),
     "both model and tolerance": (lambda scene, z: rf.solve(scene, model="film", within=0.1), "leave one of them out"),
-    "a quantity without tolerance": (lambda scene, z: rf.solve(scene, model="film", quantity="load"), "within"),
+    "both model and quantity": (lambda scene, z: rf.solve(scene, model="film", quantity="load"), "leave one of them"),
     "a model that is unknown": (lambda scene, z: rf.solve(scene, model="flim"), "model: got 'flim'; it must"),
     "a scheme that is not offered": (lambda scene, z: rf.solve(scene, model="reynolds", scheme="upwind"), "no choice"),
     "a resolution out of range": (lambda scene, z: rf.solve(scene, model="film", resolution=-3), "resolution: got -3"),
@@ -298,6 +298,23 @@ def test_the_expected_error_of_a_model_covers_its_distance_from_a_better_one(poc
 def test_no_error_is_expected_of_a_scene_that_no_law_has_seen():
     beyond = rf.load_scene(SCENES / "pocket.toml", set={"motion.reynolds_number": 5000})
     assert "load_plus" not in rf.solve(beyond, model="inertial_reynolds").expected_error
+
+
+def test_without_a_model_the_advised_one_within_five_percent_is_taken(pocket):
+    advised = rf.advise(pocket)
+    result = rf.solve(pocket)
+    assert advised.within == 0.05
+    assert (result.model, result.numerics.resolution) == (advised.chosen.model, advised.chosen.resolution)
+    assert 0 < result.expected_error["load_plus"] <= 0.05
+
+
+def test_where_no_model_is_within_five_percent_the_most_accurate_one_warns():
+    fast = {"motion.reynolds_number": 3e3}
+    scene = rf.load_scene(SCENES / "pocket.toml", set=fast)
+    assert rf.advise(scene).chosen is None
+    assert any("no model here is known to give the load within 5 %" in one for one in rf.solve(scene).warnings)
+    with pytest.raises(rf.ConvergenceError, match="no model here is known"):
+        rf.solve(scene, within=0.05)
 
 
 def test_a_tolerance_chooses_the_advised_model(pocket):

@@ -237,7 +237,7 @@ def test_what_has_failed_is_not_run_again(scene):
 def test_a_rung_of_which_no_tolerance_is_left_is_not_called_not_needed(scene, monkeypatch):
     told = Omission(part=0.3, reason="heat, which no rung keeps")
     kind = replace(kinds()["pocket"], omitted=lambda _scene, _quantity: told)
-    monkeypatch.setattr("roughfilm.rom.advice.advise.kind_of_name", lambda _name: kind)
+    monkeypatch.setattr("roughfilm.rom.advice.advise.kind_of_scene", lambda _scene: kind)
     found = Fakes({"reynolds": None, "film": 0.0}).advise(scene, 0.05)
     assert {one.verdict for one in found.considered} == {Verdict.NOT_ENOUGH}
 
@@ -253,7 +253,7 @@ def test_a_promise_up_to_a_model_counts_the_steps_above_it_too(scene):
 
 def test_a_law_without_powers_needs_no_numbers(scene, monkeypatch):
     kind = replace(kinds()["pocket"], numbers=lambda _scene: {})
-    monkeypatch.setattr("roughfilm.rom.advice.advise.kind_of_name", lambda _name: kind)
+    monkeypatch.setattr("roughfilm.rom.advice.advise.kind_of_scene", lambda _scene: kind)
     fakes = Fakes({"reynolds": 0.02, "film": 0.01}, {"reynolds": 1.0, "film": 1.0})
     fakes.table = replace(fakes.table, steps=[replace(step, tells="slope") for step in fakes.table.steps])
     assert fakes.advise(scene, 0.05).chosen.model == "reynolds"
@@ -320,7 +320,7 @@ def test_a_law_that_is_left_does_not_count_as_an_estimate(scene):
 def test_what_every_rung_leaves_out_counts_too(scene, monkeypatch):
     told = Omission(part=0.03, reason="heat, which no rung keeps")
     kind = replace(kinds()["pocket"], omitted=lambda _scene, _quantity: told)
-    monkeypatch.setattr("roughfilm.rom.advice.advise.kind_of_name", lambda _name: kind)
+    monkeypatch.setattr("roughfilm.rom.advice.advise.kind_of_scene", lambda _scene: kind)
     fakes = Fakes({"reynolds": 0.01, "film": 0.0}, {"reynolds": 1.006, "film": 1.0})
     assert fakes.advise(scene, 0.05).chosen.model == "reynolds"
     found = fakes.advise(scene, 0.02)
