@@ -45,4 +45,5 @@ def judgement(result: Result, quantity: str, within: float) -> str:
 
 def cost_of(result: Result) -> str:
     """The CPU time of a result, with its one-time costs."""
-    return f"{result.numerics.cpu_s:.2g} s{one_time_in_words(result.numerics.one_time)}"
+    stored = bool(result.provenance.get("table", {}).get("stored"))
+    return f"{result.numerics.cpu_s:.2g} s{one_time_in_words(result.numerics.one_time, stored=stored)}"
