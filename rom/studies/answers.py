@@ -225,8 +225,9 @@ def slice_of(parameters: Sequence[Parameter], along: Parameter, case: int) -> ND
     cases = np.flatnonzero(same)
     if along.numeric:
         cases = cases[~np.isnan(along.values[cases])]
-        return cases[np.argsort(along.values[cases], kind="stable")]
-    return cases[np.argsort(along.codes()[cases], kind="stable")]
+    keys = along.values[cases] if along.numeric else along.codes()[cases]
+    ordered: NDArray[np.int64] = cases[np.argsort(keys, kind="stable")]
+    return ordered
 
 
 def optimum(parameters: Sequence[Parameter], along: Parameter, answer: Answer) -> Optimum | None:

@@ -297,7 +297,7 @@ def _figures(study: Study, one: Shown) -> tuple[str, str | None]:
     quantity = one.answer.quantity
     answers = [
         answer_of(study.sweep, setting, quantity)
-        for setting in reversed(study.per_model.values())
+        for setting in reversed([*study.per_model.values()])
         if np.isfinite(study.sweep.found[setting][quantity]).any()
     ]
     plane = drawn.planes_of(study.parameters)
