@@ -59,7 +59,9 @@ class Ranking:
 
 
 def reference_of(sweep: Sweep, models: Sequence[Model]) -> Reference:
-    """The best model of a sweep that solved any case, at its best scheme and finest resolution, as the reference.
+    """The best model of a sweep, at its best scheme and finest resolution, as the reference.
+
+    A model that solved less than half as many cases as another one is not taken.
 
     Its uncertainty in a case is the larger one of that by the grids of the sweep, if there are two or more, and that
     stated by the run. Where both are unknown it is the expected error by the fitted laws. If the reference is not the
@@ -70,8 +72,8 @@ def reference_of(sweep: Sweep, models: Sequence[Model]) -> Reference:
     sweep : the sweep.
     models : all models of the kind of its scenes.
     """
-    solved = [name for name, values in sweep.found.items() if any(np.isfinite(v).any() for v in values.values())]
-    known = solved or list(sweep.found)
+    counts = {name: _solved(values) for name, values in sweep.found.items()}
+    known = [name for name, count in counts.items() if 2 * count >= max(counts.values())]
     top = best([model for model in models if model.name in {_model(name) for name in known}])
     own = [name for name in known if _model(name) == top.name]
     schemes = [scheme for scheme in top.schemes if any(_scheme(name) == scheme for name in own)]
@@ -85,6 +87,11 @@ def reference_of(sweep: Sweep, models: Sequence[Model]) -> Reference:
             for quantity in kind_of_name(sweep.kind).compared
         },
     )
+
+
+def _solved(values: Mapping[str, Array]) -> int:
+    """The number of cases with any quantity."""
+    return int(np.any([np.isfinite(one) for one in values.values()], axis=0).sum())
 
 
 def _model(setting: str) -> str:
@@ -110,7 +117,8 @@ def _by_grids(sweep: Sweep, setting: str, grids: Sequence[str], model: Model, qu
     """The uncertainty by the grids of a setting, in the unit of the quantity; NaN for cases with one grid."""
     found = np.full(size.size, np.nan)
     for case in range(size.size):
-        values = {int(sweep.resolution[name][case]): sweep.found[name][quantity][case] for name in grids}
+        solved = [name for name in grids if np.isfinite(sweep.resolution[name][case])]
+        values = {int(sweep.resolution[name][case]): sweep.found[name][quantity][case] for name in solved}
         resolutions = [n for n in sorted(values) if np.isfinite(values[n])]
         if len(resolutions) > 1 and np.isfinite(sweep.found[setting][quantity][case]):
             found[case] = converge(

@@ -1,6 +1,6 @@
 """The results of a finished sweep: the quantities of every case by every model."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -14,6 +14,12 @@ from roughfilm.rom.ladder.sweeping import Sweeping
 
 SOLVED = "solved"
 """The outcome of a row that holds numbers; any other outcome is the reason for a missing result."""
+
+SETTING_COLUMNS = ("case", "kind", "setting", "model", "scheme", "resolution")
+"""The first columns of a table, which name the case and the setting of a row."""
+
+NUMERICS = ("residual", "iterations", "cpu_s", "warnings")
+"""The last columns of a table."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,22 +54,47 @@ class Sweep:
     residual: Mapping[str, Array] = field(default_factory=dict)
 
     def features(self) -> dict[str, Array]:
-        """The numbers by name that order the errors, shape (cases,)."""
-        return {
-            name: np.asarray(values, dtype=float)
-            for name, values in sweeping(kind_of_name(self.kind)).features(self.given).items()
-        }
+        """The numbers by name that order the errors, shape (cases,); empty where the cases do not have them."""
+        judged = kind_of_name(self.kind).sweeping
+        if judged is None or not set(judged.given) <= set(self.given):
+            return {}
+        found = {name: np.asarray(values, dtype=float) for name, values in judged.features(self.given).items()}
+        return {} if any(np.isnan(values).all() for values in found.values()) else found
+
+
+def restricted(sweep: Sweep, mask: NDArray[np.bool_]) -> Sweep:
+    """The sweep of the cases in a mask of shape (cases,)."""
+
+    def chosen(table: Mapping[str, Mapping[str, Array]]) -> dict[str, dict[str, Array]]:
+        return {setting: {name: one[mask] for name, one in values.items()} for setting, values in table.items()}
+
+    def columns(table: Mapping[str, Array]) -> dict[str, Array]:
+        return {setting: values[mask] for setting, values in table.items()}
+
+    names = tuple(name for name, kept in zip(sweep.names, mask, strict=True) if kept)
+    return Sweep(
+        kind=sweep.kind,
+        names=names,
+        given={name: values[mask] for name, values in sweep.given.items()},
+        found=chosen(sweep.found),
+        cpu_s=columns(sweep.cpu_s),
+        failures=tuple(failure for failure in sweep.failures if failure[0] in names),
+        uncertainty=chosen(sweep.uncertainty),
+        expected_error=chosen(sweep.expected_error),
+        resolution=columns(sweep.resolution),
+        residual=columns(sweep.residual),
+    )
 
 
 def sweeping(kind: Kind) -> Sweeping:
-    """The properties of a kind of scene that sweeps need; InputError if it has none."""
+    """The properties of a kind of scene by which the errors of sweeps are ordered; InputError if it has none."""
     if kind.sweeping is None:
-        raise InputError(f"the table holds {kind.name} scenes; there is no report over many of them yet")
+        raise InputError(f"the table holds {kind.name} scenes; there are no numbers that order their errors yet")
     return kind.sweeping
 
 
 def read_sweep(table: Mapping[str, NDArray[Any]], kind: str) -> Sweep:
-    """The sweep in a table that ``roughfilm batch`` wrote.
+    """The sweep in a table that ``roughfilm batch`` wrote; its cases are in the order of the table.
 
     Parameters
     ----------
@@ -73,40 +104,48 @@ def read_sweep(table: Mapping[str, NDArray[Any]], kind: str) -> Sweep:
     Raises
     ------
     InputError
-        If a column is missing, or the kind of scene has no properties for sweeps.
+        If a column is missing, or no case is solved.
     """
-    judged = sweeping(kind_of_name(kind))
+    judged = kind_of_name(kind).sweeping
     try:
-        cases, first, index = np.unique(table["case"], return_index=True, return_inverse=True)
-        settings = table["setting"]
-        given = {name: _given(table, name, default)[first] for name, default in judged.given.items()}
+        names = list(dict.fromkeys(str(name) for name in table["case"]))
+        settings, outcomes = table["setting"], table["outcome"]
+        failed = np.flatnonzero(outcomes != SOLVED)
+        failures = tuple((str(table["case"][i]), str(settings[i]), str(outcomes[i])) for i in failed)
+        if failed.size == outcomes.size:
+            case, setting, reason = failures[0]
+            raise InputError(f"no case of the batch is solved; the first is {case} by {setting}: {reason}")
+        places = {name: place for place, name in enumerate(names)}
+        index = np.array([places[str(name)] for name in table["case"]])
+        first = np.unique(index, return_index=True)[1]
         rows = {setting: settings == setting for setting in dict.fromkeys(str(name) for name in settings)}
+        inputs, quantities = _inputs(table), quantity_columns(table)
+        defaults = {} if judged is None else {name: value for name, value in judged.given.items() if value is not None}
+        needed = (*kind_of_name(kind).compared, *(() if judged is None else judged.quantities))
+        lacking = tuple(name for name in dict.fromkeys(needed) if name not in quantities)
+        given = {name: _given(table, name, defaults.get(name))[first] for name in (*inputs, *defaults)}
 
         def column(name: str) -> dict[str, Array]:
-            return {setting: _spread(table[name], index, own, cases.size) for setting, own in rows.items()}
+            return {setting: _spread(table[name], index, own, len(names)) for setting, own in rows.items()}
 
         def columns(suffix: str = "") -> dict[str, dict[str, Array]]:
             """The quantities by setting, or their columns with a suffix, which are NaN if the table lacks them."""
             missing = np.full(settings.size, np.nan)
             return {
                 setting: {
-                    name: _spread(
-                        table.get(f"{name}{suffix}", missing) if suffix else table[name], index, own, cases.size
-                    )
-                    for name in judged.quantities
+                    name: _spread(table.get(f"{name}{suffix}", missing), index, own, len(names))
+                    for name in (*quantities, *lacking)
                 }
                 for setting, own in rows.items()
             }
 
         found, cpu_s, resolution, residual = columns(), column("cpu_s"), column("resolution"), column("residual")
         uncertainty, expected_error = columns("_uncertainty"), columns("_expected_error")
-        failed = np.flatnonzero(table["outcome"] != SOLVED)
-        failures = tuple((str(table["case"][i]), str(settings[i]), str(table["outcome"][i])) for i in failed)
     except (KeyError, IndexError) as error:
         raise InputError(f"the table has no column {error}; make it again with roughfilm batch") from None
     return Sweep(
         kind=kind,
-        names=tuple(str(case) for case in cases),
+        names=tuple(names),
         given=given,
         found=found,
         cpu_s=cpu_s,
@@ -118,9 +157,31 @@ def read_sweep(table: Mapping[str, NDArray[Any]], kind: str) -> Sweep:
     )
 
 
+def quantity_columns(table: Mapping[str, Any]) -> tuple[str, ...]:
+    """The names of the quantities in a table, which stand between the outcome and the numerics."""
+    names = [*table]
+    behind = names[names.index("outcome") + 1 :]
+    end = next((place for place, name in enumerate(behind) if name in NUMERICS), len(behind))
+    suffixes = ("_uncertainty", "_expected_error")
+    return tuple(name for name in behind[:end] if not any(_is_suffixed(name, end, behind) for end in suffixes))
+
+
+def _is_suffixed(name: str, suffix: str, names: Sequence[str]) -> bool:
+    return name.endswith(suffix) and name.removesuffix(suffix) in names
+
+
+def _inputs(table: Mapping[str, Any]) -> tuple[str, ...]:
+    """The names of the inputs of the cases, which stand before the outcome."""
+    names = [*table]
+    return tuple(name for name in names[: names.index("outcome")] if name not in SETTING_COLUMNS)
+
+
 def loaded(sweep: Sweep, reference: str) -> NDArray[np.bool_]:
     """The mask of the cases whose compared quantities are large enough to divide by, shape (cases,)."""
-    return np.asarray(sweeping(kind_of_name(sweep.kind)).worth(sweep.found[reference]))
+    judged, values = kind_of_name(sweep.kind).sweeping, sweep.found[reference]
+    if judged is None or any(np.isnan(values[name]).all() for name in judged.quantities if name in values):
+        return np.isfinite(sweep.cpu_s[reference])
+    return np.asarray(judged.worth(values))
 
 
 def relative_error(sweep: Sweep, setting: str, reference: str, quantity: str) -> Array:
@@ -135,7 +196,7 @@ def relative_error(sweep: Sweep, setting: str, reference: str, quantity: str) ->
 
 
 def _given(table: Mapping[str, NDArray[Any]], name: str, default: float | None) -> NDArray[Any]:
-    if default is None:
+    if default is None or (name in table and np.asarray(table[name]).dtype.kind != "f"):
         return table[name]
     values = table[name] if name in table else np.full(table["case"].size, default)
     return np.where(np.isnan(values), default, values)

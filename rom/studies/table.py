@@ -68,6 +68,20 @@ def read_table(path: Path) -> dict[str, NDArray[Any]]:
         chosen = (table["model"] == "navier_stokes") & (table["profile"] == "cylindrical")
         axes.plot(table["depth_plus"][chosen], table["load_plus"][chosen], "o")
     """
+    return {
+        name: np.asarray(column.values, dtype=str if column.unit == "" else float)
+        for name, column in read_columns(path).items()
+    }
+
+
+def read_columns(path: Path) -> dict[str, Column]:
+    """Read the columns of a table.h5 with their units, by name; all have one length.
+
+    Raises
+    ------
+    InputError
+        If the file is missing or is not such a table.
+    """
     if not path.is_file():
         raise InputError(f"{path}: no such file; name a table.h5 that 'roughfilm batch' wrote")
     try:
@@ -75,7 +89,10 @@ def read_table(path: Path) -> dict[str, NDArray[Any]]:
             if any(item.ndim != 1 for item in file.values()):
                 raise TypeError("a column has one dimension")
             return {
-                name: np.asarray(item.asstr()[()], dtype=str) if item.attrs["unit"] == "" else np.asarray(item[()])
+                name: Column(
+                    values=(item.asstr()[()] if item.attrs["unit"] == "" else item[()]).tolist(),
+                    unit=str(item.attrs["unit"]),
+                )
                 for name, item in file.items()
             }
     except (OSError, LookupError, TypeError, AttributeError) as error:

@@ -8,6 +8,7 @@ from pathlib import Path
 from roughfilm.batch.directory import CASES, places, put_scene
 from roughfilm.batch.execute import Solved, run
 from roughfilm.batch.jobs import Failure, Job, store, stored
+from roughfilm.batch.plan import plan_of, write_plan
 from roughfilm.batch.progress import BatchProgress
 from roughfilm.batch.tabulate import TableRow, columns, row_of
 from roughfilm.rom.ladder.model import Progress
@@ -52,6 +53,8 @@ def solved_table(
 ) -> None:
     """Solve the missing jobs of a study, store each answer immediately, and write ``table.csv`` and ``table.h5``.
 
+    Before the first job is solved, the plan of the batch is written to ``study.json``.
+
     Parameters
     ----------
     study : the study.
@@ -68,6 +71,7 @@ def solved_table(
         If the scheduler of the executor stops.
     """
     tasks = tasks_of(study, out)
+    write_plan(plan_of(study, {case.digest: path.parent.name for path, (case, _) in tasks.items()}), out)
     progress(0.0, "looking for finished results")
     rows, missing = finished(study, tasks, counts)
     if missing:

@@ -44,7 +44,8 @@ from roughfilm.terminal.console import (
     print_json,
 )
 from roughfilm.terminal.results import print_all, print_left_out, quantity_table, table_of
-from roughfilm.words.summary import cost_of, judgement, value_of
+from roughfilm.words.cost import cost_in_words
+from roughfilm.words.summary import judgement, value_of
 
 EXAMPLES = (
     "roughfilm compare scripts/examples/scenes/pocket.toml --out study",
@@ -137,9 +138,11 @@ def _summary(report: Report, out: Path) -> str:
     tolerance, page = percent(DEFAULT_TOLERANCE), out / "report.html"
     value = f"{value_of(top, first)} by {top.model}"
     if cheapest is top:
-        return f"{value}; no cheaper model is known to be within {tolerance}; {cost_of(top)}; page: {page}"
+        return f"{value}; no cheaper model is known to be within {tolerance}; {cost_in_words(top)}; page: {page}"
     error = judgement(cheapest, first, DEFAULT_TOLERANCE)
-    return f"{value}; {cheapest.model} is {error}; {cost_of(cheapest)} instead of {cost_of(top)}; page: {page}"
+    return (
+        f"{value}; {cheapest.model} is {error}; {cost_in_words(cheapest)} instead of {cost_in_words(top)}; page: {page}"
+    )
 
 
 def _convergence_table(model: str, study: Mapping[str, Convergence]) -> Table:

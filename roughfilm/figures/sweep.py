@@ -31,7 +31,8 @@ def errors_in_order(
                 axes.set_title(f"{setting}: {title}, nothing to order", fontsize=9)
                 continue
             law = orderings[setting, quantity]
-            number = product(sweep.features(), law.powers)
+            with np.errstate(divide="ignore", invalid="ignore"):
+                number = product(sweep.features(), law.powers)
             error = 100 * relative_error(sweep, setting, reference.setting, quantity)
             error[~loaded(sweep, reference.setting)] = np.nan
             certain = interval(sweep, setting, reference, quantity)[0] > 0
@@ -44,7 +45,7 @@ def errors_in_order(
                     axes.plot(number[chosen], drawn, color=colour, mfc=face, label=name, **line_of)
             for tolerance, limit in law.thresholds.items():
                 if limit is not None:
-                    axes.plot([number.min(), limit, limit], [100 * tolerance] * 2 + [MIN_PERCENT], "k:", lw=0.8)
+                    axes.plot([np.nanmin(number), limit, limit], [100 * tolerance] * 2 + [MIN_PERCENT], "k:", lw=0.8)
             axes.set(xscale="log", yscale="log")
             axes.set_title(f"{setting}: {title}, rank correlation {law.rank:.3f}", fontsize=9)
             axes.set_xlabel(sweeping(kind).words(law.powers), fontsize=8)

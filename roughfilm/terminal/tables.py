@@ -53,8 +53,8 @@ class FittedTable(Table):
                 yield Text("")
             if len(block) == 2 and _total([needs[one] for one in block]) > width:
                 name, other = block
-                lines = zip(cells[name], cells[other], strict=True)
-                yield Text("\n".join(wrapped(f"{key}: {words}", width) for key, words in lines))
+                pairs = zip(cells[name], cells[other], strict=True)
+                yield Text("\n".join(wrapped(f"{key}: {words}", width) for key, words in pairs))
                 continue
             part = Table(box=ruled, show_edge=False, pad_edge=False, padding=(0, 0, 0, GAP - 1))
             yield self._filled(part, block, heads, cells, needs, width)

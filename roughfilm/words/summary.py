@@ -5,7 +5,7 @@ import math
 from roughfilm.rom.advice.stated import percent, stated_errors
 from roughfilm.rom.ladder.kind import kind_of
 from roughfilm.rom.ladder.result import Result
-from roughfilm.words.cost import one_time_in_words
+from roughfilm.words.cost import cost_in_words
 from roughfilm.words.numbers import digits
 from roughfilm.words.units import scale_of
 
@@ -19,7 +19,8 @@ def summary(result: Result, quantity: str, within: float) -> str:
     quantity : name of a quantity of the kind.
     within : tolerated error over the size of the quantity.
     """
-    return f"{value_of(result, quantity)} by {result.model}; {judgement(result, quantity, within)}; {cost_of(result)}"
+    value, error = value_of(result, quantity), judgement(result, quantity, within)
+    return f"{value} by {result.model}; {error}; {cost_in_words(result)}"
 
 
 def value_of(result: Result, quantity: str) -> str:
@@ -41,9 +42,3 @@ def judgement(result: Result, quantity: str, within: float) -> str:
     if error is None or not math.isfinite(error.error):
         return f"error unknown, not known to be enough for {percent(within)}"
     return f"{'' if error.error <= within else 'not '}enough for {percent(within)}: error {error.words}"
-
-
-def cost_of(result: Result) -> str:
-    """The CPU time of a result, with its one-time costs."""
-    stored = bool(result.provenance.get("table", {}).get("stored"))
-    return f"{result.numerics.cpu_s:.2g} s{one_time_in_words(result.numerics.one_time, stored=stored)}"

@@ -32,8 +32,7 @@ GROUPS = {
     },
     "Many cases": {
         "batch": "Solve every case of a study by every model and write table.csv and table.h5.",
-        "report": "Write the report of a sweep: errors of every model, the number that orders them, speed and "
-        "accuracy.",
+        "report": "Write the page of a study: the best case and curves, the models that would have done, and cost.",
     },
     "OpenFOAM and other tools": {
         "generate": "Write the OpenFOAM cases alone; run each with its ./Allrun.",

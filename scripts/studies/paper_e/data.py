@@ -54,6 +54,11 @@ CELLS = 48
 FRICTION = 0.1
 
 
+def _asperities(wall: Wall) -> AsperityTable:
+    assert wall.asperities is not None
+    return wall.asperities
+
+
 @dataclass(frozen=True, kw_only=True)
 class Washer:
     """The Stribeck curves of a washer on one surface.
@@ -72,6 +77,11 @@ class Washer:
     boxes: AsperityTable | None
     curves: tuple[StribeckCurve, ...]
     boxed: tuple[StribeckCurve, ...]
+
+    @property
+    def asperities(self) -> AsperityTable:
+        """The flow factors and contact pressures of the surface over the separation."""
+        return _asperities(self.wall)
 
     def lift(self, *, boxed: bool = False) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
         """Return the lift-off speed and its uncertainty, revolutions per minute, shape (loads, 2)."""
@@ -166,7 +176,7 @@ def washer(
     curves, _ = resumed_curves(scene, asked, LOADS, wall, folder / "stribeck.h5", cells, report)
     if not boxed:
         return Washer(scene=scene, wall=wall, boxes=None, curves=curves, boxed=())
-    boxes = _boxes(surface, wall.asperities, folder / "patir_cheng.h5")
+    boxes = _boxes(surface, _asperities(wall), folder / "patir_cheng.h5")
     other = Wall(
         asperities=boxes, warnings=(), points=0, known_points=0, source={**wall.source, "factors": "Patir and Cheng"}
     )

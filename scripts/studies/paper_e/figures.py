@@ -73,7 +73,7 @@ def pressures(washers: Mapping[str, Washer]) -> Figure:
     views = {}
     for name, turns in product(names, SHOWN):
         one = washers[name]
-        film = MixedFilm(scene=one.scene, asperities=one.wall.asperities, cells=CELLS)
+        film = MixedFilm(scene=one.scene, asperities=one.asperities, cells=CELLS)
         views[name, turns] = drawn_film(film, point_at(one, 1, turns), f"{name}, {turns:g} rpm")
     scale = {"vmin": 0, "vmax": max(float(view.film.max()) for view in views.values()) / 1e6, "cmap": "viridis"}
     for axes, (turns, name) in zip(panels.ravel(), product(SHOWN, names), strict=True):
@@ -100,7 +100,7 @@ def films(washers: Mapping[str, Washer]) -> Figure:
             for curves, line in ((one.curves, "-"), (one.boxed, "--")):
                 points = [point for point in curves[number].points if point.speed * one.turns <= end * 1.15]
                 speeds = [point.speed * one.turns for point in points]
-                heights = [1e6 * (point.separation - one.wall.asperities.touching) for point in points]
+                heights = [1e6 * (point.separation - one.asperities.touching) for point in points]
                 axes.plot(speeds, heights, line, color=colour, linewidth=1.4, label=name if line == "-" else None)
             speed, uncertainty = one.lift()[number]
             axes.errorbar([speed], [0], xerr=[uncertainty], fmt="o", ms=3.5, color=colour, elinewidth=1.2, capsize=2)

@@ -1,0 +1,192 @@
+"""The answers of a sweep in words: quantities with their unit, the best case, and what is missing."""
+
+import math
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.rom.ladder.kind import Kind
+from roughfilm.rom.studies.answers import Answer, Optimum, Sense, base_of
+from roughfilm.rom.studies.parameters import Parameter
+from roughfilm.words.numbers import share, with_error
+
+PREFIXED = {
+    "Pa": ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa"), (1.0, "Pa")),
+    "m": ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm")),
+    "N": ((1e3, "kN"), (1.0, "N"), (1e-3, "mN")),
+    "N/m": ((1e3, "kN/m"), (1.0, "N/m"), (1e-3, "mN/m")),
+    "N*m": ((1e3, "kN·m"), (1.0, "N·m"), (1e-3, "mN·m")),
+    "m^3/s": ((1e-3, "l/s"), (1e-6, "ml/s"), (1e-9, "mm³/s")),
+    "m^2/s": ((1.0, "m²/s"), (1e-6, "mm²/s"), (1e-12, "µm²/s")),
+    "W": ((1e3, "kW"), (1.0, "W"), (1e-3, "mW")),
+}
+"""Multiples of units that are printed, with their names, the largest first."""
+
+LEAST_PLAIN, MOST_PLAIN = 1e-3, 1e5
+"""Range of the largest value that is printed without a power of ten."""
+
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+CASES_NAMED = 3
+"""Cases that a sentence names; the others are counted."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scale:
+    """The unit in which a quantity is shown; ``factor`` is its size in the SI unit."""
+
+    factor: float
+    unit: str
+
+    def text(self, value: float, uncertainty: float | None = None) -> str:
+        """A value in the SI unit with its uncertainty and the unit shown; NaN is unknown."""
+        bar = None if uncertainty is None or np.isnan(uncertainty) else uncertainty / self.factor
+        number = with_error(value / self.factor, bar)
+        return f"{number} {self.unit}".strip().replace("-", "−")
+
+
+def scale_of(unit: str, values: Array) -> Scale:
+    """The multiple of a unit in which the largest magnitude of values is at least 1."""
+    known = values[np.isfinite(values)]
+    largest = float(np.abs(known).max()) if known.size else 0.0
+    if unit in PREFIXED and largest:
+        factor, name = next((one for one in PREFIXED[unit] if largest >= one[0]), PREFIXED[unit][-1])
+        return Scale(factor=factor, unit=name)
+    name = "" if unit == "1" else unit.replace("*", "·").replace("^2", "²").replace("^3", "³")
+    if not largest or LEAST_PLAIN <= largest < MOST_PLAIN:
+        return Scale(factor=1.0, unit=name)
+    power = 3 * math.floor(math.log10(largest) / 3)
+    return Scale(factor=10.0**power, unit=f"10{str(power).translate(RAISED)} {name}".strip())
+
+
+def title_of(kind: Kind, quantity: str) -> str:
+    """The name of a quantity in a sentence."""
+    if quantity in kind.titles:
+        return kind.titles[quantity] + (" (dimensionless)" if quantity.endswith("_plus") else "")
+    base = next((title for name, title in kind.titles.items() if base_of(name) == base_of(quantity)), None)
+    ending = quantity.removeprefix(base_of(quantity)).replace("_", " ")
+    return quantity.replace("_", " ") if base is None else f"{base}{ending}"
+
+
+def place_of(parameters: Sequence[Parameter], case: int) -> str:
+    """The values of a case: "depth = 7.5 um, profile = splined"."""
+    return ", ".join(f"{one.name} = {one.text(case)}" for one in parameters)
+
+
+def best_sentence(answer: Answer, title: str, scale: Scale, parameters: Sequence[Parameter]) -> str:
+    """The sentence with the best case, or with both ends where it is not clear which one is best.
+
+    "Largest load: 12.3 ± 0.1 N/m at depth = 7.5 um (case 4 of 10), by film_slope"
+    """
+    total = answer.values.size
+
+    def at(case: int) -> str:
+        number = scale.text(answer.values[case], answer.uncertainty[case])
+        unknown = "" if np.isfinite(answer.uncertainty[case]) else ", uncertainty unknown"
+        where = place_of(parameters, case)
+        return f"{number}{unknown}{f' at {where}' if where else ''} (case {case + 1} of {total})"
+
+    if len(answer.order) == 1:
+        return f"{_upper(title)}: {at(answer.best)}, the only case by {answer.setting}"
+    if answer.sense is Sense.UNCLEAR:
+        return f"{_upper(title)}: largest {at(answer.best)}, smallest {at(answer.worst)}, by {answer.setting}"
+    return f"{_upper(answer.sense)} {title}: {at(answer.best)}, by {answer.setting}"
+
+
+def decision_sentence(answer: Answer, scale: Scale) -> str:
+    """The sentence on whether the best two cases differ by more than their uncertainties; empty for one case."""
+    if answer.decided is None and len(answer.order) < 2:
+        return ""
+    first, second = answer.order[:2]
+    gap = scale.text(abs(answer.values[first] - answer.values[second]))
+    end = "largest" if answer.sense is Sense.UNCLEAR else "best"
+    if answer.decided is None:
+        reason = "an uncertainty is unknown, so that it is not known whether they differ"
+    elif answer.decided:
+        reason = "this is more than their uncertainties"
+    else:
+        reason = "this is less than their uncertainties, so that either may be the best"
+    return f"The {end} two cases, {first + 1} and {second + 1}, differ by {gap}; {reason}."
+
+
+def optimum_sentence(found: Optimum, along: Parameter, answer: Answer, title: str, scale: Scale) -> str:
+    """The sentence on the optimum between the cases."""
+    place = with_error(found.place, found.place_uncertainty)
+    value = scale.text(found.value, found.value_uncertainty)
+    how = "logarithm of the parameter" if along.logarithmic else "parameter"
+    return (
+        f"Between the cases the {answer.sense} {title} is expected at {along.name} = {place} {along.unit}".rstrip()
+        + f", with {value} (parabola over the {how} through three cases)."
+    )
+
+
+def uncertainty_sentence(answer: Answer) -> str:
+    """The sentence on the meaning of ± in an answer."""
+    known = np.isfinite(answer.values)
+    laws, unknown = int((answer.by_laws & known).sum()), int((np.isnan(answer.uncertainty) & known).sum())
+    numerical = int(known.sum()) - laws - unknown
+    model = answer.setting.split("-")[0]
+    parts = []
+    if numerical:
+        where = "" if numerical == known.sum() else f" in {_cases(numerical)}"
+        parts.append(f"the numerical uncertainty{where}, which does not contain effects that {model} leaves out")
+    if laws:
+        where = "" if laws == known.sum() else f" in {_cases(laws)}"
+        parts.append(f"the expected error of {model} by the fitted laws{where}")
+    if unknown:
+        parts.append(f"unknown in {'all' if unknown == known.sum() else ''} {_cases(unknown)}".replace("  ", " "))
+    return f"± is {', and '.join(parts)}." if parts else ""
+
+
+def missing_sentences(solved: Mapping[str, Array], failures: Sequence[tuple[str, str, str]], to_come: int) -> list[str]:
+    """A sentence for each setting that lacks cases, with the reason, and one for the jobs of an unfinished batch.
+
+    Parameters
+    ----------
+    solved : masks of the solved cases, shape (cases,), by setting.
+    failures : case, setting and reason of the jobs without a result.
+    to_come : number of jobs without an answer.
+    """
+    found = []
+    for setting, mask in solved.items():
+        lacking = [place for place, known in enumerate(mask) if not known]
+        if not lacking:
+            continue
+        reasons = Counter(reason for case, name, reason in failures if name == setting)
+        why = reasons.most_common(1)[0][0] if reasons else "not solved yet"
+        more = f"; {len(reasons) - 1} other reasons" if len(reasons) > 1 else ""
+        named = ", ".join(str(place + 1) for place in lacking[:CASES_NAMED])
+        named += ", ..." if len(lacking) > CASES_NAMED else ""
+        has = "has" if len(lacking) == 1 else "have"
+        found.append(f"{_cases(len(lacking))} ({named}) {has} no {setting} result: {why}{more}")
+    if to_come:
+        jobs = "job has" if to_come == 1 else "jobs have"
+        found.append(
+            f"The batch is not finished: {to_come} {jobs} no answer; the same command 'roughfilm batch' goes on"
+        )
+    return found
+
+
+def largest_error_text(error: float, bar: float) -> str:
+    """A largest error in per cent with the uncertainty of the reference; NaN is unknown."""
+    if np.isnan(error):
+        return "–"
+    return share(error) if np.isnan(bar) else f"{share(error)} ± {share(bar)}"
+
+
+def count_text(within: tuple[int, int], cases: int) -> str:
+    """The number of cases that are certainly, and those that are possibly, within a tolerance."""
+    certain, possible = within
+    number = str(certain) if certain == possible else f"{certain}–{possible}"
+    return f"{number} of {cases}"
+
+
+def _upper(text: str) -> str:
+    return text[:1].upper() + text[1:]
+
+
+def _cases(count: int) -> str:
+    return "1 case" if count == 1 else f"{count} cases"
