@@ -38,7 +38,7 @@ def alone(out: Path) -> Iterator[Path]:
     with locked(out / ".lock", message):
         scratch = out / ".scratch"
         shutil.rmtree(scratch, ignore_errors=True)  # left by a batch that was killed, as are the files
-        for path in [*out.glob(".table-*"), *(out / CASES).glob("*/.*")]:
+        for path in [*out.glob(".table-*"), *out.glob(".study-*"), *(out / CASES).glob("*/.*")]:
             path.unlink(missing_ok=True)
         scratch.mkdir(exist_ok=True)
         try:
