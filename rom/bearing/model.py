@@ -32,18 +32,21 @@ MAX_CELLS = {True: 4_000_000, False: 2048}
 """Largest number of cells along a side, for an infinitely wide film (True) and for others."""
 
 FILMS_UNDER_LOAD = 2.0
-"""CPU time of the search for the film under a load over that of one film."""
+"""CPU time on the finest grid under a load over that of a given film."""
+
+SEARCH_S = 5e-2
+"""CPU time of the search for the film under a load on the coarse grids, s."""
 
 _solve = deferred("rom.bearing.solve", "solve")
 
 
 def cost(scene: Bearing, cells: int, *, wide: bool, in_plane: float, oblique: float) -> float:
     """The expected CPU seconds; ``in_plane`` and ``oblique`` as in :func:`bearing_model`."""
-    films = 1.0 if scene.load is None else FILMS_UNDER_LOAD
+    films, search = (1.0, 0.0) if scene.load is None else (FILMS_UNDER_LOAD, SEARCH_S)
     if wide or scene.wide:
-        return films * (4e-3 + 8e-7 * cells)
+        return search + films * (4e-3 + 8e-7 * cells)
     ridges = isinstance(scene.roughness, Sinusoid) and all(scene.roughness.waves)
-    return films * (1e-2 + in_plane * (oblique if ridges else 1.0) * cells**2)
+    return search + films * (1e-2 + in_plane * (oblique if ridges else 1.0) * cells**2)
 
 
 def smooth_wall_applies(scene: Bearing, *, applies: Callable[[Bearing], Applicability]) -> Applicability:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -73,11 +74,16 @@ def command(
     pressures = (own,) if loads is None and own is not None else loads_of(loads or LOADS)
     if not MIN_CELLS <= resolution <= MAX_CELLS:
         raise InputError(f"--resolution: got {resolution}; it must be {MIN_CELLS} to {MAX_CELLS} cells along a side")
+    if table is not None and bearing.asperities is None:
+        raise InputError(f"--table: got {table}, but the scene has no [asperities]; add them or leave the table out")
     page, stored = out / "report.html", out / "stribeck.h5"
     make_directory(out)
     refuse_unwritable(page)
     with alone(stored, "sweep"), progress_bar(1.0) as advance:
-        wall = wall_of(bearing, pressures[-1], table, out / "table.h5", _between(advance, 0.0, 0.5), resolution)
+        made = partial(
+            wall_of, bearing, pressures[-1], table, out / "table.h5", _between(advance, 0.0, 0.5), resolution
+        )
+        wall = None if bearing.asperities is None else made()
         curves, known = resumed_curves(
             bearing, sliding, pressures, wall, stored, resolution, _between(advance, 0.5, 0.95)
         )
@@ -88,7 +94,7 @@ def command(
         from roughfilm.pages.stribeck import write_page  # matplotlib is slow to import
 
         advance(0.95, "drawing the page")
-        write_page(bearing, entries, curves, wall.asperities, resolution, page)
+        write_page(bearing, entries, curves, None if wall is None else wall.asperities, resolution, page)
 
     def shown() -> Iterator[Table | str]:
         scale = speed_scale(bearing)
@@ -123,7 +129,7 @@ def _least_friction(curve: StribeckCurve) -> StribeckPoint:
 
 
 def curve_entries(
-    scene: Bearing, curves: Sequence[StribeckCurve], wall: Wall, speeds: Sequence[float]
+    scene: Bearing, curves: Sequence[StribeckCurve], wall: Wall | None, speeds: Sequence[float]
 ) -> dict[str, Any]:
     """The object of ``--json``, without the cost."""
     quantities: dict[str, Any] = {}
@@ -162,10 +168,15 @@ def curve_entries(
             "residual": max(point.residual for point in points),
             "balance": max(point.balance for point in points),
             "points": len(points),
-            "table_points": wall.points,
-            "table_points_found": wall.known_points,
+            "table_points": 0 if wall is None else wall.points,
+            "table_points_found": 0 if wall is None else wall.known_points,
         },
-        "provenance": origin(SOURCES, [*wall.warnings, *warnings], scene=scene_entries(scene), table=dict(wall.source)),
+        "provenance": origin(
+            SOURCES,
+            [*(() if wall is None else wall.warnings), *warnings],
+            scene=scene_entries(scene),
+            table={} if wall is None else dict(wall.source),
+        ),
     }
 
 

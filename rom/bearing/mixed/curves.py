@@ -51,14 +51,14 @@ class Wall:
 
     Attributes
     ----------
-    asperities : flow factors and contact pressures over the separation; None of walls without asperities.
+    asperities : flow factors and contact pressures over the separation.
     warnings : sentences about an extended table or a surface that is not periodic.
     points : number of points of the table.
     known_points : number of those that were already in a file.
     source : input of the table as JSON entries.
     """
 
-    asperities: AsperityTable | None
+    asperities: AsperityTable
     warnings: tuple[str, ...]
     points: int
     known_points: int
@@ -84,10 +84,6 @@ def wall_of(scene: Bearing, largest: float, table: Path | None, out: Path, progr
     """
     surface = scene.roughness if isinstance(scene.roughness, RoughSurface) else None
     warnings: list[str] = []
-    if scene.asperities is None:
-        if table is not None:
-            raise InputError(f"table: got {table}, but the scene has no [asperities]; add them or leave the table out")
-        return Wall(asperities=None, warnings=(), points=0, known_points=0, source={})
     if surface is not None and not surface.read().periodic:
         mismatch = periodicity_mismatch(surface.read())
         if mismatch > MISMATCH_THRESHOLD:
@@ -226,7 +222,7 @@ def resumed_curves(
     scene: Bearing,
     speeds: Sequence[float],
     loads: Sequence[float],
-    wall: Wall,
+    wall: Wall | None,
     out: Path,
     resolution: int,
     progress: Progress,
@@ -236,7 +232,7 @@ def resumed_curves(
     Parameters
     ----------
     speeds, loads : sliding speeds, m/s, and loads over the nominal area, Pa.
-    wall : the asperities.
+    wall : the asperities; None of a scene without asperities.
     out : path of the file, which holds all finished points even if the sweep is stopped.
     resolution : number of cells along a side.
 
@@ -248,7 +244,7 @@ def resumed_curves(
         If a film does not converge.
     """
     entries = {name: entry for name, entry in scene_entries(scene).items() if name != "load"}
-    settings = {**_flat(entries), **wall.source, "resolution": resolution, "code": code()}
+    settings = {**_flat(entries), **({} if wall is None else wall.source), "resolution": resolution, "code": code()}
     for name in IRRELEVANT:
         settings.pop(name, None)
     inputs = Inputs(heights=np.zeros((0, 0)), spacing=(1.0, 1.0), settings=settings)
@@ -268,7 +264,7 @@ def resumed_curves(
             scene,
             speeds,
             loads,
-            asperities=wall.asperities,
+            asperities=None if wall is None else wall.asperities,
             resolution=resolution,
             known=known,
             keep=keep,

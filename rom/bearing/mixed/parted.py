@@ -1,6 +1,6 @@
 """Films of walls that never touch, smooth or averaged over their roughness, for curves over speed."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +10,7 @@ from roughfilm.rom.bearing.equilibrium.expected import closest_film, first_film
 from roughfilm.rom.bearing.film import averaged_films
 from roughfilm.rom.bearing.mixed.film import MixedFilm
 from roughfilm.rom.bearing.scene import Bearing, BearingLoad
+from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.homogenization.gap_factors import GapFactors
 
 
@@ -102,7 +103,8 @@ def parted_film(
     if scene.roughness is None:
         closest = closest_film(heaviest) - scene.geometry.dip
         first = first_film(heaviest, closest + scene.geometry.dip)
-        walls, film = Parted(closest=closest), Bearing.problem
+        walls = Parted(closest=closest)
+        film: Callable[[Bearing], Problem] = Bearing.problem
     else:
         among = averaged_films(heaviest)
         closest, first, film = among.closest - scene.geometry.dip, among.first, among.film

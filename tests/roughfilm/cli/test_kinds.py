@@ -54,7 +54,7 @@ def test_every_kind_has_a_view_that_names_its_quantities_and_models():
     for name, kind in kinds().items():
         view = views()[name]
         assert kind.name == name
-        assert set(view.labels) == set(kind.compared)
+        assert set(view.labels) == set(kind.compared).union(*kind.compared_with.values())
         assert set(kind.compared) <= set(view.headings)
         assert set(view.styles) == {model.name for model in models() if model.kind == name}
 
