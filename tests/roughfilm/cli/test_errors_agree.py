@@ -47,7 +47,7 @@ def without_outside(monkeypatch):
 def run(*arguments):
     found = CliRunner().invoke(app, [str(argument) for argument in arguments])
     assert found.exit_code in (0, NOT_CONVERGED), found.output
-    return found.output
+    return found.stdout
 
 
 def statements(text, titles):
