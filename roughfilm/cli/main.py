@@ -30,7 +30,7 @@ COMMANDS = {
     "export": "Write a gap, a surface or a result as a mesh for other tools: lengths in metres, data named with "
     "their units.",
     "doctor": "Check Python, OpenFOAM, MPI, rendering and the reader of instrument files; give remedies.",
-    "cache": "Show the tables of surfaces that are kept for later runs, or remove them.",
+    "cache": "Show what is kept for later runs, tables of surfaces and series of leakage, or remove it.",
     "contact": "Press a rough surface against a flat plane: area, gap and pressures by load.",
 }
 """The help of each command, in one line; ``roughfilm/cli/<command>.py`` has the command."""
