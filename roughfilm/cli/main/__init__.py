@@ -41,7 +41,7 @@ GROUPS = {
     },
     "Upkeep": {
         "schema": "Print the JSON Schema of scene files, with which editors check and complete them.",
-        "cache": "Show the tables of surfaces that are kept for later runs, or remove them.",
+        "cache": "Show what is kept for later runs, tables of surfaces and series of leakage, or remove it.",
         "doctor": "Check Python, OpenFOAM, MPI, rendering and the reader of instrument files; give remedies.",
         "charts": "Chart CPU time against error for every model and resolution: charts.html, .json, .csv, .png and an "
         ".svg each.",
