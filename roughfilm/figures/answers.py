@@ -16,6 +16,7 @@ from roughfilm.rom.studies.answers import Answer, Optimum, Sense, slice_of
 from roughfilm.rom.studies.parameters import Parameter
 from roughfilm.rom.studies.sufficient import InertiaChange, Suitability
 from roughfilm.words.sweep import Scale
+from roughfilm.words.units import scale_of
 
 MAX_PANELS = 6
 """Largest number of combinations of the other parameters that have a panel each."""
@@ -160,7 +161,7 @@ def several(parameters: Sequence[Parameter], shown: Sequence[tuple[Answer, str, 
 def profiles(lines: Mapping[str, tuple[Array, Array]], label: str, lowest: float | None = None) -> str:
     """The pressure along the film of chosen cases: by name, positions in the unit of ``label`` and pressures in Pa."""
     largest = max(float(np.abs(pressure).max()) for _, pressure in lines.values())
-    factor, unit = (1e6, "MPa") if largest >= 1e6 else (1e3, "kPa") if largest >= 1e3 else (1.0, "Pa")
+    factor, unit = scale_of("Pa", largest)
     figure, axes = new_figure((9, 3.8))
     for (name, (x, pressure)), style in zip(lines.items(), ("-", "--", ":"), strict=False):
         axes.plot(x, pressure / factor, style, label=name, linewidth=2)

@@ -49,13 +49,13 @@ from roughfilm.words.numbers import finite, percent, share
 from roughfilm.words.sweep import (
     Scale,
     best_sentence,
+    common_scale,
     count_text,
     decision_sentence,
     largest_error_text,
     missing_sentences,
     optimum_sentence,
     place_of,
-    scale_of,
     title_of,
     uncertainty_sentence,
 )
@@ -198,7 +198,7 @@ def shown_answers(study: Study, want: str | None) -> list[Shown]:
         if values is None or not np.isfinite(values).any():
             continue
         answer = answer_of(study.sweep, top, name)
-        title, scale = title_of(study.kind, name), scale_of(study.units.get(name, "1"), values)
+        title, scale = title_of(study.kind, name), common_scale(study.units.get(name, "1"), values)
         found = [(one, best) for one in study.parameters if (best := optimum(study.parameters, one, answer))]
         sentences = [decision_sentence(answer, scale)]
         sentences += [optimum_sentence(best, one, answer, title, scale) for one, best in found]

@@ -1,6 +1,5 @@
 """The answers of a sweep in words: quantities with their unit, the best case, and what is missing."""
 
-import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -12,23 +11,7 @@ from roughfilm.rom.ladder.kind import Kind
 from roughfilm.rom.studies.answers import Answer, Optimum, Sense, base_of
 from roughfilm.rom.studies.parameters import Parameter
 from roughfilm.words.numbers import share, with_error
-
-PREFIXED = {
-    "Pa": ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa"), (1.0, "Pa")),
-    "m": ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm")),
-    "N": ((1e3, "kN"), (1.0, "N"), (1e-3, "mN")),
-    "N/m": ((1e3, "kN/m"), (1.0, "N/m"), (1e-3, "mN/m")),
-    "N*m": ((1e3, "kN·m"), (1.0, "N·m"), (1e-3, "mN·m")),
-    "m^3/s": ((1e-3, "l/s"), (1e-6, "ml/s"), (1e-9, "mm³/s")),
-    "m^2/s": ((1.0, "m²/s"), (1e-6, "mm²/s"), (1e-12, "µm²/s")),
-    "W": ((1e3, "kW"), (1.0, "W"), (1e-3, "mW")),
-}
-"""Multiples of units that are printed, with their names, the largest first."""
-
-LEAST_PLAIN, MOST_PLAIN = 1e-3, 1e5
-"""Range of the largest value that is printed without a power of ten."""
-
-RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+from roughfilm.words.units import scale_of
 
 CASES_NAMED = 3
 """Cases that a sentence names; the others are counted."""
@@ -48,18 +31,11 @@ class Scale:
         return f"{number} {self.unit}".strip().replace("-", "−")
 
 
-def scale_of(unit: str, values: Array) -> Scale:
-    """The multiple of a unit in which the largest magnitude of values is at least 1."""
-    known = values[np.isfinite(values)]
-    largest = float(np.abs(known).max()) if known.size else 0.0
-    if unit in PREFIXED and largest:
-        factor, name = next((one for one in PREFIXED[unit] if largest >= one[0]), PREFIXED[unit][-1])
-        return Scale(factor=factor, unit=name)
-    name = "" if unit == "1" else unit.replace("*", "·").replace("^2", "²").replace("^3", "³")
-    if not largest or LEAST_PLAIN <= largest < MOST_PLAIN:
-        return Scale(factor=1.0, unit=name)
-    power = 3 * math.floor(math.log10(largest) / 3)
-    return Scale(factor=10.0**power, unit=f"10{str(power).translate(RAISED)} {name}".strip())
+def common_scale(unit: str, values: Array) -> Scale:
+    """The largest unit in which the largest magnitude of values is at least 1."""
+    known = np.abs(values[np.isfinite(values)])
+    factor, name = scale_of(unit, float(known.max(initial=0.0)))
+    return Scale(factor=factor, unit=name)
 
 
 def title_of(kind: Kind, quantity: str) -> str:
