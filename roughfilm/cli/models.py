@@ -70,7 +70,7 @@ NARROW = 20
 def command(
     kind: Annotated[
         str | None,
-        typer.Argument(metavar="[KIND]", help="Explain the models of one kind.", autocompletion=kinds_beginning_with),
+        typer.Argument(metavar="KIND", help="Explain the models of one kind.", autocompletion=kinds_beginning_with),
     ] = None,
     as_json: AsJson = False,
 ) -> None:

@@ -23,7 +23,7 @@ def command(
     kind: Annotated[
         str | None,
         typer.Argument(
-            metavar="[KIND]",
+            metavar="KIND",
             help="Kind of the scene, such as pocket or bearing/journal (default: list them).",
             autocompletion=kinds_beginning_with,
         ),

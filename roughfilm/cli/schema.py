@@ -17,7 +17,7 @@ def command(
     kind: Annotated[
         str | None,
         typer.Argument(
-            metavar="[KIND]",
+            metavar="KIND",
             help="Kind of the scenes (default: all, selected by their key kind).",
             autocompletion=kinds_beginning_with,
         ),

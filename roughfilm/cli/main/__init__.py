@@ -15,11 +15,11 @@ GROUPS = {
         "models": "List the models of each kind of scene: what each keeps, its cost, and whether it can run here.",
         "advise": "Choose the cheapest model and resolution that are accurate enough, with their expected error and "
         "cost.",
-        "solve": "Solve a scene by one model, or by the cheapest that is accurate enough.",
+        "solve": "Solve a scene by the cheapest model that is accurate enough, or by a given one.",
         "compare": "Run every model that applies and write report.html, results (.h5) and figures.",
     },
     "Bearings and seals": {
-        "stribeck": "Sweep speed and load of a bearing whose walls may touch, to Stribeck curves.",
+        "stribeck": "Sweep speed and load of a bearing, smooth or with walls that may touch, to Stribeck curves.",
         "effects": "Switch the effects of a bearing on one at a time: what each adds to load, friction and flow, and "
         "to the film.",
         "leakage": "Compute contact, gap and leakage of a seal, directly and averaged, from the first touch until it "
