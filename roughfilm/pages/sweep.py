@@ -64,6 +64,7 @@ SUFFICIENT = 0.05
 """Error within which a model would have done."""
 
 LISTED_FAILURES = 20
+"""Failed jobs in the list of failures."""
 
 FIRST_ROWS = 30
 """Cases in the table of the cases that is open; the others are in a closed one."""

@@ -321,7 +321,7 @@ def _load_too_high(at: FilmsAtSpeed[FilmT], pressure: float, largest: float) -> 
     if largest <= ROUNDING * pressure * at.film.area:
         return InputError(
             f"load: got {pressure:.6g} Pa over the nominal area; no film carries a load at {at.speed:.4g} m/s, as the "
-            "walls are parallel or widen along the sliding; give the wall a rise or pockets, or turn the speed round"
+            "walls are parallel or widen along the sliding; give the wall a rise or pockets, or reverse the speed"
         )
     return InputError(
         f"load: got {pressure:.6g} Pa over the nominal area; at {at.speed:.4g} m/s film and walls carry at most "
