@@ -39,6 +39,20 @@ def with_error(value: float, uncertainty: float | None) -> str:
     return f"{_rounded(value, last)} ± {_rounded(uncertainty, last)}"
 
 
+def share(fraction: float) -> str:
+    """A fraction without sign in per cent, with two digits below 100 %; "unknown" if it is not finite.
+
+    Examples
+    --------
+    >>> share(0.0123), share(0.25), share(2.52), share(math.inf)
+    ('1.2 %', '25 %', '252 %', 'unknown')
+    """
+    if not math.isfinite(fraction):
+        return "unknown"
+    percent = 100 * fraction
+    return f"{percent:.0f} %" if percent >= 99.5 else f"{percent:.2g} %"
+
+
 def _rounded(value: float, last: int) -> str:
     """A value rounded to 10 to the power of ``last``."""
     return f"{round(value, -last):.{max(-last, 0)}f}"

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from roughfilm.contact.foundation.rounding import share
 from roughfilm.rom.ladder.result import Result
 
 BY_LAWS = "expected by the laws"
@@ -54,13 +55,13 @@ class StatedError:
         """
         if self.difference is None:
             return percent(self.error)
-        size = _number(abs(self.difference))
+        size = _share(abs(self.difference))
         sign = "" if size == "0 %" else "−" if self.difference < 0 else "+"
         if self.uncertainty is None or not math.isfinite(self.uncertainty):
             return f"{sign}{size} ± ?"
         if self.uncertainty < MIN_STATED_UNCERTAINTY:
             return sign + size
-        return f"{sign}{size} ± {_number(self.uncertainty)}"
+        return f"{sign}{size} ± {_share(self.uncertainty)}"
 
     @property
     def words(self) -> str:
@@ -83,20 +84,13 @@ def percent(fraction: float) -> str:
     >>> percent(0.0123), percent(0.25), percent(2.52), percent(math.inf)
     ('1.2 %', '25 %', 'above 100 %', 'unknown')
     """
-    if not math.isfinite(fraction):
-        return "unknown"
-    if fraction > MAX_STATED_ERROR:
+    if MAX_STATED_ERROR < fraction < math.inf:
         return f"above {100 * MAX_STATED_ERROR:.0f} %"
-    return _number(fraction)
+    return _share(fraction)
 
 
-def _number(fraction: float) -> str:
-    """A fraction in per cent, with two digits below 10 %."""
-    if not math.isfinite(fraction):
-        return "unknown"
-    if fraction < LEAST_STATED:
-        return "0 %"
-    return f"{100 * fraction:.2g} %" if fraction < 0.1 else f"{100 * fraction:.0f} %"
+def _share(fraction: float) -> str:
+    return "0 %" if fraction < LEAST_STATED else share(fraction)
 
 
 def entries_of_errors(errors: Mapping[str, StatedError]) -> dict[str, dict[str, Any]]:

@@ -15,6 +15,7 @@ from roughfilm.rom.ladder.model import Availability, Model, Resolutions
 from roughfilm.terminal.completion import kinds_beginning_with
 from roughfilm.terminal.console import AsJson, output, print_json
 from roughfilm.terminal.results import print_all, table_of
+from roughfilm.words.cost import seconds
 
 EXAMPLES = (
     "roughfilm models",
@@ -94,6 +95,12 @@ def typical_cpu_s(model: Model) -> float:
     return TYPICAL_CPU_S.get(model.kind, {}).get(model.name, float("inf"))
 
 
+def _typical(model: Model) -> str:
+    """The typical CPU time of a model in a few characters."""
+    time = typical_cpu_s(model)
+    return "unknown" if time == float("inf") else seconds(time)
+
+
 def _entries(model: Model, here: Availability) -> dict[str, object]:
     offered = model.resolutions
     return {
@@ -119,7 +126,7 @@ def overview(rows: Sequence[tuple[Model, Availability]]) -> Iterator[str]:
         own = [(model, here) for model, here in rows if model.kind == kind]
         for model, here in own:
             words = _kept(model, [other for other, _ in own])
-            cost = _duration(typical_cpu_s(model)) if here.available else "not here"
+            cost = _typical(model) if here.available else "not here"
             if room < NARROW:
                 yield f"  {model.name}: {cost}; {words}"
                 continue
@@ -147,10 +154,7 @@ def _kept(model: Model, others: Sequence[Model]) -> str:
 def _explained(kind: str, rows: Sequence[tuple[Model, Availability]]) -> Iterator[Table | str]:
     """The models of one kind in order of cost, with their summaries and resolutions."""
     yield f"{kind}: {kind_of_name(kind).summary}"
-    cells = [
-        (model.name, _duration(typical_cpu_s(model)) if here.available else "not here", model.summary)
-        for model, here in rows
-    ]
+    cells = [(model.name, _typical(model) if here.available else "not here", model.summary) for model, here in rows]
     table = table_of(("model", "CPU", "what it adds"), cells, left=1)
     table.columns[2].justify = "left"
     yield table
@@ -182,10 +186,3 @@ def _absent(rows: Sequence[tuple[Model, Availability]]) -> Iterator[str]:
 
 def _listed(names: Sequence[str]) -> str:
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
-
-
-def _duration(seconds: float) -> str:
-    """A typical time in a few characters."""
-    if seconds == float("inf"):
-        return "unknown"
-    return f"{1000 * seconds:.2g} ms" if seconds < 0.1 else f"{seconds:.2g} s"

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
@@ -104,10 +105,7 @@ def over_parameters(
         _scales(drawn, parameters, axes, np.concatenate([one.values for one in answers]))
         drawn.set_ylabel(_axis(title, scale) if place % columns == 0 else "")
         _limits(drawn, answers, scale)
-    handles, labels = grid.flat[0].get_legend_handles_labels()
-    order = dict(zip(labels[::-1], handles[::-1], strict=True))
-    figure.legend(order.values(), order.keys(), loc="outside upper center", ncols=4, fontsize=8)
-    return svg(figure)
+    return _with_legend(figure, grid.flat[0], last_first=True)
 
 
 def slices(
@@ -134,10 +132,7 @@ def slices(
         _mark_best(axes, [along], (along,), answers[0], mask, scale)
         _scales(axes, [along], (along,), np.concatenate([one.values[cases] for one in answers]))
         axes.set_ylabel(_axis(title, scale) if place % columns == 0 else "")
-    handles, labels = grid.flat[0].get_legend_handles_labels()
-    order = dict(zip(labels[::-1], handles[::-1], strict=True))
-    figure.legend(order.values(), order.keys(), loc="outside upper center", ncols=4, fontsize=8)
-    return svg(figure)
+    return _with_legend(figure, grid.flat[0], last_first=True)
 
 
 def several(parameters: Sequence[Parameter], shown: Sequence[tuple[Answer, str, Scale]], view: View, best: int) -> str:
@@ -244,9 +239,7 @@ def errors_along(
         if axes and axes[0].logarithmic:
             drawn.set_xscale("log")
         _texts(drawn, parameters)
-    handles, labels = panels[0][0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=3, fontsize=8)
-    return svg(figure)
+    return _with_legend(figure, panels[0][0])
 
 
 def cheapest_models(
@@ -313,9 +306,7 @@ def inertia_along(parameters: Sequence[Parameter], changes: Mapping[str, Sequenc
         if axes and axes[0].logarithmic:
             drawn.set_xscale("log")
         _texts(drawn, parameters)
-    handles, labels = panels[0][0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=3, fontsize=8)
-    return svg(figure)
+    return _with_legend(figure, panels[0][0])
 
 
 def _maps(parameters: Sequence[Parameter], axes: Sequence[Parameter], answer: Answer, title: str, scale: Scale) -> str:
@@ -446,6 +437,15 @@ def _scales(axes: Axes, parameters: Sequence[Parameter], along: Sequence[Paramet
     if known.size and known.min() > 0 and np.log10(known.max() / known.min()) > LOG_DECADES:
         axes.set_yscale("log")
     _texts(axes, parameters)
+
+
+def _with_legend(figure: Figure, axes: Axes, *, last_first: bool = False) -> str:
+    """The figure as SVG text, with the legend of one of its panels above it."""
+    handles, labels = axes.get_legend_handles_labels()
+    lines = dict(zip(labels, handles, strict=True))
+    names = [*reversed(lines)] if last_first else [*lines]
+    figure.legend([lines[name] for name in names], names, loc="outside upper center", ncols=4, fontsize=8)
+    return svg(figure)
 
 
 def _limits(axes: Axes, answers: Sequence[Answer], scale: Scale) -> None:

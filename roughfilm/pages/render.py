@@ -9,6 +9,7 @@ import jinja2
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.studies.comparison import Difference
+from roughfilm.words.cost import seconds
 from roughfilm.words.numbers import MIN_UNCERTAINTY, percent, share, span
 from roughfilm.words.units import scale_of
 
@@ -32,7 +33,7 @@ def render(template: str | Path, path: Path, **entries: Any) -> None:
     environment.filters.update(
         percent=percent,
         share=share,
-        seconds=_seconds,
+        seconds=seconds,
         number=_number,
         digits=_digits,
         si=_si,
@@ -52,10 +53,6 @@ def write_figures(plots: Mapping[str, str], directory: Path) -> None:
     for name, text in plots.items():
         with replacing(directory / f"{name}.svg") as scratch:
             scratch.write_text('<?xml version="1.0" encoding="utf-8"?>\n' + text, encoding="utf-8")
-
-
-def _seconds(value: float) -> str:
-    return f"{value * 1e3:.2g} ms" if value < 0.1 else f"{value:.2g} s"
 
 
 def _number(value: float) -> str:

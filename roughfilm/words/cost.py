@@ -16,6 +16,17 @@ NAMES = {
 """The words for each one-time cost."""
 
 
+def seconds(time: float) -> str:
+    """A time of computation with two digits, in ms below 0.1 s.
+
+    Examples
+    --------
+    >>> seconds(0.0254), seconds(2.54)
+    ('25 ms', '2.5 s')
+    """
+    return f"{time * 1e3:.2g} ms" if time < 0.1 else f"{time:.2g} s"
+
+
 def cost_in_words(result: Result) -> str:
     """The CPU time of a result with its one-time costs, such as "2.7 CPU s (+ 187 s for the table of ..., kept)"."""
     stored = bool(result.provenance.get("table", {}).get("stored"))

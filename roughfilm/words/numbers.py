@@ -3,6 +3,7 @@
 import math
 
 from roughfilm.contact.foundation.rounding import MIN_UNCERTAINTY as MIN_UNCERTAINTY
+from roughfilm.contact.foundation.rounding import share as share
 from roughfilm.contact.foundation.rounding import with_error as with_error
 from roughfilm.contact.foundation.units import Quantity
 
@@ -24,12 +25,6 @@ def percent(fraction: float) -> str:
         return "0 %"
     text = f"{percent:+.0f} %" if abs(percent) >= 99.5 else f"{percent:+.2g} %"
     return text.replace("-", "−")
-
-
-def share(fraction: float) -> str:
-    """A fraction without sign, in per cent."""
-    percent = 100 * fraction
-    return f"{percent:.0f} %" if percent >= 99.5 else f"{percent:.2g} %"
 
 
 def span(least: float | None, largest: float | None) -> str:
