@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 import pytest
+from small_scenes import CONTACT, SEAL, SURFACE
 from typer.testing import CliRunner
 
 from roughfilm.cli.main import app
@@ -16,34 +17,6 @@ from roughfilm.rom.seal.leakage.series import load_series
 from roughfilm.rom.studies.table import read_table
 
 ABSENT = Availability(available=False, detail="left out in a test")
-SURFACE = """
-kind = "self_affine"
-size = ["40 um", "40 um"]
-points = [32, 32]
-seed = 20071
-hurst = 0.8
-roll_off = "20 um"
-cut_off = "10 um"
-rms_height = "0.1 um"
-"""
-SCENE = """
-name = "small seal"
-kind = "seal"
-[geometry]
-surface = "rough.toml"
-[solid]
-modulus = "10 MPa"
-poisson = 0.5
-[load]
-pressure = "10 kPa"
-[liquid]
-density = "1000 kg/m^3"
-viscosity = "1 mPa*s"
-[flow]
-pressure_drop = "1 MPa"
-length = "1 mm"
-direction = "y"
-"""
 NAMES = ("direct_x", "direct_y", "homogenized_x", "homogenized_y")
 
 
@@ -61,7 +34,7 @@ def asked(*arguments):
 def place(tmp_path_factory):
     folder = tmp_path_factory.mktemp("seal")
     (folder / "rough.toml").write_text(SURFACE, encoding="utf-8")
-    (folder / "seal.toml").write_text(SCENE, encoding="utf-8")
+    (folder / "seal.toml").write_text(SEAL, encoding="utf-8")
     return folder
 
 
@@ -191,8 +164,7 @@ def test_what_makes_no_sense_is_refused_in_a_line(place, arguments, words):
 
 
 def test_scenes_of_other_kinds_are_refused(place):
-    entries = SCENE.replace('"seal"', '"dry_contact"').split("[liquid]")[0]
-    (place / "dry.toml").write_text(entries, encoding="utf-8")
+    (place / "dry.toml").write_text(CONTACT, encoding="utf-8")
     done = run("leakage", place / "dry.toml", "--out", place / "bad")
     assert done.exit_code == 2
     assert "takes scenes of kind 'seal'" in done.stderr

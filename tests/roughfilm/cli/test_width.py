@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import typer
 from places import ROOT, SCENES, STUDIES
+from small_scenes import CONTACT, SEAL, SURFACE
 from typer import rich_utils
 from typer.testing import CliRunner
 
@@ -22,45 +23,6 @@ from roughfilm.terminal.console import messages, output
 from roughfilm.terminal.results import print_all, table_of
 
 WIDTHS = (80, 60)
-SURFACE = """
-kind = "self_affine"
-size = ["40 um", "40 um"]
-points = [32, 32]
-seed = 20071
-hurst = 0.8
-roll_off = "20 um"
-cut_off = "10 um"
-rms_height = "0.1 um"
-"""
-SEAL = """
-name = "small seal"
-kind = "seal"
-[geometry]
-surface = "rough.toml"
-[solid]
-modulus = "10 MPa"
-poisson = 0.5
-[load]
-pressure = "10 kPa"
-[liquid]
-density = "1000 kg/m^3"
-viscosity = "1 mPa*s"
-[flow]
-pressure_drop = "1 MPa"
-length = "1 mm"
-direction = "y"
-"""
-CONTACT = """
-name = "small contact"
-kind = "dry_contact"
-[geometry]
-surface = "rough.toml"
-[solid]
-modulus = "10 MPa"
-poisson = 0.5
-[load]
-pressure = "10 kPa"
-"""
 COARSE = (
     "--set roughness.surface.points='[32, 32]' --set roughness.surface.correlation_length='0.2 mm' "
     "--set roughness.surface.anisotropy=1 --resolution 16"

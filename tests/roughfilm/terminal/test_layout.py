@@ -7,21 +7,11 @@ import sys
 
 import pytest
 from places import SCENES
+from small_scenes import SURFACE
 from typer.testing import CliRunner
 
 from roughfilm.cli.main import app
 from roughfilm.terminal.layout import PLAIN, in_charset, wrapped
-
-SURFACE = """
-kind = "self_affine"
-size = ["40 um", "40 um"]
-points = [32, 32]
-seed = 1
-hurst = 0.8
-roll_off = "20 um"
-cut_off = "10 um"
-rms_height = "0.1 um"
-"""
 
 
 def program(*arguments, **options):
