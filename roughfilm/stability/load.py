@@ -290,8 +290,8 @@ LOAD = StabilityMap(
     judge="The load of the film that was found, solved anew as a given film, which may differ by "
     f"{LOAD_TOLERANCE:g} and is the error; no thicker film, up to {max(THICKER):g} times, may carry more, so that the "
     "film is stable, and the film may not be thinner than the known one; it is inaccurate if its uncertainty covers "
-    "that. Where a thicker film carries the same load, it must be found. Iterations are film solves on all grids; more than "
-    f"{MANY_FILMS} are slow.",
+    "that. Where a thicker film carries the same load, it must be found. Iterations are film solves on all "
+    f"grids; more than {MANY_FILMS} are slow.",
     resolution=32,
     resolution_meaning="cells along a side of the film",
     least=32,
