@@ -118,11 +118,11 @@ def _in_words(analysis: EffectAnalysis) -> str:
     known = [one for one in study.contributions if name in one.on]
     most = max(known, key=lambda one: abs(one.on[name].value), default=None)
     part = "" if most is None else f"; {most.name} changes it most, by {cell(most.on[name], how, sign=True)} {how.unit}"
-    return f"load {cell(study.full[name], how)} {how.unit} at the film of the scene{part}"
+    return f"load {cell(study.full[name], how)} {how.unit} {analysis.which_film}{part}"
 
 
 def _shown(analysis: EffectAnalysis) -> Iterator[Table | str]:
-    views = [("at the film of the scene", analysis.at_film, AT_FILM)]
+    views = [(analysis.which_film, analysis.at_film, AT_FILM)]
     if analysis.under_load is not None and analysis.scene.load_pressure is not None:
         views.append((f"under {analysis.scene.load_pressure / 1e6:.4g} MPa", analysis.under_load, UNDER_LOAD))
     for title, study, names in views:

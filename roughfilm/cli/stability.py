@@ -19,6 +19,7 @@ from roughfilm.stability.contact import CONTACT
 from roughfilm.stability.form import BAD, GOOD, MEANING, MapOutcome, StabilityMap, columns_of, table_of
 from roughfilm.stability.gap import GAP
 from roughfilm.stability.laws import MIXED, SEAL
+from roughfilm.stability.load import LOAD
 from roughfilm.stability.pocket import POCKET
 from roughfilm.terminal.console import NUMERICS, AsJson, Jobs, OutDirectory, make_directory, print_json, process_count
 from roughfilm.terminal.results import print_all, print_left_out, written
@@ -28,7 +29,9 @@ EXAMPLES = (
     "roughfilm stability all --out stability",
 )
 
-FAMILIES: dict[str, StabilityMap] = {one.name: one for one in (POCKET, CAVITATION, CONTACT, CELL, SEAL, MIXED, GAP)}
+FAMILIES: dict[str, StabilityMap] = {
+    one.name: one for one in (POCKET, CAVITATION, CONTACT, CELL, SEAL, MIXED, LOAD, GAP)
+}
 
 ALL = "all"
 

@@ -19,8 +19,8 @@ LAST_COLUMN = "contact_share"
 
 def write_page(analysis: EffectAnalysis, entries: Mapping[str, Any], out: Path) -> None:
     """Write the page and its figures; InputError if a file cannot be written."""
-    film = analysis.film
-    views = [_view(f"At the film of the scene, {film * 1e6:.4g} µm", analysis.at_film, AT_FILM, _beside(analysis))]
+    title = f"{analysis.which_film.capitalize()}, {analysis.film * 1e6:.4g} µm"
+    views = [_view(title, analysis.at_film, AT_FILM, _beside(analysis))]
     if analysis.under_load is not None and analysis.scene.load_pressure is not None:
         title = f"Under {analysis.scene.load_pressure / 1e6:.4g} MPa over the nominal area"
         beside = {} if analysis.thicker is None else {"film": analysis.thicker}
@@ -32,6 +32,7 @@ def write_page(analysis: EffectAnalysis, entries: Mapping[str, Any], out: Path) 
         "effects.html.j2",
         out / "report.html",
         name=analysis.scene.name,
+        which_film=analysis.which_film,
         entries=entries,
         views=views,
         treated=analysis.treated,

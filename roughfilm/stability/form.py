@@ -19,7 +19,7 @@ from roughfilm.terminal import results
 from roughfilm.terminal.console import progress_bar
 
 SLOW_ITERATIONS = 100
-"""Number of iterations above which a probe is slow."""
+"""Number of iterations above which a probe is slow, unless its map counts something else."""
 
 SECOND_TRY = "second try"
 """The reason (``why``) of a run that is slow because it converged only at its second try."""
@@ -123,6 +123,7 @@ class Probe:
     ask : function that runs the solver and returns its answer; its CPU time is measured.
     judge : function that judges the answer.
     refused : whether the solver must refuse the question.
+    many : number of iterations above which the probe is slow.
     """
 
     group: str
@@ -131,6 +132,7 @@ class Probe:
     ask: Callable[[], Any]
     judge: Callable[[Any], Judgement]
     refused: bool = False
+    many: int = SLOW_ITERATIONS
 
     def spot(self) -> Spot:
         """Run the solver and judge its answer.
@@ -161,7 +163,7 @@ class Probe:
         if self.refused:
             return Spot(**place, outcome=MapOutcome.WRONG, cpu_s=cpu_s, message="an answer, where none exists")
         judged = self.judge(answer)
-        good = MapOutcome.SLOW if judged.iterations > SLOW_ITERATIONS else MapOutcome.CONVERGED
+        good = MapOutcome.SLOW if judged.iterations > self.many else MapOutcome.CONVERGED
         return Spot(
             **place,
             outcome=good if judged.right else MapOutcome.INACCURATE if judged.reported else MapOutcome.WRONG,

@@ -42,6 +42,11 @@ class EffectAnalysis:
     __repr__ = brief
 
     @property
+    def which_film(self) -> str:
+        """The film of ``at_film`` in words: that of the scene or, if it gives none, that under the load."""
+        return "at the film under the load" if self.scene.geometry.film is None else "at the film of the scene"
+
+    @property
     def left_out(self) -> list[str]:
         """Names of the effects that the scene does not have."""
         present = effects_of(self.scene)

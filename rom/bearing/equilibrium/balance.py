@@ -51,6 +51,12 @@ BRACKET_MARGIN = 1e-3
 ROUNDING = 1e-9
 """Largest load of a bearing over the wanted one that counts as none."""
 
+NARROW_BRACKET = 1e-9
+"""Length of the bracket over its upper end below which round-off of the films hides the load between its ends."""
+
+ROUND_OFF = 1e-5
+"""Largest relative error of the load in such a bracket; the result states it as that of its load."""
+
 ORIGIN_DISTANCE = 0.1
 """Smallest distance from the origin of the power law, over the separation of first contact."""
 
@@ -206,6 +212,8 @@ def balanced(
             high, has_upper = separation, True
             if separation <= film.closest:
                 raise _load_too_high(at, pressure, solved.load)
+        if has_lower and has_upper and high - low <= NARROW_BRACKET * abs(high) and abs(error) <= ROUND_OFF:
+            return solved
         separation = _next(at, load, low, high, separation, bracketed=(has_lower, has_upper), count=count)
     raise ConvergenceError(
         f"load: the relative error of the load is {abs(error):.1e} after {MAX_FILMS} films, above the tolerance "

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Generic, Protocol, TypeVar
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
-from roughfilm.rom.bearing.equilibrium.balance import FilmsAtSpeed, SeparableBearing, balanced, robustly_balanced
+from roughfilm.rom.bearing.equilibrium.balance import FilmsAtSpeed, SeparableBearing, robustly_balanced
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.grid import grid
 from roughfilm.rom.cavitation.interpolation import carried
@@ -131,9 +131,8 @@ def under_load(
             near = extrapolated(known, [state.scene.geometry.thinnest for state in states])
             guess = min(max(near, at.film.closest), at.film.widest)
             start = _on(states[-1].solution, size)
-        search = balanced if states else robustly_balanced
         try:
-            state = search(at, pressure, tolerance=LOAD_TOLERANCE, guess=guess, start=start)
+            state = robustly_balanced(at, pressure, tolerance=LOAD_TOLERANCE, guess=guess, start=start)
         except (InputError, ConvergenceError):
             if size == cells:
                 raise

@@ -137,3 +137,16 @@ def test_a_model_seeks_the_film_that_carries_the_load_of_the_scene() -> None:
     found = MODEL.solve(scene, Request(resolution=128))
     assert found.quantities["load_per_width"].value == pytest.approx(1e6 * 76.2e-3, rel=1e-6)
     assert found.warnings == ()
+
+
+def test_a_journal_without_a_film_is_analysed_at_the_film_under_its_load(tmp_path: Path) -> None:
+    done = run("journal_under_load.toml", "--resolution", 32, "--out", tmp_path)
+    assert done.exit_code == 0, done.stderr
+    assert "at the film under the load" in done.stdout
+    assert "at the film of the scene" not in done.stdout
+    assert "At the film under the load, " in (tmp_path / "report.html").read_text()
+    entries = json.loads((tmp_path / "effects.json").read_text())
+    assert [one["name"] for one in entries["under_load"]["contributions"]] == ["side flow", "cavitation"]
+    assert all(one["on"]["film"]["value"] < 0 for one in entries["under_load"]["contributions"])
+    for view in ("at_film", "under_load"):
+        assert entries[view]["full"]["load"]["value"] == pytest.approx(5e3, rel=1e-3)
