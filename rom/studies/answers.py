@@ -61,7 +61,9 @@ class Answer:
     uncertainty : numerical uncertainty of the values, or the expected error by the fitted laws where that is unknown,
         in the same unit, shape (cases,); NaN where both are unknown.
     by_laws : cases whose uncertainty is the expected error by the fitted laws, shape (cases,).
-    order : numbers of the solved cases, the best or, if the sense is unclear, the largest first.
+    order : numbers of the ranked cases, the best or, if the sense is unclear, the largest first.
+    unranked : numbers of the cases whose uncertainty exceeds their value, which are left out of the order; none where
+        this holds for all cases.
     """
 
     quantity: str
@@ -71,6 +73,7 @@ class Answer:
     uncertainty: Array
     by_laws: NDArray[np.bool_]
     order: tuple[int, ...]
+    unranked: tuple[int, ...] = ()
 
     @property
     def best(self) -> int:
@@ -196,15 +199,19 @@ def answer_of(sweep: Sweep, setting: str, quantity: str) -> Answer:
         by_laws = sweep.expected_error[setting][partner] * size * ratio
     sense = sense_of(quantity)
     size = np.abs(values) if sense is Sense.SMALLEST else -values
-    solved = np.flatnonzero(np.isfinite(values))
+    uncertainty = np.where(np.isnan(own), by_laws, own)
+    solved = np.isfinite(values)
+    worthless = solved & (uncertainty > np.abs(values))
+    ranked = np.flatnonzero(solved if (worthless == solved).all() else solved & ~worthless)
     return Answer(
         quantity=quantity,
         setting=setting,
         sense=sense,
         values=values,
-        uncertainty=np.where(np.isnan(own), by_laws, own),
+        uncertainty=uncertainty,
         by_laws=np.isnan(own) & np.isfinite(by_laws),
-        order=tuple(int(case) for case in solved[np.argsort(size[solved], kind="stable")]),
+        order=tuple(int(case) for case in ranked[np.argsort(size[ranked], kind="stable")]),
+        unranked=tuple(int(case) for case in np.setdiff1d(np.flatnonzero(solved), ranked)),
     )
 
 
@@ -257,7 +264,7 @@ def optimum(parameters: Sequence[Parameter], along: Parameter, answer: Answer) -
     x = np.log(x) if along.logarithmic else x
     y, bars = answer.values[cases], answer.uncertainty[cases]
     used = slice(middle - 1, middle + 2)
-    if np.isnan(bars[used]).any():
+    if np.isnan(bars[used]).any() or {*cases[used]} & {*answer.unranked}:
         return None
     found = _vertex(x[used], y[used])
     if found is None:

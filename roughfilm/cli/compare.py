@@ -84,9 +84,10 @@ def command(
     else:
         tables = [_convergence_table(name, study) for name, study in report.convergence.items()]
         pairs = [
-            f"{report.kind.compared[quantity]}: {one} and {other} cannot be distinguished with this reference"
+            f"{report.kind.compared[quantity]}: cannot be distinguished with this reference: "
+            + ", ".join(f"{one} and {other}" for one, other in found)
             for quantity, found in report.undecided.items()
-            for one, other in found
+            if found
         ]
         tables_of_results = map(quantity_table, report.results.values())
         warnings = [f"warning: {warning}" for result in report.results.values() for warning in result.warnings]
@@ -137,12 +138,13 @@ def _summary(report: Report, out: Path) -> str:
     cheapest = report.results[cheapest_within(report, DEFAULT_TOLERANCE)]
     tolerance, page = percent(DEFAULT_TOLERANCE), out / "report.html"
     value = f"{value_of(top, first)} by {top.model}"
+    error = stated_errors(top).get(first)
+    if error is not None and error.error > DEFAULT_TOLERANCE:
+        return f"{value}; {judgement(top, first, DEFAULT_TOLERANCE)}; {cost_in_words(top)}; page: {page}"
     if cheapest is top:
         return f"{value}; no cheaper model is known to be within {tolerance}; {cost_in_words(top)}; page: {page}"
-    error = judgement(cheapest, first, DEFAULT_TOLERANCE)
-    return (
-        f"{value}; {cheapest.model} is {error}; {cost_in_words(cheapest)} instead of {cost_in_words(top)}; page: {page}"
-    )
+    verdict = judgement(cheapest, first, DEFAULT_TOLERANCE)
+    return f"{value}; {cheapest.model} is {verdict}; {cost_in_words(cheapest)} instead of {cost_in_words(top)}; page: {page}"
 
 
 def _convergence_table(model: str, study: Mapping[str, Convergence]) -> Table:

@@ -8,7 +8,7 @@ import typer
 from roughfilm.batch.plan import read_batch
 from roughfilm.contact.foundation.files import write_json
 from roughfilm.rom.ladder.provenance import machine
-from roughfilm.terminal.console import AsJson, make_directory, print_json, print_message
+from roughfilm.terminal.console import AsJson, make_directory, print_json, print_message, progress_bar
 from roughfilm.terminal.results import print_all, table_of, written
 from roughfilm.words.numbers import span
 
@@ -28,13 +28,16 @@ def command(
     as_json: AsJson = False,
 ) -> None:
     """Write the page of a study: the best case and curves, the models that would have done, and cost."""
-    batch = read_batch(directory)
-    from roughfilm.pages.sweep import study_of, write_sweep  # matplotlib is slow to import
+    with progress_bar(1.0) as advance:
+        advance(0.0, "reading the results")
+        batch = read_batch(directory)
+        from roughfilm.pages.sweep import study_of, write_sweep  # matplotlib is slow to import
 
-    study = study_of(batch)
-    path = out or directory / "report.html"
-    make_directory(path.parent)
-    entries, sentence = write_sweep(study, want, path)
+        study = study_of(batch)
+        path = out or directory / "report.html"
+        make_directory(path.parent)
+        advance(0.2, "drawing the page")
+        entries, sentence = write_sweep(study, want, path)
     write_json({**entries, "machine": machine()}, path.with_suffix(".json"))
     if as_json:
         print_json({**entries, "report": str(path)})
@@ -52,6 +55,8 @@ def command(
         print_all([table])
     for line in entries["missing"]:
         print_message("missing", line)
+    if entries["unranked"]:
+        print_message("warning", entries["unranked"])
     print_all([written(sentence, path)])
 
 

@@ -58,6 +58,7 @@ from roughfilm.words.sweep import (
     place_of,
     title_of,
     uncertainty_sentence,
+    unranked_sentence,
 )
 
 SUFFICIENT = 0.05
@@ -238,6 +239,7 @@ def write_sweep(study: Study, want: str | None, path: Path) -> tuple[dict[str, A
     solved = {name: np.isfinite(study.sweep.cpu_s[name]) for name in study.sweep.found}
     missing = missing_sentences(solved, study.sweep.failures, len(study.batch.missing))
     failures = [one for one in study.sweep.failures if not one[2].startswith(("left out", TO_COME))]
+    unranked = unranked_sentence(shown[0].answer, _reason(study, shown[0].answer))
     judged, ordered = _judgement(study), _ordered(study)
     pictures = _chosen_cases(study, shown[0])
     render(
@@ -248,7 +250,7 @@ def write_sweep(study: Study, want: str | None, path: Path) -> tuple[dict[str, A
         sweep=study.sweep,
         headline=headline(study, shown[0]),
         others=[headline(study, one) for one in main[1:]],
-        missing=missing,
+        missing=[*missing, *filter(None, [unranked])],
         failures=failures,
         listed_failures=LISTED_FAILURES,
         answers=[(one, *_figures(study, one)) for one in main],
@@ -282,11 +284,22 @@ def write_sweep(study: Study, want: str | None, path: Path) -> tuple[dict[str, A
         "ranking": [_rank_entries(one) for one, _ in ordered["ranks"]],
         "failures": list(study.sweep.failures),
         "missing": missing,
+        "unranked": unranked,
         "answers": [_answer_entries(study, one) for one in main],
         "inertia": judged["inertia_rows"],
         "sufficient": judged["cheapest"],
     }
     return entries, headline(study, shown[0])
+
+
+def _reason(study: Study, answer: Answer) -> str:
+    """The first warning of the first case that is not ranked; empty without one."""
+    if not answer.unranked:
+        return ""
+    columns = (study.batch.table[name].values for name in ("case", "setting", "warnings"))
+    of_case = (study.sweep.names[answer.unranked[0]], answer.setting)
+    found = next((str(words) for case, setting, words in zip(*columns, strict=True) if (case, setting) == of_case), "")
+    return found.split("; ")[0]
 
 
 def _best(shown: Sequence[Shown]) -> int:

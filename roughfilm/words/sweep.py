@@ -61,12 +61,14 @@ def best_sentence(answer: Answer, title: str, scale: Scale, parameters: Sequence
 
     def at(case: int) -> str:
         number = scale.text(answer.values[case], answer.uncertainty[case])
+        if answer.uncertainty[case] > abs(answer.values[case]):
+            number = f"{scale.text(answer.values[case])} with an error above 100 %"
         unknown = "" if np.isfinite(answer.uncertainty[case]) else ", uncertainty unknown"
         where = place_of(parameters, case)
         return f"{number}{unknown}{f' at {where}' if where else ''} (case {case + 1} of {total})"
 
     if len(answer.order) == 1:
-        return f"{_upper(title)}: {at(answer.best)}, the only case by {answer.setting}"
+        return f"{_upper(title)}: {at(answer.best)}, the only case {'that is ranked, ' if answer.unranked else ''}by {answer.setting}"
     if answer.sense is Sense.UNCLEAR:
         return f"{_upper(title)}: largest {at(answer.best)}, smallest {at(answer.worst)}, by {answer.setting}"
     return f"{_upper(answer.sense)} {title}: {at(answer.best)}, by {answer.setting}"
@@ -97,6 +99,20 @@ def optimum_sentence(found: Optimum, along: Parameter, answer: Answer, title: st
         f"Between the cases the {answer.sense} {title} is expected at {along.name} = {place} {along.unit}".rstrip()
         + f", with {value} (parabola over the {how} through three cases)."
     )
+
+
+def unranked_sentence(answer: Answer, reason: str) -> str:
+    """The sentence on cases that are left out of the order; empty if there are none.
+
+    ``reason`` is the first warning of the first of these cases; it may be empty.
+    """
+    if not answer.unranked:
+        return ""
+    count = len(answer.unranked)
+    numbers = ", ".join(str(case + 1) for case in answer.unranked[:CASES_NAMED])
+    which = f" ({numbers}{', ...' if count > CASES_NAMED else ''})"
+    why = f": {reason.rstrip('.')}" if reason else ""
+    return f"Not ranked, as their error is above 100 %: {_cases(count)}{which}{why}."
 
 
 def uncertainty_sentence(answer: Answer) -> str:
