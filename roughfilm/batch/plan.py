@@ -109,10 +109,9 @@ def _read_plan(path: Path) -> Plan | None:
     if not path.is_file():
         return None
     try:
-        plan = Plan(**json.loads(path.read_text(encoding="utf-8")))
+        return Plan(**json.loads(path.read_text(encoding="utf-8")))
     except (OSError, ValueError, TypeError) as error:
         raise InputError(f"{path}: is not the plan of a batch; start the batch again, which writes it") from error
-    return plan
 
 
 def _collected(directory: Path, plan: Plan) -> Batch:

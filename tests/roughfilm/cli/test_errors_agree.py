@@ -96,12 +96,13 @@ def test_advice_and_solution_state_one_error_for_a_model_and_a_quantity(scene):
     by_lines = re.findall(
         rf"^(\w+): (?:chosen|not enough|not needed): error ({AMOUNT}) {SOURCE}", advised, re.MULTILINE
     )
-    by_rows = re.findall(rf"^│ (\w+) +│ +\d+ │ +\S+ │ +({AMOUNT}) │", advised, re.MULTILINE)
+    by_rows = re.findall(rf"^(\w+) +\d+ +\S+ +({AMOUNT})  ", advised, re.MULTILINE)
     last = re.findall(
         rf"(\w+)(?:, resolution \d+:| comes nearest,) error ({AMOUNT}) {SOURCE}", advised.splitlines()[-1]
     )
     by_json = {(one["model"], StatedError(**one["error"]).amount) for one in told["considered"] if one["error"]}
     assert last
+    assert by_rows
     found = defaultdict(set)
     for model, amount in [*by_lines, *by_rows, *last, *by_json]:
         found[model, title].add(amount)
@@ -120,10 +121,12 @@ def test_table_page_and_json_of_a_comparison_state_one_error_for_a_model_and_a_q
     page = (tmp_path / "study" / "report.html").read_text(encoding="utf-8")
     found = merged(*(of_result(entries, kind.titles) for entries in told["models"]), statements(text, kind.titles))
     rows = defaultdict(set)
-    for row in re.findall(r"^│ .* │$", text[text.index("errors measured against") :], re.MULTILINE):
-        model, _cpu, *amounts = (cell.strip() for cell in row.strip("│").split("│"))
+    table = text[text.index("errors measured against") :].partition("\n\n")[0]
+    for row in re.findall(r"^\w+  .*", table.partition("──\n")[2], re.MULTILINE):
+        model, _cpu, *amounts = re.split(r"\s{2,}", row.strip())
         for title, amount in zip(kind.compared.values(), amounts, strict=False):
             rows[model, title].add(amount)
+    assert {model for model, _ in rows} == {entries["model"] for entries in told["models"]}
     lines = re.sub(r"<[^>]*>", "", page)
     found = merged(found, rows, statements(lines, kind.titles))
     assert contradictions(found) == {}
