@@ -256,8 +256,8 @@ def probes(cells: int) -> Iterator[Probe]:
         ask = partial(found, case.geometry, case.tables, case.model, cells)
         yield Probe(group=case.group, row=case.row, column=case.column, ask=ask, judge=judged, many=MANY_FILMS)
     for name, (geometry, tables, model) in REFUSED.items():
-        ask = partial(_solved, geometry, {"load": {"pressure": "1 MPa"}, **tables}, model, cells)
-        yield Probe(group="loads that no film carries", row=name, column=model, ask=ask, judge=judged, refused=True)
+        loaded = partial(_solved, geometry, {"load": {"pressure": "1 MPa"}, **tables}, model, cells)
+        yield Probe(group="loads that no film carries", row=name, column=model, ask=loaded, judge=judged, refused=True)
 
 
 def _solved(geometry: Mapping[str, Any], tables: Mapping[str, Any], model: str, cells: int) -> object:
@@ -268,9 +268,8 @@ def summary(spots: Sequence[Spot]) -> list[str]:
     """Sentences about the map: each group, the number of films, and where several films carry a load."""
     lines = []
     for name, own in in_groups(spots).items():
-        films = [spot.iterations for spot in own if spot.iterations]
-        cost = f"; {median(films):g} films at the median, at most {max(films)}" if films else ""
-        lines.append(f"{name}: {in_numbers(own)}{cost}.")
+        if films := [spot.iterations for spot in own if spot.iterations]:
+            lines.append(f"{name}: {in_numbers(own)}; {median(films):g} films at the median, at most {max(films)}.")
     thicker = [spot for spot in spots if spot.outcome in GOOD and spot.message]
     if thicker:
         lines.append(
