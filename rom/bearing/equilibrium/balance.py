@@ -48,9 +48,6 @@ SECANT_FILMS = 3
 BRACKET_MARGIN = 1e-3
 """That distance over the length of the bracket."""
 
-CLOSED = 1e-14
-"""Logarithm of the ratio of the ends of a bracket below which no separation lies between them."""
-
 ROUNDING = 1e-9
 """Largest load of a bearing over the wanted one that counts as none."""
 
@@ -209,7 +206,7 @@ def balanced(
             high, has_upper = separation, True
             if separation <= film.closest:
                 raise _load_too_high(at, pressure, solved.load)
-        if has_lower and has_upper and at.distance(high) - at.distance(low) <= CLOSED:
+        if has_lower and has_upper and at.distance(high) - at.distance(low) <= tolerance / MAX_STEEPNESS:
             raise _load_jumps(at, pressure, separation, error)
         separation = _next(at, load, low, high, separation, bracketed=(has_lower, has_upper), count=count)
     raise ConvergenceError(
@@ -293,13 +290,13 @@ def robustly_balanced(
         separation for separation, carried in at.loads.items() if carried + at.film.contact_load(separation) < load
     ]
     place = min(place, SCAN_RATIO**MAX_EXTENSION * max(known)) if known else place
-    above = place
+    above: float | None = None
     for _ in range(MAX_SCANNED):
         try:
             carried = at.at(place, None).load
         except ConvergenceError:
             break
-        if carried >= load and place < above:
+        if carried >= load and above is not None:
             return balanced(at, pressure, tolerance=tolerance, guess=place, bracket=(place, above))
         if carried < load:
             above = place
