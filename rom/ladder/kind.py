@@ -164,9 +164,17 @@ class Kind:
         """The kind with the compared quantities of a scene, from its entries by the names of their tables."""
         for table, compared in self.compared_with.items():
             if entries.get(table) is not None:
-                others = {name: title for name, title in self.titles.items() if name not in compared}
-                return replace(self, compared=compared, others=others, lawful=False)
+                return self._comparing(compared)
         return self
+
+    def seeking(self, quantity: str) -> "Kind":
+        """The kind of scenes that ask for a quantity by a table of their own, such as the film under a load."""
+        own = [compared for compared in self.compared_with.values() if next(iter(compared)) == quantity]
+        return self._comparing(own[0]) if own else self
+
+    def _comparing(self, compared: Mapping[str, str]) -> "Kind":
+        others = {name: title for name, title in self.titles.items() if name not in compared}
+        return replace(self, compared=compared, others=others, lawful=False)
 
     def read(self, entries: Mapping[str, Any], file: EntriesFile | None = None) -> Scene:
         """Make a scene of this kind from nested entries of a file; InputError with a line for each fault."""

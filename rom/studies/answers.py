@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.rom.ladder.kind import kind_of_name
 from roughfilm.rom.studies.parameters import Parameter
-from roughfilm.rom.studies.sweep import Sweep
+from roughfilm.rom.studies.sweep import Sweep, kind_of_sweep
 
 SAME = 1e-9
 """Relative range of values within which a quantity is the same in all cases."""
@@ -157,7 +156,7 @@ def wanted_quantity(sweep: Sweep, setting: str, want: str | None = None) -> str:
             if name in known:
                 return name
         raise InputError(f"want: got {want!r}; {setting} has {', '.join(known)}")
-    compared = [_preferred(name, known) for name in kind_of_name(sweep.kind).compared if name in known]
+    compared = [_preferred(name, known) for name in kind_of_sweep(sweep).compared if name in known]
     varying = [name for name in (*compared, *known) if not _same(sweep.found[setting][name])]
     return next(iter([*varying, *compared, *known]))
 
@@ -165,7 +164,7 @@ def wanted_quantity(sweep: Sweep, setting: str, want: str | None = None) -> str:
 def asked_quantities(sweep: Sweep, setting: str) -> tuple[str, ...]:
     """The compared quantities of the kind that a setting found, each of the whole scene, or at least with its unit."""
     known = [name for name, values in sweep.found[setting].items() if np.isfinite(values).any()]
-    return tuple(dict.fromkeys(_preferred(name, known) for name in kind_of_name(sweep.kind).compared if name in known))
+    return tuple(dict.fromkeys(_preferred(name, known) for name in kind_of_sweep(sweep).compared if name in known))
 
 
 def _preferred(quantity: str, known: Sequence[str]) -> str:
@@ -173,9 +172,9 @@ def _preferred(quantity: str, known: Sequence[str]) -> str:
     return next((name for end in ENDINGS if (name := f"{base_of(quantity)}{end}") in known), quantity)
 
 
-def compared_partner(kind: str, quantity: str) -> str | None:
-    """The compared quantity of a kind whose errors are those of a quantity; None if there is none."""
-    compared = kind_of_name(kind).compared
+def compared_partner(sweep: Sweep, quantity: str) -> str | None:
+    """The compared quantity of a sweep whose errors are those of a quantity; None if there is none."""
+    compared = kind_of_sweep(sweep).compared
     if quantity in compared:
         return quantity
     return next((name for name in compared if base_of(name) == base_of(quantity)), None)
@@ -191,11 +190,11 @@ def answer_of(sweep: Sweep, setting: str, quantity: str) -> Answer:
     values = sweep.found[setting][quantity]
     own = sweep.uncertainty[setting][quantity]
     by_laws = np.full(values.size, np.nan)
-    partner = compared_partner(sweep.kind, quantity)
+    partner = compared_partner(sweep, quantity)
     if partner is not None:
         ratio = _ratio(values, sweep.found[setting][partner])
         own = np.where(np.isnan(own), sweep.uncertainty[setting][partner] * ratio, own)
-        size = np.asarray(kind_of_name(sweep.kind).scale(sweep.found[setting], partner), dtype=float)
+        size = np.asarray(kind_of_sweep(sweep).scale(sweep.found[setting], partner), dtype=float)
         by_laws = sweep.expected_error[setting][partner] * size * ratio
     sense = sense_of(quantity)
     size = np.abs(values) if sense is Sense.SMALLEST else -values

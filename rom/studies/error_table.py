@@ -6,11 +6,10 @@ from typing import Any
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.ladder.kind import kind_of_name
 from roughfilm.rom.studies.ordering import Ordering, fitted_powers, ordering
 from roughfilm.rom.studies.reference import Reference, interval
 from roughfilm.rom.studies.sufficient import TOLERANCES
-from roughfilm.rom.studies.sweep import Sweep, loaded, relative_error, sweeping
+from roughfilm.rom.studies.sweep import Sweep, kind_of_sweep, loaded, relative_error, sweeping
 
 EQUAL_ERRORS = 0.01
 """Errors within this fraction of each other have no order: a model without load has an error of 100 % everywhere."""
@@ -63,7 +62,7 @@ def orderings(sweep: Sweep, setting: str, reference: Reference, quantity: str) -
         return {}
     if error.size < MIN_CASES or not features or error.max() <= (1 + EQUAL_ERRORS) * error.min():
         return {}
-    judged = sweeping(kind_of_name(sweep.kind))
+    judged = sweeping(kind_of_sweep(sweep))
     orders = {
         name: ordering(features, powers, error, TOLERANCES, largest) for name, powers in judged.candidates.items()
     }
@@ -80,7 +79,7 @@ def setting_row(
     """The errors of a setting over the cases, its CPU time, and the numbers that order its errors, as JSON entries."""
     errors: dict[str, Any] = {}
     orders = {}
-    for quantity in kind_of_name(sweep.kind).compared:
+    for quantity in kind_of_sweep(sweep).compared:
         _, error, ends = _known(sweep, setting, reference, quantity, ordered=False)
         spread, least, largest = (_spread(one) for one in (error, *ends))
         intervals = {part: None if spread[part] is None else [least[part], largest[part]] for part in spread}
@@ -88,7 +87,7 @@ def setting_row(
         if numbers.get((setting, quantity)):
             chosen = numbers[setting, quantity]["chosen"]
             orders[quantity] = {
-                "number": sweeping(kind_of_name(sweep.kind)).words(chosen.powers),
+                "number": sweeping(kind_of_sweep(sweep)).words(chosen.powers),
                 "powers": dict(chosen.powers),
                 "rank": chosen.rank,
                 "thresholds": {f"{tolerance:g}": limit for tolerance, limit in chosen.thresholds.items()},

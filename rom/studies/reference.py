@@ -7,10 +7,9 @@ from enum import StrEnum
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.ladder.kind import kind_of_name
 from roughfilm.rom.ladder.model import Model, best
 from roughfilm.rom.studies.convergence import converge
-from roughfilm.rom.studies.sweep import Sweep, loaded, relative_error
+from roughfilm.rom.studies.sweep import Sweep, kind_of_sweep, loaded, relative_error
 
 MAX_WRONG = 0.05
 """Fraction of the cases in which a reference may distinguish models wrongly: its uncertainty covers 95 of 100."""
@@ -84,7 +83,7 @@ def reference_of(sweep: Sweep, models: Sequence[Model]) -> Reference:
         setting=setting,
         uncertainty={
             quantity: _uncertainty(sweep, setting, grids, top, complete, quantity)
-            for quantity in kind_of_name(sweep.kind).compared
+            for quantity in kind_of_sweep(sweep).compared
         },
     )
 
@@ -106,7 +105,7 @@ def _scheme(setting: str) -> str:
 def _uncertainty(
     sweep: Sweep, setting: str, grids: Sequence[str], model: Model, complete: bool, quantity: str
 ) -> Array:
-    size = np.asarray(kind_of_name(sweep.kind).scale(sweep.found[setting], quantity), dtype=float)
+    size = np.asarray(kind_of_sweep(sweep).scale(sweep.found[setting], quantity), dtype=float)
     own = sweep.uncertainty[setting][quantity] / size
     numerical = np.fmax(own, _by_grids(sweep, setting, grids, model, quantity, size) / size)
     expected = sweep.expected_error[setting][quantity]

@@ -6,10 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.ladder.kind import kind_of_name
 from roughfilm.rom.ladder.model import Effect, Model
 from roughfilm.rom.studies.reference import Reference, interval
-from roughfilm.rom.studies.sweep import Sweep, relative_error
+from roughfilm.rom.studies.sweep import Sweep, kind_of_sweep, relative_error
 
 TOLERANCES = (0.01, 0.02, 0.05, 0.10)
 """Errors within which cases are counted."""
@@ -123,7 +122,7 @@ def inertia_changes(
     reference : the reference.
     quantity : name of the quantity.
     """
-    size = np.asarray(kind_of_name(sweep.kind).scale(sweep.found[reference.setting], quantity), dtype=float)
+    size = np.asarray(kind_of_sweep(sweep).scale(sweep.found[reference.setting], quantity), dtype=float)
     pairs = [
         (best_settings[one.name], best_settings[other.name])
         for one in models

@@ -15,7 +15,7 @@ from roughfilm.rom.ladder.sweeping import Sweeping
 SOLVED = "solved"
 """The outcome of a row that holds numbers; any other outcome is the reason for a missing result."""
 
-SETTING_COLUMNS = ("case", "kind", "setting", "model", "scheme", "resolution")
+SETTING_COLUMNS = ("case", "kind", "sought", "setting", "model", "scheme", "resolution")
 """The first columns of a table, which name the case and the setting of a row."""
 
 NUMERICS = ("residual", "iterations", "cpu_s", "warnings")
@@ -40,6 +40,8 @@ class Sweep:
     resolution, residual : resolution and residual by setting, shape (cases,); NaN without a result.
     cpu_s : CPU time by setting, s, shape (cases,); NaN without a result.
     failures : case, setting and reason of each missing result.
+    sought : the quantity that every scene asks for by a table of its own, such as the film under a load; empty if the
+        scenes do not.
     """
 
     kind: str
@@ -52,6 +54,7 @@ class Sweep:
     expected_error: Mapping[str, Mapping[str, Array]] = field(default_factory=dict)
     resolution: Mapping[str, Array] = field(default_factory=dict)
     residual: Mapping[str, Array] = field(default_factory=dict)
+    sought: str = ""
 
     def features(self) -> dict[str, Array]:
         """The numbers by name that order the errors, shape (cases,); empty where the cases do not have them."""
@@ -83,7 +86,13 @@ def restricted(sweep: Sweep, mask: NDArray[np.bool_]) -> Sweep:
         expected_error=chosen(sweep.expected_error),
         resolution=columns(sweep.resolution),
         residual=columns(sweep.residual),
+        sought=sweep.sought,
     )
+
+
+def kind_of_sweep(sweep: Sweep) -> Kind:
+    """The kind of the scenes of a sweep, with the quantities that are compared for these scenes."""
+    return kind_of_name(sweep.kind).seeking(sweep.sought)
 
 
 def sweeping(kind: Kind) -> Sweeping:
@@ -106,7 +115,7 @@ def read_sweep(table: Mapping[str, NDArray[Any]], kind: str) -> Sweep:
     InputError
         If a column is missing, or no case is solved.
     """
-    judged = kind_of_name(kind).sweeping
+    judged, sought = kind_of_name(kind).sweeping, _sought(table)
     try:
         names = list(dict.fromkeys(str(name) for name in table["case"]))
         settings, outcomes = table["setting"], table["outcome"]
@@ -121,7 +130,7 @@ def read_sweep(table: Mapping[str, NDArray[Any]], kind: str) -> Sweep:
         rows = {setting: settings == setting for setting in dict.fromkeys(str(name) for name in settings)}
         inputs, quantities = _inputs(table), quantity_columns(table)
         defaults = {} if judged is None else {name: value for name, value in judged.given.items() if value is not None}
-        needed = (*kind_of_name(kind).compared, *(() if judged is None else judged.quantities))
+        needed = (*kind_of_name(kind).seeking(sought).compared, *(() if judged is None else judged.quantities))
         lacking = tuple(name for name in dict.fromkeys(needed) if name not in quantities)
         given = {name: _given(table, name, defaults.get(name))[first] for name in (*inputs, *defaults)}
 
@@ -154,7 +163,14 @@ def read_sweep(table: Mapping[str, NDArray[Any]], kind: str) -> Sweep:
         expected_error=expected_error,
         resolution=resolution,
         residual=residual,
+        sought=sought,
     )
+
+
+def _sought(table: Mapping[str, NDArray[Any]]) -> str:
+    """The quantity that all scenes of a table ask for; empty if they do not, or ask for several."""
+    names = set(map(str, table.get("sought", ())))
+    return names.pop() if len(names) == 1 else ""
 
 
 def quantity_columns(table: Mapping[str, Any]) -> tuple[str, ...]:
@@ -191,7 +207,7 @@ def relative_error(sweep: Sweep, setting: str, reference: str, quantity: str) ->
     one of the values is missing.
     """
     best = sweep.found[reference]
-    scale = kind_of_name(sweep.kind).scale(best, quantity)
+    scale = kind_of_sweep(sweep).scale(best, quantity)
     return np.asarray(np.abs(sweep.found[setting][quantity] - best[quantity]) / scale)
 
 

@@ -140,9 +140,9 @@ def _collected(directory: Path, plan: Plan) -> Batch:
                 missing.append((name, label))
     if not found:
         raise InputError(f"{directory}: the batch has no result yet ({len(missing)} to come); wait, or start it again")
-    kind = found[0][0]["kind"]
+    alike = {name: cell for name, cell in found[0][0].items() if name in ("kind", "sought")}
     lacking: list[TableRow] = [
-        ({"case": case, "kind": kind, "setting": label, "model": plan.settings[label]["model"]}, {"outcome": TO_COME})
+        ({"case": case, **alike, "setting": label, "model": plan.settings[label]["model"]}, {"outcome": TO_COME}, {})
         for case, label in missing
     ]
     order = {case: number for number, case in enumerate(plan.cases)}

@@ -18,8 +18,8 @@ from roughfilm.rom.studies.table import Column
 Cell = Quantity | str
 
 
-TableRow = tuple[Mapping[str, Cell], Mapping[str, Cell]]
-"""The inputs and the answer of a job, each by the name of the column."""
+TableRow = tuple[Mapping[str, Cell], Mapping[str, Cell], Mapping[str, Cell]]
+"""The inputs of a job, its outcome with the quantities, and its numerics, each by the name of the column."""
 
 
 def row_of(keys: Mapping[str, Key], case: Case, job: Job, answer: Result | Failure) -> TableRow:
@@ -33,6 +33,7 @@ def row_of(keys: Mapping[str, Key], case: Case, job: Job, answer: Result | Failu
     requested: dict[str, Cell] = {
         "case": job.path.parent.name,
         "kind": case.scene.kind,
+        **_sought(case),
         "setting": setting.name,
         "model": setting.model.name,
         "scheme": scheme,
@@ -41,18 +42,30 @@ def row_of(keys: Mapping[str, Key], case: Case, job: Job, answer: Result | Failu
         **kind_of_name(case.scene.kind).columns(case.scene),
     }
     if isinstance(answer, Failure):
-        return requested, {"outcome": f"{answer.kind}: {answer.message}"}
+        return requested, {"outcome": f"{answer.kind}: {answer.message}"}, {}
     numbers, answer = answer.numerics, _with_errors(case, job, answer)
-    return requested, {
+    solved = {
         "outcome": "solved",
         **dict(sorted(answer.quantities.items())),
         **_uncertainties(answer),
         **_expected_errors(case, answer),
-        "residual": _number(numbers.residual),
-        "iterations": _number(numbers.iterations),
-        "cpu_s": Quantity(value=numbers.cpu_s, unit="s"),
-        "warnings": "; ".join(answer.warnings),
     }
+    return (
+        requested,
+        solved,
+        {
+            "residual": _number(numbers.residual),
+            "iterations": _number(numbers.iterations),
+            "cpu_s": Quantity(value=numbers.cpu_s, unit="s"),
+            "warnings": "; ".join(answer.warnings),
+        },
+    )
+
+
+def _sought(case: Case) -> dict[str, Cell]:
+    """The quantity that a scene asks for by a table of its own, such as the film under a load."""
+    own = kind_of_scene(case.scene)
+    return {"sought": next(iter(own.compared))} if own.compared != kind_of_name(own.name).compared else {}
 
 
 def _uncertainties(answer: Result) -> dict[str, Cell]:

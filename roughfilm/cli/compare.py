@@ -143,8 +143,8 @@ def _summary(report: Report, out: Path) -> str:
         return f"{value}; {judgement(top, first, DEFAULT_TOLERANCE)}; {cost_in_words(top)}; page: {page}"
     if cheapest is top:
         return f"{value}; no cheaper model is known to be within {tolerance}; {cost_in_words(top)}; page: {page}"
-    verdict = judgement(cheapest, first, DEFAULT_TOLERANCE)
-    return f"{value}; {cheapest.model} is {verdict}; {cost_in_words(cheapest)} instead of {cost_in_words(top)}; page: {page}"
+    verdict, costs = judgement(cheapest, first, DEFAULT_TOLERANCE), [*map(cost_in_words, (cheapest, top))]
+    return f"{value}; {cheapest.model} is {verdict}; {' instead of '.join(costs)}; page: {page}"
 
 
 def _convergence_table(model: str, study: Mapping[str, Convergence]) -> Table:

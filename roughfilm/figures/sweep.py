@@ -6,10 +6,9 @@ import numpy as np
 
 from roughfilm.figures.base import new_figure, svg
 from roughfilm.figures.view import views
-from roughfilm.rom.ladder.kind import kind_of_name
 from roughfilm.rom.studies.ordering import Ordering, product
 from roughfilm.rom.studies.reference import Reference, interval
-from roughfilm.rom.studies.sweep import Sweep, loaded, relative_error, sweeping
+from roughfilm.rom.studies.sweep import Sweep, kind_of_sweep, loaded, relative_error, sweeping
 
 MIN_PERCENT = 1e-3
 
@@ -21,7 +20,7 @@ def errors_in_order(
 
     Errors below the uncertainty of the reference have hollow marks.
     """
-    kind, groups = kind_of_name(sweep.kind), views()[sweep.kind].groups(sweep.given)
+    kind, groups = kind_of_sweep(sweep), views()[sweep.kind].groups(sweep.given)
     named = set[str]()
     figure, panels = new_figure((10, 0.6 + 2.6 * len(settings)), len(settings), len(kind.compared), squeeze=False)
     for line, setting in zip(panels, settings, strict=True):
@@ -60,7 +59,7 @@ def sweep_chart(sweep: Sweep, reference: Reference, settings: Sequence[str]) -> 
 
     The grey band ends at the median uncertainty of the reference.
     """
-    kind, view = kind_of_name(sweep.kind), views()[sweep.kind]
+    kind, view = kind_of_sweep(sweep), views()[sweep.kind]
     figure, panels = new_figure((10, 4.6), 1, len(kind.compared))
     for axes, (quantity, title) in zip(panels, kind.compared.items(), strict=True):
         for setting in settings:

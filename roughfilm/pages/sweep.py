@@ -18,7 +18,7 @@ from roughfilm.figures.sweep import errors_in_order, sweep_chart
 from roughfilm.figures.view import View, views
 from roughfilm.ladder import models
 from roughfilm.pages.render import render
-from roughfilm.rom.ladder.kind import Kind, kind_of_name, kinds
+from roughfilm.rom.ladder.kind import Kind, kinds
 from roughfilm.rom.ladder.provenance import machine
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import read_scene
@@ -44,7 +44,7 @@ from roughfilm.rom.studies.sufficient import (
     inertia_changes,
     suitability,
 )
-from roughfilm.rom.studies.sweep import Sweep, read_sweep, restricted
+from roughfilm.rom.studies.sweep import Sweep, kind_of_sweep, read_sweep, restricted
 from roughfilm.words.numbers import finite, percent, share
 from roughfilm.words.sweep import (
     Scale,
@@ -130,8 +130,8 @@ def study_of(batch: Batch) -> Study:
         name: np.asarray(column.values, dtype=str if column.unit == "" else float)
         for name, column in batch.table.items()
     }
-    kind = _kind(table)
-    sweep = read_sweep(table, kind.name)
+    sweep = read_sweep(table, _kind(table))
+    kind = kind_of_sweep(sweep)
     if len(sweep.names) < 2:
         remedy = "give a list of values in the study, or use 'roughfilm compare' for one scene"
         raise InputError(f"{batch.directory}: holds one case; {remedy}")
@@ -158,11 +158,11 @@ def study_of(batch: Batch) -> Study:
     )
 
 
-def _kind(table: Mapping[str, Any]) -> Kind:
+def _kind(table: Mapping[str, Any]) -> str:
     names = set(map(str, table.get("kind", ())))
     if len(names) != 1 or not names <= set(kinds()):
         raise InputError("the table does not name one kind of scenes; run the study again")
-    return kind_of_name(names.pop())
+    return names.pop()
 
 
 def _parameters(batch: Batch, sweep: Sweep) -> tuple[Parameter, ...]:

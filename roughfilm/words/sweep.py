@@ -68,7 +68,8 @@ def best_sentence(answer: Answer, title: str, scale: Scale, parameters: Sequence
         return f"{number}{unknown}{f' at {where}' if where else ''} (case {case + 1} of {total})"
 
     if len(answer.order) == 1:
-        return f"{_upper(title)}: {at(answer.best)}, the only case {'that is ranked, ' if answer.unranked else ''}by {answer.setting}"
+        ranked = "that is ranked, " if answer.unranked else ""
+        return f"{_upper(title)}: {at(answer.best)}, the only case {ranked}by {answer.setting}"
     if answer.sense is Sense.UNCLEAR:
         return f"{_upper(title)}: largest {at(answer.best)}, smallest {at(answer.worst)}, by {answer.setting}"
     return f"{_upper(answer.sense)} {title}: {at(answer.best)}, by {answer.setting}"

@@ -156,10 +156,10 @@ class FilmsAtSpeed(Generic[FilmT]):
         _, one, load = known[0]
         if len(known) > 1:
             _, two, other = known[1]
-            steepness = -log(other / load) / (two - one) if load > 0 and other > 0 else inf
+            steepness = -log(other / load) / (two - one) if load > 0 and other > 0 and two != one else inf
             if abs(steepness) < inf:
                 self.steepness = float(np.clip(steepness, -MAX_STEEPNESS, MAX_STEEPNESS))
-            if abs(steepness) > STEEP:
+            if abs(steepness) > STEEP and two != one:
                 return lambda place: load + (other - load) * (place - one) / (two - one)
         return lambda place: load * exp(min(-self.steepness * (place - one), MAX_EXPONENT))
 
@@ -214,6 +214,8 @@ def balanced(
                 raise _load_too_high(at, pressure, solved.load)
         if has_lower and has_upper and high - low <= NARROW_BRACKET * abs(high) and abs(error) <= ROUND_OFF:
             return solved
+        if has_lower and has_upper and at.distance(high) - at.distance(low) <= tolerance / MAX_STEEPNESS:
+            raise _load_jumps(at, pressure, separation, error)
         separation = _next(at, load, low, high, separation, bracketed=(has_lower, has_upper), count=count)
     raise ConvergenceError(
         f"load: the relative error of the load is {abs(error):.1e} after {MAX_FILMS} films, above the tolerance "
@@ -296,13 +298,13 @@ def robustly_balanced(
         separation for separation, carried in at.loads.items() if carried + at.film.contact_load(separation) < load
     ]
     place = min(place, SCAN_RATIO**MAX_EXTENSION * max(known)) if known else place
-    above = place
+    above: float | None = None
     for _ in range(MAX_SCANNED):
         try:
             carried = at.at(place, None).load
         except ConvergenceError:
             break
-        if carried >= load and place < above:
+        if carried >= load and above is not None:
             return balanced(at, pressure, tolerance=tolerance, guess=place, bracket=(place, above))
         if carried < load:
             above = place
@@ -334,6 +336,15 @@ def _load_too_high(at: FilmsAtSpeed[FilmT], pressure: float, largest: float) -> 
     return InputError(
         f"load: got {pressure:.6g} Pa over the nominal area; at {at.speed:.4g} m/s film and walls carry at most "
         f"{largest / at.film.area:.6g} Pa, at a minimum film thickness of {place:.4g} m; {at.film.remedy}"
+    )
+
+
+def _load_jumps(at: FilmsAtSpeed[FilmT], pressure: float, separation: float, error: float) -> ConvergenceError:
+    return ConvergenceError(
+        f"load: got {pressure:.6g} Pa over the nominal area; the load of the film jumps at a minimum film thickness of "
+        f"{separation:.4g} m, where its relative error is {error:.1e}; take more cells, or another load",
+        outcome=Outcome.STALLED,
+        iterations=len(at.loads),
     )
 
 

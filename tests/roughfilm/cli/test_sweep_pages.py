@@ -194,3 +194,52 @@ def test_a_directory_of_an_older_version_has_no_plan_and_is_reported_all_the_sam
     _, page, entries = report(done)
     assert set(entries["answers"][0]["best"]["varied"]) == {"depth"}
     assert "(case " in page.text
+
+
+SOMMERFELD = """
+name = "long journal"
+kind = "bearing"
+[geometry]
+shape = "journal"
+radius = "25 mm"
+clearance = "25 um"
+width = "500 mm"
+[lubricant]
+viscosity = "0.02 Pa*s"
+[motion]
+speed = "2 m/s"
+[load]
+pressure = ["0.5 MPa", "1 MPa", "2 MPa"]
+[study]
+models = ["infinitely_wide", "reynolds_cavitating"]
+[study.resolution]
+infinitely_wide = 256
+reynolds_cavitating = 48
+"""
+
+
+def test_a_page_of_bearings_under_loads_answers_by_the_film_and_not_by_the_load(tmp_path):
+    done, _ = batch(SOMMERFELD, tmp_path)
+    run, page, entries = report(done)
+    assert run.stdout.splitlines()[-1].startswith("Largest least film thickness: ")
+    assert page.headings[0] == "Least film thickness over what varies"
+    assert [one["quantity"] for one in entries["answers"]] == ["film_min", "friction"]  # in N, which one line lacks
+    best = entries["answers"][0]["best"]
+    assert best["varied"] == {"pressure": "0.5 MPa"}
+    assert 0 < best["uncertainty"] < best["value"] < 25e-6
+    (row,) = (row for row in entries["settings"] if row["setting"].startswith("infinitely_wide"))
+    least, largest = row["error"]["film_min"]["intervals"]["worst"]
+    assert largest > 0.001
+    assert least <= largest
+
+
+def test_an_unfinished_batch_under_loads_answers_by_the_film_too(tmp_path):
+    done, _ = batch(SOMMERFELD, tmp_path)
+    case = sorted((done / "cases").iterdir())[0]
+    for name in ("table.csv", "table.h5"):
+        (done / name).unlink()
+    for result in case.iterdir():
+        result.unlink()
+    run, _, entries = report(done)
+    assert entries["answers"][0]["quantity"] == "film_min"
+    assert "not finished" in run.output
