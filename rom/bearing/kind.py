@@ -186,6 +186,20 @@ REPORTED = {
 
 
 def remarks(entries: Mapping[str, Any], quantities: Mapping[str, Quantity]) -> tuple[str, ...]:
+    """The part of the whole bearing for which the quantities hold, and the pressure at which the film ruptures."""
+    return (*_of_the_whole(entries, quantities), *_rupture(entries, quantities))
+
+
+def _rupture(entries: Mapping[str, Any], quantities: Mapping[str, Quantity]) -> tuple[str, ...]:
+    """The cavitation pressure, on which the flows of a film with cavities depend."""
+    if "cavitated_fraction" not in quantities or quantities["cavitated_fraction"].value == 0:
+        return ()
+    given = to_si(entries["lubricant"]["cavitation_pressure"], "Pa") / 1e3
+    place = "ambient pressure" if given == 0 else f"{abs(given):.4g} kPa {'below' if given < 0 else 'above'} ambient"
+    return (f"the film ruptures at {place} (lubricant.cavitation_pressure), on which the flows depend",)
+
+
+def _of_the_whole(entries: Mapping[str, Any], quantities: Mapping[str, Quantity]) -> tuple[str, ...]:
     """The part of the whole bearing for which the quantities hold, if they do not hold for all of it."""
     geometry, whole = entries["geometry"], quantities.get("bearing_load")
     if geometry["shape"] not in ("sector", "washer"):

@@ -179,7 +179,7 @@ def applies(scene: Seal, *, keeps: str) -> Applicability:
     """The effects that are included; the model applies to every seal."""
     contact = "elastic" if scene.solid.hardness is None else f"P/H = {scene.load.pressure / scene.hardness:.3g}"
     drop = scene.flow.pressure_drop / scene.load.pressure
-    lift = f", and that the liquid, at {drop:.2g} of the load, lifts the surface" if drop > 0.1 else ""
+    lift = f", and that the liquid lifts the surface: pressure drop over load = {drop:.2g}" if drop > 0.1 else ""
     return Applicability(applies=True, reason=f"{keeps}; contact {contact}; leaves out inertia{lift}")
 
 

@@ -105,7 +105,11 @@ def command(
             yield scatter_in_words(body.spread)
 
     name = f"direct_{seal.flow.direction}"
-    summary = written(f"{WORDS[name]}: {in_words(thresholds[name])}", page, out / "table.csv")
+    highest = max(rows.values(), key=lambda row: row.load)
+    leak = leaks(seal, highest, name)
+    amount = leak if leak == "sealed" else f"{leak} kg/h per metre of width"
+    answer = f"along {seal.flow.direction} at {highest.load / 1e6:.4g} MPa: {amount}; {WORDS[name]}: "
+    summary = written(answer + in_words(thresholds[name]), page, out / "table.csv")
     show_result(entries, shown(), as_json=as_json, reused="loads", summary=summary)
 
 

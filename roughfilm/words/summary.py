@@ -19,6 +19,8 @@ def summary(result: Result, quantity: str, within: float) -> str:
     quantity : name of a quantity of the kind.
     within : tolerated error over the size of the quantity.
     """
+    if quantity.startswith("leakage") and "sealed" in result.quantities and result["sealed"].value == 1:
+        return f"sealed, no leakage, by {result.model}; {cost_in_words(result)}"
     value, error = value_of(result, quantity), judgement(result, quantity, within)
     return f"{value} by {result.model}; {error}; {cost_in_words(result)}"
 

@@ -61,8 +61,8 @@ def test_every_kind_has_a_view_that_names_its_quantities_and_models():
 
 def test_models_are_shown_by_kind_of_scene():
     shown = " ".join(run("models").stdout.split())
-    assert "The ladder of dry_contact" in shown
-    assert "The ladder of pocket" in shown
+    assert "dry_contact: a rough surface pressed on a flat one greenwood_williamson" in shown
+    assert "pocket: a" in shown
 
 
 def test_solve(scene, tmp_path):
