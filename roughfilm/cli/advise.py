@@ -65,9 +65,13 @@ def tolerance_of(text: str) -> float:
     """A fraction from text: 5%, 5 % or 0.05; InputError for any other text."""
     try:
         number = text.strip()
-        return float(number[:-1]) / 100 if number.endswith("%") else float(number)
+        fraction = float(number[:-1]) / 100 if number.endswith("%") else float(number)
     except ValueError:
         raise InputError(f"--within: got {text!r}; write a fraction such as 5% or 0.05") from None
+    if not 0 < fraction < 1:
+        meant = f"{number}%" if 1 <= fraction < 100 and not number.endswith("%") else "5%"
+        raise InputError(f"--within: got {text!r}; it must be above 0 and below 100 %, for example {meant}")
+    return fraction
 
 
 def _shown(scene: Scene, advice: Advice) -> Iterator[Table | str]:

@@ -10,6 +10,9 @@ from roughfilm.words.numbers import percent, with_error
 ROUNDING = 1e-9
 """Numbers below this, in the units of the tables, are written as 0."""
 
+MAX_CHANGE = 10.0
+"""Change over the whole up to which it is given in per cent; a whole near zero is no measure."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Shown:
@@ -67,5 +70,6 @@ def sentences(study: EffectStudy, name: str, inertia: Amount | None) -> list[str
 
 
 def _adds(amount: Amount, how: Shown, full: float) -> str:
-    fraction = f" ({percent(amount.value / abs(full))})" if full else ""
+    comparable = full and abs(amount.value) <= MAX_CHANGE * abs(full)
+    fraction = f" ({percent(amount.value / abs(full))})" if comparable else ""
     return f"{cell(amount, how, sign=True)} {how.unit}{fraction}"

@@ -97,7 +97,7 @@ def test_it_says_when_none_will_do(run):
     ("options", "told"),
     [
         (["--within", "much"], "--within: got 'much'"),
-        (["--within", "-5%"], "--within: got -0.05"),
+        (["--within", "-5%"], "--within: got '-5%'"),
         (["--within", "5%", "--model", "film"], "--model: --within is for the choice of a model"),
         (["--within", "5%", "--resolution", "50"], "--resolution: needs --model"),
         (["--want", "lift"], "--want: got 'lift'"),
