@@ -18,6 +18,7 @@ from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.roughness import ROUGHNESSES
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shapes import SHAPES
+from roughfilm.rom.bearing.totals.reported import REPORTED
 from roughfilm.rom.ladder.kind import Kind, Omission
 from roughfilm.rom.ladder.sweeping import Columns, Powers, Sweeping
 from roughfilm.rom.lubricants.laws import LAWS
@@ -134,60 +135,9 @@ NUMBERS = {
 """The symbols of the dimensionless numbers; p = 6ηuL/h², p_B = p/(1 + (L/B)²) plus the largest pressure at an edge."""
 
 
-REPORTED = {
-    "load": "load",
-    "bearing_load": "load, whole bearing",
-    "load_per_width": "load per width",
-    "film_min": "least film thickness",
-    "friction_coefficient": "friction coefficient",
-    "power_loss": "power loss",
-    "bearing_power_loss": "power loss, whole bearing",
-    "power_loss_per_width": "power loss per width",
-    "pressure_max": "peak pressure",
-    "inlet_flow": "flow in",
-    "bearing_inlet_flow": "flow in, whole bearing",
-    "inlet_flow_per_width": "flow in per width",
-    "outlet_flow": "flow out",
-    "bearing_outlet_flow": "flow out, whole bearing",
-    "outlet_flow_per_width": "flow out per width",
-    "side_leakage": "side leakage",
-    "bearing_side_leakage": "side leakage, whole bearing",
-    "side_leakage_low": "side leakage, low side",
-    "side_leakage_high": "side leakage, high side",
-    "friction": "friction",
-    "bearing_friction": "friction, whole bearing",
-    "friction_per_width": "friction per width",
-    "torque": "torque",
-    "bearing_torque": "torque, whole bearing",
-    "torque_per_width": "torque per width",
-    "specific_load": "specific load",
-    "contact_share": "share of the load by contact",
-    "contact_load": "load by contact",
-    "bearing_contact_load": "load by contact, whole bearing",
-    "contact_load_per_width": "load by contact per width",
-    "film_load": "load by the film",
-    "bearing_film_load": "load by the film, whole bearing",
-    "film_load_per_width": "load by the film per width",
-    "contact_area": "contact area over nominal area",
-    "contact_pressure_max": "peak contact pressure",
-    "least_gap": "least mean gap",
-    "eccentricity": "eccentricity",
-    "attitude_angle": "attitude angle",
-    "film_min_x": "place of the least film along",
-    "film_min_y": "place of the least film across",
-    "cavitated_fraction": "cavitated fraction",
-    "film_start": "film begins at x/L",
-    "rupture": "film ruptures at x/L",
-    "theta_min": "least density ratio",
-    "sommerfeld_number": "Sommerfeld number",
-    "hersey_number": "Hersey number",
-}
-"""The titles of the quantities of a bearing, in the order of tables."""
-
-
 def remarks(entries: Mapping[str, Any], quantities: Mapping[str, Quantity]) -> tuple[str, ...]:
-    """The part of the whole bearing for which the quantities hold, and the pressure at which the film ruptures."""
-    return (*_of_the_whole(entries, quantities), *_rupture(entries, quantities))
+    """The pressure at which the film ruptures, and the part of the whole bearing for which the quantities hold."""
+    return (*_rupture(entries, quantities), *_of_the_whole(entries, quantities))
 
 
 def _rupture(entries: Mapping[str, Any], quantities: Mapping[str, Quantity]) -> tuple[str, ...]:

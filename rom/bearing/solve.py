@@ -20,6 +20,7 @@ from roughfilm.rom.bearing.film import Searched, smooth_films
 from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Fields, Outputs, density_ratio
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shapes import Journal
+from roughfilm.rom.bearing.totals.reported import in_order
 from roughfilm.rom.bearing.totals.whole import whole_bearing
 from roughfilm.rom.bearing.uncertainty import POSITIONS, grid_sequence, uncertainties
 from roughfilm.rom.bearing.warnings import (
@@ -112,7 +113,7 @@ def solve(
         warnings.append(f"{', '.join(unknown)}: unknown uncertainty, as the roughness has too few points")
     return Result(
         model=solver.name,
-        quantities=whole_bearing(found.scene, with_uncertainties(quantities, uncertainty)),
+        quantities=in_order(scene, whole_bearing(found.scene, with_uncertainties(quantities, uncertainty))),
         fields=_fields(scene, solution, outputs.fields(found.scene, solution)),
         numerics=Numerics(
             residual=solution.residual,

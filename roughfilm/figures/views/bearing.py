@@ -21,7 +21,10 @@ STYLES = {
 
 
 def along(scene: Bearing, results: Mapping[str, Result]) -> str:
-    """Film thickness, pressure and θ by every model, on the line of the greatest pressure."""
+    """Film thickness, pressure and θ by every model, on the line of the greatest pressure.
+
+    Under a load each model has a film of its own.
+    """
     figure, (film, pressure, density) = new_figure((9, 6.8), 3, 1, sharex=True, height_ratios=(1, 2.2, 1.5))
     factor, label = _place(results)
     for number, (name, result) in enumerate(results.items()):
@@ -30,7 +33,9 @@ def along(scene: Bearing, results: Mapping[str, Result]) -> str:
         x, h, p, theta = (
             result.fields[field].values[:, row] for field in ("x", "film_thickness", "pressure", "density_ratio")
         )
-        if number == 0:
+        if scene.load is not None:
+            film.plot(x * factor, h * 1e6, linestyle=style.line, color=style.colour)
+        elif number == 0:
             film.fill_between(x * factor, h * 1e6, color="#9ecae1", linewidth=0)
         if name == "direct":
             film.plot(x * factor, h * 1e6, color=style.colour, linewidth=0.6)
