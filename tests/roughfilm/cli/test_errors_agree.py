@@ -89,10 +89,10 @@ def contradictions(found):
 
 @pytest.mark.parametrize("scene", [*SMOOTH, *ROUGH], indirect=True)
 def test_advice_and_solution_state_one_error_for_a_model_and_a_quantity(scene):
-    advised, told = run("advise", *scene), json.loads(run("advise", *scene, "--json"))
+    advised, printed = run("advise", *scene), json.loads(run("advise", *scene, "--json"))
     entries = json.loads(run("solve", *scene, "--json").splitlines()[-1])
     titles = kind_of_name(entries["provenance"]["scene"]["kind"]).titles
-    title = titles[told["want"]]
+    title = titles[printed["want"]]
     by_lines = re.findall(
         rf"^(\w+): (?:chosen|not enough|not needed): error ({AMOUNT}) {SOURCE}", advised, re.MULTILINE
     )
@@ -100,7 +100,7 @@ def test_advice_and_solution_state_one_error_for_a_model_and_a_quantity(scene):
     last = re.findall(
         rf"(\w+)(?:, resolution \d+:| comes nearest,) error ({AMOUNT}) {SOURCE}", advised.splitlines()[-1]
     )
-    by_json = {(one["model"], StatedError(**one["error"]).amount) for one in told["considered"] if one["error"]}
+    by_json = {(one["model"], StatedError(**one["error"]).amount) for one in printed["considered"] if one["error"]}
     assert last
     assert by_rows
     found = defaultdict(set)
@@ -116,17 +116,17 @@ def test_advice_and_solution_state_one_error_for_a_model_and_a_quantity(scene):
 def test_table_page_and_json_of_a_comparison_state_one_error_for_a_model_and_a_quantity(scene, tmp_path, monkeypatch):
     without_outside(monkeypatch)
     text = run("compare", *scene, "--out", tmp_path / "study")
-    told = json.loads(run("compare", *scene, "--out", tmp_path / "study", "--json").splitlines()[-1])
-    kind = kind_of_name(told["provenance"]["scene"]["kind"])
+    printed = json.loads(run("compare", *scene, "--out", tmp_path / "study", "--json").splitlines()[-1])
+    kind = kind_of_name(printed["provenance"]["scene"]["kind"])
     page = (tmp_path / "study" / "report.html").read_text(encoding="utf-8")
-    found = merged(*(of_result(entries, kind.titles) for entries in told["models"]), statements(text, kind.titles))
+    found = merged(*(of_result(entries, kind.titles) for entries in printed["models"]), statements(text, kind.titles))
     rows = defaultdict(set)
     table = text[text.index("errors measured against") :].partition("\n\n")[0]
     for row in re.findall(r"^\w+  .*", table.partition("──\n")[2], re.MULTILINE):
         model, _cpu, *amounts = re.split(r"\s{2,}", row.strip())
         for title, amount in zip(kind.compared.values(), amounts, strict=False):
             rows[model, title].add(amount)
-    assert {model for model, _ in rows} == {entries["model"] for entries in told["models"]}
+    assert {model for model, _ in rows} == {entries["model"] for entries in printed["models"]}
     lines = re.sub(r"<[^>]*>", "", page)
     found = merged(found, rows, statements(lines, kind.titles))
     assert contradictions(found) == {}
@@ -143,16 +143,16 @@ def bound(amount):
 
 def test_the_tile_names_the_cheapest_model_whose_row_is_within_the_tolerance(pocket_file, tmp_path, monkeypatch):
     without_outside(monkeypatch)
-    told = json.loads(run("compare", pocket_file, "--out", tmp_path / "study", "--json").splitlines()[-1])
+    printed = json.loads(run("compare", pocket_file, "--out", tmp_path / "study", "--json").splitlines()[-1])
     page = (tmp_path / "study" / "report.html").read_text(encoding="utf-8")
     tile = re.search(r"<b>([^/]*)</b><span>cheapest model within 5 %", page)[1].replace("<wbr>", "")
-    assert tile == told["cheapest_within_5_percent"]
+    assert tile == printed["cheapest_within_5_percent"]
     order = re.findall(r"<tr(?: class=\"best\")?>\s*<td>(\w+)</td><td class=\"left\">(?!load|friction)", page)
-    costs = {one["model"]: one["numerics"]["cpu_s"] for one in told["models"]}
+    costs = {one["model"]: one["numerics"]["cpu_s"] for one in printed["models"]}
     assert [model for model in order if model in costs] == sorted(costs, key=costs.get)
     within = [
         one["model"]
-        for one in told["models"]
+        for one in printed["models"]
         if all(
             bound(StatedError(**one["provenance"]["errors"][name]).amount) <= 5
             for name in ("load_plus", "friction_plus")
