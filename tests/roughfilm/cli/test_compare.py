@@ -220,7 +220,7 @@ def test_models_that_the_reference_does_not_tell_apart_are_named(pocket_file, tm
     monkeypatch.setattr(compare, "models", lambda _: own)
     scene = ["geometry.depth=1 um", "geometry.width=0.5 mm"]
     compare.command(pocket_file, out=tmp_path / "report", set_=scene)
-    assert "load: film and film_slope cannot be distinguished with this reference" in capsys.readouterr().out
+    assert "load: cannot be distinguished with this reference: film and film_slope" in capsys.readouterr().out
     entries = compared(capsys, pocket_file, tmp_path / "report", set_=scene)
     assert entries["undecided"]["load_plus"] == [["film", "film_slope"]]
     (difference,) = (d for d in entries["differences"] if d["quantity"] == "load_plus" and d["effect"] is None)
