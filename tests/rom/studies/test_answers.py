@@ -7,6 +7,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.studies.answers import Sense, answer_of, optimum, sense_of, wanted_quantity
 from roughfilm.rom.studies.parameters import parameters
 from roughfilm.rom.studies.sweep import Sweep
+from roughfilm.words.sweep import Scale, best_sentence, unranked_sentence
 
 BEST_RATIO, BEST_STEP = 1.866, 0.718
 """Ratio of the films and place of the step of the Rayleigh step of the greatest load: Rayleigh 1918."""
@@ -110,3 +111,22 @@ def test_under_a_load_that_is_the_same_in_all_cases_the_question_is_another_one(
     sweep = swept("film_min", [1e-6, 2e-6])
     sweep.found["reynolds"]["load_per_width"] = np.array([5.0, 5.0])
     assert wanted_quantity(sweep, "reynolds") == "film_min"
+
+
+def test_a_case_whose_uncertainty_exceeds_its_value_is_not_ranked():
+    """The largest load is worthless, so that the best case is the largest of the others, and is said so."""
+    answer = answered("load_per_width", [1.0, 9.0, 2.0], np.array([0.1, 20.0, 0.1]))
+    assert answer.order == (2, 0)
+    assert answer.unranked == (1,)
+    assert "case 3 of 3" in best_sentence(answer, "load", Scale(factor=1.0, unit="N/m"), ())
+    assert unranked_sentence(answer, "the film ruptures") == (
+        "Not ranked, as their error is above 100 %: 1 case (2): the film ruptures."
+    )
+
+
+def test_where_every_case_is_worthless_all_are_ranked_and_the_error_is_said():
+    answer = answered("load_per_width", [1.0, 9.0], np.array([2.0, 20.0]))
+    assert answer.order == (1, 0)
+    assert answer.unranked == ()
+    sentence = best_sentence(answer, "load", Scale(factor=1.0, unit="N/m"), ())
+    assert sentence.startswith("Largest load: 9 N/m with an error above 100 % ")
